@@ -1,0 +1,1 @@
+//! Mass on a moving belt.

@@ -1,0 +1,5 @@
+//! Mathematics of Quell; no physics.
+
+pub mod quadrature;
+pub mod special;
+pub mod spectrum;

@@ -1,0 +1,3 @@
+//! Front door of Quell.
+
+pub mod plot;
