@@ -15,7 +15,7 @@ use super::event::{Event, EventKind};
 use super::forcing::Forcing;
 use super::observer::{Observer, Segment};
 use super::slip::{Load, SlipEquation, SlipStart};
-use super::stick::{Bond, Search};
+use super::stick::{Bond, Search, divided};
 use super::{FinalState, ORDER, Stalled, Start};
 
 /// Changes of contact at one moment before the bond is held. A jump that breaks a bond just
@@ -215,13 +215,17 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         let series = self.equation.series(&self.law, start, &dither, load);
         let w = &series.slip;
         let length = step_length(self.tolerance, w[ORDER], w[ORDER - 1], ORDER).min(room);
-        let quotient = &w[zeros..];
+        let quotient = match zeros {
+            0 => *w,
+            1 => divided(w, 1),
+            _ => divided(w, 2),
+        };
         if zeros > 0 && quotient[0] * sign <= 0.0 {
             // The zero is of higher order than its cause allows: rounding at a touch.
             self.contact = Contact::Stick { held: true };
             return;
         }
-        let root = first_crossing(quotient, length);
+        let root = first_crossing(&quotient, length);
         let duration = root.unwrap_or(length);
         let reaches_stop = duration >= room || self.clock.after(duration).time() == stop;
         self.steps += 1;
