@@ -208,15 +208,17 @@ fn polish<const N: usize>(a: &[f64; N], mut low: f64, mut high: f64, guess: f64)
             high = u;
         }
         let newton = u - value / slope;
-        let next = if newton > low && newton < high {
+        let correction = (newton - u).abs();
+        // Newton doubles the digits: after a correction this small the error is below rounding.
+        if correction <= 1e-9 * u {
+            return newton.clamp(low, high);
+        }
+        u = if newton > low && newton < high {
             newton
         } else {
             0.5 * (low + high)
         };
-        let moved = (next - u).abs();
-        u = next;
-        // Newton doubles the digits: a correction this small leaves an error below rounding.
-        if moved <= 1e-9 * u && newton == next || moved <= 4.0 * f64::EPSILON * u || value == 0.0 {
+        if high - low <= 2.0 * f64::EPSILON * high {
             break;
         }
     }
