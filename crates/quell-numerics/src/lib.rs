@@ -1,5 +1,6 @@
 //! Mathematics of Quell; no physics.
 
 pub mod quadrature;
+pub mod roots;
 pub mod special;
 pub mod spectrum;
