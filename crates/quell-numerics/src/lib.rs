@@ -1,5 +1,12 @@
 //! Mathematics of Quell; no physics.
+//!
+//! * [`lane`], [`elementary`]: the arithmetic of the hot kernels, the same bits everywhere;
+//! * [`polynomial`]: first root of a Taylor step, isolated or proven absent; step length;
+//! * [`quadrature`], [`special`], [`spectrum`]: integrals, special functions, spectra.
 
+pub mod elementary;
+pub mod lane;
+pub mod polynomial;
 pub mod quadrature;
 pub mod roots;
 pub mod special;

@@ -1,0 +1,294 @@
+//! The mass on a moving belt, valid by construction.
+//!
+//! x″ + 2ζx′ + x = μ(v₀ − x′)·(F + Σ D_N g_N) + Σ D_T g_T        (2.1, 3.1, 4.1)
+
+use crate::dither::{Direction, Dither};
+use crate::friction::Friction;
+use crate::parameter::{
+    BELT_VELOCITY, DAMPING_RATIO, DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE,
+    NORMAL_LOAD, Parameter,
+};
+use crate::Invalid;
+
+/// Mass, spring, damper, contact, friction law and dither, in the numbers of the equations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Belt {
+    damping_ratio: f64,
+    normal_load: f64,
+    belt_velocity: f64,
+    friction: Friction,
+    dithers: Vec<Dither>,
+}
+
+impl Belt {
+    /// From ζ ≥ 0, F > 0, v₀ ≥ 0, a law and any number of dithers.
+    ///
+    /// # Errors
+    /// Every complaint at once: values out of bounds, and normal dither that would pull the
+    /// contact apart (ΣD_N > F).
+    pub fn new(
+        damping_ratio: f64,
+        normal_load: f64,
+        belt_velocity: f64,
+        friction: Friction,
+        dithers: Vec<Dither>,
+    ) -> Result<Self, Vec<Invalid>> {
+        let mut complaints: Vec<Invalid> = [
+            (DAMPING_RATIO, damping_ratio),
+            (NORMAL_LOAD, normal_load),
+            (BELT_VELOCITY, belt_velocity),
+        ]
+        .into_iter()
+        .filter_map(|(parameter, value)| parameter.check(value).err())
+        .collect();
+        for (index, dither) in dithers.iter().enumerate() {
+            complaints.extend(dither.complaints(index, dithers.len()));
+        }
+        let belt = Self {
+            damping_ratio,
+            normal_load,
+            belt_velocity,
+            friction,
+            dithers,
+        };
+        if complaints.is_empty() {
+            complaints.extend(belt.separation());
+        }
+        if complaints.is_empty() {
+            Ok(belt)
+        } else {
+            Err(complaints)
+        }
+    }
+
+    /// Complaint about normal dither that exceeds the normal load.
+    fn separation(&self) -> Option<Invalid> {
+        let total = self.total_amplitude(Direction::Normal);
+        let index = self
+            .dithers
+            .iter()
+            .position(|dither| dither.direction == Direction::Normal && dither.amplitude > 0.0)?;
+        (total > self.normal_load).then(|| {
+            let key = self.dither_path(index, "amplitude");
+            Invalid::new(
+                key,
+                total,
+                format!(
+                    "at most the normal load F = {}: more normal dither would pull the contact \
+                     apart, which this model does not describe",
+                    self.normal_load
+                ),
+            )
+        })
+    }
+
+    /// Damping ratio ζ.
+    pub fn damping_ratio(&self) -> f64 {
+        self.damping_ratio
+    }
+
+    /// Normal load F = N₀/k, a length.
+    pub fn normal_load(&self) -> f64 {
+        self.normal_load
+    }
+
+    /// Belt velocity v₀ = V₀/ω₀, a length.
+    pub fn belt_velocity(&self) -> f64 {
+        self.belt_velocity
+    }
+
+    /// Friction law.
+    pub fn friction(&self) -> &Friction {
+        &self.friction
+    }
+
+    /// Dithers, tangential and normal.
+    pub fn dithers(&self) -> &[Dither] {
+        &self.dithers
+    }
+
+    /// Dithers of one direction.
+    pub fn dithers_along(&self, direction: Direction) -> impl Iterator<Item = &Dither> {
+        self.dithers.iter().filter(move |dither| dither.direction == direction)
+    }
+
+    /// ΣD of one direction, the largest force its dithers can reach together.
+    pub fn total_amplitude(&self, direction: Direction) -> f64 {
+        self.dithers_along(direction).map(|dither| dither.amplitude).sum()
+    }
+
+    /// The same belt without dither.
+    #[must_use]
+    pub fn undithered(&self) -> Self {
+        Self {
+            dithers: Vec::new(),
+            ..self.clone()
+        }
+    }
+
+    /// Displacement of steady sliding without dither, x = μ(v₀)F. At v₀ = 0 the static level.
+    pub fn steady_sliding(&self) -> f64 {
+        self.friction.coefficient(self.belt_velocity) * self.normal_load
+    }
+
+    /// Value of a parameter by its path (`belt.damping_ratio`, `friction.…`, `dither.…`,
+    /// `dither[1].…`), or `None` if there is no such number here.
+    pub fn get(&self, path: &str) -> Option<f64> {
+        match self.place(path)? {
+            Place::DampingRatio => Some(self.damping_ratio),
+            Place::NormalLoad => Some(self.normal_load),
+            Place::BeltVelocity => Some(self.belt_velocity),
+            Place::Law(index) => self.friction.values().get(index).copied(),
+            Place::Dither(index, parameter) => {
+                let dither = self.dithers.get(index)?;
+                Some(match parameter.path {
+                    path if path == DITHER_AMPLITUDE.path => dither.amplitude,
+                    path if path == DITHER_FREQUENCY_RATIO.path => dither.frequency_ratio,
+                    _ => dither.phase,
+                })
+            }
+        }
+    }
+
+    /// The same belt with one parameter changed.
+    ///
+    /// # Errors
+    /// An unknown path, a value out of bounds, a relation that no longer holds.
+    pub fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>> {
+        let mut next = self.clone();
+        let place = self
+            .place(path)
+            .ok_or_else(|| vec![Invalid::new(path, value, "a parameter of this belt")])?;
+        match place {
+            Place::DampingRatio => next.damping_ratio = value,
+            Place::NormalLoad => next.normal_load = value,
+            Place::BeltVelocity => next.belt_velocity = value,
+            Place::Law(index) => {
+                let mut values = self.friction.values();
+                values[index] = value;
+                next.friction = self.friction.kind().build(&values)?;
+            }
+            Place::Dither(index, parameter) => {
+                let dither = &mut next.dithers[index];
+                match parameter.path {
+                    path if path == DITHER_AMPLITUDE.path => dither.amplitude = value,
+                    path if path == DITHER_FREQUENCY_RATIO.path => dither.frequency_ratio = value,
+                    _ => dither.phase = value,
+                }
+            }
+        }
+        Self::new(
+            next.damping_ratio,
+            next.normal_load,
+            next.belt_velocity,
+            next.friction,
+            next.dithers,
+        )
+    }
+
+    /// Path of a parameter of dither `index`, as the study file names it.
+    pub fn dither_path(&self, index: usize, key: &str) -> String {
+        if self.dithers.len() > 1 {
+            format!("dither[{index}].{key}")
+        } else {
+            format!("dither.{key}")
+        }
+    }
+
+    fn place(&self, path: &str) -> Option<Place> {
+        if path == DAMPING_RATIO.path {
+            return Some(Place::DampingRatio);
+        }
+        if path == NORMAL_LOAD.path {
+            return Some(Place::NormalLoad);
+        }
+        if path == BELT_VELOCITY.path {
+            return Some(Place::BeltVelocity);
+        }
+        let law = self.friction.kind().parameters();
+        if let Some(index) = law.iter().position(|parameter| parameter.path == path) {
+            return Some(Place::Law(index));
+        }
+        let rest = path.strip_prefix("dither")?;
+        let (index, key) = match rest.strip_prefix('[') {
+            Some(rest) => {
+                let (index, key) = rest.split_once("].")?;
+                (index.parse().ok()?, key)
+            }
+            None => (0, rest.strip_prefix('.')?),
+        };
+        let parameter = [DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE]
+            .into_iter()
+            .find(|parameter| parameter.key() == key)?;
+        (index < self.dithers.len()).then_some(Place::Dither(index, parameter))
+    }
+}
+
+/// Where a path leads.
+enum Place {
+    DampingRatio,
+    NormalLoad,
+    BeltVelocity,
+    Law(usize),
+    Dither(usize, Parameter),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{LawKind, Waveform};
+
+    fn belt(dithers: Vec<Dither>) -> Result<Belt, Vec<Invalid>> {
+        let law = LawKind::Stribeck.build(&[0.4, 0.2857, 0.2])?;
+        Belt::new(0.005, 1.0, 0.05, law, dithers)
+    }
+
+    fn dither(direction: Direction, amplitude: f64) -> Dither {
+        Dither {
+            direction,
+            waveform: Waveform::Sine,
+            amplitude,
+            frequency_ratio: 10.0,
+            phase: 0.0,
+        }
+    }
+
+    #[test]
+    fn separation_is_refused_by_name() {
+        let normal = dither(Direction::Normal, 0.6);
+        let complaints = belt(vec![dither(Direction::Tangential, 9.0), normal, normal])
+            .expect_err("1.2 > F = 1");
+        assert_eq!(complaints.len(), 1);
+        assert_eq!(complaints[0].key, "dither[1].amplitude");
+        assert!(belt(vec![normal]).is_ok());
+    }
+
+    #[test]
+    fn every_parameter_is_reached_by_its_path() {
+        let belt = belt(vec![
+            dither(Direction::Tangential, 0.3),
+            dither(Direction::Normal, 0.5),
+        ])
+        .expect("valid");
+        for (path, value) in [
+            ("belt.damping_ratio", 0.1),
+            ("belt.normal_load", 2.0),
+            ("belt.belt_velocity", 0.3),
+            ("friction.static_coefficient", 0.5),
+            ("friction.minimum_coefficient", 0.1),
+            ("friction.reference_velocity", 0.4),
+            ("dither.amplitude", 0.7),
+            ("dither[1].amplitude", 0.9),
+            ("dither[1].frequency_ratio", 3.0),
+            ("dither[0].phase", 1.0),
+        ] {
+            let changed = belt.with(path, value).expect(path);
+            assert_eq!(changed.get(path), Some(value), "{path}");
+            assert_ne!(belt.get(path), Some(value), "{path}");
+        }
+        for path in ["dither[2].amplitude", "belt.colour", "dither[x].phase"] {
+            assert!(belt.get(path).is_none() && belt.with(path, 1.0).is_err());
+        }
+        assert!(belt.with("friction.minimum_coefficient", 0.41).is_err());
+    }
+}

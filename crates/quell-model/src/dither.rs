@@ -1,0 +1,72 @@
+//! Dither: a fast force added to the system.
+
+use crate::Invalid;
+use crate::parameter::{DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE};
+use crate::waveform::Waveform;
+
+/// Direction of a dither force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Direction {
+    /// Along the belt, on the mass (chapters 2 and 3).
+    Tangential,
+    /// On the normal load (chapter 4).
+    Normal,
+}
+
+impl Direction {
+    /// Both directions.
+    pub const ALL: &'static [Self] = &[Self::Tangential, Self::Normal];
+
+    /// Name in a study file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tangential => "tangential",
+            Self::Normal => "normal",
+        }
+    }
+
+    /// The direction of a name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|direction| direction.name() == name)
+    }
+}
+
+/// D g(Rτ + φ), added to the tangential force or to the normal load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dither {
+    /// Along the belt or on the normal load.
+    pub direction: Direction,
+    /// Waveform g.
+    pub waveform: Waveform,
+    /// Peak amplitude D = A/k, a length, ≥ 0.
+    pub amplitude: f64,
+    /// Frequency ratio R = ω/ω₀ > 0.
+    pub frequency_ratio: f64,
+    /// Phase φ at τ = 0, radians.
+    pub phase: f64,
+}
+
+impl Dither {
+    /// α = D/R, the amplitude of the fast velocity in the limit of high frequency (2.21).
+    pub fn amplitude_ratio(&self) -> f64 {
+        self.amplitude / self.frequency_ratio
+    }
+
+    /// Complaints about this dither as entry `index` of a list of `count`.
+    pub(crate) fn complaints(&self, index: usize, count: usize) -> Vec<Invalid> {
+        [
+            (DITHER_AMPLITUDE, self.amplitude),
+            (DITHER_FREQUENCY_RATIO, self.frequency_ratio),
+            (DITHER_PHASE, self.phase),
+        ]
+        .into_iter()
+        .filter_map(|(parameter, value)| parameter.check(value).err())
+        .map(|mut complaint| {
+            if count > 1 {
+                complaint.key = complaint.key.replacen("dither", &format!("dither[{index}]"), 1);
+            }
+            complaint
+        })
+        .collect()
+    }
+}

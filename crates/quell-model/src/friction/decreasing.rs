@@ -1,0 +1,127 @@
+//! Decreasing law, eq. (2.8): falls from μ_s towards μ_m and never rises.
+//!
+//! μ = [μ_m + (μ_s − μ_m) e^{−|v_r|/v_m}] sgn(v_r).
+
+use quell_numerics::elementary;
+use quell_numerics::lane::Lane;
+
+use super::{BranchSeries, SlidingLaw, checked, minimum_at_most_static};
+use crate::Invalid;
+use crate::parameter::{
+    MINIMUM_COEFFICIENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT,
+};
+
+/// Decreasing law, eq. (2.8).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Decreasing {
+    static_coefficient: f64,
+    minimum_coefficient: f64,
+    reference_velocity: f64,
+}
+
+impl Decreasing {
+    /// From μ_s ≥ μ_m ≥ 0 and v_m > 0.
+    ///
+    /// # Errors
+    /// Every value out of its bounds; μ_m > μ_s.
+    pub fn new(
+        static_coefficient: f64,
+        minimum_coefficient: f64,
+        reference_velocity: f64,
+    ) -> Result<Self, Vec<Invalid>> {
+        Self::from_values(&[static_coefficient, minimum_coefficient, reference_velocity])
+    }
+
+    /// Dynamic coefficient μ_m, the limit at high slip velocity.
+    pub fn minimum_coefficient(&self) -> f64 {
+        self.minimum_coefficient
+    }
+
+    /// Slip velocity v_m over which the excess μ_s − μ_m falls by e.
+    pub fn reference_velocity(&self) -> f64 {
+        self.reference_velocity
+    }
+}
+
+impl SlidingLaw for Decreasing {
+    const NAME: &'static str = "decreasing";
+    const ABOUT: &'static str = "[μ_m + (μ_s − μ_m) e^{−|v_r|/v_m}] sgn(v_r) (2.8)";
+    const PARAMETERS: &'static [Parameter] =
+        &[STATIC_COEFFICIENT, MINIMUM_COEFFICIENT, REFERENCE_VELOCITY];
+
+    fn from_values(values: &[f64]) -> Result<Self, Vec<Invalid>> {
+        checked(Self::PARAMETERS, values, || {
+            minimum_at_most_static(values[0], values[1])
+        })?;
+        Ok(Self {
+            static_coefficient: values[0],
+            minimum_coefficient: values[1],
+            reference_velocity: values[2],
+        })
+    }
+
+    fn values(&self) -> Vec<f64> {
+        vec![
+            self.static_coefficient,
+            self.minimum_coefficient,
+            self.reference_velocity,
+        ]
+    }
+
+    #[inline(always)]
+    fn velocity_scale(&self) -> f64 {
+        self.reference_velocity
+    }
+
+    #[inline(always)]
+    fn static_coefficient(&self) -> f64 {
+        self.static_coefficient
+    }
+
+    #[inline(always)]
+    fn starts_at_static_level(&self) -> bool {
+        true
+    }
+
+    type Series<V: Lane, const N: usize> = DecreasingSeries<V, N>;
+
+    #[inline(always)]
+    fn series<V: Lane, const N: usize>(&self, sign: V, w0: V) -> DecreasingSeries<V, N> {
+        let excess = V::splat(self.static_coefficient - self.minimum_coefficient);
+        let mut decay = [V::splat(0.0); N];
+        decay[0] = excess * elementary::exp(-(sign * w0));
+        DecreasingSeries {
+            sign,
+            minimum: V::splat(self.minimum_coefficient),
+            decay,
+            rate: [V::splat(0.0); N],
+        }
+    }
+}
+
+/// Recurrence of [`Decreasing`]: the excess e = (μ_s − μ_m) e^{−s w} obeys e′ = −s w′e.
+#[derive(Clone, Copy, Debug)]
+pub struct DecreasingSeries<V, const N: usize> {
+    sign: V,
+    minimum: V,
+    /// Coefficients of the excess e.
+    decay: [V; N],
+    /// `rate[j]` = −s (j+1) wⱼ₊₁, the coefficients of −s w′.
+    rate: [V; N],
+}
+
+impl<V: Lane, const N: usize> BranchSeries<V> for DecreasingSeries<V, N> {
+    #[inline(always)]
+    fn first(&self) -> V {
+        self.sign * (self.minimum + self.decay[0])
+    }
+
+    #[inline(always)]
+    fn next(&mut self, k: usize, w: &[V]) -> V {
+        self.rate[k - 1] = -(self.sign * (w[k] * V::splat(k as f64)));
+        // k eₖ = Σ rateⱼ eₖ₋₁₋ⱼ
+        let sum = quell_numerics::lane::product_coefficient(&self.rate, &self.decay, k - 1);
+        self.decay[k] = sum * V::splat(1.0 / k as f64);
+        self.sign * self.decay[k]
+    }
+}

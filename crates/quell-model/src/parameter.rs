@@ -1,0 +1,335 @@
+//! The registry of parameters: one table of path, symbol, unit and bounds.
+//!
+//! Constructors check against it, study files are read by it, `--set` and sweeps reach
+//! values through its paths, and the published JSON Schema is made of it.
+
+use std::fmt;
+
+use crate::Invalid;
+use crate::units::Quantity;
+
+/// A named number of a study.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// Path in a study file without index, such as `dither.amplitude`.
+    pub path: &'static str,
+    /// Symbol in the equations, such as `D`.
+    pub symbol: &'static str,
+    /// What it is, in one line.
+    pub about: &'static str,
+    /// What kind of quantity it is; decides units and conversion.
+    pub quantity: Quantity,
+    /// Allowed values.
+    pub bounds: Bounds,
+    /// Keys that give the same value in SI units.
+    pub si: &'static [SiTwin],
+}
+
+impl Parameter {
+    /// Last part of the path, the key inside its table.
+    pub fn key(&self) -> &'static str {
+        self.path.rsplit('.').next().unwrap_or(self.path)
+    }
+
+    /// First part of the path, the table.
+    pub fn table(&self) -> &'static str {
+        self.path.split('.').next().unwrap_or(self.path)
+    }
+
+    /// Checks a value against the bounds.
+    ///
+    /// # Errors
+    /// [`Invalid`] naming this parameter, the value and the allowed range.
+    pub fn check(&self, value: f64) -> Result<(), Invalid> {
+        if self.bounds.contains(value) {
+            Ok(())
+        } else {
+            Err(Invalid::new(self.path, value, self.bounds.to_string()))
+        }
+    }
+}
+
+/// The key that gives a parameter in SI units.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SiTwin {
+    /// Key in the same table, such as `amplitude_n`.
+    pub key: &'static str,
+    /// Its unit, such as `N`.
+    pub unit: &'static str,
+    /// Whether it is a root mean square, to be turned into a peak by the waveform.
+    pub rms: bool,
+}
+
+/// An interval of finite numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Lowest value.
+    pub lower: f64,
+    /// Whether the lowest value itself is allowed.
+    pub lower_included: bool,
+    /// Highest value, included.
+    pub upper: f64,
+}
+
+impl Bounds {
+    /// Any finite number.
+    pub const FINITE: Self = Self::at_least(f64::NEG_INFINITY);
+    /// Finite and ≥ 0.
+    pub const NOT_NEGATIVE: Self = Self::at_least(0.0);
+    /// Finite and > 0.
+    pub const POSITIVE: Self = Self {
+        lower: 0.0,
+        lower_included: false,
+        upper: f64::INFINITY,
+    };
+
+    /// Finite and at least `lower`.
+    pub const fn at_least(lower: f64) -> Self {
+        Self {
+            lower,
+            lower_included: true,
+            upper: f64::INFINITY,
+        }
+    }
+
+    /// Whether a value lies inside. NaN and infinities never do.
+    pub fn contains(&self, value: f64) -> bool {
+        value.is_finite()
+            && (value > self.lower || (self.lower_included && value == self.lower))
+            && value <= self.upper
+    }
+}
+
+impl fmt::Display for Bounds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.lower.is_finite(), self.upper.is_finite()) {
+            (false, false) => write!(f, "a finite number"),
+            (true, false) => {
+                let sign = if self.lower_included { "≥" } else { ">" };
+                write!(f, "a finite number {sign} {}", self.lower)
+            }
+            (false, true) => write!(f, "a finite number ≤ {}", self.upper),
+            (true, true) => {
+                let open = if self.lower_included { '[' } else { '(' };
+                write!(f, "a number in {open}{}, {}]", self.lower, self.upper)
+            }
+        }
+    }
+}
+
+const fn si(key: &'static str, unit: &'static str) -> SiTwin {
+    SiTwin {
+        key,
+        unit,
+        rms: false,
+    }
+}
+
+/// Damping ratio.
+pub const DAMPING_RATIO: Parameter = Parameter {
+    path: "belt.damping_ratio",
+    symbol: "ζ",
+    about: "damping ratio c/(2mω₀)",
+    quantity: Quantity::DampingRatio,
+    bounds: Bounds::NOT_NEGATIVE,
+    si: &[si("damping_n_s_per_m", "N·s/m")],
+};
+
+/// Normal load.
+pub const NORMAL_LOAD: Parameter = Parameter {
+    path: "belt.normal_load",
+    symbol: "F",
+    about: "steady normal load N₀/k, a length",
+    quantity: Quantity::Force,
+    bounds: Bounds::POSITIVE,
+    si: &[si("normal_force_n", "N")],
+};
+
+/// Belt velocity.
+pub const BELT_VELOCITY: Parameter = Parameter {
+    path: "belt.belt_velocity",
+    symbol: "v₀",
+    about: "belt velocity V₀/ω₀, a length",
+    quantity: Quantity::Velocity,
+    bounds: Bounds::NOT_NEGATIVE,
+    si: &[si("belt_velocity_m_per_s", "m/s")],
+};
+
+/// Initial displacement.
+pub const INITIAL_DISPLACEMENT: Parameter = Parameter {
+    path: "belt.initial.displacement",
+    symbol: "x(0)",
+    about: "initial displacement",
+    quantity: Quantity::Displacement,
+    bounds: Bounds::FINITE,
+    si: &[si("displacement_m", "m")],
+};
+
+/// Initial velocity.
+pub const INITIAL_VELOCITY: Parameter = Parameter {
+    path: "belt.initial.velocity",
+    symbol: "x′(0)",
+    about: "initial velocity",
+    quantity: Quantity::Velocity,
+    bounds: Bounds::FINITE,
+    si: &[si("velocity_m_per_s", "m/s")],
+};
+
+/// Static friction coefficient.
+pub const STATIC_COEFFICIENT: Parameter = Parameter {
+    path: "friction.static_coefficient",
+    symbol: "μ_s",
+    about: "static friction coefficient",
+    quantity: Quantity::Ratio,
+    bounds: Bounds::NOT_NEGATIVE,
+    si: &[],
+};
+
+/// Minimum (dynamic) friction coefficient.
+pub const MINIMUM_COEFFICIENT: Parameter = Parameter {
+    path: "friction.minimum_coefficient",
+    symbol: "μ_m",
+    about: "minimum (dynamic) friction coefficient, at most the static one",
+    quantity: Quantity::Ratio,
+    bounds: Bounds::NOT_NEGATIVE,
+    si: &[],
+};
+
+/// Reference velocity of the friction law.
+pub const REFERENCE_VELOCITY: Parameter = Parameter {
+    path: "friction.reference_velocity",
+    symbol: "v_m",
+    about: "slip velocity that scales the law: of the minimum (Stribeck), of the decay (decreasing)",
+    quantity: Quantity::Velocity,
+    bounds: Bounds::POSITIVE,
+    si: &[si("reference_velocity_m_per_s", "m/s")],
+};
+
+/// Dither amplitude.
+pub const DITHER_AMPLITUDE: Parameter = Parameter {
+    path: "dither.amplitude",
+    symbol: "D",
+    about: "peak dither force A/k, a length",
+    quantity: Quantity::Force,
+    bounds: Bounds::NOT_NEGATIVE,
+    si: &[
+        si("amplitude_n", "N"),
+        SiTwin {
+            key: "amplitude_n_rms",
+            unit: "N (rms)",
+            rms: true,
+        },
+    ],
+};
+
+/// Dither frequency over the natural frequency.
+pub const DITHER_FREQUENCY_RATIO: Parameter = Parameter {
+    path: "dither.frequency_ratio",
+    symbol: "R",
+    about: "dither frequency over natural frequency",
+    quantity: Quantity::FrequencyRatio,
+    bounds: Bounds::POSITIVE,
+    si: &[si("frequency_hz", "Hz")],
+};
+
+/// Dither phase.
+pub const DITHER_PHASE: Parameter = Parameter {
+    path: "dither.phase",
+    symbol: "φ",
+    about: "dither phase at τ = 0",
+    quantity: Quantity::Angle,
+    bounds: Bounds {
+        lower: -1e6,
+        lower_included: true,
+        upper: 1e6,
+    },
+    si: &[],
+};
+
+/// Tolerance of the Taylor steps.
+pub const TOLERANCE: Parameter = Parameter {
+    path: "solver.tolerance",
+    symbol: "ε",
+    about: "bound on the last retained Taylor terms of a step, relative to F",
+    quantity: Quantity::Ratio,
+    bounds: Bounds {
+        lower: 1e-15,
+        lower_included: true,
+        upper: 1e-3,
+    },
+    si: &[],
+};
+
+/// Settling time before a response is measured.
+pub const SETTLE: Parameter = Parameter {
+    path: "solver.settle",
+    symbol: "τ_s",
+    about: "time discarded before a response is measured",
+    quantity: Quantity::Time,
+    bounds: Bounds {
+        lower: 0.0,
+        lower_included: true,
+        upper: 1e9,
+    },
+    si: &[si("settle_s", "s")],
+};
+
+/// Length of the record.
+pub const RECORD_PERIODS: Parameter = Parameter {
+    path: "solver.record_periods",
+    symbol: "n",
+    about: "slow periods 2π in the record",
+    quantity: Quantity::Count,
+    bounds: Bounds {
+        lower: 2.0,
+        lower_included: true,
+        upper: 100_000.0,
+    },
+    si: &[],
+};
+
+/// Every parameter of a belt study, in the order of the study file. The friction law's own
+/// parameters are those of its file ([`crate::friction::LawKind::parameters`]).
+pub const BELT: &[Parameter] = &[
+    DAMPING_RATIO,
+    NORMAL_LOAD,
+    BELT_VELOCITY,
+    INITIAL_DISPLACEMENT,
+    INITIAL_VELOCITY,
+    DITHER_AMPLITUDE,
+    DITHER_FREQUENCY_RATIO,
+    DITHER_PHASE,
+    TOLERANCE,
+    SETTLE,
+    RECORD_PERIODS,
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bounds_refuse_what_is_not_a_number() {
+        for bounds in [Bounds::FINITE, Bounds::NOT_NEGATIVE, Bounds::POSITIVE] {
+            assert!(!bounds.contains(f64::NAN) && !bounds.contains(f64::INFINITY));
+        }
+        assert!(Bounds::NOT_NEGATIVE.contains(0.0) && !Bounds::POSITIVE.contains(0.0));
+        assert_eq!(Bounds::POSITIVE.to_string(), "a finite number > 0");
+    }
+
+    #[test]
+    fn paths_and_si_keys_are_unique() {
+        let mut keys: Vec<String> = BELT
+            .iter()
+            .flat_map(|p| {
+                let table = p.path.strip_suffix(p.key()).unwrap_or_default();
+                let twins = p.si.iter().map(move |twin| format!("{table}{}", twin.key));
+                twins.chain([p.path.to_owned()])
+            })
+            .collect();
+        keys.sort();
+        let count = keys.len();
+        keys.dedup();
+        assert_eq!(keys.len(), count);
+    }
+}
