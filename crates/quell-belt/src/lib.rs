@@ -1,1 +1,3 @@
 //! Mass on a moving belt.
+
+pub mod averaging;
