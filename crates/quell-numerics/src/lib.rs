@@ -9,5 +9,6 @@ pub mod elementary;
 pub mod lane;
 pub mod polynomial;
 pub mod quadrature;
+pub mod roots;
 pub mod special;
 pub mod spectrum;
