@@ -1,1 +1,8 @@
-//! Mass on a moving belt.
+//! A mass on a moving belt with dither: pure functions of valid values, without files,
+//! threads, clocks or printing.
+//!
+//! * [`averaging`]: effective friction under fast dither, stability of steady sliding, critical amplitudes;
+//! * [`simulation`]: event-exact trajectories by adaptive Taylor series.
+
+pub mod averaging;
+pub mod simulation;

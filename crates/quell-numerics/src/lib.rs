@@ -1,12 +1,14 @@
 //! Mathematics of Quell; no physics.
 //!
-//! * [`lane`], [`elementary`]: the arithmetic of the hot kernels, the same bits everywhere;
+//! * [`lane`], [`elementary`], [`dispatch`]: the arithmetic of the hot kernels, the same bits everywhere;
 //! * [`polynomial`]: first root of a Taylor step, isolated or proven absent; step length;
 //! * [`quadrature`], [`special`], [`spectrum`]: integrals, special functions, spectra.
 
+pub mod dispatch;
 pub mod elementary;
 pub mod lane;
 pub mod polynomial;
 pub mod quadrature;
+pub mod roots;
 pub mod special;
 pub mod spectrum;

@@ -1,1 +1,459 @@
-//! To come.
+//! Adaptive Gauss–Kronrod quadrature (10, 21) with one global heap of panels.
+//!
+//! ∫ₐᵇ f dx is the sum over panels of the 21-point Kronrod rule; the panel with the largest error
+//! estimate is bisected until the sum of the estimates is below the tolerance. The estimate of a
+//! panel is QUADPACK's: `d·min(1, (200 |K − G|/d)^{3/2})` with d = ∫|f − mean|, never below
+//! the rounding floor `4ε ∫|f|`. A panel at its floor is not bisected again; when only such panels are left
+//! and the tolerance is still not met, the integrand's rounding forbids it and the result says so.
+//!
+//! Assumptions and limits: f is smooth between the break points given. An integrable singularity of
+//! the value or of a derivative at a break point costs a chain of bisections towards it (never an
+//! evaluation at it: the nodes are interior). Features narrower than about 1/10 of a panel that leave no trace at
+//! the nodes are invisible to any sampling rule: give a break point near them, or raise
+//! [`QuadratureOptions::panels`]. With 64 panels a Gaussian peak of width 10⁻³ of the interval is found anywhere.
+//!
+//! Reference: R. Piessens, E. de Doncker-Kapenga, C. W. Überhuber, D. K. Kahaner, *QUADPACK*, Springer 1983
+//! (QAGP without extrapolation). Nodes and weights were computed anew to 34 digits; the tests check
+//! their exactness on polynomials up to degree 31 (Kronrod) and 19 (Gauss).
+
+use std::collections::BinaryHeap;
+
+/// Value of an integral, the bound on its error that was reached, and what it cost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Integral {
+    /// ∫ f dx.
+    pub value: f64,
+    /// Estimated absolute error; includes the rounding of the sum.
+    pub error: f64,
+    /// Number of evaluations of the integrand.
+    pub evaluations: usize,
+}
+
+/// When a quadrature is good enough, and how much it may cost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct QuadratureOptions {
+    /// Accepted error relative to |∫ f dx|.
+    pub relative: f64,
+    /// Accepted absolute error; the larger of the two bounds counts.
+    pub absolute: f64,
+    /// Equal panels each piece between break points is first cut into (at least 1).
+    pub panels: usize,
+    /// Largest number of evaluations of the integrand.
+    pub evaluations: usize,
+}
+
+impl Default for QuadratureOptions {
+    /// Relative 10⁻¹³, absolute 0, one panel per piece, at most 200 000 evaluations.
+    fn default() -> Self {
+        Self { relative: 1e-13, absolute: 0.0, panels: 1, evaluations: 200_000 }
+    }
+}
+
+/// Why a quadrature could not keep its tolerance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum QuadratureError {
+    /// An end or a break point is not finite.
+    NotFinite {
+        /// The offending end or break point.
+        limit: f64,
+    },
+    /// The integrand is not finite at an interior point.
+    IntegrandNotFinite {
+        /// Where it was evaluated.
+        at: f64,
+    },
+    /// The rounding of the integrand (∫|f| ≫ |∫f|) hides the digits asked for.
+    Rounding {
+        /// The best value, with its error.
+        best: Integral,
+    },
+    /// The budget of evaluations was used up.
+    Evaluations {
+        /// The best value, with its error.
+        best: Integral,
+    },
+}
+
+impl QuadratureError {
+    /// The best value reached, where there is one.
+    #[must_use]
+    pub fn best(&self) -> Option<Integral> {
+        match *self {
+            Self::Rounding { best } | Self::Evaluations { best } => Some(best),
+            Self::NotFinite { .. } | Self::IntegrandNotFinite { .. } => None,
+        }
+    }
+}
+
+impl core::fmt::Display for QuadratureError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::NotFinite { limit } => write!(f, "the limit {limit} of an integral is not finite"),
+            Self::IntegrandNotFinite { at } => write!(f, "the integrand is not finite at {at}"),
+            Self::Rounding { best } => write!(
+                f,
+                "rounding of the integrand leaves an error of {:e} in the integral {:e}",
+                best.error, best.value
+            ),
+            Self::Evaluations { best } => write!(
+                f,
+                "after {} evaluations the integral {:e} still has an error of {:e}",
+                best.evaluations, best.value, best.error
+            ),
+        }
+    }
+}
+
+impl core::error::Error for QuadratureError {}
+
+/// Nodes in (0, 1) of the 21-point Kronrod rule, outermost first; odd places are the Gauss nodes.
+const NODES: [f64; 10] = [
+    0.9956571630258080807355272806890028,
+    0.9739065285171717200779640120844521,
+    0.9301574913557082260012071800595083,
+    0.865063366688984510732096688423493,
+    0.7808177265864168970637175783450424,
+    0.6794095682990244062343273651148736,
+    0.5627571346686046833390000992726941,
+    0.4333953941292471907992659431657842,
+    0.2943928627014601981311266031038656,
+    0.14887433898163121088482600112972,
+];
+/// Kronrod weights of [`NODES`].
+const KRONROD: [f64; 10] = [
+    0.01169463886737187427806439606219205,
+    0.03255816230796472747881897245938976,
+    0.05475589657435199603138130024458018,
+    0.07503967481091995276704314091619001,
+    0.09312545458369760553506546508336634,
+    0.109387158802297641899210590325805,
+    0.1234919762620658510779581098310742,
+    0.1347092173114733259280540017718067,
+    0.1427759385770600807970942731387171,
+    0.147739104901338491374841515972068,
+];
+/// Kronrod weight of the centre.
+const KRONROD_CENTRE: f64 = 0.1494455540029169056649364683898212;
+/// Gauss weights of the odd places of [`NODES`].
+const GAUSS: [f64; 5] = [
+    0.06667134430868813759356880989333179,
+    0.1494513491505805931457763396576973,
+    0.2190863625159820439955349342281632,
+    0.2692667193099963550912269215694694,
+    0.2955242247147528701738929946513383,
+];
+
+/// One panel with its Kronrod value, its error estimate and ∫|f|.
+#[derive(Debug, Clone, Copy)]
+struct Panel {
+    from: f64,
+    to: f64,
+    value: f64,
+    error: f64,
+    floor: f64,
+}
+
+impl Panel {
+    /// Whether bisection could still lower the error.
+    fn can_improve(&self) -> bool {
+        let middle = self.from.midpoint(self.to);
+        self.error > self.floor && middle > self.from && middle < self.to
+    }
+}
+
+impl PartialEq for Panel {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+impl Eq for Panel {}
+impl PartialOrd for Panel {
+    fn partial_cmp(&self, other: &Self) -> Option<core::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Panel {
+    /// Largest error first; ties by place, so that the order of work is always the same.
+    fn cmp(&self, other: &Self) -> core::cmp::Ordering {
+        self.error.total_cmp(&other.error).then(other.from.total_cmp(&self.from))
+    }
+}
+
+/// Applies the pair of rules to one panel.
+fn panel(
+    f: &mut impl FnMut(f64) -> f64,
+    from: f64,
+    to: f64,
+) -> Result<Panel, QuadratureError> {
+    let centre = from.midpoint(to);
+    let half = 0.5 * (to - from);
+    let mut below = [0.0; 10];
+    let mut above = [0.0; 10];
+    let mut finite = |x: f64| {
+        let y = f(x);
+        if y.is_finite() { Ok(y) } else { Err(QuadratureError::IntegrandNotFinite { at: x }) }
+    };
+    let middle = finite(centre)?;
+    for (i, node) in NODES.iter().enumerate() {
+        below[i] = finite(centre - half * node)?;
+        above[i] = finite(centre + half * node)?;
+    }
+    let mut kronrod = KRONROD_CENTRE * middle;
+    let mut magnitude = KRONROD_CENTRE * middle.abs();
+    let mut gauss = 0.0;
+    for i in 0..10 {
+        kronrod += KRONROD[i] * (below[i] + above[i]);
+        magnitude += KRONROD[i] * (below[i].abs() + above[i].abs());
+        if i % 2 == 1 {
+            gauss += GAUSS[i / 2] * (below[i] + above[i]);
+        }
+    }
+    let mean = 0.5 * kronrod;
+    let mut spread = KRONROD_CENTRE * (middle - mean).abs();
+    for i in 0..10 {
+        spread += KRONROD[i] * ((below[i] - mean).abs() + (above[i] - mean).abs());
+    }
+    let scale = half.abs();
+    let difference = (kronrod - gauss).abs() * scale;
+    let spread = spread * scale;
+    let floor = 4.0 * f64::EPSILON * magnitude * scale;
+    let estimate = if spread > 0.0 && difference > 0.0 {
+        let ratio = 200.0 * difference / spread;
+        spread * f64::min(1.0, ratio * ratio.sqrt())
+    } else {
+        difference
+    };
+    Ok(Panel { from, to, value: kronrod * half, error: estimate.max(floor), floor })
+}
+
+/// Sum that carries its rounding along (Neumaier).
+#[derive(Default)]
+struct CompensatedSum {
+    sum: f64,
+    carry: f64,
+}
+
+impl CompensatedSum {
+    fn add(&mut self, term: f64) {
+        let next = self.sum + term;
+        self.carry += if self.sum.abs() >= term.abs() {
+            (self.sum - next) + term
+        } else {
+            (term - next) + self.sum
+        };
+        self.sum = next;
+    }
+    fn total(&self) -> f64 {
+        self.sum + self.carry
+    }
+}
+
+/// Adaptive integral of `f` from `from` to `to` (either order), cut at those of `breaks` that lie between them.
+///
+/// The integrand is never evaluated at an end or at a break point.
+///
+/// # Errors
+/// [`QuadratureError`] where a limit or the integrand is not finite, or where the tolerance was not
+/// reached; in the latter case the error carries the best value.
+pub fn integrate(
+    mut f: impl FnMut(f64) -> f64,
+    from: f64,
+    to: f64,
+    breaks: &[f64],
+    options: &QuadratureOptions,
+) -> Result<Integral, QuadratureError> {
+    for &limit in [from, to].iter().chain(breaks) {
+        if !limit.is_finite() {
+            return Err(QuadratureError::NotFinite { limit });
+        }
+    }
+    let (low, high) = if from <= to { (from, to) } else { (to, from) };
+    let sign = if from <= to { 1.0 } else { -1.0 };
+    let mut cuts: Vec<f64> = breaks.iter().copied().filter(|b| *b > low && *b < high).collect();
+    cuts.push(low);
+    cuts.push(high);
+    cuts.sort_unstable_by(f64::total_cmp);
+    cuts.dedup();
+
+    let mut open: BinaryHeap<Panel> = BinaryHeap::new();
+    let mut done: Vec<Panel> = Vec::new();
+    let mut evaluations = 0;
+    let place = |p: Panel, open: &mut BinaryHeap<Panel>, done: &mut Vec<Panel>| {
+        if p.can_improve() { open.push(p) } else { done.push(p) }
+    };
+    for pair in cuts.windows(2) {
+        let count = options.panels.max(1);
+        let edge = |i: usize| match i {
+            0 => pair[0],
+            i if i == count => pair[1],
+            i => pair[0] + (pair[1] - pair[0]) * (i as f64 / count as f64),
+        };
+        for i in 0..count {
+            if edge(i + 1) > edge(i) {
+                evaluations += 21;
+                place(panel(&mut f, edge(i), edge(i + 1))?, &mut open, &mut done);
+            }
+        }
+    }
+    let total = |open: &BinaryHeap<Panel>, done: &[Panel], evaluations: usize| {
+        // The heap's inner order is a function of the work done, hence the same everywhere.
+        let mut value = CompensatedSum::default();
+        let mut error = 0.0;
+        for p in open.iter().chain(done) {
+            value.add(p.value);
+            error += p.error;
+        }
+        Integral { value: sign * value.total(), error, evaluations }
+    };
+    let mut running: f64 = open.iter().chain(&done).map(|p| p.value).sum();
+    let mut running_error: f64 = open.iter().chain(&done).map(|p| p.error).sum();
+    loop {
+        if running_error <= f64::max(options.absolute, options.relative * running.abs()) {
+            // The running sums drift by rounding: decide by fresh ones.
+            let best = total(&open, &done, evaluations);
+            running = sign * best.value;
+            running_error = best.error;
+            if best.error <= f64::max(options.absolute, options.relative * best.value.abs()) {
+                return Ok(best);
+            }
+        }
+        let Some(worst) = open.pop() else {
+            return Err(QuadratureError::Rounding { best: total(&open, &done, evaluations) });
+        };
+        if evaluations + 42 > options.evaluations {
+            open.push(worst);
+            return Err(QuadratureError::Evaluations { best: total(&open, &done, evaluations) });
+        }
+        let middle = worst.from.midpoint(worst.to);
+        let left = panel(&mut f, worst.from, middle)?;
+        let right = panel(&mut f, middle, worst.to)?;
+        evaluations += 42;
+        running += left.value + right.value - worst.value;
+        running_error += left.error + right.error - worst.error;
+        place(left, &mut open, &mut done);
+        place(right, &mut open, &mut done);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f64::consts::PI;
+
+    fn tight() -> QuadratureOptions {
+        QuadratureOptions { relative: 1e-14, ..QuadratureOptions::default() }
+    }
+
+    /// One Kronrod panel is exact to degree 31, the Gauss rule inside it to degree 19.
+    #[test]
+    fn exact_on_polynomials() {
+        for degree in 0..=31_u8 {
+            let mut f = |x: f64| {
+                // Legendre polynomial by recurrence: bounded by 1, so rounding stays small.
+                let (mut p, mut q) = (1.0, x);
+                for k in 1..degree {
+                    let k = f64::from(k);
+                    (p, q) = (q, ((2.0 * k + 1.0) * x * q - k * p) / (k + 1.0));
+                }
+                if degree == 0 { 1.0 } else { q }
+            };
+            let exact = if degree == 0 { 2.0 } else { 0.0 };
+            let p = panel(&mut f, -1.0, 1.0).expect("finite");
+            assert!((p.value - exact).abs() < 1e-15, "degree {degree}: {}", p.value);
+            let gauss: f64 =
+                (0..5).map(|i| GAUSS[i] * (f(NODES[2 * i + 1]) + f(-NODES[2 * i + 1]))).sum();
+            if degree <= 19 {
+                assert!((gauss - exact).abs() < 1e-15, "Gauss, degree {degree}: {gauss}");
+            }
+        }
+        // Degree 20 is beyond the Gauss rule: the test above can fail.
+        let p20 = |x: f64| {
+            let (mut p, mut q) = (1.0, x);
+            for k in 1..20 {
+                let k = f64::from(k);
+                (p, q) = (q, ((2.0 * k + 1.0) * x * q - k * p) / (k + 1.0));
+            }
+            q
+        };
+        let gauss: f64 =
+            (0..5).map(|i| GAUSS[i] * (p20(NODES[2 * i + 1]) + p20(-NODES[2 * i + 1]))).sum();
+        assert!(gauss.abs() > 1e-3);
+    }
+
+    /// A Lorentzian of width 10⁻³ of the interval, to 10⁻¹⁴.
+    #[test]
+    fn narrow_lorentzian() {
+        let w = 1e-3;
+        for centre in [0.0, 0.1234567, 0.5, 0.987] {
+            let i = integrate(|x| w / ((x - centre) * (x - centre) + w * w), 0.0, 1.0, &[], &tight())
+                .expect("converges");
+            let exact = libm::atan((1.0 - centre) / w) + libm::atan(centre / w);
+            assert!((i.value - exact).abs() < 1e-14 * exact, "{centre}: {} {exact}", i.value);
+            assert!(i.error < 1e-14 * exact);
+        }
+    }
+
+    /// A Gaussian of width 10⁻³ leaves no trace beside its peak: found by initial panels or a break point.
+    #[test]
+    fn narrow_gaussian() {
+        let w = 1e-3;
+        let exact = w * PI.sqrt();
+        for k in 1..20 {
+            let centre = 0.0493 * f64::from(k);
+            // Counted from the peak: x − centre in the integrand would cost 10⁻¹⁶/w of its digits.
+            let f = |x: f64| libm::exp(-(x / w) * (x / w));
+            let (from, to) = (-centre, 1.0 - centre);
+            let options = QuadratureOptions { panels: 64, ..tight() };
+            let i = integrate(f, from, to, &[], &options).expect("converges");
+            assert!((i.value - exact).abs() < 1e-14 * exact, "{centre}: {}", i.value / exact);
+            let i = integrate(f, from, to, &[0.0], &tight()).expect("converges");
+            assert!((i.value - exact).abs() < 1e-14 * exact, "{centre}: {}", i.value / exact);
+        }
+    }
+
+    #[test]
+    fn singular_ends_and_kinks() {
+        let options = QuadratureOptions { relative: 1e-12, ..QuadratureOptions::default() };
+        let i = integrate(|x| 1.0 / x.sqrt(), 0.0, 4.0, &[], &options).expect("converges");
+        assert!((i.value - 4.0).abs() < 4e-12);
+        let i = integrate(|x| (x - 0.3).abs().sqrt(), 0.0, 1.0, &[0.3], &options).expect("ok");
+        let exact = (0.3_f64.powf(1.5) + 0.7_f64.powf(1.5)) / 1.5;
+        assert!((i.value - exact).abs() < 1e-12);
+    }
+
+    #[test]
+    fn direction_breaks_and_empty() {
+        let f = |x: f64| libm::exp(x);
+        let forward = integrate(f, 0.0, 2.0, &[1.0, 5.0, -1.0, 1.0], &tight()).expect("ok");
+        let backward = integrate(f, 2.0, 0.0, &[1.0], &tight()).expect("ok");
+        assert_eq!(forward.value, -backward.value);
+        assert!((forward.value - (libm::exp(2.0) - 1.0)).abs() < 1e-14 * forward.value);
+        assert_eq!(integrate(f, 1.0, 1.0, &[], &tight()).expect("ok").value, 0.0);
+    }
+
+    /// What cannot be done is said, with the best value.
+    #[test]
+    fn failures_are_told() {
+        let rounding = integrate(|x| 1e16 * libm::sin(x) + 1.0, -1.0, 1.0, &[], &tight());
+        assert!(matches!(rounding, Err(QuadratureError::Rounding { best }) if best.error > 1.0));
+        let budget = QuadratureOptions { evaluations: 300, ..tight() };
+        let spent = integrate(|x| libm::sin(1.0 / x), 1e-4, 1.0, &[], &budget);
+        assert!(matches!(spent, Err(QuadratureError::Evaluations { best }) if best.evaluations <= 300));
+        let pole = integrate(|x| 1.0 / x, -1.0, 1.0, &[], &tight());
+        assert!(matches!(pole, Err(QuadratureError::IntegrandNotFinite { at }) if at == 0.0));
+        let limit = integrate(|x| x, 0.0, f64::INFINITY, &[], &tight());
+        assert!(matches!(limit, Err(QuadratureError::NotFinite { .. })));
+    }
+
+    /// The error bound is a bound: over a family of integrands of known value.
+    #[test]
+    fn error_bound_holds() {
+        for k in 1..60 {
+            let a = f64::from(k);
+            let options = QuadratureOptions { relative: 1e-9, ..QuadratureOptions::default() };
+            let i = integrate(|x| libm::cos(a * x) + 1.5, 0.0, 1.0, &[], &options).expect("ok");
+            let exact = libm::sin(a) / a + 1.5;
+            assert!((i.value - exact).abs() <= i.error, "a = {a}: {:e}", (i.value - exact).abs());
+        }
+    }
+}

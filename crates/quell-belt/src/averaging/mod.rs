@@ -1,0 +1,21 @@
+//! Averaging: what a fast dither makes of a friction law.
+//!
+//! The slow motion obeys Z″ + 2ζZ′ + Z = μ̄(v₀ − Z′)F with the effective friction μ̄ (2.21, 3.19, 4.27); steady sliding is
+//! unstable iff 2ζ + Fμ̄′(v₀) < 0 (2.26).
+
+mod decreasing;
+mod effective;
+mod fast_motion;
+mod independent;
+mod periodic;
+mod single_wave;
+mod stribeck;
+mod wave;
+
+pub use effective::{AveragingError, Effective, Side, effective, effective_by_quadrature};
+pub use fast_motion::{
+    AveragingOptions, FastMotion, LoadTerm, MAX_HARMONIC, NormalOrder, PeriodicMotion, Response,
+    SlipTerm,
+};
+pub use independent::MAX_GROUPS;
+pub use wave::FastWave;

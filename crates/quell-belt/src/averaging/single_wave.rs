@@ -1,0 +1,93 @@
+//! Any law under one dither of any shape: quadrature over a quarter wave.
+//!
+//! With s = ασ(δ) odd in δ and c(u) the sliding coefficient at speed u ≥ 0,
+//! μ̄(v) = (1/π) ∫₀^{π/2} [μ(v + ασ) + μ(v − ασ)] dδ for v ≥ 0, cut where ασ = v:
+//!
+//! * ασ < v: c(v + ασ) + c(v − ασ), a positive sum over a stretch whose length is known in relative accuracy;
+//! * ασ > v: c(ασ + v) − c(ασ − v); for v ≪ v_m the difference is taken as the integral of the slope, five Gauss points.
+//!
+//! μ̄′(v) = 2c(0)ρ + (1/π) ∫ [c′(v + ασ) + c′(|v − ασ|)] dδ with the density ρ = 1/(πασ′) at the crossing.
+//! So the relative accuracy holds for v → 0 too. Assumes that the law is smooth for u > 0 on the scale v_m.
+
+use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
+use quell_model::Friction;
+use quell_numerics::quadrature::{QuadratureOptions, integrate};
+
+use super::effective::{AveragingError, Effective, Side};
+use super::wave::FastWave;
+
+/// Below this fraction of v_m the difference of two coefficients is integrated from the slope.
+const SMALL_SLIP: f64 = 0.05;
+
+/// Effective friction at slip velocity `v` ≥ 0 under s = α·wave, α > 0.
+pub(super) fn effective(
+    law: &Friction,
+    wave: FastWave,
+    alpha: f64,
+    v: f64,
+) -> Result<Effective, AveragingError> {
+    let corner = alpha * wave.peak();
+    let vm = law.velocity_scale();
+    let outside = v >= corner;
+    let (delta, density) = if outside {
+        (FRAC_PI_2, 0.0)
+    } else {
+        let (delta, steepness) = wave.crossing(alpha, v);
+        (delta, FRAC_2_PI / steepness)
+    };
+    let mut cuts = vec![delta];
+    for offset in [-36.0, -6.0, -1.0, 1.0, 6.0, 36.0] {
+        let value = v + offset * vm;
+        if value > 0.0 && value < corner {
+            cuts.push(wave.crossing(alpha, value).0);
+        }
+    }
+    let pair = |x: f64| {
+        let s = alpha * wave.quarter(x);
+        if outside || x < delta {
+            law.coefficient(v + s) + law.coefficient((v - s).max(0.0))
+        } else if v < SMALL_SLIP * vm && s > 2.0 * v {
+            2.0 * v * mean_slope(law, s, v)
+        } else {
+            law.coefficient(s + v) - law.coefficient((s - v).max(0.0))
+        }
+    };
+    let slopes = |x: f64| {
+        let s = alpha * wave.quarter(x);
+        law.slope(v + s) + law.slope((v - s).abs())
+    };
+    // The near part and the far part of the value may cancel: each keeps its own accuracy.
+    let options = QuadratureOptions { relative: 1e-13, ..QuadratureOptions::default() };
+    let near = integrate(pair, 0.0, delta, &cuts, &options)?;
+    let far = if outside {
+        0.0
+    } else {
+        let floor = QuadratureOptions { absolute: 1e-14 * near.value.abs(), ..options };
+        integrate(pair, delta, FRAC_PI_2, &cuts, &floor)?.value
+    };
+    // A slope that crosses zero is accurate relative to the law's own slopes.
+    let scale = law.slope(0.0).abs() + law.slope(v).abs() + PI * law.coefficient(0.0) * density;
+    let options = QuadratureOptions { absolute: 1e-13 * scale, ..options };
+    let smooth = integrate(slopes, 0.0, FRAC_PI_2, &cuts, &options)?;
+    let side = if v == corner { Side::Outer } else { Side::Both };
+    let mut effective = Effective::closed(
+        [near.value / PI, far / PI],
+        [law.coefficient(0.0) * density, smooth.value / PI],
+        scale,
+        side,
+    );
+    effective.coefficient_error += near.error / PI + 1e-13 * far.abs();
+    effective.slope_error += smooth.error / PI;
+    Ok(effective)
+}
+
+/// Mean slope of the law over speeds s − v … s + v.
+fn mean_slope(law: &Friction, s: f64, v: f64) -> f64 {
+    const NODES: [f64; 2] = [0.5384693101056830910363144, 0.9061798459386639927976269];
+    const WEIGHTS: [f64; 2] = [0.4786286704993664680412915, 0.2369268850561890875142640];
+    const CENTRE: f64 = 0.5688888888888888888888889;
+    let pairs: f64 = (0..2)
+        .map(|i| WEIGHTS[i] * (law.slope(s - v * NODES[i]) + law.slope(s + v * NODES[i])))
+        .sum();
+    0.5 * (CENTRE * law.slope(s) + pairs)
+}

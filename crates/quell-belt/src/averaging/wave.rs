@@ -1,0 +1,233 @@
+//! Shape of a fast slip velocity s(θ): what one dither makes the mass do within one of its periods.
+//!
+//! Two producers, both scaled so that the amplitude in front of the shape is α = D/R:
+//! * [`FastWave::Integral`]: s = αG(θ), the leading order of averaging (2.21), (3.19);
+//! * [`FastWave::Oscillator`]: the exact periodic velocity of the undamped oscillator x″ + x = D g(Rτ), which contains
+//!   every order in 1/R of the fast motion at no cost. With β = π/(2R) it is
+//!   sine R²/(R² − 1) G; triangle (2R²/(π cos β)) (cos β − cos(θ/R)) on |θ| ≤ π/2, mirrored;
+//!   square (R/cos β) sin((θ − π/2)/R) on 0 ≤ θ ≤ π, mirrored. The damping is left out on purpose: at a stability boundary the
+//!   damper and the averaged friction slope cancel. It needs R > 1.
+//!
+//! All are even and antiperiodic, hence given by a quarter wave σ(δ): s = σ(θ − π/2) on [0, π], σ odd and
+//! increasing from 0 at δ = 0 (in relative accuracy, also for tiny δ) to its peak at δ = π/2.
+
+use core::f64::consts::{FRAC_PI_2, PI, TAU};
+use quell_model::Waveform;
+
+/// Shape of the fast slip velocity of one dither, for unit amplitude α = D/R.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FastWave {
+    /// G, the zero-mean integral of the waveform: the limit of high frequency.
+    Integral(Waveform),
+    /// Velocity response of the undamped oscillator, divided by D/R.
+    Oscillator {
+        /// Waveform of the force.
+        waveform: Waveform,
+        /// Frequency ratio R > 1.
+        frequency_ratio: f64,
+    },
+}
+
+impl FastWave {
+    /// Same shape with a factor in front: a sine keeps its shape in an oscillator, so its closed forms serve.
+    pub(crate) fn canonical(self) -> (Self, f64) {
+        match self {
+            Self::Oscillator { waveform: Waveform::Sine, frequency_ratio: r } => {
+                (Self::Integral(Waveform::Sine), sine_gain(r))
+            }
+            other => (other, 1.0),
+        }
+    }
+
+    /// Largest value: G_max = 1, π/4, π/2 in the limit of high frequency.
+    pub fn peak(self) -> f64 {
+        match self {
+            Self::Integral(waveform) => waveform.peak_integral(),
+            Self::Oscillator { waveform, frequency_ratio: r } => {
+                let half = FRAC_PI_2 / r;
+                match waveform {
+                    Waveform::Sine => sine_gain(r),
+                    Waveform::Triangle => {
+                        let s = libm::sin(0.5 * half);
+                        4.0 * r * r * s * s / (PI * libm::cos(half))
+                    }
+                    Waveform::Square => r * libm::tan(half),
+                }
+            }
+        }
+    }
+
+    /// Whether the shape arrives at its peak with a slope (a corner, square) or rounded (sine, triangle).
+    ///
+    /// At |v| = α·peak the slope of the effective friction is finite on the inner side for a corner, +∞ for a rounded peak.
+    pub fn has_sharp_peak(self) -> bool {
+        matches!(
+            self,
+            Self::Integral(Waveform::Square) | Self::Oscillator { waveform: Waveform::Square, .. }
+        )
+    }
+
+    /// Quarter wave σ(δ), 0 ≤ δ ≤ π/2.
+    pub(crate) fn quarter(self, delta: f64) -> f64 {
+        match self {
+            Self::Integral(Waveform::Sine) => libm::sin(delta),
+            Self::Integral(Waveform::Triangle) => delta * (1.0 - delta / PI),
+            Self::Integral(Waveform::Square) => delta,
+            Self::Oscillator { waveform, frequency_ratio: r } => match waveform {
+                Waveform::Sine => sine_gain(r) * libm::sin(delta),
+                Waveform::Triangle => {
+                    let product = libm::sin(0.5 * delta / r) * libm::sin(0.5 * (PI - delta) / r);
+                    4.0 * r * r / (PI * libm::cos(FRAC_PI_2 / r)) * product
+                }
+                Waveform::Square => r * libm::sin(delta / r) / libm::cos(FRAC_PI_2 / r),
+            },
+        }
+    }
+
+    /// dσ/dδ at 0 ≤ δ ≤ π/2.
+    pub(crate) fn quarter_slope(self, delta: f64) -> f64 {
+        match self {
+            Self::Integral(Waveform::Sine) => libm::cos(delta),
+            Self::Integral(Waveform::Triangle) => 1.0 - 2.0 * delta / PI,
+            Self::Integral(Waveform::Square) => 1.0,
+            Self::Oscillator { waveform, frequency_ratio: r } => match waveform {
+                Waveform::Sine => sine_gain(r) * libm::cos(delta),
+                Waveform::Triangle => {
+                    let factor = 2.0 * r / (PI * libm::cos(FRAC_PI_2 / r));
+                    factor * libm::sin((FRAC_PI_2 - delta) / r)
+                }
+                Waveform::Square => libm::cos(delta / r) / libm::cos(FRAC_PI_2 / r),
+            },
+        }
+    }
+
+    /// The δ in [0, π/2] where ασ(δ) = value, and α dσ/dδ there, for 0 ≤ value < α·peak; both without cancellation near
+    /// either end.
+    pub(crate) fn crossing(self, amplitude: f64, value: f64) -> (f64, f64) {
+        let peak = amplitude * self.peak();
+        let below = peak - value;
+        match self {
+            Self::Integral(Waveform::Sine) => {
+                let steepness = (below * (peak + value)).sqrt();
+                (libm::atan2(value, steepness), steepness)
+            }
+            Self::Integral(Waveform::Triangle) => {
+                let root = (below / peak).sqrt();
+                // δ = (π/2)(1 − √(1 − value/peak))
+                (FRAC_PI_2 * (value / peak) / (1.0 + root), amplitude * root)
+            }
+            Self::Integral(Waveform::Square) => (value / amplitude, amplitude),
+            Self::Oscillator { waveform: Waveform::Sine, frequency_ratio } => {
+                Self::Integral(Waveform::Sine).crossing(amplitude * sine_gain(frequency_ratio), value)
+            }
+            Self::Oscillator { waveform: Waveform::Triangle, frequency_ratio: r } => {
+                let scale = 4.0 * r * r * amplitude / (PI * libm::cos(FRAC_PI_2 / r));
+                let from_peak = 2.0 * r * libm::asin((below / scale).sqrt().min(1.0));
+                let steepness = 0.5 * scale / r * libm::sin(from_peak / r);
+                let mut delta = (FRAC_PI_2 - from_peak).max(0.0);
+                // δ near 0 has lost digits to the subtraction: two Newton steps bring them back.
+                for _ in 0..2 {
+                    if delta < 1.0 {
+                        delta -= (amplitude * self.quarter(delta) - value)
+                            / (amplitude * self.quarter_slope(delta));
+                    }
+                }
+                (delta.max(0.0), steepness)
+            }
+            Self::Oscillator { waveform: Waveform::Square, frequency_ratio: r } => {
+                let half = libm::cos(FRAC_PI_2 / r);
+                let delta = r * libm::asin((value * half / (amplitude * r)).min(1.0));
+                (delta, amplitude * self.quarter_slope(delta))
+            }
+        }
+    }
+
+    /// s(θ) and ds/dθ for unit amplitude, any θ. At a corner of s the slope after it.
+    pub(crate) fn value_and_slope(self, phase: f64) -> (f64, f64) {
+        let phase = phase.rem_euclid(TAU);
+        let (folded, direction) = if phase < PI { (phase, 1.0) } else { (TAU - phase, -1.0) };
+        let delta = folded - FRAC_PI_2;
+        let size = delta.abs().min(FRAC_PI_2);
+        (self.quarter(size).copysign(delta), direction * self.quarter_slope(size))
+    }
+}
+
+/// R²/(R² − 1): gain of the oscillator's velocity over D/R at the frequency of the force.
+fn sine_gain(r: f64) -> f64 {
+    r * r / ((r - 1.0) * (r + 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all() -> Vec<FastWave> {
+        let mut waves = Vec::new();
+        for &waveform in Waveform::ALL {
+            waves.push(FastWave::Integral(waveform));
+            for frequency_ratio in [1.3, 5.0, 10.0, 1e4] {
+                waves.push(FastWave::Oscillator { waveform, frequency_ratio });
+            }
+        }
+        waves
+    }
+
+    /// The shapes are G itself, and the oscillator's tend to it.
+    #[test]
+    fn integral_of_the_waveform() {
+        for &waveform in Waveform::ALL {
+            for k in -50..120 {
+                let theta = 0.1 * f64::from(k);
+                let (s, slope) = FastWave::Integral(waveform).value_and_slope(theta);
+                assert!((s - waveform.integral(theta)).abs() < 4e-15, "{waveform:?} {theta}");
+                assert!((slope - waveform.value(theta)).abs() < 1e-14, "{waveform:?} {theta}");
+                let far = FastWave::Oscillator { waveform, frequency_ratio: 1e5 };
+                assert!((far.value_and_slope(theta).0 - s).abs() < 1e-9);
+            }
+        }
+    }
+
+    /// s″ + s/R² = g′/… : the oscillator's velocity obeys v″ + v = D R g′ (away from breaks), by differences, and
+    /// jumps like the force.
+    #[test]
+    fn oscillator_equation() {
+        for &waveform in Waveform::ALL {
+            let r = 3.0;
+            let wave = FastWave::Oscillator { waveform, frequency_ratio: r };
+            let h = 1e-3;
+            for k in 0..60 {
+                let theta = 0.05 + 0.1 * f64::from(k);
+                let near_break = [0.0, 0.5, 1.0, 1.5, 2.0]
+                    .iter()
+                    .any(|q| (theta - q * PI).abs() < 2.1 * h);
+                if near_break {
+                    continue;
+                }
+                let s = |x: f64| wave.value_and_slope(x).0;
+                let second = (s(theta + h) - 2.0 * s(theta) + s(theta - h)) / (h * h);
+                let force = (waveform.value(theta + h) - waveform.value(theta - h)) / (2.0 * h);
+                assert!((second + s(theta) / (r * r) - force).abs() < 1e-5, "{waveform:?} {theta}");
+            }
+        }
+    }
+
+    /// Quarter waves rise from 0 to the peak, and `crossing` inverts them in relative accuracy.
+    #[test]
+    fn crossings() {
+        for wave in all() {
+            let alpha = 0.37;
+            let top = alpha * wave.quarter(FRAC_PI_2);
+            assert!((top / (alpha * wave.peak()) - 1.0).abs() < 1e-14, "{wave:?}");
+            for k in 0..200 {
+                let delta = FRAC_PI_2 * libm::exp(-0.15 * f64::from(k) - 0.001);
+                let value = alpha * wave.quarter(delta);
+                let (found, steepness) = wave.crossing(alpha, value);
+                // Near a rounded peak δ is as ill-defined as √.
+                let slack = 1e-13 + 1e-15 / (FRAC_PI_2 - delta);
+                assert!((found / delta - 1.0).abs() < slack, "{wave:?} {delta}: {found}");
+                let exact = alpha * wave.quarter_slope(delta);
+                assert!((steepness / exact - 1.0).abs() < 1e-9, "{wave:?} {delta}");
+            }
+        }
+    }
+}

@@ -1,0 +1,308 @@
+//! Dither forces along a run: local Taylor coefficients, exact values, breaks as time events.
+//!
+//! A harmonic piece D sin(Rτ + φ) has the coefficients D Rᵏ/k! · {s, c, −s, −c}: a table
+//! times one sine and cosine a step. Triangle and square are straight between their breaks.
+//! Break number n lies at (θᵢ + 2πc − φ)/R with n = c·(breaks per period) + i, computed
+//! from the integer each time, so that breaks do not drift.
+
+use std::f64::consts::TAU;
+
+use quell_model::waveform::Piece;
+use quell_model::{Direction, Dither, Waveform};
+use quell_numerics::elementary::sin_cos_of_phase;
+
+use super::ORDER;
+use super::clock::Clock;
+
+/// Coefficients of a Taylor series of the engine's order.
+pub(super) type Series = [f64; ORDER + 1];
+
+/// All dithers of one direction, in units of the law's velocity scale.
+#[derive(Clone, Debug)]
+pub(super) struct Forcing {
+    components: Vec<Component>,
+    /// Constant part: the steady load for the normal direction, else 0.
+    mean: f64,
+    /// Σ|D|, a bound of the dither part.
+    amplitude: f64,
+    next_break: f64,
+}
+
+#[derive(Clone, Debug)]
+struct Component {
+    rate: f64,
+    phase: f64,
+    waveform: Waveform,
+    /// D Rᵏ/k!.
+    table: Series,
+    /// Number of the break that ends the current piece; meaningless without breaks.
+    ending: i64,
+    /// When the current piece began and ends.
+    began: f64,
+    ends: f64,
+}
+
+impl Forcing {
+    /// Dithers of `direction` divided by `unit`, set to the moment `clock`.
+    pub(super) fn new(
+        dithers: &[Dither],
+        direction: Direction,
+        mean: f64,
+        unit: f64,
+        clock: Clock,
+    ) -> Self {
+        let components: Vec<_> = dithers
+            .iter()
+            .filter(|dither| dither.direction == direction && dither.amplitude > 0.0)
+            .map(|dither| Component::new(dither, unit, clock))
+            .collect();
+        let mut forcing = Self {
+            mean,
+            amplitude: components.iter().map(|component| component.table[0]).sum(),
+            next_break: f64::INFINITY,
+            components,
+        };
+        forcing.pass_breaks(clock);
+        forcing
+    }
+
+    /// Whether there is no dither in this direction.
+    #[inline(always)]
+    pub(super) fn is_constant(&self) -> bool {
+        self.components.is_empty()
+    }
+
+    /// Σ|D|.
+    #[inline(always)]
+    pub(super) fn amplitude(&self) -> f64 {
+        self.amplitude
+    }
+
+    /// The constant part.
+    #[inline(always)]
+    pub(super) fn mean(&self) -> f64 {
+        self.mean
+    }
+
+    /// Highest frequency ratio, or 0 without dither.
+    pub(super) fn highest_rate(&self) -> f64 {
+        self.components.iter().fold(0.0, |rate, component| rate.max(component.rate))
+    }
+
+    /// The next kink or jump.
+    #[inline(always)]
+    pub(super) fn next_break(&self) -> f64 {
+        self.next_break
+    }
+
+    /// Moves past every break that is not after `clock`.
+    #[inline(always)]
+    pub(super) fn pass_breaks(&mut self, clock: Clock) {
+        let mut next = f64::INFINITY;
+        for component in &mut self.components {
+            if component.ends < f64::INFINITY {
+                component.pass_breaks(clock);
+                next = if component.ends < next { component.ends } else { next };
+            }
+        }
+        self.next_break = next;
+    }
+
+    /// Taylor coefficients at `clock`.
+    #[inline(always)]
+    pub(super) fn series(&self, clock: Clock) -> Series {
+        let mut out = [0.0; ORDER + 1];
+        for component in &self.components {
+            component.add_series(clock, &mut out);
+        }
+        out[0] += self.mean;
+        out
+    }
+
+    /// Value at `clock`, the same bits as the first of [`Forcing::series`].
+    #[inline(always)]
+    pub(super) fn value(&self, clock: Clock) -> f64 {
+        let mut sum = 0.0;
+        for component in &self.components {
+            sum += component.value(clock);
+        }
+        sum + self.mean
+    }
+
+    /// ∫ of the dither part from one moment to another: Σ (D/R)[G].
+    pub(super) fn impulse(&self, from: f64, to: f64) -> f64 {
+        self.components
+            .iter()
+            .map(|component| {
+                let integral =
+                    |time| component.waveform.integral(component.rate * time + component.phase);
+                component.table[0] / component.rate * (integral(to) - integral(from))
+            })
+            .sum()
+    }
+}
+
+impl Component {
+    fn new(dither: &Dither, unit: f64, clock: Clock) -> Self {
+        let mut table = [dither.amplitude / unit; ORDER + 1];
+        for k in 1..=ORDER {
+            table[k] = table[k - 1] * dither.frequency_ratio / k as f64;
+        }
+        let mut component = Self {
+            rate: dither.frequency_ratio,
+            phase: dither.phase,
+            waveform: dither.waveform,
+            table,
+            ending: 0,
+            began: f64::NEG_INFINITY,
+            ends: f64::INFINITY,
+        };
+        if !dither.waveform.breaks().is_empty() {
+            component.seek(clock);
+        }
+        component
+    }
+
+    /// Finds the piece that holds `clock`.
+    fn seek(&mut self, clock: Clock) {
+        let count = self.waveform.breaks().len() as f64;
+        let turns = (self.rate * clock.time() + self.phase) / TAU;
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "the turns of any run are far below 2⁶³"
+        )]
+        {
+            self.ending = ((turns - 1.0) * count).floor() as i64;
+        }
+        self.set_piece();
+        self.pass_breaks(clock);
+    }
+
+    #[inline(always)]
+    fn pass_breaks(&mut self, clock: Clock) {
+        while clock.until(self.ends) <= 0.0 {
+            self.ending += 1;
+            self.set_piece();
+        }
+    }
+
+    #[inline(always)]
+    fn set_piece(&mut self) {
+        self.began = self.break_time(self.ending - 1);
+        self.ends = self.break_time(self.ending);
+    }
+
+    #[inline(always)]
+    fn break_time(&self, number: i64) -> f64 {
+        let breaks = self.waveform.breaks();
+        let count = breaks.len() as i64;
+        let phase = breaks[number.rem_euclid(count) as usize];
+        let cycle = number.div_euclid(count) as f64;
+        (cycle.mul_add(TAU, phase) - self.phase) / self.rate
+    }
+
+    /// Value and slope (per unit time) of a straight piece at `clock`, or `None` if harmonic.
+    #[inline(always)]
+    fn straight(&self, clock: Clock) -> Option<(f64, f64)> {
+        let pieces = self.waveform.pieces();
+        let index = (self.ending - 1).rem_euclid(pieces.len() as i64) as usize;
+        match pieces[index] {
+            Piece::Harmonic => None,
+            Piece::Affine { value, slope } => {
+                let slope = self.table[0] * slope * self.rate;
+                let since = -clock.until(self.began);
+                Some((slope.mul_add(since, self.table[0] * value), slope))
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn sin_cos(&self, clock: Clock) -> (f64, f64) {
+        sin_cos_of_phase(self.rate, clock.time(), clock.low(), self.phase)
+    }
+
+    #[inline(always)]
+    fn value(&self, clock: Clock) -> f64 {
+        match self.straight(clock) {
+            Some((value, _)) => value,
+            None => self.table[0] * self.sin_cos(clock).0,
+        }
+    }
+
+    #[inline(always)]
+    fn add_series(&self, clock: Clock, out: &mut Series) {
+        if let Some((value, slope)) = self.straight(clock) {
+            out[0] += value;
+            out[1] += slope;
+            return;
+        }
+        let (sine, cosine) = self.sin_cos(clock);
+        let turn = [sine, cosine, -sine, -cosine];
+        out[0] += self.table[0] * sine;
+        for k in 1..=ORDER {
+            out[k] = self.table[k].mul_add(turn[k % 4], out[k]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn dither(waveform: Waveform, phase: f64) -> Dither {
+        Dither {
+            direction: Direction::Tangential,
+            waveform,
+            amplitude: 0.7,
+            frequency_ratio: 3.0,
+            phase,
+        }
+    }
+
+    #[test]
+    fn series_value_and_waveform_agree_over_many_periods() {
+        for &waveform in Waveform::ALL {
+            for phase in [0.0, 1.0, -2.5, 7.0] {
+                let dithers = [dither(waveform, phase)];
+                let mut forcing =
+                    Forcing::new(&dithers, Direction::Tangential, 0.0, 0.5, Clock::at(0.0));
+                for i in 1..2000 {
+                    let clock = Clock::at(f64::from(i) * 0.031_7);
+                    forcing.pass_breaks(clock);
+                    let exact = 1.4 * waveform.value(3.0 * clock.time() + phase);
+                    assert!((forcing.value(clock) - exact).abs() < 1e-13, "{waveform:?}");
+                    assert_eq!(forcing.series(clock)[0], forcing.value(clock));
+                    let to_break = clock.until(forcing.next_break());
+                    assert!(to_break > 0.0);
+                    let step = to_break.min(0.2) * 0.5;
+                    let ahead = quell_numerics::lane::horner(&forcing.series(clock), step);
+                    let exact = 1.4 * waveform.value(3.0 * (clock.time() + step) + phase);
+                    assert!((ahead - exact).abs() < 1e-13, "{waveform:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_run_that_starts_on_a_jump_takes_the_value_after_it() {
+        let dithers = [dither(Waveform::Square, 0.0)];
+        let forcing = Forcing::new(&dithers, Direction::Tangential, 0.0, 1.0, Clock::at(0.0));
+        assert_eq!(forcing.value(Clock::at(0.0)), 0.7);
+        assert_eq!(forcing.next_break(), std::f64::consts::PI / 3.0);
+    }
+
+    #[test]
+    fn impulse_is_the_integral() {
+        for &waveform in Waveform::ALL {
+            let dithers = [dither(waveform, 0.4)];
+            let forcing =
+                Forcing::new(&dithers, Direction::Tangential, 0.0, 1.0, Clock::at(0.0));
+            let steps = 20_000;
+            let h = 1.7 / f64::from(steps);
+            let sum: f64 = (0..steps)
+                .map(|i| 0.7 * waveform.value(3.0 * (0.3 + (f64::from(i) + 0.5) * h) + 0.4) * h)
+                .sum();
+            assert!((forcing.impulse(0.3, 2.0) - sum).abs() < 1e-4);
+        }
+    }
+}

@@ -1,0 +1,258 @@
+//! Passive observers of a run: they see every smooth segment and every event, and change no bit.
+
+use quell_numerics::lane::horner;
+use quell_numerics::polynomial::first_crossing;
+
+use super::clock::Clock;
+use super::event::Event;
+
+/// One smooth piece of a trajectory: a Taylor step of slip, or a stretch of stick.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment<'a> {
+    pub(super) clock: Clock,
+    pub(super) duration: f64,
+    pub(super) slip_sign: i8,
+    pub(super) unit: f64,
+    pub(super) belt_velocity: f64,
+    /// Coefficients of x and of v_r, in `unit`.
+    pub(super) displacement: &'a [f64],
+    pub(super) slip: &'a [f64],
+}
+
+impl Segment<'_> {
+    /// When it starts.
+    #[inline(always)]
+    pub fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    /// How long it lasts.
+    #[inline(always)]
+    pub fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    /// Sign of v_r on it; 0 in stick.
+    #[inline(always)]
+    pub fn slip_sign(&self) -> i8 {
+        self.slip_sign
+    }
+
+    /// Displacement x at `since` after its start.
+    #[inline(always)]
+    pub fn displacement(&self, since: f64) -> f64 {
+        self.unit * horner(self.displacement, since)
+    }
+
+    /// Slip velocity v_r = v₀ − x′ at `since` after its start.
+    #[inline(always)]
+    pub fn slip_velocity(&self, since: f64) -> f64 {
+        self.unit * horner(self.slip, since)
+    }
+
+    /// Velocity x′ at `since` after its start.
+    #[inline(always)]
+    pub fn velocity(&self, since: f64) -> f64 {
+        self.unit * (self.belt_velocity - horner(self.slip, since))
+    }
+
+    /// ∫x dτ over the whole segment.
+    #[inline(always)]
+    pub fn displacement_integral(&self) -> f64 {
+        let mut sum = 0.0;
+        for (k, &coefficient) in self.displacement.iter().enumerate().rev() {
+            sum = f64::mul_add(sum, self.duration, coefficient / (k + 1) as f64);
+        }
+        self.unit * sum * self.duration
+    }
+}
+
+/// Watches a run.
+pub trait Observer {
+    /// A segment has been integrated.
+    #[inline(always)]
+    fn segment(&mut self, segment: &Segment<'_>) {
+        let _ = segment;
+    }
+
+    /// An event has happened, at the end of the last segment.
+    #[inline(always)]
+    fn event(&mut self, event: &Event) {
+        let _ = event;
+    }
+}
+
+impl Observer for () {}
+
+impl<A: Observer, B: Observer> Observer for (A, B) {
+    #[inline(always)]
+    fn segment(&mut self, segment: &Segment<'_>) {
+        self.0.segment(segment);
+        self.1.segment(segment);
+    }
+
+    #[inline(always)]
+    fn event(&mut self, event: &Event) {
+        self.0.event(event);
+        self.1.event(event);
+    }
+}
+
+impl<A: Observer> Observer for &mut A {
+    #[inline(always)]
+    fn segment(&mut self, segment: &Segment<'_>) {
+        (**self).segment(segment);
+    }
+
+    #[inline(always)]
+    fn event(&mut self, event: &Event) {
+        (**self).event(event);
+    }
+}
+
+/// Keeps every event.
+#[derive(Clone, Debug, Default)]
+pub struct EventRecorder {
+    /// The events, in order.
+    pub events: Vec<Event>,
+}
+
+impl Observer for EventRecorder {
+    #[inline(always)]
+    fn event(&mut self, event: &Event) {
+        self.events.push(*event);
+    }
+}
+
+/// A state at a moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// τ.
+    pub time: f64,
+    /// x.
+    pub displacement: f64,
+    /// x′.
+    pub velocity: f64,
+    /// Whether the mass moves with the belt.
+    pub sticking: bool,
+}
+
+/// Takes the state at τ₀ + nΔ for n = 0, 1, …: dense output, or a stroboscopic Poincaré
+/// section with Δ = 2π/R.
+#[derive(Clone, Debug)]
+pub struct Sampler {
+    first: f64,
+    step: f64,
+    count: usize,
+    /// The samples, in order.
+    pub samples: Vec<Sample>,
+}
+
+impl Sampler {
+    /// `count` samples from `first`, `step` apart.
+    pub fn new(first: f64, step: f64, count: usize) -> Self {
+        Self {
+            first,
+            step,
+            count,
+            samples: Vec::with_capacity(count),
+        }
+    }
+
+    /// The stroboscopic section Rτ = 2πn − φ of a dither, for the periods inside `from`…`to`.
+    pub fn strobe(frequency_ratio: f64, phase: f64, from: f64, to: f64) -> Self {
+        let period = std::f64::consts::TAU / frequency_ratio;
+        let offset = -phase / frequency_ratio;
+        let number = ((from - offset) / period).ceil();
+        let first = offset + number * period;
+        let last = ((to - first) / period).floor();
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a count of periods, not negative by max"
+        )]
+        let count = if last >= 0.0 { last as usize + 1 } else { 0 };
+        Self::new(first, period, count)
+    }
+}
+
+impl Observer for Sampler {
+    #[inline(always)]
+    fn segment(&mut self, segment: &Segment<'_>) {
+        while self.samples.len() < self.count {
+            let time = f64::mul_add(self.samples.len() as f64, self.step, self.first);
+            let since = segment.clock.until(time);
+            if since > segment.duration {
+                break;
+            }
+            // A sample at the very start of a run may round to just before it.
+            let since = since.max(0.0);
+            self.samples.push(Sample {
+                time,
+                displacement: segment.displacement(since),
+                velocity: segment.velocity(since),
+                sticking: segment.slip_sign == 0,
+            });
+        }
+    }
+}
+
+/// Poincaré section of state: the moments when x′ passes a level upwards, exact as events are.
+#[derive(Clone, Debug)]
+pub struct VelocitySection {
+    level: f64,
+    /// The crossings, in order.
+    pub crossings: Vec<Sample>,
+}
+
+impl VelocitySection {
+    /// Section x′ = `level`, upward crossings.
+    pub fn upward(level: f64) -> Self {
+        Self {
+            level,
+            crossings: Vec::new(),
+        }
+    }
+}
+
+impl Observer for VelocitySection {
+    #[inline(always)]
+    fn segment(&mut self, segment: &Segment<'_>) {
+        // level − x′ falls through zero at an upward crossing. Each crossing is divided out
+        // by shifting the expansion to it, so that the next one on the segment is found too.
+        let mut shifted = [0.0; super::ORDER + 1];
+        shifted[..segment.slip.len()].copy_from_slice(segment.slip);
+        shifted[0] += self.level / segment.unit - segment.belt_velocity;
+        let mut since = 0.0;
+        let mut rest = segment.duration;
+        while shifted[0] != 0.0 && rest > 0.0 {
+            let Some(root) = first_crossing(&shifted, rest) else {
+                break;
+            };
+            let upward = shifted[0] > 0.0;
+            since += root;
+            rest -= root;
+            if upward {
+                self.crossings.push(Sample {
+                    time: segment.clock.after(since).time(),
+                    displacement: segment.displacement(since),
+                    velocity: segment.velocity(since),
+                    sticking: segment.slip_sign == 0,
+                });
+            }
+            shift(&mut shifted, root);
+            // On the far side now, however the value at the root rounds.
+            shifted[0] = shifted[0].abs().max(f64::MIN_POSITIVE) * if upward { -1.0 } else { 1.0 };
+        }
+    }
+}
+
+/// Re-expands Σ cₖtᵏ about `by`.
+#[inline(always)]
+fn shift(c: &mut [f64], by: f64) {
+    for start in 0..c.len() {
+        for k in (start..c.len() - 1).rev() {
+            c[k] = f64::mul_add(c[k + 1], by, c[k]);
+        }
+    }
+}

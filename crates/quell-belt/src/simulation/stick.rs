@@ -1,0 +1,203 @@
+//! Stick: x = x₀ + v₀(τ − τ₀), and the first moment at which the bond breaks.
+//!
+//! The bond force needed is f_s = 2ζv₀ + x − Σ D_T g_T; it holds while |f_s| ≤ μ_s N(τ).
+//! The two margins ±f_s − μ_s N are analytic between breaks of the dither.
+
+use quell_numerics::polynomial::{first_crossing, step_length};
+
+use super::ORDER;
+use super::clock::Clock;
+use super::forcing::{Forcing, Series};
+
+/// The bond, in units of the law's velocity scale.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bond {
+    /// 2ζν, the damper's share of f_s.
+    pub(super) damper: f64,
+    /// ν = v₀/v_m.
+    pub(super) belt_velocity: f64,
+    /// μ_s.
+    pub(super) static_coefficient: f64,
+}
+
+/// What a search over a stretch of stick found.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Search {
+    /// The bond holds for this long at least.
+    Holds(f64),
+    /// The bond breaks.
+    Breaks {
+        /// After this long.
+        after: f64,
+        /// Slip direction, the sign of f_s.
+        sign: f64,
+        /// Rate of |f_s| − μ_s N there.
+        rate: f64,
+        /// Whether the threshold was already passed at the start of the stretch.
+        at_once: bool,
+    },
+}
+
+impl Bond {
+    /// f_s at displacement `y`.
+    #[inline(always)]
+    pub(super) fn force(&self, y: f64, tangential: f64) -> f64 {
+        self.damper + y - tangential
+    }
+
+    /// How long no dither can break the bond, whatever its phase; not positive if unknown.
+    ///
+    /// |f_s| ≤ |2ζv₀ + x| + ΣD_T and N ≥ F − ΣD_N. f_s rises with x, so that once the lower
+    /// side is safe it stays safe.
+    #[inline(always)]
+    pub(super) fn surely_holds(&self, y: f64, tangential: &Forcing, normal: &Forcing) -> f64 {
+        let capacity = self.static_coefficient * (normal.mean() - normal.amplitude());
+        let reserve = capacity - tangential.amplitude();
+        let force = self.damper + y;
+        if -force >= reserve {
+            return 0.0;
+        }
+        if force >= reserve {
+            return 0.0;
+        }
+        // A few units in the last place on the safe side.
+        (reserve - force) * (1.0 - 1e-12) / self.belt_velocity
+    }
+
+    /// The first break of the bond within `room`, on one Taylor stretch.
+    #[inline(always)]
+    pub(super) fn search(
+        &self,
+        clock: Clock,
+        y: f64,
+        room: f64,
+        tolerance: f64,
+        tangential: &Forcing,
+        normal: &Forcing,
+    ) -> Search {
+        let dither = tangential.series(clock);
+        let mut force = [0.0; ORDER + 1];
+        force[0] = self.force(y, dither[0]);
+        force[1] = self.belt_velocity - dither[1];
+        for k in 2..=ORDER {
+            force[k] = -dither[k];
+        }
+        let mut limit = [0.0; ORDER + 1];
+        limit[0] = self.static_coefficient * normal.mean();
+        if !normal.is_constant() {
+            let load = normal.series(clock);
+            for k in 0..=ORDER {
+                limit[k] = self.static_coefficient * load[k];
+            }
+        }
+        let last = force[ORDER].abs() + limit[ORDER].abs();
+        let previous = force[ORDER - 1].abs() + limit[ORDER - 1].abs();
+        let length = step_length(tolerance, last, previous, ORDER).min(room);
+        if surely_within(&force, &limit, length) {
+            return Search::Holds(length);
+        }
+        let margin = |sign: f64| {
+            let mut margin = [0.0; ORDER + 1];
+            for k in 0..=ORDER {
+                margin[k] = f64::mul_add(sign, force[k], -limit[k]);
+            }
+            margin
+        };
+        let (rise, fall) = (margin(1.0), margin(-1.0));
+        let (sign, margin, after) = match (break_on(&rise, length), break_on(&fall, length)) {
+            (None, None) => return Search::Holds(length),
+            (Some(up), None) => (1.0, &rise, up),
+            (Some(up), Some(down)) if up <= down => (1.0, &rise, up),
+            (_, Some(down)) => (-1.0, &fall, down),
+        };
+        let (after, rate) =
+            self.polish(sign, margin, after, length, clock, y, tangential, normal);
+        Search::Breaks {
+            after,
+            sign,
+            rate,
+            at_once: margin[0] > 0.0,
+        }
+    }
+
+    /// One Newton step on the closed form, which the series only approximates to the tolerance.
+    #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "one caller; the closed form needs them all")]
+    fn polish(
+        &self,
+        sign: f64,
+        margin: &Series,
+        after: f64,
+        length: f64,
+        clock: Clock,
+        y: f64,
+        tangential: &Forcing,
+        normal: &Forcing,
+    ) -> (f64, f64) {
+        let rate = slope(margin, after);
+        if after == 0.0 || rate <= 0.0 {
+            return (after, rate);
+        }
+        let moment = clock.after(after);
+        let there = f64::mul_add(self.belt_velocity, after, y);
+        let exact = sign * self.force(there, tangential.value(moment))
+            - self.static_coefficient * normal.value(moment);
+        let correction = -exact / rate;
+        let polished = after + correction;
+        // A correction beyond the series' own error means a nearly tangential touch: keep the root.
+        if correction.abs() < 1e-4 * length && polished > 0.0 && polished <= length {
+            (polished, slope(margin, polished))
+        } else {
+            (after, rate)
+        }
+    }
+}
+
+/// First moment at which a margin (negative while the bond holds) turns positive.
+#[inline(always)]
+fn break_on(margin: &Series, length: f64) -> Option<f64> {
+    if margin[0] > 0.0 {
+        return Some(0.0);
+    }
+    if margin[0] == 0.0 {
+        // On the threshold: it breaks now if the margin grows, else the root is divided out.
+        let mut next = 1;
+        while next <= ORDER && margin[next] == 0.0 {
+            next += 1;
+        }
+        return match margin.get(next) {
+            Some(&first) if first > 0.0 => Some(0.0),
+            Some(_) => first_crossing(&divided(margin, next), length),
+            None => None,
+        };
+    }
+    first_crossing(margin, length)
+}
+
+/// Whether |f_s| < μ_s N on all of [0, h], by the sizes of the coefficients alone.
+#[inline(always)]
+fn surely_within(force: &Series, limit: &Series, h: f64) -> bool {
+    let mut tail = 0.0;
+    for k in (1..=ORDER).rev() {
+        tail = f64::mul_add(tail, h, force[k].abs() + limit[k].abs());
+    }
+    f64::mul_add(tail, h, force[0].abs()) < limit[0]
+}
+
+/// Σ cₖtᵏ⁻ⁿ, padded with zeros, for a series whose first n coefficients vanish.
+#[inline(always)]
+pub(super) fn divided(c: &Series, n: usize) -> Series {
+    let mut quotient = [0.0; ORDER + 1];
+    quotient[..=ORDER - n].copy_from_slice(&c[n..]);
+    quotient
+}
+
+/// Derivative of Σ cₖtᵏ.
+#[inline(always)]
+fn slope(c: &Series, t: f64) -> f64 {
+    let mut value = 0.0;
+    for k in (1..=ORDER).rev() {
+        value = f64::mul_add(value, t, c[k] * k as f64);
+    }
+    value
+}
