@@ -28,6 +28,8 @@ impl Origin {
 /// What is wrong with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Fault {
+    /// The command line is not understood.
+    Usage,
     /// The text is not TOML.
     Syntax,
     /// A file or an output path cannot be used.
@@ -50,6 +52,7 @@ impl Fault {
     /// Name in JSON.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Usage => "usage",
             Self::Syntax => "syntax",
             Self::Path => "path",
             Self::Unknown => "unknown",
@@ -135,11 +138,12 @@ impl fmt::Display for Complaint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.origin {
             Origin::Line(line) => write!(f, "line {line}: ")?,
-            Origin::Argument(option) if option != self.key => write!(f, "{option}: ")?,
+            Origin::Argument(option) if option != self.key && self.fault != Fault::Usage => write!(f, "{option}: ")?,
             Origin::Argument(_) | Origin::Whole => {}
         }
         let Self { key, allowed, .. } = self;
         match self.fault {
+            Fault::Usage => write!(f, "{allowed}")?,
             Fault::Syntax => write!(f, "not TOML: {allowed}")?,
             Fault::Path => match &self.value {
                 Value::Null => write!(f, "{key}: {allowed}")?,

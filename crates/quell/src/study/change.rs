@@ -1,6 +1,8 @@
 //! Changes of a study from outside its file: `--set path=value`, `--tolerance`, points of a
 //! sweep. They change the mirror, which is checked afterwards.
 
+use std::fmt;
+
 use super::mirror::{Node, Table, Value};
 use super::vocabulary::{self, Key, NOT_BUILT, Role, Section};
 use crate::complaint::{Complaint, Fault, Origin};
@@ -142,6 +144,12 @@ impl Change {
             },
             _ => None,
         })
+    }
+}
+
+impl fmt::Display for Change {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}={}", self.path, self.node.given())
     }
 }
 

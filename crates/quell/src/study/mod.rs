@@ -78,6 +78,7 @@ pub struct Study {
     sweeps: Vec<Sweep>,
     mirror: Table,
     text: String,
+    changes: Vec<String>,
 }
 
 impl Study {
@@ -99,7 +100,10 @@ impl Study {
         let refused: Vec<Complaint> =
             changes.iter().filter_map(|change| change.apply(&mut mirror).err()).map(|complaint| *complaint).collect();
         match Self::check(mirror, text) {
-            Ok(study) if refused.is_empty() => Ok(study),
+            Ok(mut study) if refused.is_empty() => {
+                study.changes = changes.iter().map(Change::to_string).collect();
+                Ok(study)
+            }
             Ok(_) => Err(refused),
             Err(mut complaints) => {
                 complaints.extend(refused);
@@ -115,7 +119,10 @@ impl Study {
     pub fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Complaint>> {
         let mut mirror = self.mirror.clone();
         Change::number(path, value, "change").apply(&mut mirror).map_err(|complaint| vec![*complaint])?;
-        Self::check(mirror, &self.text)
+        let mut study = Self::check(mirror, &self.text)?;
+        study.changes.clone_from(&self.changes);
+        study.changes.push(format!("{path}={value:?}"));
+        Ok(study)
     }
 
     fn check(mirror: Table, text: &str) -> Result<Self, Vec<Complaint>> {
@@ -139,7 +146,7 @@ impl Study {
         if !complaints.is_empty() {
             return Err(complaints);
         }
-        let study = Self { title, belt, initial, solver, scales, sweeps, mirror, text: text.to_owned() };
+        let study = Self { title, belt, initial, solver, scales, sweeps, mirror, text: text.to_owned(), changes: Vec::new() };
         study.check_sweeps()?;
         Ok(study)
     }
@@ -202,6 +209,11 @@ impl Study {
     /// The axes of a map, in order.
     pub fn sweeps(&self) -> &[Sweep] {
         &self.sweeps
+    }
+
+    /// Changes made to the text, as `path=value`.
+    pub fn changes(&self) -> &[String] {
+        &self.changes
     }
 
     /// The text of the file as it was read, without changes.
