@@ -53,6 +53,8 @@ pub(super) struct Engine<'a, L, O> {
     tolerance: f64,
     /// Length unit: the law's velocity scale.
     unit: f64,
+    /// v₀, not in `unit`.
+    belt_velocity: f64,
     clock: Clock,
     until: f64,
     displacement: f64,
@@ -83,11 +85,7 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         let load = belt.normal_load() / unit;
         let belt_velocity = belt.belt_velocity() / unit;
         let damping = 2.0 * belt.damping_ratio();
-        let slip = if start.velocity == belt.belt_velocity() {
-            0.0
-        } else {
-            belt_velocity - start.velocity / unit
-        };
+        let slip = (belt.belt_velocity() - start.velocity) / unit;
         let forcing = |direction, mean| Forcing::new(belt.dithers(), direction, mean, unit, clock);
         Self {
             equation: SlipEquation {
@@ -103,6 +101,7 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
             normal: forcing(Direction::Normal, load),
             tolerance: tolerance * load,
             unit,
+            belt_velocity: belt.belt_velocity(),
             clock,
             until,
             displacement: start.displacement / unit,
@@ -159,7 +158,7 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         FinalState {
             time: self.clock.time(),
             displacement: self.unit * self.displacement,
-            velocity: self.unit * (self.equation.belt_velocity - self.slip),
+            velocity: self.belt_velocity - self.unit * self.slip,
             sticking: matches!(self.contact, Contact::Stick { .. }),
             slip_sign: self.slip_sign(),
             events: self.events,
@@ -234,7 +233,7 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
             duration,
             slip_sign: if sign > 0.0 { 1 } else { -1 },
             unit: self.unit,
-            belt_velocity: self.equation.belt_velocity,
+            belt_velocity: self.belt_velocity,
             displacement: &series.displacement,
             slip: w,
         });
@@ -362,7 +361,7 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
             duration,
             slip_sign: 0,
             unit: self.unit,
-            belt_velocity: self.equation.belt_velocity,
+            belt_velocity: self.belt_velocity,
             displacement: &[self.displacement, self.equation.belt_velocity],
             slip: &[0.0],
         });

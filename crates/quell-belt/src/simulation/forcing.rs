@@ -128,18 +128,6 @@ impl Forcing {
         }
         sum + self.mean
     }
-
-    /// ∫ of the dither part from one moment to another: Σ (D/R)[G].
-    pub(super) fn impulse(&self, from: f64, to: f64) -> f64 {
-        self.components
-            .iter()
-            .map(|component| {
-                let integral =
-                    |time| component.waveform.integral(component.rate * time + component.phase);
-                component.table[0] / component.rate * (integral(to) - integral(from))
-            })
-            .sum()
-    }
 }
 
 impl Component {
@@ -289,20 +277,5 @@ mod tests {
         let forcing = Forcing::new(&dithers, Direction::Tangential, 0.0, 1.0, Clock::at(0.0));
         assert_eq!(forcing.value(Clock::at(0.0)), 0.7);
         assert_eq!(forcing.next_break(), std::f64::consts::PI / 3.0);
-    }
-
-    #[test]
-    fn impulse_is_the_integral() {
-        for &waveform in Waveform::ALL {
-            let dithers = [dither(waveform, 0.4)];
-            let forcing =
-                Forcing::new(&dithers, Direction::Tangential, 0.0, 1.0, Clock::at(0.0));
-            let steps = 20_000;
-            let h = 1.7 / f64::from(steps);
-            let sum: f64 = (0..steps)
-                .map(|i| 0.7 * waveform.value(3.0 * (0.3 + (f64::from(i) + 0.5) * h) + 0.4) * h)
-                .sum();
-            assert!((forcing.impulse(0.3, 2.0) - sum).abs() < 1e-4);
-        }
     }
 }

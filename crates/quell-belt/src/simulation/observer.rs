@@ -13,6 +13,7 @@ pub struct Segment<'a> {
     pub(super) duration: f64,
     pub(super) slip_sign: i8,
     pub(super) unit: f64,
+    /// v₀, not in `unit`.
     pub(super) belt_velocity: f64,
     /// Coefficients of x and of v_r, in `unit`.
     pub(super) displacement: &'a [f64],
@@ -50,10 +51,10 @@ impl Segment<'_> {
         self.unit * horner(self.slip, since)
     }
 
-    /// Velocity x′ at `since` after its start.
+    /// Velocity x′ at `since` after its start; exactly the belt's in stick.
     #[inline(always)]
     pub fn velocity(&self, since: f64) -> f64 {
-        self.unit * (self.belt_velocity - horner(self.slip, since))
+        self.belt_velocity - self.slip_velocity(since)
     }
 
     /// ∫x dτ over the whole segment.
@@ -222,7 +223,7 @@ impl Observer for VelocitySection {
         // by shifting the expansion to it, so that the next one on the segment is found too.
         let mut shifted = [0.0; super::ORDER + 1];
         shifted[..segment.slip.len()].copy_from_slice(segment.slip);
-        shifted[0] += self.level / segment.unit - segment.belt_velocity;
+        shifted[0] += (self.level - segment.belt_velocity) / segment.unit;
         let mut since = 0.0;
         let mut rest = segment.duration;
         while shifted[0] != 0.0 && rest > 0.0 {
