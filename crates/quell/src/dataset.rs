@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 
 use quell_model::units::{Quantity, Scales};
 
+use crate::fields::PER_VELOCITY;
 use crate::study::Study;
 
 /// One array with its name and unit.
@@ -82,6 +83,23 @@ impl Dataset {
     pub fn array(mut self, name: &str, quantity: Quantity, values: Vec<f64>) -> Self {
         let twin = self.twin(name, quantity, &values);
         self.arrays.push(array(name, quantity, values));
+        self.arrays.extend(twin);
+        self
+    }
+
+    /// Adds slopes per unit velocity, in a study in SI also per m/s.
+    #[must_use]
+    pub fn per_velocity(mut self, name: &str, values: Vec<f64>) -> Self {
+        let (unit, si_unit, suffix) = PER_VELOCITY;
+        let twin = self.scales.map(|scales| {
+            let omega = scales.si_per_unit(Quantity::Velocity);
+            Array {
+                name: format!("{name}_{suffix}"),
+                unit: si_unit.to_owned(),
+                values: values.iter().map(|value| value / omega).collect(),
+            }
+        });
+        self.arrays.push(Array { name: name.to_owned(), unit: unit.to_owned(), values });
         self.arrays.extend(twin);
         self
     }

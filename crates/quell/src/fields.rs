@@ -7,6 +7,9 @@
 use quell_model::units::{Quantity, Scales};
 use serde_json::{Map, Value as Json};
 
+/// A slope per unit velocity: its unit, its SI unit, and the suffix for that.
+pub(crate) const PER_VELOCITY: (&str, &str, &str) = ("1/length (per velocity/ω₀)", "s/m", "s_per_m");
+
 /// An object under construction.
 #[derive(Clone, Debug)]
 pub struct Fields {
@@ -72,6 +75,20 @@ impl Fields {
         if let Some((key, factor, _)) = twin {
             let values: Vec<f64> = values.iter().map(|value| value * factor).collect();
             self.object.insert(key, values.into());
+        }
+        self
+    }
+
+    /// An array of slopes per unit velocity, in SI per m/s.
+    pub fn per_velocity(&mut self, name: &str, values: &[f64]) -> &mut Self {
+        self.object.insert(name.to_owned(), values.into());
+        self.units.insert(name.to_owned(), PER_VELOCITY.0.into());
+        if let Some(scales) = self.scales {
+            let (_, unit, suffix) = PER_VELOCITY;
+            let omega = scales.si_per_unit(Quantity::Velocity);
+            let values: Vec<f64> = values.iter().map(|value| value / omega).collect();
+            self.object.insert(format!("{name}_{suffix}"), values.into());
+            self.units.insert(format!("{name}_{suffix}"), unit.into());
         }
         self
     }

@@ -7,6 +7,7 @@ pub mod fields;
 pub mod output;
 pub mod plot;
 pub mod quantity;
+pub mod run;
 pub mod schema;
 pub mod study;
 

@@ -30,42 +30,9 @@ mod sweep;
 pub mod vocabulary;
 
 pub use change::Change;
+pub use quell_belt::response::Solver;
+pub use quell_belt::start::InitialState;
 pub use sweep::{Axis, Sweep};
-
-/// Where a run starts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum InitialState {
-    /// Displacement and velocity zero.
-    Rest,
-    /// Steady sliding without dither.
-    Sliding,
-    /// On the limit cycle of the belt without dither.
-    Squealing,
-    /// A given state.
-    Explicit {
-        /// x(0).
-        displacement: f64,
-        /// x′(0).
-        velocity: f64,
-    },
-}
-
-/// Accuracy and length of the computations.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Solver {
-    /// Bound on the last retained Taylor terms of a step, relative to F.
-    pub tolerance: f64,
-    /// Time τ discarded before a response is measured.
-    pub settle: f64,
-    /// Slow periods 2π in the record.
-    pub record_periods: u32,
-}
-
-impl Default for Solver {
-    fn default() -> Self {
-        Self { tolerance: 1e-12, settle: 1200.0, record_periods: 60 }
-    }
-}
 
 /// A checked study of a belt.
 #[derive(Clone, Debug, PartialEq)]
