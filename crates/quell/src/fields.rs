@@ -43,9 +43,8 @@ impl Fields {
 
     /// A quantity, or null and why.
     pub fn known(&mut self, name: &str, quantity: Quantity, value: Result<f64, String>) -> &mut Self {
-        let value = value.and_then(|value| match value.is_finite() {
-            true => Ok(value),
-            false => Err(format!("it is {value}")),
+        let value = value.and_then(|value| {
+            if value.is_finite() { Ok(value) } else { Err(format!("it is {value}")) }
         });
         let twin = self.twin(name, quantity);
         self.name_units(name, quantity, twin.as_ref());

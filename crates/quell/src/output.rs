@@ -58,11 +58,6 @@ impl Output {
         Self::prepare(&path, option, &[extension.to_ascii_lowercase().as_str()])
     }
 
-    /// The path as it was given.
-    pub fn path(&self) -> &Path {
-        &self.given
-    }
-
     /// The extension in lower case.
     pub fn extension(&self) -> String {
         let extension = self.given.extension().and_then(|extension| extension.to_str());

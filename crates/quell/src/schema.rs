@@ -112,15 +112,16 @@ fn table(section: Section, system: System) -> Json {
             Role::Twin(parameter, twin) if needed(parameter) => {
                 either.push(json!({ "required": [twin.key] }));
             }
-            Role::Scale(_) => required.push(key.name),
-            Role::Choice(Choice::Direction | Choice::Waveform) => required.push(key.name),
+            Role::Scale(_) | Role::Choice(Choice::Direction | Choice::Waveform) => {
+                required.push(key.name);
+            }
             _ => {}
         }
     }
     if section == Section::Belt {
         properties.insert("initial".into(), json!({ "$ref": reference(Section::Initial, system) }));
     }
-    let mut object = object(section, properties, &required);
+    let mut object = object(section, &properties, &required);
     if !either.is_empty() {
         object["oneOf"] = either.into();
     }
@@ -134,7 +135,7 @@ fn table(section: Section, system: System) -> Json {
     object
 }
 
-fn object(section: Section, properties: Map<String, Json>, required: &[&str]) -> Json {
+fn object(section: Section, properties: &Map<String, Json>, required: &[&str]) -> Json {
     json!({
         "type": "object",
         "description": section.about(),
@@ -159,7 +160,7 @@ fn friction(system: System) -> Json {
                     required.push(key.name);
                 }
             }
-            object(Section::Friction, properties, &required)
+            object(Section::Friction, &properties, &required)
         })
         .collect();
     json!({ "description": Section::Friction.about(), "oneOf": laws })
@@ -169,7 +170,7 @@ fn sweep() -> Json {
     let properties: Map<String, Json> = vocabulary::keys_of(Section::Sweep)
         .map(|key| (key.name.to_owned(), property(key)))
         .collect();
-    let mut object = object(Section::Sweep, properties, &["parameter"]);
+    let mut object = object(Section::Sweep, &properties, &["parameter"]);
     object["oneOf"] = json!([
         {
             "required": ["values"],
@@ -214,7 +215,7 @@ fn property(key: &Key) -> Json {
         Role::Text => json!({ "type": "string" }),
         Role::Schema => json!({ "const": SCHEMA_VERSION }),
         Role::AxisNumber => json!({ "type": "number" }),
-        Role::AxisPoints => json!({ "type": "integer", "minimum": 2, "maximum": MOST_POINTS as u64 }),
+        Role::AxisPoints => json!({ "type": "integer", "minimum": 2, "maximum": MOST_POINTS }),
         Role::AxisValues => json!({ "type": "array", "items": { "type": "number" }, "minItems": 1 }),
     };
     schema["description"] = about(key).into();

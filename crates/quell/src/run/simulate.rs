@@ -114,11 +114,11 @@ impl Simulation {
             (false, _) => "the belt slides under the mass",
         };
         let events = match end.events {
-            0 => "nothing happened at the contact on the way".to_owned(),
-            1 => "after one event at the contact".to_owned(),
-            count => format!("after {count} events at the contact"),
+            0 => "nothing happened at the contact".to_owned(),
+            1 => "there was one event at the contact".to_owned(),
+            count => format!("there were {count} events at the contact"),
         };
-        format!("Started {}, at τ = {} {state}, {events}.", start_in_words(study), end.time)
+        format!("Started {}, at τ = {} {state}; on the way {events}.", start_in_words(study), end.time)
     }
 
     /// As JSON.
@@ -167,9 +167,8 @@ impl Simulation {
         let samples = self.samples.as_deref().unwrap_or_default();
         let column = |value: fn(&Sample) -> f64| samples.iter().map(value).collect::<Vec<f64>>();
         let belt_velocity = study.belt().belt_velocity();
-        let slip = samples.iter().map(|sample| match sample.sticking {
-            true => 0.0,
-            false => belt_velocity - sample.velocity,
+        let slip = samples.iter().map(|sample| {
+            if sample.sticking { 0.0 } else { belt_velocity - sample.velocity }
         });
         Dataset::new(study, "simulate")
             .fact(format!("start: {}", start_in_words(study)))

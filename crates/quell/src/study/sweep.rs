@@ -186,7 +186,7 @@ fn axis(reader: &mut Reader, table: &Table, header: &Node, prefix: &str) -> Opti
         };
         reader.within(&key, node, bounds, "", whole)
     };
-    let points = Bounds { upper: MOST_POINTS, ..Bounds::at_least(2.0) };
+    let points = Bounds { upper: f64::from(MOST_POINTS), ..Bounds::at_least(2.0) };
     let (from, to, points) = (end("from", bounds, false), end("to", bounds, false), end("points", points, true));
     #[expect(
         clippy::cast_possible_truncation,

@@ -26,7 +26,7 @@ pub const NOT_BUILT: &[&str] = &[
 ];
 
 /// Most points an axis of a map may have.
-pub const MOST_POINTS: f64 = 1e7;
+pub const MOST_POINTS: u32 = 10_000_000;
 
 /// A table of the study file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
