@@ -6,7 +6,9 @@
 mod criterion;
 mod critical_amplitudes;
 mod decreasing;
+mod edges;
 mod effective;
+mod everywhere_stable;
 mod fast_motion;
 mod independent;
 mod periodic;
@@ -17,7 +19,9 @@ mod wave;
 
 pub use criterion::{Criterion, UndecidedBecause, Verdict, criterion};
 pub use critical_amplitudes::{Becomes, CriticalAmplitude, critical_amplitudes};
+pub use edges::{Band, CriticalVelocity, closed_band, undithered_critical_velocity, unstable_bands};
 pub use effective::{AveragingError, Effective, Side, effective, effective_by_quadrature};
+pub use everywhere_stable::{EverywhereStable, NeverStable, everywhere_stable_amplitude};
 pub use fast_motion::{
     AveragingOptions, FastMotion, LoadTerm, MAX_HARMONIC, NormalOrder, PeriodicMotion, Response,
     SlipTerm,
