@@ -247,26 +247,35 @@ fn independent_sines_have_a_product_form() {
     }
 }
 
-/// Which group is averaged first does not matter, inside, outside and between the corners.
+/// Which group is averaged first does not matter, inside, outside and between the corners. A wave split in two equal
+/// halves is not recognised as one with a closed form, so it is integrated over: the splitting chooses the order.
 #[test]
 fn independent_groups_commute() {
+    let mut worst = (0.0_f64, 0.0_f64);
     for law in laws() {
         for (one, two) in [
             (Waveform::Sine, Waveform::Triangle),
             (Waveform::Square, Waveform::Sine),
             (Waveform::Triangle, Waveform::Square),
         ] {
-            let first = group(vec![term(FastWave::Integral(one), 0.2, 1, 0.0)]);
-            let second = group(vec![term(FastWave::Integral(two), 0.07, 1, 1.0)]);
+            let whole = |waveform, alpha| group(vec![term(FastWave::Integral(waveform), alpha, 1, 0.5)]);
+            let halves = |waveform, alpha: f64| {
+                let half = term(FastWave::Integral(waveform), 0.5 * alpha, 1, 0.5);
+                group(vec![half, half])
+            };
             for v in [0.01, 0.1, 0.17, 0.23, 0.6] {
-                let forward = FastMotion::new(vec![first.clone(), second.clone()]);
-                let backward = FastMotion::new(vec![second.clone(), first.clone()]);
-                let forward = effective(&law, &forward, v).expect("ok");
-                let backward = effective(&law, &backward, v).expect("ok");
-                let e = (forward.coefficient - backward.coefficient).abs();
-                let s = (forward.slope - backward.slope).abs();
-                assert!(e < 1e-11, "{one:?} {two:?} {v}: {forward:?} {backward:?}");
-                assert!(s < 1e-8 * (1.0 + forward.slope.abs()), "{one:?} {two:?} {v}: {forward:?} {backward:?}");
+                let motions = [
+                    FastMotion::new(vec![whole(one, 0.2), halves(two, 0.07)]),
+                    FastMotion::new(vec![whole(two, 0.07), halves(one, 0.2)]),
+                ];
+                let [a, b] = motions.map(|motion| effective(&law, &motion, v).expect("ok"));
+                let e = (a.coefficient - b.coefficient).abs();
+                let s = (a.slope - b.slope).abs();
+                assert!(e < 1e-11, "{one:?} {two:?} {v}: {a:?} {b:?}");
+                assert!(s < 1e-9 * (1.0 + a.slope.abs()), "{one:?} {two:?} {v}: {a:?} {b:?}");
+                assert!(e <= a.coefficient_error + b.coefficient_error, "{v}: {a:?} {b:?}");
+                assert!(s <= a.slope_error + b.slope_error, "{one:?} {two:?} {v}: {a:?} {b:?}");
+                worst = (worst.0.max(e), worst.1.max(s));
             }
         }
         // A second group that hardly moves changes nothing.
@@ -280,6 +289,7 @@ fn independent_groups_commute() {
     let groups = (0..4)
         .map(|k| group(vec![term(FastWave::Integral(Waveform::Sine), 0.1, 1, f64::from(k))]))
         .collect();
+    println!("two groups, either order: μ̄ {:e}, slope {:e}", worst.0, worst.1);
     let many = effective(&laws()[0], &FastMotion::new(groups), 0.1);
     assert_eq!(many, Err(AveragingError::TooManyGroups { groups: 4, largest: 3 }));
 }

@@ -102,9 +102,9 @@ fn scan_points(corners: &[f64], scale: f64, at_rest: bool) -> Vec<f64> {
     for corner in corners {
         points.extend((0..30).map(|k| corner * (1.0 + libm::exp(-34.0 + 1.1 * f64::from(k)))));
     }
-    // Ratio 1.15 over two decades beyond the largest scale, 2 over four more.
+    // Ratio 1.15 over two decades beyond the largest scale, 2 over two more.
     let mut point = first;
-    while point < 1e6 * scale {
+    while point < 1e4 * scale {
         point *= if point < 1e2 * scale { 1.15 } else { 2.0 };
         points.push(point);
     }

@@ -19,7 +19,7 @@ use core::f64::consts::TAU;
 use quell_model::{Belt, Direction, Dither, Friction, Waveform};
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
-use super::effective::{AveragingError, effective};
+use super::effective::{AveragingError, effective, settled};
 use super::periodic::Signal;
 use super::wave::FastWave;
 
@@ -149,7 +149,7 @@ impl PeriodicMotion {
             s * s
         };
         let options = QuadratureOptions::default();
-        Ok(integrate(square, 0.0, TAU, &self.breaks(), &options)?.value / TAU)
+        Ok(settled(integrate(square, 0.0, TAU, &self.breaks(), &options))?.value / TAU)
     }
 
     fn is_still(&self) -> bool {

@@ -15,7 +15,7 @@ use quell_model::Friction;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_numerics::roots::{Closeness, find_root};
 
-use super::effective::{AveragingError, Effective, Side};
+use super::effective::{AveragingError, Effective, Side, settled};
 use super::fast_motion::PeriodicMotion;
 
 /// Points per smooth stretch at which the sign of ds/dθ is looked at.
@@ -163,8 +163,8 @@ pub(super) fn mean(
         absolute: 1e-13 * absolute,
         ..QuadratureOptions::default()
     };
-    let value = integrate(value, 0.0, TAU, &cuts, &options(scale))?;
-    let smooth = integrate(slope, 0.0, TAU, &cuts, &options(slope_scale))?;
+    let value = settled(integrate(value, 0.0, TAU, &cuts, &options(scale)))?;
+    let smooth = settled(integrate(slope, 0.0, TAU, &cuts, &options(slope_scale)))?;
     let side = if at_corner { Side::Outer } else { Side::Both };
     let mut effective = Effective::closed(
         [value.value / TAU, 0.0],
