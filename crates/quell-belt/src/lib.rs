@@ -2,7 +2,10 @@
 //! threads, clocks or printing.
 //!
 //! * [`averaging`]: effective friction under fast dither, stability of steady sliding, critical amplitudes;
-//! * [`simulation`]: event-exact trajectories by adaptive Taylor series.
+//! * [`simulation`]: event-exact trajectories by adaptive Taylor series;
+//! * [`start`], [`response`]: where a run starts; its steady response, spectrum, efficiency and costs.
 
 pub mod averaging;
+pub mod response;
 pub mod simulation;
+pub mod start;

@@ -78,49 +78,62 @@ impl Lane for f64 {
     }
 }
 
-/// Σ aⱼ bₖ₋ⱼ over j = 0…k, the k-th coefficient of a product of two power series.
+/// Σ aⱼ bₖ₋ⱼ over j = `from`…`to`: part of the k-th coefficient of a product of two series.
 ///
-/// Order of summation: even j into one accumulator, odd j into another, ascending, then
-/// their sum. Two chains hide half of the latency of a fused multiply-add.
+/// Order of summation: j ascends, even and odd offsets in two accumulators, then their sum.
+/// Two chains hide half of the latency of a fused multiply-add.
 #[inline(always)]
-pub fn product_coefficient<V: Lane>(a: &[V], b: &[V], k: usize) -> V {
-    let (a, b) = (&a[..=k], &b[..=k]);
-    let mut even = a[0] * b[k];
-    if k == 0 {
-        return even;
+pub fn partial_product<V: Lane>(a: &[V], b: &[V], k: usize, from: usize, to: usize) -> V {
+    if to < from {
+        return V::splat(0.0);
     }
-    let mut odd = a[1] * b[k - 1];
-    let mut j = 2;
-    while j < k {
-        even = a[j].mul_add(b[k - j], even);
-        odd = a[j + 1].mul_add(b[k - j - 1], odd);
+    let mut first = a[from] * b[k - from];
+    if to == from {
+        return first;
+    }
+    let mut second = a[from + 1] * b[k - from - 1];
+    let mut j = from + 2;
+    while j < to {
+        first = a[j].mul_add(b[k - j], first);
+        second = a[j + 1].mul_add(b[k - j - 1], second);
         j += 2;
     }
-    if j == k {
-        even = a[k].mul_add(b[0], even);
+    if j == to {
+        first = a[j].mul_add(b[k - j], first);
     }
-    even + odd
+    first + second
 }
 
-/// Σ aⱼ aₖ₋ⱼ over j = 0…k: [`product_coefficient`] of a series with itself at half the work.
+/// Σ aⱼ aₖ₋ⱼ over j = 1…k−1: the square of a series without its newest coefficient, at half
+/// the work of a product.
 #[inline(always)]
-pub fn square_coefficient<V: Lane>(a: &[V], k: usize) -> V {
-    let a = &a[..=k];
-    let mut sum = a[0] * a[k];
-    if k == 0 {
-        return sum;
+pub fn inner_square<V: Lane>(a: &[V], k: usize) -> V {
+    if k < 2 {
+        return V::splat(0.0);
     }
     let half = k.div_ceil(2);
-    let mut j = 1;
-    while j < half {
-        sum = a[j].mul_add(a[k - j], sum);
-        j += 1;
-    }
-    sum = sum + sum;
+    let sum = partial_product(a, a, k, 1, half - 1);
+    let twice = sum + sum;
     if k.is_multiple_of(2) {
-        sum = a[k / 2].mul_add(a[k / 2], sum);
+        a[k / 2].mul_add(a[k / 2], twice)
+    } else {
+        twice
     }
-    sum
+}
+
+/// Repeats a block for `$k` = 0…15 with `$k` a constant, so that every loop inside has a
+/// constant length and no bound is checked at run time.
+#[macro_export]
+macro_rules! for_each_order_below_16 {
+    ($k:ident, $body:block) => {
+        $crate::for_each_order_below_16!(@ $k, $body, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+    };
+    (@ $k:ident, $body:block, $($n:literal),+) => {
+        $({
+            const $k: usize = $n;
+            $body
+        })+
+    };
 }
 
 /// Value of Σ cₖ tᵏ by Horner's rule.
@@ -158,9 +171,9 @@ mod tests {
         let b: Vec<f64> = (0..17).map(|k| f64::from((k * 5 + 1) % 13) - 6.0).collect();
         for k in 0..17 {
             let plain: f64 = (0..=k).map(|j| a[j] * b[k - j]).sum();
-            assert_eq!(product_coefficient(&a, &b, k), plain, "product, k = {k}");
-            let square: f64 = (0..=k).map(|j| a[j] * a[k - j]).sum();
-            assert_eq!(square_coefficient(&a, k), square, "square, k = {k}");
+            assert_eq!(partial_product(&a, &b, k, 0, k), plain, "product, k = {k}");
+            let square: f64 = (1..k).map(|j| a[j] * a[k - j]).sum();
+            assert_eq!(inner_square(&a, k), square, "square, k = {k}");
         }
     }
 }

@@ -1,110 +1,201 @@
 //! First root of a polynomial on a step, isolated or proven absent; length of a Taylor step.
 //!
-//! Scheme: p(t) = Σ cₖtᵏ on (0, h] is written in the Bernstein basis. Descartes' rule of
-//! signs counts: no variation, no root; one variation, exactly one root; more, the interval
-//! is halved (de Casteljau). The isolated root is polished by Newton's method kept inside
-//! its bracket. Two roots inside one step (a grazing dip) are therefore found, which tests
-//! of the end points alone miss.
+//! Scheme: p(t) = Σ cₖtᵏ on (0, h], three proofs in the order of their cost.
+//! 1. the Bernstein coefficients of the cubic part exceed Σ|cₖ|hᵏ over k ≥ 4: no root.
+//! 2. |c₁| > Σ k|cₖ|hᵏ⁻¹: p is monotone, so that the sign at h decides.
+//! 3. Bernstein coefficients and Descartes' rule of signs: no variation, no root; one
+//!    variation, exactly one root; more, the interval is halved (de Casteljau).
+//!
+//! The isolated root is polished by Newton's method kept inside its bracket. Two roots
+//! inside one step (a grazing dip) are therefore found, which tests of the end points alone
+//! miss. See Rouillier and Zimmermann (2004).
 //!
 //! Limits: a double root (a touch without crossing) separated by less than 2⁻⁴⁸ of the
-//! step counts as absent. Degree at most [`MAX_DEGREE`].
-
-use crate::lane::horner;
-
-/// Largest degree that [`first_crossing`] accepts.
-pub const MAX_DEGREE: usize = 31;
+//! step counts as absent.
 
 /// Halvings before two roots count as a touch.
 const MAX_DEPTH: u32 = 48;
 
-type Bernstein = [f64; MAX_DEGREE + 1];
-
 /// First t in (0, h] where Σ cₖtᵏ leaves the sign of c₀, or `None` if it keeps it.
 ///
-/// `c[0]` must not be zero: divide known roots at t = 0 out first. The degree is
-/// `c.len() − 1`, at most [`MAX_DEGREE`].
+/// c₀ must not be zero: known roots at t = 0 are for [`first_crossing_after`].
 #[inline(always)]
-pub fn first_crossing(c: &[f64], h: f64) -> Option<f64> {
-    if keeps_sign(c, h) {
+pub fn first_crossing<const N: usize>(c: &[f64; N], h: f64) -> Option<f64> {
+    first_crossing_after(c, 0, h)
+}
+
+/// [`first_crossing`] of Σ cₖ₊ₙtᵏ, that is with n = `zeros` roots at t = 0 divided out.
+#[inline(always)]
+pub fn first_crossing_after<const N: usize>(
+    c: &[f64; N],
+    zeros: usize,
+    h: f64,
+) -> Option<f64> {
+    // On [0, 1] and positive at 0.
+    let a = match zeros {
+        0 => scaled::<N, 0>(c, h),
+        1 => scaled::<N, 1>(c, h),
+        2 => scaled::<N, 2>(c, h),
+        _ => {
+            let mut quotient = [0.0; N];
+            quotient[..N - zeros].copy_from_slice(&c[zeros..]);
+            scaled::<N, 0>(&quotient, h)
+        }
+    };
+    let tail = absolute_sum(&a, 4);
+    if keeps_sign_by_cubic(&a, tail) {
         return None;
     }
-    let sign = 1f64.copysign(c[0]);
-    let mut scaled = [0.0; MAX_DEGREE + 1];
-    let mut power = sign;
-    for (entry, &coefficient) in scaled.iter_mut().zip(c) {
-        *entry = coefficient * power;
-        power *= h;
+    let mut slope_tail = 0.0;
+    for k in 2..N {
+        slope_tail = f64::mul_add(k as f64, a[k].abs(), slope_tail);
     }
-    let scaled = &scaled[..c.len()];
-    let mut bernstein = to_bernstein(scaled);
-    let ends_below = horner(scaled, 1.0) <= 0.0;
-    let last = c.len() - 1;
     // The end value by Horner's rule is what the next step starts from: it decides.
-    bernstein[last] = horner(scaled, 1.0);
-    match isolate(&bernstein[..c.len()], 0.0, 1.0, 0) {
-        Some((low, high)) => Some((polish(scaled, low, high) * h).min(h)),
-        None if ends_below => Some(h),
+    let end = value(&a, 1.0);
+    if a[1].abs() > slope_tail {
+        if end > 0.0 {
+            return None;
+        }
+        return Some(clipped(polish(&a, 0.0, 1.0, a[0] / (a[0] - end)), h));
+    }
+    let mut bernstein = to_bernstein(&a);
+    bernstein[N - 1] = end;
+    match isolate(&bernstein, 0.0, 1.0, 0) {
+        Some(Bracket { low, high, guess }) => Some(clipped(polish(&a, low, high, guess), h)),
+        None if end <= 0.0 => Some(h),
         None => None,
     }
 }
 
-/// Whether |c₀| > Σ|cₖ|hᵏ: a cheap proof that there is no root in [0, h].
+/// cₖ₊ₙ hᵏ with the sign that makes the first one positive, padded with zeros.
 #[inline(always)]
-pub fn keeps_sign(c: &[f64], h: f64) -> bool {
-    let mut tail = 0.0;
-    for &coefficient in c[1..].iter().rev() {
-        tail = f64::mul_add(tail, h, coefficient.abs());
+fn scaled<const N: usize, const ZEROS: usize>(c: &[f64; N], h: f64) -> [f64; N] {
+    let mut a = [0.0; N];
+    let (mut even, mut odd) = (1f64.copysign(c[ZEROS]), h.copysign(c[ZEROS]));
+    let square = h * h;
+    for k in 0..N - ZEROS {
+        if k % 2 == 0 {
+            a[k] = c[k + ZEROS] * even;
+            even *= square;
+        } else {
+            a[k] = c[k + ZEROS] * odd;
+            odd *= square;
+        }
     }
-    c[0].abs() > tail * h
+    a
 }
 
-/// Bernstein coefficients on [0, 1] of Σ aₖuᵏ.
+/// Whether the Bernstein coefficients of the cubic part exceed what the rest can take away.
+/// Needs N ≥ 4.
 #[inline(always)]
-fn to_bernstein(a: &[f64]) -> Bernstein {
-    let n = a.len() - 1;
-    let mut b = [0.0; MAX_DEGREE + 1];
-    // aₖ / C(n, k), then n passes of Pascal's triangle.
-    let mut inverse_binomial = 1.0;
-    for (k, &coefficient) in a.iter().enumerate() {
-        b[k] = coefficient * inverse_binomial;
-        inverse_binomial *= (k + 1) as f64 / (n - k).max(1) as f64;
+fn keeps_sign_by_cubic<const N: usize>(a: &[f64; N], tail: f64) -> bool {
+    const THIRD: f64 = 1.0 / 3.0;
+    let b1 = f64::mul_add(a[1], THIRD, a[0]);
+    let b2 = f64::mul_add(f64::mul_add(2.0, a[1], a[2]), THIRD, a[0]);
+    let b3 = (a[0] + a[1]) + (a[2] + a[3]);
+    // One comparison each, no branch between them: they are all true far from an event.
+    (a[0] > tail) & (b1 > tail) & (b2 > tail) & (b3 > tail)
+}
+
+/// Σ |aₖ| over k ≥ `from`, in four accumulators.
+#[inline(always)]
+fn absolute_sum<const N: usize>(a: &[f64; N], from: usize) -> f64 {
+    let mut sums = [0.0; 4];
+    for k in from..N {
+        sums[k % 4] += a[k].abs();
     }
-    for pass in 1..=n {
-        for k in (pass..=n).rev() {
-            b[k] += b[k - 1];
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
+
+/// The root as a time, at most h.
+#[inline(always)]
+fn clipped(u: f64, h: f64) -> f64 {
+    let t = u * h;
+    if t < h { t } else { h }
+}
+
+#[inline(always)]
+fn value<const N: usize>(a: &[f64; N], u: f64) -> f64 {
+    let mut value = 0.0;
+    for k in (0..N).rev() {
+        value = f64::mul_add(value, u, a[k]);
+    }
+    value
+}
+
+/// Entry \[k\]\[j\] = C(j, k)/C(N−1, k): Bernstein coefficient j of uᵏ on [0, 1].
+struct ToBernstein<const N: usize>;
+
+impl<const N: usize> ToBernstein<N> {
+    const MATRIX: [[f64; N]; N] = {
+        let mut matrix = [[0.0; N]; N];
+        let mut j = 0;
+        while j < N {
+            // C(j, k)/C(n, k) = Π (j − i)/(n − i) over i < k.
+            matrix[0][j] = 1.0;
+            let mut k = 1;
+            while k <= j {
+                matrix[k][j] = matrix[k - 1][j] * (j + 1 - k) as f64 / (N - k) as f64;
+                k += 1;
+            }
+            j += 1;
+        }
+        matrix
+    };
+}
+
+/// Bernstein coefficients on [0, 1] of Σ aₖuᵏ, summed by ascending k.
+#[inline(always)]
+fn to_bernstein<const N: usize>(a: &[f64; N]) -> [f64; N] {
+    let matrix = &ToBernstein::<N>::MATRIX;
+    let mut b = [a[0]; N];
+    for k in 1..N {
+        for j in 0..N {
+            b[j] = f64::mul_add(matrix[k][j], a[k], b[j]);
         }
     }
     b
 }
 
+/// An interval of [0, 1] with exactly one root, and where the control polygon crosses zero.
+struct Bracket {
+    low: f64,
+    high: f64,
+    guess: f64,
+}
+
 /// The leftmost interval with exactly one root of p, where p falls from plus to minus.
-fn isolate(b: &[f64], low: f64, high: f64, depth: u32) -> Option<(f64, f64)> {
+fn isolate<const N: usize>(b: &[f64; N], low: f64, high: f64, depth: u32) -> Option<Bracket> {
     match variations(b) {
         0 => return None,
-        1 if b[0] > 0.0 => return Some((low, high)),
+        1 if b[0] > 0.0 => {
+            let guess = low + (high - low) * polygon_zero(b);
+            return Some(Bracket { low, high, guess });
+        }
         _ => {}
     }
-    let n = b.len() - 1;
+    let middle = 0.5 * (low + high);
     if depth == MAX_DEPTH {
-        return (b[0] > 0.0 && b[n] <= 0.0).then_some((low, high));
+        return (b[0] > 0.0 && b[N - 1] <= 0.0).then_some(Bracket {
+            low,
+            high,
+            guess: middle,
+        });
     }
     // De Casteljau: the diagonal of the averages is the left half, what remains the right.
-    let mut right: Bernstein = [0.0; MAX_DEGREE + 1];
-    right[..=n].copy_from_slice(b);
-    let mut left: Bernstein = [0.0; MAX_DEGREE + 1];
-    for pass in 0..=n {
+    let mut right = *b;
+    let mut left = [0.0; N];
+    for pass in 0..N {
         left[pass] = right[0];
-        for k in 0..n - pass {
+        for k in 0..N - 1 - pass {
             right[k] = 0.5 * (right[k] + right[k + 1]);
         }
     }
-    let middle = 0.5 * (low + high);
-    isolate(&left[..=n], low, middle, depth + 1)
-        .or_else(|| isolate(&right[..=n], middle, high, depth + 1))
+    isolate(&left, low, middle, depth + 1).or_else(|| isolate(&right, middle, high, depth + 1))
 }
 
 /// Changes of sign in a row of coefficients, zeros passed over.
-fn variations(b: &[f64]) -> usize {
+fn variations<const N: usize>(b: &[f64; N]) -> usize {
     let mut count = 0;
     let mut last = 0.0;
     for &value in b {
@@ -118,16 +209,24 @@ fn variations(b: &[f64]) -> usize {
     count
 }
 
+/// Where the control polygon of `b` first falls through zero, in [0, 1].
+fn polygon_zero<const N: usize>(b: &[f64; N]) -> f64 {
+    let below = b.iter().position(|&value| value < 0.0).unwrap_or(N - 1).max(1);
+    let (before, after) = (b[below - 1], b[below]);
+    let share = if before > after { before / (before - after) } else { 0.5 };
+    ((below - 1) as f64 + share) / (N - 1) as f64
+}
+
 /// The one root of Σ aₖuᵏ in [low, high], where it falls from plus to minus, to the last bits.
 #[inline(always)]
-fn polish(a: &[f64], mut low: f64, mut high: f64) -> f64 {
-    let mut u = 0.5 * (low + high);
+fn polish<const N: usize>(a: &[f64; N], mut low: f64, mut high: f64, guess: f64) -> f64 {
+    let mut u = guess;
     for _ in 0..80 {
         let mut value = 0.0;
         let mut slope = 0.0;
-        for &coefficient in a.iter().rev() {
+        for k in (0..N).rev() {
             slope = f64::mul_add(slope, u, value);
-            value = f64::mul_add(value, u, coefficient);
+            value = f64::mul_add(value, u, a[k]);
         }
         if value > 0.0 {
             low = u;
@@ -135,55 +234,64 @@ fn polish(a: &[f64], mut low: f64, mut high: f64) -> f64 {
             high = u;
         }
         let newton = u - value / slope;
-        let next = if newton > low && newton < high {
+        let correction = (newton - u).abs();
+        // Newton doubles the digits: after a correction this small the error is below rounding.
+        if correction <= 1e-9 * u {
+            return newton.clamp(low, high);
+        }
+        u = if newton > low && newton < high {
             newton
         } else {
             0.5 * (low + high)
         };
-        let moved = (next - u).abs();
-        u = next;
-        // Two units in the last place of the step: below them Newton only dithers.
-        if moved <= 4.0 * f64::EPSILON * u || value == 0.0 {
+        if high - low <= 2.0 * f64::EPSILON * high {
             break;
         }
     }
     u
 }
 
-/// A lower bound of x^(1/k) within 12 %, from exponent bits alone: no powf, same bits everywhere.
-///
-/// log₂ and 2^ are replaced by their chords between powers of two; the first errs low by
-/// up to 0.086, the second high by up to 6.2 %, which the factor 0.94 takes back.
+/// 2⁵², the unit of the exponent in the bits of a double.
+const EXPONENT_UNIT: f64 = 4_503_599_627_370_496.0;
+
+/// log₂ x of a positive number in units of 2⁻⁵², from its bits alone: the chord between powers of
+/// two, low by up to 0.086. No logarithm is called, so that the bits are the same everywhere.
 #[inline(always)]
-pub fn root_from_below(x: f64, k: usize) -> f64 {
-    const UNIT: f64 = 4_503_599_627_370_496.0; // 2⁵²
-    const BIAS: f64 = 1023.0 * UNIT;
-    let logarithm = x.clamp(1e-280, 1e280).to_bits() as f64 - BIAS;
-    let bits = logarithm / k as f64 + BIAS;
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a clamped positive logarithm plus the bias is a positive integer below 2⁶³"
-    )]
-    let root = f64::from_bits(bits as u64);
-    0.94 * root
+fn chord_logarithm(x: f64) -> f64 {
+    // Clamped so that no bits overflow below: steps beyond 10^±17 are of no use at order 16.
+    let x = if x > 1e-280 { x } else { 1e-280 };
+    let x = if x < 1e280 { x } else { 1e280 };
+    x.to_bits() as f64
 }
 
 /// Step for which |last|·hᵏ and |previous|·hᵏ⁻¹ both stay below `tolerance`, the last two
 /// retained terms of a Taylor series of degree k.
+///
+/// (tolerance/|last|)^(1/k) with chords for log₂ and 2^: the first errs by ±0.086/k in the
+/// exponent, the second is high by up to 6.2 %; the factor 0.93 takes both back for k ≥ 8, at
+/// the price of a step up to 8 % shorter than allowed.
 #[inline(always)]
 pub fn step_length(tolerance: f64, last: f64, previous: f64, k: usize) -> f64 {
-    let by_last = root_from_below(tolerance / last.abs(), k);
-    let by_previous = root_from_below(tolerance / previous.abs(), k - 1);
-    if by_last < by_previous { by_last } else { by_previous }
+    let tolerance = chord_logarithm(tolerance);
+    let by_last = (tolerance - chord_logarithm(last.abs())) * (1.0 / k as f64);
+    let by_previous = (tolerance - chord_logarithm(previous.abs())) * (1.0 / (k - 1) as f64);
+    let exponent = if by_last < by_previous { by_last } else { by_previous };
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a clamped exponent plus the bias is a positive integer below 2⁶³"
+    )]
+    let bits = (exponent + 1023.0 * EXPONENT_UNIT) as u64;
+    0.93 * f64::from_bits(bits)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lane::horner;
 
-    /// Coefficients of a·Π(t − rᵢ).
-    fn planted(roots: &[f64], leading: f64) -> Vec<f64> {
+    /// Coefficients of a·Π(t − rᵢ), padded with zeros to degree 16.
+    fn planted(roots: &[f64], leading: f64) -> [f64; 17] {
         let mut c = vec![leading];
         for &root in roots {
             let mut next = vec![0.0; c.len() + 1];
@@ -193,7 +301,8 @@ mod tests {
             }
             c = next;
         }
-        c
+        c.resize(17, 0.0);
+        std::array::from_fn(|k| c[k])
     }
 
     #[test]
@@ -219,7 +328,7 @@ mod tests {
 
     #[test]
     fn a_root_at_the_very_end_is_in_the_step() {
-        let root = first_crossing(&[1.0, -2.0], 0.5).expect("root at the end");
+        let root = first_crossing(&[1.0, -2.0, 0.0, 0.0], 0.5).expect("root at the end");
         assert!((root - 0.5).abs() < 1e-15);
     }
 
@@ -227,14 +336,18 @@ mod tests {
     fn no_root_is_lost_against_a_dense_scan() {
         // A chirp-like family; the scan may only miss what lies closer than its step.
         let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-        let mut random = || {
+        let mut random = move || {
             state ^= state << 13;
             state ^= state >> 7;
             state ^= state << 17;
             (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
         };
         for _ in 0..2000 {
-            let c: Vec<f64> = (0..17).map(|k| random() * 1.5f64.powi(k)).collect();
+            let mut scale = 1.0;
+            let c: [f64; 17] = std::array::from_fn(|_| {
+                scale *= 1.5;
+                random() * scale
+            });
             let found = first_crossing(&c, 1.0);
             let scan = (1..=4000)
                 .map(|i| f64::from(i) / 4000.0)
@@ -249,13 +362,23 @@ mod tests {
     }
 
     #[test]
-    fn the_bound_on_roots_holds_from_below() {
-        for k in [2, 15, 16, 24] {
-            for i in -400..400 {
-                let x = 10f64.powf(f64::from(i) * 0.05);
-                let ratio = root_from_below(x, k) / x.powf(1.0 / k as f64);
-                assert!(ratio <= 1.0 && ratio > 0.88, "k = {k}, x = {x:e}: {ratio}");
+    fn a_step_keeps_the_last_terms_below_the_tolerance() {
+        for k in [8, 15, 16, 24] {
+            for i in -200..200 {
+                let last = 10f64.powf(f64::from(i) * 0.11);
+                for previous in [0.0, 0.3 * last, 1e3 * last] {
+                    let h = step_length(1e-12, last, previous, k);
+                    let terms = (last * h.powi(k as i32))
+                        .max(previous * h.powi(k as i32 - 1));
+                    assert!(terms <= 1e-12, "k = {k}, last = {last:e}: {terms:e}");
+                    // … and not much shorter than that needs.
+                    let long = 1.16 * h;
+                    let terms = (last * long.powi(k as i32))
+                        .max(previous * long.powi(k as i32 - 1));
+                    assert!(terms >= 1e-12, "k = {k}, last = {last:e}: {terms:e}");
+                }
             }
         }
+        assert!(step_length(1e-12, 0.0, 0.0, 16) > 1e15);
     }
 }

@@ -8,11 +8,11 @@
 use quell_model::friction::SlidingLaw;
 use quell_model::{Belt, Direction};
 use quell_numerics::lane::horner;
-use quell_numerics::polynomial::{first_crossing, step_length};
+use quell_numerics::polynomial::{first_crossing_after, step_length};
 
 use super::clock::Clock;
 use super::event::{Event, EventKind};
-use super::forcing::Forcing;
+use super::forcing::{Forcing, Series};
 use super::observer::{Observer, Segment};
 use super::slip::{Load, SlipEquation, SlipStart};
 use super::stick::{Bond, Search};
@@ -53,6 +53,10 @@ pub(super) struct Engine<'a, L, O> {
     tolerance: f64,
     /// Length unit: the law's velocity scale.
     unit: f64,
+    /// v₀, not in `unit`.
+    belt_velocity: f64,
+    /// ORDER/2 radians of the fastest oscillation.
+    longest_step: f64,
     clock: Clock,
     until: f64,
     displacement: f64,
@@ -83,12 +87,11 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         let load = belt.normal_load() / unit;
         let belt_velocity = belt.belt_velocity() / unit;
         let damping = 2.0 * belt.damping_ratio();
-        let slip = if start.velocity == belt.belt_velocity() {
-            0.0
-        } else {
-            belt_velocity - start.velocity / unit
-        };
+        let slip = (belt.belt_velocity() - start.velocity) / unit;
         let forcing = |direction, mean| Forcing::new(belt.dithers(), direction, mean, unit, clock);
+        let tangential = forcing(Direction::Tangential, 0.0);
+        let normal = forcing(Direction::Normal, load);
+        let fastest = tangential.highest_rate().max(normal.highest_rate()).max(1.0);
         Self {
             equation: SlipEquation {
                 damping,
@@ -99,10 +102,12 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
                 belt_velocity,
                 static_coefficient: law.static_coefficient(),
             },
-            tangential: forcing(Direction::Tangential, 0.0),
-            normal: forcing(Direction::Normal, load),
+            tangential,
+            normal,
+            longest_step: 0.5 * ORDER as f64 / fastest,
             tolerance: tolerance * load,
             unit,
+            belt_velocity: belt.belt_velocity(),
             clock,
             until,
             displacement: start.displacement / unit,
@@ -159,7 +164,7 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         FinalState {
             time: self.clock.time(),
             displacement: self.unit * self.displacement,
-            velocity: self.unit * (self.equation.belt_velocity - self.slip),
+            velocity: self.belt_velocity - self.unit * self.slip,
             sticking: matches!(self.contact, Contact::Stick { .. }),
             slip_sign: self.slip_sign(),
             events: self.events,
@@ -214,14 +219,13 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         };
         let series = self.equation.series(&self.law, start, &dither, load);
         let w = &series.slip;
-        let length = step_length(self.tolerance, w[ORDER], w[ORDER - 1], ORDER).min(room);
-        let quotient = &w[zeros..];
-        if zeros > 0 && quotient[0] * sign <= 0.0 {
+        let length = self.slip_length(w, room);
+        if zeros > 0 && w[zeros] * sign <= 0.0 {
             // The zero is of higher order than its cause allows: rounding at a touch.
             self.contact = Contact::Stick { held: true };
             return;
         }
-        let root = first_crossing(quotient, length);
+        let root = first_crossing_after(w, zeros, length);
         let duration = root.unwrap_or(length);
         let reaches_stop = duration >= room || self.clock.after(duration).time() == stop;
         self.steps += 1;
@@ -230,7 +234,7 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
             duration,
             slip_sign: if sign > 0.0 { 1 } else { -1 },
             unit: self.unit,
-            belt_velocity: self.equation.belt_velocity,
+            belt_velocity: self.belt_velocity,
             displacement: &series.displacement,
             slip: w,
         });
@@ -241,6 +245,28 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         if root.is_some() {
             self.arrive(sign);
         }
+    }
+
+    /// Length of a slip step: the last two retained terms within the tolerance, and no rate
+    /// of the problem so far that they could be small by chance.
+    #[inline(always)]
+    fn slip_length(&self, w: &Series, room: f64) -> f64 {
+        let mut length = step_length(self.tolerance, w[ORDER], w[ORDER - 1], ORDER)
+            .min(self.longest_step)
+            .min(room);
+        let allowed = self.law.longest_change(ORDER);
+        if allowed < f64::INFINITY {
+            let mut change = 0.0;
+            for k in (1..=ORDER).rev() {
+                change = f64::mul_add(change, length, w[k].abs());
+            }
+            change *= length;
+            if change > allowed {
+                // Every term shrinks at least as the step does.
+                length *= allowed / change;
+            }
+        }
+        length
     }
 
     /// Moves the clock, exactly onto the stop where that is reached.
@@ -358,7 +384,7 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
             duration,
             slip_sign: 0,
             unit: self.unit,
-            belt_velocity: self.equation.belt_velocity,
+            belt_velocity: self.belt_velocity,
             displacement: &[self.displacement, self.equation.belt_velocity],
             slip: &[0.0],
         });

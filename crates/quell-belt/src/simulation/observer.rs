@@ -13,6 +13,7 @@ pub struct Segment<'a> {
     pub(super) duration: f64,
     pub(super) slip_sign: i8,
     pub(super) unit: f64,
+    /// v₀, not in `unit`.
     pub(super) belt_velocity: f64,
     /// Coefficients of x and of v_r, in `unit`.
     pub(super) displacement: &'a [f64],
@@ -50,10 +51,10 @@ impl Segment<'_> {
         self.unit * horner(self.slip, since)
     }
 
-    /// Velocity x′ at `since` after its start.
+    /// Velocity x′ at `since` after its start; exactly the belt's in stick.
     #[inline(always)]
     pub fn velocity(&self, since: f64) -> f64 {
-        self.unit * (self.belt_velocity - horner(self.slip, since))
+        self.belt_velocity - self.slip_velocity(since)
     }
 
     /// ∫x dτ over the whole segment.
@@ -221,13 +222,12 @@ impl Observer for VelocitySection {
         // level − x′ falls through zero at an upward crossing. Each crossing is divided out
         // by shifting the expansion to it, so that the next one on the segment is found too.
         let mut shifted = [0.0; super::ORDER + 1];
-        let length = segment.slip.len();
-        shifted[..length].copy_from_slice(segment.slip);
-        shifted[0] += self.level / segment.unit - segment.belt_velocity;
+        shifted[..segment.slip.len()].copy_from_slice(segment.slip);
+        shifted[0] += (self.level - segment.belt_velocity) / segment.unit;
         let mut since = 0.0;
         let mut rest = segment.duration;
         while shifted[0] != 0.0 && rest > 0.0 {
-            let Some(root) = first_crossing(&shifted[..length], rest) else {
+            let Some(root) = first_crossing(&shifted, rest) else {
                 break;
             };
             let upward = shifted[0] > 0.0;
@@ -241,7 +241,7 @@ impl Observer for VelocitySection {
                     sticking: segment.slip_sign == 0,
                 });
             }
-            shift(&mut shifted[..length], root);
+            shift(&mut shifted, root);
             // On the far side now, however the value at the root rounds.
             shifted[0] = shifted[0].abs().max(f64::MIN_POSITIVE) * if upward { -1.0 } else { 1.0 };
         }

@@ -11,9 +11,11 @@
 //! that the same code runs one trajectory or several side by side.
 
 use quell_model::friction::{BranchSeries, SlidingLaw};
-use quell_numerics::lane::{Lane, product_coefficient};
+use quell_numerics::lane::{Lane, partial_product};
 
 use super::ORDER;
+
+const _: () = assert!(ORDER == 16, "the kernel is unrolled for order 16");
 
 /// 1/k for k = 1…ORDER (entry 0 unused).
 const INVERSE: [f64; ORDER + 1] = {
@@ -81,22 +83,35 @@ impl<V: Lane> SlipEquation<V> {
         y[0] = start.displacement;
         w[0] = start.slip;
         let mut branch = law.series::<V, { ORDER + 1 }>(start.sign, start.slip);
-        for k in 0..ORDER {
-            mu[k] = if k == 0 { branch.first() } else { branch.next(k, &w) };
-            let velocity = if k == 0 { self.belt_velocity - w[0] } else { -w[k] };
-            // w′ = 2ζ·velocity + (y − p) − friction, friction last: it is ready last.
-            let elastic = self.damping.mul_add(velocity, y[k] - dither[k]);
-            let rate = match load {
-                Load::Steady(load) => (-load).mul_add(mu[k], elastic),
-                Load::Series(load) => elastic - product_coefficient(load, &mu, k),
-            };
-            let inverse = V::splat(INVERSE[k + 1]);
-            y[k + 1] = velocity * inverse;
-            w[k + 1] = rate * inverse;
-            if k == 0 {
-                w[1] = w[1] * start.first_slope;
+        let slope = branch.slope();
+        let load_now = match load {
+            Load::Steady(load) => load,
+            Load::Series(load) => load[0],
+        };
+        // w′ to first order in the newest coefficient of w: −(2ζ + n μ′)wₖ.
+        let newest = -load_now.mul_add(slope, self.damping);
+        let velocity = self.belt_velocity - w[0];
+        mu[0] = branch.first();
+        y[1] = velocity;
+        let elastic = self.damping.mul_add(velocity, y[0] - dither[0]);
+        w[1] = (-load_now).mul_add(mu[0], elastic) * start.first_slope;
+        quell_numerics::for_each_order_below_16!(J, {
+            const K: usize = J + 1;
+            if K < ORDER {
+                let inverse = V::splat(INVERSE[K + 1]);
+                let lower = branch.lower(K, &w);
+                let known = (-load_now).mul_add(lower, y[K] - dither[K]);
+                let known = match load {
+                    Load::Steady(_) => known,
+                    Load::Series(load) => {
+                        mu[K] = slope.mul_add(w[K], lower);
+                        known - partial_product(load, &mu, K, 1, K)
+                    }
+                };
+                w[K + 1] = newest.mul_add(w[K], known) * inverse;
+                y[K + 1] = -(w[K] * inverse);
             }
-        }
+        });
         SlipSeries {
             displacement: y,
             slip: w,

@@ -3,7 +3,7 @@
 //! The bond force needed is f_s = 2ζv₀ + x − Σ D_T g_T; it holds while |f_s| ≤ μ_s N(τ).
 //! The two margins ±f_s − μ_s N are analytic between breaks of the dither.
 
-use quell_numerics::polynomial::{first_crossing, step_length};
+use quell_numerics::polynomial::{first_crossing, first_crossing_after, step_length};
 
 use super::ORDER;
 use super::clock::Clock;
@@ -76,29 +76,39 @@ impl Bond {
         normal: &Forcing,
     ) -> Search {
         let dither = tangential.series(clock);
-        let load = normal.series(clock);
-        let mut rise = [0.0; ORDER + 1];
-        let mut fall = [0.0; ORDER + 1];
-        for k in 0..=ORDER {
-            let limit = self.static_coefficient * load[k];
-            let force = match k {
-                0 => self.force(y, dither[0]),
-                1 => self.belt_velocity - dither[1],
-                _ => -dither[k],
-            };
-            rise[k] = force - limit;
-            fall[k] = -force - limit;
+        let mut force = [0.0; ORDER + 1];
+        force[0] = self.force(y, dither[0]);
+        force[1] = self.belt_velocity - dither[1];
+        for k in 2..=ORDER {
+            force[k] = -dither[k];
         }
-        let length = stretch(tolerance, &dither, &load, self.static_coefficient).min(room);
-        let first = [(1.0, &rise), (-1.0, &fall)]
-            .into_iter()
-            .filter_map(|(sign, margin)| {
-                let after = break_on(margin, length)?;
-                Some((sign, margin, after))
-            })
-            .min_by(|a, b| a.2.total_cmp(&b.2));
-        let Some((sign, margin, after)) = first else {
+        let mut limit = [0.0; ORDER + 1];
+        limit[0] = self.static_coefficient * normal.mean();
+        if !normal.is_constant() {
+            let load = normal.series(clock);
+            for k in 0..=ORDER {
+                limit[k] = self.static_coefficient * load[k];
+            }
+        }
+        let last = force[ORDER].abs() + limit[ORDER].abs();
+        let previous = force[ORDER - 1].abs() + limit[ORDER - 1].abs();
+        let length = step_length(tolerance, last, previous, ORDER).min(room);
+        if surely_within(&force, &limit, length) {
             return Search::Holds(length);
+        }
+        let margin = |sign: f64| {
+            let mut margin = [0.0; ORDER + 1];
+            for k in 0..=ORDER {
+                margin[k] = f64::mul_add(sign, force[k], -limit[k]);
+            }
+            margin
+        };
+        let (rise, fall) = (margin(1.0), margin(-1.0));
+        let (sign, margin, after) = match (break_on(&rise, length), break_on(&fall, length)) {
+            (None, None) => return Search::Holds(length),
+            (Some(up), None) => (1.0, &rise, up),
+            (Some(up), Some(down)) if up <= down => (1.0, &rise, up),
+            (_, Some(down)) => (-1.0, &fall, down),
         };
         let (after, rate) =
             self.polish(sign, margin, after, length, clock, y, tangential, normal);
@@ -151,21 +161,27 @@ fn break_on(margin: &Series, length: f64) -> Option<f64> {
     }
     if margin[0] == 0.0 {
         // On the threshold: it breaks now if the margin grows, else the root is divided out.
-        let next = margin[1..].iter().position(|&c| c != 0.0).map(|k| k + 1)?;
-        if margin[next] > 0.0 {
-            return Some(0.0);
+        let mut next = 1;
+        while next <= ORDER && margin[next] == 0.0 {
+            next += 1;
         }
-        return first_crossing(&margin[next..], length);
+        return match margin.get(next) {
+            Some(&first) if first > 0.0 => Some(0.0),
+            Some(_) => first_crossing_after(margin, next, length),
+            None => None,
+        };
     }
     first_crossing(margin, length)
 }
 
-/// Length over which the series of dither and load are good to the tolerance.
+/// Whether |f_s| < μ_s N on all of [0, h], by the sizes of the coefficients alone.
 #[inline(always)]
-fn stretch(tolerance: f64, dither: &Series, load: &Series, static_coefficient: f64) -> f64 {
-    let last = dither[ORDER].abs() + static_coefficient * load[ORDER].abs();
-    let previous = dither[ORDER - 1].abs() + static_coefficient * load[ORDER - 1].abs();
-    step_length(tolerance, last, previous, ORDER)
+fn surely_within(force: &Series, limit: &Series, h: f64) -> bool {
+    let mut tail = 0.0;
+    for k in (1..=ORDER).rev() {
+        tail = f64::mul_add(tail, h, force[k].abs() + limit[k].abs());
+    }
+    f64::mul_add(tail, h, force[0].abs()) < limit[0]
 }
 
 /// Derivative of Σ cₖtᵏ.

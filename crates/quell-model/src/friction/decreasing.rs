@@ -3,7 +3,7 @@
 //! μ = [μ_m + (μ_s − μ_m) e^{−|v_r|/v_m}] sgn(v_r).
 
 use quell_numerics::elementary;
-use quell_numerics::lane::Lane;
+use quell_numerics::lane::{Lane, partial_product};
 
 use super::{BranchSeries, SlidingLaw, checked, minimum_at_most_static};
 use crate::Invalid;
@@ -83,6 +83,13 @@ impl SlidingLaw for Decreasing {
         true
     }
 
+    /// Half the order: with c = |Δw| the terms of e^c fall from the c-th on, and from k = 2c on
+    /// each is less than half of the one before.
+    #[inline(always)]
+    fn longest_change(&self, order: usize) -> f64 {
+        0.5 * order as f64
+    }
+
     type Series<V: Lane, const N: usize> = DecreasingSeries<V, N>;
 
     #[inline(always)]
@@ -95,19 +102,23 @@ impl SlidingLaw for Decreasing {
             minimum: V::splat(self.minimum_coefficient),
             decay,
             rate: [V::splat(0.0); N],
+            partial: V::splat(0.0),
         }
     }
 }
 
-/// Recurrence of [`Decreasing`]: the excess e = (μ_s − μ_m) e^{−s w} obeys e′ = −s w′e.
+/// Recurrence of [`Decreasing`]: the excess e = (μ_s − μ_m) e^{−s w} obeys e′ = −s w′e, so that
+/// k eₖ = −s Σ j wⱼeₖ₋ⱼ over j = 1…k.
 #[derive(Clone, Copy, Debug)]
 pub struct DecreasingSeries<V, const N: usize> {
     sign: V,
     minimum: V,
-    /// Coefficients of the excess e.
+    /// Coefficients of the excess e, complete below the last k.
     decay: [V; N],
-    /// `rate[j]` = −s (j+1) wⱼ₊₁, the coefficients of −s w′.
+    /// `rate[j]` = −s j wⱼ.
     rate: [V; N],
+    /// eₖ without its term in wₖ, for the last k.
+    partial: V,
 }
 
 impl<V: Lane, const N: usize> BranchSeries<V> for DecreasingSeries<V, N> {
@@ -117,11 +128,20 @@ impl<V: Lane, const N: usize> BranchSeries<V> for DecreasingSeries<V, N> {
     }
 
     #[inline(always)]
-    fn next(&mut self, k: usize, w: &[V]) -> V {
-        self.rate[k - 1] = -(self.sign * (w[k] * V::splat(k as f64)));
-        // k eₖ = Σ rateⱼ eₖ₋₁₋ⱼ
-        let sum = quell_numerics::lane::product_coefficient(&self.rate, &self.decay, k - 1);
-        self.decay[k] = sum * V::splat(1.0 / k as f64);
-        self.sign * self.decay[k]
+    fn slope(&self) -> V {
+        -self.decay[0]
+    }
+
+    #[inline(always)]
+    fn lower(&mut self, k: usize, w: &[V]) -> V {
+        if k > 1 {
+            let newest = self.sign * w[k - 1];
+            self.rate[k - 1] = -(newest * V::splat((k - 1) as f64));
+            self.decay[k - 1] = (-newest).mul_add(self.decay[0], self.partial);
+        }
+        // Descending age: the newest coefficients come in the first and the last term.
+        let sum = partial_product(&self.rate, &self.decay, k, 1, k - 1);
+        self.partial = sum * V::splat(1.0 / k as f64);
+        self.sign * self.partial
     }
 }

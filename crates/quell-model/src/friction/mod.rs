@@ -41,6 +41,15 @@ pub trait SlidingLaw: Copy + Send + Sync + 'static {
     /// Static level μ_s.
     fn static_coefficient(&self) -> f64;
 
+    /// Change of scaled slip w over a Taylor step of order `order` up to which the last
+    /// retained terms bound the remainder. An exponential that grows from almost nothing
+    /// shows no last term however far the step goes: its law must say how far it may.
+    #[inline(always)]
+    fn longest_change(&self, order: usize) -> f64 {
+        let _ = order;
+        f64::INFINITY
+    }
+
     /// Taylor recurrence of the sliding branch.
     type Series<V: Lane, const N: usize>: BranchSeries<V>;
 
@@ -63,19 +72,24 @@ pub trait SlidingLaw: Copy + Send + Sync + 'static {
     /// Slope dμ/d|v_r| of the sliding branch at slip speed |v_r|, per unit velocity.
     #[inline(always)]
     fn slope(&self, speed: f64) -> f64 {
-        let w = [speed / self.velocity_scale(), 1.0 / self.velocity_scale()];
-        let mut series = self.series::<f64, 2>(1.0, w[0]);
-        series.next(1, &w)
+        let series = self.series::<f64, 1>(1.0, speed / self.velocity_scale());
+        series.slope() / self.velocity_scale()
     }
 }
 
 /// Taylor coefficients μ₀, μ₁, … of the coefficient along a slip w(t) = Σ wₖtᵏ.
+///
+/// μₖ = μ′(w₀)·wₖ + (a part of w₀…wₖ₋₁ alone): the two parts apart let the engine prepare the
+/// second while wₖ is still being computed, which halves the time of a scalar step.
 pub trait BranchSeries<V: Lane> {
     /// μ₀, with the sign of the branch.
     fn first(&self) -> V;
 
-    /// μₖ for k ≥ 1, in ascending order, given w₀…wₖ.
-    fn next(&mut self, k: usize, w: &[V]) -> V;
+    /// μ′(w₀) = dμ/dw on the branch, per unit of w.
+    fn slope(&self) -> V;
+
+    /// μₖ − μ′(w₀)wₖ, for k = 1, 2, … in ascending order, given w₀…wₖ₋₁.
+    fn lower(&mut self, k: usize, w: &[V]) -> V;
 }
 
 /// Work that wants the concrete law, for code that is compiled per law.

@@ -1,0 +1,218 @@
+//! What the dither costs, metered while integrating.
+//!
+//! * Mean friction from the momentum balance, exactly: ∫f dτ = [x′] + 2ζ[x] + ∫x dτ − Σ(D/R)[G].
+//! * Dither power ⟨D_T g_T x′⟩: in stick v₀ times the impulse; in slip Gauss–Legendre on panels
+//!   of at most one radian of the fastest dither.
+
+use std::f64::consts::TAU;
+
+use quell_model::{Belt, Direction, Dither};
+use quell_numerics::roots::{Closeness, minimise};
+
+use super::Record;
+use crate::simulation::{FinalState, Observer, Segment};
+
+/// Nodes and weights of the 8-point Gauss–Legendre rule on [−1, 1] (positive half).
+const GAUSS: [(f64, f64); 4] = [
+    (0.183_434_642_495_649_8, 0.362_683_783_378_361_96),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
+    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+];
+
+/// Samples per period of the fastest normal dither in the search for the smallest load.
+const LOAD_SAMPLES: f64 = 64.0;
+
+/// Meter of a record.
+#[derive(Clone, Debug)]
+pub(super) struct Meter {
+    tangential: Vec<Dither>,
+    fastest: f64,
+    belt_velocity: f64,
+    first_time: f64,
+    stuck: f64,
+    displacement_integral: f64,
+    dither_work: f64,
+    length: f64,
+    friction_impulse: f64,
+}
+
+impl Meter {
+    /// Set to the state at the start of the record.
+    pub(super) fn new(belt: &Belt, start: &FinalState) -> Self {
+        let tangential: Vec<_> = belt
+            .dithers_along(Direction::Tangential)
+            .filter(|dither| dither.amplitude > 0.0)
+            .copied()
+            .collect();
+        Self {
+            fastest: tangential.iter().fold(0.0, |rate, dither| rate.max(dither.frequency_ratio)),
+            tangential,
+            belt_velocity: belt.belt_velocity(),
+            first_time: start.time,
+            stuck: 0.0,
+            displacement_integral: 0.0,
+            dither_work: 0.0,
+            length: 0.0,
+            friction_impulse: 0.0,
+        }
+    }
+
+    /// Closes the momentum balance.
+    pub(super) fn finish(&mut self, belt: &Belt, start: &FinalState, end: &FinalState) {
+        self.length = end.time - self.first_time;
+        let damping = 2.0 * belt.damping_ratio();
+        self.friction_impulse = (end.velocity - start.velocity)
+            + damping * (end.displacement - start.displacement)
+            + self.displacement_integral
+            - self.impulse(start.time, end.time);
+    }
+
+    pub(super) fn stick_fraction(&self) -> f64 {
+        self.stuck / self.length
+    }
+
+    pub(super) fn mean_friction(&self) -> f64 {
+        self.friction_impulse / self.length
+    }
+
+    pub(super) fn dither_power(&self) -> f64 {
+        self.dither_work / self.length
+    }
+
+    /// ∫ Σ D g dτ between two moments.
+    fn impulse(&self, from: f64, to: f64) -> f64 {
+        self.tangential
+            .iter()
+            .map(|dither| {
+                let integral = |time| {
+                    let phase = dither.frequency_ratio * time + dither.phase;
+                    dither.waveform.integral(phase)
+                };
+                dither.amplitude_ratio() * (integral(to) - integral(from))
+            })
+            .sum()
+    }
+
+    fn force(&self, time: f64) -> f64 {
+        force_of(&self.tangential, time)
+    }
+
+    /// ∫ Σ D g x′ dτ over a segment of slip.
+    fn slip_work(&self, segment: &Segment<'_>) -> f64 {
+        let duration = segment.duration();
+        let start = segment.clock().time();
+        let panels = (self.fastest * duration).ceil().max(1.0);
+        let half = 0.5 * duration / panels;
+        let mut work = 0.0;
+        let mut panel = 0.0;
+        while panel < panels {
+            let middle = (2.0 * panel + 1.0) * half;
+            for (node, weight) in GAUSS {
+                for since in [middle - node * half, middle + node * half] {
+                    work += weight * half * self.force(start + since) * segment.velocity(since);
+                }
+            }
+            panel += 1.0;
+        }
+        work
+    }
+}
+
+impl Observer for Meter {
+    fn segment(&mut self, segment: &Segment<'_>) {
+        self.displacement_integral += segment.displacement_integral();
+        if segment.slip_sign() == 0 {
+            self.stuck += segment.duration();
+        }
+        if self.tangential.is_empty() {
+            return;
+        }
+        self.dither_work += if segment.slip_sign() == 0 {
+            let start = segment.clock().time();
+            self.belt_velocity * self.impulse(start, start + segment.duration())
+        } else {
+            self.slip_work(segment)
+        };
+    }
+}
+
+fn force_of(dithers: &[Dither], time: f64) -> f64 {
+    dithers
+        .iter()
+        .map(|dither| {
+            let phase = dither.frequency_ratio * time + dither.phase;
+            dither.amplitude * dither.waveform.value(phase)
+        })
+        .sum()
+}
+
+/// Peak-to-peak displacement at the frequencies of the tangential dithers: twice the spectral
+/// amplitude at each different one, summed.
+pub(super) fn stroke(belt: &Belt, record: &Record) -> f64 {
+    let mut frequencies: Vec<f64> = belt
+        .dithers_along(Direction::Tangential)
+        .filter(|dither| dither.amplitude > 0.0)
+        .map(|dither| dither.frequency_ratio)
+        .collect();
+    frequencies.sort_by(f64::total_cmp);
+    frequencies.dedup();
+    frequencies.iter().map(|&frequency| 2.0 * line_amplitude(record, frequency)).sum()
+}
+
+/// Amplitude of the displacement at one frequency, under the Hann window.
+fn line_amplitude(record: &Record, frequency: f64) -> f64 {
+    let n = record.samples.len() as f64;
+    let window = |k: f64| {
+        let sine = libm::sin(0.5 * TAU * k / n);
+        sine * sine
+    };
+    let (mut weight, mut mean) = (0.0, 0.0);
+    for (k, sample) in record.samples.iter().enumerate() {
+        weight += window(k as f64);
+        mean += window(k as f64) * sample.displacement;
+    }
+    mean /= weight;
+    let (mut cosine, mut sine) = (0.0, 0.0);
+    for (k, sample) in record.samples.iter().enumerate() {
+        let phase = frequency * record.step * k as f64;
+        let value = window(k as f64) * (sample.displacement - mean);
+        cosine += value * libm::cos(phase);
+        sine += value * libm::sin(phase);
+    }
+    2.0 * libm::hypot(cosine, sine) / weight
+}
+
+/// Smallest normal load F + Σ D_N g_N between τ = `from` and `from + length`.
+///
+/// Exact for a single normal dither (F − D_N, if a period fits); for several the smallest of
+/// a dense scan, refined.
+pub(super) fn minimum_normal_load(belt: &Belt, from: f64, length: f64) -> f64 {
+    let normal: Vec<Dither> = belt
+        .dithers_along(Direction::Normal)
+        .filter(|dither| dither.amplitude > 0.0)
+        .copied()
+        .collect();
+    let load = belt.normal_load();
+    let fastest = normal.iter().fold(0.0_f64, |rate, dither| rate.max(dither.frequency_ratio));
+    match normal.as_slice() {
+        [] => load,
+        [only] if length * only.frequency_ratio >= TAU => load - only.amplitude,
+        several => {
+            let value = |time: f64| force_of(several, time);
+            let step = TAU / (fastest * LOAD_SAMPLES);
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a positive count of samples"
+            )]
+            let count = (length / step).ceil() as usize;
+            let (best, lowest) = (0..=count)
+                .map(|k| from + step * k as f64)
+                .map(|time| (time, value(time)))
+                .fold((from, f64::INFINITY), |a, b| if b.1 < a.1 { b } else { a });
+            let refined = minimise(value, best - step, best + step, Closeness::default());
+            load + refined.map_or(lowest, |minimum| minimum.value.min(lowest))
+        }
+    }
+}

@@ -1,0 +1,155 @@
+//! The steady response: settled record, spectrum, efficiency E, and what the dither costs.
+//!
+//! The record is declared, because the dissertation gives none and E depends on it: `settle`
+//! is discarded, then an integral number of slow periods 2π is kept, the mean removed, a
+//! periodic Hann window applied, and zeros appended to four times the length. M is the
+//! largest spectral amplitude of x at 0 < ω ≤ 1.9, and E = M₁/M₀ (2.27) compares the runs with
+//! and without dither from the same state and phase. Keeping the mean makes E > 1; keeping
+//! the start-up under a rectangular window puts a floor of about 0.3 under E.
+
+mod cost;
+mod record;
+
+use std::fmt;
+
+use quell_model::{Belt, Direction};
+pub use quell_numerics::spectrum::{Peak, Spectrum};
+
+use crate::simulation::{DEFAULT_TOLERANCE, Stalled, Start};
+pub use record::Record;
+
+/// Upper end of the band in which M is taken, in ω₀ (2.27).
+pub const BAND_END: f64 = 1.9;
+
+/// Two halves of a record agree when their M differ by less than this share.
+pub const HALVES_AGREE: f64 = 0.01;
+
+/// … or by less than this share of the undithered M: E is then known to a thousandth. A
+/// quenched response is a remnant whose halves never agree relatively.
+pub const HALVES_NEGLIGIBLE: f64 = 1e-3;
+
+/// Peaks below this share of the largest are not listed.
+pub const PEAK_FLOOR: f64 = 1e-3;
+
+/// How a response is computed; `[solver]` of a study.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solver {
+    /// Bound on the last retained Taylor terms of a step, relative to F.
+    pub tolerance: f64,
+    /// Time τ discarded before the record.
+    pub settle: f64,
+    /// Slow periods 2π in the record.
+    pub record_periods: u32,
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        Self {
+            tolerance: DEFAULT_TOLERANCE,
+            settle: 1200.0,
+            record_periods: 60,
+        }
+    }
+}
+
+/// Why E is undefined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Undefined {
+    /// The undithered run from this state settles to steady sliding; a limit cycle may still
+    /// exist elsewhere.
+    UnditheredSettles,
+    /// The undithered run does not move at all.
+    UnditheredAtRest,
+}
+
+impl fmt::Display for Undefined {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::UnditheredSettles => {
+                "without dither the belt settles to steady sliding from this start, so there is \
+                 no vibration to compare with (a limit cycle may exist from another start)"
+            }
+            Self::UnditheredAtRest => "without dither nothing moves from this start",
+        })
+    }
+}
+
+/// A steady response. Lengths in the study's length, frequencies in ω₀.
+#[derive(Clone, Debug)]
+pub struct Response {
+    /// M, the largest spectral amplitude of x at 0 < ω ≤ 1.9.
+    pub amplitude: f64,
+    /// Peaks of the spectrum of x, in order of frequency.
+    pub peaks: Vec<Peak>,
+    /// Share of the record spent in stick.
+    pub stick_fraction: f64,
+    /// E = M₁/M₀ (2.27).
+    pub efficiency: Result<f64, Undefined>,
+    /// M of the undithered run from the same state.
+    pub undithered_amplitude: f64,
+    /// Whether M of the two halves of the record agree.
+    pub settled: bool,
+    /// The same for the undithered run.
+    pub undithered_settled: bool,
+    /// Mean friction force ⟨f⟩ (over k) in the record.
+    pub mean_friction: f64,
+    /// Friction force of undithered steady sliding, μ(v₀)F.
+    pub mean_friction_undithered: f64,
+    /// Mean power ⟨D_T g_T x′⟩ (over kω₀) that tangential dither feeds in; `None` when all dither
+    /// is normal, for the model has no normal motion on which it could work.
+    pub dither_power: Option<f64>,
+    /// Peak-to-peak displacement at the frequencies of the tangential dithers, which their
+    /// actuators must follow; `None` as for the power.
+    pub dither_stroke: Option<f64>,
+    /// Smallest normal load N in the record.
+    pub minimum_normal_load: f64,
+    /// The record with dither.
+    pub record: Record,
+    /// The record without.
+    pub undithered_record: Record,
+}
+
+/// Integrates `belt` from `start` with and without its dither and measures the steady response.
+///
+/// # Errors
+/// [`Stalled`] if a run stops.
+pub fn respond(belt: &Belt, start: Start, solver: &Solver) -> Result<Response, Stalled> {
+    let (record, meter) = record::take(belt, start, solver)?;
+    let undithered = belt.undithered();
+    let (undithered_record, _) = record::take_like(&undithered, start, solver, &record)?;
+    let reference = undithered_record.amplitude();
+    let has_dither = belt.total_amplitude(Direction::Tangential) > 0.0;
+    let only_normal = !has_dither && belt.total_amplitude(Direction::Normal) > 0.0;
+    let efficiency = match why_undefined(&undithered_record) {
+        Some(why) => Err(why),
+        None => Ok(record.amplitude() / reference),
+    };
+    Ok(Response {
+        amplitude: record.amplitude(),
+        peaks: record.spectrum.peaks(PEAK_FLOOR),
+        stick_fraction: meter.stick_fraction(),
+        efficiency,
+        undithered_amplitude: reference,
+        settled: record.is_settled(reference),
+        undithered_settled: undithered_record.is_settled(reference),
+        mean_friction: meter.mean_friction(),
+        mean_friction_undithered: belt.steady_sliding(),
+        dither_power: (!only_normal).then(|| meter.dither_power()),
+        dither_stroke: (!only_normal).then(|| cost::stroke(belt, &record)),
+        minimum_normal_load: cost::minimum_normal_load(belt, record.first_time(), record.length()),
+        record,
+        undithered_record,
+    })
+}
+
+/// Whether the undithered record shows no vibration to compare with: no stick, no reversal,
+/// and an amplitude that is nothing or still falls.
+fn why_undefined(record: &Record) -> Option<Undefined> {
+    let (first, second) = record.half_amplitudes();
+    if first == 0.0 && second == 0.0 {
+        return Some(Undefined::UnditheredAtRest);
+    }
+    let falls = second < (1.0 - HALVES_AGREE) * first;
+    let nothing = second < 1e-9 * record.load;
+    (record.events == 0 && (falls || nothing)).then_some(Undefined::UnditheredSettles)
+}
