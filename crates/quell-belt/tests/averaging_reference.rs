@@ -1,7 +1,8 @@
 //! Averaging against the stored reference, every row (tolerances in `reference/README.md`).
 
 use quell_belt::averaging::{
-    AveragingOptions, FastMotion, FastWave, NormalOrder, Side, effective,
+    AveragingOptions, Becomes, Crossing, FastMotion, FastWave, NormalOrder, Side, Verdict,
+    critical_amplitudes, criterion, effective,
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 use serde_json::Value;
@@ -98,4 +99,43 @@ fn normal_rows() {
     }
     assert_eq!(rows(&reference, "normal").len(), 86);
     println!("normal: worst first order {:e}, second {:e}", worst[0], worst[1]);
+}
+
+#[test]
+fn stability_rows() {
+    let reference = reference();
+    let (mut worst, mut critical) = (0.0_f64, 0);
+    for row in rows(&reference, "stability") {
+        let r = 10.0;
+        let dither = Dither {
+            direction: Direction::Tangential,
+            waveform: waveform(row),
+            amplitude: 1.0,
+            frequency_ratio: r,
+            phase: 0.0,
+        };
+        let (zeta, load, v) = (number(row, "zeta"), number(row, "F"), number(row, "v0"));
+        let belt = Belt::new(zeta, load, v, law(row), vec![dither]).expect("valid");
+        let options = AveragingOptions::default();
+        let undithered = criterion(&belt.undithered(), options).expect("slides").verdict;
+        let stable = row["undithered_stable"].as_bool().expect("a flag");
+        assert_eq!(undithered, if stable { Verdict::Stable } else { Verdict::Unstable }, "{row}");
+        let found = critical_amplitudes(&belt, options).expect("found");
+        let expected = row["critical_alpha"].as_array().expect("rows");
+        assert_eq!(found.len(), expected.len(), "{found:?} in {row}");
+        for (found, expected) in found.iter().zip(expected) {
+            let e = error(found.amplitude_ratio, number(expected, "alpha"));
+            // Both are given to 12 digits and more: 1e-12, well inside the reference's 1e-9.
+            assert!(e < 1e-12, "{found:?}: {e:e} in {row}");
+            assert!((found.amplitude / (r * found.amplitude_ratio) - 1.0).abs() < 1e-15);
+            let jump = text(expected, "type").starts_with("jump");
+            assert_eq!(found.crossing, if jump { Crossing::Jump } else { Crossing::Root }, "{row}");
+            let stable = text(expected, "change").ends_with("->stable");
+            assert_eq!(found.becomes, if stable { Becomes::Stable } else { Becomes::Unstable });
+            worst = worst.max(e);
+            critical += 1;
+        }
+    }
+    assert_eq!(rows(&reference, "stability").len(), 115);
+    println!("stability: {critical} critical amplitudes, worst {worst:e}");
 }

@@ -3,8 +3,9 @@
 //! ∫ₐᵇ f dx is the sum over panels of the 21-point Kronrod rule; the panel with the largest error
 //! estimate is bisected until the sum of the estimates is below the tolerance. The estimate of a
 //! panel is QUADPACK's: `d·min(1, (200 |K − G|/d)^{3/2})` with d = ∫|f − mean|, never below
-//! the rounding floor `4ε ∫|f|`. A panel at its floor is not bisected again; when only such panels are left
-//! and the tolerance is still not met, the integrand's rounding forbids it and the result says so.
+//! the rounding floor `4ε ∫|f|`. A panel at its floor is not bisected again, nor one whose two halves give the same value
+//! within [`NOISE`] of its ∫|f| without a smaller error: its estimate is the noise of the integrand. When only such panels are left
+//! and the tolerance is still not met, rounding forbids it and the result says so.
 //!
 //! Assumptions and limits: f is smooth between the break points given. An integrable singularity of
 //! the value or of a derivative at a break point costs a chain of bisections towards it (never an
@@ -23,7 +24,7 @@ use std::collections::BinaryHeap;
 pub struct Integral {
     /// ∫ f dx.
     pub value: f64,
-    /// Estimated absolute error; includes the rounding of the sum.
+    /// Estimated absolute error; includes the rounding of the sums, but not that of the integrand's own evaluation.
     pub error: f64,
     /// Number of evaluations of the integrand.
     pub evaluations: usize,
@@ -142,6 +143,9 @@ const GAUSS: [f64; 5] = [
     0.2692667193099963550912269215694694,
     0.2955242247147528701738929946513383,
 ];
+
+/// Agreement of a panel with its halves, relative to ∫|f|, at which an error that does not shrink is noise.
+const NOISE: f64 = 1e-10;
 
 /// One panel with its Kronrod value, its error estimate and ∫|f|.
 #[derive(Debug, Clone, Copy)]
@@ -325,8 +329,14 @@ pub fn integrate(
             return Err(QuadratureError::Evaluations { best: total(&open, &done, evaluations) });
         }
         let middle = worst.from.midpoint(worst.to);
-        let left = panel(&mut f, worst.from, middle)?;
-        let right = panel(&mut f, middle, worst.to)?;
+        let mut left = panel(&mut f, worst.from, middle)?;
+        let mut right = panel(&mut f, middle, worst.to)?;
+        let magnitude = (left.floor + right.floor) / (4.0 * f64::EPSILON);
+        let change = (left.value + right.value - worst.value).abs();
+        if left.error + right.error > 0.5 * worst.error && change <= NOISE * magnitude {
+            left.floor = left.error;
+            right.floor = right.error;
+        }
         evaluations += 42;
         running += left.value + right.value - worst.value;
         running_error += left.error + right.error - worst.error;
@@ -436,6 +446,12 @@ mod tests {
     fn failures_are_told() {
         let rounding = integrate(|x| 1e16 * libm::sin(x) + 1.0, -1.0, 1.0, &[], &tight());
         assert!(matches!(rounding, Err(QuadratureError::Rounding { best }) if best.error > 1.0));
+        // Noise of 10⁻¹² in the integrand itself ends early, with an error that covers it.
+        let noisy = |x: f64| 1.0 + 1e-12 * libm::sin(1e9 * x);
+        let noise = integrate(noisy, 0.0, 1.0, &[], &tight());
+        let Err(QuadratureError::Rounding { best }) = noise else { panic!("{noise:?}") };
+        assert!((best.value - 1.0).abs() <= best.error && best.error < 1e-11, "{best:?}");
+        assert!(best.evaluations < 2000, "{best:?}");
         let budget = QuadratureOptions { evaluations: 300, ..tight() };
         let spent = integrate(|x| libm::sin(1.0 / x), 1e-4, 1.0, &[], &budget);
         assert!(matches!(spent, Err(QuadratureError::Evaluations { best }) if best.evaluations <= 300));

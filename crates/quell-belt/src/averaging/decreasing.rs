@@ -23,7 +23,7 @@ use quell_model::friction::{Decreasing, SlidingLaw};
 use quell_numerics::quadrature::{Integral, QuadratureOptions, integrate};
 use quell_numerics::special::{bessel_i0_scaled, dawson, erf, erfcx, exp, expm1, expm1_over};
 
-use super::effective::{AveragingError, Effective, Side};
+use super::effective::{AveragingError, Effective, Side, settled};
 use super::wave::FastWave;
 
 /// √π/2.
@@ -185,7 +185,7 @@ fn sine(a: f64, w: f64, delta: f64) -> Result<(Integral, Integral), AveragingErr
         exp(-(w + c)) + exp(-(w - c).abs())
     };
     let scaled = |i: Integral| Integral { value: i.value / PI, error: i.error / PI, ..i };
-    let k = integrate(k, 0.0, FRAC_PI_2, &cuts, &options)?;
-    let j = integrate(j, 0.0, FRAC_PI_2, &cuts, &options)?;
+    let k = settled(integrate(k, 0.0, FRAC_PI_2, &cuts, &options))?;
+    let j = settled(integrate(j, 0.0, FRAC_PI_2, &cuts, &options))?;
     Ok((scaled(k), scaled(j)))
 }

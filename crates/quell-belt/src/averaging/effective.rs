@@ -16,7 +16,7 @@
 //! rounding of that difference. Exactly at the corner the outer slope is given, and the result says so ([`Side::Outer`]).
 
 use quell_model::Friction;
-use quell_numerics::quadrature::QuadratureError;
+use quell_numerics::quadrature::{Integral, QuadratureError};
 
 use super::fast_motion::FastMotion;
 use super::{decreasing, independent, periodic, single_wave, stribeck, wave::FastWave};
@@ -97,6 +97,16 @@ pub enum AveragingError {
 impl From<QuadratureError> for AveragingError {
     fn from(error: QuadratureError) -> Self {
         Self::Quadrature(error)
+    }
+}
+
+/// An integral whose tolerance only the rounding of its integrand forbids serves, with the error it has.
+pub(super) fn settled(
+    integral: Result<Integral, QuadratureError>,
+) -> Result<Integral, AveragingError> {
+    match integral {
+        Ok(integral) | Err(QuadratureError::Rounding { best: integral }) => Ok(integral),
+        Err(error) => Err(error.into()),
     }
 }
 

@@ -19,7 +19,8 @@ use core::f64::consts::TAU;
 use quell_model::{Belt, Direction, Dither, Friction, Waveform};
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
-use super::effective::{AveragingError, effective};
+use super::effective::{AveragingError, effective, settled};
+use super::periodic::Signal;
 use super::wave::FastWave;
 
 /// Which velocity a tangential force of high frequency is taken to produce.
@@ -148,7 +149,7 @@ impl PeriodicMotion {
             s * s
         };
         let options = QuadratureOptions::default();
-        Ok(integrate(square, 0.0, TAU, &self.breaks(), &options)?.value / TAU)
+        Ok(settled(integrate(square, 0.0, TAU, &self.breaks(), &options))?.value / TAU)
     }
 
     fn is_still(&self) -> bool {
@@ -196,8 +197,18 @@ impl FastMotion {
     /// [`AveragingError`] where the oscillator's response is asked for at R ≤ 1, or where both directions act and
     /// the friction level that drives the normal dither cannot be computed.
     pub fn of(belt: &Belt, v: f64, options: AveragingOptions) -> Result<Self, AveragingError> {
-        let law = belt.friction();
-        let acting: Vec<&Dither> = belt.dithers().iter().filter(|d| d.amplitude > 0.0).collect();
+        Self::of_dithers(belt.friction(), belt.normal_load(), belt.dithers(), v, options)
+    }
+
+    /// The same from its parts, whether or not the contact would stay closed.
+    pub(super) fn of_dithers(
+        law: &Friction,
+        normal_load: f64,
+        dithers: &[Dither],
+        v: f64,
+        options: AveragingOptions,
+    ) -> Result<Self, AveragingError> {
+        let acting: Vec<&Dither> = dithers.iter().filter(|d| d.amplitude > 0.0).collect();
         let (level, slope) = friction_level(law, &acting, v, options)?;
         let mut groups = Vec::new();
         for members in commensurate_groups(&acting) {
@@ -215,7 +226,7 @@ impl FastMotion {
                         group.normal.push(SlipTerm { wave, amplitude, harmonic, phase });
                         group.load.push(LoadTerm {
                             waveform: dither.waveform,
-                            amplitude: dither.amplitude / belt.normal_load(),
+                            amplitude: dither.amplitude / normal_load,
                             harmonic,
                             phase,
                         });
@@ -228,6 +239,17 @@ impl FastMotion {
             groups.push(group);
         }
         Ok(Self::new(groups))
+    }
+
+    /// Largest fast slip velocity, max s summed over the groups.
+    pub(super) fn largest_slip(&self) -> Result<f64, AveragingError> {
+        self.groups.iter().try_fold(0.0, |sum, group| {
+            Ok(sum
+                + match group.single_term() {
+                    Some((wave, amplitude)) => amplitude.abs() * wave.peak(),
+                    None => Signal::new(group)?.range().1,
+                })
+        })
     }
 }
 

@@ -15,7 +15,7 @@ use quell_model::Friction;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_numerics::roots::{Closeness, find_root};
 
-use super::effective::{AveragingError, Effective, Side};
+use super::effective::{AveragingError, Effective, Side, settled};
 use super::fast_motion::PeriodicMotion;
 
 /// Points per smooth stretch at which the sign of ds/dθ is looked at.
@@ -132,7 +132,11 @@ pub(super) fn mean(
     v: f64,
 ) -> Result<Effective, AveragingError> {
     let start = law.coefficient(0.0);
-    let crossings = signal.crossings(v);
+    let (low, high) = signal.range();
+    let rounding = 8.0 * f64::EPSILON * (low.abs() + high.abs());
+    let at_corner = (v - high).abs() <= rounding || (v - low).abs() <= rounding;
+    // At the corner the outer slope: the touch is no crossing.
+    let crossings = if at_corner { Vec::new() } else { signal.crossings(v) };
     let jump: f64 = crossings
         .iter()
         .map(|&x| (base + signal.load(x)) / (TAU * signal.value_and_slope(x).1.abs()))
@@ -151,7 +155,6 @@ pub(super) fn mean(
     let slope = |x: f64| {
         law.slope((v - signal.value_and_slope(x).0).abs()) * (base + signal.load(x))
     };
-    let (low, high) = signal.range();
     let fastest = (v - low).abs().max((v - high).abs());
     let scale = start.abs() + law.coefficient(fastest).abs();
     let slope_scale = law.slope(0.0).abs() + law.slope(fastest).abs() + start / law.velocity_scale();
@@ -160,9 +163,9 @@ pub(super) fn mean(
         absolute: 1e-13 * absolute,
         ..QuadratureOptions::default()
     };
-    let value = integrate(value, 0.0, TAU, &cuts, &options(scale))?;
-    let smooth = integrate(slope, 0.0, TAU, &cuts, &options(slope_scale))?;
-    let side = if v == high || v == low { Side::Outer } else { Side::Both };
+    let value = settled(integrate(value, 0.0, TAU, &cuts, &options(scale)))?;
+    let smooth = settled(integrate(slope, 0.0, TAU, &cuts, &options(slope_scale)))?;
+    let side = if at_corner { Side::Outer } else { Side::Both };
     let mut effective = Effective::closed(
         [value.value / TAU, 0.0],
         [jump, smooth.value / TAU],

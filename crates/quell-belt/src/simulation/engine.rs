@@ -8,14 +8,14 @@
 use quell_model::friction::SlidingLaw;
 use quell_model::{Belt, Direction};
 use quell_numerics::lane::horner;
-use quell_numerics::polynomial::{first_crossing, step_length};
+use quell_numerics::polynomial::{first_crossing_after, step_length};
 
 use super::clock::Clock;
 use super::event::{Event, EventKind};
-use super::forcing::Forcing;
+use super::forcing::{Forcing, Series};
 use super::observer::{Observer, Segment};
 use super::slip::{Load, SlipEquation, SlipStart};
-use super::stick::{Bond, Search, divided};
+use super::stick::{Bond, Search};
 use super::{FinalState, ORDER, Stalled, Start};
 
 /// Changes of contact at one moment before the bond is held. A jump that breaks a bond just
@@ -55,6 +55,8 @@ pub(super) struct Engine<'a, L, O> {
     unit: f64,
     /// v₀, not in `unit`.
     belt_velocity: f64,
+    /// ORDER/2 radians of the fastest oscillation.
+    longest_step: f64,
     clock: Clock,
     until: f64,
     displacement: f64,
@@ -87,6 +89,9 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         let damping = 2.0 * belt.damping_ratio();
         let slip = (belt.belt_velocity() - start.velocity) / unit;
         let forcing = |direction, mean| Forcing::new(belt.dithers(), direction, mean, unit, clock);
+        let tangential = forcing(Direction::Tangential, 0.0);
+        let normal = forcing(Direction::Normal, load);
+        let fastest = tangential.highest_rate().max(normal.highest_rate()).max(1.0);
         Self {
             equation: SlipEquation {
                 damping,
@@ -97,8 +102,9 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
                 belt_velocity,
                 static_coefficient: law.static_coefficient(),
             },
-            tangential: forcing(Direction::Tangential, 0.0),
-            normal: forcing(Direction::Normal, load),
+            tangential,
+            normal,
+            longest_step: 0.5 * ORDER as f64 / fastest,
             tolerance: tolerance * load,
             unit,
             belt_velocity: belt.belt_velocity(),
@@ -213,18 +219,13 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         };
         let series = self.equation.series(&self.law, start, &dither, load);
         let w = &series.slip;
-        let length = step_length(self.tolerance, w[ORDER], w[ORDER - 1], ORDER).min(room);
-        let quotient = match zeros {
-            0 => *w,
-            1 => divided(w, 1),
-            _ => divided(w, 2),
-        };
-        if zeros > 0 && quotient[0] * sign <= 0.0 {
+        let length = self.slip_length(w, room);
+        if zeros > 0 && w[zeros] * sign <= 0.0 {
             // The zero is of higher order than its cause allows: rounding at a touch.
             self.contact = Contact::Stick { held: true };
             return;
         }
-        let root = first_crossing(&quotient, length);
+        let root = first_crossing_after(w, zeros, length);
         let duration = root.unwrap_or(length);
         let reaches_stop = duration >= room || self.clock.after(duration).time() == stop;
         self.steps += 1;
@@ -244,6 +245,28 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         if root.is_some() {
             self.arrive(sign);
         }
+    }
+
+    /// Length of a slip step: the last two retained terms within the tolerance, and no rate
+    /// of the problem so far that they could be small by chance.
+    #[inline(always)]
+    fn slip_length(&self, w: &Series, room: f64) -> f64 {
+        let mut length = step_length(self.tolerance, w[ORDER], w[ORDER - 1], ORDER)
+            .min(self.longest_step)
+            .min(room);
+        let allowed = self.law.longest_change(ORDER);
+        if allowed < f64::INFINITY {
+            let mut change = 0.0;
+            for k in (1..=ORDER).rev() {
+                change = f64::mul_add(change, length, w[k].abs());
+            }
+            change *= length;
+            if change > allowed {
+                // Every term shrinks at least as the step does.
+                length *= allowed / change;
+            }
+        }
+        length
     }
 
     /// Moves the clock, exactly onto the stop where that is reached.

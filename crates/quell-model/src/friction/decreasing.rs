@@ -83,6 +83,13 @@ impl SlidingLaw for Decreasing {
         true
     }
 
+    /// Half the order: with c = |Δw| the terms of e^c fall from the c-th on, and from k = 2c on
+    /// each is less than half of the one before.
+    #[inline(always)]
+    fn longest_change(&self, order: usize) -> f64 {
+        0.5 * order as f64
+    }
+
     type Series<V: Lane, const N: usize> = DecreasingSeries<V, N>;
 
     #[inline(always)]

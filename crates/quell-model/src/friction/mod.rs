@@ -41,6 +41,15 @@ pub trait SlidingLaw: Copy + Send + Sync + 'static {
     /// Static level μ_s.
     fn static_coefficient(&self) -> f64;
 
+    /// Change of scaled slip w over a Taylor step of order `order` up to which the last
+    /// retained terms bound the remainder. An exponential that grows from almost nothing
+    /// shows no last term however far the step goes: its law must say how far it may.
+    #[inline(always)]
+    fn longest_change(&self, order: usize) -> f64 {
+        let _ = order;
+        f64::INFINITY
+    }
+
     /// Taylor recurrence of the sliding branch.
     type Series<V: Lane, const N: usize>: BranchSeries<V>;
 
