@@ -32,6 +32,7 @@ mod draw;
 mod error;
 mod figure;
 mod fonts;
+mod frame;
 mod layer;
 mod legend;
 mod marks;
