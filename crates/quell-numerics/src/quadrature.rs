@@ -4,7 +4,7 @@
 //! estimate is bisected until the sum of the estimates is below the tolerance. The estimate of a
 //! panel is QUADPACK's: `d·min(1, (200 |K − G|/d)^{3/2})` with d = ∫|f − mean|, never below
 //! the rounding floor `4ε ∫|f|`. A panel at its floor is not bisected again, nor one whose two halves give the same value
-//! within [`NOISE`] of its ∫|f| without a smaller error: its estimate is the noise of the integrand. When only such panels are left
+//! within 10⁻¹⁰ of its ∫|f| without a smaller error: its estimate is the noise of the integrand. When only such panels are left
 //! and the tolerance is still not met, rounding forbids it and the result says so.
 //!
 //! Assumptions and limits: f is smooth between the break points given. An integrable singularity of

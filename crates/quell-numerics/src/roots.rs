@@ -252,16 +252,16 @@ pub fn minimise(
         let fu = number(f(u), u)?;
         if fu <= fx {
             if u < x {
-                high = x
+                high = x;
             } else {
-                low = x
+                low = x;
             }
             (v, fv, w, fw, x, fx) = (w, fw, x, fx, u, fu);
         } else {
             if u < x {
-                low = u
+                low = u;
             } else {
-                high = u
+                high = u;
             }
             if fu <= fw || w == x {
                 (v, fv, w, fw) = (w, fw, u, fu);
