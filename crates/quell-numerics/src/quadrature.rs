@@ -303,9 +303,9 @@ pub fn integrate(
     let mut evaluations = 0;
     let place = |p: Panel, open: &mut BinaryHeap<Panel>, done: &mut Vec<Panel>| {
         if p.can_improve() {
-            open.push(p)
+            open.push(p);
         } else {
-            done.push(p)
+            done.push(p);
         }
     };
     for pair in cuts.windows(2) {
