@@ -181,4 +181,27 @@ mod tests {
             }
         }
     }
+
+    /// The table in ARCHITECTURE.md, for people, says what the table of the check says.
+    #[test]
+    fn the_printed_table_is_the_table() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../ARCHITECTURE.md");
+        let text = std::fs::read_to_string(path).expect("ARCHITECTURE.md");
+        let printed: Vec<&str> = text
+            .lines()
+            .skip_while(|line| !line.starts_with("| crate | may use |"))
+            .skip(2)
+            .take_while(|line| line.starts_with('|'))
+            .collect();
+        let rows: Vec<String> = LAYERS
+            .iter()
+            .map(|layer| {
+                let used: Vec<String> =
+                    layer.may_use.iter().map(|name| format!("`{name}`")).collect();
+                let used = if used.is_empty() { "nothing".to_owned() } else { used.join(", ") };
+                format!("| `{}` | {used} | {} |", layer.name, layer.reason)
+            })
+            .collect();
+        assert_eq!(printed, rows);
+    }
 }
