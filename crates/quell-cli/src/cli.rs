@@ -12,7 +12,7 @@ use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
 use crate::answer;
-use crate::verbs::{check, cite, friction, response, schema, simulate};
+use crate::verbs::{check, cite, friction, response, schema, simulate, stability};
 
 /// Finds the dither that silences friction-induced vibration, and tells how sure it is.
 #[derive(Debug, Parser)]
@@ -29,6 +29,7 @@ enum Verb {
     Schema(schema::Arguments),
     Cite(cite::Arguments),
     Friction(friction::Arguments),
+    Stability(stability::Arguments),
     Simulate(simulate::Arguments),
     Response(response::Arguments),
 }
@@ -46,6 +47,7 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Schema(arguments) => Ok(schema::run(arguments)),
         Verb::Cite(arguments) => cite::run(arguments),
         Verb::Friction(arguments) => friction::run(arguments),
+        Verb::Stability(arguments) => stability::run(arguments),
         Verb::Simulate(arguments) => simulate::run(arguments),
         Verb::Response(arguments) => response::run(arguments),
     };

@@ -55,6 +55,7 @@ const VERBS: &[&[&str]] = &[
     &["check"],
     &["cite"],
     &["friction"],
+    &["stability"],
     &["simulate", "--until", "20"],
     &["response"],
 ];

@@ -92,6 +92,31 @@ impl Fields {
         self
     }
 
+    /// A growth rate per unit τ, in SI per second; or null and why.
+    pub fn rate(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
+        self.units.insert(name.to_owned(), "ω₀".into());
+        let twin = self.scales.map(|scales| (format!("{name}_per_s"), scales.angular_frequency()));
+        if let Some((key, _)) = &twin {
+            self.units.insert(key.clone(), "1/s".into());
+        }
+        match value {
+            Ok(value) => {
+                self.object.insert(name.to_owned(), value.into());
+                if let Some((key, omega)) = twin {
+                    self.object.insert(key, (value * omega).into());
+                }
+            }
+            Err(why) => {
+                self.object.insert(name.to_owned(), Json::Null);
+                self.why.insert(name.to_owned(), why.into());
+                if let Some((key, _)) = twin {
+                    self.object.insert(key, Json::Null);
+                }
+            }
+        }
+        self
+    }
+
     /// An object inside this one.
     pub fn nested(&mut self, name: &str, inner: Self) -> &mut Self {
         let object = self.take(name, inner);

@@ -7,9 +7,12 @@ pub mod check;
 pub mod friction;
 pub mod response;
 pub mod simulate;
+pub mod stability;
 
 use quell_belt::simulation::{Stalled, Start};
 use quell_belt::start::NoSquealingStart;
+
+use quell_model::units::Quantity;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::study::{InitialState, Study};
@@ -36,8 +39,22 @@ pub fn start_in_words(study: &Study) -> String {
         InitialState::Sliding => "from steady sliding".to_owned(),
         InitialState::Squealing => "from the undithered limit cycle".to_owned(),
         InitialState::Explicit { displacement, velocity } => {
+            let displacement = in_words(study, Quantity::Displacement, displacement);
+            let velocity = in_words(study, Quantity::Velocity, velocity);
             format!("from x = {displacement}, x′ = {velocity}")
         }
+    }
+}
+
+/// A quantity in a sentence: six digits, in SI where the study is.
+fn in_words(study: &Study, quantity: Quantity, value: f64) -> String {
+    let digits = |value: f64| {
+        let text = format!("{value:.5e}");
+        text.parse::<f64>().map_or(text, |rounded| format!("{rounded:?}").trim_end_matches(".0").to_owned())
+    };
+    match study.scales().zip(quantity.si_unit()) {
+        Some((scales, (unit, _))) => format!("{} {unit}", digits(scales.to_si(quantity, value))),
+        None => digits(value),
     }
 }
 

@@ -5,7 +5,7 @@ use quell_belt::simulation::{Sample, Start};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::{failed, start, start_in_words};
+use super::{failed, in_words, start, start_in_words};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::fields::Fields;
@@ -66,12 +66,12 @@ impl Steady {
 
     /// What a reader of the numbers should know.
     pub fn warnings(&self, study: &Study) -> Vec<String> {
-        let settle = study.solver().settle;
+        let settle = in_words(study, Quantity::Time, study.solver().settle);
         let mut warnings = Vec::new();
         let mut warn = |which: &str, settled: bool| {
             if !settled {
                 warnings.push(format!(
-                    "the {which} response has not settled after τ = {settle}: the amplitudes of the two \
+                    "the {which} response has not settled after {settle}: the amplitudes of the two \
                      halves of the record differ; raise solver.settle or solver.record_periods"
                 ));
             }

@@ -8,7 +8,7 @@ use quell_belt::simulation::{
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::{failed, start, start_in_words};
+use super::{failed, in_words, start, start_in_words};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::fields::Fields;
@@ -113,12 +113,13 @@ impl Simulation {
             (false, sign) if sign < 0 => "the mass slides ahead of the belt",
             (false, _) => "the belt slides under the mass",
         };
+        let time = if study.scales().is_some() { "t" } else { "τ" };
         let events = match end.events {
             0 => "nothing happened at the contact".to_owned(),
             1 => "there was one event at the contact".to_owned(),
             count => format!("there were {count} events at the contact"),
         };
-        format!("Started {}, at τ = {} {state}; on the way {events}.", start_in_words(study), end.time)
+        format!("Started {}, at {} = {} {state}; on the way {events}.", start_in_words(study), time, in_words(study, Quantity::Time, end.time))
     }
 
     /// As JSON.
