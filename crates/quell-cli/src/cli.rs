@@ -12,11 +12,16 @@ use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
 use crate::answer;
-use crate::verbs::{check, cite, friction, response, schema, simulate};
+use crate::verbs::{check, cite, friction, response, schema, simulate, stability};
 
 /// Finds the dither that silences friction-induced vibration, and tells how sure it is.
 #[derive(Debug, Parser)]
-#[command(name = "quell", version, propagate_version = true, arg_required_else_help = true)]
+#[command(
+    name = "quell",
+    version,
+    propagate_version = true,
+    arg_required_else_help = true
+)]
 #[command(after_help = "Exit status: 0 done, 2 the input is wrong, 1 it failed.")]
 struct Cli {
     #[command(subcommand)]
@@ -29,6 +34,7 @@ enum Verb {
     Schema(schema::Arguments),
     Cite(cite::Arguments),
     Friction(friction::Arguments),
+    Stability(stability::Arguments),
     Simulate(simulate::Arguments),
     Response(response::Arguments),
 }
@@ -36,7 +42,10 @@ enum Verb {
 /// Runs the command line `arguments`, program name first.
 pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let json = arguments.iter().take_while(|argument| *argument != "--").any(|argument| argument == "--json");
+    let json = arguments
+        .iter()
+        .take_while(|argument| *argument != "--")
+        .any(|argument| argument == "--json");
     let cli = match Cli::try_parse_from(&arguments) {
         Ok(cli) => cli,
         Err(error) => return misunderstood(&error, json),
@@ -46,6 +55,7 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Schema(arguments) => Ok(schema::run(arguments)),
         Verb::Cite(arguments) => cite::run(arguments),
         Verb::Friction(arguments) => friction::run(arguments),
+        Verb::Stability(arguments) => stability::run(arguments),
         Verb::Simulate(arguments) => simulate::run(arguments),
         Verb::Response(arguments) => response::run(arguments),
     };
@@ -57,7 +67,10 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 /// Shows help, or what was not understood.
 fn misunderstood(error: &clap::Error, json: bool) -> ExitCode {
-    let asked = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
+    let asked = matches!(
+        error.kind(),
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion
+    );
     if asked {
         return answer::print(&error.render().to_string());
     }
@@ -77,9 +90,17 @@ fn complaint(error: &clap::Error) -> Complaint {
     };
     let argument = told(ContextKind::InvalidArg).or_else(|| told(ContextKind::InvalidSubcommand));
     // "--until <T>" and "<STUDY>" are named without their placeholders.
-    let key = argument.as_deref().and_then(|name| name.split([' ', '=']).next()).unwrap_or("command line");
+    let key = argument
+        .as_deref()
+        .and_then(|name| name.split([' ', '=']).next())
+        .unwrap_or("command line");
     let text = error.render().to_string();
-    let first = text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_owned();
+    let first = text
+        .lines()
+        .next()
+        .unwrap_or_default()
+        .trim_start_matches("error: ")
+        .to_owned();
     // The names of missing arguments follow on the next line.
     let message = if first.ends_with(':') {
         format!("{first} {}", text.lines().nth(1).unwrap_or_default().trim())

@@ -50,19 +50,29 @@ impl Criterion {
     #[must_use]
     pub fn new(damping_ratio: f64, normal_load: f64, effective: Effective) -> Self {
         let value = 2.0 * damping_ratio + normal_load * effective.slope;
-        let rounding = 2.0 * f64::EPSILON * (2.0 * damping_ratio + (normal_load * effective.slope).abs());
+        let rounding =
+            2.0 * f64::EPSILON * (2.0 * damping_ratio + (normal_load * effective.slope).abs());
         let error = normal_load * effective.slope_error + rounding;
         let verdict = if value > error {
             // At a corner the inner slope is larger still.
             Verdict::Stable
         } else if value >= -error {
-            Verdict::Undecided { why: UndecidedBecause::WithinError }
+            Verdict::Undecided {
+                why: UndecidedBecause::WithinError,
+            }
         } else if effective.side == Side::Outer {
-            Verdict::Undecided { why: UndecidedBecause::AtCorner }
+            Verdict::Undecided {
+                why: UndecidedBecause::AtCorner,
+            }
         } else {
             Verdict::Unstable
         };
-        Self { value, error, effective, verdict }
+        Self {
+            value,
+            error,
+            effective,
+            verdict,
+        }
     }
 }
 
@@ -74,5 +84,9 @@ pub fn criterion(belt: &Belt, options: AveragingOptions) -> Result<Criterion, Av
     let v = belt.belt_velocity();
     let motion = FastMotion::of(belt, v, options)?;
     let effective = effective(belt.friction(), &motion, v)?;
-    Ok(Criterion::new(belt.damping_ratio(), belt.normal_load(), effective))
+    Ok(Criterion::new(
+        belt.damping_ratio(),
+        belt.normal_load(),
+        effective,
+    ))
 }

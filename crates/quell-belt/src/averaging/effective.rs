@@ -66,7 +66,10 @@ impl Effective {
 
     /// The value at −v: μ̄ is odd there, its slope even.
     fn mirrored(self) -> Self {
-        Self { coefficient: -self.coefficient, ..self }
+        Self {
+            coefficient: -self.coefficient,
+            ..self
+        }
     }
 }
 
@@ -137,11 +140,7 @@ impl core::error::Error for AveragingError {}
 /// # Errors
 /// [`AveragingError::SetValued`] at v = 0 without fast slip, [`AveragingError::TooManyGroups`], or a quadrature that
 /// did not converge.
-pub fn effective(
-    law: &Friction,
-    motion: &FastMotion,
-    v: f64,
-) -> Result<Effective, AveragingError> {
+pub fn effective(law: &Friction, motion: &FastMotion, v: f64) -> Result<Effective, AveragingError> {
     match motion.groups() {
         [] => undithered(law, v),
         [group] => match group.single_term() {
@@ -155,13 +154,20 @@ pub fn effective(
 /// The law itself.
 fn undithered(law: &Friction, v: f64) -> Result<Effective, AveragingError> {
     if v == 0.0 {
-        return Err(AveragingError::SetValued { static_coefficient: law.static_coefficient() });
+        return Err(AveragingError::SetValued {
+            static_coefficient: law.static_coefficient(),
+        });
     }
     let speed = v.abs();
     let coefficient = law.coefficient(speed).copysign(v);
     let slope = law.slope(speed);
     let size = law.slope(0.0).abs() + slope.abs();
-    Ok(Effective::closed([coefficient, 0.0], [slope, 0.0], size, Side::Both))
+    Ok(Effective::closed(
+        [coefficient, 0.0],
+        [slope, 0.0],
+        size,
+        Side::Both,
+    ))
 }
 
 /// One dither, `amplitude` ≠ 0: closed form where there is one, else quadrature over a quarter wave.
@@ -184,7 +190,11 @@ pub(super) fn single(
         }
         (law, wave) => single_wave::effective(law, wave, alpha, speed)?,
     };
-    Ok(if v < 0.0 { effective.mirrored() } else { effective })
+    Ok(if v < 0.0 {
+        effective.mirrored()
+    } else {
+        effective
+    })
 }
 
 /// The same by quadrature, whatever the law: a second method for the closed forms.
@@ -201,5 +211,9 @@ pub fn effective_by_quadrature(
         return undithered(law, v);
     }
     let effective = single_wave::effective(law, wave, amplitude.abs(), v.abs())?;
-    Ok(if v < 0.0 { effective.mirrored() } else { effective })
+    Ok(if v < 0.0 {
+        effective.mirrored()
+    } else {
+        effective
+    })
 }

@@ -61,18 +61,26 @@ pub(super) fn effective(
     let mut order: Vec<&PeriodicMotion> = groups.iter().collect();
     // Closed form innermost, that is last; of several the largest, so that the quadrature sees the gentler motion.
     let reach = |group: &PeriodicMotion| {
-        group.single_term().map_or(-1.0, |(wave, amplitude)| amplitude.abs() * wave.peak())
+        group
+            .single_term()
+            .map_or(-1.0, |(wave, amplitude)| amplitude.abs() * wave.peak())
     };
     order.sort_by(|a, b| reach(a).total_cmp(&reach(b)));
     let mut levels = Vec::new();
     for (depth, group) in order.iter().enumerate() {
         levels.push(match group.single_term() {
-            Some((wave, amplitude)) if depth + 1 == order.len() => Level::Closed { wave, amplitude },
+            Some((wave, amplitude)) if depth + 1 == order.len() => {
+                Level::Closed { wave, amplitude }
+            }
             _ => Level::Sampled(Signal::new(group)?),
         });
     }
     let corners = corner_sums(&levels);
-    let context = Context { law, levels: &levels, corners: &corners };
+    let context = Context {
+        law,
+        levels: &levels,
+        corners: &corners,
+    };
     let value = context.integral(0, 1.0, v, Quantity::Coefficient)?;
     let slope = context.integral(0, 1.0, v, Quantity::Slope)?;
     let outermost = corners[0].iter().fold(0.0_f64, |m, c| m.max(c.abs()));
@@ -82,7 +90,11 @@ pub(super) fn effective(
         slope: slope.0,
         slope_error: slope.1 + CORNER_NOISE * slope.0.abs(),
         // Convolution with a second wave smooths the corner, but its outer edge stays a one-sided place.
-        side: if v.abs() == outermost { Side::Outer } else { Side::Both },
+        side: if v.abs() == outermost {
+            Side::Outer
+        } else {
+            Side::Both
+        },
     })
 }
 
@@ -172,7 +184,9 @@ impl Context<'_> {
             let part = match integrate(integrand, 0.0, 1.0, &[], &options) {
                 Ok(part) => part,
                 // Noise of the inner mean near a corner: keep the value with the error it has.
-                Err(QuadratureError::Rounding { best } | QuadratureError::Evaluations { best }) => best,
+                Err(QuadratureError::Rounding { best } | QuadratureError::Evaluations { best }) => {
+                    best
+                }
                 Err(error) => return Err(error.into()),
             };
             if let Some(error) = failure.take() {

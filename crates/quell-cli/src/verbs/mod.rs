@@ -6,3 +6,4 @@ pub(crate) mod friction;
 pub(crate) mod response;
 pub(crate) mod schema;
 pub(crate) mod simulate;
+pub(crate) mod stability;

@@ -200,6 +200,10 @@ fn checked(
     values: &[f64],
     relation: impl FnOnce() -> Option<Invalid>,
 ) -> Result<(), Vec<Invalid>> {
+    if values.len() != parameters.len() {
+        let allowed = format!("as many values as the law has parameters, {}", parameters.len());
+        return Err(vec![Invalid::new("friction", values.len(), allowed)]);
+    }
     let complaints: Vec<_> = parameters
         .iter()
         .zip(values)

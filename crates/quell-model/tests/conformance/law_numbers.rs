@@ -1,0 +1,80 @@
+//! Values and slopes of the sliding branch.
+
+use quell_model::Friction;
+use quell_model::friction::{LawVisitor, SlidingLaw};
+
+use crate::law_samples::{SCALED_SPEEDS, all_samples};
+
+/// Whether the law says that its branch starts from the static level.
+struct StartsAtStaticLevel;
+
+impl LawVisitor for StartsAtStaticLevel {
+    type Output = bool;
+
+    fn visit<L: SlidingLaw>(self, law: &L) -> bool {
+        law.starts_at_static_level()
+    }
+}
+
+/// μ(0⁺) ≤ μ_s, up to the rounding of one sum: otherwise stick could never begin.
+#[test]
+fn the_branch_starts_at_or_below_the_static_level() {
+    for law in all_samples() {
+        let (start, level) = (law.coefficient(0.0), law.static_coefficient());
+        let rounding = f64::EPSILON * level;
+        assert!(start <= level + rounding, "{law:?}: {start} > {level}");
+        let said = law.visit(StartsAtStaticLevel);
+        assert_eq!(said, (start - level).abs() <= rounding, "{law:?}: μ(0⁺) = {start}");
+    }
+}
+
+/// The difference quotient of fourth order on five points, `first`…`first` + 4 steps.
+fn five_points(law: &Friction, speed: f64, step: f64, central: bool) -> f64 {
+    let (weights, first) = if central {
+        ([1.0, -8.0, 0.0, 8.0, -1.0], -2.0)
+    } else {
+        ([-25.0, 48.0, -36.0, 16.0, -3.0], 0.0)
+    };
+    let mut sum = 0.0;
+    for (place, weight) in weights.into_iter().enumerate() {
+        sum += weight * law.coefficient(speed + (first + place as f64) * step);
+    }
+    sum / (12.0 * step)
+}
+
+/// Truncation h⁴|μ⁗′|/30 (forward h⁴|μ⁗′|/5) with h = 2⁻¹⁰ is below 2·10⁻¹³, rounding of
+/// the quotient about ε/h = 2·10⁻¹³, both in units of μ_s/v_m.
+#[test]
+fn slopes_agree_with_differences_of_values() {
+    for law in all_samples() {
+        let scale = law.velocity_scale();
+        let step = scale / 1024.0;
+        let mut size = law.static_coefficient() / scale;
+        for &scaled in SCALED_SPEEDS {
+            let speed = scaled * scale;
+            // Central where the five points stay on the branch, forward beside v_r = 0.
+            let central = speed > 2.0 * step;
+            let differences = five_points(&law, speed, step, central);
+            let slope = law.slope(speed);
+            size = size.max(law.coefficient(speed).abs() / scale);
+            let error = (slope - differences).abs();
+            assert!(
+                error <= 4e-12 * size,
+                "{law:?} at {scaled} v_m: slope {slope}, differences {differences}"
+            );
+        }
+    }
+}
+
+#[test]
+fn extreme_slip_gives_finite_numbers() {
+    for law in all_samples() {
+        for speed in [0.0, f64::MIN_POSITIVE, 1e-300, 1e-20, 1e6] {
+            let (value, slope) = (law.coefficient(speed), law.slope(speed));
+            assert!(value.is_finite() && slope.is_finite(), "{law:?} at {speed}: {value}, {slope}");
+        }
+        // The branch starts without a jump.
+        assert_eq!(law.coefficient(1e-300), law.coefficient(0.0), "{law:?}");
+        assert_eq!(law.slope(1e-300), law.slope(0.0), "{law:?}");
+    }
+}

@@ -1,0 +1,103 @@
+//! What a law accepts and refuses, and how it is named.
+
+use quell_model::LawKind;
+use quell_model::parameter::Parameter;
+
+use crate::law_samples::{all_samples, samples};
+
+#[test]
+fn values_build_the_same_law_again() {
+    for law in all_samples() {
+        let values = law.values();
+        assert_eq!(values.len(), law.kind().parameters().len());
+        assert_eq!(law.kind().build(&values), Ok(law));
+    }
+}
+
+/// Numbers that a parameter must not accept.
+fn impossible(parameter: &Parameter) -> Vec<f64> {
+    let mut values = vec![f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+    if parameter.bounds.lower.is_finite() {
+        values.push(parameter.bounds.lower - 1.0);
+    }
+    if parameter.bounds.upper.is_finite() {
+        values.push(parameter.bounds.upper + 1.0);
+    }
+    if !parameter.bounds.lower_included {
+        values.push(parameter.bounds.lower);
+    }
+    values
+}
+
+#[test]
+fn impossible_values_are_refused_by_name() {
+    for &kind in LawKind::ALL {
+        let valid = samples(kind)[0].values();
+        for (index, parameter) in kind.parameters().iter().enumerate() {
+            for value in impossible(parameter) {
+                let mut values = valid.clone();
+                values[index] = value;
+                let complaints = kind.build(&values).expect_err(parameter.path);
+                assert!(
+                    complaints.iter().any(|complaint| complaint.key == parameter.path),
+                    "{} = {value}: {complaints:?}",
+                    parameter.path
+                );
+            }
+        }
+    }
+}
+
+/// No law of friction has a negative coefficient or velocity scale, whatever its bounds say.
+#[test]
+fn negative_values_are_refused() {
+    for &kind in LawKind::ALL {
+        let valid = samples(kind)[0].values();
+        for (index, parameter) in kind.parameters().iter().enumerate() {
+            let mut values = valid.clone();
+            values[index] = -0.3;
+            let complaints = kind.build(&values).expect_err(parameter.path);
+            assert!(complaints.iter().any(|complaint| complaint.key == parameter.path));
+        }
+    }
+}
+
+#[test]
+fn all_complaints_come_at_once() {
+    for &kind in LawKind::ALL {
+        let wrong = vec![f64::NAN; kind.parameters().len()];
+        let complaints = kind.build(&wrong).expect_err(kind.name());
+        for parameter in kind.parameters() {
+            let named = complaints.iter().filter(|complaint| complaint.key == parameter.path);
+            assert_eq!(named.count(), 1, "{}", parameter.path);
+        }
+    }
+}
+
+#[test]
+fn a_wrong_number_of_values_is_a_complaint() {
+    for &kind in LawKind::ALL {
+        let mut values = samples(kind)[0].values();
+        values.push(0.1);
+        assert!(kind.build(&values).is_err(), "{}: one value too many", kind.name());
+        values.truncate(values.len() - 2);
+        assert!(kind.build(&values).is_err(), "{}: one value too few", kind.name());
+        assert!(kind.build(&[]).is_err(), "{}: no value", kind.name());
+    }
+}
+
+#[test]
+fn names_lead_back_and_paths_are_those_of_the_friction_table() {
+    for (index, &kind) in LawKind::ALL.iter().enumerate() {
+        assert_eq!(LawKind::from_name(kind.name()), Some(kind));
+        assert!(LawKind::ALL[..index].iter().all(|other| other.name() != kind.name()));
+        assert!(kind.name().chars().all(|c| c.is_ascii_lowercase() || c == '_'));
+        assert!(!kind.about().is_empty());
+        for (place, parameter) in kind.parameters().iter().enumerate() {
+            assert_eq!(parameter.table(), "friction", "{}", parameter.path);
+            let earlier = &kind.parameters()[..place];
+            assert!(earlier.iter().all(|other| other.path != parameter.path));
+        }
+    }
+    assert_eq!(LawKind::from_name("no such law"), None);
+}

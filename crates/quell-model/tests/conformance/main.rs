@@ -1,0 +1,13 @@
+//! One conformance suite for every friction law and every waveform.
+//!
+//! It runs over [`quell_model::LawKind::ALL`] and [`quell_model::Waveform::ALL`]: a new law
+//! or waveform is one file and one line in its list, and is tested here without a change.
+
+mod law_numbers;
+mod law_samples;
+mod law_scaling;
+mod law_series;
+mod law_validity;
+mod pair;
+mod waveform;
+mod waveform_integral;

@@ -1,0 +1,76 @@
+//! The layers of Quell: who may use whom, and why. Arrows point downwards only.
+
+/// A crate of the workspace.
+pub(crate) struct Layer {
+    /// Its name.
+    pub(crate) name: &'static str,
+    /// Crates of the workspace that it may depend on, in whatever role.
+    pub(crate) may_use: &'static [&'static str],
+    /// Why no other.
+    pub(crate) reason: &'static str,
+}
+
+const NOTHING: &[&str] = &[];
+const MATHEMATICS: &[&str] = &["quell-numerics"];
+const NOUNS: &[&str] = &["quell-model", "quell-numerics"];
+const PHYSICS: &[&str] = &["quell-belt", "quell-disc", "quell-model", "quell-numerics"];
+const FRONT_DOOR: &[&str] = &["quell", "quell-model"];
+
+const fn layer(
+    name: &'static str,
+    may_use: &'static [&'static str],
+    reason: &'static str,
+) -> Layer {
+    Layer { name, may_use, reason }
+}
+
+/// Every crate there is or will be, bottom first. A crate that is not here fails the check.
+#[rustfmt::skip]
+pub(crate) const LAYERS: &[Layer] = &[
+    layer("quell-numerics", NOTHING,     "mathematics knows no physics: it serves belts, discs and what will come"),
+    layer("quell-model",    MATHEMATICS, "nouns are valid values: they know no engine that works on them"),
+    layer("quell-belt",     NOUNS,       "physics is pure functions of valid values, and no system knows another"),
+    layer("quell-disc",     NOUNS,       "physics is pure functions of valid values, and no system knows another"),
+    layer("quell",          PHYSICS,     "the front door runs the physics; it does not know who knocks"),
+    layer("quell-cli",      FRONT_DOOR,  "a door parses and shows: no physics, and no other door"),
+    layer("quell-python",   FRONT_DOOR,  "a door parses and shows: no physics, and no other door"),
+    layer("quell-explorer", FRONT_DOOR,  "a door parses and shows: no physics, and no other door"),
+    layer("xtask",          NOTHING,     "chores must run while the product does not compile"),
+];
+
+/// A dependency from outside that must stay in few crates.
+pub(crate) struct Confined {
+    /// Name of the package.
+    pub(crate) package: &'static str,
+    /// Crates that may depend on it.
+    pub(crate) homes: &'static [&'static str],
+    /// Whether the tests of every crate may use it too.
+    pub(crate) in_tests: bool,
+    /// Why nowhere else.
+    pub(crate) reason: &'static str,
+}
+
+const fn confined(
+    package: &'static str,
+    homes: &'static [&'static str],
+    in_tests: bool,
+    reason: &'static str,
+) -> Confined {
+    Confined { package, homes, in_tests, reason }
+}
+
+/// Dependencies that are confined, and where.
+#[rustfmt::skip]
+pub(crate) const CONFINED: &[Confined] = &[
+    confined("rayon",      &["quell"],              false, "threads belong to the front door: engines are pure, their bits free of scheduling"),
+    confined("toml",       &["quell", "xtask"],     false, "study files are read in one place; xtask reads manifests"),
+    confined("zarrs",      &["quell"],              false, "stores are written in one place, atomically"),
+    confined("kuva",       &["quell"],              false, "plots are made from datasets, in the front door"),
+    confined("resvg",      &["quell"],              false, "plots are made from datasets, in the front door"),
+    confined("clap",       &["quell-cli"],          false, "arguments of a command line concern the command line alone"),
+    confined("indicatif",  &["quell-cli"],          false, "progress bars concern the command line alone"),
+    confined("pyo3",       &["quell-python"],       false, "bindings never leak into the core"),
+    confined("numpy",      &["quell-python"],       false, "bindings never leak into the core"),
+    confined("serde",      &["quell", "quell-cli"], false, "files mirror their text apart from the valid types"),
+    confined("serde_json", &["quell", "quell-cli"], true,  "as serde; tests of any crate may read reference numbers"),
+];

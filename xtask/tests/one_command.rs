@@ -1,0 +1,68 @@
+//! The README and `.ci/run` name one and the same command: whoever follows the README runs
+//! what every change is judged by.
+
+use std::path::Path;
+
+/// Commands of a shell script, without its settings and comments.
+fn commands(script: &str) -> Vec<&str> {
+    script
+        .lines()
+        .map(str::trim)
+        .filter(|line| !(line.is_empty() || line.starts_with('#') || line.starts_with("set -")))
+        .collect()
+}
+
+/// Lines of the first code block in the section whose heading speaks of tests.
+fn readme_test_commands(readme: &str) -> Vec<&str> {
+    let speaks_of_tests =
+        |line: &&str| line.starts_with('#') && line.to_lowercase().contains("test");
+    readme
+        .lines()
+        .skip_while(|line| !speaks_of_tests(line))
+        .skip(1)
+        .take_while(|line| !line.starts_with("# ") && !line.starts_with("## "))
+        .skip_while(|line| !line.starts_with("```"))
+        .skip(1)
+        .take_while(|line| !line.starts_with("```"))
+        .map(str::trim)
+        .collect()
+}
+
+fn read(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name);
+    std::fs::read_to_string(&path).unwrap_or_else(|why| panic!("{}: {why}", path.display()))
+}
+
+#[test]
+fn readme_and_ci_run_the_same_one_command() {
+    let (script, readme) = (read(".ci/run"), read("README.md"));
+    assert_eq!(commands(&script), ["cargo xtask test"], ".ci/run");
+    assert_eq!(readme_test_commands(&readme), commands(&script), "README.md");
+}
+
+#[test]
+fn the_script_stops_at_the_first_error() {
+    let script = read(".ci/run");
+    assert!(script.starts_with("#!/usr/bin/env bash\n"));
+    assert!(script.lines().any(|line| line == "set -eu"));
+}
+
+#[cfg(unix)]
+#[test]
+fn the_script_can_be_executed() {
+    use std::os::unix::fs::PermissionsExt;
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../.ci/run");
+    let mode = path.metadata().expect(".ci/run exists").permissions().mode();
+    assert_eq!(mode & 0o111, 0o111, "mode {mode:o}");
+}
+
+#[test]
+fn planted_differences_are_seen() {
+    let readme = "# Quell\n```sh\nquell --help\n```\n## Build and test\nRun\n```sh\ncargo test\n```\n## Next\n```\nx\n```\n";
+    assert_eq!(readme_test_commands(readme), ["cargo test"]);
+    assert!(readme_test_commands("# Quell\n## Test\nNo code.\n## Next\n```\nx\n```\n").is_empty());
+    assert_eq!(
+        commands("#!/bin/sh\nset -eu\ncargo xtask test\ntrue\n"),
+        ["cargo xtask test", "true"]
+    );
+}
