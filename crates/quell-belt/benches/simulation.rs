@@ -50,10 +50,7 @@ fn stick_slip(criterion: &mut Criterion) {
 /// Decreasing law, v₀ = 1, D = 2, R = 10, from x = 0.2 to τ = 2000: no event.
 fn event_free(criterion: &mut Criterion) {
     let case = belt(LawKind::Decreasing, 1.0, 2.0, 10.0);
-    let start = Start {
-        displacement: 0.2,
-        ..Start::REST
-    };
+    let start = Start { displacement: 0.2, ..Start::REST };
     let mut group = criterion.benchmark_group("belt");
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
     group.throughput(Throughput::Elements((2000.0 * 10.0 / TAU) as u64));

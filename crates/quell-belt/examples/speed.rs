@@ -54,10 +54,7 @@ fn main() {
             stick_slip.push((belt(LawKind::Stribeck, 0.05, amplitude, ratio), Start::REST));
         }
     }
-    let moved = Start {
-        displacement: 0.2,
-        ..Start::REST
-    };
+    let moved = Start { displacement: 0.2, ..Start::REST };
     let event_free = [(belt(LawKind::Decreasing, 1.0, 2.0, 10.0), moved)];
     let (slipping, events) = measure(&stick_slip, 200.0);
     let (free, _) = measure(&event_free, 2000.0);

@@ -65,16 +65,9 @@ impl InitialState {
             Self::Rest => (0.0, 0.0),
             Self::Sliding => (belt.steady_sliding(), 0.0),
             Self::Squealing => return squealing(belt, solver),
-            Self::Explicit {
-                displacement,
-                velocity,
-            } => (displacement, velocity),
+            Self::Explicit { displacement, velocity } => (displacement, velocity),
         };
-        Ok(Start {
-            time: 0.0,
-            displacement,
-            velocity,
-        })
+        Ok(Start { time: 0.0, displacement, velocity })
     }
 }
 
@@ -125,9 +118,5 @@ fn squealing(belt: &Belt, solver: &Solver) -> Result<Start, NoSquealingStart> {
     simulate(&belt, end.restart(), end.time + window, solver.tolerance, &mut section)
         .map_err(NoSquealingStart::Stalled)?;
     let lowest = section.crossings.first().ok_or(NoSquealingStart::SettlesToSliding)?;
-    Ok(Start {
-        time: 0.0,
-        displacement: lowest.displacement,
-        velocity: lowest.velocity,
-    })
+    Ok(Start { time: 0.0, displacement: lowest.displacement, velocity: lowest.velocity })
 }

@@ -22,10 +22,7 @@ fn law(kind: LawKind) -> Friction {
 }
 
 fn close(value: f64, exact: f64, tolerance: f64) {
-    assert!(
-        ((value - exact) / exact).abs() < tolerance,
-        "{value} should be {exact}"
-    );
+    assert!(((value - exact) / exact).abs() < tolerance, "{value} should be {exact}");
 }
 
 fn erfi(x: f64) -> f64 {
@@ -88,11 +85,7 @@ fn slope_stribeck_triangle() {
         -1.5 * DIFFERENCE / VM * (1.0 - w * w - constant / 3.0 * a * a)
     };
     let jump = 2.0 * STATIC / (PI * 0.2) / (1.0_f64 - 4.0 * 0.08 / (PI * 0.2)).sqrt();
-    close(
-        jump + smooth(0.08, 0.2, PI * PI / 16.0),
-        1.2737830223029,
-        1e-12,
-    );
+    close(jump + smooth(0.08, 0.2, PI * PI / 16.0), 1.2737830223029, 1e-12);
     let (_, slope) = right(LawKind::Stribeck, Waveform::Triangle, 0.08, 0.2);
     close(slope, 1.3795420019633, 1e-12);
     close(smooth(0.18, 0.15, PI * PI / 16.0), -0.0637285, 1e-6);
@@ -112,12 +105,7 @@ fn upper_edge_stribeck_triangle() {
     close(upper, 0.17925174576154, 1e-13);
     let (_, slope) = right(LawKind::Stribeck, Waveform::Triangle, upper, 0.15);
     assert!((0.01 + slope).abs() < 1e-13);
-    let (_, slope) = right(
-        LawKind::Stribeck,
-        Waveform::Triangle,
-        edge(PI * PI / 48.0),
-        0.15,
-    );
+    let (_, slope) = right(LawKind::Stribeck, Waveform::Triangle, edge(PI * PI / 48.0), 0.15);
     close(0.01 + slope, 0.0595, 1e-3);
 }
 
@@ -128,46 +116,27 @@ fn everywhere_stable_amplitudes() {
     let found = |zeta: f64, waveform: Waveform, direction: Direction| {
         let wave = FastWave::Integral(waveform);
         match everywhere_stable_amplitude(&stribeck, zeta, 1.0, wave, direction) {
-            Ok(EverywhereStable::From {
-                amplitude_ratio, ..
-            }) => amplitude_ratio,
+            Ok(EverywhereStable::From { amplitude_ratio, .. }) => amplitude_ratio,
             other => panic!("{other:?}"),
         }
     };
     let kappa = |zeta: f64| 4.0 * VM * zeta / (3.0 * DIFFERENCE);
-    for (zeta, print, exact) in [
-        (0.005, 0.162820988505, 0.162344061917),
-        (0.1, 0.152805906, 0.142986790037),
-    ] {
+    for (zeta, print, exact) in
+        [(0.005, 0.162820988505, 0.162344061917), (0.1, 0.152805906, 0.142986790037)]
+    {
         let nested = VM * (2.0 / 3.0 * (1.0 - kappa(zeta)).sqrt()).sqrt();
         close(nested, print, 1e-8);
-        close(
-            found(zeta, Waveform::Sine, Direction::Tangential),
-            exact,
-            3e-12,
-        );
+        close(found(zeta, Waveform::Sine, Direction::Tangential), exact, 3e-12);
     }
     let printed = 2.0 / PI * VM * (3.0 - 4.0 * VM * 0.005 / DIFFERENCE).sqrt();
     close(printed, 0.219241511662, 1e-11);
-    close(
-        found(0.005, Waveform::Triangle, Direction::Tangential),
-        0.204443763791,
-        3e-12,
-    );
+    close(found(0.005, Waveform::Triangle, Direction::Tangential), 0.204443763791, 3e-12);
     // (4.38) with μ at the tip v₀ = α^L G_max.
     let tangential = VM / PI * (3.0 * (1.0 - kappa(0.005))).sqrt();
-    close(
-        found(0.005, Waveform::Square, Direction::Tangential),
-        tangential,
-        1e-14,
-    );
+    close(found(0.005, Waveform::Square, Direction::Tangential), tangential, 1e-14);
     let level = stribeck.coefficient(tangential * Waveform::Square.peak_integral());
     let printed = VM / level * 2.0 / PI * (3.0 - 4.0 * VM * 0.005 / DIFFERENCE).sqrt();
-    close(
-        printed / found(0.005, Waveform::Square, Direction::Normal),
-        2.0,
-        1e-13,
-    );
+    close(printed / found(0.005, Waveform::Square, Direction::Normal), 2.0, 1e-13);
 }
 
 /// (3.36a) for v_r < 0 counts the sign twice: μ̄ is odd.
@@ -193,8 +162,5 @@ fn quench_amplitude_is_a_jump() {
         quell_belt::averaging::AveragingOptions::default(),
     )
     .expect("found");
-    assert_eq!(
-        (found[1].amplitude_ratio, found[1].becomes),
-        (1.0, Becomes::Stable)
-    );
+    assert_eq!((found[1].amplitude_ratio, found[1].becomes), (1.0, Becomes::Stable));
 }

@@ -20,13 +20,7 @@ fn dither(
     amplitude: f64,
     frequency_ratio: f64,
 ) -> Dither {
-    Dither {
-        direction,
-        waveform,
-        amplitude,
-        frequency_ratio,
-        phase: 0.0,
-    }
+    Dither { direction, waveform, amplitude, frequency_ratio, phase: 0.0 }
 }
 
 fn belt(zeta: f64, v0: f64, law: Friction, dithers: Vec<Dither>) -> Belt {
@@ -34,10 +28,7 @@ fn belt(zeta: f64, v0: f64, law: Friction, dithers: Vec<Dither>) -> Belt {
 }
 
 fn close(value: f64, exact: f64, tolerance: f64) {
-    assert!(
-        ((value - exact) / exact).abs() < tolerance,
-        "{value} should be {exact}"
-    );
+    assert!(((value - exact) / exact).abs() < tolerance, "{value} should be {exact}");
 }
 
 /// Undithered thresholds v₂ of both laws.
@@ -56,20 +47,14 @@ fn undithered_thresholds() {
         };
         close(v, exact, 3e-12);
         let verdict = |v0: f64| {
-            criterion(
-                &belt(zeta, v0, law(kind), vec![]),
-                AveragingOptions::default(),
-            )
-            .expect("slides")
-            .verdict
+            criterion(&belt(zeta, v0, law(kind), vec![]), AveragingOptions::default())
+                .expect("slides")
+                .verdict
         };
         assert_eq!(verdict(v * (1.0 - 1e-9)), Verdict::Unstable);
         assert_eq!(verdict(v * (1.0 + 1e-9)), Verdict::Stable);
         let at = verdict(v);
-        assert!(
-            at != Verdict::Unstable || kind == LawKind::Decreasing,
-            "{at:?}"
-        );
+        assert!(at != Verdict::Unstable || kind == LawKind::Decreasing, "{at:?}");
     }
     let decreasing = law(LawKind::Decreasing);
     let undamped = undithered_critical_velocity(&decreasing, 0.0, 1.0);
@@ -128,22 +113,11 @@ fn bands() {
                     let belt = belt(zeta, 1.0, law, dithers);
                     let found = unstable_bands(&belt, AveragingOptions::default()).expect("ok");
                     let closed = closed_band(&law, zeta, 1.0, waveform, alpha);
-                    assert_eq!(
-                        found.len(),
-                        usize::from(closed.is_some()),
-                        "{found:?} {closed:?}"
-                    );
+                    assert_eq!(found.len(), usize::from(closed.is_some()), "{found:?} {closed:?}");
                     if let (Some(found), Some(closed)) = (found.first(), closed) {
                         tangential += 1;
-                        assert!(
-                            (found.lower - closed.lower).abs() < 1e-14,
-                            "{found:?} {closed:?}"
-                        );
-                        close(
-                            found.upper.expect("ends"),
-                            closed.upper.expect("ends"),
-                            1e-12,
-                        );
+                        assert!((found.lower - closed.lower).abs() < 1e-14, "{found:?} {closed:?}");
+                        close(found.upper.expect("ends"), closed.upper.expect("ends"), 1e-12);
                         assert_eq!(found.lower_crossing, closed.lower_crossing);
                     }
                     let dithers = vec![dither(Direction::Normal, waveform, 2.0 * alpha, 2.0)];
@@ -163,26 +137,13 @@ fn bands() {
     }
     assert!(tangential > 30 && normal > 50, "{tangential} {normal}");
     // The corrected (3.47): upper edge of the triangle at α = 0.15 (the print's π²/48 gives 0.18683).
-    let band = closed_band(
-        &law(LawKind::Stribeck),
-        0.005,
-        1.0,
-        Waveform::Triangle,
-        0.15,
-    );
-    close(
-        band.expect("a band").upper.expect("ends"),
-        0.17925174576154,
-        1e-13,
-    );
+    let band = closed_band(&law(LawKind::Stribeck), 0.005, 1.0, Waveform::Triangle, 0.15);
+    close(band.expect("a band").upper.expect("ends"), 0.17925174576154, 1e-13);
 }
 
 fn amplitude(found: Result<EverywhereStable, AveragingError>) -> f64 {
     match found {
-        Ok(EverywhereStable::From {
-            amplitude_ratio,
-            error,
-        }) => {
+        Ok(EverywhereStable::From { amplitude_ratio, error }) => {
             assert!(error < 1e-11 * amplitude_ratio);
             amplitude_ratio
         }
@@ -224,22 +185,15 @@ fn everywhere_stable() {
         let tolerance = if exact == 163.306125 { 1e-8 } else { 1e-12 };
         close(found(&decreasing, zeta, waveform, t), exact, tolerance);
     }
-    for (waveform, exact) in [
-        (sine, 0.557124589480),
-        (triangle, 0.700327159816),
-        (square, 0.379493225521),
-    ] {
+    for (waveform, exact) in
+        [(sine, 0.557124589480), (triangle, 0.700327159816), (square, 0.379493225521)]
+    {
         close(found(&stribeck, 0.005, waveform, n), exact, 3e-12);
     }
     let never = |law: &Friction, zeta: f64| {
         everywhere_stable_amplitude(law, zeta, 1.0, FastWave::Integral(sine), t).expect("ok")
     };
-    assert_eq!(
-        never(&decreasing, 0.0),
-        EverywhereStable::Never {
-            why: NeverStable::NoDamping
-        }
-    );
+    assert_eq!(never(&decreasing, 0.0), EverywhereStable::Never { why: NeverStable::NoDamping });
     assert_eq!(never(&decreasing, 0.3), EverywhereStable::Always);
 }
 
@@ -254,27 +208,19 @@ fn everywhere_stable_closes_the_band() {
                     let (zeta, r) = (0.08, 1.2);
                     let wave = match response {
                         Response::Limit => FastWave::Integral(waveform),
-                        Response::Oscillator => FastWave::Oscillator {
-                            waveform,
-                            frequency_ratio: r,
-                        },
+                        Response::Oscillator => {
+                            FastWave::Oscillator { waveform, frequency_ratio: r }
+                        }
                     };
                     let law = law(*kind);
-                    let alpha = amplitude(everywhere_stable_amplitude(
-                        &law, zeta, 1.0, wave, direction,
-                    ));
+                    let alpha =
+                        amplitude(everywhere_stable_amplitude(&law, zeta, 1.0, wave, direction));
                     let bands = |alpha: f64| {
                         let dithers = vec![dither(direction, waveform, alpha * r, r)];
                         // A heavy load keeps the contact closed; F enters the criterion with ζ.
                         let belt = Belt::new(4.0 * zeta, 4.0, 1.0, law, dithers).expect("valid");
-                        unstable_bands(
-                            &belt,
-                            AveragingOptions {
-                                response,
-                                ..Default::default()
-                            },
-                        )
-                        .expect("ok")
+                        unstable_bands(&belt, AveragingOptions { response, ..Default::default() })
+                            .expect("ok")
                     };
                     assert!(
                         bands(alpha * (1.0 + 1e-6)).is_empty(),
@@ -294,23 +240,16 @@ fn everywhere_stable_closes_the_band() {
 /// "μ̄′ ≥ 0 inside" fails for a Stribeck law that falls far enough: (μ_s − μ_m)/μ_s above √6/π, √0.4, never for a square.
 #[test]
 fn inner_region_may_be_unstable() {
-    for (waveform, limit) in [
-        (Waveform::Sine, 6.0_f64.sqrt() / PI),
-        (Waveform::Triangle, 0.4_f64.sqrt()),
-    ] {
+    for (waveform, limit) in
+        [(Waveform::Sine, 6.0_f64.sqrt() / PI), (Waveform::Triangle, 0.4_f64.sqrt())]
+    {
         for (fall, dips) in [(limit - 0.01, false), (limit + 0.01, true)] {
-            let law = LawKind::Stribeck
-                .build(&[1.0, 1.0 - fall, 0.2])
-                .expect("valid");
+            let law = LawKind::Stribeck.build(&[1.0, 1.0 - fall, 0.2]).expect("valid");
             let dithers = vec![dither(Direction::Tangential, waveform, 1.0, 10.0)];
             let belt = belt(0.0, 1e-7, law, dithers);
             let found = critical_amplitudes(&belt, AveragingOptions::default()).expect("ok");
             // One jump at the corner, and two roots where the inner criterion dips below zero.
-            assert_eq!(
-                found.len(),
-                if dips { 3 } else { 1 },
-                "{waveform:?} {fall} {found:?}"
-            );
+            assert_eq!(found.len(), if dips { 3 } else { 1 }, "{waveform:?} {fall} {found:?}");
             if dips {
                 assert_eq!(found[1].becomes, Becomes::Unstable);
                 assert_eq!(found[2].becomes, Becomes::Stable);
@@ -333,10 +272,7 @@ fn inner_region_may_be_unstable() {
 fn sharper_thresholds() {
     let dithers = vec![dither(Direction::Tangential, Waveform::Sine, 1.0, 10.0)];
     let belt = belt(0.005, 1.0, law(LawKind::Decreasing), dithers);
-    let sharper = AveragingOptions {
-        response: Response::Oscillator,
-        ..Default::default()
-    };
+    let sharper = AveragingOptions { response: Response::Oscillator, ..Default::default() };
     let found = critical_amplitudes(&belt, sharper).expect("ok");
     assert_eq!(found.len(), 2);
     // Exact (Floquet): 4.322392624 and 9.900214849; plain averaging 4.366 and 10.
@@ -364,26 +300,15 @@ fn normal_dither() {
         (Waveform::Square, 0.115719, 0.115518, 0.115282),
         (Waveform::Sine, 0.148482, 0.148321, 0.148091),
     ] {
-        let belt = belt(
-            0.2,
-            0.075,
-            law,
-            vec![dither(Direction::Normal, waveform, 0.5, 5.0)],
-        );
+        let belt = belt(0.2, 0.075, law, vec![dither(Direction::Normal, waveform, 0.5, 5.0)]);
         let critical = |normal_order: NormalOrder| {
-            let options = AveragingOptions {
-                normal_order,
-                ..Default::default()
-            };
+            let options = AveragingOptions { normal_order, ..Default::default() };
             critical_amplitudes(&belt, options).expect("ok")
         };
         let one = critical(NormalOrder::First);
         assert_eq!(one.len(), 2, "{one:?}");
         assert!((one[0].amplitude_ratio - first).abs() < 6e-7, "{one:?}");
-        assert_eq!(
-            (one[0].crossing, one[0].becomes),
-            (Crossing::Root, Becomes::Unstable)
-        );
+        assert_eq!((one[0].crossing, one[0].becomes), (Crossing::Root, Becomes::Unstable));
         let last = one[1];
         close(
             last.amplitude_ratio * law.coefficient(0.075) * waveform.peak_integral(),
@@ -397,32 +322,21 @@ fn normal_dither() {
         assert_eq!(two.len(), 2, "{two:?}");
         assert!((two[0].amplitude_ratio - second).abs() < 6e-7, "{two:?}");
         assert!((two[0].amplitude_ratio - exact).abs() < (first - exact));
-        assert_eq!(
-            (two[0].crossing, two[1].crossing),
-            (Crossing::Root, Crossing::Jump)
-        );
+        assert_eq!((two[0].crossing, two[1].crossing), (Crossing::Root, Crossing::Jump));
     }
     // The substitution α_T → μ(v₀)α_N, on every row of a grid.
     for kind in LawKind::ALL {
         for v0 in [0.03, 0.12, 0.18, 0.6] {
             let law = self::law(*kind);
             let of = |direction| {
-                let belt = belt(
-                    0.05,
-                    v0,
-                    law,
-                    vec![dither(direction, Waveform::Triangle, 0.1, 3.0)],
-                );
+                let belt =
+                    belt(0.05, v0, law, vec![dither(direction, Waveform::Triangle, 0.1, 3.0)]);
                 critical_amplitudes(&belt, AveragingOptions::default()).expect("ok")
             };
             let (tangential, normal) = (of(Direction::Tangential), of(Direction::Normal));
             assert_eq!(tangential.len(), normal.len());
             for (t, n) in tangential.iter().zip(&normal) {
-                close(
-                    n.amplitude_ratio * law.coefficient(v0),
-                    t.amplitude_ratio,
-                    1e-12,
-                );
+                close(n.amplitude_ratio * law.coefficient(v0), t.amplitude_ratio, 1e-12);
                 assert_eq!((n.crossing, n.becomes), (t.crossing, t.becomes));
             }
         }
@@ -463,34 +377,18 @@ fn limits() {
                 let dithers = vec![dither(Direction::Tangential, waveform, 1.0, 10.0)];
                 let belt = belt(0.01, v0, coulomb, dithers);
                 let options = AveragingOptions::default();
-                assert_eq!(
-                    criterion(&belt, options).expect("ok").verdict,
-                    Verdict::Stable
-                );
+                assert_eq!(criterion(&belt, options).expect("ok").verdict, Verdict::Stable);
                 assert!(critical_amplitudes(&belt, options).expect("ok").is_empty());
                 assert!(unstable_bands(&belt, options).expect("ok").is_empty());
             }
         }
-        let rest = criterion(
-            &belt(0.01, 0.0, coulomb, vec![]),
-            AveragingOptions::default(),
-        );
-        assert_eq!(
-            rest,
-            Err(AveragingError::SetValued {
-                static_coefficient: 0.4
-            })
-        );
+        let rest = criterion(&belt(0.01, 0.0, coulomb, vec![]), AveragingOptions::default());
+        assert_eq!(rest, Err(AveragingError::SetValued { static_coefficient: 0.4 }));
         // No damping and no slope: nothing can be said.
-        let neutral = criterion(
-            &belt(0.0, 1.0, coulomb, vec![]),
-            AveragingOptions::default(),
-        );
+        let neutral = criterion(&belt(0.0, 1.0, coulomb, vec![]), AveragingOptions::default());
         assert_eq!(
             neutral.expect("slides").verdict,
-            Verdict::Undecided {
-                why: UndecidedBecause::WithinError
-            }
+            Verdict::Undecided { why: UndecidedBecause::WithinError }
         );
     }
     // At rest with tangential dither there is no outer region; the default laws are stable for any amplitude.
@@ -498,16 +396,10 @@ fn limits() {
         let dithers = vec![dither(Direction::Tangential, Waveform::Sine, 1.0, 10.0)];
         let belt = belt(0.005, 0.0, law(*kind), dithers);
         assert_eq!(
-            criterion(&belt, AveragingOptions::default())
-                .expect("dithered")
-                .verdict,
+            criterion(&belt, AveragingOptions::default()).expect("dithered").verdict,
             Verdict::Stable
         );
-        assert!(
-            critical_amplitudes(&belt, AveragingOptions::default())
-                .expect("ok")
-                .is_empty()
-        );
+        assert!(critical_amplitudes(&belt, AveragingOptions::default()).expect("ok").is_empty());
     }
 }
 
@@ -515,25 +407,11 @@ fn limits() {
 #[test]
 fn verdict_at_the_corner() {
     let verdict = |kind: LawKind, v0: f64| {
-        let dithers = vec![dither(
-            Direction::Tangential,
-            Waveform::Sine,
-            10.0 * v0,
-            10.0,
-        )];
-        criterion(
-            &belt(0.005, v0, law(kind), dithers),
-            AveragingOptions::default(),
-        )
-        .expect("ok")
+        let dithers = vec![dither(Direction::Tangential, Waveform::Sine, 10.0 * v0, 10.0)];
+        criterion(&belt(0.005, v0, law(kind), dithers), AveragingOptions::default()).expect("ok")
     };
     let disagree = verdict(LawKind::Decreasing, 0.5);
-    assert_eq!(
-        disagree.verdict,
-        Verdict::Undecided {
-            why: UndecidedBecause::AtCorner
-        }
-    );
+    assert_eq!(disagree.verdict, Verdict::Undecided { why: UndecidedBecause::AtCorner });
     close(disagree.value, -0.14433154, 1e-7);
     assert_eq!(verdict(LawKind::Stribeck, 0.25).verdict, Verdict::Stable);
 }
@@ -544,10 +422,7 @@ fn several_dithers() {
     let first = dither(Direction::Tangential, Waveform::Sine, 1.0, 10.0);
     let options = AveragingOptions::default();
     // The same wave twice: criticals of the first are lower by the second's α.
-    let second = Dither {
-        amplitude: 0.3,
-        ..first
-    };
+    let second = Dither { amplitude: 0.3, ..first };
     let law = law(LawKind::Decreasing);
     let alone = critical_amplitudes(&belt(0.05, 0.5, law, vec![first]), options).expect("ok");
     let both =
@@ -559,16 +434,10 @@ fn several_dithers() {
             (alone.amplitude_ratio - 0.03 - both.amplitude_ratio).abs() < 1e-11,
             "{alone:?} {both:?}"
         );
-        assert_eq!(
-            (alone.crossing, alone.becomes),
-            (both.crossing, both.becomes)
-        );
+        assert_eq!((alone.crossing, alone.becomes), (both.crossing, both.becomes));
     }
     // Incommensurate, outer region: I₀(α₁/v_m) I₀(α₂/v_m) at the lower critical amplitude.
-    let other = Dither {
-        frequency_ratio: 10.0 * 2.0_f64.sqrt(),
-        ..second
-    };
+    let other = Dither { frequency_ratio: 10.0 * 2.0_f64.sqrt(), ..second };
     let both = critical_amplitudes(&belt(0.05, 0.5, law, vec![first, other]), options).expect("ok");
     let i0 = |a: f64| quell_numerics::special::bessel_i0_scaled(a) * a.exp();
     let m = |alpha: f64| i0(alpha / 0.2);

@@ -17,11 +17,7 @@ fn plain(waveform: Waveform, alpha: f64) -> FastMotion {
 }
 
 fn relative(value: f64, exact: f64) -> f64 {
-    if value == exact {
-        0.0
-    } else {
-        ((value - exact) / exact).abs()
-    }
+    if value == exact { 0.0 } else { ((value - exact) / exact).abs() }
 }
 
 /// 40-digit values: μ̄ to 1e-11, slope to 1e-9, for α/v_m and v/v_m over nine decades.
@@ -78,18 +74,11 @@ fn closed_forms_agree_with_quadrature() {
                     let closed = effective(&law, &plain(waveform, alpha), v).expect("closed");
                     let numeric = effective_by_quadrature(&law, wave, alpha, v).expect("ok");
                     // A value or slope that cancels is compared at the size of the law under this motion.
-                    let largest = law
-                        .coefficient(v + alpha)
-                        .abs()
-                        .max(law.static_coefficient());
+                    let largest = law.coefficient(v + alpha).abs().max(law.static_coefficient());
                     let size = largest * (v / alpha).min(1.0);
                     let e = (closed.coefficient - numeric.coefficient).abs()
                         / closed.coefficient.abs().max(0.01 * size);
-                    let inside = if part < 1.0 {
-                        law.static_coefficient() / alpha
-                    } else {
-                        0.0
-                    };
+                    let inside = if part < 1.0 { law.static_coefficient() / alpha } else { 0.0 };
                     let slope_size = law.slope(v + alpha).abs() + law.slope(v).abs() + inside;
                     let s = (closed.slope - numeric.slope).abs()
                         / closed.slope.abs().max(0.01 * slope_size).max(1e-300);
@@ -126,10 +115,7 @@ fn corner() {
                 let jump = 2.0 * law.static_coefficient() / (core::f64::consts::PI * alpha);
                 if waveform == Waveform::Square {
                     let step = inner.slope - outer.slope;
-                    assert!(
-                        (step - jump).abs() < 1e-9 * (jump + slope_scale),
-                        "{step} {jump}"
-                    );
+                    assert!((step - jump).abs() < 1e-9 * (jump + slope_scale), "{step} {jump}");
                 } else {
                     assert!(inner.slope > 1e3 * jump, "{law:?} {waveform:?} {inner:?}");
                 }
@@ -149,27 +135,17 @@ fn without_dither() {
                 assert_eq!(bare.coefficient, law.coefficient(v));
                 assert_eq!(bare.slope, law.slope(v));
                 let difference = |alpha: f64| {
-                    effective(&law, &plain(waveform, alpha), v)
-                        .expect("slides")
-                        .coefficient
+                    effective(&law, &plain(waveform, alpha), v).expect("slides").coefficient
                         - law.coefficient(v)
                 };
                 let (small, large) = (difference(1e-3 * VM), difference(1e-2 * VM));
                 let ratio = large / small;
-                assert!(
-                    (ratio - 100.0).abs() < 0.05,
-                    "{law:?} {waveform:?} {w}: {ratio}"
-                );
+                assert!((ratio - 100.0).abs() < 0.05, "{law:?} {waveform:?} {w}: {ratio}");
                 assert!(difference(1e-9 * VM).abs() < 1e-15);
             }
         }
         let still = effective(&law, &FastMotion::default(), 0.0);
-        assert_eq!(
-            still,
-            Err(AveragingError::SetValued {
-                static_coefficient: 0.4
-            })
-        );
+        assert_eq!(still, Err(AveragingError::SetValued { static_coefficient: 0.4 }));
     }
 }
 
@@ -182,10 +158,7 @@ fn symmetry() {
             for v in [1e-7, 0.02, 0.11, 0.13, 0.4] {
                 let (plus, minus) = (effective(&law, &motion, v), effective(&law, &motion, -v));
                 let (plus, minus) = (plus.expect("ok"), minus.expect("ok"));
-                assert_eq!(
-                    (plus.coefficient, plus.slope),
-                    (-minus.coefficient, minus.slope)
-                );
+                assert_eq!((plus.coefficient, plus.slope), (-minus.coefficient, minus.slope));
             }
             let rest = effective(&law, &motion, 0.0).expect("dithered");
             assert_eq!(rest.coefficient, 0.0);
@@ -196,19 +169,11 @@ fn symmetry() {
 }
 
 fn term(wave: FastWave, amplitude: f64, harmonic: u32, phase: f64) -> SlipTerm {
-    SlipTerm {
-        wave,
-        amplitude,
-        harmonic,
-        phase,
-    }
+    SlipTerm { wave, amplitude, harmonic, phase }
 }
 
 fn group(tangential: Vec<SlipTerm>) -> PeriodicMotion {
-    PeriodicMotion {
-        tangential,
-        ..PeriodicMotion::default()
-    }
+    PeriodicMotion { tangential, ..PeriodicMotion::default() }
 }
 
 /// Sums of dithers of one frequency, by the general method, against the closed form of the single dither they make.
@@ -229,10 +194,7 @@ fn sums_of_equal_frequency() {
             for &waveform in Waveform::ALL {
                 for wave in [
                     FastWave::Integral(waveform),
-                    FastWave::Oscillator {
-                        waveform,
-                        frequency_ratio: 4.0,
-                    },
+                    FastWave::Oscillator { waveform, frequency_ratio: 4.0 },
                 ] {
                     cases.push((
                         vec![term(wave, 0.05, 1, 1.0), term(wave, 0.1, 1, 1.0)],
@@ -254,20 +216,15 @@ fn sums_of_equal_frequency() {
                 let s = relative(sum.slope, one.slope);
                 assert!(e < 1e-12, "{law:?} {wave:?} {v}: {sum:?} {one:?}");
                 assert!(s < 1e-10, "{law:?} {wave:?} {v}: {sum:?} {one:?}");
-                assert!(
-                    e <= sum.coefficient_error + one.coefficient_error,
-                    "{sum:?} {one:?}"
-                );
+                assert!(e <= sum.coefficient_error + one.coefficient_error, "{sum:?} {one:?}");
                 worst = worst.max(e);
                 worst_slope = worst_slope.max(s);
             }
         }
         // Equal and opposite: nothing is left.
         let square = FastWave::Integral(Waveform::Square);
-        let cancel = group(vec![
-            term(square, 0.2, 1, 0.0),
-            term(square, 0.2, 1, core::f64::consts::PI),
-        ]);
+        let cancel =
+            group(vec![term(square, 0.2, 1, 0.0), term(square, 0.2, 1, core::f64::consts::PI)]);
         let left = effective(&law, &FastMotion::new(vec![cancel]), 0.1).expect("ok");
         assert!((left.coefficient - law.coefficient(0.1)).abs() < 1e-13);
         assert!((left.slope - law.slope(0.1)).abs() < 1e-12);
@@ -286,21 +243,12 @@ fn independent_sines_have_a_product_form() {
         (vec![0.05, 0.02], 0.071, 1e-12),
         (vec![0.1, 0.15, 0.06], 0.35, 1e-9),
     ] {
-        let groups = alphas
-            .iter()
-            .map(|a| group(vec![term(sine, *a, 1, 0.3)]))
-            .collect();
+        let groups = alphas.iter().map(|a| group(vec![term(sine, *a, 1, 0.3)])).collect();
         let found = effective(&law, &FastMotion::new(groups), v).expect("ok");
         let product: f64 = alphas.iter().map(|a| i0(a / VM)).product();
         let tail = (0.4 - 0.2857) * libm::exp(-v / VM) * product;
-        assert!(
-            relative(found.coefficient, 0.2857 + tail) < close,
-            "{found:?} {tail}"
-        );
-        assert!(
-            relative(found.slope, -tail / VM) < close * 10.0,
-            "{found:?} {tail}"
-        );
+        assert!(relative(found.coefficient, 0.2857 + tail) < close, "{found:?} {tail}");
+        assert!(relative(found.slope, -tail / VM) < close * 10.0, "{found:?} {tail}");
     }
 }
 
@@ -330,56 +278,26 @@ fn independent_groups_commute() {
                 let e = (a.coefficient - b.coefficient).abs();
                 let s = (a.slope - b.slope).abs();
                 assert!(e < 1e-11, "{one:?} {two:?} {v}: {a:?} {b:?}");
-                assert!(
-                    s < 1e-9 * (1.0 + a.slope.abs()),
-                    "{one:?} {two:?} {v}: {a:?} {b:?}"
-                );
-                assert!(
-                    e <= a.coefficient_error + b.coefficient_error,
-                    "{v}: {a:?} {b:?}"
-                );
-                assert!(
-                    s <= a.slope_error + b.slope_error,
-                    "{one:?} {two:?} {v}: {a:?} {b:?}"
-                );
+                assert!(s < 1e-9 * (1.0 + a.slope.abs()), "{one:?} {two:?} {v}: {a:?} {b:?}");
+                assert!(e <= a.coefficient_error + b.coefficient_error, "{v}: {a:?} {b:?}");
+                assert!(s <= a.slope_error + b.slope_error, "{one:?} {two:?} {v}: {a:?} {b:?}");
                 worst = (worst.0.max(e), worst.1.max(s));
             }
         }
         // A second group that hardly moves changes nothing.
         let first = group(vec![term(FastWave::Integral(Waveform::Sine), 0.2, 1, 0.0)]);
-        let still = group(vec![term(
-            FastWave::Integral(Waveform::Square),
-            1e-9,
-            1,
-            0.0,
-        )]);
+        let still = group(vec![term(FastWave::Integral(Waveform::Square), 1e-9, 1, 0.0)]);
         let both = effective(&law, &FastMotion::new(vec![first, still]), 0.1).expect("ok");
         let one = effective(&law, &plain(Waveform::Sine, 0.2), 0.1).expect("ok");
         assert!((both.coefficient - one.coefficient).abs() < 1e-11);
         assert!((both.slope - one.slope).abs() < 1e-8);
     }
     let groups = (0..4)
-        .map(|k| {
-            group(vec![term(
-                FastWave::Integral(Waveform::Sine),
-                0.1,
-                1,
-                f64::from(k),
-            )])
-        })
+        .map(|k| group(vec![term(FastWave::Integral(Waveform::Sine), 0.1, 1, f64::from(k))]))
         .collect();
-    println!(
-        "two groups, either order: μ̄ {:e}, slope {:e}",
-        worst.0, worst.1
-    );
+    println!("two groups, either order: μ̄ {:e}, slope {:e}", worst.0, worst.1);
     let many = effective(&laws()[0], &FastMotion::new(groups), 0.1);
-    assert_eq!(
-        many,
-        Err(AveragingError::TooManyGroups {
-            groups: 4,
-            largest: 3
-        })
-    );
+    assert_eq!(many, Err(AveragingError::TooManyGroups { groups: 4, largest: 3 }));
 }
 
 /// Load and slip of one frequency in quadrature are correlated: decreasing law beyond the corner,
@@ -389,12 +307,7 @@ fn correlated_load() {
     let [_, law] = laws();
     let (alpha, v, n) = (0.15, 0.3, 0.4);
     for phase in [0.0, 0.5, 1.7, 3.0] {
-        let mut motion = group(vec![term(
-            FastWave::Integral(Waveform::Sine),
-            alpha,
-            1,
-            0.0,
-        )]);
+        let mut motion = group(vec![term(FastWave::Integral(Waveform::Sine), alpha, 1, 0.0)]);
         motion.load.push(quell_belt::averaging::LoadTerm {
             waveform: Waveform::Sine,
             amplitude: n,
@@ -406,14 +319,8 @@ fn correlated_load() {
         let i0 = quell_numerics::special::bessel_i0_scaled(a);
         let i1 = quell_numerics::special::bessel_i1_scaled(a);
         let tail = (0.4 - 0.2857) * libm::exp(a - v / VM) * (i0 - n * libm::sin(phase) * i1);
-        assert!(
-            relative(found.coefficient, 0.2857 + tail) < 1e-13,
-            "{phase}: {found:?}"
-        );
-        assert!(
-            relative(found.slope, -tail / VM) < 1e-12,
-            "{phase}: {found:?}"
-        );
+        assert!(relative(found.coefficient, 0.2857 + tail) < 1e-13, "{phase}: {found:?}");
+        assert!(relative(found.slope, -tail / VM) < 1e-12, "{phase}: {found:?}");
     }
 }
 
@@ -432,42 +339,19 @@ fn motion_of_a_belt() {
     let options = AveragingOptions::default();
     let motion = |dithers| FastMotion::of(&belt(dithers), 0.3, options).expect("ok");
     assert_eq!(motion(vec![dither(t, 10.0, 0.0)]), FastMotion::default());
-    assert_eq!(
-        motion(vec![dither(t, 10.0, 0.5), dither(n, 20.0, 0.5)])
-            .groups()
-            .len(),
-        1
-    );
-    assert_eq!(
-        motion(vec![dither(t, 10.0, 0.5), dither(t, 31.4159, 0.5)])
-            .groups()
-            .len(),
-        2
-    );
+    assert_eq!(motion(vec![dither(t, 10.0, 0.5), dither(n, 20.0, 0.5)]).groups().len(), 1);
+    assert_eq!(motion(vec![dither(t, 10.0, 0.5), dither(t, 31.4159, 0.5)]).groups().len(), 2);
     let normal = motion(vec![dither(n, 10.0, 0.5)]);
     let level = laws()[0].coefficient(0.3);
     assert!(relative(normal.groups()[0].normal[0].amplitude, 0.05 * level) < 1e-15);
     // With tangential dither the normal one is driven by the effective friction under it.
     let both = motion(vec![dither(t, 10.0, 4.0), dither(n, 10.0, 0.5)]);
     let tangential = effective(&laws()[0], &plain(Waveform::Triangle, 0.4), 0.3).expect("ok");
-    assert!(
-        relative(
-            both.groups()[0].normal[0].amplitude,
-            0.05 * tangential.coefficient
-        ) < 1e-14
-    );
+    assert!(relative(both.groups()[0].normal[0].amplitude, 0.05 * tangential.coefficient) < 1e-14);
     let slow = FastMotion::of(
         &belt(vec![dither(t, 0.9, 0.5)]),
         0.3,
-        AveragingOptions {
-            response: Response::Oscillator,
-            ..options
-        },
+        AveragingOptions { response: Response::Oscillator, ..options },
     );
-    assert_eq!(
-        slow,
-        Err(AveragingError::NotFast {
-            frequency_ratio: 0.9
-        })
-    );
+    assert_eq!(slow, Err(AveragingError::NotFast { frequency_ratio: 0.9 }));
 }

@@ -9,10 +9,7 @@ use serde_json::Value;
 const TOLERANCE: f64 = 1e-9;
 
 fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .or_else(|| value.as_str()?.parse().ok())
-        .expect("a number or a number in quotes")
+    value.as_f64().or_else(|| value.as_str()?.parse().ok()).expect("a number or a number in quotes")
 }
 
 fn belt(case: &Value) -> Belt {
@@ -53,7 +50,8 @@ fn events_and_states_agree_with_independent_integrators() {
             .unwrap_or_else(|stalled| panic!("{name}: {stalled}"));
         let events = &record.events;
         let mut worst: f64 = 0.0;
-        for (index, expected) in case["first_events"].as_array().expect("events").iter().enumerate() {
+        for (index, expected) in case["first_events"].as_array().expect("events").iter().enumerate()
+        {
             let event = events[index];
             let kind = match expected["type"].as_str().expect("type") {
                 "stick_start" => EventKind::Stick,

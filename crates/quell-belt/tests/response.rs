@@ -12,13 +12,7 @@ fn belt(law: LawKind, belt_velocity: f64, dithers: Vec<Dither>) -> Belt {
 }
 
 fn dither(direction: Direction, waveform: Waveform, amplitude: f64, ratio: f64) -> Dither {
-    Dither {
-        direction,
-        waveform,
-        amplitude,
-        frequency_ratio: ratio,
-        phase: 0.0,
-    }
+    Dither { direction, waveform, amplitude, frequency_ratio: ratio, phase: 0.0 }
 }
 
 fn tangential(amplitude: f64, ratio: f64) -> Vec<Dither> {
@@ -65,12 +59,8 @@ fn efficiency_is_five_per_cent_where_the_reference_says() {
         let law = LawKind::from_name(name("law")).expect("law");
         let waveform = Waveform::from_name(name("waveform")).expect("waveform");
         let efficiency = |amplitude: f64| {
-            let dithers = vec![dither(
-                Direction::Tangential,
-                waveform,
-                amplitude,
-                number("frequency_ratio"),
-            )];
+            let dithers =
+                vec![dither(Direction::Tangential, waveform, amplitude, number("frequency_ratio"))];
             let belt = belt(law, number("belt_velocity"), dithers);
             response(&belt).efficiency.expect("defined")
         };

@@ -15,21 +15,11 @@ fn belt(law: LawKind, belt_velocity: f64, dithers: Vec<Dither>) -> Belt {
 }
 
 fn tangential(waveform: Waveform, amplitude: f64, ratio: f64, phase: f64) -> Dither {
-    Dither {
-        direction: Direction::Tangential,
-        waveform,
-        amplitude,
-        frequency_ratio: ratio,
-        phase,
-    }
+    Dither { direction: Direction::Tangential, waveform, amplitude, frequency_ratio: ratio, phase }
 }
 
 fn start(displacement: f64, velocity: f64) -> Start {
-    Start {
-        time: 0.0,
-        displacement,
-        velocity,
-    }
+    Start { time: 0.0, displacement, velocity }
 }
 
 fn run(belt: &Belt, from: Start, until: f64) -> (FinalState, Vec<Event>) {
@@ -46,11 +36,9 @@ fn a_release_is_not_taken_for_the_next_stick() {
     let jumping = belt(LawKind::Stribeck, 0.05, vec![tangential(Waveform::Square, 0.3, 10.0, 0.0)]);
     let reversing =
         belt(LawKind::Decreasing, 1.0, vec![tangential(Waveform::Sine, 12.0, 10.0, 0.0)]);
-    for (belt, from) in [
-        (smooth, Start::REST),
-        (jumping, Start::REST),
-        (reversing, start(0.2, 0.0)),
-    ] {
+    for (belt, from) in
+        [(smooth, Start::REST), (jumping, Start::REST), (reversing, start(0.2, 0.0))]
+    {
         let (_, events) = run(&belt, from, 100.0);
         assert!(events.len() > 100);
         for pair in events.windows(2) {
@@ -182,15 +170,9 @@ fn watching_changes_no_bit() {
 fn an_unfinished_decay_is_reported() {
     let dither = tangential(Waveform::Sine, 2.84, 10.0, 0.0);
     let belt = belt(LawKind::Decreasing, 1.0, vec![dither]);
-    let short = Solver {
-        settle: 200.0,
-        ..Solver::default()
-    };
+    let short = Solver { settle: 200.0, ..Solver::default() };
     assert!(!respond(&belt, Start::REST, &short).expect("no stall").settled);
-    let long = Solver {
-        settle: 20_000.0,
-        ..Solver::default()
-    };
+    let long = Solver { settle: 20_000.0, ..Solver::default() };
     let quiet = respond(&belt, Start::REST, &long).expect("no stall");
     assert!(quiet.settled && quiet.amplitude < 1e-6, "{}", quiet.amplitude);
 }
@@ -199,23 +181,18 @@ fn an_unfinished_decay_is_reported() {
 #[test]
 fn lengths_scale_out_to_the_last_bit() {
     let scale = 2f64.powi(-20);
-    let normal = Dither {
-        direction: Direction::Normal,
-        ..tangential(Waveform::Square, 0.4, 4.3, 0.2)
-    };
+    let normal =
+        Dither { direction: Direction::Normal, ..tangential(Waveform::Square, 0.4, 4.3, 0.2) };
     for law in LawKind::ALL.iter().copied() {
         let dithers = [tangential(Waveform::Sine, 0.3, 10.0, 0.0), normal];
         let make = |factor: f64| {
             let friction = law.build(&[0.4, 0.2857, 0.2 * factor]).expect("valid law");
-            let scaled = dithers.map(|dither| Dither {
-                amplitude: factor * dither.amplitude,
-                ..dither
-            });
+            let scaled =
+                dithers.map(|dither| Dither { amplitude: factor * dither.amplitude, ..dither });
             Belt::new(0.005, factor, 0.05 * factor, friction, scaled.to_vec()).expect("valid")
         };
         let (end, events) = run(&make(1.0), start(0.1, -0.2), 200.0);
-        let (small, small_events) =
-            run(&make(scale), start(0.1 * scale, -0.2 * scale), 200.0);
+        let (small, small_events) = run(&make(scale), start(0.1 * scale, -0.2 * scale), 200.0);
         assert!(events.len() > 100);
         assert_eq!(events.len(), small_events.len());
         for (a, b) in events.iter().zip(&small_events) {

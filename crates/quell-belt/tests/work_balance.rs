@@ -178,13 +178,7 @@ fn a_million_random_steps_close_the_balance_of_work() {
         let fastest =
             belt.dithers().iter().fold(1.0_f64, |rate, dither| rate.max(dither.frequency_ratio));
         let until = start.time + 400.0 / fastest;
-        let mut balance = Balance {
-            belt: &belt,
-            fastest,
-            steps: 0,
-            worst: 0.0,
-            end: start.time,
-        };
+        let mut balance = Balance { belt: &belt, fastest, steps: 0, worst: 0.0, end: start.time };
         let end = simulate(&belt, start, until, TOLERANCE, &mut balance)
             .unwrap_or_else(|stalled| panic!("{stalled}\n{belt:?}\n{start:?}"));
         assert_eq!(end.time, until);

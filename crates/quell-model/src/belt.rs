@@ -2,13 +2,13 @@
 //!
 //! x″ + 2ζx′ + x = μ(v₀ − x′)·(F + Σ D_N g_N) + Σ D_T g_T        (2.1, 3.1, 4.1)
 
+use crate::Invalid;
 use crate::dither::{Direction, Dither};
 use crate::friction::Friction;
 use crate::parameter::{
     BELT_VELOCITY, DAMPING_RATIO, DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE,
     NORMAL_LOAD, Parameter,
 };
-use crate::Invalid;
 
 /// Mass, spring, damper, contact, friction law and dither, in the numbers of the equations.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,19 +44,9 @@ impl Belt {
         for (index, dither) in dithers.iter().enumerate() {
             complaints.extend(dither.complaints(index, dithers.len()));
         }
-        let belt = Self {
-            damping_ratio,
-            normal_load,
-            belt_velocity,
-            friction,
-            dithers,
-        };
+        let belt = Self { damping_ratio, normal_load, belt_velocity, friction, dithers };
         complaints.extend(belt.separation());
-        if complaints.is_empty() {
-            Ok(belt)
-        } else {
-            Err(complaints)
-        }
+        if complaints.is_empty() { Ok(belt) } else { Err(complaints) }
     }
 
     /// Complaint about normal dither that exceeds the normal load, where those numbers are
@@ -126,10 +116,7 @@ impl Belt {
     /// The same belt without dither.
     #[must_use]
     pub fn undithered(&self) -> Self {
-        Self {
-            dithers: Vec::new(),
-            ..self.clone()
-        }
+        Self { dithers: Vec::new(), ..self.clone() }
     }
 
     /// Displacement of steady sliding without dither, x = μ(v₀)F. At v₀ = 0 the static level.
@@ -250,13 +237,7 @@ mod tests {
     }
 
     fn dither(direction: Direction, amplitude: f64) -> Dither {
-        Dither {
-            direction,
-            waveform: Waveform::Sine,
-            amplitude,
-            frequency_ratio: 10.0,
-            phase: 0.0,
-        }
+        Dither { direction, waveform: Waveform::Sine, amplitude, frequency_ratio: 10.0, phase: 0.0 }
     }
 
     #[test]
@@ -281,11 +262,8 @@ mod tests {
 
     #[test]
     fn every_parameter_is_reached_by_its_path() {
-        let belt = belt(vec![
-            dither(Direction::Tangential, 0.3),
-            dither(Direction::Normal, 0.5),
-        ])
-        .expect("valid");
+        let belt = belt(vec![dither(Direction::Tangential, 0.3), dither(Direction::Normal, 0.5)])
+            .expect("valid");
         for (path, value) in [
             ("belt.damping_ratio", 0.1),
             ("belt.normal_load", 2.0),

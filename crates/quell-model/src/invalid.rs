@@ -15,12 +15,12 @@ pub struct Invalid {
 
 impl Invalid {
     /// A complaint about `key`.
-    pub fn new(key: impl Into<String>, value: impl fmt::Display, allowed: impl Into<String>) -> Self {
-        Self {
-            key: key.into(),
-            value: value.to_string(),
-            allowed: allowed.into(),
-        }
+    pub fn new(
+        key: impl Into<String>,
+        value: impl fmt::Display,
+        allowed: impl Into<String>,
+    ) -> Self {
+        Self { key: key.into(), value: value.to_string(), allowed: allowed.into() }
     }
 }
 

@@ -77,19 +77,11 @@ impl Bounds {
     /// Finite and ≥ 0.
     pub const NOT_NEGATIVE: Self = Self::at_least(0.0);
     /// Finite and > 0.
-    pub const POSITIVE: Self = Self {
-        lower: 0.0,
-        lower_included: false,
-        upper: f64::INFINITY,
-    };
+    pub const POSITIVE: Self = Self { lower: 0.0, lower_included: false, upper: f64::INFINITY };
 
     /// Finite and at least `lower`.
     pub const fn at_least(lower: f64) -> Self {
-        Self {
-            lower,
-            lower_included: true,
-            upper: f64::INFINITY,
-        }
+        Self { lower, lower_included: true, upper: f64::INFINITY }
     }
 
     /// Whether a value lies inside. NaN and infinities never do.
@@ -118,11 +110,7 @@ impl fmt::Display for Bounds {
 }
 
 const fn si(key: &'static str, unit: &'static str) -> SiTwin {
-    SiTwin {
-        key,
-        unit,
-        rms: false,
-    }
+    SiTwin { key, unit, rms: false }
 }
 
 /// Damping ratio.
@@ -212,14 +200,7 @@ pub const DITHER_AMPLITUDE: Parameter = Parameter {
     about: "peak dither force A/k, a length",
     quantity: Quantity::Force,
     bounds: Bounds::NOT_NEGATIVE,
-    si: &[
-        si("amplitude_n", "N"),
-        SiTwin {
-            key: "amplitude_n_rms",
-            unit: "N (rms)",
-            rms: true,
-        },
-    ],
+    si: &[si("amplitude_n", "N"), SiTwin { key: "amplitude_n_rms", unit: "N (rms)", rms: true }],
 };
 
 /// Dither frequency over the natural frequency.
@@ -238,11 +219,7 @@ pub const DITHER_PHASE: Parameter = Parameter {
     symbol: "φ",
     about: "dither phase at τ = 0",
     quantity: Quantity::Angle,
-    bounds: Bounds {
-        lower: -1e6,
-        lower_included: true,
-        upper: 1e6,
-    },
+    bounds: Bounds { lower: -1e6, lower_included: true, upper: 1e6 },
     si: &[],
 };
 
@@ -252,11 +229,7 @@ pub const TOLERANCE: Parameter = Parameter {
     symbol: "ε",
     about: "bound on the last retained Taylor terms of a step, relative to F",
     quantity: Quantity::Ratio,
-    bounds: Bounds {
-        lower: 1e-15,
-        lower_included: true,
-        upper: 1e-3,
-    },
+    bounds: Bounds { lower: 1e-15, lower_included: true, upper: 1e-3 },
     si: &[],
 };
 
@@ -266,11 +239,7 @@ pub const SETTLE: Parameter = Parameter {
     symbol: "τ_s",
     about: "time discarded before a response is measured",
     quantity: Quantity::Time,
-    bounds: Bounds {
-        lower: 0.0,
-        lower_included: true,
-        upper: 1e9,
-    },
+    bounds: Bounds { lower: 0.0, lower_included: true, upper: 1e9 },
     si: &[si("settle_s", "s")],
 };
 
@@ -280,11 +249,7 @@ pub const RECORD_PERIODS: Parameter = Parameter {
     symbol: "n",
     about: "slow periods 2π in the record",
     quantity: Quantity::Count,
-    bounds: Bounds {
-        lower: 2.0,
-        lower_included: true,
-        upper: 100_000.0,
-    },
+    bounds: Bounds { lower: 2.0, lower_included: true, upper: 100_000.0 },
     si: &[],
 };
 

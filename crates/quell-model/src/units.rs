@@ -74,19 +74,14 @@ impl Scales {
     /// # Errors
     /// A complaint for each value that is not finite and positive.
     pub fn new(mass_kg: f64, stiffness_n_per_m: f64) -> Result<Self, Vec<Invalid>> {
-        let complaints: Vec<_> = [
-            ("belt.mass_kg", mass_kg),
-            ("belt.stiffness_n_per_m", stiffness_n_per_m),
-        ]
-        .into_iter()
-        .filter(|(_, value)| !(value.is_finite() && *value > 0.0))
-        .map(|(key, value)| Invalid::new(key, value, "a finite number > 0"))
-        .collect();
+        let complaints: Vec<_> =
+            [("belt.mass_kg", mass_kg), ("belt.stiffness_n_per_m", stiffness_n_per_m)]
+                .into_iter()
+                .filter(|(_, value)| !(value.is_finite() && *value > 0.0))
+                .map(|(key, value)| Invalid::new(key, value, "a finite number > 0"))
+                .collect();
         if complaints.is_empty() {
-            Ok(Self {
-                mass_kg,
-                stiffness_n_per_m,
-            })
+            Ok(Self { mass_kg, stiffness_n_per_m })
         } else {
             Err(complaints)
         }

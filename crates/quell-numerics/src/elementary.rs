@@ -80,10 +80,7 @@ pub fn sin_cos_of_phase<V: Lane>(rate: V, time: V, time_low: V, phase: V) -> (V,
     let m = (n * V::splat(0.25)).round().mul_add(V::splat(-4.0), n);
     let cos_n = V::splat(1.0) - m.abs();
     let sin_n = m * (V::splat(2.0) - m.abs());
-    (
-        sine.mul_add(cos_n, cosine * sin_n),
-        cosine.mul_add(cos_n, -(sine * sin_n)),
-    )
+    (sine.mul_add(cos_n, cosine * sin_n), cosine.mul_add(cos_n, -(sine * sin_n)))
 }
 
 #[cfg(test)]

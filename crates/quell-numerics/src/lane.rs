@@ -114,11 +114,7 @@ pub fn inner_square<V: Lane>(a: &[V], k: usize) -> V {
     let half = k.div_ceil(2);
     let sum = partial_product(a, a, k, 1, half - 1);
     let twice = sum + sum;
-    if k.is_multiple_of(2) {
-        a[k / 2].mul_add(a[k / 2], twice)
-    } else {
-        twice
-    }
+    if k.is_multiple_of(2) { a[k / 2].mul_add(a[k / 2], twice) } else { twice }
 }
 
 /// Repeats a block for `$k` = 0…15 with `$k` a constant, so that every loop inside has a

@@ -26,11 +26,7 @@ pub fn first_crossing<const N: usize>(c: &[f64; N], h: f64) -> Option<f64> {
 
 /// [`first_crossing`] of Σ cₖ₊ₙtᵏ, that is with n = `zeros` roots at t = 0 divided out.
 #[inline(always)]
-pub fn first_crossing_after<const N: usize>(
-    c: &[f64; N],
-    zeros: usize,
-    h: f64,
-) -> Option<f64> {
+pub fn first_crossing_after<const N: usize>(c: &[f64; N], zeros: usize, h: f64) -> Option<f64> {
     // On [0, 1] and positive at 0.
     let a = match zeros {
         0 => scaled::<N, 0>(c, h),
@@ -176,11 +172,7 @@ fn isolate<const N: usize>(b: &[f64; N], low: f64, high: f64, depth: u32) -> Opt
     }
     let middle = 0.5 * (low + high);
     if depth == MAX_DEPTH {
-        return (b[0] > 0.0 && b[N - 1] <= 0.0).then_some(Bracket {
-            low,
-            high,
-            guess: middle,
-        });
+        return (b[0] > 0.0 && b[N - 1] <= 0.0).then_some(Bracket { low, high, guess: middle });
     }
     // De Casteljau: the diagonal of the averages is the left half, what remains the right.
     let mut right = *b;
@@ -239,11 +231,7 @@ fn polish<const N: usize>(a: &[f64; N], mut low: f64, mut high: f64, guess: f64)
         if correction <= 1e-9 * u {
             return newton.clamp(low, high);
         }
-        u = if newton > low && newton < high {
-            newton
-        } else {
-            0.5 * (low + high)
-        };
+        u = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
         if high - low <= 2.0 * f64::EPSILON * high {
             break;
         }
@@ -349,9 +337,8 @@ mod tests {
                 random() * scale
             });
             let found = first_crossing(&c, 1.0);
-            let scan = (1..=4000)
-                .map(|i| f64::from(i) / 4000.0)
-                .find(|&t| horner(&c, t) * c[0] <= 0.0);
+            let scan =
+                (1..=4000).map(|i| f64::from(i) / 4000.0).find(|&t| horner(&c, t) * c[0] <= 0.0);
             match (found, scan) {
                 (Some(root), Some(bracket)) => assert!(root <= bracket + 1e-12),
                 (None, Some(bracket)) => panic!("lost the root before {bracket}"),
@@ -368,13 +355,12 @@ mod tests {
                 let last = 10f64.powf(f64::from(i) * 0.11);
                 for previous in [0.0, 0.3 * last, 1e3 * last] {
                     let h = step_length(1e-12, last, previous, k);
-                    let terms = (last * h.powi(k as i32))
-                        .max(previous * h.powi(k as i32 - 1));
+                    let terms = (last * h.powi(k as i32)).max(previous * h.powi(k as i32 - 1));
                     assert!(terms <= 1e-12, "k = {k}, last = {last:e}: {terms:e}");
                     // … and not much shorter than that needs.
                     let long = 1.16 * h;
-                    let terms = (last * long.powi(k as i32))
-                        .max(previous * long.powi(k as i32 - 1));
+                    let terms =
+                        (last * long.powi(k as i32)).max(previous * long.powi(k as i32 - 1));
                     assert!(terms >= 1e-12, "k = {k}, last = {last:e}: {terms:e}");
                 }
             }

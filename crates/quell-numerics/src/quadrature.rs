@@ -46,12 +46,7 @@ pub struct QuadratureOptions {
 impl Default for QuadratureOptions {
     /// Relative 10⁻¹³, absolute 0, one panel per piece, at most 200 000 evaluations.
     fn default() -> Self {
-        Self {
-            relative: 1e-13,
-            absolute: 0.0,
-            panels: 1,
-            evaluations: 200_000,
-        }
+        Self { relative: 1e-13, absolute: 0.0, panels: 1, evaluations: 200_000 }
     }
 }
 
@@ -186,9 +181,7 @@ impl PartialOrd for Panel {
 impl Ord for Panel {
     /// Largest error first; ties by place, so that the order of work is always the same.
     fn cmp(&self, other: &Self) -> core::cmp::Ordering {
-        self.error
-            .total_cmp(&other.error)
-            .then(other.from.total_cmp(&self.from))
+        self.error.total_cmp(&other.error).then(other.from.total_cmp(&self.from))
     }
 }
 
@@ -200,11 +193,7 @@ fn panel(f: &mut impl FnMut(f64) -> f64, from: f64, to: f64) -> Result<Panel, Qu
     let mut above = [0.0; 10];
     let mut finite = |x: f64| {
         let y = f(x);
-        if y.is_finite() {
-            Ok(y)
-        } else {
-            Err(QuadratureError::IntegrandNotFinite { at: x })
-        }
+        if y.is_finite() { Ok(y) } else { Err(QuadratureError::IntegrandNotFinite { at: x }) }
     };
     let middle = finite(centre)?;
     for (i, node) in NODES.iter().enumerate() {
@@ -236,13 +225,7 @@ fn panel(f: &mut impl FnMut(f64) -> f64, from: f64, to: f64) -> Result<Panel, Qu
     } else {
         difference
     };
-    Ok(Panel {
-        from,
-        to,
-        value: kronrod * half,
-        error: estimate.max(floor),
-        floor,
-    })
+    Ok(Panel { from, to, value: kronrod * half, error: estimate.max(floor), floor })
 }
 
 /// Sum that carries its rounding along (Neumaier).
@@ -288,11 +271,7 @@ pub fn integrate(
     }
     let (low, high) = if from <= to { (from, to) } else { (to, from) };
     let sign = if from <= to { 1.0 } else { -1.0 };
-    let mut cuts: Vec<f64> = breaks
-        .iter()
-        .copied()
-        .filter(|b| *b > low && *b < high)
-        .collect();
+    let mut cuts: Vec<f64> = breaks.iter().copied().filter(|b| *b > low && *b < high).collect();
     cuts.push(low);
     cuts.push(high);
     cuts.sort_unstable_by(f64::total_cmp);
@@ -330,11 +309,7 @@ pub fn integrate(
             value.add(p.value);
             error += p.error;
         }
-        Integral {
-            value: sign * value.total(),
-            error,
-            evaluations,
-        }
+        Integral { value: sign * value.total(), error, evaluations }
     };
     let mut running: f64 = open.iter().chain(&done).map(|p| p.value).sum();
     let mut running_error: f64 = open.iter().chain(&done).map(|p| p.error).sum();
@@ -349,15 +324,11 @@ pub fn integrate(
             }
         }
         let Some(worst) = open.pop() else {
-            return Err(QuadratureError::Rounding {
-                best: total(&open, &done, evaluations),
-            });
+            return Err(QuadratureError::Rounding { best: total(&open, &done, evaluations) });
         };
         if evaluations + 42 > options.evaluations {
             open.push(worst);
-            return Err(QuadratureError::Evaluations {
-                best: total(&open, &done, evaluations),
-            });
+            return Err(QuadratureError::Evaluations { best: total(&open, &done, evaluations) });
         }
         let middle = worst.from.midpoint(worst.to);
         let mut left = panel(&mut f, worst.from, middle)?;
@@ -382,10 +353,7 @@ mod tests {
     use core::f64::consts::PI;
 
     fn tight() -> QuadratureOptions {
-        QuadratureOptions {
-            relative: 1e-14,
-            ..QuadratureOptions::default()
-        }
+        QuadratureOptions { relative: 1e-14, ..QuadratureOptions::default() }
     }
 
     /// One Kronrod panel is exact to degree 31, the Gauss rule inside it to degree 19.
@@ -403,19 +371,11 @@ mod tests {
             };
             let exact = if degree == 0 { 2.0 } else { 0.0 };
             let p = panel(&mut f, -1.0, 1.0).expect("finite");
-            assert!(
-                (p.value - exact).abs() < 1e-15,
-                "degree {degree}: {}",
-                p.value
-            );
-            let gauss: f64 = (0..5)
-                .map(|i| GAUSS[i] * (f(NODES[2 * i + 1]) + f(-NODES[2 * i + 1])))
-                .sum();
+            assert!((p.value - exact).abs() < 1e-15, "degree {degree}: {}", p.value);
+            let gauss: f64 =
+                (0..5).map(|i| GAUSS[i] * (f(NODES[2 * i + 1]) + f(-NODES[2 * i + 1]))).sum();
             if degree <= 19 {
-                assert!(
-                    (gauss - exact).abs() < 1e-15,
-                    "Gauss, degree {degree}: {gauss}"
-                );
+                assert!((gauss - exact).abs() < 1e-15, "Gauss, degree {degree}: {gauss}");
             }
         }
         // Degree 20 is beyond the Gauss rule: the test above can fail.
@@ -427,9 +387,8 @@ mod tests {
             }
             q
         };
-        let gauss: f64 = (0..5)
-            .map(|i| GAUSS[i] * (p20(NODES[2 * i + 1]) + p20(-NODES[2 * i + 1])))
-            .sum();
+        let gauss: f64 =
+            (0..5).map(|i| GAUSS[i] * (p20(NODES[2 * i + 1]) + p20(-NODES[2 * i + 1]))).sum();
         assert!(gauss.abs() > 1e-3);
     }
 
@@ -438,20 +397,11 @@ mod tests {
     fn narrow_lorentzian() {
         let w = 1e-3;
         for centre in [0.0, 0.1234567, 0.5, 0.987] {
-            let i = integrate(
-                |x| w / ((x - centre) * (x - centre) + w * w),
-                0.0,
-                1.0,
-                &[],
-                &tight(),
-            )
-            .expect("converges");
+            let i =
+                integrate(|x| w / ((x - centre) * (x - centre) + w * w), 0.0, 1.0, &[], &tight())
+                    .expect("converges");
             let exact = libm::atan((1.0 - centre) / w) + libm::atan(centre / w);
-            assert!(
-                (i.value - exact).abs() < 1e-14 * exact,
-                "{centre}: {} {exact}",
-                i.value
-            );
+            assert!((i.value - exact).abs() < 1e-14 * exact, "{centre}: {} {exact}", i.value);
             assert!(i.error < 1e-14 * exact);
         }
     }
@@ -466,31 +416,17 @@ mod tests {
             // Counted from the peak: x − centre in the integrand would cost 10⁻¹⁶/w of its digits.
             let f = |x: f64| libm::exp(-(x / w) * (x / w));
             let (from, to) = (-centre, 1.0 - centre);
-            let options = QuadratureOptions {
-                panels: 64,
-                ..tight()
-            };
+            let options = QuadratureOptions { panels: 64, ..tight() };
             let i = integrate(f, from, to, &[], &options).expect("converges");
-            assert!(
-                (i.value - exact).abs() < 1e-14 * exact,
-                "{centre}: {}",
-                i.value / exact
-            );
+            assert!((i.value - exact).abs() < 1e-14 * exact, "{centre}: {}", i.value / exact);
             let i = integrate(f, from, to, &[0.0], &tight()).expect("converges");
-            assert!(
-                (i.value - exact).abs() < 1e-14 * exact,
-                "{centre}: {}",
-                i.value / exact
-            );
+            assert!((i.value - exact).abs() < 1e-14 * exact, "{centre}: {}", i.value / exact);
         }
     }
 
     #[test]
     fn singular_ends_and_kinks() {
-        let options = QuadratureOptions {
-            relative: 1e-12,
-            ..QuadratureOptions::default()
-        };
+        let options = QuadratureOptions { relative: 1e-12, ..QuadratureOptions::default() };
         let i = integrate(|x| 1.0 / x.sqrt(), 0.0, 4.0, &[], &options).expect("converges");
         assert!((i.value - 4.0).abs() < 4e-12);
         let i = integrate(|x| (x - 0.3).abs().sqrt(), 0.0, 1.0, &[0.3], &options).expect("ok");
@@ -505,10 +441,7 @@ mod tests {
         let backward = integrate(f, 2.0, 0.0, &[1.0], &tight()).expect("ok");
         assert_eq!(forward.value, -backward.value);
         assert!((forward.value - (libm::exp(2.0) - 1.0)).abs() < 1e-14 * forward.value);
-        assert_eq!(
-            integrate(f, 1.0, 1.0, &[], &tight()).expect("ok").value,
-            0.0
-        );
+        assert_eq!(integrate(f, 1.0, 1.0, &[], &tight()).expect("ok").value, 0.0);
     }
 
     /// What cannot be done is said, with the best value.
@@ -519,18 +452,10 @@ mod tests {
         // Noise of 10⁻¹² in the integrand itself ends early, with an error that covers it.
         let noisy = |x: f64| 1.0 + 1e-12 * libm::sin(1e9 * x);
         let noise = integrate(noisy, 0.0, 1.0, &[], &tight());
-        let Err(QuadratureError::Rounding { best }) = noise else {
-            panic!("{noise:?}")
-        };
-        assert!(
-            (best.value - 1.0).abs() <= best.error && best.error < 1e-11,
-            "{best:?}"
-        );
+        let Err(QuadratureError::Rounding { best }) = noise else { panic!("{noise:?}") };
+        assert!((best.value - 1.0).abs() <= best.error && best.error < 1e-11, "{best:?}");
         assert!(best.evaluations < 2000, "{best:?}");
-        let budget = QuadratureOptions {
-            evaluations: 300,
-            ..tight()
-        };
+        let budget = QuadratureOptions { evaluations: 300, ..tight() };
         let spent = integrate(|x| libm::sin(1.0 / x), 1e-4, 1.0, &[], &budget);
         assert!(
             matches!(spent, Err(QuadratureError::Evaluations { best }) if best.evaluations <= 300)
@@ -546,17 +471,10 @@ mod tests {
     fn error_bound_holds() {
         for k in 1..60 {
             let a = f64::from(k);
-            let options = QuadratureOptions {
-                relative: 1e-9,
-                ..QuadratureOptions::default()
-            };
+            let options = QuadratureOptions { relative: 1e-9, ..QuadratureOptions::default() };
             let i = integrate(|x| libm::cos(a * x) + 1.5, 0.0, 1.0, &[], &options).expect("ok");
             let exact = libm::sin(a) / a + 1.5;
-            assert!(
-                (i.value - exact).abs() <= i.error,
-                "a = {a}: {:e}",
-                (i.value - exact).abs()
-            );
+            assert!((i.value - exact).abs() <= i.error, "a = {a}: {:e}", (i.value - exact).abs());
         }
     }
 }

@@ -23,12 +23,8 @@ pub enum Task {
 
 impl Task {
     /// Every task.
-    pub const ALL: &'static [Self] = &[
-        Self::Friction,
-        Self::Stability,
-        Self::Simulate,
-        Self::Response,
-    ];
+    pub const ALL: &'static [Self] =
+        &[Self::Friction, Self::Stability, Self::Simulate, Self::Response];
 
     /// Name of the verb.
     pub fn name(self) -> &'static str {
@@ -147,10 +143,7 @@ pub fn sources(study: &Study) -> Sources {
             Task::Simulate | Task::Response => simulation(task, &mut cite),
         }
     }
-    Sources {
-        citations,
-        corrections: corrections(belt),
-    }
+    Sources { citations, corrections: corrections(belt) }
 }
 
 /// Equations of motion and law.
@@ -167,11 +160,7 @@ fn model(belt: &Belt) -> &'static str {
 }
 
 fn averaging(belt: &Belt, task: Task, cite: &mut impl FnMut(Task, Source, &'static str)) {
-    cite(
-        task,
-        THOMSEN_1999,
-        "averaging over the fast motion; effective friction",
-    );
+    cite(task, THOMSEN_1999, "averaging over the fast motion; effective friction");
     if has(belt, Direction::Tangential, None) {
         cite(
             task,
@@ -204,24 +193,12 @@ fn closed_form(law: LawKind) -> &'static str {
 }
 
 fn simulation(task: Task, cite: &mut impl FnMut(Task, Source, &'static str)) {
-    cite(
-        task,
-        JORBA_ZOU_2005,
-        "Taylor steps and the choice of their length",
-    );
-    cite(
-        task,
-        FILIPPOV_1988,
-        "what a solution is where the friction law is set-valued",
-    );
+    cite(task, JORBA_ZOU_2005, "Taylor steps and the choice of their length");
+    cite(task, FILIPPOV_1988, "what a solution is where the friction law is set-valued");
     if task == Task::Response {
         cite(task, MICHAUX_2005, "efficiency of dither (2.27)");
         cite(task, HARRIS_1978, "Hann window of the spectrum");
-        cite(
-            task,
-            THOMSEN_FIDLIN_2003,
-            "the stick-slip of the belt without dither",
-        );
+        cite(task, THOMSEN_FIDLIN_2003, "the stick-slip of the belt without dither");
         cite(task, CUNEFARE_GRAF_2002, "dither against squeal");
     }
 }
@@ -249,12 +226,7 @@ fn corrections(belt: &Belt) -> Vec<Correction> {
              antiperiodic waveforms only",
             BOTH,
         ),
-        (
-            tangential,
-            "text after (3.25)",
-            "G is even, not odd: τ₂ = 2π − τ₁ needs it",
-            BOTH,
-        ),
+        (tangential, "text after (3.25)", "G is even, not odd: τ₂ = 2π − τ₁ needs it", BOTH),
         (
             decreasing && with(Tangential, Triangle),
             "(3.38a), (B.4), (B.10a)",
@@ -327,22 +299,15 @@ fn corrections(belt: &Belt) -> Vec<Correction> {
     entries
         .into_iter()
         .filter(|(applies, ..)| *applies)
-        .map(|(_, equations, right, tasks)| Correction {
-            equations,
-            right,
-            tasks,
-        })
+        .map(|(_, equations, right, tasks)| Correction { equations, right, tasks })
         .collect()
 }
 
 impl Sources {
     /// The sources without repetition, in the order of [`SOURCES`].
     pub fn unique(&self) -> Vec<Source> {
-        let cited = |source: &&Source| {
-            self.citations
-                .iter()
-                .any(|citation| citation.source == **source)
-        };
+        let cited =
+            |source: &&Source| self.citations.iter().any(|citation| citation.source == **source);
         SOURCES.iter().filter(cited).copied().collect()
     }
 
@@ -396,11 +361,7 @@ mod tests {
     fn only_corrections_that_bear_on_the_study_are_told() {
         let told = |law, waveform, direction| {
             let found = sources(&study(law, waveform, direction)).corrections;
-            found
-                .iter()
-                .map(|correction| correction.equations)
-                .collect::<Vec<_>>()
-                .join("; ")
+            found.iter().map(|correction| correction.equations).collect::<Vec<_>>().join("; ")
         };
         assert!(told("decreasing", "triangle", "tangential").contains("(3.38a)"));
         assert!(!told("decreasing", "sine", "tangential").contains("(3.38a)"));
@@ -413,12 +374,7 @@ mod tests {
     fn every_task_cites_something_and_keys_are_unique() {
         let found = sources(&study("stribeck", "sine", "tangential"));
         for task in Task::ALL {
-            assert!(
-                found
-                    .citations
-                    .iter()
-                    .any(|citation| citation.task == *task)
-            );
+            assert!(found.citations.iter().any(|citation| citation.task == *task));
         }
         let mut keys: Vec<&str> = SOURCES.iter().map(|source| source.key).collect();
         keys.sort_unstable();

@@ -57,22 +57,13 @@ impl Criterion {
             // At a corner the inner slope is larger still.
             Verdict::Stable
         } else if value >= -error {
-            Verdict::Undecided {
-                why: UndecidedBecause::WithinError,
-            }
+            Verdict::Undecided { why: UndecidedBecause::WithinError }
         } else if effective.side == Side::Outer {
-            Verdict::Undecided {
-                why: UndecidedBecause::AtCorner,
-            }
+            Verdict::Undecided { why: UndecidedBecause::AtCorner }
         } else {
             Verdict::Unstable
         };
-        Self {
-            value,
-            error,
-            effective,
-            verdict,
-        }
+        Self { value, error, effective, verdict }
     }
 }
 
@@ -84,9 +75,5 @@ pub fn criterion(belt: &Belt, options: AveragingOptions) -> Result<Criterion, Av
     let v = belt.belt_velocity();
     let motion = FastMotion::of(belt, v, options)?;
     let effective = effective(belt.friction(), &motion, v)?;
-    Ok(Criterion::new(
-        belt.damping_ratio(),
-        belt.normal_load(),
-        effective,
-    ))
+    Ok(Criterion::new(belt.damping_ratio(), belt.normal_load(), effective))
 }

@@ -28,11 +28,7 @@ pub enum Becomes {
 
 impl Becomes {
     pub(super) fn from_sign(positive: bool) -> Self {
-        if positive {
-            Self::Stable
-        } else {
-            Self::Unstable
-        }
+        if positive { Self::Stable } else { Self::Unstable }
     }
 }
 
@@ -65,16 +61,11 @@ pub fn critical_amplitudes(
     let Some(&first) = belt.dithers().first() else {
         return Ok(Vec::new());
     };
-    let mut probe = Probe {
-        belt,
-        options,
-        dithers: belt.dithers().to_vec(),
-    };
+    let mut probe = Probe { belt, options, dithers: belt.dithers().to_vec() };
     let corners = probe.corners(&first)?;
-    let scale = corners.iter().fold(
-        belt.friction().velocity_scale().max(belt.belt_velocity()),
-        |m, c| m.max(*c),
-    );
+    let scale = corners
+        .iter()
+        .fold(belt.friction().velocity_scale().max(belt.belt_velocity()), |m, c| m.max(*c));
     let points = scan_points(&corners, scale, belt.belt_velocity() == 0.0);
     let changes = sign_changes(|alpha| probe.criterion(alpha), &points, &corners)?;
     let others: f64 = belt.dithers()[1..]
@@ -86,11 +77,7 @@ pub fn critical_amplitudes(
         .into_iter()
         .map(|change| {
             let amplitude = change.place * first.frequency_ratio;
-            let own = if first.direction == Direction::Normal {
-                amplitude
-            } else {
-                0.0
-            };
+            let own = if first.direction == Direction::Normal { amplitude } else { 0.0 };
             CriticalAmplitude {
                 amplitude_ratio: change.place,
                 amplitude,
@@ -170,9 +157,8 @@ impl Probe<'_> {
             return Ok(vec![v / (amplitude.abs() * peak)]);
         }
         let scale = v.max(self.belt.friction().velocity_scale());
-        let points: Vec<f64> = (0..160)
-            .map(|k| scale * libm::exp(-9.2 + 0.1 * f64::from(k)))
-            .collect();
+        let points: Vec<f64> =
+            (0..160).map(|k| scale * libm::exp(-9.2 + 0.1 * f64::from(k))).collect();
         let mut excess = |alpha: f64| -> Result<f64, AveragingError> {
             Ok(self.motion(alpha)?.largest_slip()? - v)
         };

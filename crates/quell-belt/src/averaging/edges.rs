@@ -70,11 +70,7 @@ pub fn closed_band(
     let lower = alpha * waveform.peak_integral();
     let upper = outer_edge(law, damping_ratio, normal_load, waveform, alpha);
     let lower_crossing = (alpha > 0.0).then_some(Crossing::Jump);
-    upper.is_none_or(|upper| upper > lower).then_some(Band {
-        lower,
-        lower_crossing,
-        upper,
-    })
+    upper.is_none_or(|upper| upper > lower).then_some(Band { lower, lower_crossing, upper })
 }
 
 /// Root of the outer criterion in v₀, continued below the corner; 0 where the criterion is positive at every velocity,
@@ -129,12 +125,9 @@ pub fn unstable_bands(belt: &Belt, options: AveragingOptions) -> Result<Vec<Band
     };
     let vm = law.velocity_scale();
     // Fast velocity at most: the coefficient that drives normal dither is largest at the static level or far out.
-    let reach = motion(vm)?
-        .largest_slip()?
-        .max(motion(1e-9 * vm)?.largest_slip()?);
-    let mut points: Vec<f64> = (0..60)
-        .map(|k| vm * libm::exp(-14.0 + 0.25 * f64::from(k)))
-        .collect();
+    let reach = motion(vm)?.largest_slip()?.max(motion(1e-9 * vm)?.largest_slip()?);
+    let mut points: Vec<f64> =
+        (0..60).map(|k| vm * libm::exp(-14.0 + 0.25 * f64::from(k))).collect();
     points.extend((1..=80).map(|k| 2.0 * reach * f64::from(k) / 80.0));
     points.extend((1..=60).map(|k| reach + vm * 0.05 * f64::from(k)));
     points.extend((0..30).map(|k| reach + 3.0 * vm * libm::exp(0.15 * f64::from(k))));
@@ -142,10 +135,8 @@ pub fn unstable_bands(belt: &Belt, options: AveragingOptions) -> Result<Vec<Band
     points.sort_unstable_by(f64::total_cmp);
     points.dedup();
     let excess = |v: f64| -> Result<f64, AveragingError> { Ok(v - motion(v)?.largest_slip()?) };
-    let corners: Vec<f64> = sign_changes(excess, &points, &[])?
-        .into_iter()
-        .map(|c| c.place)
-        .collect();
+    let corners: Vec<f64> =
+        sign_changes(excess, &points, &[])?.into_iter().map(|c| c.place).collect();
     for corner in &corners {
         points.extend((0..24).map(|k| corner * (1.0 - libm::exp(-30.0 + 1.2 * f64::from(k)))));
     }
@@ -158,22 +149,14 @@ pub fn unstable_bands(belt: &Belt, options: AveragingOptions) -> Result<Vec<Band
     for change in changes {
         if change.becomes_positive {
             if let Some((lower, lower_crossing)) = open.take() {
-                bands.push(Band {
-                    lower,
-                    lower_crossing,
-                    upper: Some(change.place),
-                });
+                bands.push(Band { lower, lower_crossing, upper: Some(change.place) });
             }
         } else {
             open = Some((change.place, Some(change.crossing)));
         }
     }
     if let Some((lower, lower_crossing)) = open {
-        bands.push(Band {
-            lower,
-            lower_crossing,
-            upper: None,
-        });
+        bands.push(Band { lower, lower_crossing, upper: None });
     }
     Ok(bands)
 }

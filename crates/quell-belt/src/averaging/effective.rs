@@ -66,10 +66,7 @@ impl Effective {
 
     /// The value at −v: μ̄ is odd there, its slope even.
     fn mirrored(self) -> Self {
-        Self {
-            coefficient: -self.coefficient,
-            ..self
-        }
+        Self { coefficient: -self.coefficient, ..self }
     }
 }
 
@@ -154,20 +151,13 @@ pub fn effective(law: &Friction, motion: &FastMotion, v: f64) -> Result<Effectiv
 /// The law itself.
 fn undithered(law: &Friction, v: f64) -> Result<Effective, AveragingError> {
     if v == 0.0 {
-        return Err(AveragingError::SetValued {
-            static_coefficient: law.static_coefficient(),
-        });
+        return Err(AveragingError::SetValued { static_coefficient: law.static_coefficient() });
     }
     let speed = v.abs();
     let coefficient = law.coefficient(speed).copysign(v);
     let slope = law.slope(speed);
     let size = law.slope(0.0).abs() + slope.abs();
-    Ok(Effective::closed(
-        [coefficient, 0.0],
-        [slope, 0.0],
-        size,
-        Side::Both,
-    ))
+    Ok(Effective::closed([coefficient, 0.0], [slope, 0.0], size, Side::Both))
 }
 
 /// One dither, `amplitude` ≠ 0: closed form where there is one, else quadrature over a quarter wave.
@@ -190,11 +180,7 @@ pub(super) fn single(
         }
         (law, wave) => single_wave::effective(law, wave, alpha, speed)?,
     };
-    Ok(if v < 0.0 {
-        effective.mirrored()
-    } else {
-        effective
-    })
+    Ok(if v < 0.0 { effective.mirrored() } else { effective })
 }
 
 /// The same by quadrature, whatever the law: a second method for the closed forms.
@@ -211,9 +197,5 @@ pub fn effective_by_quadrature(
         return undithered(law, v);
     }
     let effective = single_wave::effective(law, wave, amplitude.abs(), v.abs())?;
-    Ok(if v < 0.0 {
-        effective.mirrored()
-    } else {
-        effective
-    })
+    Ok(if v < 0.0 { effective.mirrored() } else { effective })
 }

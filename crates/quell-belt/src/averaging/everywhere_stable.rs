@@ -65,33 +65,19 @@ pub fn everywhere_stable_amplitude(
     wave: FastWave,
     direction: Direction,
 ) -> Result<EverywhereStable, AveragingError> {
-    let case = Case {
-        law,
-        damping_ratio,
-        normal_load,
-        wave,
-    };
+    let case = Case { law, damping_ratio, normal_load, wave };
     let tangential = match undithered_critical_velocity(law, damping_ratio, normal_load) {
         CriticalVelocity::StableEverywhere => EverywhereStable::Always,
-        CriticalVelocity::UnstableEverywhere => EverywhereStable::Never {
-            why: NeverStable::NoDamping,
-        },
+        CriticalVelocity::UnstableEverywhere => {
+            EverywhereStable::Never { why: NeverStable::NoDamping }
+        }
         CriticalVelocity::Above(_) => case.tangential()?,
     };
     match (direction, tangential) {
-        (
-            Direction::Normal,
-            EverywhereStable::From {
-                amplitude_ratio,
-                error,
-            },
-        ) => {
+        (Direction::Normal, EverywhereStable::From { amplitude_ratio, error }) => {
             let normal = case.normal(amplitude_ratio);
             let error = normal * (error / amplitude_ratio + 4.0 * f64::EPSILON);
-            Ok(EverywhereStable::From {
-                amplitude_ratio: normal,
-                error,
-            })
+            Ok(EverywhereStable::From { amplitude_ratio: normal, error })
         }
         (_, tangential) => Ok(tangential),
     }
@@ -141,10 +127,7 @@ impl Case<'_> {
                 f64::INFINITY
             })
         };
-        let closeness = Closeness {
-            absolute: 0.0,
-            relative: 1e-8,
-        };
+        let closeness = Closeness { absolute: 0.0, relative: 1e-8 };
         let bottom = minimise(value, place(worst.1 - 1), place(worst.1 + 1), closeness);
         match failure {
             Some(error) => Err(error),
@@ -155,9 +138,7 @@ impl Case<'_> {
     fn tangential(&self) -> Result<EverywhereStable, AveragingError> {
         let vm = self.law.velocity_scale();
         let Some((outer, error)) = self.outer()? else {
-            return Ok(EverywhereStable::Never {
-                why: NeverStable::OffScale,
-            });
+            return Ok(EverywhereStable::Never { why: NeverStable::OffScale });
         };
         // The inner region beyond it.
         let scale = outer.max(vm);
@@ -167,16 +148,11 @@ impl Case<'_> {
         }
         let last = points[points.len() - 1];
         if self.worst_inside(last)? < 0.0 {
-            return Ok(EverywhereStable::Never {
-                why: NeverStable::InnerRegion,
-            });
+            return Ok(EverywhereStable::Never { why: NeverStable::InnerRegion });
         }
         let changes = sign_changes(|alpha| self.worst_inside(alpha), &points, &[])?;
         Ok(changes.last().map_or(
-            EverywhereStable::From {
-                amplitude_ratio: outer,
-                error,
-            },
+            EverywhereStable::From { amplitude_ratio: outer, error },
             |change| EverywhereStable::From {
                 amplitude_ratio: change.place,
                 error: change.error.max(1e-12 * change.place),
@@ -195,14 +171,10 @@ impl Case<'_> {
                 vm * ((1.0 - kappa) / (peak * peak + waveform.mean_square_integral())).sqrt();
             return Ok(Some((alpha, 4.0 * f64::EPSILON * alpha)));
         }
-        let points: Vec<f64> = (0..320)
-            .map(|k| vm * libm::exp(-18.0 + 0.1 * f64::from(k)))
-            .collect();
+        let points: Vec<f64> =
+            (0..320).map(|k| vm * libm::exp(-18.0 + 0.1 * f64::from(k))).collect();
         let changes = sign_changes(|alpha| self.tip(alpha), &points, &[])?;
-        Ok(changes
-            .last()
-            .filter(|c| c.becomes_positive)
-            .map(|c| (c.place, c.error)))
+        Ok(changes.last().filter(|c| c.becomes_positive).map(|c| (c.place, c.error)))
     }
 
     /// Largest unstable α_N from the largest unstable α at each belt velocity.
@@ -227,10 +199,7 @@ impl Case<'_> {
             let square = (end - v) * (end + v) / mean_square;
             -square.max(0.0).sqrt() / law.coefficient(v)
         };
-        let closeness = Closeness {
-            absolute: 0.0,
-            relative: 1e-9,
-        };
+        let closeness = Closeness { absolute: 0.0, relative: 1e-9 };
         minimise(ratio, tip, end, closeness).map_or(at_tip, |best| at_tip.max(-best.value))
     }
 }

@@ -128,11 +128,7 @@ impl PeriodicMotion {
 
     /// Phases in (0, 2π) where a term changes its formula.
     pub(super) fn breaks(&self) -> Vec<f64> {
-        let terms = self
-            .tangential
-            .iter()
-            .chain(&self.normal)
-            .map(|t| (t.harmonic, t.phase));
+        let terms = self.tangential.iter().chain(&self.normal).map(|t| (t.harmonic, t.phase));
         let loads = self.load.iter().map(|t| (t.harmonic, t.phase));
         let mut breaks = Vec::new();
         for (harmonic, phase) in terms.chain(loads) {
@@ -157,10 +153,7 @@ impl PeriodicMotion {
     }
 
     fn is_still(&self) -> bool {
-        self.tangential
-            .iter()
-            .chain(&self.normal)
-            .all(|t| t.amplitude == 0.0)
+        self.tangential.iter().chain(&self.normal).all(|t| t.amplitude == 0.0)
     }
 }
 
@@ -188,16 +181,8 @@ impl FastMotion {
     /// One fast slip velocity amplitude·wave.
     #[must_use]
     pub fn single(wave: FastWave, amplitude: f64) -> Self {
-        let term = SlipTerm {
-            wave,
-            amplitude,
-            harmonic: 1,
-            phase: 0.0,
-        };
-        Self::new(vec![PeriodicMotion {
-            tangential: vec![term],
-            ..PeriodicMotion::default()
-        }])
+        let term = SlipTerm { wave, amplitude, harmonic: 1, phase: 0.0 };
+        Self::new(vec![PeriodicMotion { tangential: vec![term], ..PeriodicMotion::default() }])
     }
 
     /// The groups, each of them moving.
@@ -212,13 +197,7 @@ impl FastMotion {
     /// [`AveragingError`] where the oscillator's response is asked for at R ≤ 1, or where both directions act and
     /// the friction level that drives the normal dither cannot be computed.
     pub fn of(belt: &Belt, v: f64, options: AveragingOptions) -> Result<Self, AveragingError> {
-        Self::of_dithers(
-            belt.friction(),
-            belt.normal_load(),
-            belt.dithers(),
-            v,
-            options,
-        )
+        Self::of_dithers(belt.friction(), belt.normal_load(), belt.dithers(), v, options)
     }
 
     /// The same from its parts, whether or not the contact would stay closed.
@@ -240,21 +219,11 @@ impl FastMotion {
                 let alpha = dither.amplitude_ratio();
                 match dither.direction {
                     Direction::Tangential => {
-                        group.tangential.push(SlipTerm {
-                            wave,
-                            amplitude: alpha,
-                            harmonic,
-                            phase,
-                        });
+                        group.tangential.push(SlipTerm { wave, amplitude: alpha, harmonic, phase });
                     }
                     Direction::Normal => {
                         let amplitude = alpha * level;
-                        group.normal.push(SlipTerm {
-                            wave,
-                            amplitude,
-                            harmonic,
-                            phase,
-                        });
+                        group.normal.push(SlipTerm { wave, amplitude, harmonic, phase });
                         group.load.push(LoadTerm {
                             waveform: dither.waveform,
                             amplitude: dither.amplitude / normal_load,
@@ -292,10 +261,9 @@ pub(super) fn fast_wave(dither: &Dither, response: Response) -> Result<FastWave,
     let (waveform, frequency_ratio) = (dither.waveform, dither.frequency_ratio);
     match response {
         Response::Limit => Ok(FastWave::Integral(waveform)),
-        Response::Oscillator if frequency_ratio > 1.0 => Ok(FastWave::Oscillator {
-            waveform,
-            frequency_ratio,
-        }),
+        Response::Oscillator if frequency_ratio > 1.0 => {
+            Ok(FastWave::Oscillator { waveform, frequency_ratio })
+        }
         Response::Oscillator => Err(AveragingError::NotFast { frequency_ratio }),
     }
 }
@@ -310,11 +278,8 @@ fn friction_level(
     if dithers.iter().all(|d| d.direction == Direction::Tangential) {
         return Ok((0.0, 0.0));
     }
-    let tangential: Vec<&Dither> = dithers
-        .iter()
-        .copied()
-        .filter(|d| d.direction == Direction::Tangential)
-        .collect();
+    let tangential: Vec<&Dither> =
+        dithers.iter().copied().filter(|d| d.direction == Direction::Tangential).collect();
     if tangential.is_empty() {
         if v == 0.0 {
             return Ok((0.0, 0.0));
@@ -327,12 +292,7 @@ fn friction_level(
         for (dither, harmonic) in members {
             let wave = fast_wave(dither, options.response)?;
             let (amplitude, phase) = (dither.amplitude_ratio(), dither.phase);
-            group.tangential.push(SlipTerm {
-                wave,
-                amplitude,
-                harmonic,
-                phase,
-            });
+            group.tangential.push(SlipTerm { wave, amplitude, harmonic, phase });
         }
         groups.push(group);
     }

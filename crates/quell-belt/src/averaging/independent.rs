@@ -61,9 +61,7 @@ pub(super) fn effective(
     let mut order: Vec<&PeriodicMotion> = groups.iter().collect();
     // Closed form innermost, that is last; of several the largest, so that the quadrature sees the gentler motion.
     let reach = |group: &PeriodicMotion| {
-        group
-            .single_term()
-            .map_or(-1.0, |(wave, amplitude)| amplitude.abs() * wave.peak())
+        group.single_term().map_or(-1.0, |(wave, amplitude)| amplitude.abs() * wave.peak())
     };
     order.sort_by(|a, b| reach(a).total_cmp(&reach(b)));
     let mut levels = Vec::new();
@@ -76,11 +74,7 @@ pub(super) fn effective(
         });
     }
     let corners = corner_sums(&levels);
-    let context = Context {
-        law,
-        levels: &levels,
-        corners: &corners,
-    };
+    let context = Context { law, levels: &levels, corners: &corners };
     let value = context.integral(0, 1.0, v, Quantity::Coefficient)?;
     let slope = context.integral(0, 1.0, v, Quantity::Slope)?;
     let outermost = corners[0].iter().fold(0.0_f64, |m, c| m.max(c.abs()));
@@ -90,11 +84,7 @@ pub(super) fn effective(
         slope: slope.0,
         slope_error: slope.1 + CORNER_NOISE * slope.0.abs(),
         // Convolution with a second wave smooths the corner, but its outer edge stays a one-sided place.
-        side: if v.abs() == outermost {
-            Side::Outer
-        } else {
-            Side::Both
-        },
+        side: if v.abs() == outermost { Side::Outer } else { Side::Both },
     })
 }
 

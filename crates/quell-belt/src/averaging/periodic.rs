@@ -33,18 +33,9 @@ pub(super) struct Signal<'a> {
 
 impl<'a> Signal<'a> {
     pub(super) fn new(group: &'a PeriodicMotion) -> Result<Self, AveragingError> {
-        let mean_square = if group.distortion == 0.0 {
-            0.0
-        } else {
-            group.normal_mean_square()?
-        };
+        let mean_square = if group.distortion == 0.0 { 0.0 } else { group.normal_mean_square()? };
         let correlated = group.has_correlated_load();
-        let mut signal = Self {
-            group,
-            mean_square,
-            correlated,
-            ends: Vec::new(),
-        };
+        let mut signal = Self { group, mean_square, correlated, ends: Vec::new() };
         let mut edges = group.breaks();
         edges.insert(0, 0.0);
         edges.push(TAU);
@@ -84,11 +75,7 @@ impl<'a> Signal<'a> {
 
     /// ν(θ), 0 where it cannot correlate with s.
     pub(super) fn load(&self, theta: f64) -> f64 {
-        if self.correlated {
-            self.group.load_at(theta)
-        } else {
-            0.0
-        }
+        if self.correlated { self.group.load_at(theta) } else { 0.0 }
     }
 
     /// Phases at which s is monotone on each side.
@@ -106,11 +93,9 @@ impl<'a> Signal<'a> {
 
     /// Largest and smallest value of s.
     pub(super) fn range(&self) -> (f64, f64) {
-        self.ends
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), end| {
-                (low.min(end.1), high.max(end.1))
-            })
+        self.ends.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), end| {
+            (low.min(end.1), high.max(end.1))
+        })
     }
 
     /// Phases where s = value.
@@ -151,11 +136,7 @@ pub(super) fn mean(
     let rounding = 8.0 * f64::EPSILON * (low.abs() + high.abs());
     let at_corner = (v - high).abs() <= rounding || (v - low).abs() <= rounding;
     // At the corner the outer slope: the touch is no crossing.
-    let crossings = if at_corner {
-        Vec::new()
-    } else {
-        signal.crossings(v)
-    };
+    let crossings = if at_corner { Vec::new() } else { signal.crossings(v) };
     let jump: f64 = crossings
         .iter()
         .map(|&x| (base + signal.load(x)) / (TAU * signal.value_and_slope(x).1.abs()))
@@ -185,12 +166,8 @@ pub(super) fn mean(
     let value = settled(integrate(value, 0.0, TAU, &cuts, &options(scale)))?;
     let smooth = settled(integrate(slope, 0.0, TAU, &cuts, &options(slope_scale)))?;
     let side = if at_corner { Side::Outer } else { Side::Both };
-    let mut effective = Effective::closed(
-        [value.value / TAU, 0.0],
-        [jump, smooth.value / TAU],
-        slope_scale,
-        side,
-    );
+    let mut effective =
+        Effective::closed([value.value / TAU, 0.0], [jump, smooth.value / TAU], slope_scale, side);
     effective.coefficient_error += value.error / TAU + 1e-14 * scale;
     effective.slope_error += smooth.error / TAU;
     Ok(effective)

@@ -43,22 +43,15 @@ pub(super) fn sign_changes<E>(
     let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
         return Ok(Vec::new());
     };
-    let mut inside: Vec<f64> = corners
-        .iter()
-        .copied()
-        .filter(|c| *c > first && *c < last)
-        .collect();
+    let mut inside: Vec<f64> =
+        corners.iter().copied().filter(|c| *c > first && *c < last).collect();
     inside.sort_unstable_by(f64::total_cmp);
     inside.dedup();
     let mut changes = Vec::new();
     let mut from = first;
     for (i, corner) in inside.iter().copied().chain([last]).enumerate() {
         let is_corner = i < inside.len();
-        let to = if is_corner {
-            corner * (1.0 - BESIDE)
-        } else {
-            corner
-        };
+        let to = if is_corner { corner * (1.0 - BESIDE) } else { corner };
         let mut stretch = vec![from];
         stretch.extend(points.iter().copied().filter(|p| *p > from && *p < to));
         stretch.push(to);
@@ -110,10 +103,7 @@ fn smooth_stretch<E>(
                 f64::INFINITY
             }
         };
-        let closeness = Closeness {
-            absolute: 0.0,
-            relative: 1e-9,
-        };
+        let closeness = Closeness { absolute: 0.0, relative: 1e-9 };
         let bottom = minimise(depth, points[i - 1], points[i + 1], closeness);
         if let Some(error) = failure {
             return Err(error);
@@ -145,9 +135,7 @@ fn locate<E>(
     };
     let root = find_root(&mut value, a, b, Closeness::default());
     let place = root.map_or(a.midpoint(b), |root| root.location);
-    let error = root.map_or(b - a, |root| {
-        root.width.max(4.0 * f64::EPSILON * place.abs())
-    });
+    let error = root.map_or(b - a, |root| root.width.max(4.0 * f64::EPSILON * place.abs()));
     // Across a root the values nearby shrink with the distance; across a jump they do not.
     let near = 1e-9 * place.abs();
     let step = |x: f64, value: &mut dyn FnMut(f64) -> f64| value(x.clamp(a, b));
@@ -158,17 +146,8 @@ fn locate<E>(
     if let Some(error) = failure {
         return Err(error);
     }
-    let crossing = if narrow.abs() > 0.5 * wide.abs() {
-        Crossing::Jump
-    } else {
-        Crossing::Root
-    };
-    Ok(SignChange {
-        place,
-        error,
-        crossing,
-        becomes_positive,
-    })
+    let crossing = if narrow.abs() > 0.5 * wide.abs() { Crossing::Jump } else { Crossing::Root };
+    Ok(SignChange { place, error, crossing, becomes_positive })
 }
 
 #[cfg(test)]
@@ -196,15 +175,7 @@ mod tests {
             assert!((place - exact).abs() < 1e-12, "{found:?}");
         }
         let kinds: Vec<Crossing> = found.iter().map(|c| c.crossing).collect();
-        assert_eq!(
-            kinds,
-            [
-                Crossing::Root,
-                Crossing::Root,
-                Crossing::Jump,
-                Crossing::Jump
-            ]
-        );
+        assert_eq!(kinds, [Crossing::Root, Crossing::Root, Crossing::Jump, Crossing::Jump]);
         let signs: Vec<bool> = found.iter().map(|c| c.becomes_positive).collect();
         assert_eq!(signs, [false, true, false, true]);
     }

@@ -57,26 +57,17 @@ pub(super) fn effective(
         law.slope(v + s) + law.slope((v - s).abs())
     };
     // The near part and the far part of the value may cancel: each keeps its own accuracy.
-    let options = QuadratureOptions {
-        relative: 1e-13,
-        ..QuadratureOptions::default()
-    };
+    let options = QuadratureOptions { relative: 1e-13, ..QuadratureOptions::default() };
     let near = settled(integrate(pair, 0.0, delta, &cuts, &options))?;
     let far = if outside {
         0.0
     } else {
-        let floor = QuadratureOptions {
-            absolute: 1e-14 * near.value.abs(),
-            ..options
-        };
+        let floor = QuadratureOptions { absolute: 1e-14 * near.value.abs(), ..options };
         settled(integrate(pair, delta, FRAC_PI_2, &cuts, &floor))?.value
     };
     // A slope that crosses zero is accurate relative to the law's own slopes.
     let scale = law.slope(0.0).abs() + law.slope(v).abs() + PI * law.coefficient(0.0) * density;
-    let options = QuadratureOptions {
-        absolute: 1e-13 * scale,
-        ..options
-    };
+    let options = QuadratureOptions { absolute: 1e-13 * scale, ..options };
     let smooth = settled(integrate(slopes, 0.0, FRAC_PI_2, &cuts, &options))?;
     let side = if v == corner { Side::Outer } else { Side::Both };
     let mut effective = Effective::closed(

@@ -46,11 +46,7 @@ pub struct Solver {
 
 impl Default for Solver {
     fn default() -> Self {
-        Self {
-            tolerance: DEFAULT_TOLERANCE,
-            settle: 1200.0,
-            record_periods: 60,
-        }
+        Self { tolerance: DEFAULT_TOLERANCE, settle: 1200.0, record_periods: 60 }
     }
 }
 

@@ -50,10 +50,7 @@ impl Record {
     /// M of the first and of the second half.
     pub fn half_amplitudes(&self) -> (f64, f64) {
         let (first, second) = self.samples.split_at(self.samples.len() / 2);
-        (
-            largest(&spectrum_of(first, self.step)),
-            largest(&spectrum_of(second, self.step)),
-        )
+        (largest(&spectrum_of(first, self.step)), largest(&spectrum_of(second, self.step)))
     }
 
     /// Whether M of the halves agree, relatively or against `reference`.
@@ -66,11 +63,7 @@ impl Record {
 }
 
 /// The record of a run, with what was metered on it.
-pub(super) fn take(
-    belt: &Belt,
-    start: Start,
-    solver: &Solver,
-) -> Result<(Record, Meter), Stalled> {
+pub(super) fn take(belt: &Belt, start: Start, solver: &Solver) -> Result<(Record, Meter), Stalled> {
     let fastest = belt
         .dithers()
         .iter()

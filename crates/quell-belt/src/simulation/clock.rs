@@ -37,10 +37,7 @@ impl Clock {
         let back = sum - self.time;
         let rest = (self.time - (sum - back)) + (step - back) + self.low;
         let time = sum + rest;
-        Self {
-            time,
-            low: rest - (time - sum),
-        }
+        Self { time, low: rest - (time - sum) }
     }
 
     /// How long until `target`; negative if it has passed.

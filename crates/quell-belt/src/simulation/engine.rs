@@ -11,16 +11,13 @@ use quell_numerics::lane::horner;
 use quell_numerics::polynomial::{first_crossing_after, step_length};
 
 use super::clock::Clock;
-use super::event::{Event, EventKind};
+use super::event::EventKind;
 use super::forcing::{Forcing, Series};
 use super::observer::{Observer, Segment};
 use super::slip::{Load, SlipEquation, SlipStart};
 use super::stick::{Bond, Search};
+use super::transitions::{Contact, PATIENCE};
 use super::{FinalState, ORDER, Stalled, Start};
-
-/// Changes of contact at one moment before the bond is held. A jump that breaks a bond just
-/// made needs two; a touch of the threshold repeats for ever.
-const PATIENCE: u32 = 4;
 
 /// Time for which a bond is held after a touch, in units of 1/max(1, R).
 const HOLD: f64 = 1e-8;
@@ -28,48 +25,33 @@ const HOLD: f64 = 1e-8;
 /// Sure stick shorter than this is left to the search.
 const WORTH_SKIPPING: f64 = 1e-3;
 
-/// Rate of |f_s| − μ_s N, relative to its scale, below which a release counts as nearly
-/// tangential.
-const NEARLY_TANGENTIAL: f64 = 1e-6;
-
-/// State of the contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Contact {
-    /// Moving with the belt; `held` after a touch.
-    Stick { held: bool },
-    /// Slipping with this sign; `zeros` is the multiplicity of the zero of v_r at the start
-    /// of the coming step, to be divided out: 2 after a smooth release, 1 after a reversal, a
-    /// jump or a law with μ_k < μ_s.
-    Slip { sign: f64, zeros: usize },
-}
-
 pub(super) struct Engine<'a, L, O> {
-    law: L,
-    equation: SlipEquation<f64>,
-    bond: Bond,
-    tangential: Forcing,
-    normal: Forcing,
+    pub(super) law: L,
+    pub(super) equation: SlipEquation<f64>,
+    pub(super) bond: Bond,
+    pub(super) tangential: Forcing,
+    pub(super) normal: Forcing,
     /// Tolerance in units of the velocity scale.
-    tolerance: f64,
+    pub(super) tolerance: f64,
     /// Length unit: the law's velocity scale.
-    unit: f64,
+    pub(super) unit: f64,
     /// v₀, not in `unit`.
-    belt_velocity: f64,
+    pub(super) belt_velocity: f64,
     /// ORDER/2 radians of the fastest oscillation.
-    longest_step: f64,
-    clock: Clock,
-    until: f64,
-    displacement: f64,
-    slip: f64,
-    contact: Contact,
+    pub(super) longest_step: f64,
+    pub(super) clock: Clock,
+    pub(super) until: f64,
+    pub(super) displacement: f64,
+    pub(super) slip: f64,
+    pub(super) contact: Contact,
     /// Whether the last thing that happened was a kink or a jump.
-    at_break: bool,
-    idle: u32,
-    smooth_release: bool,
-    events: u64,
-    steps: u64,
-    near_tangential_releases: u64,
-    observer: &'a mut O,
+    pub(super) at_break: bool,
+    pub(super) idle: u32,
+    pub(super) smooth_release: bool,
+    pub(super) events: u64,
+    pub(super) steps: u64,
+    pub(super) near_tangential_releases: u64,
+    pub(super) observer: &'a mut O,
 }
 
 impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
@@ -93,10 +75,7 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         let normal = forcing(Direction::Normal, load);
         let fastest = tangential.highest_rate().max(normal.highest_rate()).max(1.0);
         Self {
-            equation: SlipEquation {
-                damping,
-                belt_velocity,
-            },
+            equation: SlipEquation { damping, belt_velocity },
             bond: Bond {
                 damper: damping * belt_velocity,
                 belt_velocity,
@@ -112,10 +91,7 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
             until,
             displacement: start.displacement / unit,
             slip,
-            contact: Contact::Slip {
-                sign: 1f64.copysign(slip),
-                zeros: 0,
-            },
+            contact: Contact::Slip { sign: 1f64.copysign(slip), zeros: 0 },
             at_break: false,
             idle: 0,
             smooth_release: law.starts_at_static_level(),
@@ -154,10 +130,7 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
     }
 
     fn stalled(&self, why: &'static str) -> Stalled {
-        Stalled {
-            time: self.clock.time(),
-            why,
-        }
+        Stalled { time: self.clock.time(), why }
     }
 
     fn final_state(&self) -> FinalState {
@@ -170,15 +143,6 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
             events: self.events,
             steps: self.steps,
             near_tangential_releases: self.near_tangential_releases,
-        }
-    }
-
-    #[inline(always)]
-    fn slip_sign(&self) -> i8 {
-        match self.contact {
-            Contact::Stick { .. } => 0,
-            Contact::Slip { sign, .. } if sign > 0.0 => 1,
-            Contact::Slip { .. } => -1,
         }
     }
 
@@ -283,35 +247,6 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         }
     }
 
-    /// What the contact does at v_r = 0, by f_s alone.
-    #[inline(always)]
-    fn decided(&self) -> Contact {
-        let force = self.bond.force(self.displacement, self.tangential.value(self.clock));
-        let limit = self.bond.static_coefficient * self.normal.value(self.clock);
-        if force.abs() <= limit || self.idle >= PATIENCE {
-            Contact::Stick {
-                held: self.idle >= PATIENCE,
-            }
-        } else {
-            Contact::Slip {
-                sign: 1f64.copysign(force),
-                zeros: 1,
-            }
-        }
-    }
-
-    /// v_r has reached 0 from the side of `sign`.
-    #[inline(always)]
-    fn arrive(&mut self, sign: f64) {
-        self.contact = self.decided();
-        match self.contact {
-            Contact::Stick { .. } => self.report(EventKind::Stick),
-            Contact::Slip { sign: after, .. } if after != sign => self.report(EventKind::Reversal),
-            // A graze: v_r touches 0 and turns back to its own side. Nothing happens.
-            Contact::Slip { .. } => {}
-        }
-    }
-
     /// One stretch of stick, up to a break of the bond or the next stop.
     #[inline(always)]
     fn stick_stretch(&mut self, held: bool) {
@@ -342,35 +277,12 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         );
         match search {
             Search::Holds(length) => self.stay(length, stop, room),
-            Search::Breaks {
-                after,
-                sign,
-                rate,
-                at_once,
-            } => {
+            Search::Breaks { after, sign, rate, at_once } => {
                 let jumped = at_once && self.at_break;
                 self.stay(after, stop, room);
                 self.release(sign, rate, jumped);
             }
         }
-    }
-
-    /// The bond breaks now.
-    #[inline(always)]
-    fn release(&mut self, sign: f64, rate: f64, jumped: bool) {
-        let scale = self.bond.belt_velocity
-            + self.tangential.amplitude() * self.tangential.highest_rate()
-            + self.normal.amplitude() * self.normal.highest_rate();
-        if !jumped && rate < NEARLY_TANGENTIAL * scale {
-            self.near_tangential_releases += 1;
-        }
-        if !jumped && rate <= 0.0 {
-            self.contact = Contact::Stick { held: true };
-            return;
-        }
-        let zeros = if jumped || !self.smooth_release { 1 } else { 2 };
-        self.contact = Contact::Slip { sign, zeros };
-        self.report(EventKind::Release);
     }
 
     /// Moves with the belt for `duration`.
@@ -392,18 +304,5 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         });
         self.displacement = f64::mul_add(self.bond.belt_velocity, duration, self.displacement);
         self.advance(duration, reaches_stop, stop);
-    }
-
-    #[inline(always)]
-    fn report(&mut self, kind: EventKind) {
-        self.events += 1;
-        let event = Event {
-            time: self.clock.time(),
-            contact: 0,
-            kind,
-            slip_sign: self.slip_sign(),
-            displacement: self.unit * self.displacement,
-        };
-        self.observer.event(&event);
     }
 }

@@ -24,11 +24,12 @@ mod forcing;
 mod observer;
 mod slip;
 mod stick;
+mod transitions;
 
 use std::fmt;
 
-use quell_model::friction::{LawVisitor, SlidingLaw};
 use quell_model::Belt;
+use quell_model::friction::{LawVisitor, SlidingLaw};
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 
 pub use clock::Clock;
@@ -55,11 +56,7 @@ pub struct Start {
 
 impl Start {
     /// x = 0, x′ = 0 at τ = 0.
-    pub const REST: Self = Self {
-        time: 0.0,
-        displacement: 0.0,
-        velocity: 0.0,
-    };
+    pub const REST: Self = Self { time: 0.0, displacement: 0.0, velocity: 0.0 };
 }
 
 /// State at the end of a run, and what happened on the way.
@@ -87,11 +84,7 @@ pub struct FinalState {
 impl FinalState {
     /// The start that continues this run.
     pub fn restart(&self) -> Start {
-        Start {
-            time: self.time,
-            displacement: self.displacement,
-            velocity: self.velocity,
-        }
+        Start { time: self.time, displacement: self.displacement, velocity: self.velocity }
     }
 }
 
@@ -127,13 +120,7 @@ pub fn simulate<O: Observer>(
     tolerance: f64,
     observer: &mut O,
 ) -> Result<FinalState, Stalled> {
-    belt.friction().visit(Run {
-        belt,
-        start,
-        until,
-        tolerance,
-        observer,
-    })
+    belt.friction().visit(Run { belt, start, until, tolerance, observer })
 }
 
 /// One run, before the law is known.
@@ -155,10 +142,7 @@ impl<O: Observer> LawVisitor for Run<'_, O> {
     type Output = Result<FinalState, Stalled>;
 
     fn visit<L: SlidingLaw>(self, law: &L) -> Self::Output {
-        with_fused_multiply_add(RunOf {
-            run: self,
-            law: *law,
-        })
+        with_fused_multiply_add(RunOf { run: self, law: *law })
     }
 }
 
@@ -167,13 +151,7 @@ impl<O: Observer, L: SlidingLaw> Work for RunOf<'_, O, L> {
 
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let Run {
-            belt,
-            start,
-            until,
-            tolerance,
-            observer,
-        } = self.run;
+        let Run { belt, start, until, tolerance, observer } = self.run;
         engine::Engine::new(belt, self.law, start, until, tolerance, observer).run()
     }
 }

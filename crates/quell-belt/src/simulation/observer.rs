@@ -152,12 +152,7 @@ pub struct Sampler {
 impl Sampler {
     /// `count` samples from `first`, `step` apart.
     pub fn new(first: f64, step: f64, count: usize) -> Self {
-        Self {
-            first,
-            step,
-            count,
-            samples: Vec::with_capacity(count),
-        }
+        Self { first, step, count, samples: Vec::with_capacity(count) }
     }
 
     /// The stroboscopic section Rτ = 2πn − φ of a dither, for the periods inside `from`…`to`.
@@ -209,10 +204,7 @@ pub struct VelocitySection {
 impl VelocitySection {
     /// Section x′ = `level`, upward crossings.
     pub fn upward(level: f64) -> Self {
-        Self {
-            level,
-            crossings: Vec::new(),
-        }
+        Self { level, crossings: Vec::new() }
     }
 }
 

@@ -112,9 +112,6 @@ impl<V: Lane> SlipEquation<V> {
                 y[K + 1] = -(w[K] * inverse);
             }
         });
-        SlipSeries {
-            displacement: y,
-            slip: w,
-        }
+        SlipSeries { displacement: y, slip: w }
     }
 }

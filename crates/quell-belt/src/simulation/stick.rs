@@ -110,14 +110,8 @@ impl Bond {
             (Some(up), Some(down)) if up <= down => (1.0, &rise, up),
             (_, Some(down)) => (-1.0, &fall, down),
         };
-        let (after, rate) =
-            self.polish(sign, margin, after, length, clock, y, tangential, normal);
-        Search::Breaks {
-            after,
-            sign,
-            rate,
-            at_once: margin[0] > 0.0,
-        }
+        let (after, rate) = self.polish(sign, margin, after, length, clock, y, tangential, normal);
+        Search::Breaks { after, sign, rate, at_once: margin[0] > 0.0 }
     }
 
     /// One Newton step on the closed form, which the series only approximates to the tolerance.

@@ -7,9 +7,7 @@ use quell_numerics::lane::{Lane, partial_product};
 
 use super::{BranchSeries, SlidingLaw, checked, minimum_at_most_static};
 use crate::Invalid;
-use crate::parameter::{
-    MINIMUM_COEFFICIENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT,
-};
+use crate::parameter::{MINIMUM_COEFFICIENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT};
 
 /// Decreasing law, eq. (2.8).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,9 +48,7 @@ impl SlidingLaw for Decreasing {
         &[STATIC_COEFFICIENT, MINIMUM_COEFFICIENT, REFERENCE_VELOCITY];
 
     fn from_values(values: &[f64]) -> Result<Self, Vec<Invalid>> {
-        checked(Self::PARAMETERS, values, || {
-            minimum_at_most_static(values[0], values[1])
-        })?;
+        checked(Self::PARAMETERS, values, || minimum_at_most_static(values[0], values[1]))?;
         Ok(Self {
             static_coefficient: values[0],
             minimum_coefficient: values[1],
@@ -61,11 +57,7 @@ impl SlidingLaw for Decreasing {
     }
 
     fn values(&self) -> Vec<f64> {
-        vec![
-            self.static_coefficient,
-            self.minimum_coefficient,
-            self.reference_velocity,
-        ]
+        vec![self.static_coefficient, self.minimum_coefficient, self.reference_velocity]
     }
 
     #[inline(always)]

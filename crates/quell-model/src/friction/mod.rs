@@ -210,11 +210,7 @@ fn checked(
         .filter_map(|(parameter, &value)| parameter.check(value).err())
         .chain(relation())
         .collect();
-    if complaints.is_empty() {
-        Ok(())
-    } else {
-        Err(complaints)
-    }
+    if complaints.is_empty() { Ok(()) } else { Err(complaints) }
 }
 
 /// μ_m ≤ μ_s, which both built-in laws need.

@@ -6,9 +6,7 @@ use quell_numerics::lane::{Lane, inner_square, partial_product};
 
 use super::{BranchSeries, SlidingLaw, checked, minimum_at_most_static};
 use crate::Invalid;
-use crate::parameter::{
-    MINIMUM_COEFFICIENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT,
-};
+use crate::parameter::{MINIMUM_COEFFICIENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT};
 
 /// Stribeck law, eq. (2.7).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,9 +47,7 @@ impl SlidingLaw for Stribeck {
         &[STATIC_COEFFICIENT, MINIMUM_COEFFICIENT, REFERENCE_VELOCITY];
 
     fn from_values(values: &[f64]) -> Result<Self, Vec<Invalid>> {
-        checked(Self::PARAMETERS, values, || {
-            minimum_at_most_static(values[0], values[1])
-        })?;
+        checked(Self::PARAMETERS, values, || minimum_at_most_static(values[0], values[1]))?;
         Ok(Self {
             static_coefficient: values[0],
             minimum_coefficient: values[1],
@@ -60,11 +56,7 @@ impl SlidingLaw for Stribeck {
     }
 
     fn values(&self) -> Vec<f64> {
-        vec![
-            self.static_coefficient,
-            self.minimum_coefficient,
-            self.reference_velocity,
-        ]
+        vec![self.static_coefficient, self.minimum_coefficient, self.reference_velocity]
     }
 
     #[inline(always)]
@@ -86,10 +78,8 @@ impl SlidingLaw for Stribeck {
         let cubic = V::splat(fall / 3.0);
         let mut square = [V::splat(0.0); N];
         square[0] = w0 * w0;
-        let first = (square[0] * w0).mul_add(
-            cubic,
-            w0.mul_add(linear, sign * V::splat(self.static_coefficient)),
-        );
+        let first = (square[0] * w0)
+            .mul_add(cubic, w0.mul_add(linear, sign * V::splat(self.static_coefficient)));
         StribeckSeries {
             first,
             slope: square[0].mul_add(V::splat(fall), linear),

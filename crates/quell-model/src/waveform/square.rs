@@ -7,22 +7,9 @@ use super::{Piece, Shape};
 pub(super) const SHAPE: Shape = Shape {
     name: "square",
     breaks: &[0.0, PI],
-    pieces: &[
-        Piece::Affine {
-            value: 1.0,
-            slope: 0.0,
-        },
-        Piece::Affine {
-            value: -1.0,
-            slope: 0.0,
-        },
-    ],
+    pieces: &[Piece::Affine { value: 1.0, slope: 0.0 }, Piece::Affine { value: -1.0, slope: 0.0 }],
     integral: |phase| {
-        if phase < PI {
-            phase - FRAC_PI_2
-        } else {
-            3.0 * FRAC_PI_2 - phase
-        }
+        if phase < PI { phase - FRAC_PI_2 } else { 3.0 * FRAC_PI_2 - phase }
     },
     peak_integral: FRAC_PI_2,
     mean_square_integral: PI * PI / 12.0,

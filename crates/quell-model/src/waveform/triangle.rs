@@ -13,14 +13,8 @@ pub(super) const SHAPE: Shape = Shape {
     name: "triangle",
     breaks: &[FRAC_PI_2, 3.0 * FRAC_PI_2],
     pieces: &[
-        Piece::Affine {
-            value: 1.0,
-            slope: -FRAC_2_PI,
-        },
-        Piece::Affine {
-            value: -1.0,
-            slope: FRAC_2_PI,
-        },
+        Piece::Affine { value: 1.0, slope: -FRAC_2_PI },
+        Piece::Affine { value: -1.0, slope: FRAC_2_PI },
     ],
     integral: |phase| {
         // Distance from the nearest multiple of 2π, then mirrored about π/2.

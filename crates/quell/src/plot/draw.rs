@@ -67,27 +67,17 @@ fn draw_outer(canvas: &mut Canvas, plan: &Plan) {
     let size = f64::from(plan.sizes.figure_title);
     for (number, line) in plan.title.iter().enumerate() {
         let baseline = 10.0 + 0.85 * size + 1.35 * size * number as f64;
-        let setting = Setting {
-            bold: true,
-            ..Setting::new(plan.sizes.figure_title, TextAnchor::Middle)
-        };
+        let setting =
+            Setting { bold: true, ..Setting::new(plan.sizes.figure_title, TextAnchor::Middle) };
         canvas.text(line, (middle, baseline), setting);
     }
     let room = plan.body.1 - plan.body.0;
-    legend::draw_lines(
-        canvas,
-        &plan.shared,
-        (plan.body.0, plan.shared_top),
-        room,
-        plan.sizes,
-    );
+    legend::draw_lines(canvas, &plan.shared, (plan.body.0, plan.shared_top), room, plan.sizes);
     let size = f64::from(plan.sizes.caption);
     for (number, line) in plan.caption.iter().enumerate() {
         let baseline = plan.caption_top + 0.9 * size + 1.35 * size * number as f64;
-        let setting = Setting {
-            colour: FAINT,
-            ..Setting::new(plan.sizes.caption, TextAnchor::Start)
-        };
+        let setting =
+            Setting { colour: FAINT, ..Setting::new(plan.sizes.caption, TextAnchor::Start) };
         canvas.text(line, (10.0, baseline), setting);
     }
 }
@@ -105,11 +95,7 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, plan: &PanelPlan, sizes: Sizes
         if let Layer::Rule(rule) = layer {
             let width = rule.role.width();
             let dashes = rule.style.unwrap_or(rule.role.style()).dashes(width);
-            let stroke = Stroke {
-                colour: rule.role.colour(),
-                width,
-                dashes,
-            };
+            let stroke = Stroke { colour: rule.role.colour(), width, dashes };
             let ends = rule_ends(rule.direction, rule.value, &x, &y, plan.frame);
             canvas.stroke(path(ends.as_slice(), false), &stroke);
         }
@@ -159,18 +145,12 @@ pub(super) fn pixels(
     frame: Rectangle,
 ) -> Vec<Vec<(f64, f64)>> {
     let beside = |point: (f64, f64)| {
-        if point.0 < frame.left - 2.0 {
-            -1
-        } else {
-            i32::from(point.0 > frame.right + 2.0)
-        }
+        if point.0 < frame.left - 2.0 { -1 } else { i32::from(point.0 > frame.right + 2.0) }
     };
     let mut drawn = Vec::new();
     for piece in pieces {
-        let mapped: Vec<Option<(f64, f64)>> = piece
-            .iter()
-            .map(|&(at, value)| x.pixel(at).zip(y.pixel(value)))
-            .collect();
+        let mapped: Vec<Option<(f64, f64)>> =
+            piece.iter().map(|&(at, value)| x.pixel(at).zip(y.pixel(value))).collect();
         for run in mapped.split(Option::is_none) {
             let run: Vec<(f64, f64)> = run.iter().copied().flatten().collect();
             let visible = run.chunk_by(|before, after| {
@@ -222,34 +202,21 @@ fn draw_region(canvas: &mut Canvas, region: &Region, x: &Mapping, y: &Mapping, f
                 let value = y.pixel(value).unwrap_or(frame.bottom + 10.0);
                 (at, value)
             };
-            path(
-                &[thin::polyline(
-                    &corners.iter().map(inside).collect::<Vec<_>>(),
-                )],
-                true,
-            )
+            path(&[thin::polyline(&corners.iter().map(inside).collect::<Vec<_>>())], true)
         }
         Shape::AcrossX(from, to) => {
             let (left, right) = strip(x, from.min(*to), to.max(*from), frame.left, frame.right);
             if left >= right {
                 return;
             }
-            marks::outline(Rectangle {
-                left,
-                right,
-                ..frame
-            })
+            marks::outline(Rectangle { left, right, ..frame })
         }
         Shape::AcrossY(from, to) => {
             let (bottom, top) = strip(y, from.min(*to), to.max(*from), frame.bottom, frame.top);
             if top >= bottom {
                 return;
             }
-            marks::outline(Rectangle {
-                top,
-                bottom,
-                ..frame
-            })
+            marks::outline(Rectangle { top, bottom, ..frame })
         }
     };
     marks::fill(canvas, path, region.role, region.fill);
@@ -276,12 +243,7 @@ pub(super) fn note_area(
     let inner = frame.grown(-4.0);
     let left = left.min(inner.right - width).max(inner.left);
     let top = top.min(inner.bottom - height).max(inner.top);
-    Some(Rectangle {
-        left,
-        top,
-        right: left + width,
-        bottom: top + height,
-    })
+    Some(Rectangle { left, top, right: left + width, bottom: top + height })
 }
 
 fn draw_texts(canvas: &mut Canvas, panel: &Panel, plan: &PanelPlan, sizes: Sizes) {
@@ -316,19 +278,12 @@ fn draw_texts(canvas: &mut Canvas, panel: &Panel, plan: &PanelPlan, sizes: Sizes
 }
 
 fn rule_ink(rule: &Rule) -> Colour {
-    if rule.role == Role::Guide {
-        FAINT
-    } else {
-        rule.role.colour()
-    }
+    if rule.role == Role::Guide { FAINT } else { rule.role.colour() }
 }
 
 /// Prints a text into its place, with a rim of paper that keeps it readable on a curve.
 fn print(canvas: &mut Canvas, text: &str, area: Rectangle, colour: Colour, sizes: Sizes) {
-    let setting = Setting {
-        colour,
-        ..Setting::new(sizes.note, TextAnchor::Start)
-    };
+    let setting = Setting { colour, ..Setting::new(sizes.note, TextAnchor::Start) };
     canvas.begin_group(
         "stroke=\"#fff\" stroke-width=\"2.5\" stroke-opacity=\"0.75\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
     );

@@ -38,36 +38,16 @@ pub(super) fn draw_frame(
         ]
     };
     for (value, _) in &plan.x_ticks.major {
-        marks.extend(
-            x.pixel(*value)
-                .map(|at| upright(at, MAJOR_TICK))
-                .into_iter()
-                .flatten(),
-        );
+        marks.extend(x.pixel(*value).map(|at| upright(at, MAJOR_TICK)).into_iter().flatten());
     }
     for (value, _) in &plan.y_ticks.major {
-        marks.extend(
-            y.pixel(*value)
-                .map(|at| level(at, MAJOR_TICK))
-                .into_iter()
-                .flatten(),
-        );
+        marks.extend(y.pixel(*value).map(|at| level(at, MAJOR_TICK)).into_iter().flatten());
     }
     for value in &plan.x_ticks.minor {
-        minor_marks.extend(
-            x.pixel(*value)
-                .map(|at| upright(at, MINOR_TICK))
-                .into_iter()
-                .flatten(),
-        );
+        minor_marks.extend(x.pixel(*value).map(|at| upright(at, MINOR_TICK)).into_iter().flatten());
     }
     for value in &plan.y_ticks.minor {
-        minor_marks.extend(
-            y.pixel(*value)
-                .map(|at| level(at, MINOR_TICK))
-                .into_iter()
-                .flatten(),
-        );
+        minor_marks.extend(y.pixel(*value).map(|at| level(at, MINOR_TICK)).into_iter().flatten());
     }
     canvas.stroke(path(&minor_marks, false), &Stroke::solid(FRAME, 0.6));
     canvas.stroke(path(&marks, false), &Stroke::solid(FRAME, FRAME_WIDTH));
@@ -83,20 +63,12 @@ fn draw_numbers(canvas: &mut Canvas, plan: &PanelPlan, sizes: Sizes, x: &Mapping
         for (value, label) in &plan.x_ticks.major {
             let Some(at) = x.pixel(*value) else { continue };
             let baseline = frame.bottom + NUMBER_GAP + 0.76 * size;
-            canvas.text(
-                label,
-                (at, baseline),
-                Setting::new(sizes.number, TextAnchor::Middle),
-            );
+            canvas.text(label, (at, baseline), Setting::new(sizes.number, TextAnchor::Middle));
         }
         if plan.x_ticks.exponent != 0 {
             let below = frame.bottom + NUMBER_GAP + size + LABEL_GAP + 0.8 * f64::from(sizes.label);
             let label = Label::parse(&format!("$×10^{{{}}}$", plan.x_ticks.exponent));
-            canvas.text(
-                &label,
-                (frame.right, below),
-                Setting::new(sizes.number, TextAnchor::End),
-            );
+            canvas.text(&label, (frame.right, below), Setting::new(sizes.number, TextAnchor::End));
         }
     }
     if plan.y_numbers {
@@ -115,24 +87,14 @@ fn draw_numbers(canvas: &mut Canvas, plan: &PanelPlan, sizes: Sizes, x: &Mapping
 
 fn draw_labels(canvas: &mut Canvas, plan: &PanelPlan, sizes: Sizes) {
     let frame = plan.frame;
-    let middle = (
-        0.5 * (frame.left + frame.right),
-        0.5 * (frame.top + frame.bottom),
-    );
+    let middle = (0.5 * (frame.left + frame.right), 0.5 * (frame.top + frame.bottom));
     let size = f64::from(sizes.label);
     let setting = Setting::new(sizes.label, TextAnchor::Middle);
     let first = frame.bottom + NUMBER_GAP + f64::from(sizes.number) + LABEL_GAP + 0.8 * size;
     for (number, line) in plan.x_label.iter().enumerate() {
-        canvas.text(
-            line,
-            (middle.0, first + 1.25 * size * number as f64),
-            setting,
-        );
+        canvas.text(line, (middle.0, first + 1.25 * size * number as f64), setting);
     }
-    let upwards = Setting {
-        upwards: true,
-        ..setting
-    };
+    let upwards = Setting { upwards: true, ..setting };
     for (number, line) in plan.y_label.iter().rev().enumerate() {
         let at = frame.left - plan.y_label_distance - 1.25 * size * number as f64;
         canvas.text(line, (at, middle.1), upwards);
@@ -142,11 +104,7 @@ fn draw_labels(canvas: &mut Canvas, plan: &PanelPlan, sizes: Sizes) {
         baseline -= legend::lines_height(&plan.entries, frame.width(), sizes) + 2.0;
     }
     for line in plan.title.iter().rev() {
-        canvas.text(
-            line,
-            (frame.left, baseline),
-            Setting::new(sizes.title, TextAnchor::Start),
-        );
+        canvas.text(line, (frame.left, baseline), Setting::new(sizes.title, TextAnchor::Start));
         baseline -= 1.3 * f64::from(sizes.title);
     }
 }
