@@ -87,10 +87,7 @@ impl Place {
 
     fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_quell"));
-        command
-            .current_dir(&self.folder)
-            .args(arguments)
-            .stdin(Stdio::null());
+        command.current_dir(&self.folder).args(arguments).stdin(Stdio::null());
         command
     }
 
@@ -124,11 +121,7 @@ impl Place {
         assert!(told.contains("error"), "{arguments:?}: {told}");
         assert!(!told.contains("panicked"), "{told}");
         let (object, status) = self.json(arguments);
-        assert_eq!(
-            (status, &object["ok"]),
-            (2, &Json::Bool(false)),
-            "{arguments:?}"
-        );
+        assert_eq!((status, &object["ok"]), (2, &Json::Bool(false)), "{arguments:?}");
         assert_eq!(self.files(), before, "{arguments:?}");
         let errors = object["errors"].as_array().expect("errors").clone();
         assert!(!errors.is_empty());
@@ -143,13 +136,7 @@ impl Place {
     fn files(&self) -> Vec<String> {
         let entries = fs::read_dir(&self.folder).expect("a folder");
         let mut names: Vec<String> = entries
-            .map(|entry| {
-                entry
-                    .expect("an entry")
-                    .file_name()
-                    .to_string_lossy()
-                    .into_owned()
-            })
+            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
             .collect();
         names.sort();
         names
@@ -163,9 +150,8 @@ fn nulls_have_reasons(object: &Json) {
             Json::Null => {
                 let named = |path: &str| why.get(path).is_some_and(Json::is_string);
                 // An SI twin is null for the reason of its field.
-                let of_twin = why
-                    .as_object()
-                    .is_some_and(|why| why.keys().any(|key| path.starts_with(key)));
+                let of_twin =
+                    why.as_object().is_some_and(|why| why.keys().any(|key| path.starts_with(key)));
                 assert!(named(path) || of_twin, "null without a reason: {path}");
             }
             Json::Array(list) => {
@@ -175,11 +161,7 @@ fn nulls_have_reasons(object: &Json) {
             }
             Json::Object(object) => {
                 for (key, inner) in object {
-                    let path = if path.is_empty() {
-                        key.clone()
-                    } else {
-                        format!("{path}.{key}")
-                    };
+                    let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
                     walk(inner, &path, why);
                 }
             }
@@ -211,42 +193,18 @@ fn bad_studies_are_refused_by_every_verb() {
     let place = Place::new("bad_studies");
     let with = |from: &str, to: &str| STUDY.replace(from, to).into_bytes();
     let cases: Vec<(&str, Vec<u8>, &str)> = vec![
-        (
-            "apart",
-            with("\"tangential\"", "\"normal\""),
-            "dither.amplitude",
-        ),
+        ("apart", with("\"tangential\"", "\"normal\""), "dither.amplitude"),
         ("damping", with("= 0.005", "= -0.005"), "belt.damping_ratio"),
         (
             "frequency",
             with("frequency_ratio = 10.0", "frequency_ratio = 0"),
             "dither.frequency_ratio",
         ),
-        (
-            "minimum",
-            with("0.2857", "0.5"),
-            "friction.minimum_coefficient",
-        ),
-        (
-            "nan",
-            with("normal_load = 1.0", "normal_load = nan"),
-            "belt.normal_load",
-        ),
-        (
-            "unknown",
-            with("belt_velocity", "belt_velosity"),
-            "belt.belt_velosity",
-        ),
-        (
-            "mixed",
-            with("normal_load = 1.0", "normal_load = 1.0\nmass_kg = 1"),
-            "belt.normal_load",
-        ),
-        (
-            "text",
-            with("= 0.4\nfreq", "= \"0.4\"\nfreq"),
-            "dither.amplitude",
-        ),
+        ("minimum", with("0.2857", "0.5"), "friction.minimum_coefficient"),
+        ("nan", with("normal_load = 1.0", "normal_load = nan"), "belt.normal_load"),
+        ("unknown", with("belt_velocity", "belt_velosity"), "belt.belt_velosity"),
+        ("mixed", with("normal_load = 1.0", "normal_load = 1.0\nmass_kg = 1"), "belt.normal_load"),
+        ("text", with("= 0.4\nfreq", "= \"0.4\"\nfreq"), "dither.amplitude"),
         ("empty", Vec::new(), "study file"),
         ("blank", b"\n \n\t\n".to_vec(), "study file"),
         ("binary", vec![0xff, 0xfe, 0x00, 0x80, 0x0a], "study file"),
@@ -267,10 +225,7 @@ fn bad_studies_are_refused_by_every_verb() {
             let mut arguments = verb.to_vec();
             arguments.push("bad.toml");
             let errors = place.refused(&arguments);
-            assert!(
-                errors.iter().any(|error| error["key"] == *key),
-                "{name}: {errors:?}"
-            );
+            assert!(errors.iter().any(|error| error["key"] == *key), "{name}: {errors:?}");
         }
     }
     for missing in ["nowhere.toml", ".", "study.toml/below"] {
@@ -294,65 +249,28 @@ fn bad_arguments_are_refused() {
         (&["simulate", "--until", "1"], "<STUDY>"),
         (&["friction", "study.toml", "--at", "fast"], "--at"),
         (&["friction", "study.toml", "--at", "0.1,20mm/s"], "--at"),
-        (
-            &["check", "study.toml", "--set", "belt.normal_load"],
-            "--set",
-        ),
-        (
-            &["check", "study.toml", "--set", "belt.normal_laod=1"],
-            "belt.normal_laod",
-        ),
-        (
-            &["check", "study.toml", "--set", "belt.normal_load=-1"],
-            "belt.normal_load",
-        ),
-        (
-            &["check", "study.toml", "--tolerance", "1"],
-            "solver.tolerance",
-        ),
-        (
-            &["check", "study.toml", "--tolerance", "-1e-9"],
-            "solver.tolerance",
-        ),
-        (
-            &["check", "study.toml", "--tolerance", "tight"],
-            "solver.tolerance",
-        ),
+        (&["check", "study.toml", "--set", "belt.normal_load"], "--set"),
+        (&["check", "study.toml", "--set", "belt.normal_laod=1"], "belt.normal_laod"),
+        (&["check", "study.toml", "--set", "belt.normal_load=-1"], "belt.normal_load"),
+        (&["check", "study.toml", "--tolerance", "1"], "solver.tolerance"),
+        (&["check", "study.toml", "--tolerance", "-1e-9"], "solver.tolerance"),
+        (&["check", "study.toml", "--tolerance", "tight"], "solver.tolerance"),
         (&["check", "study.toml", "--colour"], "--colour"),
         (&["chekc", "study.toml"], "chekc"),
         (&["response", "study.toml", "--save", "x.xlsx"], "--save"),
-        (
-            &["response", "study.toml", "--save", "nowhere/x.csv"],
-            "--save",
-        ),
-        (
-            &[
-                "simulate",
-                "study.toml",
-                "--until",
-                "1",
-                "--save",
-                "study.toml/x.csv",
-            ],
-            "--save",
-        ),
+        (&["response", "study.toml", "--save", "nowhere/x.csv"], "--save"),
+        (&["simulate", "study.toml", "--until", "1", "--save", "study.toml/x.csv"], "--save"),
     ];
     for (arguments, key) in cases {
         let errors = place.refused(arguments);
-        assert!(
-            errors.iter().any(|error| error["key"] == *key),
-            "{arguments:?}: {errors:?}"
-        );
+        assert!(errors.iter().any(|error| error["key"] == *key), "{arguments:?}: {errors:?}");
     }
     // Everything wrong is told at once, wherever it stands.
     place.write("bad.toml", STUDY.replace("= 0.005", "= -1").as_bytes());
     let errors = place.refused(&[
         "simulate", "bad.toml", "--until", "-3", "--save", "no/x.csv", "--set", "belt.x=1",
     ]);
-    let keys: Vec<&str> = errors
-        .iter()
-        .filter_map(|error| error["key"].as_str())
-        .collect();
+    let keys: Vec<&str> = errors.iter().filter_map(|error| error["key"].as_str()).collect();
     for key in ["belt.damping_ratio", "belt.x", "--until", "--save"] {
         assert!(keys.contains(&key), "{key} in {keys:?}");
     }
@@ -370,14 +288,8 @@ fn nothing_is_computed_before_the_output_is_tried() {
     let place = Place::new("unwritable");
     fs::create_dir(place.folder.join("folder.csv")).expect("a folder");
     // A run of this length would not end today.
-    let errors = place.refused(&[
-        "simulate",
-        "study.toml",
-        "--until",
-        "1e12",
-        "--save",
-        "folder.csv",
-    ]);
+    let errors =
+        place.refused(&["simulate", "study.toml", "--until", "1e12", "--save", "folder.csv"]);
     assert_eq!(errors[0]["key"], "--save");
     assert_eq!(errors[0]["value"], "folder.csv");
 }
@@ -394,19 +306,14 @@ fn a_saved_trajectory_is_whole_and_reads_back() {
     let rows: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
     assert_eq!(rows[0], "time,displacement,velocity,slip_velocity,sticking");
     let cells = |row: &str| -> Vec<f64> {
-        row.split(',')
-            .map(|cell| cell.parse().expect("a number"))
-            .collect()
+        row.split(',').map(|cell| cell.parse().expect("a number")).collect()
     };
     assert_eq!(cells(rows[1]), [0.0, 0.0, 0.0, 0.05, 0.0]);
     let last = cells(rows[rows.len() - 1]);
     assert_eq!(object["final"]["time"].as_f64(), Some(last[0]));
     assert_eq!(object["final"]["displacement"].as_f64(), Some(last[1]));
     let object = place.good(&["response", "si.toml", "--save", "r.csv"]);
-    assert_eq!(
-        object["saved"],
-        serde_json::json!(["r.csv", "r_spectrum.csv"])
-    );
+    assert_eq!(object["saved"], serde_json::json!(["r.csv", "r_spectrum.csv"]));
     let spectrum = fs::read_to_string(place.folder.join("r_spectrum.csv")).expect("saved");
     assert!(
         spectrum.contains("frequency,frequency_hz,amplitude,amplitude_m,undithered_amplitude"),
@@ -416,39 +323,62 @@ fn a_saved_trajectory_is_whole_and_reads_back() {
     assert!(place.files().iter().all(|name| !name.contains("part")));
 }
 
+#[test]
+fn pictures_are_drawn_whole_or_not_at_all() {
+    let place = Place::new("pictures");
+    let before = place.files();
+    for verb in &VERBS[2..] {
+        for study in ["study.toml", "si.toml"] {
+            let mut arguments = verb.to_vec();
+            arguments.extend([study, "--plot", "picture.svg"]);
+            let object = place.good(&arguments);
+            assert_eq!(object["plotted"], "picture.svg");
+            let picture = fs::read_to_string(place.folder.join("picture.svg")).expect("drawn");
+            assert!(picture.starts_with("<svg") && picture.trim_end().ends_with("</svg>"));
+            let dashed = picture.contains("stroke-dasharray");
+            assert!(dashed, "{arguments:?}: the undithered case is dashed");
+            let unit = if study == "si.toml" { ["µm", "mm/s"] } else { ["τ", "slip"] };
+            let has_axes = unit.iter().any(|unit| picture.contains(unit)) || verb[0] == "stability";
+            assert!(has_axes, "{arguments:?}");
+        }
+    }
+    place.good(&["friction", "study.toml", "--plot", "picture.PNG"]);
+    let picture = fs::read(place.folder.join("picture.PNG")).expect("drawn");
+    assert!(picture.starts_with(b"\x89PNG"));
+    // Without dither there is one curve, and it is not called dithered.
+    place.write("bare.toml", STUDY.split("[dither]").next().expect("a part").as_bytes());
+    for verb in &VERBS[2..] {
+        let mut arguments = verb.to_vec();
+        arguments.extend(["bare.toml", "--plot", "bare.svg"]);
+        place.good(&arguments);
+        let picture = fs::read_to_string(place.folder.join("bare.svg")).expect("drawn");
+        assert!(!picture.contains("with dither"), "{arguments:?}");
+    }
+    for name in ["picture.svg", "picture.PNG", "bare.svg", "bare.toml"] {
+        fs::remove_file(place.folder.join(name)).expect("there");
+    }
+    assert_eq!(place.files(), before);
+    for path in ["picture.pdf", "nowhere/picture.svg", "picture"] {
+        let errors = place.refused(&["response", "study.toml", "--plot", path]);
+        assert_eq!(errors[0]["key"], "--plot");
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn devices_are_written_not_replaced() {
     use std::os::unix::fs::FileTypeExt;
     let place = Place::new("devices");
-    place.good(&[
-        "simulate",
-        "study.toml",
-        "--until",
-        "5",
-        "--save",
-        "/dev/null",
-    ]);
+    place.good(&["simulate", "study.toml", "--until", "5", "--save", "/dev/null"]);
     let kind = fs::metadata("/dev/null").expect("there").file_type();
     assert!(kind.is_char_device());
     if Path::new("/dev/full").exists() {
-        let (object, status) = place.json(&[
-            "simulate",
-            "study.toml",
-            "--until",
-            "5",
-            "--save",
-            "/dev/full",
-        ]);
+        let (object, status) =
+            place.json(&["simulate", "study.toml", "--until", "5", "--save", "/dev/full"]);
         assert_eq!((status, &object["ok"]), (1, &Json::Bool(false)), "{object}");
         let output = place
             .command(&["check", "study.toml", "--json"])
-            .stdout(
-                fs::OpenOptions::new()
-                    .write(true)
-                    .open("/dev/full")
-                    .expect("there"),
-            )
+            .stdout(fs::OpenOptions::new().write(true).open("/dev/full").expect("there"))
             .output()
             .expect("quell runs");
         assert_eq!(output.status.code(), Some(1));
@@ -465,17 +395,8 @@ fn links_are_followed_not_replaced() {
     place.write("real.csv", b"");
     std::os::unix::fs::symlink("real.csv", place.folder.join("link.csv")).expect("a link");
     place.good(&["friction", "study.toml", "--save", "link.csv"]);
-    assert!(
-        fs::symlink_metadata(place.folder.join("link.csv"))
-            .expect("there")
-            .is_symlink()
-    );
-    assert!(
-        fs::metadata(place.folder.join("real.csv"))
-            .expect("there")
-            .len()
-            > 100
-    );
+    assert!(fs::symlink_metadata(place.folder.join("link.csv")).expect("there").is_symlink());
+    assert!(fs::metadata(place.folder.join("real.csv")).expect("there").len() > 100);
 }
 
 #[test]
@@ -489,12 +410,7 @@ fn a_closed_pipe_is_no_panic() {
         .expect("quell runs");
     drop(child.stdout.take());
     let mut told = String::new();
-    child
-        .stderr
-        .take()
-        .expect("piped")
-        .read_to_string(&mut told)
-        .expect("text");
+    child.stderr.take().expect("piped").read_to_string(&mut told).expect("text");
     assert_eq!(child.wait().expect("ends").code(), Some(0), "{told}");
     assert_eq!(told, "");
 }
@@ -503,11 +419,7 @@ fn a_closed_pipe_is_no_panic() {
 fn a_study_comes_from_standard_input() {
     let place = Place::new("stdin");
     let file = fs::File::open(place.folder.join("study.toml")).expect("there");
-    let output = place
-        .command(&["check", "-", "--json"])
-        .stdin(file)
-        .output()
-        .expect("quell runs");
+    let output = place.command(&["check", "-", "--json"]).stdin(file).output().expect("quell runs");
     assert_eq!(output.status.code(), Some(0));
 }
 
@@ -531,13 +443,7 @@ fn changes_and_units_reach_the_engine() {
     let end = seconds["final"]["time_s"].as_f64().expect("a number");
     assert!((end - 0.05).abs() < 1e-15);
     assert_eq!(seconds["units"]["time_s"], "s");
-    let plain = place.good(&[
-        "simulate",
-        "si.toml",
-        "--until",
-        &time.to_string(),
-        "--events",
-    ]);
+    let plain = place.good(&["simulate", "si.toml", "--until", &time.to_string(), "--events"]);
     assert_eq!(plain["events"], seconds["events"]);
     assert!(
         seconds["event_count"].as_u64()
@@ -548,14 +454,7 @@ fn changes_and_units_reach_the_engine() {
         (&first["kind"], &first["slip_sign"], &first["contact"]),
         (&"stick".into(), &0.into(), &0.into())
     );
-    let coarse = place.good(&[
-        "simulate",
-        "study.toml",
-        "--until",
-        "20",
-        "--tolerance",
-        "1e-6",
-    ]);
+    let coarse = place.good(&["simulate", "study.toml", "--until", "20", "--tolerance", "1e-6"]);
     let fine = place.good(&["simulate", "study.toml", "--until", "20"]);
     assert_eq!(coarse["tolerance"], 1e-6);
     assert!(coarse["steps"].as_u64() < fine["steps"].as_u64());
@@ -568,12 +467,7 @@ fn changes_and_units_reach_the_engine() {
 fn fields_have_the_names_scripts_rely_on() {
     let place = Place::new("names");
     let friction = place.good(&["friction", "study.toml", "--at", "0,0.1"]);
-    for name in [
-        "slip_velocity",
-        "coefficient",
-        "effective_coefficient",
-        "effective_slope",
-    ] {
+    for name in ["slip_velocity", "coefficient", "effective_coefficient", "effective_slope"] {
         assert_eq!(friction[name].as_array().map(Vec::len), Some(2), "{name}");
     }
     assert!(friction["coefficient"][0].is_null() && friction["why"]["coefficient[0]"].is_string());
@@ -619,8 +513,5 @@ fn help_version_and_schema_are_answers() {
     assert_eq!(place.quell(&[]).status.code(), Some(2));
     let (schema, status) = place.json(&["schema"]);
     assert_eq!(status, 0);
-    assert_eq!(
-        schema["$schema"],
-        "https://json-schema.org/draft/2020-12/schema"
-    );
+    assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
 }

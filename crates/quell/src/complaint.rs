@@ -107,13 +107,7 @@ impl Complaint {
         value: impl Into<Value>,
         allowed: impl Into<String>,
     ) -> Self {
-        Self::new(
-            Fault::Value,
-            option,
-            Origin::Argument(option),
-            value,
-            allowed,
-        )
+        Self::new(Fault::Value, option, Origin::Argument(option), value, allowed)
     }
 
     /// The same complaint with a suggestion.
@@ -149,7 +143,7 @@ impl fmt::Display for Complaint {
         match self.origin {
             Origin::Line(line) => write!(f, "line {line}: ")?,
             Origin::Argument(option) if option != self.key && self.fault != Fault::Usage => {
-                write!(f, "{option}: ")?
+                write!(f, "{option}: ")?;
             }
             Origin::Argument(_) | Origin::Whole => {}
         }
@@ -238,11 +232,7 @@ impl fmt::Display for Failure {
         match self {
             Self::Wrong(complaints) => {
                 for (index, complaint) in complaints.iter().enumerate() {
-                    let end = if index + 1 < complaints.len() {
-                        "\n"
-                    } else {
-                        ""
-                    };
+                    let end = if index + 1 < complaints.len() { "\n" } else { "" };
                     write!(f, "{complaint}{end}")?;
                 }
                 Ok(())

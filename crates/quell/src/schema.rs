@@ -34,12 +34,7 @@ impl System {
 pub fn schema() -> Json {
     let mut definitions = Map::new();
     for system in [System::Scaled, System::Si] {
-        for section in [
-            Section::Belt,
-            Section::Initial,
-            Section::Dither,
-            Section::Solver,
-        ] {
+        for section in [Section::Belt, Section::Initial, Section::Dither, Section::Solver] {
             definitions.insert(name(section, system), table(section, system));
         }
         definitions.insert(name(Section::Friction, system), friction(system));
@@ -124,10 +119,7 @@ fn table(section: Section, system: System) -> Json {
         }
     }
     if section == Section::Belt {
-        properties.insert(
-            "initial".into(),
-            json!({ "$ref": reference(Section::Initial, system) }),
-        );
+        properties.insert("initial".into(), json!({ "$ref": reference(Section::Initial, system) }));
     }
     let mut object = object(section, &properties, &required);
     if !either.is_empty() {
@@ -159,16 +151,12 @@ fn friction(system: System) -> Json {
         .iter()
         .map(|law| {
             let mut properties = Map::new();
-            properties.insert(
-                "law".into(),
-                json!({ "const": law.name(), "description": law.about() }),
-            );
+            properties
+                .insert("law".into(), json!({ "const": law.name(), "description": law.about() }));
             let mut required = vec!["law"];
             for key in vocabulary::keys_of(Section::Friction).filter(|key| belongs(key, system)) {
                 let known = |parameter: Parameter| {
-                    law.parameters()
-                        .iter()
-                        .any(|known| known.path == parameter.path)
+                    law.parameters().iter().any(|known| known.path == parameter.path)
                 };
                 if key.parameter().is_some_and(known) {
                     properties.insert(key.name.to_owned(), property(key));
@@ -221,11 +209,9 @@ fn property(key: &Key) -> Json {
         Role::Number(parameter) => bounded(parameter.bounds, parameter.quantity),
         // The bounds of a twin depend on the scales unless they are about the sign.
         Role::Twin(parameter, _) => match parameter.bounds {
-            Bounds {
-                lower: 0.0,
-                upper: f64::INFINITY,
-                ..
-            } => bounded(parameter.bounds, Quantity::Ratio),
+            Bounds { lower: 0.0, upper: f64::INFINITY, .. } => {
+                bounded(parameter.bounds, Quantity::Ratio)
+            }
             Bounds { lower: 0.0, .. } => bounded(Bounds::NOT_NEGATIVE, Quantity::Ratio),
             _ => bounded(Bounds::FINITE, Quantity::Ratio),
         },
@@ -245,16 +231,10 @@ fn property(key: &Key) -> Json {
 
 fn about(key: &Key) -> String {
     match key.role {
-        Role::Number(parameter) => {
-            format!("{}: {}, in {}", parameter.symbol, key.about, key.unit())
-        }
         Role::Twin(parameter, twin) if twin.rms => {
-            format!(
-                "{}: {}, as root mean square, in N",
-                parameter.symbol, key.about
-            )
+            format!("{}: {}, as root mean square, in N", parameter.symbol, key.about)
         }
-        Role::Twin(parameter, _) => {
+        Role::Number(parameter) | Role::Twin(parameter, _) => {
             format!("{}: {}, in {}", parameter.symbol, key.about, key.unit())
         }
         Role::Scale(scale) => format!("{}: {}, in {}", scale.symbol, key.about, key.unit()),
@@ -266,11 +246,7 @@ fn bounded(bounds: Bounds, quantity: Quantity) -> Json {
     let whole = quantity == Quantity::Count;
     let mut schema = json!({ "type": if whole { "integer" } else { "number" } });
     if bounds.lower.is_finite() {
-        let keyword = if bounds.lower_included {
-            "minimum"
-        } else {
-            "exclusiveMinimum"
-        };
+        let keyword = if bounds.lower_included { "minimum" } else { "exclusiveMinimum" };
         schema[keyword] = bounds.lower.into();
     }
     if bounds.upper.is_finite() {
@@ -318,9 +294,7 @@ mod tests {
             let found = defs.values().any(|table| {
                 let inside = |table: &Json| table["properties"].get(key.name).is_some();
                 inside(table)
-                    || table["oneOf"]
-                        .as_array()
-                        .is_some_and(|laws| laws.iter().any(inside))
+                    || table["oneOf"].as_array().is_some_and(|laws| laws.iter().any(inside))
             });
             assert!(found, "{}", key.path());
         }

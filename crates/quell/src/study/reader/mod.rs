@@ -51,11 +51,7 @@ pub(super) struct Reader {
 impl Reader {
     /// Finds out the system of a study and reads its scales.
     pub(super) fn new(root: &Table) -> Self {
-        let mut reader = Self {
-            units: Units::Scaled,
-            complaints: Vec::new(),
-            written: Vec::new(),
-        };
+        let mut reader = Self { units: Units::Scaled, complaints: Vec::new(), written: Vec::new() };
         if is_si(root) {
             reader.units = Units::Si(None);
             if let Some(belt) = root.get("belt") {
@@ -80,8 +76,7 @@ impl Reader {
 
     /// All complaints, in the order of the text.
     pub(super) fn into_complaints(mut self) -> Vec<Complaint> {
-        self.complaints
-            .sort_by_key(|complaint| complaint.origin.line().unwrap_or(usize::MAX));
+        self.complaints.sort_by_key(|complaint| complaint.origin.line().unwrap_or(usize::MAX));
         self.complaints
     }
     /// Complains about keys that a table does not have.
@@ -102,9 +97,8 @@ impl Reader {
 
     /// Complains about one unknown key.
     pub(super) fn unknown_key(&mut self, section: Section, prefix: &str, name: &str, node: &Node) {
-        let index = prefix
-            .split_once('[')
-            .and_then(|(_, rest)| rest.trim_end_matches(']').parse().ok());
+        let index =
+            prefix.split_once('[').and_then(|(_, rest)| rest.trim_end_matches(']').parse().ok());
         let si = matches!(self.units, Units::Si(_));
         let there: Vec<&str> = vocabulary::keys_of(section)
             .filter(|key| match key.role {
@@ -128,10 +122,7 @@ impl Reader {
     /// already complained about is not said again.
     pub(super) fn adopt(&mut self, invalid: Vec<Invalid>) {
         for complaint in invalid {
-            let written = self
-                .written
-                .iter()
-                .find(|written| written.path == complaint.key);
+            let written = self.written.iter().find(|written| written.path == complaint.key);
             let Some(written) = written else { continue };
             let key = written.key.clone();
             if self.complaints.iter().any(|known| known.key == key) {
@@ -142,23 +133,12 @@ impl Reader {
                 given_number(number * written.factor)
             });
             let origin = written.origin;
-            self.complain(Complaint::new(
-                Fault::Value,
-                key,
-                origin,
-                value,
-                complaint.allowed,
-            ));
+            self.complain(Complaint::new(Fault::Value, key, origin, value, complaint.allowed));
         }
     }
 
     fn remember(&mut self, path: &str, key: &str, origin: Origin, factor: f64) {
-        self.written.push(Written {
-            path: path.to_owned(),
-            key: key.to_owned(),
-            origin,
-            factor,
-        });
+        self.written.push(Written { path: path.to_owned(), key: key.to_owned(), origin, factor });
     }
 }
 
@@ -184,10 +164,9 @@ fn is_si(root: &Table) -> bool {
 fn tables(root: &Table, section: Section) -> Vec<&Table> {
     let node = match section {
         Section::Root | Section::Sweep => None,
-        Section::Initial => root
-            .get("belt")
-            .and_then(Node::table)
-            .and_then(|belt| belt.get("initial")),
+        Section::Initial => {
+            root.get("belt").and_then(Node::table).and_then(|belt| belt.get("initial"))
+        }
         _ => root.get(section.path()),
     };
     match node.map(|node| &node.value) {

@@ -33,7 +33,7 @@ impl Found {
 }
 
 impl Reader {
-    fn scales(&mut self, belt: &Node) -> Option<Scales> {
+    pub(super) fn scales(&mut self, belt: &Node) -> Option<Scales> {
         let table = belt.table()?;
         let [mass, stiffness] =
             [SCALES[0], SCALES[1]].map(|scale| self.scale(table, scale, belt.origin));
@@ -46,13 +46,7 @@ impl Reader {
                 "{} in {} ({}, {}); a study in SI needs mass and stiffness",
                 scale.bounds, scale.unit, scale.symbol, scale.about
             );
-            self.complain(Complaint::new(
-                Fault::Missing,
-                scale.path,
-                header,
-                Json::Null,
-                allowed,
-            ));
+            self.complain(Complaint::new(Fault::Missing, scale.path, header, Json::Null, allowed));
             return None;
         };
         self.within(scale.path, node, scale.bounds, scale.unit, false)
@@ -71,22 +65,11 @@ impl Reader {
             Found::Wrong => None,
             Found::Absent => {
                 let keys = self.right_keys(parameter);
-                let Parameter {
-                    bounds,
-                    symbol,
-                    about,
-                    ..
-                } = parameter;
+                let Parameter { bounds, symbol, about, .. } = parameter;
                 let or = keys.get(1).map(|key| format!("; or {}", join(prefix, key)));
                 let allowed = format!("{bounds} ({symbol}, {about}){}", or.unwrap_or_default());
                 let key = join(prefix, &keys[0]);
-                self.complain(Complaint::new(
-                    Fault::Missing,
-                    key,
-                    header,
-                    Json::Null,
-                    allowed,
-                ));
+                self.complain(Complaint::new(Fault::Missing, key, header, Json::Null, allowed));
                 None
             }
         }
@@ -100,12 +83,8 @@ impl Reader {
         parameter: Parameter,
         waveform: Option<Waveform>,
     ) -> Found {
-        let twins: Vec<SiTwin> = parameter
-            .si
-            .iter()
-            .copied()
-            .filter(|twin| table.has(twin.key))
-            .collect();
+        let twins: Vec<SiTwin> =
+            parameter.si.iter().copied().filter(|twin| table.has(twin.key)).collect();
         let plain = table.get(parameter.key());
         let si = matches!(self.units, Units::Si(_));
         match (plain, twins.as_slice()) {
@@ -116,11 +95,8 @@ impl Reader {
             (None, [twin]) if si => self.twin(table, prefix, parameter, *twin, waveform),
             (None, [first, .., last]) if si => {
                 let key = join(prefix, last.key);
-                let allowed = format!(
-                    "say either {} or {}, not both",
-                    join(prefix, first.key),
-                    key
-                );
+                let allowed =
+                    format!("say either {} or {}, not both", join(prefix, first.key), key);
                 let node = table.get(last.key);
                 let origin = node.map_or(Origin::Whole, |node| node.origin);
                 let given = node.map_or(Json::Null, Node::given);
@@ -147,11 +123,7 @@ impl Reader {
         let twin_key = join(prefix, twins.first().unwrap_or(&parameter.si[0]).key);
         if matches!(self.units, Units::Si(_)) {
             let Some(node) = plain else { return };
-            let instead = if twins.is_empty() {
-                "give"
-            } else {
-                "drop it and keep"
-            };
+            let instead = if twins.is_empty() { "give" } else { "drop it and keep" };
             let allowed = format!(
                 "this study is in SI, {plain_key} is dimensionless: {instead} {twin_key} ({})",
                 parameter.si[0].unit
@@ -240,11 +212,7 @@ impl Reader {
         } else {
             bounds.to_string()
         };
-        let range = if unit.is_empty() {
-            range
-        } else {
-            format!("{range}, in {unit}")
-        };
+        let range = if unit.is_empty() { range } else { format!("{range}, in {unit}") };
         let Value::Number(value) = node.value else {
             let advice = match &node.value {
                 Value::Text(text) if text.trim().parse::<f64>().is_ok() => ", without quotes",
@@ -263,11 +231,9 @@ impl Reader {
     /// Keys that give a parameter in the system of this study.
     fn right_keys(&self, parameter: Parameter) -> Vec<String> {
         match self.units {
-            Units::Si(_) if !parameter.si.is_empty() => parameter
-                .si
-                .iter()
-                .map(|twin| twin.key.to_owned())
-                .collect(),
+            Units::Si(_) if !parameter.si.is_empty() => {
+                parameter.si.iter().map(|twin| twin.key.to_owned()).collect()
+            }
             _ => vec![parameter.key().to_owned()],
         }
     }

@@ -17,11 +17,7 @@ impl Reader {
         choice: Choice,
     ) -> Option<&'static str> {
         let names = choice.names();
-        let list = names
-            .iter()
-            .map(|name| format!("\"{name}\""))
-            .collect::<Vec<_>>()
-            .join(", ");
+        let list = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
         let Value::Text(text) = &node.value else {
             self.wrong(key, node, format!("one of {list}; this is {}", node.kind()));
             return None;
@@ -53,19 +49,9 @@ impl Reader {
     ) -> Option<&'static str> {
         let key = join(prefix, name);
         let Some(node) = table.get(name) else {
-            let list = choice
-                .names()
-                .iter()
-                .map(|name| format!("\"{name}\""))
-                .collect::<Vec<_>>();
+            let list = choice.names().iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();
             let allowed = format!("one of {}", list.join(", "));
-            self.complain(Complaint::new(
-                Fault::Missing,
-                key,
-                header,
-                Json::Null,
-                allowed,
-            ));
+            self.complain(Complaint::new(Fault::Missing, key, header, Json::Null, allowed));
             return None;
         };
         self.choice(&key, node, choice)
@@ -74,11 +60,7 @@ impl Reader {
     /// Free text.
     pub(in crate::study) fn text(&mut self, key: &str, node: &Node) -> Option<String> {
         let Value::Text(text) = &node.value else {
-            self.wrong(
-                key,
-                node,
-                format!("a string in quotes; this is {}", node.kind()),
-            );
+            self.wrong(key, node, format!("a string in quotes; this is {}", node.kind()));
             return None;
         };
         Some(text.clone())
@@ -86,24 +68,14 @@ impl Reader {
 
     /// Complains about a value.
     pub(in crate::study) fn wrong(&mut self, key: &str, node: &Node, allowed: impl Into<String>) {
-        self.complain(Complaint::new(
-            Fault::Value,
-            key,
-            node.origin,
-            node.given(),
-            allowed,
-        ));
+        self.complain(Complaint::new(Fault::Value, key, node.origin, node.given(), allowed));
     }
 
     /// A table of the root or of `[belt]`; a complaint where it is something else.
     pub(in crate::study) fn table<'a>(&mut self, key: &str, node: &'a Node) -> Option<&'a Table> {
         let table = node.table();
         if table.is_none() {
-            self.wrong(
-                key,
-                node,
-                format!("a table [{key}]; this is {}", node.kind()),
-            );
+            self.wrong(key, node, format!("a table [{key}]; this is {}", node.kind()));
         }
         table
     }

@@ -1,0 +1,225 @@
+//! Which equations and sources a study's computations use, and where the print was corrected.
+//!
+//! Equation numbers are those of Michaux (2005). Each correction was found by comparing the
+//! printed formula with quadrature of its definition; the numbers are in `reference/`.
+
+use quell_model::{Belt, Direction, LawKind, Waveform};
+use serde_json::{Value as Json, json};
+
+use crate::study::Study;
+
+mod corrections;
+mod references;
+
+pub use corrections::Correction;
+use corrections::corrections;
+pub use references::{
+    CUNEFARE_GRAF_2002, FILIPPOV_1988, HARRIS_1978, JORBA_ZOU_2005, MICHAUX_2005, SOURCES, Source,
+    THOMSEN_1999, THOMSEN_FIDLIN_2003,
+};
+
+/// A computation, named after its verb.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Task {
+    /// Effective friction.
+    Friction,
+    /// Averaged stability of steady sliding.
+    Stability,
+    /// A trajectory with its events.
+    Simulate,
+    /// The steady response.
+    Response,
+}
+
+impl Task {
+    /// Every task.
+    pub const ALL: &'static [Self] =
+        &[Self::Friction, Self::Stability, Self::Simulate, Self::Response];
+
+    /// Name of the verb.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Friction => "friction",
+            Self::Stability => "stability",
+            Self::Simulate => "simulate",
+            Self::Response => "response",
+        }
+    }
+}
+
+/// A source with what is used of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Citation {
+    /// The source.
+    pub source: Source,
+    /// The computation that uses it.
+    pub task: Task,
+    /// The equations used, or what it is used for.
+    pub used: &'static str,
+}
+
+/// What a study's computations rest on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sources {
+    /// Citations, task by task.
+    pub citations: Vec<Citation>,
+    /// Corrections that bear on this study.
+    pub corrections: Vec<Correction>,
+}
+
+/// What a study's computations rest on.
+pub fn sources(study: &Study) -> Sources {
+    let belt = study.belt();
+    let mut citations = Vec::new();
+    let mut cite = |task, source, used| citations.push(Citation { source, task, used });
+    for &task in Task::ALL {
+        cite(task, MICHAUX_2005, model(belt));
+        match task {
+            Task::Friction | Task::Stability => averaging(belt, task, &mut cite),
+            Task::Simulate | Task::Response => simulation(task, &mut cite),
+        }
+    }
+    Sources { citations, corrections: corrections(belt) }
+}
+
+/// Equations of motion and law.
+fn model(belt: &Belt) -> &'static str {
+    let normal = has(belt, Direction::Normal, None);
+    match (belt.friction().kind(), normal) {
+        (LawKind::Stribeck, false) => "equation of motion (2.1), (3.1); Stribeck law (2.7)",
+        (LawKind::Stribeck, true) => "equation of motion (2.1), (3.1), (4.1); Stribeck law (2.7)",
+        (LawKind::Decreasing, false) => "equation of motion (2.1), (3.1); decreasing law (2.8)",
+        (LawKind::Decreasing, true) => {
+            "equation of motion (2.1), (3.1), (4.1); decreasing law (2.8)"
+        }
+    }
+}
+
+fn averaging(belt: &Belt, task: Task, cite: &mut impl FnMut(Task, Source, &'static str)) {
+    cite(task, THOMSEN_1999, "averaging over the fast motion; effective friction");
+    if has(belt, Direction::Tangential, None) {
+        cite(
+            task,
+            MICHAUX_2005,
+            "effective friction under tangential dither (2.21), (3.19)–(3.27)",
+        );
+        cite(task, MICHAUX_2005, closed_form(belt.friction().kind()));
+    }
+    if has(belt, Direction::Normal, None) {
+        cite(
+            task,
+            MICHAUX_2005,
+            "fast motion under normal dither (4.13)–(4.23), effective friction (4.27), (4.28)",
+        );
+    }
+    if task == Task::Stability {
+        cite(
+            task,
+            MICHAUX_2005,
+            "criterion of stability (2.26), thresholds (3.41)–(3.62), (4.33)–(4.42)",
+        );
+    }
+}
+
+fn closed_form(law: LawKind) -> &'static str {
+    match law {
+        LawKind::Stribeck => "closed forms (3.29)–(3.31)",
+        LawKind::Decreasing => "closed forms (3.36)–(3.39), (B.10), (C.7)",
+    }
+}
+
+fn simulation(task: Task, cite: &mut impl FnMut(Task, Source, &'static str)) {
+    cite(task, JORBA_ZOU_2005, "Taylor steps and the choice of their length");
+    cite(task, FILIPPOV_1988, "what a solution is where the friction law is set-valued");
+    if task == Task::Response {
+        cite(task, MICHAUX_2005, "efficiency of dither (2.27)");
+        cite(task, HARRIS_1978, "Hann window of the spectrum");
+        cite(task, THOMSEN_FIDLIN_2003, "the stick-slip of the belt without dither");
+        cite(task, CUNEFARE_GRAF_2002, "dither against squeal");
+    }
+}
+
+fn has(belt: &Belt, direction: Direction, waveform: Option<Waveform>) -> bool {
+    belt.dithers_along(direction)
+        .any(|dither| waveform.is_none_or(|waveform| dither.waveform == waveform))
+}
+
+impl Sources {
+    /// The sources without repetition, in the order of [`SOURCES`].
+    pub fn unique(&self) -> Vec<Source> {
+        let cited =
+            |source: &&Source| self.citations.iter().any(|citation| citation.source == **source);
+        SOURCES.iter().filter(cited).copied().collect()
+    }
+
+    /// As JSON.
+    pub fn json(&self) -> Json {
+        let sources: Vec<Json> = self
+            .unique()
+            .into_iter()
+            .map(|source| {
+                let used: Vec<Json> = self
+                    .citations
+                    .iter()
+                    .filter(|citation| citation.source == source)
+                    .map(|citation| json!({ "verb": citation.task.name(), "for": citation.used }))
+                    .collect();
+                json!({ "key": source.key, "reference": source.reference, "used": used })
+            })
+            .collect();
+        let corrections: Vec<Json> = self
+            .corrections
+            .iter()
+            .map(|correction| {
+                let verbs: Vec<&str> = correction.tasks.iter().map(|task| task.name()).collect();
+                json!({
+                    "source": MICHAUX_2005.key,
+                    "equations": correction.equations,
+                    "right": correction.right,
+                    "verbs": verbs,
+                })
+            })
+            .collect();
+        json!({ "ok": true, "sources": sources, "corrections": corrections })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn study(law: &str, waveform: &str, direction: &str) -> Study {
+        let text = format!(
+            "schema = 1\n[belt]\ndamping_ratio = 0.1\nnormal_load = 1\nbelt_velocity = 1\n\
+             [friction]\nlaw = \"{law}\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2\n\
+             reference_velocity = 1\n[dither]\nwaveform = \"{waveform}\"\n\
+             direction = \"{direction}\"\namplitude = 0.1\nfrequency_ratio = 10\n"
+        );
+        Study::parse(&text, &[]).expect("valid")
+    }
+
+    #[test]
+    fn only_corrections_that_bear_on_the_study_are_told() {
+        let told = |law, waveform, direction| {
+            let found = sources(&study(law, waveform, direction)).corrections;
+            found.iter().map(|correction| correction.equations).collect::<Vec<_>>().join("; ")
+        };
+        assert!(told("decreasing", "triangle", "tangential").contains("(3.38a)"));
+        assert!(!told("decreasing", "sine", "tangential").contains("(3.38a)"));
+        assert!(!told("stribeck", "triangle", "tangential").contains("(3.53a)"));
+        assert!(told("stribeck", "sine", "normal").contains("(4.32)"));
+        assert!(!told("stribeck", "sine", "tangential").contains("(4.32)"));
+    }
+
+    #[test]
+    fn every_task_cites_something_and_keys_are_unique() {
+        let found = sources(&study("stribeck", "sine", "tangential"));
+        for task in Task::ALL {
+            assert!(found.citations.iter().any(|citation| citation.task == *task));
+        }
+        let mut keys: Vec<&str> = SOURCES.iter().map(|source| source.key).collect();
+        keys.sort_unstable();
+        keys.dedup();
+        assert_eq!(keys.len(), SOURCES.len());
+    }
+}
