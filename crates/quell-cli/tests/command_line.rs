@@ -323,6 +323,47 @@ fn a_saved_trajectory_is_whole_and_reads_back() {
     assert!(place.files().iter().all(|name| !name.contains("part")));
 }
 
+#[test]
+fn pictures_are_drawn_whole_or_not_at_all() {
+    let place = Place::new("pictures");
+    let before = place.files();
+    for verb in &VERBS[2..] {
+        for study in ["study.toml", "si.toml"] {
+            let mut arguments = verb.to_vec();
+            arguments.extend([study, "--plot", "picture.svg"]);
+            let object = place.good(&arguments);
+            assert_eq!(object["plotted"], "picture.svg");
+            let picture = fs::read_to_string(place.folder.join("picture.svg")).expect("drawn");
+            assert!(picture.starts_with("<svg") && picture.trim_end().ends_with("</svg>"));
+            let dashed = picture.contains("stroke-dasharray");
+            assert!(dashed, "{arguments:?}: the undithered case is dashed");
+            let unit = if study == "si.toml" { ["µm", "mm/s"] } else { ["τ", "slip"] };
+            let has_axes = unit.iter().any(|unit| picture.contains(unit)) || verb[0] == "stability";
+            assert!(has_axes, "{arguments:?}");
+        }
+    }
+    place.good(&["friction", "study.toml", "--plot", "picture.PNG"]);
+    let picture = fs::read(place.folder.join("picture.PNG")).expect("drawn");
+    assert!(picture.starts_with(b"\x89PNG"));
+    // Without dither there is one curve, and it is not called dithered.
+    place.write("bare.toml", STUDY.split("[dither]").next().expect("a part").as_bytes());
+    for verb in &VERBS[2..] {
+        let mut arguments = verb.to_vec();
+        arguments.extend(["bare.toml", "--plot", "bare.svg"]);
+        place.good(&arguments);
+        let picture = fs::read_to_string(place.folder.join("bare.svg")).expect("drawn");
+        assert!(!picture.contains("with dither"), "{arguments:?}");
+    }
+    for name in ["picture.svg", "picture.PNG", "bare.svg", "bare.toml"] {
+        fs::remove_file(place.folder.join(name)).expect("there");
+    }
+    assert_eq!(place.files(), before);
+    for path in ["picture.pdf", "nowhere/picture.svg", "picture"] {
+        let errors = place.refused(&["response", "study.toml", "--plot", path]);
+        assert_eq!(errors[0]["key"], "--plot");
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn devices_are_written_not_replaced() {

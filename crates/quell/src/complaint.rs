@@ -143,7 +143,7 @@ impl fmt::Display for Complaint {
         match self.origin {
             Origin::Line(line) => write!(f, "line {line}: ")?,
             Origin::Argument(option) if option != self.key && self.fault != Fault::Usage => {
-                write!(f, "{option}: ")?
+                write!(f, "{option}: ")?;
             }
             Origin::Argument(_) | Origin::Whole => {}
         }

@@ -33,7 +33,7 @@ impl Found {
 }
 
 impl Reader {
-    fn scales(&mut self, belt: &Node) -> Option<Scales> {
+    pub(super) fn scales(&mut self, belt: &Node) -> Option<Scales> {
         let table = belt.table()?;
         let [mass, stiffness] =
             [SCALES[0], SCALES[1]].map(|scale| self.scale(table, scale, belt.origin));
