@@ -12,7 +12,7 @@ use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
 use crate::answer;
-use crate::verbs::{check, cite, friction, response, schema, simulate, stability};
+use crate::verbs::{check, cite, friction, reproduce, response, schema, simulate, stability};
 
 /// Finds the dither that silences friction-induced vibration, and tells how sure it is.
 #[derive(Debug, Parser)]
@@ -37,6 +37,7 @@ enum Verb {
     Stability(stability::Arguments),
     Simulate(simulate::Arguments),
     Response(response::Arguments),
+    Reproduce(reproduce::Arguments),
 }
 
 /// Runs the command line `arguments`, program name first.
@@ -58,6 +59,7 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Stability(arguments) => stability::run(arguments),
         Verb::Simulate(arguments) => simulate::run(arguments),
         Verb::Response(arguments) => response::run(arguments),
+        Verb::Reproduce(arguments) => reproduce::run(arguments),
     };
     match outcome {
         Ok(answer) => answer.show(),
