@@ -3,9 +3,9 @@
 //! Rows: x(τ), x′(τ) from rest, and the spectral amplitudes of the steady record (settling time discarded, mean removed,
 //! Hann). One column for each amplitude of the study's sweep.
 
-use quell_belt::response::{BAND_END, Response, respond};
+use quell_belt::response::{BAND_END, Response, Spectrum, respond};
 use quell_belt::simulation::{Sample, Sampler, simulate};
-use quell_model::{Belt, Direction};
+use quell_model::{Belt, Direction, LawKind};
 
 use super::product::{Product, Table};
 use super::source::{Source, failed, law_name, letter, parameters, values, waveform_name};
@@ -92,7 +92,7 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
         );
         let belt_velocity = case.study.belt().belt_velocity();
         rows[1].push(
-            Panel::new(time_axis(), Axis::new("velocity").symbol("x′"))
+            Panel::new(time_axis(), Axis::new("velocity").symbol("x′").up_to(1.7 * belt_velocity))
                 .with_all(pair(|s| s.velocity))
                 .with(Rule::horizontal(belt_velocity).label("$v_0$")),
         );
@@ -102,10 +102,16 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
         .sharing_y(Sharing::Aligned)
         .legend(SharedLegend::Above)
         .size(Size::Frame(270.0, 165.0));
-    let caption = caption(source, &study);
+    let caption = caption(source, &study, &cases[0].response);
     Ok(Product::new(figure, caption, &study)
         .table(Table::of_columns("", histories))
         .table(Table::of_columns("spectrum", spectra)))
+}
+
+/// Frequency of the largest peak in the band of E.
+pub(super) fn fundamental(spectrum: &Spectrum) -> Option<f64> {
+    let peaks = spectrum.peaks(1e-3).into_iter().filter(|peak| peak.frequency <= BAND_END);
+    peaks.max_by(|a, b| a.amplitude.total_cmp(&b.amplitude)).map(|peak| peak.frequency)
 }
 
 fn time_axis() -> Axis {
@@ -114,7 +120,7 @@ fn time_axis() -> Axis {
 
 fn spectrum_panel(case: &Case, top: f64) -> Panel {
     let Response { record, undithered_record, .. } = &case.response;
-    let curve = |role, spectrum: &quell_belt::response::Spectrum| {
+    let curve = |role, spectrum: &Spectrum| {
         let amplitudes = spectrum.amplitudes().iter().map(|amplitude| amplitude.max(0.1 * FLOOR));
         let points: Vec<(f64, f64)> = spectrum.frequencies().zip(amplitudes).take_while(|(ω, _)| *ω <= top).collect();
         Line::new(role, points)
@@ -139,18 +145,24 @@ fn history(source: &Source, study: &Study, belt: &Belt, step: f64) -> Result<Vec
     Ok(sampler.samples)
 }
 
-fn caption(source: &Source, study: &Study) -> String {
+fn caption(source: &Source, study: &Study, response: &Response) -> String {
     let belt = study.belt();
     let dither = belt.dithers()[0];
     let (direction, symbol) = match dither.direction {
         Direction::Tangential => ("tangential", "R_T"),
         Direction::Normal => ("normal", "R_N"),
     };
+    let fundamental = match (belt.friction().kind(), fundamental(&response.undithered_record.spectrum)) {
+        (LawKind::Stribeck, Some(frequency)) => {
+            format!(" The fundamental without dither, printed as 0.666 $ω_0$, is {frequency:.3} $ω_0$.")
+        }
+        _ => String::new(),
+    };
     format!(
         "Figure {}. Responses from rest with the {} law and {} {direction} dither (solid) and without dither (dashed): displacement, \
          velocity, and spectral amplitude of the steady displacement. $ζ$ = {}, $v_0$ = {}, ${symbol}$ = {}, {}. $E$ is the largest \
          amplitude below {BAND_END} $ω_0$ over that without dither (2.27). Spectra: $τ$ < {} discarded, {} slow periods kept, mean \
-         removed, Hann window; the print gives no record, and its fundamental of 0.666 without dither is 0.654.",
+         removed, Hann window; the print gives no record.{fundamental}",
         source.name,
         law_name(belt.friction().kind()),
         waveform_name(dither.waveform),

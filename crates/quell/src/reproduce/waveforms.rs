@@ -45,7 +45,7 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
 fn axes(name: &str, symbol: &str, below: &str) -> Panel {
     Panel::new(
         Axis::new(below).between(0.0, f64::from(CYCLES)).ticks([0.0, 0.5, 1.0, 1.5, 2.0]),
-        Axis::new(name).symbol(symbol).between(-1.8, 1.8).ticks([-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5]),
+        Axis::new(name).symbol(symbol).between(-2.0, 2.0).ticks([-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5]),
     )
     .with(Rule::horizontal(0.0))
 }
