@@ -18,12 +18,16 @@ pub use sheet::{Claim, Verdict};
 
 use sheet::Sheet;
 
-/// Functions that measure, in the order of the dissertation.
-const SECTIONS: &[fn(&mut Sheet) -> Result<(), Failure>] = &[
+/// Measures a few claims and writes them down.
+type Section = fn(&mut Sheet) -> Result<(), Failure>;
+
+/// In the order of the dissertation.
+const SECTIONS: &[Section] = &[
     chapter2::friction_laws,
     chapter2::responses,
     chapter2::forced_response,
-    chapter2::stability_maps,
+    chapter2::stribeck_map,
+    chapter2::decreasing_map,
     chapter2::destabilisation,
     chapter3::waveforms,
     chapter3::formulas,
@@ -51,7 +55,8 @@ pub fn measure() -> Result<Vec<Claim>, Failure> {
 /// The table as a product.
 pub(super) fn product(_: &Source) -> Result<Product, Failure> {
     let claims = measure()?;
-    let columns = ["claim", "where", "statement", "printed", "measured", "verdict", "note"].map(|name| (name, "1"));
+    let columns = ["claim", "where", "statement", "printed", "measured", "verdict", "note"]
+        .map(|name| (name, "1"));
     let mut table = Table::new("", &columns);
     for claim in &claims {
         let verdict = claim.verdict.to_string();
@@ -105,10 +110,18 @@ pub fn markdown(claims: &[Claim]) -> String {
     );
     for claim in claims {
         let verdict = claim.verdict.to_string();
-        let cells =
-            [&claim.place, &claim.statement, &claim.printed, &claim.measured, &verdict, &claim.note];
+        let cells = [
+            &claim.place,
+            &claim.statement,
+            &claim.printed,
+            &claim.measured,
+            &verdict,
+            &claim.note,
+        ];
         let cells = cells.map(|cell| cell.replace('|', "\\|"));
-        text += &format!("| {} |\n", cells.join(" | "));
+        text += "| ";
+        text += &cells.join(" | ");
+        text += " |\n";
     }
     text
 }
