@@ -48,7 +48,7 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
     let law = study.belt().friction().kind();
     let note = match law {
         LawKind::Decreasing => {
-            " Dotted in (b): as printed (3.38a), whose error functions carry exp(−γ − |$v_r$|/$v_m$) for exp(γ − |$v_r$|/$v_m$); it does \
+            " Dotted in (b): as printed (3.38a), whose error functions carry exp(−γ − |$v_r$|/$v_m$) in place of exp(γ − |$v_r$|/$v_m$); it does \
              not even meet (3.38b) at |$v_r$| = π$α$/4."
         }
         LawKind::Stribeck => "",

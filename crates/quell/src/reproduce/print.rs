@@ -45,6 +45,13 @@ pub(super) fn effective_338a(law: LawNumbers, v: f64, alpha: f64) -> f64 {
         - half * exp(w - gamma) * erfi(inner)
 }
 
+/// (3.39a): effective friction, decreasing law, square, |v_r| ≤ πα/2. Right; odd in v_r by itself.
+pub(super) fn effective_339a(law: LawNumbers, v: f64, alpha: f64) -> f64 {
+    let decay = exp(-PI * alpha / (2.0 * law.vm));
+    2.0 * law.minimum / (PI * alpha) * v
+        + 2.0 * law.difference() / PI * law.vm / alpha * decay * (v / law.vm).sinh()
+}
+
 /// (3.53a): slope of (3.38a). Wrong: exponent +1/2 for −1/2, a factor 1/(2√(γ−w)) missing, and (3.38a) itself.
 pub(super) fn slope_353a(law: LawNumbers, v: f64, alpha: f64) -> f64 {
     let (gamma, w) = (PI * alpha / (4.0 * law.vm), v / law.vm);

@@ -115,7 +115,7 @@ fn closing(study: &Study, three: bool) -> String {
     if three && stribeck {
         let equation = if normal { "(4.35)" } else { "(3.47)" };
         sentences.push(format!(
-            "Dotted in (b): the upper edge as printed {equation}, with π²/48 for π²/30."
+            "Dotted in (b): the upper edge as printed {equation}, with π²/48 in place of π²/30."
         ));
     }
     if normal {

@@ -58,8 +58,7 @@ pub(super) fn waveforms(sheet: &mut Sheet) -> Result<(), Failure> {
 /// Printed formulas against their definitions: v_r = 0.08, α = 0.2 unless said.
 pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
     let (v, alpha) = (0.08, 0.2);
-    let [stribeck, decreasing] = [LawKind::Stribeck, LawKind::Decreasing];
-    let [triangle, square] = [Waveform::Triangle, Waveform::Square];
+    let (decreasing, triangle) = (LawKind::Decreasing, Waveform::Triangle);
     let inside = definition(decreasing, triangle, v, alpha)?;
     let point = "v_r = 0.08, α = 0.2";
     let at = |what: &str| format!("{what}, {point}");
@@ -92,16 +91,33 @@ pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
             inside.slope,
         )
         .note(
-            "exponent −1/2 for 1/2, a factor 1/(2√(γ − w)) is missing, and (3.38a) itself is wrong",
+            "the exponent 1/2 must be −1/2, a factor 1/(2√(γ − w)) is missing, and (3.38a) itself is wrong",
         );
+    // With v_r inside the bracket, as printed, the sign of a negative slip counts twice.
+    let negative = definition(decreasing, Waveform::Square, -v, alpha)?.coefficient;
+    sheet
+        .formula(
+            ["3.36a", "(3.36a)", "μ̄, decreasing law, square, v_r = −0.08, α = 0.2"],
+            -print::effective_339a(NUMBERS, -v, alpha),
+            negative,
+        )
+        .note("sign(v_r) stands before a bracket that is odd in v_r already: |v_r| belongs inside");
+    stribeck_formulas(sheet, v, alpha)?;
+    integrals(sheet, v, alpha)?;
+    right(sheet)
+}
+
+/// The triangle's mean square in the formulas of the Stribeck law.
+fn stribeck_formulas(sheet: &mut Sheet, v: f64, alpha: f64) -> Result<(), Failure> {
+    let (stribeck, triangle) = (LawKind::Stribeck, Waveform::Triangle);
     let slope = definition(stribeck, triangle, v, alpha)?.slope;
     sheet
         .formula(
-            ["3.45a", "(3.45a)", &at("slope, Stribeck law, triangle")],
+            ["3.45a", "(3.45a)", "slope, Stribeck law, triangle, v_r = 0.08, α = 0.2"],
             print::slope_345a(NUMBERS, v, alpha),
             slope,
         )
-        .note("π²/16 for π²/10");
+        .note("π²/16 should be π²/10");
     let slope = definition(stribeck, triangle, 0.18, 0.15)?.slope;
     sheet
         .formula(
@@ -109,7 +125,7 @@ pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
             print::slope_345b(NUMBERS, 0.18, 0.15),
             slope,
         )
-        .note("π²/16 for π²/10");
+        .note("π²/16 should be π²/10");
     let upper =
         closed_band(&law(stribeck)?, LIGHT, 1.0, triangle, 0.15).and_then(|band| band.upper);
     sheet
@@ -118,18 +134,8 @@ pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
             print::upper_edge_347(NUMBERS, LIGHT, 0.15),
             upper.unwrap_or(f64::NAN),
         )
-        .note("π²/48 for π²/30");
-    // With v_r inside the bracket, as printed, a negative slip has the sign of the bracket twice.
-    let negative = definition(decreasing, square, -v, alpha)?.coefficient;
-    sheet
-        .formula(
-            ["3.36a", "(3.36a)", "μ̄, decreasing law, square, v_r = −0.08, α = 0.2"],
-            -negative,
-            negative,
-        )
-        .note("sign(v_r) stands before a bracket that is odd in v_r already: |v_r| belongs inside");
-    integrals(sheet, v, alpha)?;
-    right(sheet)
+        .note("π²/48 should be π²/30");
+    Ok(())
 }
 
 /// (B.3)–(B.5): integrals of appendix B.
@@ -156,7 +162,7 @@ fn integrals(sheet: &mut Sheet, v: f64, alpha: f64) -> Result<(), Failure> {
             print::integral_b3(NUMBERS, v, alpha),
             first,
         )
-        .note("exponent (v_r − πα/v_m)/v_m for v_r/v_m − πα/(4v_m)");
+        .note("the exponent (v_r − πα/v_m)/v_m should be v_r/v_m − πα/(4v_m)");
     sheet
         .formula(
             ["B.4", "(B.4)", &format!("integral over Rτ₁…Rτ₂, {point}")],
@@ -170,7 +176,7 @@ fn integrals(sheet: &mut Sheet, v: f64, alpha: f64) -> Result<(), Failure> {
             print::integral_b5(NUMBERS, v, alpha),
             first,
         )
-        .note("exponent v_r/v_m − πα/4 for v_r/v_m − πα/(4v_m)");
+        .note("the exponent v_r/v_m − πα/4 should be v_r/v_m − πα/(4v_m)");
     Ok(())
 }
 
@@ -180,8 +186,7 @@ fn right(sheet: &mut Sheet) -> Result<(), Failure> {
     let (v, alpha) = (0.08, 0.2);
     let square = definition(LawKind::Decreasing, Waveform::Square, v, alpha)?;
     let decay = exp(-PI * alpha / (2.0 * vm));
-    let printed =
-        2.0 * b0 / (PI * alpha) * v + 2.0 * b1 / PI * vm / alpha * decay * (v / vm).sinh();
+    let printed = print::effective_339a(NUMBERS, v, alpha);
     sheet.formula(
         ["3.39a", "(3.39a)", "μ̄, decreasing law, square, v_r = 0.08, α = 0.2"],
         printed,

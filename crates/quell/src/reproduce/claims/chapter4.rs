@@ -196,12 +196,7 @@ pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
     let rows: [Row; 3] = [
         ("4.34", Waveform::Sine, print::everywhere_344, "the nested root of (3.44)"),
         ("4.36", Waveform::Triangle, print::everywhere_348, "as (3.48)"),
-        (
-            "4.38",
-            Waveform::Square,
-            print::everywhere_348,
-            "2/π for 1/π: twice too large; it repeats (4.36)",
-        ),
+        ("4.38", Waveform::Square, print::everywhere_348, "2/π should be 1/π; it repeats (4.36)"),
     ];
     let law = law(LawKind::Stribeck)?;
     for (equation, waveform, printed, note) in rows {
@@ -235,6 +230,6 @@ pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
             printed,
             right,
         )
-        .note("π²/48 for π²/30, as (3.47)");
+        .note("π²/48 should be π²/30, as in (3.47)");
     Ok(())
 }
