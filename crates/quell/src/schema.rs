@@ -231,13 +231,10 @@ fn property(key: &Key) -> Json {
 
 fn about(key: &Key) -> String {
     match key.role {
-        Role::Number(parameter) => {
-            format!("{}: {}, in {}", parameter.symbol, key.about, key.unit())
-        }
         Role::Twin(parameter, twin) if twin.rms => {
             format!("{}: {}, as root mean square, in N", parameter.symbol, key.about)
         }
-        Role::Twin(parameter, _) => {
+        Role::Number(parameter) | Role::Twin(parameter, _) => {
             format!("{}: {}, in {}", parameter.symbol, key.about, key.unit())
         }
         Role::Scale(scale) => format!("{}: {}, in {}", scale.symbol, key.about, key.unit()),

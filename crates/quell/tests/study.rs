@@ -91,152 +91,128 @@ fn a_good_study_is_read() {
     assert!(study.scales().is_none() && study.sweeps().is_empty());
 }
 
+/// Replacements in the good study, and what must be said about each.
+const WRONG: &[(&str, &str, Said)] = &[
+    ("= 0.005", "= -0.1", (Fault::Value, "belt.damping_ratio", Some(4), "≥ 0", None)),
+    ("= 0.005", "= nan", (Fault::Value, "belt.damping_ratio", Some(4), "≥ 0", None)),
+    ("= 0.005", "= inf", (Fault::Value, "belt.damping_ratio", Some(4), "finite", None)),
+    ("= 0.005", "= 1e999", (Fault::Value, "belt.damping_ratio", Some(4), "finite", None)),
+    ("= 0.005", "= \"0.1\"", (Fault::Value, "belt.damping_ratio", Some(4), "without quotes", None)),
+    ("= 0.005", "= true", (Fault::Value, "belt.damping_ratio", Some(4), "number", None)),
+    ("= 0.005", "= [1]", (Fault::Value, "belt.damping_ratio", Some(4), "an array", None)),
+    ("= 0.005", "= 1979-05-27", (Fault::Value, "belt.damping_ratio", Some(4), "a date", None)),
+    (
+        "normal_load = 1.0",
+        "normal_load = 0",
+        (Fault::Value, "belt.normal_load", Some(5), "> 0", None),
+    ),
+    ("normal_load = 1.0\n", "", (Fault::Missing, "belt.normal_load", Some(3), "> 0", None)),
+    (
+        "frequency_ratio = 10",
+        "frequency_ratio = 0",
+        (Fault::Value, "dither.frequency_ratio", Some(16), "> 0", None),
+    ),
+    (
+        "amplitude = 0.4",
+        "amplitude = -1",
+        (Fault::Value, "dither.amplitude", Some(15), "≥ 0", None),
+    ),
+    (
+        "0.2857",
+        "0.5",
+        (Fault::Value, "friction.minimum_coefficient", Some(10), "static_coefficient = 0.4", None),
+    ),
+    (
+        "\"stribeck\"",
+        "\"stribek\"",
+        (Fault::Value, "friction.law", Some(8), "\"decreasing\"", Some("\"stribeck\"")),
+    ),
+    ("\"stribeck\"", "3", (Fault::Value, "friction.law", Some(8), "\"decreasing\"", None)),
+    ("law = \"stribeck\"\n", "", (Fault::Missing, "friction.law", Some(7), "\"decreasing\"", None)),
+    (
+        "\"sine\"",
+        "\"sin\"",
+        (Fault::Value, "dither.waveform", Some(14), "\"square\"", Some("\"sine\"")),
+    ),
+    (
+        "\"tangential\"",
+        "\"sideways\"",
+        (Fault::Value, "dither.direction", Some(13), "\"normal\"", None),
+    ),
+    ("schema = 1\n", "", (Fault::Missing, "schema", None, "schema = 1", None)),
+    ("schema = 1", "schema = 2", (Fault::Value, "schema", Some(1), "1", None)),
+    ("title = \"Stribeck belt\"", "title = 3", (Fault::Value, "title", Some(2), "a string", None)),
+    ("title", "titel", (Fault::Unknown, "titel", Some(2), "title", Some("title"))),
+    ("[friction]", "[frction]", (Fault::Unknown, "frction", Some(7), "friction", Some("friction"))),
+    (
+        "[dither]",
+        "[solver]\ntolerance = 0.5\n[dither]",
+        (Fault::Value, "solver.tolerance", Some(13), "0.001", None),
+    ),
+    (
+        "[dither]",
+        "[solver]\nrecord_periods = 2.5\n[dither]",
+        (Fault::Value, "solver.record_periods", Some(13), "whole", None),
+    ),
+    (
+        "[dither]",
+        "[solver]\nsettle = -1\n[dither]",
+        (Fault::Value, "solver.settle", Some(13), "[0", None),
+    ),
+    (
+        "[dither]",
+        "[solver]\nsteps = 1\n[dither]",
+        (Fault::Unknown, "solver.steps", Some(13), "tolerance", None),
+    ),
+    (
+        "[dither]",
+        "solver = 1\n[dither]",
+        (Fault::Unknown, "friction.solver", Some(12), "law", None),
+    ),
+    (
+        "[friction]",
+        "initial = 3\n[friction]",
+        (Fault::Value, "belt.initial", Some(7), "a table", None),
+    ),
+    (
+        "[friction]",
+        "[belt.initial]\nstate = \"resting\"\n[friction]",
+        (Fault::Value, "belt.initial.state", Some(8), "\"sliding\"", Some("\"rest\"")),
+    ),
+    (
+        "[friction]",
+        "[belt.initial]\nstate = \"rest\"\nvelocity = 1\n[friction]",
+        (Fault::Conflict, "belt.initial.state", Some(8), "not both", None),
+    ),
+    (
+        "[friction]",
+        "[belt.initial]\ndisplacement = nan\n[friction]",
+        (Fault::Value, "belt.initial.displacement", Some(8), "finite", None),
+    ),
+    (
+        "amplitude = 0.4",
+        "amplitude_n = 0.4",
+        (
+            Fault::Mixed,
+            "dither.amplitude_n",
+            Some(15),
+            "dither.amplitude",
+            Some("dither.amplitude"),
+        ),
+    ),
+    (
+        "[dither]",
+        "[system]\n[dither]",
+        (Fault::NotBuilt, "system", Some(12), "not built yet", None),
+    ),
+    ("schema = 1", "schema = 1\nschema = 1", (Fault::Syntax, "study", Some(2), "duplicate", None)),
+    ("schema = 1", "schema == 1", (Fault::Syntax, "study", Some(1), "", None)),
+];
+
 #[test]
 fn one_wrong_value_gives_one_complaint() {
     let wrong = |from: &str, to: &str| GOOD.replace(from, to);
-    let cases: &[(&str, &str, Said)] = &[
-        ("= 0.005", "= -0.1", (Fault::Value, "belt.damping_ratio", Some(4), "≥ 0", None)),
-        ("= 0.005", "= nan", (Fault::Value, "belt.damping_ratio", Some(4), "≥ 0", None)),
-        ("= 0.005", "= inf", (Fault::Value, "belt.damping_ratio", Some(4), "finite", None)),
-        ("= 0.005", "= 1e999", (Fault::Value, "belt.damping_ratio", Some(4), "finite", None)),
-        (
-            "= 0.005",
-            "= \"0.1\"",
-            (Fault::Value, "belt.damping_ratio", Some(4), "without quotes", None),
-        ),
-        ("= 0.005", "= true", (Fault::Value, "belt.damping_ratio", Some(4), "number", None)),
-        ("= 0.005", "= [1]", (Fault::Value, "belt.damping_ratio", Some(4), "an array", None)),
-        ("= 0.005", "= 1979-05-27", (Fault::Value, "belt.damping_ratio", Some(4), "a date", None)),
-        (
-            "normal_load = 1.0",
-            "normal_load = 0",
-            (Fault::Value, "belt.normal_load", Some(5), "> 0", None),
-        ),
-        ("normal_load = 1.0\n", "", (Fault::Missing, "belt.normal_load", Some(3), "> 0", None)),
-        (
-            "frequency_ratio = 10",
-            "frequency_ratio = 0",
-            (Fault::Value, "dither.frequency_ratio", Some(16), "> 0", None),
-        ),
-        (
-            "amplitude = 0.4",
-            "amplitude = -1",
-            (Fault::Value, "dither.amplitude", Some(15), "≥ 0", None),
-        ),
-        (
-            "0.2857",
-            "0.5",
-            (
-                Fault::Value,
-                "friction.minimum_coefficient",
-                Some(10),
-                "static_coefficient = 0.4",
-                None,
-            ),
-        ),
-        (
-            "\"stribeck\"",
-            "\"stribek\"",
-            (Fault::Value, "friction.law", Some(8), "\"decreasing\"", Some("\"stribeck\"")),
-        ),
-        ("\"stribeck\"", "3", (Fault::Value, "friction.law", Some(8), "\"decreasing\"", None)),
-        (
-            "law = \"stribeck\"\n",
-            "",
-            (Fault::Missing, "friction.law", Some(7), "\"decreasing\"", None),
-        ),
-        (
-            "\"sine\"",
-            "\"sin\"",
-            (Fault::Value, "dither.waveform", Some(14), "\"square\"", Some("\"sine\"")),
-        ),
-        (
-            "\"tangential\"",
-            "\"sideways\"",
-            (Fault::Value, "dither.direction", Some(13), "\"normal\"", None),
-        ),
-        ("schema = 1\n", "", (Fault::Missing, "schema", None, "schema = 1", None)),
-        ("schema = 1", "schema = 2", (Fault::Value, "schema", Some(1), "1", None)),
-        (
-            "title = \"Stribeck belt\"",
-            "title = 3",
-            (Fault::Value, "title", Some(2), "a string", None),
-        ),
-        ("title", "titel", (Fault::Unknown, "titel", Some(2), "title", Some("title"))),
-        (
-            "[friction]",
-            "[frction]",
-            (Fault::Unknown, "frction", Some(7), "friction", Some("friction")),
-        ),
-        (
-            "[dither]",
-            "[solver]\ntolerance = 0.5\n[dither]",
-            (Fault::Value, "solver.tolerance", Some(13), "0.001", None),
-        ),
-        (
-            "[dither]",
-            "[solver]\nrecord_periods = 2.5\n[dither]",
-            (Fault::Value, "solver.record_periods", Some(13), "whole", None),
-        ),
-        (
-            "[dither]",
-            "[solver]\nsettle = -1\n[dither]",
-            (Fault::Value, "solver.settle", Some(13), "[0", None),
-        ),
-        (
-            "[dither]",
-            "[solver]\nsteps = 1\n[dither]",
-            (Fault::Unknown, "solver.steps", Some(13), "tolerance", None),
-        ),
-        (
-            "[dither]",
-            "solver = 1\n[dither]",
-            (Fault::Unknown, "friction.solver", Some(12), "law", None),
-        ),
-        (
-            "[friction]",
-            "initial = 3\n[friction]",
-            (Fault::Value, "belt.initial", Some(7), "a table", None),
-        ),
-        (
-            "[friction]",
-            "[belt.initial]\nstate = \"resting\"\n[friction]",
-            (Fault::Value, "belt.initial.state", Some(8), "\"sliding\"", Some("\"rest\"")),
-        ),
-        (
-            "[friction]",
-            "[belt.initial]\nstate = \"rest\"\nvelocity = 1\n[friction]",
-            (Fault::Conflict, "belt.initial.state", Some(8), "not both", None),
-        ),
-        (
-            "[friction]",
-            "[belt.initial]\ndisplacement = nan\n[friction]",
-            (Fault::Value, "belt.initial.displacement", Some(8), "finite", None),
-        ),
-        (
-            "amplitude = 0.4",
-            "amplitude_n = 0.4",
-            (
-                Fault::Mixed,
-                "dither.amplitude_n",
-                Some(15),
-                "dither.amplitude",
-                Some("dither.amplitude"),
-            ),
-        ),
-        (
-            "[dither]",
-            "[system]\n[dither]",
-            (Fault::NotBuilt, "system", Some(12), "not built yet", None),
-        ),
-        (
-            "schema = 1",
-            "schema = 1\nschema = 1",
-            (Fault::Syntax, "study", Some(2), "duplicate", None),
-        ),
-        ("schema = 1", "schema == 1", (Fault::Syntax, "study", Some(1), "", None)),
-    ];
-    for (from, to, said) in cases {
+    for (from, to, said) in WRONG {
         if *from == "[friction]" && *to == "[frction]" {
             let table = (Fault::Missing, "friction", None, "[friction]", None);
             check(&wrong(from, to), &[*said, table]);
@@ -396,6 +372,16 @@ fn systems_do_not_mix() {
             (Fault::Value, "belt.normal_force_n", Some(6), "> 0", None),
         ],
     );
+}
+
+#[test]
+fn suggestions_are_in_the_system_of_the_study() {
+    let told = complaints(&SI.replace("damping_n_s_per_m", "dampng_ratio"), &[]);
+    let unknown = told.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
+    assert_eq!(unknown.suggestion.as_deref(), Some("belt.damping_n_s_per_m"));
+    let told = complaints(&GOOD.replace("amplitude = 0.4", "amplitud_n = 0.4"), &[]);
+    let unknown = told.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
+    assert_eq!(unknown.suggestion.as_deref(), Some("dither.amplitude"));
 }
 
 #[test]

@@ -68,12 +68,13 @@ impl Steady {
 
     /// What a reader of the numbers should know.
     pub fn warnings(&self, study: &Study) -> Vec<String> {
+        let time = if study.scales().is_some() { "t" } else { "τ" };
         let settle = in_words(study, Quantity::Time, study.solver().settle);
         let mut warnings = Vec::new();
         let mut warn = |which: &str, settled: bool| {
             if !settled {
                 warnings.push(format!(
-                    "the {which} response has not settled after {settle}: the amplitudes of the two \
+                    "the {which} response has not settled after {time} = {settle}: the amplitudes of the two \
                      halves of the record differ; raise solver.settle or solver.record_periods"
                 ));
             }

@@ -167,7 +167,7 @@ fn parameter(
         Err(nearest) => {
             let allowed = "path of a number of the study, such as \"dither.amplitude\"";
             let complaint = Complaint::new(Fault::Value, key, node.origin, path, allowed);
-            reader.complain(complaint.suggesting(nearest));
+            reader.complain(complaint.suggesting(nearest.map(|path| reader.in_system(path))));
             None
         }
     }

@@ -202,61 +202,71 @@ pub fn keys() -> &'static [Key] {
 }
 
 fn build() -> Vec<Key> {
-    let plain = |section, name, role, about| Key { section, name, role, about };
-    let mut keys = vec![
-        plain(Section::Root, "schema", Role::Schema, "version of the study file"),
-        plain(Section::Root, "title", Role::Text, "what the study is about"),
-    ];
-    keys.extend(
-        parameter::SCALES
-            .iter()
-            .map(|scale| plain(Section::Belt, scale.key(), Role::Scale(*scale), scale.about)),
-    );
-    keys.push(plain(Section::Initial, "state", Role::Choice(Choice::State), "a named state"));
-    keys.push(plain(Section::Friction, "law", Role::Choice(Choice::Law), "the friction law"));
-    keys.push(plain(
-        Section::Dither,
-        "direction",
-        Role::Choice(Choice::Direction),
-        "where the force acts",
-    ));
-    keys.push(plain(
-        Section::Dither,
-        "waveform",
-        Role::Choice(Choice::Waveform),
-        "shape of the force in time",
-    ));
+    let mut keys = words();
+    keys.extend(numbers());
+    keys.extend(axis());
+    keys.sort_by_key(|key| Section::ALL.iter().position(|section| *section == key.section));
+    keys
+}
+
+/// Keys that take words.
+fn words() -> Vec<Key> {
+    use Section::{Dither, Friction, Initial, Root};
+    let word =
+        |section, name, choice, about| Key { section, name, role: Role::Choice(choice), about };
+    let root = |name, role, about| Key { section: Root, name, role, about };
+    vec![
+        root("schema", Role::Schema, "version of the study file"),
+        root("title", Role::Text, "what the study is about"),
+        word(Initial, "state", Choice::State, "a named state"),
+        word(Friction, "law", Choice::Law, "the friction law"),
+        word(Dither, "direction", Choice::Direction, "where the force acts"),
+        word(Dither, "waveform", Choice::Waveform, "shape of the force in time"),
+    ]
+}
+
+/// Keys that take a number of the registry, in the numbers of the equations or in SI.
+fn numbers() -> Vec<Key> {
+    let scales = parameter::SCALES.iter().map(|scale| Key {
+        section: Section::Belt,
+        name: scale.key(),
+        role: Role::Scale(*scale),
+        about: scale.about,
+    });
+    let mut keys: Vec<Key> = scales.collect();
     let mut parameters = parameter::BELT.to_vec();
-    for law in LawKind::ALL {
-        for parameter in law.parameters() {
-            if !parameters.iter().any(|known| known.path == parameter.path) {
-                parameters.push(*parameter);
-            }
+    for parameter in LawKind::ALL.iter().flat_map(|law| law.parameters()) {
+        if !parameters.iter().any(|known| known.path == parameter.path) {
+            parameters.push(*parameter);
         }
     }
     for parameter in parameters {
         let table = parameter.path.strip_suffix(parameter.key()).unwrap_or_default();
-        let section = Section::ALL
-            .iter()
-            .copied()
-            .find(|section| section.path() == table.trim_end_matches('.'))
-            .unwrap_or(Section::Root);
-        keys.push(plain(section, parameter.key(), Role::Number(parameter), parameter.about));
-        for &twin in parameter.si {
-            keys.push(plain(section, twin.key, Role::Twin(parameter, twin), parameter.about));
-        }
+        let at = |section: &&Section| section.path() == table.trim_end_matches('.');
+        let section = Section::ALL.iter().find(at).copied().unwrap_or(Section::Root);
+        let about = parameter.about;
+        keys.push(Key { section, name: parameter.key(), role: Role::Number(parameter), about });
+        keys.extend(parameter.si.iter().map(|&twin| Key {
+            section,
+            name: twin.key,
+            role: Role::Twin(parameter, twin),
+            about,
+        }));
     }
-    let sweep = |name, role, about| plain(Section::Sweep, name, role, about);
-    keys.extend([
-        sweep("parameter", Role::Text, "path of the number that is varied"),
-        sweep("from", Role::AxisNumber, "first value"),
-        sweep("to", Role::AxisNumber, "last value"),
-        sweep("points", Role::AxisPoints, "number of values, both ends included"),
-        sweep("values", Role::AxisValues, "the values themselves, instead of from, to and points"),
-        sweep("spacing", Role::Choice(Choice::Spacing), "how the values lie between the ends"),
-    ]);
-    keys.sort_by_key(|key| Section::ALL.iter().position(|section| *section == key.section));
     keys
+}
+
+/// Keys of an axis.
+fn axis() -> Vec<Key> {
+    let key = |name, role, about| Key { section: Section::Sweep, name, role, about };
+    vec![
+        key("parameter", Role::Text, "path of the number that is varied"),
+        key("from", Role::AxisNumber, "first value"),
+        key("to", Role::AxisNumber, "last value"),
+        key("points", Role::AxisPoints, "number of values, both ends included"),
+        key("values", Role::AxisValues, "the values themselves, instead of from, to and points"),
+        key("spacing", Role::Choice(Choice::Spacing), "how the values lie between the ends"),
+    ]
 }
 
 /// Keys of one table.

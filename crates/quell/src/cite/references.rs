@@ -1,0 +1,64 @@
+//! The published sources that can be cited; the same stand in `references.bib`.
+
+/// A published source.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// Key in `references.bib`.
+    pub key: &'static str,
+    /// The full reference.
+    pub reference: &'static str,
+}
+
+/// The dissertation that states the problem and whose equations are numbered here.
+pub const MICHAUX_2005: Source = Source {
+    key: "michaux2005",
+    reference: "M. A. Michaux: Suppression of Friction-Induced Oscillations through Use of \
+                High-Frequency Dither Signals. PhD thesis, Georgia Institute of Technology, 2005",
+};
+/// Averaging of the belt with tangential dither, and the Stribeck law used here.
+pub const THOMSEN_1999: Source = Source {
+    key: "thomsen1999",
+    reference: "J. J. Thomsen: Using fast vibrations to quench friction-induced oscillations. \
+                Journal of Sound and Vibration 228(5), 1079–1102, 1999",
+};
+/// Stick-slip of the undithered belt.
+pub const THOMSEN_FIDLIN_2003: Source = Source {
+    key: "thomsen2003",
+    reference: "J. J. Thomsen, A. Fidlin: Analytical approximations for stick–slip vibration \
+                amplitudes. International Journal of Non-Linear Mechanics 38(3), 389–403, 2003",
+};
+/// Dither against brake squeal, on a brake.
+pub const CUNEFARE_GRAF_2002: Source = Source {
+    key: "cunefare2002",
+    reference: "K. A. Cunefare, A. J. Graf: Experimental active control of automotive disc brake \
+                rotor squeal using dither. Journal of Sound and Vibration 250(4), 579–590, 2002",
+};
+/// Taylor steps and their control.
+pub const JORBA_ZOU_2005: Source = Source {
+    key: "jorba2005",
+    reference: "À. Jorba, M. Zou: A software package for the numerical integration of ODEs by \
+                means of high-order Taylor methods. Experimental Mathematics 14(1), 99–117, 2005",
+};
+/// Solutions of differential equations with set-valued right-hand sides.
+pub const FILIPPOV_1988: Source = Source {
+    key: "filippov1988",
+    reference: "A. F. Filippov: Differential Equations with Discontinuous Righthand Sides. \
+                Kluwer, Dordrecht, 1988",
+};
+/// The Hann window and its peers.
+pub const HARRIS_1978: Source = Source {
+    key: "harris1978",
+    reference: "F. J. Harris: On the use of windows for harmonic analysis with the discrete \
+                Fourier transform. Proceedings of the IEEE 66(1), 51–83, 1978",
+};
+
+/// Every source that can be cited.
+pub const SOURCES: &[Source] = &[
+    MICHAUX_2005,
+    THOMSEN_1999,
+    THOMSEN_FIDLIN_2003,
+    CUNEFARE_GRAF_2002,
+    JORBA_ZOU_2005,
+    FILIPPOV_1988,
+    HARRIS_1978,
+];
