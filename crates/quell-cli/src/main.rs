@@ -1,2 +1,13 @@
-//! Command line.
-fn main() {}
+//! The command line of Quell: parse, hand to the front door, show. No physics.
+
+use std::process::ExitCode;
+
+mod answer;
+mod arguments;
+mod cli;
+mod table;
+mod verbs;
+
+fn main() -> ExitCode {
+    cli::run(std::env::args_os())
+}

@@ -51,9 +51,7 @@ impl Belt {
             friction,
             dithers,
         };
-        if complaints.is_empty() {
-            complaints.extend(belt.separation());
-        }
+        complaints.extend(belt.separation());
         if complaints.is_empty() {
             Ok(belt)
         } else {
@@ -61,8 +59,16 @@ impl Belt {
         }
     }
 
-    /// Complaint about normal dither that exceeds the normal load.
+    /// Complaint about normal dither that exceeds the normal load, where those numbers are
+    /// themselves valid.
     fn separation(&self) -> Option<Invalid> {
+        let judged = NORMAL_LOAD.bounds.contains(self.normal_load)
+            && self
+                .dithers_along(Direction::Normal)
+                .all(|dither| DITHER_AMPLITUDE.bounds.contains(dither.amplitude));
+        if !judged {
+            return None;
+        }
         let total = self.total_amplitude(Direction::Normal);
         let index = self
             .dithers
@@ -261,6 +267,16 @@ mod tests {
         assert_eq!(complaints.len(), 1);
         assert_eq!(complaints[0].key, "dither[1].amplitude");
         assert!(belt(vec![normal]).is_ok());
+    }
+
+    #[test]
+    fn separation_is_told_beside_other_complaints() {
+        let law = LawKind::Stribeck.build(&[0.4, 0.2857, 0.2]).expect("valid");
+        let complaints =
+            Belt::new(-1.0, 1.0, 0.05, law, vec![dither(Direction::Normal, 1.5)]).expect_err("two");
+        assert_eq!(complaints.len(), 2);
+        let complaints = LawKind::Stribeck.build(&[0.1, 0.2, -1.0]).expect_err("two");
+        assert_eq!(complaints.len(), 2);
     }
 
     #[test]

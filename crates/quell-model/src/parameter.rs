@@ -288,6 +288,49 @@ pub const RECORD_PERIODS: Parameter = Parameter {
     si: &[],
 };
 
+/// A number that exists only in a study in SI: it makes the scales.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScaleKey {
+    /// Path in a study file, such as `belt.mass_kg`.
+    pub path: &'static str,
+    /// Symbol in the equations.
+    pub symbol: &'static str,
+    /// What it is, in one line.
+    pub about: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Allowed values.
+    pub bounds: Bounds,
+}
+
+impl ScaleKey {
+    /// Last part of the path, the key inside its table.
+    pub fn key(&self) -> &'static str {
+        self.path.rsplit('.').next().unwrap_or(self.path)
+    }
+}
+
+/// Mass m of an SI study.
+pub const MASS: ScaleKey = ScaleKey {
+    path: "belt.mass_kg",
+    symbol: "m",
+    about: "mass on the belt; its presence makes the study one in SI",
+    unit: "kg",
+    bounds: Bounds::POSITIVE,
+};
+
+/// Stiffness k of an SI study.
+pub const STIFFNESS: ScaleKey = ScaleKey {
+    path: "belt.stiffness_n_per_m",
+    symbol: "k",
+    about: "stiffness of the spring that holds the mass; its presence makes the study one in SI",
+    unit: "N/m",
+    bounds: Bounds::POSITIVE,
+};
+
+/// The numbers that make the scales of a study in SI.
+pub const SCALES: &[ScaleKey] = &[MASS, STIFFNESS];
+
 /// Every parameter of a belt study, in the order of the study file. The friction law's own
 /// parameters are those of its file ([`crate::friction::LawKind::parameters`]).
 pub const BELT: &[Parameter] = &[

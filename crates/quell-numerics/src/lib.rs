@@ -2,7 +2,7 @@
 //!
 //! * [`lane`], [`elementary`], [`dispatch`]: the arithmetic of the hot kernels, the same bits everywhere;
 //! * [`polynomial`]: first root of a Taylor step, isolated or proven absent; step length;
-//! * [`quadrature`], [`special`], [`spectrum`]: integrals, special functions, spectra.
+//! * [`quadrature`], [`roots`], [`special`], [`spectrum`]: integrals, scalar roots and minima, special functions, spectra.
 
 pub mod dispatch;
 pub mod elementary;

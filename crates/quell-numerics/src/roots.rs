@@ -48,7 +48,10 @@ pub struct Closeness {
 impl Default for Closeness {
     /// As close as the arithmetic allows.
     fn default() -> Self {
-        Self { absolute: 0.0, relative: 2.0 * f64::EPSILON }
+        Self {
+            absolute: 0.0,
+            relative: 2.0 * f64::EPSILON,
+        }
     }
 }
 
@@ -86,11 +89,17 @@ impl core::fmt::Display for RootError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::NotBracketed { at_lower, at_upper } => {
-                write!(f, "no change of sign: {at_lower:e} and {at_upper:e} at the two ends")
+                write!(
+                    f,
+                    "no change of sign: {at_lower:e} and {at_upper:e} at the two ends"
+                )
             }
             Self::NotANumber { at } => write!(f, "the function is not a number at {at}"),
             Self::TooManySteps { lower, upper } => {
-                write!(f, "no root within {MAX_STEPS} steps; last bracket {lower} to {upper}")
+                write!(
+                    f,
+                    "no root within {MAX_STEPS} steps; last bracket {lower} to {upper}"
+                )
             }
         }
     }
@@ -118,10 +127,18 @@ pub fn find_root(
     let mut fb = number(f(b), b)?;
     if fa == 0.0 || fb == 0.0 {
         let location = if fa == 0.0 { a } else { b };
-        return Ok(Root { location, residual: 0.0, width: 0.0, evaluations: 2 });
+        return Ok(Root {
+            location,
+            residual: 0.0,
+            width: 0.0,
+            evaluations: 2,
+        });
     }
     if (fa > 0.0) == (fb > 0.0) {
-        return Err(RootError::NotBracketed { at_lower: fb, at_upper: fa });
+        return Err(RootError::NotBracketed {
+            at_lower: fb,
+            at_upper: fa,
+        });
     }
     let mut fraction = 0.5;
     for evaluations in 3..MAX_STEPS {
@@ -135,14 +152,28 @@ pub fn find_root(
             (b, fb) = (a, fa);
         }
         (a, fa) = (x, fx);
-        let (location, residual) = if fa.abs() < fb.abs() { (a, fa) } else { (b, fb) };
+        let (location, residual) = if fa.abs() < fb.abs() {
+            (a, fa)
+        } else {
+            (b, fb)
+        };
         if residual == 0.0 {
-            return Ok(Root { location, residual, width: 0.0, evaluations });
+            return Ok(Root {
+                location,
+                residual,
+                width: 0.0,
+                evaluations,
+            });
         }
         let width = (b - a).abs();
         let limit = closeness.at(location) / width;
         if limit > 0.5 {
-            return Ok(Root { location, residual, width, evaluations });
+            return Ok(Root {
+                location,
+                residual,
+                width,
+                evaluations,
+            });
         }
         let xi = (a - b) / (c - b);
         let phi = (fa - fb) / (fc - fb);
@@ -153,7 +184,10 @@ pub fn find_root(
         };
         fraction = fraction.clamp(limit, 1.0 - limit);
     }
-    Err(RootError::TooManySteps { lower: a.min(b), upper: a.max(b) })
+    Err(RootError::TooManySteps {
+        lower: a.min(b),
+        upper: a.max(b),
+    })
 }
 
 /// Smallest value of a function that falls and then rises between `a` and `b`.
@@ -181,7 +215,11 @@ pub fn minimise(
         let middle = low.midpoint(high);
         let near = closeness.absolute + relative * x.abs() + f64::MIN_POSITIVE;
         if (x - middle).abs() <= 2.0 * near - 0.5 * (high - low) {
-            return Ok(Minimum { location: x, value: fx, evaluations });
+            return Ok(Minimum {
+                location: x,
+                value: fx,
+                evaluations,
+            });
         }
         let mut golden = true;
         if before.abs() > near {
@@ -206,13 +244,25 @@ pub fn minimise(
             before = if x < middle { high - x } else { low - x };
             step = GOLDEN * before;
         }
-        let u = x + if step.abs() >= near { step } else { near.copysign(step) };
+        let u = x + if step.abs() >= near {
+            step
+        } else {
+            near.copysign(step)
+        };
         let fu = number(f(u), u)?;
         if fu <= fx {
-            if u < x { high = x } else { low = x }
+            if u < x {
+                high = x;
+            } else {
+                low = x;
+            }
             (v, fv, w, fw, x, fx) = (w, fw, x, fx, u, fu);
         } else {
-            if u < x { low = u } else { high = u }
+            if u < x {
+                low = u;
+            } else {
+                high = u;
+            }
             if fu <= fw || w == x {
                 (v, fv, w, fw) = (w, fw, u, fu);
             } else if fu <= fv || v == x || v == w {
@@ -220,11 +270,18 @@ pub fn minimise(
             }
         }
     }
-    Err(RootError::TooManySteps { lower: low, upper: high })
+    Err(RootError::TooManySteps {
+        lower: low,
+        upper: high,
+    })
 }
 
 fn number(y: f64, at: f64) -> Result<f64, RootError> {
-    if y.is_nan() || at.is_nan() { Err(RootError::NotANumber { at }) } else { Ok(y) }
+    if y.is_nan() || at.is_nan() {
+        Err(RootError::NotANumber { at })
+    } else {
+        Ok(y)
+    }
 }
 
 #[cfg(test)]
@@ -242,12 +299,21 @@ mod tests {
             let r = 0.013 * f64::from(k);
             for flip in [1.0, -1.0] {
                 let smooth = root(|x| flip * (libm::exp(x) - libm::exp(r)), 0.0, 3.0);
-                assert!((smooth.location - r).abs() < 4e-15 * r.max(1.0), "{r} {smooth:?}");
+                assert!(
+                    (smooth.location - r).abs() < 4e-15 * r.max(1.0),
+                    "{r} {smooth:?}"
+                );
                 assert!(smooth.evaluations < 25, "{smooth:?}");
                 let cubic = root(|x| flip * (x - r) * (x - r) * (x - r), 4.0, -1.0);
-                assert!((cubic.location - r).abs() < 1e-14 * r.max(1.0), "{r} {cubic:?}");
+                assert!(
+                    (cubic.location - r).abs() < 1e-14 * r.max(1.0),
+                    "{r} {cubic:?}"
+                );
                 let jump = root(|x| if x < r { -flip } else { flip * 1e9 }, 0.0, 3.0);
-                assert!((jump.location - r).abs() < 2e-15 * r.max(1.0), "{r} {jump:?}");
+                assert!(
+                    (jump.location - r).abs() < 2e-15 * r.max(1.0),
+                    "{r} {jump:?}"
+                );
             }
         }
         assert_eq!(root(|x| x, 0.0, 1.0).location, 0.0);
@@ -267,9 +333,14 @@ mod tests {
 
     #[test]
     fn tolerance_is_kept_and_misuse_told() {
-        let coarse = Closeness { absolute: 1e-3, relative: 0.0 };
+        let coarse = Closeness {
+            absolute: 1e-3,
+            relative: 0.0,
+        };
         let r = find_root(|x| x * x - 2.0, 0.0, 2.0, coarse).expect("a root");
-        assert!((r.location - core::f64::consts::SQRT_2).abs() <= r.width && r.width <= 2e-3 * 1.01);
+        assert!(
+            (r.location - core::f64::consts::SQRT_2).abs() <= r.width && r.width <= 2e-3 * 1.01
+        );
         assert!(matches!(
             find_root(|x| x * x + 1.0, -1.0, 1.0, coarse),
             Err(RootError::NotBracketed { .. })
@@ -284,9 +355,15 @@ mod tests {
     fn planted_minima() {
         for k in 1..50 {
             let m = 0.037 * f64::from(k);
-            let c = Closeness { absolute: 1e-10, relative: 0.0 };
+            let c = Closeness {
+                absolute: 1e-10,
+                relative: 0.0,
+            };
             let smooth = minimise(|x| (x - m) * (x - m) + 3.0, -1.0, 2.5, c).expect("ends");
-            assert!((smooth.location - m).abs() < 1e-7 && smooth.value - 3.0 < 1e-14, "{smooth:?}");
+            assert!(
+                (smooth.location - m).abs() < 1e-7 && smooth.value - 3.0 < 1e-14,
+                "{smooth:?}"
+            );
             let kink = minimise(|x| (x - m).abs(), -1.0, 2.5, c).expect("ends");
             assert!((kink.location - m).abs() < 1e-8, "{kink:?}");
         }

@@ -100,7 +100,11 @@ mod tests {
     use super::*;
 
     fn relative(value: f64, exact: f64) -> f64 {
-        if value == exact { 0.0 } else { ((value - exact) / exact).abs() }
+        if value == exact {
+            0.0
+        } else {
+            ((value - exact) / exact).abs()
+        }
     }
 
     /// The table at the top of this file, against 50-digit values.
@@ -127,7 +131,10 @@ mod tests {
                 other => panic!("unknown function {other}"),
             };
             let error = relative(value, exact);
-            assert!(error <= bound, "{name}({x}) = {value:e}, should be {exact:e}: {error:e}");
+            assert!(
+                error <= bound,
+                "{name}({x}) = {value:e}, should be {exact:e}: {error:e}"
+            );
             rows += 1;
         }
         assert!(rows > 700, "only {rows} rows");
@@ -157,10 +164,16 @@ mod tests {
             let x = 0.05 * f64::from(k);
             assert!((erf(x) + erfc(x) - 1.0).abs() < 4e-16);
             let d = difference(&dawson, x);
-            assert!((d - (1.0 - 2.0 * x * dawson(x))).abs() < 1e-11, "Dawson at {x}: {d}");
+            assert!(
+                (d - (1.0 - 2.0 * x * dawson(x))).abs() < 1e-11,
+                "Dawson at {x}: {d}"
+            );
             let e = difference(&erfcx, x);
             let slope = 2.0 * x * erfcx(x) - core::f64::consts::FRAC_2_SQRT_PI;
-            assert!((e - slope).abs() < 1e-9 * (1.0 + slope.abs()), "erfcx at {x}: {e} {slope}");
+            assert!(
+                (e - slope).abs() < 1e-9 * (1.0 + slope.abs()),
+                "erfcx at {x}: {e} {slope}"
+            );
         }
     }
 

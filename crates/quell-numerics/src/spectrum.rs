@@ -69,7 +69,10 @@ impl core::fmt::Display for SpectrumError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::TooShort { samples } => {
-                write!(f, "a spectrum needs at least {MINIMUM_SAMPLES} samples, not {samples}")
+                write!(
+                    f,
+                    "a spectrum needs at least {MINIMUM_SAMPLES} samples, not {samples}"
+                )
             }
             Self::Step { step } => write!(f, "the sampling step must be positive, not {step}"),
             Self::NotFinite { index } => write!(f, "sample {index} is not finite"),
@@ -105,7 +108,12 @@ impl Spectrum {
         let scale = samples.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let scale = if scale > 0.0 { scale } else { 1.0 };
         let weight: f64 = window.iter().sum();
-        let mean = window.iter().zip(samples).map(|(w, x)| w * (x / scale)).sum::<f64>() / weight;
+        let mean = window
+            .iter()
+            .zip(samples)
+            .map(|(w, x)| w * (x / scale))
+            .sum::<f64>()
+            / weight;
         let padded = ZERO_PADDING * n;
         let mut input = vec![0.0; padded];
         for ((slot, w), x) in input.iter_mut().zip(&window).zip(samples) {
@@ -117,10 +125,15 @@ impl Spectrum {
         let outcome = transform.process(&mut input, &mut lines);
         debug_assert!(outcome.is_ok());
         let factor = 2.0 / weight;
-        let mut amplitudes: Vec<f64> =
-            lines.iter().map(|line| scale * (factor * libm::hypot(line.re, line.im))).collect();
+        let mut amplitudes: Vec<f64> = lines
+            .iter()
+            .map(|line| scale * (factor * libm::hypot(line.re, line.im)))
+            .collect();
         amplitudes[0] = 0.0;
-        Ok(Self { spacing: 2.0 * PI / (padded as f64 * step), amplitudes })
+        Ok(Self {
+            spacing: 2.0 * PI / (padded as f64 * step),
+            amplitudes,
+        })
     }
 
     /// Angular frequency of line `index`.
@@ -154,7 +167,10 @@ impl Spectrum {
         for (frequency, &amplitude) in self.frequencies().zip(&self.amplitudes) {
             let inside = frequency > low && frequency <= high;
             if inside && best.is_none_or(|b| amplitude > b.amplitude) {
-                best = Some(Peak { frequency, amplitude });
+                best = Some(Peak {
+                    frequency,
+                    amplitude,
+                });
             }
         }
         best
@@ -177,7 +193,8 @@ impl Spectrum {
             }
             let from = j.saturating_sub(reach);
             let to = (j + reach).min(a.len() - 1);
-            let highest = a[from..j].iter().all(|x| *x < a[j]) && a[j + 1..=to].iter().all(|x| *x <= a[j]);
+            let highest =
+                a[from..j].iter().all(|x| *x < a[j]) && a[j + 1..=to].iter().all(|x| *x <= a[j]);
             if highest {
                 peaks.push(self.interpolate(j));
             }
@@ -188,7 +205,11 @@ impl Spectrum {
     /// Tone whose window transform passes through line `j` and its larger neighbour.
     fn interpolate(&self, j: usize) -> Peak {
         let a = &self.amplitudes;
-        let (side, neighbour) = if a[j + 1] >= a[j - 1] { (1.0, a[j + 1]) } else { (-1.0, a[j - 1]) };
+        let (side, neighbour) = if a[j + 1] >= a[j - 1] {
+            (1.0, a[j + 1])
+        } else {
+            (-1.0, a[j - 1])
+        };
         let bin = 1.0 / ZERO_PADDING as f64;
         // δ: distance of the tone from line j towards the neighbour, in unpadded bins, 0 … bin/2.
         let excess = |delta: f64| neighbour * hann_lobe(delta) - a[j] * hann_lobe(bin - delta);
@@ -198,7 +219,10 @@ impl Spectrum {
         } else if excess(0.5 * bin) >= 0.0 {
             0.5 * bin
         } else {
-            let closeness = Closeness { absolute: 1e-15, relative: 0.0 };
+            let closeness = Closeness {
+                absolute: 1e-15,
+                relative: 0.0,
+            };
             find_root(excess, 0.0, 0.5 * bin, closeness).map_or(0.0, |root| root.location)
         };
         Peak {
@@ -210,7 +234,11 @@ impl Spectrum {
 
 /// Transform of the Hann window relative to its peak, sin πδ / (πδ(1 − δ²)), for |δ| < 1 in bins.
 fn hann_lobe(delta: f64) -> f64 {
-    if delta == 0.0 { 1.0 } else { libm::sin(PI * delta) / (PI * delta * (1.0 - delta * delta)) }
+    if delta == 0.0 {
+        1.0
+    } else {
+        libm::sin(PI * delta) / (PI * delta * (1.0 - delta * delta))
+    }
 }
 
 #[cfg(test)]
@@ -246,11 +274,17 @@ mod tests {
             let x = tone(n, step, |t| 2.0 * libm::sin(omega * t + 0.1 * f64::from(k)));
             let s = Spectrum::of(&x, step).expect("valid");
             let line = s.largest_line(0.0, 1.9).expect("a line");
-            assert!(line.amplitude <= 2.0 + 1e-5 && line.amplitude > 2.0 * 0.989, "{line:?}");
+            assert!(
+                line.amplitude <= 2.0 + 1e-5 && line.amplitude > 2.0 * 0.989,
+                "{line:?}"
+            );
             let peaks = s.peaks(0.01);
             assert_eq!(peaks.len(), 1);
             // 33 bins from its mirror image at −ω: leakage 1/33³ at most.
-            assert!((peaks[0].frequency - omega).abs() < 2e-6, "{k}: {peaks:?} {omega}");
+            assert!(
+                (peaks[0].frequency - omega).abs() < 2e-6,
+                "{k}: {peaks:?} {omega}"
+            );
             assert!((peaks[0].amplitude - 2.0).abs() < 1e-4, "{k}: {peaks:?}");
         }
     }
@@ -259,7 +293,9 @@ mod tests {
     #[test]
     fn weak_tone_beside_a_strong_one() {
         let (n, step) = (20000, 0.05);
-        let x = tone(n, step, |t| libm::cos(0.91 * t) + 1e-3 * libm::cos(2.73 * t + 1.0));
+        let x = tone(n, step, |t| {
+            libm::cos(0.91 * t) + 1e-3 * libm::cos(2.73 * t + 1.0)
+        });
         let s = Spectrum::of(&x, step).expect("valid");
         let peaks = s.peaks(1e-4);
         assert_eq!(peaks.len(), 2, "{peaks:?}");
@@ -272,18 +308,25 @@ mod tests {
     #[test]
     fn parseval() {
         let n = 501;
-        let x = tone(n, 1.0, |t| libm::sin(t * t * 0.01) + 0.2 * libm::cos(0.7 * t));
+        let x = tone(n, 1.0, |t| {
+            libm::sin(t * t * 0.01) + 0.2 * libm::cos(0.7 * t)
+        });
         let s = Spectrum::of(&x, 1.0).expect("valid");
         let w = |k: usize| 0.5 * (1.0 - libm::cos(2.0 * PI * k as f64 / n as f64));
         let weight: f64 = (0..n).map(w).sum();
         let mean = (0..n).map(|k| w(k) * x[k]).sum::<f64>() / weight;
-        let energy: f64 = (0..n).map(|k| (w(k) * (x[k] - mean)) * (w(k) * (x[k] - mean))).sum();
+        let energy: f64 = (0..n)
+            .map(|k| (w(k) * (x[k] - mean)) * (w(k) * (x[k] - mean)))
+            .sum();
         let a = s.amplitudes();
         let m = (ZERO_PADDING * n) as f64;
         let last = a.len() - 1;
         let lines: f64 = 2.0 * a[1..last].iter().map(|y| y * y).sum::<f64>() + a[last] * a[last];
         let from_lines = lines * (weight / 2.0) * (weight / 2.0) / m;
-        assert!((from_lines - energy).abs() < 1e-12 * energy, "{from_lines} {energy}");
+        assert!(
+            (from_lines - energy).abs() < 1e-12 * energy,
+            "{from_lines} {energy}"
+        );
     }
 
     #[test]
@@ -298,10 +341,19 @@ mod tests {
         let flat = Spectrum::of(&[3.0; 64], 1.0).expect("valid");
         assert!(flat.amplitudes().iter().all(|a| *a < 1e-14));
         assert!(flat.largest_line(0.0, 1e-9).is_none());
-        assert_eq!(Spectrum::of(&[1.0; 3], 1.0), Err(SpectrumError::TooShort { samples: 3 }));
-        assert_eq!(Spectrum::of(&x, 0.0), Err(SpectrumError::Step { step: 0.0 }));
+        assert_eq!(
+            Spectrum::of(&[1.0; 3], 1.0),
+            Err(SpectrumError::TooShort { samples: 3 })
+        );
+        assert_eq!(
+            Spectrum::of(&x, 0.0),
+            Err(SpectrumError::Step { step: 0.0 })
+        );
         let mut broken = x;
         broken[5] = f64::NAN;
-        assert_eq!(Spectrum::of(&broken, 1.0), Err(SpectrumError::NotFinite { index: 5 }));
+        assert_eq!(
+            Spectrum::of(&broken, 1.0),
+            Err(SpectrumError::NotFinite { index: 5 })
+        );
     }
 }

@@ -1,3 +1,15 @@
 //! Front door of Quell.
 
+pub mod cite;
+pub mod complaint;
+pub mod dataset;
+pub mod fields;
+pub mod output;
 pub mod plot;
+pub mod quantity;
+pub mod run;
+pub mod schema;
+pub mod study;
+
+pub use complaint::{Complaint, Failure, Fault, Origin};
+pub use study::{Change, Study};

@@ -23,7 +23,7 @@ use quell_model::friction::{Decreasing, SlidingLaw};
 use quell_numerics::quadrature::{Integral, QuadratureOptions, integrate};
 use quell_numerics::special::{bessel_i0_scaled, dawson, erf, erfcx, exp, expm1, expm1_over};
 
-use super::effective::{AveragingError, Effective, Side};
+use super::effective::{AveragingError, Effective, Side, settled};
 use super::wave::FastWave;
 
 /// √π/2.
@@ -44,7 +44,12 @@ pub(super) fn effective(
     if v >= corner {
         let side = if v == corner { Side::Outer } else { Side::Both };
         let tail = b1 * exp(-((v - corner) / vm)) * scaled_mean_exponential(waveform, a);
-        return Ok(Effective::closed([b0, tail], [-tail / vm, 0.0], tail / vm, side));
+        return Ok(Effective::closed(
+            [b0, tail],
+            [-tail / vm, 0.0],
+            tail / vm,
+            side,
+        ));
     }
     let (w, below) = (v / vm, (corner - v) / vm);
     let wave = FastWave::Integral(waveform);
@@ -157,13 +162,19 @@ fn gauss_points() -> impl Iterator<Item = (f64, f64)> {
         0.02715245941175409485178057,
     ];
     NODES.iter().zip(WEIGHTS).flat_map(|(node, weight)| {
-        [(0.5 - 0.5 * node, 0.5 * weight), (0.5 + 0.5 * node, 0.5 * weight)]
+        [
+            (0.5 - 0.5 * node, 0.5 * weight),
+            (0.5 + 0.5 * node, 0.5 * weight),
+        ]
     })
 }
 
 /// K and J for the sine inside, by quadrature over a quarter wave; `delta` is where s = w.
 fn sine(a: f64, w: f64, delta: f64) -> Result<(Integral, Integral), AveragingError> {
-    let options = QuadratureOptions { relative: 1e-13, ..QuadratureOptions::default() };
+    let options = QuadratureOptions {
+        relative: 1e-13,
+        ..QuadratureOptions::default()
+    };
     // The exponentials live within a few units of s = w: cut there, so that large a is no narrow peak.
     let mut cuts = vec![delta];
     for offset in [-36.0, -6.0, 6.0, 36.0] {
@@ -184,8 +195,12 @@ fn sine(a: f64, w: f64, delta: f64) -> Result<(Integral, Integral), AveragingErr
         let c = a * libm::sin(x);
         exp(-(w + c)) + exp(-(w - c).abs())
     };
-    let scaled = |i: Integral| Integral { value: i.value / PI, error: i.error / PI, ..i };
-    let k = integrate(k, 0.0, FRAC_PI_2, &cuts, &options)?;
-    let j = integrate(j, 0.0, FRAC_PI_2, &cuts, &options)?;
+    let scaled = |i: Integral| Integral {
+        value: i.value / PI,
+        error: i.error / PI,
+        ..i
+    };
+    let k = settled(integrate(k, 0.0, FRAC_PI_2, &cuts, &options))?;
+    let j = settled(integrate(j, 0.0, FRAC_PI_2, &cuts, &options))?;
     Ok((scaled(k), scaled(j)))
 }

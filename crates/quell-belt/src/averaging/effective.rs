@@ -16,7 +16,7 @@
 //! rounding of that difference. Exactly at the corner the outer slope is given, and the result says so ([`Side::Outer`]).
 
 use quell_model::Friction;
-use quell_numerics::quadrature::QuadratureError;
+use quell_numerics::quadrature::{Integral, QuadratureError};
 
 use super::fast_motion::FastMotion;
 use super::{decreasing, independent, periodic, single_wave, stribeck, wave::FastWave};
@@ -66,7 +66,10 @@ impl Effective {
 
     /// The value at −v: μ̄ is odd there, its slope even.
     fn mirrored(self) -> Self {
-        Self { coefficient: -self.coefficient, ..self }
+        Self {
+            coefficient: -self.coefficient,
+            ..self
+        }
     }
 }
 
@@ -100,6 +103,16 @@ impl From<QuadratureError> for AveragingError {
     }
 }
 
+/// An integral whose tolerance only the rounding of its integrand forbids serves, with the error it has.
+pub(super) fn settled(
+    integral: Result<Integral, QuadratureError>,
+) -> Result<Integral, AveragingError> {
+    match integral {
+        Ok(integral) | Err(QuadratureError::Rounding { best: integral }) => Ok(integral),
+        Err(error) => Err(error.into()),
+    }
+}
+
 impl core::fmt::Display for AveragingError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
@@ -127,11 +140,7 @@ impl core::error::Error for AveragingError {}
 /// # Errors
 /// [`AveragingError::SetValued`] at v = 0 without fast slip, [`AveragingError::TooManyGroups`], or a quadrature that
 /// did not converge.
-pub fn effective(
-    law: &Friction,
-    motion: &FastMotion,
-    v: f64,
-) -> Result<Effective, AveragingError> {
+pub fn effective(law: &Friction, motion: &FastMotion, v: f64) -> Result<Effective, AveragingError> {
     match motion.groups() {
         [] => undithered(law, v),
         [group] => match group.single_term() {
@@ -145,13 +154,20 @@ pub fn effective(
 /// The law itself.
 fn undithered(law: &Friction, v: f64) -> Result<Effective, AveragingError> {
     if v == 0.0 {
-        return Err(AveragingError::SetValued { static_coefficient: law.static_coefficient() });
+        return Err(AveragingError::SetValued {
+            static_coefficient: law.static_coefficient(),
+        });
     }
     let speed = v.abs();
     let coefficient = law.coefficient(speed).copysign(v);
     let slope = law.slope(speed);
     let size = law.slope(0.0).abs() + slope.abs();
-    Ok(Effective::closed([coefficient, 0.0], [slope, 0.0], size, Side::Both))
+    Ok(Effective::closed(
+        [coefficient, 0.0],
+        [slope, 0.0],
+        size,
+        Side::Both,
+    ))
 }
 
 /// One dither, `amplitude` ≠ 0: closed form where there is one, else quadrature over a quarter wave.
@@ -174,7 +190,11 @@ pub(super) fn single(
         }
         (law, wave) => single_wave::effective(law, wave, alpha, speed)?,
     };
-    Ok(if v < 0.0 { effective.mirrored() } else { effective })
+    Ok(if v < 0.0 {
+        effective.mirrored()
+    } else {
+        effective
+    })
 }
 
 /// The same by quadrature, whatever the law: a second method for the closed forms.
@@ -191,5 +211,9 @@ pub fn effective_by_quadrature(
         return undithered(law, v);
     }
     let effective = single_wave::effective(law, wave, amplitude.abs(), v.abs())?;
-    Ok(if v < 0.0 { effective.mirrored() } else { effective })
+    Ok(if v < 0.0 {
+        effective.mirrored()
+    } else {
+        effective
+    })
 }

@@ -19,7 +19,8 @@ use core::f64::consts::TAU;
 use quell_model::{Belt, Direction, Dither, Friction, Waveform};
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
-use super::effective::{AveragingError, effective};
+use super::effective::{AveragingError, effective, settled};
+use super::periodic::Signal;
 use super::wave::FastWave;
 
 /// Which velocity a tangential force of high frequency is taken to produce.
@@ -127,7 +128,11 @@ impl PeriodicMotion {
 
     /// Phases in (0, 2π) where a term changes its formula.
     pub(super) fn breaks(&self) -> Vec<f64> {
-        let terms = self.tangential.iter().chain(&self.normal).map(|t| (t.harmonic, t.phase));
+        let terms = self
+            .tangential
+            .iter()
+            .chain(&self.normal)
+            .map(|t| (t.harmonic, t.phase));
         let loads = self.load.iter().map(|t| (t.harmonic, t.phase));
         let mut breaks = Vec::new();
         for (harmonic, phase) in terms.chain(loads) {
@@ -148,11 +153,14 @@ impl PeriodicMotion {
             s * s
         };
         let options = QuadratureOptions::default();
-        Ok(integrate(square, 0.0, TAU, &self.breaks(), &options)?.value / TAU)
+        Ok(settled(integrate(square, 0.0, TAU, &self.breaks(), &options))?.value / TAU)
     }
 
     fn is_still(&self) -> bool {
-        self.tangential.iter().chain(&self.normal).all(|t| t.amplitude == 0.0)
+        self.tangential
+            .iter()
+            .chain(&self.normal)
+            .all(|t| t.amplitude == 0.0)
     }
 }
 
@@ -180,8 +188,16 @@ impl FastMotion {
     /// One fast slip velocity amplitude·wave.
     #[must_use]
     pub fn single(wave: FastWave, amplitude: f64) -> Self {
-        let term = SlipTerm { wave, amplitude, harmonic: 1, phase: 0.0 };
-        Self::new(vec![PeriodicMotion { tangential: vec![term], ..PeriodicMotion::default() }])
+        let term = SlipTerm {
+            wave,
+            amplitude,
+            harmonic: 1,
+            phase: 0.0,
+        };
+        Self::new(vec![PeriodicMotion {
+            tangential: vec![term],
+            ..PeriodicMotion::default()
+        }])
     }
 
     /// The groups, each of them moving.
@@ -196,8 +212,24 @@ impl FastMotion {
     /// [`AveragingError`] where the oscillator's response is asked for at R ≤ 1, or where both directions act and
     /// the friction level that drives the normal dither cannot be computed.
     pub fn of(belt: &Belt, v: f64, options: AveragingOptions) -> Result<Self, AveragingError> {
-        let law = belt.friction();
-        let acting: Vec<&Dither> = belt.dithers().iter().filter(|d| d.amplitude > 0.0).collect();
+        Self::of_dithers(
+            belt.friction(),
+            belt.normal_load(),
+            belt.dithers(),
+            v,
+            options,
+        )
+    }
+
+    /// The same from its parts, whether or not the contact would stay closed.
+    pub(super) fn of_dithers(
+        law: &Friction,
+        normal_load: f64,
+        dithers: &[Dither],
+        v: f64,
+        options: AveragingOptions,
+    ) -> Result<Self, AveragingError> {
+        let acting: Vec<&Dither> = dithers.iter().filter(|d| d.amplitude > 0.0).collect();
         let (level, slope) = friction_level(law, &acting, v, options)?;
         let mut groups = Vec::new();
         for members in commensurate_groups(&acting) {
@@ -208,26 +240,50 @@ impl FastMotion {
                 let alpha = dither.amplitude_ratio();
                 match dither.direction {
                     Direction::Tangential => {
-                        group.tangential.push(SlipTerm { wave, amplitude: alpha, harmonic, phase });
+                        group.tangential.push(SlipTerm {
+                            wave,
+                            amplitude: alpha,
+                            harmonic,
+                            phase,
+                        });
                     }
                     Direction::Normal => {
                         let amplitude = alpha * level;
-                        group.normal.push(SlipTerm { wave, amplitude, harmonic, phase });
+                        group.normal.push(SlipTerm {
+                            wave,
+                            amplitude,
+                            harmonic,
+                            phase,
+                        });
                         group.load.push(LoadTerm {
                             waveform: dither.waveform,
-                            amplitude: dither.amplitude / belt.normal_load(),
+                            amplitude: dither.amplitude / normal_load,
                             harmonic,
                             phase,
                         });
                     }
                 }
             }
-            if options.normal_order == NormalOrder::Second && !group.normal.is_empty() && level != 0.0 {
+            if options.normal_order == NormalOrder::Second
+                && !group.normal.is_empty()
+                && level != 0.0
+            {
                 group.distortion = -0.5 * slope / level;
             }
             groups.push(group);
         }
         Ok(Self::new(groups))
+    }
+
+    /// Largest fast slip velocity, max s summed over the groups.
+    pub(super) fn largest_slip(&self) -> Result<f64, AveragingError> {
+        self.groups.iter().try_fold(0.0, |sum, group| {
+            Ok(sum
+                + match group.single_term() {
+                    Some((wave, amplitude)) => amplitude.abs() * wave.peak(),
+                    None => Signal::new(group)?.range().1,
+                })
+        })
     }
 }
 
@@ -236,9 +292,10 @@ pub(super) fn fast_wave(dither: &Dither, response: Response) -> Result<FastWave,
     let (waveform, frequency_ratio) = (dither.waveform, dither.frequency_ratio);
     match response {
         Response::Limit => Ok(FastWave::Integral(waveform)),
-        Response::Oscillator if frequency_ratio > 1.0 => {
-            Ok(FastWave::Oscillator { waveform, frequency_ratio })
-        }
+        Response::Oscillator if frequency_ratio > 1.0 => Ok(FastWave::Oscillator {
+            waveform,
+            frequency_ratio,
+        }),
         Response::Oscillator => Err(AveragingError::NotFast { frequency_ratio }),
     }
 }
@@ -253,8 +310,11 @@ fn friction_level(
     if dithers.iter().all(|d| d.direction == Direction::Tangential) {
         return Ok((0.0, 0.0));
     }
-    let tangential: Vec<&Dither> =
-        dithers.iter().copied().filter(|d| d.direction == Direction::Tangential).collect();
+    let tangential: Vec<&Dither> = dithers
+        .iter()
+        .copied()
+        .filter(|d| d.direction == Direction::Tangential)
+        .collect();
     if tangential.is_empty() {
         if v == 0.0 {
             return Ok((0.0, 0.0));
@@ -267,7 +327,12 @@ fn friction_level(
         for (dither, harmonic) in members {
             let wave = fast_wave(dither, options.response)?;
             let (amplitude, phase) = (dither.amplitude_ratio(), dither.phase);
-            group.tangential.push(SlipTerm { wave, amplitude, harmonic, phase });
+            group.tangential.push(SlipTerm {
+                wave,
+                amplitude,
+                harmonic,
+                phase,
+            });
         }
         groups.push(group);
     }
@@ -285,7 +350,9 @@ fn commensurate_groups<'a>(dithers: &[&'a Dither]) -> Vec<Vec<(&'a Dither, u32)>
         for group in &mut groups {
             let (first, multiple) = group[0];
             let ratio = dither.frequency_ratio / first.frequency_ratio * f64::from(multiple);
-            let Some((p, q)) = small_ratio(ratio) else { continue };
+            let Some((p, q)) = small_ratio(ratio) else {
+                continue;
+            };
             // In units of base/q the members are q times what they were.
             if group.iter().all(|(_, m)| m * q <= MAX_HARMONIC) && p <= MAX_HARMONIC {
                 for member in group.iter_mut() {

@@ -15,7 +15,7 @@ use quell_model::Friction;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_numerics::roots::{Closeness, find_root};
 
-use super::effective::{AveragingError, Effective, Side};
+use super::effective::{AveragingError, Effective, Side, settled};
 use super::fast_motion::PeriodicMotion;
 
 /// Points per smooth stretch at which the sign of ds/dθ is looked at.
@@ -33,9 +33,18 @@ pub(super) struct Signal<'a> {
 
 impl<'a> Signal<'a> {
     pub(super) fn new(group: &'a PeriodicMotion) -> Result<Self, AveragingError> {
-        let mean_square = if group.distortion == 0.0 { 0.0 } else { group.normal_mean_square()? };
+        let mean_square = if group.distortion == 0.0 {
+            0.0
+        } else {
+            group.normal_mean_square()?
+        };
         let correlated = group.has_correlated_load();
-        let mut signal = Self { group, mean_square, correlated, ends: Vec::new() };
+        let mut signal = Self {
+            group,
+            mean_square,
+            correlated,
+            ends: Vec::new(),
+        };
         let mut edges = group.breaks();
         edges.insert(0, 0.0);
         edges.push(TAU);
@@ -75,7 +84,11 @@ impl<'a> Signal<'a> {
 
     /// ν(θ), 0 where it cannot correlate with s.
     pub(super) fn load(&self, theta: f64) -> f64 {
-        if self.correlated { self.group.load_at(theta) } else { 0.0 }
+        if self.correlated {
+            self.group.load_at(theta)
+        } else {
+            0.0
+        }
     }
 
     /// Phases at which s is monotone on each side.
@@ -93,9 +106,11 @@ impl<'a> Signal<'a> {
 
     /// Largest and smallest value of s.
     pub(super) fn range(&self) -> (f64, f64) {
-        self.ends.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), end| {
-            (low.min(end.1), high.max(end.1))
-        })
+        self.ends
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), end| {
+                (low.min(end.1), high.max(end.1))
+            })
     }
 
     /// Phases where s = value.
@@ -132,7 +147,15 @@ pub(super) fn mean(
     v: f64,
 ) -> Result<Effective, AveragingError> {
     let start = law.coefficient(0.0);
-    let crossings = signal.crossings(v);
+    let (low, high) = signal.range();
+    let rounding = 8.0 * f64::EPSILON * (low.abs() + high.abs());
+    let at_corner = (v - high).abs() <= rounding || (v - low).abs() <= rounding;
+    // At the corner the outer slope: the touch is no crossing.
+    let crossings = if at_corner {
+        Vec::new()
+    } else {
+        signal.crossings(v)
+    };
     let jump: f64 = crossings
         .iter()
         .map(|&x| (base + signal.load(x)) / (TAU * signal.value_and_slope(x).1.abs()))
@@ -148,21 +171,20 @@ pub(super) fn mean(
         let slip = v - signal.value_and_slope(x).0;
         law.coefficient(slip.abs()).copysign(slip) * (base + signal.load(x))
     };
-    let slope = |x: f64| {
-        law.slope((v - signal.value_and_slope(x).0).abs()) * (base + signal.load(x))
-    };
-    let (low, high) = signal.range();
+    let slope =
+        |x: f64| law.slope((v - signal.value_and_slope(x).0).abs()) * (base + signal.load(x));
     let fastest = (v - low).abs().max((v - high).abs());
     let scale = start.abs() + law.coefficient(fastest).abs();
-    let slope_scale = law.slope(0.0).abs() + law.slope(fastest).abs() + start / law.velocity_scale();
+    let slope_scale =
+        law.slope(0.0).abs() + law.slope(fastest).abs() + start / law.velocity_scale();
     let options = |absolute: f64| QuadratureOptions {
         relative: 1e-13,
         absolute: 1e-13 * absolute,
         ..QuadratureOptions::default()
     };
-    let value = integrate(value, 0.0, TAU, &cuts, &options(scale))?;
-    let smooth = integrate(slope, 0.0, TAU, &cuts, &options(slope_scale))?;
-    let side = if v == high || v == low { Side::Outer } else { Side::Both };
+    let value = settled(integrate(value, 0.0, TAU, &cuts, &options(scale)))?;
+    let smooth = settled(integrate(slope, 0.0, TAU, &cuts, &options(slope_scale)))?;
+    let side = if at_corner { Side::Outer } else { Side::Both };
     let mut effective = Effective::closed(
         [value.value / TAU, 0.0],
         [jump, smooth.value / TAU],

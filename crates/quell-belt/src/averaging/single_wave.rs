@@ -13,7 +13,7 @@ use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 use quell_model::Friction;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
-use super::effective::{AveragingError, Effective, Side};
+use super::effective::{AveragingError, Effective, Side, settled};
 use super::wave::FastWave;
 
 /// Below this fraction of v_m the difference of two coefficients is integrated from the slope.
@@ -57,18 +57,27 @@ pub(super) fn effective(
         law.slope(v + s) + law.slope((v - s).abs())
     };
     // The near part and the far part of the value may cancel: each keeps its own accuracy.
-    let options = QuadratureOptions { relative: 1e-13, ..QuadratureOptions::default() };
-    let near = integrate(pair, 0.0, delta, &cuts, &options)?;
+    let options = QuadratureOptions {
+        relative: 1e-13,
+        ..QuadratureOptions::default()
+    };
+    let near = settled(integrate(pair, 0.0, delta, &cuts, &options))?;
     let far = if outside {
         0.0
     } else {
-        let floor = QuadratureOptions { absolute: 1e-14 * near.value.abs(), ..options };
-        integrate(pair, delta, FRAC_PI_2, &cuts, &floor)?.value
+        let floor = QuadratureOptions {
+            absolute: 1e-14 * near.value.abs(),
+            ..options
+        };
+        settled(integrate(pair, delta, FRAC_PI_2, &cuts, &floor))?.value
     };
     // A slope that crosses zero is accurate relative to the law's own slopes.
     let scale = law.slope(0.0).abs() + law.slope(v).abs() + PI * law.coefficient(0.0) * density;
-    let options = QuadratureOptions { absolute: 1e-13 * scale, ..options };
-    let smooth = integrate(slopes, 0.0, FRAC_PI_2, &cuts, &options)?;
+    let options = QuadratureOptions {
+        absolute: 1e-13 * scale,
+        ..options
+    };
+    let smooth = settled(integrate(slopes, 0.0, FRAC_PI_2, &cuts, &options))?;
     let side = if v == corner { Side::Outer } else { Side::Both };
     let mut effective = Effective::closed(
         [near.value / PI, far / PI],

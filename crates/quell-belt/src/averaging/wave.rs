@@ -32,9 +32,10 @@ impl FastWave {
     /// Same shape with a factor in front: a sine keeps its shape in an oscillator, so its closed forms serve.
     pub(crate) fn canonical(self) -> (Self, f64) {
         match self {
-            Self::Oscillator { waveform: Waveform::Sine, frequency_ratio: r } => {
-                (Self::Integral(Waveform::Sine), sine_gain(r))
-            }
+            Self::Oscillator {
+                waveform: Waveform::Sine,
+                frequency_ratio: r,
+            } => (Self::Integral(Waveform::Sine), sine_gain(r)),
             other => (other, 1.0),
         }
     }
@@ -43,7 +44,10 @@ impl FastWave {
     pub fn peak(self) -> f64 {
         match self {
             Self::Integral(waveform) => waveform.peak_integral(),
-            Self::Oscillator { waveform, frequency_ratio: r } => {
+            Self::Oscillator {
+                waveform,
+                frequency_ratio: r,
+            } => {
                 let half = FRAC_PI_2 / r;
                 match waveform {
                     Waveform::Sine => sine_gain(r),
@@ -63,7 +67,11 @@ impl FastWave {
     pub fn has_sharp_peak(self) -> bool {
         matches!(
             self,
-            Self::Integral(Waveform::Square) | Self::Oscillator { waveform: Waveform::Square, .. }
+            Self::Integral(Waveform::Square)
+                | Self::Oscillator {
+                    waveform: Waveform::Square,
+                    ..
+                }
         )
     }
 
@@ -73,7 +81,10 @@ impl FastWave {
             Self::Integral(Waveform::Sine) => libm::sin(delta),
             Self::Integral(Waveform::Triangle) => delta * (1.0 - delta / PI),
             Self::Integral(Waveform::Square) => delta,
-            Self::Oscillator { waveform, frequency_ratio: r } => match waveform {
+            Self::Oscillator {
+                waveform,
+                frequency_ratio: r,
+            } => match waveform {
                 Waveform::Sine => sine_gain(r) * libm::sin(delta),
                 Waveform::Triangle => {
                     let product = libm::sin(0.5 * delta / r) * libm::sin(0.5 * (PI - delta) / r);
@@ -90,7 +101,10 @@ impl FastWave {
             Self::Integral(Waveform::Sine) => libm::cos(delta),
             Self::Integral(Waveform::Triangle) => 1.0 - 2.0 * delta / PI,
             Self::Integral(Waveform::Square) => 1.0,
-            Self::Oscillator { waveform, frequency_ratio: r } => match waveform {
+            Self::Oscillator {
+                waveform,
+                frequency_ratio: r,
+            } => match waveform {
                 Waveform::Sine => sine_gain(r) * libm::cos(delta),
                 Waveform::Triangle => {
                     let factor = 2.0 * r / (PI * libm::cos(FRAC_PI_2 / r));
@@ -117,10 +131,15 @@ impl FastWave {
                 (FRAC_PI_2 * (value / peak) / (1.0 + root), amplitude * root)
             }
             Self::Integral(Waveform::Square) => (value / amplitude, amplitude),
-            Self::Oscillator { waveform: Waveform::Sine, frequency_ratio } => {
-                Self::Integral(Waveform::Sine).crossing(amplitude * sine_gain(frequency_ratio), value)
-            }
-            Self::Oscillator { waveform: Waveform::Triangle, frequency_ratio: r } => {
+            Self::Oscillator {
+                waveform: Waveform::Sine,
+                frequency_ratio,
+            } => Self::Integral(Waveform::Sine)
+                .crossing(amplitude * sine_gain(frequency_ratio), value),
+            Self::Oscillator {
+                waveform: Waveform::Triangle,
+                frequency_ratio: r,
+            } => {
                 let scale = 4.0 * r * r * amplitude / (PI * libm::cos(FRAC_PI_2 / r));
                 let from_peak = 2.0 * r * libm::asin((below / scale).sqrt().min(1.0));
                 let steepness = 0.5 * scale / r * libm::sin(from_peak / r);
@@ -134,7 +153,10 @@ impl FastWave {
                 }
                 (delta.max(0.0), steepness)
             }
-            Self::Oscillator { waveform: Waveform::Square, frequency_ratio: r } => {
+            Self::Oscillator {
+                waveform: Waveform::Square,
+                frequency_ratio: r,
+            } => {
                 let half = libm::cos(FRAC_PI_2 / r);
                 let delta = r * libm::asin((value * half / (amplitude * r)).min(1.0));
                 (delta, amplitude * self.quarter_slope(delta))
@@ -145,10 +167,17 @@ impl FastWave {
     /// s(θ) and ds/dθ for unit amplitude, any θ. At a corner of s the slope after it.
     pub(crate) fn value_and_slope(self, phase: f64) -> (f64, f64) {
         let phase = phase.rem_euclid(TAU);
-        let (folded, direction) = if phase < PI { (phase, 1.0) } else { (TAU - phase, -1.0) };
+        let (folded, direction) = if phase < PI {
+            (phase, 1.0)
+        } else {
+            (TAU - phase, -1.0)
+        };
         let delta = folded - FRAC_PI_2;
         let size = delta.abs().min(FRAC_PI_2);
-        (self.quarter(size).copysign(delta), direction * self.quarter_slope(size))
+        (
+            self.quarter(size).copysign(delta),
+            direction * self.quarter_slope(size),
+        )
     }
 }
 
@@ -166,7 +195,10 @@ mod tests {
         for &waveform in Waveform::ALL {
             waves.push(FastWave::Integral(waveform));
             for frequency_ratio in [1.3, 5.0, 10.0, 1e4] {
-                waves.push(FastWave::Oscillator { waveform, frequency_ratio });
+                waves.push(FastWave::Oscillator {
+                    waveform,
+                    frequency_ratio,
+                });
             }
         }
         waves
@@ -179,9 +211,18 @@ mod tests {
             for k in -50..120 {
                 let theta = 0.1 * f64::from(k);
                 let (s, slope) = FastWave::Integral(waveform).value_and_slope(theta);
-                assert!((s - waveform.integral(theta)).abs() < 4e-15, "{waveform:?} {theta}");
-                assert!((slope - waveform.value(theta)).abs() < 1e-14, "{waveform:?} {theta}");
-                let far = FastWave::Oscillator { waveform, frequency_ratio: 1e5 };
+                assert!(
+                    (s - waveform.integral(theta)).abs() < 4e-15,
+                    "{waveform:?} {theta}"
+                );
+                assert!(
+                    (slope - waveform.value(theta)).abs() < 1e-14,
+                    "{waveform:?} {theta}"
+                );
+                let far = FastWave::Oscillator {
+                    waveform,
+                    frequency_ratio: 1e5,
+                };
                 assert!((far.value_and_slope(theta).0 - s).abs() < 1e-9);
             }
         }
@@ -193,7 +234,10 @@ mod tests {
     fn oscillator_equation() {
         for &waveform in Waveform::ALL {
             let r = 3.0;
-            let wave = FastWave::Oscillator { waveform, frequency_ratio: r };
+            let wave = FastWave::Oscillator {
+                waveform,
+                frequency_ratio: r,
+            };
             let h = 1e-3;
             for k in 0..60 {
                 let theta = 0.05 + 0.1 * f64::from(k);
@@ -206,7 +250,10 @@ mod tests {
                 let s = |x: f64| wave.value_and_slope(x).0;
                 let second = (s(theta + h) - 2.0 * s(theta) + s(theta - h)) / (h * h);
                 let force = (waveform.value(theta + h) - waveform.value(theta - h)) / (2.0 * h);
-                assert!((second + s(theta) / (r * r) - force).abs() < 1e-5, "{waveform:?} {theta}");
+                assert!(
+                    (second + s(theta) / (r * r) - force).abs() < 1e-5,
+                    "{waveform:?} {theta}"
+                );
             }
         }
     }
@@ -217,14 +264,20 @@ mod tests {
         for wave in all() {
             let alpha = 0.37;
             let top = alpha * wave.quarter(FRAC_PI_2);
-            assert!((top / (alpha * wave.peak()) - 1.0).abs() < 1e-14, "{wave:?}");
+            assert!(
+                (top / (alpha * wave.peak()) - 1.0).abs() < 1e-14,
+                "{wave:?}"
+            );
             for k in 0..200 {
                 let delta = FRAC_PI_2 * libm::exp(-0.15 * f64::from(k) - 0.001);
                 let value = alpha * wave.quarter(delta);
                 let (found, steepness) = wave.crossing(alpha, value);
                 // Near a rounded peak δ is as ill-defined as √.
                 let slack = 1e-13 + 1e-15 / (FRAC_PI_2 - delta);
-                assert!((found / delta - 1.0).abs() < slack, "{wave:?} {delta}: {found}");
+                assert!(
+                    (found / delta - 1.0).abs() < slack,
+                    "{wave:?} {delta}: {found}"
+                );
                 let exact = alpha * wave.quarter_slope(delta);
                 assert!((steepness / exact - 1.0).abs() < 1e-9, "{wave:?} {delta}");
             }

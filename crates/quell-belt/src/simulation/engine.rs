@@ -8,14 +8,14 @@
 use quell_model::friction::SlidingLaw;
 use quell_model::{Belt, Direction};
 use quell_numerics::lane::horner;
-use quell_numerics::polynomial::{first_crossing, step_length};
+use quell_numerics::polynomial::{first_crossing_after, step_length};
 
 use super::clock::Clock;
 use super::event::{Event, EventKind};
 use super::forcing::{Forcing, Series};
 use super::observer::{Observer, Segment};
 use super::slip::{Load, SlipEquation, SlipStart};
-use super::stick::{Bond, Search, divided};
+use super::stick::{Bond, Search};
 use super::{FinalState, ORDER, Stalled, Start};
 
 /// Changes of contact at one moment before the bond is held. A jump that breaks a bond just
@@ -220,17 +220,12 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         let series = self.equation.series(&self.law, start, &dither, load);
         let w = &series.slip;
         let length = self.slip_length(w, room);
-        let quotient = match zeros {
-            0 => *w,
-            1 => divided(w, 1),
-            _ => divided(w, 2),
-        };
-        if zeros > 0 && quotient[0] * sign <= 0.0 {
+        if zeros > 0 && w[zeros] * sign <= 0.0 {
             // The zero is of higher order than its cause allows: rounding at a touch.
             self.contact = Contact::Stick { held: true };
             return;
         }
-        let root = first_crossing(&quotient, length);
+        let root = first_crossing_after(w, zeros, length);
         let duration = root.unwrap_or(length);
         let reaches_stop = duration >= room || self.clock.after(duration).time() == stop;
         self.steps += 1;

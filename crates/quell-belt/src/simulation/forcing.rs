@@ -111,9 +111,17 @@ impl Forcing {
     /// Taylor coefficients at `clock`.
     #[inline(always)]
     pub(super) fn series(&self, clock: Clock) -> Series {
-        let mut out = [0.0; ORDER + 1];
-        for component in &self.components {
-            component.add_series(clock, &mut out);
+        let Some((first, rest)) = self.components.split_first() else {
+            let mut out = [0.0; ORDER + 1];
+            out[0] = self.mean;
+            return out;
+        };
+        let mut out = first.series(clock);
+        for component in rest {
+            let series = component.series(clock);
+            for k in 0..=ORDER {
+                out[k] += series[k];
+            }
         }
         out[0] += self.mean;
         out
@@ -122,8 +130,11 @@ impl Forcing {
     /// Value at `clock`, the same bits as the first of [`Forcing::series`].
     #[inline(always)]
     pub(super) fn value(&self, clock: Clock) -> f64 {
-        let mut sum = 0.0;
-        for component in &self.components {
+        let Some((first, rest)) = self.components.split_first() else {
+            return self.mean;
+        };
+        let mut sum = first.value(clock);
+        for component in rest {
             sum += component.value(clock);
         }
         sum + self.mean
@@ -192,6 +203,9 @@ impl Component {
     /// Value and slope (per unit time) of a straight piece at `clock`, or `None` if harmonic.
     #[inline(always)]
     fn straight(&self, clock: Clock) -> Option<(f64, f64)> {
+        if self.ends == f64::INFINITY {
+            return None;
+        }
         let pieces = self.waveform.pieces();
         let index = (self.ending - 1).rem_euclid(pieces.len() as i64) as usize;
         match pieces[index] {
@@ -218,18 +232,19 @@ impl Component {
     }
 
     #[inline(always)]
-    fn add_series(&self, clock: Clock, out: &mut Series) {
+    fn series(&self, clock: Clock) -> Series {
+        let mut out = [0.0; ORDER + 1];
         if let Some((value, slope)) = self.straight(clock) {
-            out[0] += value;
-            out[1] += slope;
-            return;
+            out[0] = value;
+            out[1] = slope;
+            return out;
         }
         let (sine, cosine) = self.sin_cos(clock);
         let turn = [sine, cosine, -sine, -cosine];
-        out[0] += self.table[0] * sine;
-        for k in 1..=ORDER {
-            out[k] = self.table[k].mul_add(turn[k % 4], out[k]);
+        for k in 0..=ORDER {
+            out[k] = self.table[k] * turn[k % 4];
         }
+        out
     }
 }
 

@@ -3,7 +3,7 @@
 //! The bond force needed is f_s = 2ζv₀ + x − Σ D_T g_T; it holds while |f_s| ≤ μ_s N(τ).
 //! The two margins ±f_s − μ_s N are analytic between breaks of the dither.
 
-use quell_numerics::polynomial::{first_crossing, step_length};
+use quell_numerics::polynomial::{first_crossing, first_crossing_after, step_length};
 
 use super::ORDER;
 use super::clock::Clock;
@@ -167,7 +167,7 @@ fn break_on(margin: &Series, length: f64) -> Option<f64> {
         }
         return match margin.get(next) {
             Some(&first) if first > 0.0 => Some(0.0),
-            Some(_) => first_crossing(&divided(margin, next), length),
+            Some(_) => first_crossing_after(margin, next, length),
             None => None,
         };
     }
@@ -182,14 +182,6 @@ fn surely_within(force: &Series, limit: &Series, h: f64) -> bool {
         tail = f64::mul_add(tail, h, force[k].abs() + limit[k].abs());
     }
     f64::mul_add(tail, h, force[0].abs()) < limit[0]
-}
-
-/// Σ cₖtᵏ⁻ⁿ, padded with zeros, for a series whose first n coefficients vanish.
-#[inline(always)]
-pub(super) fn divided(c: &Series, n: usize) -> Series {
-    let mut quotient = [0.0; ORDER + 1];
-    quotient[..=ORDER - n].copy_from_slice(&c[n..]);
-    quotient
 }
 
 /// Derivative of Σ cₖtᵏ.

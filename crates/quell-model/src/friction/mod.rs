@@ -193,7 +193,8 @@ impl LawKind {
     }
 }
 
-/// Values checked against their parameters and, where all pass, against `relation`.
+/// Values checked against their parameters and against `relation`, which speaks only where
+/// the values it relates are themselves valid.
 fn checked(
     parameters: &[Parameter],
     values: &[f64],
@@ -207,18 +208,23 @@ fn checked(
         .iter()
         .zip(values)
         .filter_map(|(parameter, &value)| parameter.check(value).err())
+        .chain(relation())
         .collect();
-    if !complaints.is_empty() {
-        return Err(complaints);
+    if complaints.is_empty() {
+        Ok(())
+    } else {
+        Err(complaints)
     }
-    relation().map_or(Ok(()), |complaint| Err(vec![complaint]))
 }
 
 /// μ_m ≤ μ_s, which both built-in laws need.
 fn minimum_at_most_static(static_coefficient: f64, minimum_coefficient: f64) -> Option<Invalid> {
-    (minimum_coefficient > static_coefficient).then(|| {
+    use crate::parameter::{MINIMUM_COEFFICIENT, STATIC_COEFFICIENT};
+    let judged = STATIC_COEFFICIENT.bounds.contains(static_coefficient)
+        && MINIMUM_COEFFICIENT.bounds.contains(minimum_coefficient);
+    (judged && minimum_coefficient > static_coefficient).then(|| {
         Invalid::new(
-            crate::parameter::MINIMUM_COEFFICIENT.path,
+            MINIMUM_COEFFICIENT.path,
             minimum_coefficient,
             format!("at most friction.static_coefficient = {static_coefficient}"),
         )

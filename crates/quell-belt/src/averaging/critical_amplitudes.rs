@@ -1,0 +1,182 @@
+//! Critical dither amplitudes: every α = D/R > 0 at which averaged stability changes, as the first dither's amplitude varies.
+//!
+//! For one dither the amplitude at which the fast velocity reaches the belt's, α = v₀/G_max (v₀/(μ(v₀)G_max) for normal
+//! dither), splits the line: below it (outer region) the criterion is smooth; there it jumps, to +∞ for sine and triangle, by a finite
+//! step for a square; above it (inner region) it falls and may dip once more. A jump is a critical amplitude too, and
+//! a root finder alone misses it. Both regions are scanned, with extra points that crowd at the jump from above, and dips are
+//! followed to their bottom. With several dithers the others are held and the place of the jump is where the sum reaches v₀.
+//!
+//! The closed forms behind it for one tangential dither (3.43)–(3.60): Stribeck, outer root
+//! α = v_m √((1 − κ − w²)/⟨G²⟩), κ = 4v_mζ/(3F(μ_s − μ_m)), w = v₀/v_m; decreasing, the root of m(α/v_m) = 2v_mζe^{w}/(F(μ_s − μ_m)).
+//! Normal dither: the same with α_T → μ(v₀)α_N.
+
+use quell_model::{Belt, Direction, Dither};
+
+use super::criterion::Criterion;
+use super::effective::{AveragingError, effective};
+use super::fast_motion::{AveragingOptions, FastMotion, fast_wave};
+use super::sign_changes::{Crossing, sign_changes};
+
+/// Steady sliding after a change of sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Becomes {
+    /// The criterion becomes positive.
+    Stable,
+    /// The criterion becomes negative.
+    Unstable,
+}
+
+impl Becomes {
+    pub(super) fn from_sign(positive: bool) -> Self {
+        if positive {
+            Self::Stable
+        } else {
+            Self::Unstable
+        }
+    }
+}
+
+/// One critical amplitude of the first dither.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CriticalAmplitude {
+    /// α = D/R.
+    pub amplitude_ratio: f64,
+    /// D = αR, the force amplitude, a length.
+    pub amplitude: f64,
+    /// Bound on the numerical error of `amplitude_ratio`.
+    pub error: f64,
+    /// Through zero or by a jump.
+    pub crossing: Crossing,
+    /// Steady sliding for slightly larger amplitudes.
+    pub becomes: Becomes,
+    /// Whether the contact would stay closed: ΣD_N ≤ F. Always true for tangential dither.
+    pub contact_stays_closed: bool,
+}
+
+/// Every amplitude ratio α > 0 of the first dither at which averaged stability of steady sliding changes; the
+/// amplitude it has in `belt` does not matter, the other dithers are held. Empty without dither.
+///
+/// # Errors
+/// [`AveragingError`], for instance a belt at rest with normal dither only.
+pub fn critical_amplitudes(
+    belt: &Belt,
+    options: AveragingOptions,
+) -> Result<Vec<CriticalAmplitude>, AveragingError> {
+    let Some(&first) = belt.dithers().first() else {
+        return Ok(Vec::new());
+    };
+    let mut probe = Probe {
+        belt,
+        options,
+        dithers: belt.dithers().to_vec(),
+    };
+    let corners = probe.corners(&first)?;
+    let scale = corners.iter().fold(
+        belt.friction().velocity_scale().max(belt.belt_velocity()),
+        |m, c| m.max(*c),
+    );
+    let points = scan_points(&corners, scale, belt.belt_velocity() == 0.0);
+    let changes = sign_changes(|alpha| probe.criterion(alpha), &points, &corners)?;
+    let others: f64 = belt.dithers()[1..]
+        .iter()
+        .filter(|d| d.direction == Direction::Normal)
+        .map(|d| d.amplitude)
+        .sum();
+    Ok(changes
+        .into_iter()
+        .map(|change| {
+            let amplitude = change.place * first.frequency_ratio;
+            let own = if first.direction == Direction::Normal {
+                amplitude
+            } else {
+                0.0
+            };
+            CriticalAmplitude {
+                amplitude_ratio: change.place,
+                amplitude,
+                error: change.error,
+                crossing: change.crossing,
+                becomes: Becomes::from_sign(change.becomes_positive),
+                contact_stays_closed: others + own <= belt.normal_load(),
+            }
+        })
+        .collect())
+}
+
+/// Amplitudes to look at: evenly up to the first corner, crowded above each corner, then geometrically far out.
+fn scan_points(corners: &[f64], scale: f64, at_rest: bool) -> Vec<f64> {
+    let mut points = Vec::new();
+    let first = corners.iter().copied().fold(scale, f64::min);
+    if at_rest {
+        points.extend((0..80).map(|k| first * libm::exp(-0.25 * f64::from(80 - k))));
+    } else {
+        points.push(0.0);
+        points.extend((1..=12).map(|k| first * libm::exp(-0.5 * f64::from(13 - k))));
+        points.extend((1..=48).map(|k| first * f64::from(k) / 48.0));
+    }
+    for corner in corners {
+        points.extend((0..30).map(|k| corner * (1.0 + libm::exp(-34.0 + 1.1 * f64::from(k)))));
+    }
+    // Ratio 1.15 over two decades beyond the largest scale, 2 over two more.
+    let mut point = first;
+    while point < 1e4 * scale {
+        point *= if point < 1e2 * scale { 1.15 } else { 2.0 };
+        points.push(point);
+    }
+    points.sort_unstable_by(f64::total_cmp);
+    points.dedup();
+    points
+}
+
+/// The belt with another amplitude of its first dither (whether or not the contact would stay closed).
+struct Probe<'a> {
+    belt: &'a Belt,
+    options: AveragingOptions,
+    dithers: Vec<Dither>,
+}
+
+impl Probe<'_> {
+    fn motion(&mut self, alpha: f64) -> Result<FastMotion, AveragingError> {
+        self.dithers[0].amplitude = alpha * self.dithers[0].frequency_ratio;
+        let belt = self.belt;
+        FastMotion::of_dithers(
+            belt.friction(),
+            belt.normal_load(),
+            &self.dithers,
+            belt.belt_velocity(),
+            self.options,
+        )
+    }
+
+    fn criterion(&mut self, alpha: f64) -> Result<f64, AveragingError> {
+        let motion = self.motion(alpha)?;
+        let belt = self.belt;
+        let effective = effective(belt.friction(), &motion, belt.belt_velocity())?;
+        Ok(Criterion::new(belt.damping_ratio(), belt.normal_load(), effective).value)
+    }
+
+    /// Amplitudes at which the largest fast velocity equals the belt velocity.
+    fn corners(&mut self, first: &Dither) -> Result<Vec<f64>, AveragingError> {
+        let v = self.belt.belt_velocity();
+        if v == 0.0 {
+            return Ok(Vec::new());
+        }
+        // Exact where a single first-order wave is all there is.
+        let unit = self.motion(1.0)?;
+        if let [group] = unit.groups()
+            && let Some((_, amplitude)) = group.single_term()
+        {
+            let peak = fast_wave(first, self.options.response)?.peak();
+            return Ok(vec![v / (amplitude.abs() * peak)]);
+        }
+        let scale = v.max(self.belt.friction().velocity_scale());
+        let points: Vec<f64> = (0..160)
+            .map(|k| scale * libm::exp(-9.2 + 0.1 * f64::from(k)))
+            .collect();
+        let mut excess = |alpha: f64| -> Result<f64, AveragingError> {
+            Ok(self.motion(alpha)?.largest_slip()? - v)
+        };
+        let changes = sign_changes(&mut excess, &points, &[])?;
+        Ok(changes.into_iter().map(|change| change.place).collect())
+    }
+}

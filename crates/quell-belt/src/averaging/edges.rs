@@ -1,0 +1,179 @@
+//! Unstable belt velocities: the bands of v₀ in which averaged steady sliding is unstable, dither held.
+//!
+//! Undithered: Stribeck below v_m√(1 − κ), κ = 4v_mζ/(3F(μ_s − μ_m)) (2.28); decreasing below −v_m ln(2v_mζ/(F(μ_s − μ_m))).
+//!
+//! One tangential dither, α = D/R: lower edge αG_max (a jump), upper edge
+//! * Stribeck v_m√(1 − κ − ⟨G²⟩(α/v_m)²), ⟨G²⟩ = 1/2, π²/30, π²/12 (3.43), (3.47), (3.51); the print has π²/48 for the triangle;
+//! * decreasing αG_max − v_m ln(2v_mζ/(F(μ_s − μ_m)e^{−αG_max/v_m}m)) (3.55), (3.59): it rises with α, dither can destabilise.
+//!
+//! There is a band where the upper edge lies above the lower. For normal dither α = μ(v₀)α_N at the edge itself
+//! (4.33)–(4.42). [`unstable_bands`] finds the bands of any belt, with any dithers, from the criterion itself; the closed
+//! forms ([`closed_band`]) are its check and its fast form.
+
+use quell_model::friction::SlidingLaw;
+use quell_model::{Belt, Friction, Waveform};
+use quell_numerics::special::ln;
+
+use super::criterion::Criterion;
+use super::decreasing::scaled_mean_exponential;
+use super::effective::{AveragingError, effective};
+use super::fast_motion::{AveragingOptions, FastMotion};
+use super::sign_changes::{Crossing, sign_changes};
+
+/// Belt velocities above which undithered steady sliding is stable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CriticalVelocity {
+    /// Stable at every belt velocity v₀ > 0: damping outweighs the steepest fall of the law.
+    StableEverywhere,
+    /// Stable above this belt velocity, unstable below.
+    Above(f64),
+    /// Unstable at every belt velocity: the law falls for ever and there is no damping.
+    UnstableEverywhere,
+}
+
+/// A band of unstable belt velocities.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Band {
+    /// Lower edge, a velocity; 0 where instability reaches down to rest.
+    pub lower: f64,
+    /// How stability is lost at the lower edge (for growing v₀); none at v₀ → 0.
+    pub lower_crossing: Option<Crossing>,
+    /// Upper edge; none where instability has no upper end.
+    pub upper: Option<f64>,
+}
+
+/// Belt velocity above which undithered steady sliding is (locally) stable.
+#[must_use]
+pub fn undithered_critical_velocity(
+    law: &Friction,
+    damping_ratio: f64,
+    normal_load: f64,
+) -> CriticalVelocity {
+    let v = outer_edge(law, damping_ratio, normal_load, Waveform::Sine, 0.0);
+    match v {
+        None => CriticalVelocity::UnstableEverywhere,
+        Some(v) if v > 0.0 => CriticalVelocity::Above(v),
+        Some(_) => CriticalVelocity::StableEverywhere,
+    }
+}
+
+/// Unstable band under one tangential dither of amplitude ratio α ≥ 0 in the limit of high frequency; none where α stabilises
+/// every belt velocity. Instability below αG_max, which steep laws can show, is [`unstable_bands`]'s business.
+#[must_use]
+pub fn closed_band(
+    law: &Friction,
+    damping_ratio: f64,
+    normal_load: f64,
+    waveform: Waveform,
+    alpha: f64,
+) -> Option<Band> {
+    let lower = alpha * waveform.peak_integral();
+    let upper = outer_edge(law, damping_ratio, normal_load, waveform, alpha);
+    let lower_crossing = (alpha > 0.0).then_some(Crossing::Jump);
+    upper.is_none_or(|upper| upper > lower).then_some(Band {
+        lower,
+        lower_crossing,
+        upper,
+    })
+}
+
+/// Root of the outer criterion in v₀, continued below the corner; 0 where the criterion is positive at every velocity,
+/// none where it is never positive.
+fn outer_edge(
+    law: &Friction,
+    damping_ratio: f64,
+    normal_load: f64,
+    waveform: Waveform,
+    alpha: f64,
+) -> Option<f64> {
+    let vm = law.velocity_scale();
+    let ratio = alpha / vm;
+    match law {
+        Friction::Stribeck(law) => {
+            let difference = law.static_coefficient() - law.minimum_coefficient();
+            if difference == 0.0 {
+                return Some(0.0);
+            }
+            let kappa = 4.0 * vm * damping_ratio / (3.0 * normal_load * difference);
+            let square = 1.0 - kappa - waveform.mean_square_integral() * ratio * ratio;
+            Some(vm * square.max(0.0).sqrt())
+        }
+        Friction::Decreasing(law) => {
+            let difference = law.static_coefficient() - law.minimum_coefficient();
+            if difference == 0.0 {
+                return Some(0.0);
+            }
+            if damping_ratio == 0.0 {
+                return None;
+            }
+            let corner = alpha * waveform.peak_integral();
+            let scaled = scaled_mean_exponential(waveform, ratio);
+            let edge =
+                corner - vm * ln(2.0 * vm * damping_ratio / (normal_load * difference * scaled));
+            Some(edge.max(0.0))
+        }
+    }
+}
+
+/// Every band of belt velocities 0 < v₀ in which averaged steady sliding of `belt` is unstable, its dithers held; the belt
+/// velocity it has does not matter. Ascending. Velocities up to 200 v_m beyond the fast velocity are looked at.
+///
+/// # Errors
+/// [`AveragingError`].
+pub fn unstable_bands(belt: &Belt, options: AveragingOptions) -> Result<Vec<Band>, AveragingError> {
+    let law = belt.friction();
+    let motion = |v: f64| FastMotion::of(belt, v, options);
+    let mut value = |v: f64| -> Result<f64, AveragingError> {
+        let effective = effective(law, &motion(v)?, v)?;
+        Ok(Criterion::new(belt.damping_ratio(), belt.normal_load(), effective).value)
+    };
+    let vm = law.velocity_scale();
+    // Fast velocity at most: the coefficient that drives normal dither is largest at the static level or far out.
+    let reach = motion(vm)?
+        .largest_slip()?
+        .max(motion(1e-9 * vm)?.largest_slip()?);
+    let mut points: Vec<f64> = (0..60)
+        .map(|k| vm * libm::exp(-14.0 + 0.25 * f64::from(k)))
+        .collect();
+    points.extend((1..=80).map(|k| 2.0 * reach * f64::from(k) / 80.0));
+    points.extend((1..=60).map(|k| reach + vm * 0.05 * f64::from(k)));
+    points.extend((0..30).map(|k| reach + 3.0 * vm * libm::exp(0.15 * f64::from(k))));
+    points.retain(|v| *v > 0.0);
+    points.sort_unstable_by(f64::total_cmp);
+    points.dedup();
+    let excess = |v: f64| -> Result<f64, AveragingError> { Ok(v - motion(v)?.largest_slip()?) };
+    let corners: Vec<f64> = sign_changes(excess, &points, &[])?
+        .into_iter()
+        .map(|c| c.place)
+        .collect();
+    for corner in &corners {
+        points.extend((0..24).map(|k| corner * (1.0 - libm::exp(-30.0 + 1.2 * f64::from(k)))));
+    }
+    points.retain(|v| *v > 0.0);
+    points.sort_unstable_by(f64::total_cmp);
+    let changes = sign_changes(&mut value, &points, &corners)?;
+    let mut bands = Vec::new();
+    let starts_unstable = value(points[0])? < 0.0;
+    let mut open = starts_unstable.then_some((0.0, None));
+    for change in changes {
+        if change.becomes_positive {
+            if let Some((lower, lower_crossing)) = open.take() {
+                bands.push(Band {
+                    lower,
+                    lower_crossing,
+                    upper: Some(change.place),
+                });
+            }
+        } else {
+            open = Some((change.place, Some(change.crossing)));
+        }
+    }
+    if let Some((lower, lower_crossing)) = open {
+        bands.push(Band {
+            lower,
+            lower_crossing,
+            upper: None,
+        });
+    }
+    Ok(bands)
+}

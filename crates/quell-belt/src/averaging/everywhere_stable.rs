@@ -1,0 +1,236 @@
+//! The amplitude that stabilises steady sliding at every belt velocity, α^L.
+//!
+//! Outside the corner the criterion is smallest at the tip v₀ = αG_max, so the outer region is stable for all v₀ when
+//! h(α) = 2ζ + Fμ̄′(αG_max⁺; α) ≥ 0. Roots of h:
+//! * Stribeck, closed: α^L = v_m√((1 − κ)/(G_max² + ⟨G²⟩)), κ = 4v_mζ/(3F(μ_s − μ_m)): sine v_m√(2(1 − κ)/3), triangle
+//!   (v_m/π)√(240(1 − κ)/23), square (v_m/π)√(3(1 − κ)). The prints (3.44) (nested root) and (3.48) are wrong, (4.38) is twice too large;
+//! * decreasing: e^{−c}m(α/v_m) = 2v_mζ/(F(μ_s − μ_m)), c = αG_max/v_m. The left side falls to 0, so there is a root for any ζ > 0, but for light
+//!   damping and rounded waves it lies far off any plot (sine, ζ = 0.005: 104). Without damping there is none.
+//!
+//! "μ̄′ ≥ 0 inside" is true for the dissertation's values but not in general (Stribeck: iff (μ_s − μ_m)/μ_s ≤ √6/π, √0.4, 1 for sine,
+//! triangle, square): the inner region is therefore searched too, and α^L is the amplitude beyond
+//! which both regions are stable.
+//!
+//! Normal dither: v₀ is unstable for α_N up to α/μ(v₀) with α the largest unstable tangential amplitude at v₀; α_N^L is the maximum over
+//! v₀, which lies at the tip: α^L/μ(α^L G_max) (4.34)–(4.42 leave μ(v₀) open), unless μ falls steeply beyond it.
+
+use quell_model::friction::SlidingLaw;
+use quell_model::{Direction, Friction};
+use quell_numerics::roots::{Closeness, minimise};
+
+use super::criterion::Criterion;
+use super::edges::{CriticalVelocity, undithered_critical_velocity};
+use super::effective::{AveragingError, single};
+use super::sign_changes::sign_changes;
+use super::wave::FastWave;
+
+/// The amplitude ratio beyond which steady sliding is stable at every belt velocity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EverywhereStable {
+    /// Without dither already.
+    Always,
+    /// For every α ≥ `amplitude_ratio`.
+    From {
+        /// α^L (α_N^L for normal dither).
+        amplitude_ratio: f64,
+        /// Bound on its numerical error.
+        error: f64,
+    },
+    /// For no amplitude.
+    Never {
+        /// The reason.
+        why: NeverStable,
+    },
+}
+
+/// Why no amplitude stabilises every belt velocity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NeverStable {
+    /// No damping, and the law falls for ever.
+    NoDamping,
+    /// Slow sliding below the fast velocity stays unstable at any amplitude.
+    InnerRegion,
+    /// No root up to 10⁶ v_m.
+    OffScale,
+}
+
+/// α^L for one dither of the given shape.
+///
+/// # Errors
+/// [`AveragingError`] from a quadrature.
+pub fn everywhere_stable_amplitude(
+    law: &Friction,
+    damping_ratio: f64,
+    normal_load: f64,
+    wave: FastWave,
+    direction: Direction,
+) -> Result<EverywhereStable, AveragingError> {
+    let case = Case {
+        law,
+        damping_ratio,
+        normal_load,
+        wave,
+    };
+    let tangential = match undithered_critical_velocity(law, damping_ratio, normal_load) {
+        CriticalVelocity::StableEverywhere => EverywhereStable::Always,
+        CriticalVelocity::UnstableEverywhere => EverywhereStable::Never {
+            why: NeverStable::NoDamping,
+        },
+        CriticalVelocity::Above(_) => case.tangential()?,
+    };
+    match (direction, tangential) {
+        (
+            Direction::Normal,
+            EverywhereStable::From {
+                amplitude_ratio,
+                error,
+            },
+        ) => {
+            let normal = case.normal(amplitude_ratio);
+            let error = normal * (error / amplitude_ratio + 4.0 * f64::EPSILON);
+            Ok(EverywhereStable::From {
+                amplitude_ratio: normal,
+                error,
+            })
+        }
+        (_, tangential) => Ok(tangential),
+    }
+}
+
+/// A law with damping and load under one shape of dither.
+struct Case<'a> {
+    law: &'a Friction,
+    damping_ratio: f64,
+    normal_load: f64,
+    wave: FastWave,
+}
+
+impl Case<'_> {
+    fn criterion(&self, alpha: f64, v: f64) -> Result<f64, AveragingError> {
+        let effective = single(self.law, self.wave, alpha, v)?;
+        Ok(Criterion::new(self.damping_ratio, self.normal_load, effective).value)
+    }
+
+    /// h(α): outer criterion at the tip.
+    fn tip(&self, alpha: f64) -> Result<f64, AveragingError> {
+        let (_, gain) = self.wave.canonical();
+        let (shape, _) = self.wave.canonical();
+        // The corner as the averages compute it, so that it is met exactly.
+        self.criterion(alpha, (alpha * gain) * shape.peak())
+    }
+
+    /// Smallest criterion over the inner region.
+    fn worst_inside(&self, alpha: f64) -> Result<f64, AveragingError> {
+        const SAMPLES: usize = 24;
+        let corner = alpha * self.wave.peak();
+        let place = |k: usize| corner * (k as f64 / SAMPLES as f64);
+        let mut worst = (self.criterion(alpha, 0.0)?, 0);
+        for k in 1..SAMPLES {
+            let value = self.criterion(alpha, place(k))?;
+            if value < worst.0 {
+                worst = (value, k);
+            }
+        }
+        if worst.1 == 0 {
+            return Ok(worst.0);
+        }
+        let mut failure = None;
+        let value = |v: f64| {
+            self.criterion(alpha, v).unwrap_or_else(|error| {
+                failure.get_or_insert(error);
+                f64::INFINITY
+            })
+        };
+        let closeness = Closeness {
+            absolute: 0.0,
+            relative: 1e-8,
+        };
+        let bottom = minimise(value, place(worst.1 - 1), place(worst.1 + 1), closeness);
+        match failure {
+            Some(error) => Err(error),
+            None => Ok(bottom.map_or(worst.0, |bottom| bottom.value.min(worst.0))),
+        }
+    }
+
+    fn tangential(&self) -> Result<EverywhereStable, AveragingError> {
+        let vm = self.law.velocity_scale();
+        let Some((outer, error)) = self.outer()? else {
+            return Ok(EverywhereStable::Never {
+                why: NeverStable::OffScale,
+            });
+        };
+        // The inner region beyond it.
+        let scale = outer.max(vm);
+        let mut points = vec![outer];
+        while points[points.len() - 1] < 1e3 * scale {
+            points.push(1.3 * points[points.len() - 1]);
+        }
+        let last = points[points.len() - 1];
+        if self.worst_inside(last)? < 0.0 {
+            return Ok(EverywhereStable::Never {
+                why: NeverStable::InnerRegion,
+            });
+        }
+        let changes = sign_changes(|alpha| self.worst_inside(alpha), &points, &[])?;
+        Ok(changes.last().map_or(
+            EverywhereStable::From {
+                amplitude_ratio: outer,
+                error,
+            },
+            |change| EverywhereStable::From {
+                amplitude_ratio: change.place,
+                error: change.error.max(1e-12 * change.place),
+            },
+        ))
+    }
+
+    /// Largest root of h and its error.
+    fn outer(&self) -> Result<Option<(f64, f64)>, AveragingError> {
+        let vm = self.law.velocity_scale();
+        if let (Friction::Stribeck(law), FastWave::Integral(waveform)) = (self.law, self.wave) {
+            let difference = law.static_coefficient() - law.minimum_coefficient();
+            let kappa = 4.0 * vm * self.damping_ratio / (3.0 * self.normal_load * difference);
+            let peak = waveform.peak_integral();
+            let alpha =
+                vm * ((1.0 - kappa) / (peak * peak + waveform.mean_square_integral())).sqrt();
+            return Ok(Some((alpha, 4.0 * f64::EPSILON * alpha)));
+        }
+        let points: Vec<f64> = (0..320)
+            .map(|k| vm * libm::exp(-18.0 + 0.1 * f64::from(k)))
+            .collect();
+        let changes = sign_changes(|alpha| self.tip(alpha), &points, &[])?;
+        Ok(changes
+            .last()
+            .filter(|c| c.becomes_positive)
+            .map(|c| (c.place, c.error)))
+    }
+
+    /// Largest unstable α_N from the largest unstable α at each belt velocity.
+    fn normal(&self, tangential: f64) -> f64 {
+        let tip = tangential * self.wave.peak();
+        let at_tip = tangential / self.law.coefficient(tip);
+        let CriticalVelocity::Above(end) =
+            undithered_critical_velocity(self.law, self.damping_ratio, self.normal_load)
+        else {
+            return at_tip;
+        };
+        let Friction::Stribeck(law) = self.law else {
+            return at_tip;
+        };
+        // Stribeck beyond the tip: the outer root α(v₀) falls; α/μ could still rise where μ falls steeply.
+        let (wave, gain) = self.wave.canonical();
+        let FastWave::Integral(waveform) = wave else {
+            return at_tip;
+        };
+        let mean_square = gain * gain * waveform.mean_square_integral();
+        let ratio = |v: f64| {
+            let square = (end - v) * (end + v) / mean_square;
+            -square.max(0.0).sqrt() / law.coefficient(v)
+        };
+        let closeness = Closeness {
+            absolute: 0.0,
+            relative: 1e-9,
+        };
+        minimise(ratio, tip, end, closeness).map_or(at_tip, |best| at_tip.max(-best.value))
+    }
+}

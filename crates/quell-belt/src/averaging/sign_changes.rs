@@ -1,0 +1,218 @@
+//! Every change of sign of a function of one parameter on a grid: roots, jumps, and pairs of roots in a dip.
+//!
+//! The function is sampled at given points. Between neighbours of opposite sign the place is found by a bracketed root
+//! finder; where three neighbours of equal sign show a dip towards zero, the dip's bottom is sought first, so that a double
+//! crossing between two points is not lost. Declared `corners` (places where the function may jump) are approached
+//! from both sides and never stepped over.
+//!
+//! A change is a jump when the function does not become small on both sides of it.
+
+use quell_numerics::roots::{Closeness, find_root, minimise};
+
+/// How a function changes its sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Crossing {
+    /// Continuously, through zero.
+    Root,
+    /// By a jump, without passing zero.
+    Jump,
+}
+
+/// One change of sign.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SignChange {
+    pub(super) place: f64,
+    pub(super) error: f64,
+    pub(super) crossing: Crossing,
+    /// Positive after the place (for growing parameter).
+    pub(super) becomes_positive: bool,
+}
+
+/// Relative distance at which the two sides of a corner are looked at.
+const BESIDE: f64 = 8.0 * f64::EPSILON;
+
+/// Sign changes of `f` over the ascending `points`, with `corners` among them.
+///
+/// # Errors
+/// The first error of `f`.
+pub(super) fn sign_changes<E>(
+    mut f: impl FnMut(f64) -> Result<f64, E>,
+    points: &[f64],
+    corners: &[f64],
+) -> Result<Vec<SignChange>, E> {
+    let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
+        return Ok(Vec::new());
+    };
+    let mut inside: Vec<f64> = corners
+        .iter()
+        .copied()
+        .filter(|c| *c > first && *c < last)
+        .collect();
+    inside.sort_unstable_by(f64::total_cmp);
+    inside.dedup();
+    let mut changes = Vec::new();
+    let mut from = first;
+    for (i, corner) in inside.iter().copied().chain([last]).enumerate() {
+        let is_corner = i < inside.len();
+        let to = if is_corner {
+            corner * (1.0 - BESIDE)
+        } else {
+            corner
+        };
+        let mut stretch = vec![from];
+        stretch.extend(points.iter().copied().filter(|p| *p > from && *p < to));
+        stretch.push(to);
+        smooth_stretch(&mut f, &stretch, &mut changes)?;
+        if is_corner {
+            from = corner * (1.0 + BESIDE);
+            let (before, after) = (f(to)?, f(from)?);
+            if (before > 0.0) != (after > 0.0) {
+                changes.push(SignChange {
+                    place: corner,
+                    error: 4.0 * f64::EPSILON * corner,
+                    crossing: Crossing::Jump,
+                    becomes_positive: after > 0.0,
+                });
+            }
+        }
+    }
+    Ok(changes)
+}
+
+fn smooth_stretch<E>(
+    f: &mut impl FnMut(f64) -> Result<f64, E>,
+    points: &[f64],
+    changes: &mut Vec<SignChange>,
+) -> Result<(), E> {
+    let mut values = Vec::with_capacity(points.len());
+    for &p in points {
+        values.push(f(p)?);
+    }
+    for i in 1..points.len() {
+        if (values[i - 1] > 0.0) != (values[i] > 0.0) {
+            changes.push(locate(f, points[i - 1], points[i], values[i] > 0.0)?);
+            continue;
+        }
+        // A dip towards zero with its lowest sample at i, equal signs all around.
+        let Some(&next) = values.get(i + 1) else {
+            continue;
+        };
+        let sign = if values[i] > 0.0 { 1.0 } else { -1.0 };
+        let dips = sign * values[i] <= sign * values[i - 1] && sign * values[i] < sign * next;
+        if !dips || (next > 0.0) != (values[i] > 0.0) {
+            continue;
+        }
+        let mut failure = None;
+        let depth = |x: f64| match f(x) {
+            Ok(y) => sign * y,
+            Err(error) => {
+                failure.get_or_insert(error);
+                f64::INFINITY
+            }
+        };
+        let closeness = Closeness {
+            absolute: 0.0,
+            relative: 1e-9,
+        };
+        let bottom = minimise(depth, points[i - 1], points[i + 1], closeness);
+        if let Some(error) = failure {
+            return Err(error);
+        }
+        if let Ok(bottom) = bottom
+            && bottom.value < 0.0
+        {
+            changes.push(locate(f, points[i - 1], bottom.location, sign < 0.0)?);
+            changes.push(locate(f, bottom.location, points[i + 1], sign > 0.0)?);
+        }
+    }
+    Ok(())
+}
+
+/// The place between `a` and `b`, where the signs differ.
+fn locate<E>(
+    f: &mut impl FnMut(f64) -> Result<f64, E>,
+    a: f64,
+    b: f64,
+    becomes_positive: bool,
+) -> Result<SignChange, E> {
+    let mut failure = None;
+    let mut value = |x: f64| match f(x) {
+        Ok(y) => y,
+        Err(error) => {
+            failure.get_or_insert(error);
+            f64::NAN
+        }
+    };
+    let root = find_root(&mut value, a, b, Closeness::default());
+    let place = root.map_or(a.midpoint(b), |root| root.location);
+    let error = root.map_or(b - a, |root| {
+        root.width.max(4.0 * f64::EPSILON * place.abs())
+    });
+    // Across a root the values nearby shrink with the distance; across a jump they do not.
+    let near = 1e-9 * place.abs();
+    let step = |x: f64, value: &mut dyn FnMut(f64) -> f64| value(x.clamp(a, b));
+    let (wide, narrow) = (
+        step(place + 8.0 * near, &mut value) - step(place - 8.0 * near, &mut value),
+        step(place + near, &mut value) - step(place - near, &mut value),
+    );
+    if let Some(error) = failure {
+        return Err(error);
+    }
+    let crossing = if narrow.abs() > 0.5 * wide.abs() {
+        Crossing::Jump
+    } else {
+        Crossing::Root
+    };
+    Ok(SignChange {
+        place,
+        error,
+        crossing,
+        becomes_positive,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn changes(f: impl Fn(f64) -> f64, points: &[f64], corners: &[f64]) -> Vec<SignChange> {
+        sign_changes(|x| Ok::<f64, ()>(f(x)), points, corners).expect("no error")
+    }
+
+    #[test]
+    fn roots_jumps_and_double_crossings() {
+        let grid: Vec<f64> = (0..=20).map(|k| 0.1 * f64::from(k)).collect();
+        // A dip of width 0.02 between two points, a declared jump back, an undeclared jump.
+        let f = |x: f64| match x {
+            x if x < 1.0 => (x - 0.54) * (x - 0.54) - 1e-4,
+            x if x < 1.55 => -1.0,
+            _ => 2.0,
+        };
+        let found = changes(f, &grid, &[1.0]);
+        let places: Vec<f64> = found.iter().map(|c| c.place).collect();
+        let expected = [0.53, 0.55, 1.0, 1.55];
+        assert_eq!(places.len(), 4, "{found:?}");
+        for (place, exact) in places.iter().zip(expected) {
+            assert!((place - exact).abs() < 1e-12, "{found:?}");
+        }
+        let kinds: Vec<Crossing> = found.iter().map(|c| c.crossing).collect();
+        assert_eq!(
+            kinds,
+            [
+                Crossing::Root,
+                Crossing::Root,
+                Crossing::Jump,
+                Crossing::Jump
+            ]
+        );
+        let signs: Vec<bool> = found.iter().map(|c| c.becomes_positive).collect();
+        assert_eq!(signs, [false, true, false, true]);
+    }
+
+    #[test]
+    fn nothing_to_find() {
+        let grid: Vec<f64> = (0..=20).map(|k| 0.1 * f64::from(k)).collect();
+        assert!(changes(|x| (x - 1.0) * (x - 1.0) + 1e-3, &grid, &[0.7]).is_empty());
+        assert!(changes(|x| x, &[], &[]).is_empty());
+    }
+}

@@ -1,0 +1,77 @@
+//! What a verb answers, and how it leaves the process.
+//!
+//! A reader that closes standard output early is no error: the rest is not written.
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use quell::Failure;
+use serde_json::Value as Json;
+
+/// The answer of a verb: text for people or one JSON object.
+#[derive(Debug)]
+pub(crate) struct Answer {
+    output: String,
+    warnings: Vec<String>,
+}
+
+impl Answer {
+    /// One of the two, as asked for.
+    pub(crate) fn new(json: bool, object: impl FnOnce() -> Json, text: impl FnOnce() -> String) -> Self {
+        let output = if json { format!("{}\n", object()) } else { text() };
+        Self { output, warnings: Vec::new() }
+    }
+
+    /// With warnings, which go to standard error.
+    pub(crate) fn warning(mut self, warnings: Vec<String>) -> Self {
+        self.warnings.extend(warnings);
+        self
+    }
+
+    /// Writes it.
+    pub(crate) fn show(self) -> ExitCode {
+        for warning in &self.warnings {
+            tell(&format!("warning: {warning}\n"));
+        }
+        print(&self.output)
+    }
+}
+
+/// Tells what is wrong: in JSON on standard output, else on standard error.
+pub(crate) fn refuse(failure: &Failure, json: bool) -> ExitCode {
+    if json {
+        // Should standard output fail too, the exit status still tells.
+        print(&format!("{}\n", failure.json()));
+    } else {
+        tell(&lines(failure));
+    }
+    ExitCode::from(failure.exit_status())
+}
+
+/// One line a complaint.
+fn lines(failure: &Failure) -> String {
+    let text = failure.to_string();
+    let mut lines: Vec<String> = text.lines().map(|line| format!("error: {line}\n")).collect();
+    if lines.len() > 1 {
+        lines.push(format!("{} complaints; nothing was computed\n", lines.len()));
+    }
+    lines.concat()
+}
+
+/// Writes to standard output.
+pub(crate) fn print(text: &str) -> ExitCode {
+    let mut output = io::stdout().lock();
+    match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            tell(&format!("error: standard output cannot be written: {error}\n"));
+            ExitCode::from(1)
+        }
+    }
+}
+
+/// Writes to standard error; where that is closed nobody listens.
+pub(crate) fn tell(text: &str) {
+    let _ = io::stderr().write_all(text.as_bytes());
+}

@@ -1,0 +1,121 @@
+//! Arguments that several verbs share, and complaints gathered from all of them.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use quell::dataset::Dataset;
+use quell::output::Output;
+use quell::study::mirror::Node;
+use quell::{Change, Complaint, Failure, Study};
+use serde_json::Value as Json;
+
+/// The study and its changes.
+#[derive(Debug, Args)]
+pub(crate) struct StudyArguments {
+    /// Study file (TOML); - is standard input
+    #[arg(value_name = "STUDY")]
+    study: PathBuf,
+    /// Changes a value of the study before it is checked, such as dither[1].amplitude=0.3
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// Overrides [solver] tolerance
+    #[arg(long, value_name = "ε", allow_hyphen_values = true)]
+    tolerance: Option<String>,
+    /// Prints one JSON object on standard output and nothing else
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+impl StudyArguments {
+    /// Reads and checks the study.
+    pub(crate) fn read(&self) -> Result<Study, Failure> {
+        let mut complaints = Complaints::default();
+        let mut changes: Vec<Change> = self
+            .set
+            .iter()
+            .filter_map(|text| complaints.take(Change::parse(text, "--set")))
+            .collect();
+        changes.extend(self.tolerance.iter().map(|text| Change {
+            path: "solver.tolerance".to_owned(),
+            node: Node::from_argument(text, "--tolerance"),
+        }));
+        let study = complaints.take(Study::read(&self.study, &changes));
+        complaints.finish(study)
+    }
+}
+
+/// Where results go besides standard output.
+#[derive(Debug, Args)]
+pub(crate) struct OutputArguments {
+    /// Saves the numbers
+    #[arg(long, value_name = "FILE.csv")]
+    save: Option<PathBuf>,
+}
+
+/// Outputs that were proven to be writable.
+#[derive(Debug)]
+pub(crate) struct Outputs {
+    save: Vec<Output>,
+}
+
+impl OutputArguments {
+    /// Whether numbers are to be saved.
+    pub(crate) fn saves(&self) -> bool {
+        self.save.is_some()
+    }
+
+    /// Tries every output; `parts` name further files beside the first.
+    pub(crate) fn prepare(&self, parts: &[&str]) -> Result<Outputs, Failure> {
+        let mut save = Vec::new();
+        if let Some(path) = &self.save {
+            let first = Output::prepare(path, "--save", &["csv"])?;
+            for part in parts {
+                save.push(first.beside(part, "--save")?);
+            }
+            save.insert(0, first);
+        }
+        Ok(Outputs { save })
+    }
+}
+
+impl Outputs {
+    /// Writes the datasets, one a file, and adds their paths to the object.
+    pub(crate) fn write(self, datasets: &[Dataset], object: &mut Json) -> Result<(), Failure> {
+        let mut saved = Vec::new();
+        for (output, dataset) in self.save.into_iter().zip(datasets) {
+            saved.push(output.write(dataset.csv().as_bytes())?.display().to_string());
+        }
+        if !saved.is_empty() {
+            object["saved"] = saved.into();
+        }
+        Ok(())
+    }
+}
+
+/// Complaints from several places, told at once.
+#[derive(Debug, Default)]
+pub(crate) struct Complaints {
+    wrong: Vec<Complaint>,
+    failed: Option<Failure>,
+}
+
+impl Complaints {
+    /// The value, or nothing and one more thing to complain about.
+    pub(crate) fn take<T>(&mut self, result: Result<T, impl Into<Failure>>) -> Option<T> {
+        match result.map_err(Into::into) {
+            Ok(value) => return Some(value),
+            Err(Failure::Wrong(complaints)) => self.wrong.extend(complaints),
+            Err(failure @ Failure::Failed { .. }) => self.failed = Some(failure),
+        }
+        None
+    }
+
+    /// The value where there is nothing to complain about.
+    pub(crate) fn finish<T>(self, value: Option<T>) -> Result<T, Failure> {
+        match (value, self.failed) {
+            (Some(value), None) if self.wrong.is_empty() => Ok(value),
+            (_, Some(failure)) if self.wrong.is_empty() => Err(failure),
+            _ => Err(Failure::Wrong(self.wrong)),
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! The verbs, and what becomes of their answers.
+//!
+//! Exit status: 0 done, 2 the input is wrong (usage errors too), 1 it failed. With `--json`
+//! one object stands on standard output, also where something is wrong.
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Parser, Subcommand};
+use quell::{Complaint, Failure, Fault, Origin};
+use serde_json::Value as Json;
+
+use crate::answer;
+use crate::verbs::{check, cite, friction, response, schema, simulate, stability};
+
+/// Finds the dither that silences friction-induced vibration, and tells how sure it is.
+#[derive(Debug, Parser)]
+#[command(name = "quell", version, propagate_version = true, arg_required_else_help = true)]
+#[command(after_help = "Exit status: 0 done, 2 the input is wrong, 1 it failed.")]
+struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    Check(check::Arguments),
+    Schema(schema::Arguments),
+    Cite(cite::Arguments),
+    Friction(friction::Arguments),
+    Stability(stability::Arguments),
+    Simulate(simulate::Arguments),
+    Response(response::Arguments),
+}
+
+/// Runs the command line `arguments`, program name first.
+pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let json = arguments.iter().take_while(|argument| *argument != "--").any(|argument| argument == "--json");
+    let cli = match Cli::try_parse_from(&arguments) {
+        Ok(cli) => cli,
+        Err(error) => return misunderstood(&error, json),
+    };
+    let outcome = match &cli.verb {
+        Verb::Check(arguments) => check::run(arguments),
+        Verb::Schema(arguments) => Ok(schema::run(arguments)),
+        Verb::Cite(arguments) => cite::run(arguments),
+        Verb::Friction(arguments) => friction::run(arguments),
+        Verb::Stability(arguments) => stability::run(arguments),
+        Verb::Simulate(arguments) => simulate::run(arguments),
+        Verb::Response(arguments) => response::run(arguments),
+    };
+    match outcome {
+        Ok(answer) => answer.show(),
+        Err(failure) => answer::refuse(&failure, json),
+    }
+}
+
+/// Shows help, or what was not understood.
+fn misunderstood(error: &clap::Error, json: bool) -> ExitCode {
+    let asked = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
+    if asked {
+        return answer::print(&error.render().to_string());
+    }
+    if !json {
+        answer::tell(&error.render().to_string());
+        return ExitCode::from(2);
+    }
+    answer::refuse(&Failure::from(complaint(error)), json)
+}
+
+/// A usage error as a complaint.
+fn complaint(error: &clap::Error) -> Complaint {
+    let told = |kind| match error.get(kind) {
+        Some(ContextValue::String(text)) => Some(text.clone()),
+        Some(ContextValue::Strings(texts)) => texts.first().cloned(),
+        _ => None,
+    };
+    let argument = told(ContextKind::InvalidArg).or_else(|| told(ContextKind::InvalidSubcommand));
+    // "--until <T>" and "<STUDY>" are named without their placeholders.
+    let key = argument.as_deref().and_then(|name| name.split([' ', '=']).next()).unwrap_or("command line");
+    let text = error.render().to_string();
+    let first = text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_owned();
+    // The names of missing arguments follow on the next line.
+    let message = if first.ends_with(':') {
+        format!("{first} {}", text.lines().nth(1).unwrap_or_default().trim())
+    } else {
+        first
+    };
+    let value = told(ContextKind::InvalidValue).map_or(Json::Null, Json::from);
+    let suggestion = told(ContextKind::SuggestedArg)
+        .or_else(|| told(ContextKind::SuggestedSubcommand))
+        .or_else(|| told(ContextKind::SuggestedValue));
+    Complaint::new(Fault::Usage, key, Origin::Whole, value, message).suggesting(suggestion)
+}

@@ -1,0 +1,50 @@
+//! `quell check`: is the study right?
+
+use clap::Args;
+use quell::Failure;
+use quell::run::check::Check;
+use quell_model::units::Quantity;
+
+use crate::answer::Answer;
+use crate::arguments::StudyArguments;
+use crate::table::Table;
+
+/// Checks a study file and shows what it says
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+}
+
+/// Answers.
+pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
+    let study = arguments.study.read()?;
+    let text = || {
+        let belt = study.belt();
+        let mut table = Table::new(study.scales());
+        table.number("damping ratio ζ", Quantity::DampingRatio, belt.damping_ratio());
+        table.number("normal load F", Quantity::Force, belt.normal_load());
+        table.number("belt velocity v₀", Quantity::Velocity, belt.belt_velocity());
+        let law = belt.friction().kind();
+        table.word("friction law", law.name());
+        for (parameter, value) in law.parameters().iter().zip(belt.friction().values()) {
+            let label = format!("{} {}", parameter.key().replace('_', " "), parameter.symbol);
+            table.number(&label, parameter.quantity, value);
+        }
+        for dither in belt.dithers() {
+            table.word("dither", &format!("{} {}", dither.direction.name(), dither.waveform.name()));
+            table.number("  amplitude D", Quantity::Force, dither.amplitude);
+            table.number("  frequency ratio R", Quantity::FrequencyRatio, dither.frequency_ratio);
+            table.number("  phase φ", Quantity::Angle, dither.phase);
+            table.number("  amplitude ratio α = D/R", Quantity::Velocity, dither.amplitude_ratio());
+        }
+        for sweep in study.sweeps() {
+            let last = sweep.axis.value(usize::MAX);
+            let (first, points) = (sweep.axis.value(0), sweep.axis.len());
+            table.word("axis", &format!("{} from {first} to {last}, {points} points", sweep.path));
+        }
+        let title = study.title().map(|title| format!("{title}: ")).unwrap_or_default();
+        format!("{title}the study is valid.\n{}", table.text())
+    };
+    Ok(Answer::new(arguments.study.json, || Check { study: &study }.json(), text))
+}

@@ -1,0 +1,72 @@
+//! `quell friction`: the law and what the dither makes of it.
+
+use std::fmt::Write as _;
+
+use clap::Args;
+use quell::run::friction::{FrictionCurve, grid, run as friction};
+use quell::{Complaint, Failure, Study, quantity};
+use quell_model::units::{Quantity, Scales};
+
+use crate::answer::Answer;
+use crate::arguments::{Complaints, OutputArguments, StudyArguments};
+use crate::table::figure;
+
+/// Shows the friction law and the effective friction under the dither
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// Slip velocities: numbers, or with a unit such as 20mm/s in a study in SI
+    #[arg(long, value_name = "V,…", value_delimiter = ',', allow_hyphen_values = true)]
+    at: Vec<String>,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+/// Answers.
+pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
+    let mut complaints = Complaints::default();
+    let study = complaints.take(arguments.study.read());
+    let at = velocities(&arguments.at, study.as_ref(), &mut complaints);
+    let outputs = complaints.take(arguments.output.prepare(&[]));
+    let (study, outputs) = complaints.finish(study.zip(outputs))?;
+
+    let at = if at.is_empty() { grid(study.belt()) } else { at };
+    let curve = friction(&study, &at);
+    let mut object = curve.json(&study);
+    outputs.write(&[curve.dataset(&study)], &mut object)?;
+    Ok(Answer::new(arguments.study.json, || object, || text(&study, &curve)))
+}
+
+fn velocities(texts: &[String], study: Option<&Study>, complaints: &mut Complaints) -> Vec<f64> {
+    let scales = study.map_or_else(|| Scales::new(1.0, 1.0).ok(), Study::scales);
+    texts
+        .iter()
+        .filter_map(|text| {
+            let read: Result<f64, Box<Complaint>> =
+                quantity::parse(text, Quantity::Velocity, scales, "--at");
+            complaints.take(read)
+        })
+        .collect()
+}
+
+fn text(study: &Study, curve: &FrictionCurve) -> String {
+    let unit = if study.scales().is_some() { "m (velocity/ω₀)" } else { "length (velocity/ω₀)" };
+    let mut text = format!(
+        "Friction over the slip velocity v_r, in {unit}: the law μ, the effective μ̄ under the dither, \
+         its slope\n  {:>14}  {:>14}  {:>14}  {:>14}\n",
+        "v_r", "μ", "μ̄", "μ̄′"
+    );
+    // A grid is for a file or a program; people see every tenth point of it.
+    let stride = if curve.points.len() > 100 { 10 } else { 1 };
+    for point in curve.points.iter().step_by(stride) {
+        let law = point.coefficient.as_ref().map_or_else(|_| "any".to_owned(), |value| figure(*value));
+        let (mean, slope) = match &point.effective {
+            Ok(found) => (figure(found.coefficient), figure(found.slope)),
+            Err(_) => ("any".to_owned(), "none".to_owned()),
+        };
+        let v = figure(point.slip_velocity);
+        let _ = writeln!(text, "  {v:>14}  {law:>14}  {mean:>14}  {slope:>14}");
+    }
+    text
+}

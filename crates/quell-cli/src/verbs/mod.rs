@@ -1,0 +1,9 @@
+//! One verb, one file, one `run`.
+
+pub(crate) mod check;
+pub(crate) mod cite;
+pub(crate) mod friction;
+pub(crate) mod response;
+pub(crate) mod schema;
+pub(crate) mod simulate;
+pub(crate) mod stability;

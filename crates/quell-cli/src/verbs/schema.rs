@@ -1,0 +1,19 @@
+//! `quell schema`: the JSON Schema of a study file.
+
+use clap::Args;
+use quell::schema::schema;
+
+use crate::answer::Answer;
+
+/// Prints the JSON Schema of a study file
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// On one line
+    #[arg(long)]
+    json: bool,
+}
+
+/// Answers.
+pub(crate) fn run(arguments: &Arguments) -> Answer {
+    Answer::new(arguments.json, schema, || format!("{:#}\n", schema()))
+}

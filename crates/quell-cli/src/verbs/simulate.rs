@@ -1,0 +1,95 @@
+//! `quell simulate`: one trajectory with its events.
+
+use std::fmt::Write as _;
+
+use clap::Args;
+use quell::run::simulate::{MOST_SAMPLES, Options, Simulation, run as simulate};
+use quell::{Complaint, Failure, Study, quantity};
+use quell_model::units::{Quantity, Scales};
+
+use crate::answer::Answer;
+use crate::arguments::{Complaints, OutputArguments, StudyArguments};
+use crate::table::{Table, figure};
+
+/// Computes one trajectory with every event at the contact
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// How long: τ, or a time such as 0.5s in a study in SI
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    until: String,
+    /// Lists every event
+    #[arg(long)]
+    events: bool,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+/// Answers.
+pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
+    let mut complaints = Complaints::default();
+    let study = complaints.take(arguments.study.read());
+    let until = complaints.take(until(&arguments.until, study.as_ref()));
+    let outputs = complaints.take(arguments.output.prepare(&[]));
+    let (study, until, outputs) =
+        complaints.finish(study.zip(until).zip(outputs).map(|((a, b), c)| (a, b, c)))?;
+
+    let options = Options { events: arguments.events, samples: arguments.output.saves() };
+    let done = simulate(&study, until, options)?;
+    let mut object = done.json(&study);
+    outputs.write(&[done.dataset(&study)], &mut object)?;
+    let answer = Answer::new(arguments.study.json, || object, || text(&study, &done));
+    Ok(answer.warning(warnings(&done)))
+}
+
+fn until(text: &str, study: Option<&Study>) -> Result<f64, Box<Complaint>> {
+    // Of a study that could not be read it is not known whether it is in SI.
+    let scales = study.map_or_else(|| Scales::new(1.0, 1.0).ok(), Study::scales);
+    let time = quantity::parse(text, Quantity::Time, scales, "--until")?;
+    if time < 0.0 {
+        return Err(Box::new(Complaint::option("--until", text, "a time ≥ 0: a run starts at τ = 0")));
+    }
+    Ok(time)
+}
+
+fn warnings(done: &Simulation) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if done.coarse {
+        warnings.push(format!("only {MOST_SAMPLES} samples are kept; they are coarser than the dither deserves"));
+    }
+    let releases = done.end.near_tangential_releases;
+    if releases > 0 {
+        warnings.push(format!(
+            "{releases} releases hardly crossed the threshold: forward uniqueness is not guaranteed there"
+        ));
+    }
+    warnings
+}
+
+fn text(study: &Study, done: &Simulation) -> String {
+    let mut text = done.sentence(study) + "\n";
+    if let Some(events) = &done.events {
+        text.push('\n');
+        let _ = writeln!(text, "  {:>14}  {:<8}  {:>4}  {:>14}", "τ", "event", "slip", "x");
+        for event in events {
+            let (time, place) = (figure(event.time), figure(event.displacement));
+            let _ = writeln!(
+                text,
+                "  {time:>14}  {:<8}  {:>4}  {place:>14}",
+                event.kind.name(),
+                event.slip_sign
+            );
+        }
+        text.push('\n');
+    }
+    let end = &done.end;
+    let mut table = Table::new(study.scales());
+    table.number("time τ", Quantity::Time, end.time);
+    table.number("displacement x", Quantity::Displacement, end.displacement);
+    table.number("velocity x′", Quantity::Velocity, end.velocity);
+    table.word("sticking", if end.sticking { "yes" } else { "no" });
+    table.word("events", &end.events.to_string());
+    table.word("steps", &end.steps.to_string());
+    text + &table.text()
+}

@@ -1,0 +1,239 @@
+//! What is said about input that cannot be accepted, and how a piece of work can fail.
+
+use std::fmt;
+
+use serde_json::{Value, json};
+
+/// Where a wrong value was written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Origin {
+    /// A line of the study file, counted from 1.
+    Line(usize),
+    /// An argument of the command line, such as `--set`.
+    Argument(&'static str),
+    /// Nowhere in particular: something is missing from the whole.
+    Whole,
+}
+
+impl Origin {
+    /// The line, where there is one.
+    pub fn line(self) -> Option<usize> {
+        match self {
+            Self::Line(line) => Some(line),
+            Self::Argument(_) | Self::Whole => None,
+        }
+    }
+}
+
+/// What is wrong with it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Fault {
+    /// The command line is not understood.
+    Usage,
+    /// The text is not TOML.
+    Syntax,
+    /// A file or an output path cannot be used.
+    Path,
+    /// No such key, path or option.
+    Unknown,
+    /// A key that is needed is not there.
+    Missing,
+    /// A value of the wrong kind or out of its range.
+    Value,
+    /// Two keys that exclude one another.
+    Conflict,
+    /// A dimensionless key in a study in SI, or the other way round.
+    Mixed,
+    /// A part of the design that is not built yet.
+    NotBuilt,
+}
+
+impl Fault {
+    /// Name in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Usage => "usage",
+            Self::Syntax => "syntax",
+            Self::Path => "path",
+            Self::Unknown => "unknown",
+            Self::Missing => "missing",
+            Self::Value => "value",
+            Self::Conflict => "conflict",
+            Self::Mixed => "mixed",
+            Self::NotBuilt => "not-built",
+        }
+    }
+}
+
+/// One complaint about the input.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Complaint {
+    /// What is wrong.
+    pub fault: Fault,
+    /// Path of the key, such as `dither[1].amplitude`, or the option, such as `--until`.
+    pub key: String,
+    /// Where it was written.
+    pub origin: Origin,
+    /// The value as it was given; null where there is none.
+    pub value: Value,
+    /// What is allowed instead.
+    pub allowed: String,
+    /// The nearest right key or value.
+    pub suggestion: Option<String>,
+}
+
+impl Complaint {
+    /// A complaint without suggestion.
+    pub fn new(
+        fault: Fault,
+        key: impl Into<String>,
+        origin: Origin,
+        value: impl Into<Value>,
+        allowed: impl Into<String>,
+    ) -> Self {
+        Self {
+            fault,
+            key: key.into(),
+            origin,
+            value: value.into(),
+            allowed: allowed.into(),
+            suggestion: None,
+        }
+    }
+
+    /// A complaint about the value of a command-line option.
+    pub fn option(option: &'static str, value: impl Into<Value>, allowed: impl Into<String>) -> Self {
+        Self::new(Fault::Value, option, Origin::Argument(option), value, allowed)
+    }
+
+    /// The same complaint with a suggestion.
+    #[must_use]
+    pub fn suggesting(mut self, suggestion: Option<String>) -> Self {
+        self.suggestion = suggestion;
+        self
+    }
+
+    /// As an entry of `errors` in JSON.
+    pub fn json(&self) -> Value {
+        json!({
+            "key": self.key,
+            "line": self.origin.line(),
+            "value": self.value,
+            "allowed": self.allowed,
+            "suggestion": self.suggestion,
+            "fault": self.fault.name(),
+            "message": self.to_string(),
+        })
+    }
+
+    fn given(&self) -> String {
+        match &self.value {
+            Value::String(text) => text.clone(),
+            value => value.to_string(),
+        }
+    }
+}
+
+impl fmt::Display for Complaint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.origin {
+            Origin::Line(line) => write!(f, "line {line}: ")?,
+            Origin::Argument(option) if option != self.key && self.fault != Fault::Usage => write!(f, "{option}: ")?,
+            Origin::Argument(_) | Origin::Whole => {}
+        }
+        let Self { key, allowed, .. } = self;
+        match self.fault {
+            Fault::Usage => write!(f, "{allowed}")?,
+            Fault::Syntax => write!(f, "not TOML: {allowed}")?,
+            Fault::Path => match &self.value {
+                Value::Null => write!(f, "{key}: {allowed}")?,
+                _ => write!(f, "{key} {}: {allowed}", self.given())?,
+            },
+            Fault::Unknown => write!(f, "unknown {key}")?,
+            Fault::Missing => write!(f, "{key} is missing: {allowed}")?,
+            Fault::Value => write!(f, "{key} = {}: must be {allowed}", self.given())?,
+            Fault::Conflict | Fault::Mixed | Fault::NotBuilt => write!(f, "{key}: {allowed}")?,
+        }
+        match (&self.suggestion, self.fault) {
+            (Some(suggestion), _) => write!(f, "; did you mean {suggestion}?"),
+            (None, Fault::Unknown) if !allowed.is_empty() => write!(f, "; there are {allowed}"),
+            (None, _) => Ok(()),
+        }
+    }
+}
+
+/// Why a piece of work gave no result.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Failure {
+    /// The input is wrong: every complaint at once (exit status 2).
+    Wrong(Vec<Complaint>),
+    /// The input is right, but the work could not be done (exit status 1).
+    Failed {
+        /// What could not be done, such as the path that could not be written.
+        key: String,
+        /// Why, in one sentence.
+        why: String,
+    },
+}
+
+impl Failure {
+    /// Exit status of a process that ends with this failure.
+    pub fn exit_status(&self) -> u8 {
+        match self {
+            Self::Wrong(_) => 2,
+            Self::Failed { .. } => 1,
+        }
+    }
+
+    /// The one JSON object that tells it.
+    pub fn json(&self) -> Value {
+        let errors: Vec<Value> = match self {
+            Self::Wrong(complaints) => complaints.iter().map(Complaint::json).collect(),
+            Self::Failed { key, why } => vec![json!({
+                "key": key,
+                "line": null,
+                "value": null,
+                "allowed": null,
+                "suggestion": null,
+                "fault": "failed",
+                "message": why,
+            })],
+        };
+        json!({ "ok": false, "errors": errors })
+    }
+}
+
+impl From<Complaint> for Failure {
+    fn from(complaint: Complaint) -> Self {
+        Self::Wrong(vec![complaint])
+    }
+}
+
+impl From<Box<Complaint>> for Failure {
+    fn from(complaint: Box<Complaint>) -> Self {
+        Self::Wrong(vec![*complaint])
+    }
+}
+
+impl From<Vec<Complaint>> for Failure {
+    fn from(complaints: Vec<Complaint>) -> Self {
+        Self::Wrong(complaints)
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Wrong(complaints) => {
+                for (index, complaint) in complaints.iter().enumerate() {
+                    let end = if index + 1 < complaints.len() { "\n" } else { "" };
+                    write!(f, "{complaint}{end}")?;
+                }
+                Ok(())
+            }
+            Self::Failed { key, why } => write!(f, "{key}: {why}"),
+        }
+    }
+}
+
+impl std::error::Error for Failure {}

@@ -1,0 +1,122 @@
+//! Output files: tried before the work begins, whole or not there afterwards.
+//!
+//! [`Output::prepare`] proves that the path can be written by making and removing a file
+//! beside it. [`Output::write`] writes such a file in full, then renames it, so that nobody
+//! ever sees half a file. Devices and pipes, which cannot be replaced, are written straight.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process;
+
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+
+/// A place where a file can be written.
+#[derive(Debug)]
+pub struct Output {
+    /// The path as it was given.
+    given: PathBuf,
+    /// The file itself, links followed.
+    path: PathBuf,
+    /// Whether it is a device or pipe.
+    special: bool,
+}
+
+impl Output {
+    /// Checks that `path` can be written and has one of the `extensions`.
+    ///
+    /// # Errors
+    /// A complaint that names `option` and the path.
+    pub fn prepare(path: &Path, option: &'static str, extensions: &[&str]) -> Result<Self, Box<Complaint>> {
+        let complaint = |allowed: String| {
+            let given = path.display().to_string();
+            Box::new(Complaint::new(Fault::Path, option, Origin::Argument(option), given, allowed))
+        };
+        let special = fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
+        let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+        if !special && !extensions.contains(&extension.to_ascii_lowercase().as_str()) {
+            let list: Vec<String> = extensions.iter().map(|name| format!(".{name}")).collect();
+            return Err(complaint(format!("the file name must end in {}", list.join(" or "))));
+        }
+        let mut output = Self {
+            given: path.to_owned(),
+            path: path.to_owned(),
+            special,
+        };
+        output.probe().map_err(|error| complaint(format!("cannot be written: {error}")))?;
+        Ok(output)
+    }
+
+    /// Another file beside this one: `name.csv` → `name_part.csv`.
+    ///
+    /// # Errors
+    /// A complaint that names `option` and the path.
+    pub fn beside(&self, part: &str, option: &'static str) -> Result<Self, Box<Complaint>> {
+        let stem = self.given.file_stem().and_then(|stem| stem.to_str()).unwrap_or("quell");
+        let extension = self.given.extension().and_then(|extension| extension.to_str()).unwrap_or("csv");
+        let path = self.given.with_file_name(format!("{stem}_{part}.{extension}"));
+        Self::prepare(&path, option, &[extension.to_ascii_lowercase().as_str()])
+    }
+
+    /// The extension in lower case.
+    pub fn extension(&self) -> String {
+        let extension = self.given.extension().and_then(|extension| extension.to_str());
+        extension.unwrap_or_default().to_ascii_lowercase()
+    }
+
+    /// Writes the whole file.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] with the path; nothing is left behind then.
+    pub fn write(self, bytes: &[u8]) -> Result<PathBuf, Failure> {
+        let written = if self.special {
+            OpenOptions::new()
+                .write(true)
+                .open(&self.path)
+                .and_then(|mut file| file.write_all(bytes).and_then(|()| file.flush()))
+        } else {
+            let temporary = self.temporary();
+            let written = fill(&temporary, bytes).and_then(|()| fs::rename(&temporary, &self.path));
+            if written.is_err() {
+                // Nothing else to do about a file that cannot be removed either.
+                let _ = fs::remove_file(&temporary);
+            }
+            written
+        };
+        written.map(|()| self.given.clone()).map_err(|error| Failure::Failed {
+            key: self.given.display().to_string(),
+            why: format!("cannot be written: {error}"),
+        })
+    }
+
+    /// Tries what [`Output::write`] will do.
+    fn probe(&mut self) -> io::Result<()> {
+        if self.special {
+            return OpenOptions::new().write(true).open(&self.path).map(drop);
+        }
+        if self.path.is_dir() {
+            return Err(io::Error::other("it is a directory"));
+        }
+        if self.path.exists() {
+            self.path = self.path.canonicalize()?;
+            OpenOptions::new().append(true).open(&self.path)?;
+        }
+        let temporary = self.temporary();
+        OpenOptions::new().write(true).create_new(true).open(&temporary)?;
+        fs::remove_file(&temporary)
+    }
+
+    /// A name beside the file that no other process uses.
+    fn temporary(&self) -> PathBuf {
+        let name = self.path.file_name().map(|name| name.to_string_lossy().into_owned());
+        let name = format!(".{}.{}.part", name.unwrap_or_default(), process::id());
+        self.path.with_file_name(name)
+    }
+}
+
+/// Writes a new file in full, down to the disk.
+fn fill(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file: File = OpenOptions::new().write(true).create_new(true).open(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}

@@ -1,0 +1,71 @@
+//! `check`: the study in numbers, once everything about it is right.
+
+use quell_model::parameter::{BELT_VELOCITY, DAMPING_RATIO, NORMAL_LOAD};
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use crate::fields::Fields;
+use crate::study::Study;
+
+/// What a valid study says.
+#[derive(Clone, Debug)]
+pub struct Check<'a> {
+    /// The study.
+    pub study: &'a Study,
+}
+
+impl Check<'_> {
+    /// As JSON.
+    pub fn json(&self) -> Json {
+        let study = self.study;
+        let scales = study.scales();
+        let belt = study.belt();
+        let mut fields = Fields::new(scales);
+        fields
+            .plain("ok", true)
+            .plain("title", study.title().map_or(Json::Null, Json::from))
+            .plain("system", if scales.is_some() { "si" } else { "dimensionless" });
+        if study.title().is_none() {
+            fields.why("title", "the study gives none");
+        }
+        let mut inner = Fields::new(scales);
+        for (parameter, value) in [
+            (DAMPING_RATIO, belt.damping_ratio()),
+            (NORMAL_LOAD, belt.normal_load()),
+            (BELT_VELOCITY, belt.belt_velocity()),
+        ] {
+            inner.number(parameter.key(), parameter.quantity, value);
+        }
+        fields.nested("belt", inner);
+        let mut inner = Fields::new(scales);
+        inner.plain("law", belt.friction().kind().name());
+        for (parameter, value) in belt.friction().kind().parameters().iter().zip(belt.friction().values()) {
+            inner.number(parameter.key(), parameter.quantity, value);
+        }
+        fields.nested("friction", inner);
+        let dithers = belt.dithers().iter().map(|dither| {
+            let mut inner = Fields::new(scales);
+            inner
+                .plain("direction", dither.direction.name())
+                .plain("waveform", dither.waveform.name())
+                .number("amplitude", Quantity::Force, dither.amplitude)
+                .number("frequency_ratio", Quantity::FrequencyRatio, dither.frequency_ratio)
+                .number("phase", Quantity::Angle, dither.phase)
+                .number("amplitude_ratio", Quantity::Velocity, dither.amplitude_ratio());
+            inner
+        });
+        fields.list("dithers", dithers.collect::<Vec<_>>());
+        let axes = study.sweeps().iter().map(|sweep| {
+            let mut inner = Fields::new(None);
+            inner
+                .plain("parameter", sweep.path.as_str())
+                .plain("unit", sweep.address.key.unit())
+                .plain("points", sweep.axis.len())
+                .plain("from", sweep.axis.value(0))
+                .plain("to", sweep.axis.value(usize::MAX));
+            inner
+        });
+        fields.list("sweeps", axes.collect::<Vec<_>>());
+        fields.finish()
+    }
+}

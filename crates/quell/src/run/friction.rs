@@ -1,0 +1,138 @@
+//! `friction`: the law and what the dither makes of it, over the slip velocity.
+
+use quell_belt::averaging::{
+    AveragingOptions, Effective, FastMotion, Side, effective,
+};
+use quell_model::units::Quantity;
+use quell_model::{Belt, Direction};
+use serde_json::Value as Json;
+
+use crate::dataset::Dataset;
+use crate::fields::Fields;
+use crate::study::Study;
+
+/// Points of the default grid on each side of v_r = 0.
+const POINTS: u32 = 200;
+
+/// Friction at one slip velocity.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// v_r.
+    pub slip_velocity: f64,
+    /// μ, or why there is no one value.
+    pub coefficient: Result<f64, String>,
+    /// μ̄ and its slope, or why there are none.
+    pub effective: Result<Effective, String>,
+}
+
+/// Friction over the slip velocity.
+#[derive(Clone, Debug)]
+pub struct FrictionCurve {
+    /// Points in the order asked for.
+    pub points: Vec<Point>,
+}
+
+/// Slip velocities of a picture: past the law's own velocity, the belt's, and the fast motion's.
+pub fn grid(belt: &Belt) -> Vec<f64> {
+    let scale = belt.friction().velocity_scale();
+    let fast: f64 = belt
+        .dithers()
+        .iter()
+        .map(|dither| {
+            let level = match dither.direction {
+                Direction::Tangential => 1.0,
+                Direction::Normal => belt.friction().static_coefficient(),
+            };
+            level * dither.amplitude_ratio() * dither.waveform.peak_integral()
+        })
+        .sum();
+    let end = (2.0 * scale).max(1.5 * belt.belt_velocity()).max(1.5 * fast);
+    let side = |sign: f64, k: u32| sign * end * f64::from(k) / f64::from(POINTS);
+    let left = (1..=POINTS).rev().map(|k| side(-1.0, k));
+    left.chain((0..=POINTS).map(|k| side(1.0, k))).collect()
+}
+
+/// The law and its average under the study's dither at slip velocities `at`.
+pub fn run(study: &Study, at: &[f64]) -> FrictionCurve {
+    let belt = study.belt();
+    let law = belt.friction();
+    let points = at.iter().map(|&v| Point {
+        slip_velocity: v,
+        coefficient: if v == 0.0 {
+            let level = law.static_coefficient();
+            Err(format!("at rest friction takes any value up to ±{level}"))
+        } else {
+            Ok(v.signum() * law.coefficient(v.abs()))
+        },
+        effective: FastMotion::of(belt, v, AveragingOptions::default())
+            .and_then(|motion| effective(law, &motion, v))
+            .map_err(|why| why.to_string()),
+    });
+    FrictionCurve { points: points.collect() }
+}
+
+impl FrictionCurve {
+    /// μ̄ at each point; NaN where there is none.
+    pub fn effective_coefficients(&self) -> Vec<f64> {
+        self.column(|point| point.effective.as_ref().map_or(f64::NAN, |found| found.coefficient))
+    }
+
+    /// μ at each point; NaN where there is no one value.
+    pub fn coefficients(&self) -> Vec<f64> {
+        self.column(|point| *point.coefficient.as_ref().unwrap_or(&f64::NAN))
+    }
+
+    /// The slip velocities.
+    pub fn slip_velocities(&self) -> Vec<f64> {
+        self.column(|point| point.slip_velocity)
+    }
+
+    /// μ̄′ at each point; NaN where there is none.
+    pub fn effective_slopes(&self) -> Vec<f64> {
+        self.column(|point| point.effective.as_ref().map_or(f64::NAN, |found| found.slope))
+    }
+
+    fn column(&self, value: impl Fn(&Point) -> f64) -> Vec<f64> {
+        self.points.iter().map(value).collect()
+    }
+
+    fn errors(&self, value: fn(&Effective) -> f64) -> Vec<f64> {
+        self.column(|point| point.effective.as_ref().map_or(f64::NAN, value))
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &Study) -> Json {
+        let mut fields = Fields::new(study.scales());
+        fields
+            .plain("ok", true)
+            .numbers("slip_velocity", Quantity::Velocity, &self.slip_velocities())
+            .numbers("coefficient", Quantity::Ratio, &self.coefficients())
+            .numbers("effective_coefficient", Quantity::Ratio, &self.effective_coefficients())
+            .numbers("effective_coefficient_error", Quantity::Ratio, &self.errors(|found| found.coefficient_error))
+            .per_velocity("effective_slope", &self.effective_slopes())
+            .per_velocity("effective_slope_error", &self.errors(|found| found.slope_error));
+        let one_sided = self.points.iter().map(|point| {
+            point.effective.as_ref().is_ok_and(|found| found.side == Side::Outer)
+        });
+        fields.plain("effective_slope_one_sided", one_sided.collect::<Vec<bool>>());
+        for (index, point) in self.points.iter().enumerate() {
+            if let Err(why) = &point.coefficient {
+                fields.why(&format!("coefficient[{index}]"), why);
+            }
+            if let Err(why) = &point.effective {
+                fields.why(&format!("effective_coefficient[{index}]"), why);
+                fields.why(&format!("effective_slope[{index}]"), why);
+            }
+        }
+        fields.finish()
+    }
+
+    /// As a dataset.
+    pub fn dataset(&self, study: &Study) -> Dataset {
+        Dataset::new(study, "friction")
+            .axis("slip_velocity", Quantity::Velocity, self.slip_velocities())
+            .array("coefficient", Quantity::Ratio, self.coefficients())
+            .array("effective_coefficient", Quantity::Ratio, self.effective_coefficients())
+            .per_velocity("effective_slope", self.effective_slopes())
+    }
+}

@@ -1,0 +1,63 @@
+//! Runs: a checked study in, a typed outcome out; each outcome as JSON and as a dataset.
+//!
+//! One file per verb. Numbers leave in the units of the equations and, for a study in SI, in
+//! SI beside them ([`crate::fields`]).
+
+pub mod check;
+pub mod friction;
+pub mod response;
+pub mod simulate;
+pub mod stability;
+
+use quell_belt::simulation::{Stalled, Start};
+use quell_belt::start::NoSquealingStart;
+
+use quell_model::units::Quantity;
+
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::study::{InitialState, Study};
+
+/// The state a study starts from, in numbers.
+///
+/// # Errors
+/// A complaint where a squealing start is asked for and there is none.
+pub fn start(study: &Study) -> Result<Start, Failure> {
+    study.initial().resolve(study.belt(), study.solver()).map_err(|why| match why {
+        NoSquealingStart::Stalled(stalled) => failed(stalled),
+        NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest => {
+            let allowed = format!("another state: {why}");
+            let key = "belt.initial.state";
+            Complaint::new(Fault::Value, key, Origin::Whole, "squealing", allowed).into()
+        }
+    })
+}
+
+/// The start in words.
+pub fn start_in_words(study: &Study) -> String {
+    match study.initial() {
+        InitialState::Rest => "from rest".to_owned(),
+        InitialState::Sliding => "from steady sliding".to_owned(),
+        InitialState::Squealing => "from the undithered limit cycle".to_owned(),
+        InitialState::Explicit { displacement, velocity } => {
+            let displacement = in_words(study, Quantity::Displacement, displacement);
+            let velocity = in_words(study, Quantity::Velocity, velocity);
+            format!("from x = {displacement}, x′ = {velocity}")
+        }
+    }
+}
+
+/// A quantity in a sentence: six digits, in SI where the study is.
+fn in_words(study: &Study, quantity: Quantity, value: f64) -> String {
+    let digits = |value: f64| {
+        let text = format!("{value:.5e}");
+        text.parse::<f64>().map_or(text, |rounded| format!("{rounded:?}").trim_end_matches(".0").to_owned())
+    };
+    match study.scales().zip(quantity.si_unit()) {
+        Some((scales, (unit, _))) => format!("{} {unit}", digits(scales.to_si(quantity, value))),
+        None => digits(value),
+    }
+}
+
+fn failed(stalled: Stalled) -> Failure {
+    Failure::Failed { key: "simulation".to_owned(), why: stalled.to_string() }
+}

@@ -1,0 +1,160 @@
+//! `response`: the steady response, what the dither does to it, and what it costs.
+
+use quell_belt::response::{BAND_END, Response, respond};
+use quell_belt::simulation::{Sample, Start};
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use super::{failed, in_words, start, start_in_words};
+use crate::complaint::Failure;
+use crate::dataset::Dataset;
+use crate::fields::Fields;
+use crate::study::Study;
+
+/// Below this share of the undithered vibration the word is "quenches".
+const QUENCHED: f64 = 0.01;
+
+/// A steady response with its start.
+#[derive(Clone, Debug)]
+pub struct Steady {
+    /// Where both runs started.
+    pub start: Start,
+    /// The response.
+    pub response: Response,
+}
+
+/// Measures the steady response of a study.
+///
+/// # Errors
+/// [`Failure::Wrong`] where the study starts squealing and cannot; [`Failure::Failed`] if the
+/// engine stops.
+pub fn run(study: &Study) -> Result<Steady, Failure> {
+    let start = start(study)?;
+    let response = respond(study.belt(), start, study.solver()).map_err(failed)?;
+    Ok(Steady { start, response })
+}
+
+impl Steady {
+    /// What the dither does, in one sentence.
+    pub fn sentence(&self, study: &Study) -> String {
+        let response = &self.response;
+        let from = start_in_words(study);
+        if study.belt().dithers().iter().all(|dither| dither.amplitude == 0.0) {
+            return match &response.efficiency {
+                Ok(_) => format!("Without dither, {from}, the belt keeps vibrating."),
+                Err(why) => format!("There is no dither, and {why}."),
+            };
+        }
+        match &response.efficiency {
+            Ok(ratio) if *ratio < QUENCHED => format!(
+                "Started {from}, this dither quenches the vibration: {} is left of it below {BAND_END} ω₀.",
+                percent(*ratio)
+            ),
+            Ok(ratio) if *ratio < 1.0 => format!(
+                "Started {from}, this dither reduces the vibration below {BAND_END} ω₀ to {} of what \
+                 it is without.",
+                percent(*ratio)
+            ),
+            Ok(ratio) => format!(
+                "Started {from}, this dither does not help: below {BAND_END} ω₀ the vibration is {} of \
+                 what it is without.",
+                percent(*ratio)
+            ),
+            Err(why) => format!("Started {from}, the efficiency of this dither is undefined: {why}."),
+        }
+    }
+
+    /// What a reader of the numbers should know.
+    pub fn warnings(&self, study: &Study) -> Vec<String> {
+        let settle = in_words(study, Quantity::Time, study.solver().settle);
+        let mut warnings = Vec::new();
+        let mut warn = |which: &str, settled: bool| {
+            if !settled {
+                warnings.push(format!(
+                    "the {which} response has not settled after {settle}: the amplitudes of the two \
+                     halves of the record differ; raise solver.settle or solver.record_periods"
+                ));
+            }
+        };
+        warn("dithered", self.response.settled);
+        // Where it decays to nothing it need not settle: E is undefined and says so.
+        warn("undithered", self.response.undithered_settled || self.response.efficiency.is_err());
+        warnings
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &Study) -> Json {
+        let response = &self.response;
+        let scales = study.scales();
+        let mut fields = Fields::new(scales);
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study))
+            .number("amplitude", Quantity::Displacement, response.amplitude);
+        let peaks = response.peaks.iter().map(|peak| {
+            let mut inner = Fields::new(scales);
+            inner
+                .number("frequency", Quantity::FrequencyRatio, peak.frequency)
+                .number("amplitude", Quantity::Displacement, peak.amplitude);
+            inner
+        });
+        fields.list("peaks", peaks);
+        let only_normal = || {
+            "all dither is normal: the model has no normal motion on which it could work".to_owned()
+        };
+        fields
+            .number("stick_fraction", Quantity::Ratio, response.stick_fraction)
+            .known("efficiency", Quantity::Ratio, response.efficiency.map_err(|why| why.to_string()))
+            .number("undithered_amplitude", Quantity::Displacement, response.undithered_amplitude)
+            .plain("settled", response.settled)
+            .plain("undithered_settled", response.undithered_settled)
+            .number("mean_friction", Quantity::Force, response.mean_friction)
+            .number("mean_friction_undithered", Quantity::Force, response.mean_friction_undithered)
+            .known("dither_power", Quantity::Power, response.dither_power.ok_or_else(only_normal))
+            .known("dither_stroke", Quantity::Displacement, response.dither_stroke.ok_or_else(only_normal))
+            .number("minimum_normal_load", Quantity::Force, response.minimum_normal_load)
+            .number("settle", Quantity::Time, study.solver().settle)
+            .number("record_length", Quantity::Time, response.record.length())
+            .plain("warnings", self.warnings(study));
+        fields.finish()
+    }
+
+    /// The record of both runs.
+    pub fn record(&self, study: &Study) -> Dataset {
+        let (with, without) = (&self.response.record.samples, &self.response.undithered_record.samples);
+        let column = |samples: &[Sample], value: fn(&Sample) -> f64| -> Vec<f64> {
+            samples.iter().map(value).collect()
+        };
+        Dataset::new(study, "response: record")
+            .fact(format!("start: {}", start_in_words(study)))
+            .axis("time", Quantity::Time, column(with, |sample| sample.time))
+            .array("displacement", Quantity::Displacement, column(with, |sample| sample.displacement))
+            .array("velocity", Quantity::Velocity, column(with, |sample| sample.velocity))
+            .array("sticking", Quantity::Count, column(with, |sample| f64::from(u8::from(sample.sticking))))
+            .array("undithered_displacement", Quantity::Displacement, column(without, |sample| sample.displacement))
+            .array("undithered_velocity", Quantity::Velocity, column(without, |sample| sample.velocity))
+            .array("undithered_sticking", Quantity::Count, column(without, |sample| f64::from(u8::from(sample.sticking))))
+    }
+
+    /// The spectra of both records.
+    pub fn spectrum(&self, study: &Study) -> Dataset {
+        let (with, without) = (&self.response.record.spectrum, &self.response.undithered_record.spectrum);
+        Dataset::new(study, "response: spectrum of the displacement")
+            .fact("mean removed, Hann window, four times the record's length by zeros; amplitude of a pure tone")
+            .axis("frequency", Quantity::FrequencyRatio, with.frequencies().collect())
+            .array("amplitude", Quantity::Displacement, with.amplitudes().to_vec())
+            .array("undithered_amplitude", Quantity::Displacement, without.amplitudes().to_vec())
+    }
+}
+
+/// A share as a percentage with three digits.
+fn percent(ratio: f64) -> String {
+    let value = 100.0 * ratio;
+    if value >= 100.0 {
+        format!("{value:.0} %")
+    } else if value >= 0.1 {
+        format!("{value:.2} %")
+    } else {
+        format!("{value:.1e} %")
+    }
+}

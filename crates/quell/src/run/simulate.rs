@@ -1,0 +1,182 @@
+//! `simulate`: one trajectory with its events.
+
+use std::f64::consts::TAU;
+
+use quell_belt::simulation::{
+    Event, EventRecorder, FinalState, Sample, Sampler, Start, simulate,
+};
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use super::{failed, in_words, start, start_in_words};
+use crate::complaint::Failure;
+use crate::dataset::Dataset;
+use crate::fields::Fields;
+use crate::study::Study;
+
+/// Samples per period of the fastest dither, and at least this many in a slow period.
+const SAMPLES_PER_DITHER_PERIOD: f64 = 32.0;
+const SAMPLES_PER_SLOW_PERIOD: f64 = 256.0;
+
+/// Most samples that are kept; a longer run is sampled more coarsely.
+pub const MOST_SAMPLES: usize = 2_000_000;
+
+/// What to keep of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Whether every event is kept.
+    pub events: bool,
+    /// Whether the trajectory is sampled densely.
+    pub samples: bool,
+}
+
+/// A trajectory.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    /// Where it started.
+    pub start: Start,
+    /// Where it ended.
+    pub end: FinalState,
+    /// The events, where they were asked for.
+    pub events: Option<Vec<Event>>,
+    /// Samples at equal steps, both ends included, where they were asked for.
+    pub samples: Option<Vec<Sample>>,
+    /// Step between samples.
+    pub sample_step: f64,
+    /// Whether the samples are coarser than the fastest dither deserves.
+    pub coarse: bool,
+}
+
+/// Integrates a study to τ = `until`.
+///
+/// # Errors
+/// [`Failure::Wrong`] where the study starts squealing and cannot; [`Failure::Failed`] if the
+/// engine stops.
+pub fn run(study: &Study, until: f64, options: Options) -> Result<Simulation, Failure> {
+    let belt = study.belt();
+    let start = start(study)?;
+    let (intervals, coarse) = if options.samples { grid(study, until - start.time) } else { (0, false) };
+    let sample_step = (until - start.time) / (intervals.max(1) as f64);
+    let count = if options.samples { intervals } else { 0 };
+    let mut sampler = Sampler::new(start.time, sample_step, count);
+    let tolerance = study.solver().tolerance;
+    let mut recorder = EventRecorder::default();
+    let end = if options.events {
+        let mut both = (&mut recorder, &mut sampler);
+        simulate(belt, start, until, tolerance, &mut both)
+    } else {
+        simulate(belt, start, until, tolerance, &mut sampler)
+    }
+    .map_err(failed)?;
+    let mut samples = sampler.samples;
+    // The end itself: a grid point may round to just behind it.
+    samples.push(Sample {
+        time: end.time,
+        displacement: end.displacement,
+        velocity: end.velocity,
+        sticking: end.sticking,
+    });
+    Ok(Simulation {
+        start,
+        end,
+        events: options.events.then_some(recorder.events),
+        samples: options.samples.then_some(samples),
+        sample_step,
+        coarse,
+    })
+}
+
+/// Number of intervals between samples, and whether it had to be cut.
+fn grid(study: &Study, length: f64) -> (usize, bool) {
+    let dithers = study.belt().dithers().iter().filter(|dither| dither.amplitude > 0.0);
+    let fastest = dithers.fold(0.0_f64, |rate, dither| rate.max(dither.frequency_ratio));
+    let per_slow = SAMPLES_PER_SLOW_PERIOD.max(SAMPLES_PER_DITHER_PERIOD * fastest);
+    let wanted = (length / TAU * per_slow).ceil().max(1.0);
+    if wanted > MOST_SAMPLES as f64 {
+        return (MOST_SAMPLES, true);
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a whole number from 1 to MOST_SAMPLES"
+    )]
+    let count = wanted as usize;
+    (count, false)
+}
+
+impl Simulation {
+    /// What happened, in one sentence.
+    pub fn sentence(&self, study: &Study) -> String {
+        let end = &self.end;
+        let state = match (end.sticking, end.slip_sign) {
+            (true, _) => "the mass sticks to the belt",
+            (false, sign) if sign < 0 => "the mass slides ahead of the belt",
+            (false, _) => "the belt slides under the mass",
+        };
+        let time = if study.scales().is_some() { "t" } else { "τ" };
+        let events = match end.events {
+            0 => "nothing happened at the contact".to_owned(),
+            1 => "there was one event at the contact".to_owned(),
+            count => format!("there were {count} events at the contact"),
+        };
+        format!("Started {}, at {} = {} {state}; on the way {events}.", start_in_words(study), time, in_words(study, Quantity::Time, end.time))
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &Study) -> Json {
+        let scales = study.scales();
+        let mut fields = Fields::new(scales);
+        fields.plain("ok", true).plain("sentence", self.sentence(study));
+        let mut inner = Fields::new(scales);
+        inner
+            .number("time", Quantity::Time, self.start.time)
+            .number("displacement", Quantity::Displacement, self.start.displacement)
+            .number("velocity", Quantity::Velocity, self.start.velocity);
+        fields.nested("start", inner);
+        let end = &self.end;
+        let mut inner = Fields::new(scales);
+        inner
+            .number("time", Quantity::Time, end.time)
+            .number("displacement", Quantity::Displacement, end.displacement)
+            .number("velocity", Quantity::Velocity, end.velocity)
+            .plain("sticking", end.sticking)
+            .plain("slip_sign", end.slip_sign);
+        fields.nested("final", inner);
+        if let Some(events) = &self.events {
+            let items = events.iter().map(|event| {
+                let mut inner = Fields::new(scales);
+                inner
+                    .number("time", Quantity::Time, event.time)
+                    .plain("contact", event.contact)
+                    .plain("kind", event.kind.name())
+                    .plain("slip_sign", event.slip_sign)
+                    .number("displacement", Quantity::Displacement, event.displacement);
+                inner
+            });
+            fields.list("events", items);
+        }
+        fields
+            .plain("event_count", end.events)
+            .plain("steps", end.steps)
+            .plain("near_tangential_releases", end.near_tangential_releases)
+            .number("tolerance", Quantity::Ratio, study.solver().tolerance);
+        fields.finish()
+    }
+
+    /// The sampled trajectory; empty where no samples were asked for.
+    pub fn dataset(&self, study: &Study) -> Dataset {
+        let samples = self.samples.as_deref().unwrap_or_default();
+        let column = |value: fn(&Sample) -> f64| samples.iter().map(value).collect::<Vec<f64>>();
+        let belt_velocity = study.belt().belt_velocity();
+        let slip = samples.iter().map(|sample| {
+            if sample.sticking { 0.0 } else { belt_velocity - sample.velocity }
+        });
+        Dataset::new(study, "simulate")
+            .fact(format!("start: {}", start_in_words(study)))
+            .axis("time", Quantity::Time, column(|sample| sample.time))
+            .array("displacement", Quantity::Displacement, column(|sample| sample.displacement))
+            .array("velocity", Quantity::Velocity, column(|sample| sample.velocity))
+            .array("slip_velocity", Quantity::Velocity, slip.collect())
+            .array("sticking", Quantity::Count, column(|sample| f64::from(u8::from(sample.sticking))))
+    }
+}

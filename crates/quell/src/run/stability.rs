@@ -1,0 +1,320 @@
+//! `stability`: averaged stability of steady sliding, and the amplitudes at which it changes.
+//!
+//! Protocol "averaged": the slow motion about steady sliding under fast dither, in the limit of
+//! high frequency; `sharper` takes the oscillator's own response to the dither instead, and one
+//! more term of the fast motion under normal dither.
+
+use quell_belt::averaging::{
+    AveragingError, AveragingOptions, Band, Becomes, Criterion, CriticalAmplitude, Crossing,
+    EverywhereStable, FastWave, NeverStable, NormalOrder, Response, Side, UndecidedBecause, Verdict,
+    critical_amplitudes, criterion, everywhere_stable_amplitude, unstable_bands,
+};
+use quell_model::units::Quantity;
+use quell_model::{Belt, Dither};
+use serde_json::Value as Json;
+
+use super::in_words;
+use crate::fields::Fields;
+use crate::study::Study;
+
+/// Below this frequency ratio a dither is hardly fast.
+const FAST: f64 = 5.0;
+
+/// Averaged stability under one model of the fast motion.
+#[derive(Clone, Debug)]
+pub struct Averaged {
+    /// How the fast motion is modelled.
+    pub options: AveragingOptions,
+    /// Criterion and verdict at the study's own amplitude.
+    pub criterion: Result<Criterion, AveragingError>,
+    /// Amplitudes of the first dither at which stability changes.
+    pub critical_amplitudes: Result<Vec<CriticalAmplitude>, AveragingError>,
+    /// Amplitude ratio from which every belt velocity is stable, or why there is none.
+    pub everywhere_stable: Result<f64, String>,
+    /// Belt velocities at which the study's own dither leaves steady sliding unstable.
+    pub unstable_bands: Result<Vec<Band>, AveragingError>,
+}
+
+/// Averaged stability of a study.
+#[derive(Clone, Debug)]
+pub struct Stability {
+    /// In the limit of high frequency: the dissertation's averaging.
+    pub limit: Averaged,
+    /// With the oscillator's response; or why there is none.
+    pub sharper: Result<Averaged, String>,
+}
+
+/// Averaged stability of a study.
+pub fn run(study: &Study) -> Stability {
+    let belt = study.belt();
+    let sharper = AveragingOptions { response: Response::Oscillator, normal_order: NormalOrder::Second };
+    let slow = belt
+        .dithers()
+        .iter()
+        .find(|dither| dither.frequency_ratio <= 1.0)
+        .map(|dither| AveragingError::NotFast { frequency_ratio: dither.frequency_ratio });
+    Stability {
+        limit: averaged(belt, AveragingOptions::default()),
+        sharper: match slow {
+            _ if belt.dithers().is_empty() => Err("there is no dither".to_owned()),
+            Some(why) => Err(why.to_string()),
+            None => Ok(averaged(belt, sharper)),
+        },
+    }
+}
+
+fn averaged(belt: &Belt, options: AveragingOptions) -> Averaged {
+    Averaged {
+        options,
+        criterion: criterion(belt, options),
+        critical_amplitudes: critical_amplitudes(belt, options),
+        everywhere_stable: everywhere_stable(belt, options),
+        unstable_bands: unstable_bands(belt, options),
+    }
+}
+
+fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, String> {
+    let &[dither] = belt.dithers() else {
+        return Err(match belt.dithers() {
+            [] => "there is no dither".to_owned(),
+            _ => "it is defined for one dither, this study has several".to_owned(),
+        });
+    };
+    let found = everywhere_stable_amplitude(
+        belt.friction(),
+        belt.damping_ratio(),
+        belt.normal_load(),
+        fast_wave(&dither, options.response),
+        dither.direction,
+    );
+    match found.map_err(|why| why.to_string())? {
+        EverywhereStable::Always => Ok(0.0),
+        EverywhereStable::From { amplitude_ratio, .. } => Ok(amplitude_ratio),
+        EverywhereStable::Never { why } => Err(match why {
+            NeverStable::NoDamping => "without damping a law that falls for ever leaves fast belts unstable at \
+                                       any amplitude",
+            NeverStable::InnerRegion => "slow belts stay unstable at any amplitude: the law falls too steeply",
+            NeverStable::OffScale => "there is none up to 10¹² v_m",
+        }
+        .to_owned()),
+    }
+}
+
+/// Shape of the fast slip velocity of a dither.
+fn fast_wave(dither: &Dither, response: Response) -> FastWave {
+    let Dither { waveform, frequency_ratio, .. } = *dither;
+    match response {
+        Response::Oscillator => FastWave::Oscillator { waveform, frequency_ratio },
+        Response::Limit => FastWave::Integral(waveform),
+    }
+}
+
+/// The word of a verdict.
+fn word(criterion: &Result<Criterion, AveragingError>) -> &'static str {
+    match criterion.as_ref().map(|criterion| criterion.verdict) {
+        Ok(Verdict::Stable) => "stable",
+        Ok(Verdict::Unstable) => "unstable",
+        Ok(Verdict::Undecided { .. }) | Err(_) => "undecided",
+    }
+}
+
+/// Growth rate of small slow motions, Re ρ of ρ² + cρ + 1 = 0.
+fn growth_rate(criterion: f64) -> f64 {
+    let half = 0.5 * criterion;
+    let overdamped = (half.abs() - 1.0).max(0.0) * (half.abs() + 1.0);
+    overdamped.sqrt() - half
+}
+
+impl Averaged {
+    /// "stable", "unstable" or "undecided".
+    pub fn verdict(&self) -> &'static str {
+        word(&self.criterion)
+    }
+
+    fn put(&self, study: &Study, fields: &mut Fields) {
+        let scales = study.scales();
+        let told = |why: &AveragingError| why.to_string();
+        let value = |field: fn(&Criterion) -> f64| self.criterion.as_ref().map(field).map_err(told);
+        fields
+            .plain("verdict", self.verdict())
+            .known("criterion", Quantity::Ratio, value(|criterion| criterion.value))
+            .known("error", Quantity::Ratio, value(|criterion| criterion.error))
+            .rate("growth_rate", value(|criterion| growth_rate(criterion.value)))
+            .known(
+                "effective_coefficient",
+                Quantity::Ratio,
+                value(|criterion| criterion.effective.coefficient),
+            );
+        let one_sided = self.criterion.as_ref().is_ok_and(|found| found.effective.side == Side::Outer);
+        fields.plain("one_sided", one_sided);
+        match &self.critical_amplitudes {
+            Ok(found) => {
+                let items = found.iter().map(|critical| {
+                    let mut inner = Fields::new(scales);
+                    inner
+                        .number("amplitude_ratio", Quantity::Velocity, critical.amplitude_ratio)
+                        .number("amplitude", Quantity::Force, critical.amplitude)
+                        .plain("kind", kind(critical.crossing))
+                        .plain("becomes", becomes(critical.becomes))
+                        .number("amplitude_ratio_error", Quantity::Velocity, critical.error)
+                        .plain("contact_stays_closed", critical.contact_stays_closed);
+                    inner
+                });
+                fields.list("critical_amplitudes", items);
+            }
+            Err(why) => {
+                fields.plain("critical_amplitudes", Json::Null).why("critical_amplitudes", told(why));
+            }
+        }
+        let frequency_ratio = study.belt().dithers().first().map_or(0.0, |dither| dither.frequency_ratio);
+        let ratio = &self.everywhere_stable;
+        fields
+            .known("everywhere_stable_amplitude_ratio", Quantity::Velocity, ratio.clone())
+            .known(
+                "everywhere_stable_amplitude",
+                Quantity::Force,
+                ratio.clone().map(|ratio| ratio * frequency_ratio),
+            );
+        match &self.unstable_bands {
+            Ok(bands) => {
+                let items = bands.iter().map(|band| {
+                    let mut inner = Fields::new(scales);
+                    let no_end = || "instability has no upper end".to_owned();
+                    inner
+                        .number("lower", Quantity::Velocity, band.lower)
+                        .known("upper", Quantity::Velocity, band.upper.ok_or_else(no_end));
+                    match band.lower_crossing {
+                        Some(crossing) => inner.plain("lower_kind", kind(crossing)),
+                        None => inner.plain("lower_kind", "rest"),
+                    };
+                    inner
+                });
+                fields.list("unstable_belt_velocities", items);
+            }
+            Err(why) => {
+                fields
+                    .plain("unstable_belt_velocities", Json::Null)
+                    .why("unstable_belt_velocities", told(why));
+            }
+        }
+    }
+}
+
+/// Name of a crossing in output.
+pub fn kind(crossing: Crossing) -> &'static str {
+    match crossing {
+        Crossing::Root => "root",
+        Crossing::Jump => "jump",
+    }
+}
+
+/// Name of a change in output.
+pub fn becomes(becomes: Becomes) -> &'static str {
+    match becomes {
+        Becomes::Stable => "stable",
+        Becomes::Unstable => "unstable",
+    }
+}
+
+impl Stability {
+    /// What averaging says, in one sentence.
+    pub fn sentence(&self, study: &Study) -> String {
+        let v = in_words(study, Quantity::Velocity, study.belt().belt_velocity());
+        let verdict = match &self.limit.criterion {
+            Err(why) => format!("nothing can be said about steady sliding at v₀ = {v}: {why}"),
+            Ok(found) => match found.verdict {
+                Verdict::Stable => format!("steady sliding at v₀ = {v} is stable"),
+                Verdict::Unstable => format!("steady sliding at v₀ = {v} is unstable"),
+                Verdict::Undecided { why: UndecidedBecause::WithinError } => format!(
+                    "steady sliding at v₀ = {v} is undecided: the criterion is zero within its error"
+                ),
+                Verdict::Undecided { why: UndecidedBecause::AtCorner } => format!(
+                    "steady sliding at v₀ = {v} is undecided: the belt is exactly as fast as the fast motion, \
+                     unstable for slightly faster belts and stable for slightly slower ones"
+                ),
+            },
+        };
+        format!("By averaging over the fast motion (locally, for small slow motions), {verdict}{}.", self.next(study))
+    }
+
+    /// The next amplitude at which the verdict changes.
+    fn next(&self, study: &Study) -> String {
+        let Some(dither) = study.belt().dithers().first() else {
+            return "; there is no dither".to_owned();
+        };
+        let (Ok(critical), Ok(_)) = (&self.limit.critical_amplitudes, &self.limit.criterion) else {
+            return String::new();
+        };
+        let now = dither.amplitude_ratio();
+        let next = critical
+            .iter()
+            .find(|critical| critical.amplitude_ratio > now && becomes(critical.becomes) != self.limit.verdict());
+        match next {
+            Some(next) => format!(
+                "; more dither makes it {} from D = {} (α = {}) on{}",
+                becomes(next.becomes),
+                in_words(study, Quantity::Force, next.amplitude),
+                in_words(study, Quantity::Velocity, next.amplitude_ratio),
+                if next.contact_stays_closed { "" } else { ", but would pull the contact apart" }
+            ),
+            None if critical.is_empty() => "; no amplitude of this dither changes that".to_owned(),
+            None => "; more of this dither does not change that".to_owned(),
+        }
+    }
+
+    /// What a reader of the numbers should know.
+    pub fn warnings(&self, study: &Study) -> Vec<String> {
+        let slow = study.belt().dithers().iter().filter(|dither| dither.frequency_ratio < FAST);
+        slow.map(|dither| {
+            format!(
+                "averaging presumes fast dither; R = {} is hardly fast, simulate to be sure",
+                dither.frequency_ratio
+            )
+        })
+        .collect()
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &Study) -> Json {
+        let mut fields = Fields::new(study.scales());
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study))
+            .plain("protocol", "averaged")
+            .plain("method", "averaging over the fast motion in the limit of high frequency");
+        self.limit.put(study, &mut fields);
+        match &self.sharper {
+            Ok(averaged) => {
+                let mut inner = Fields::new(study.scales());
+                inner.plain(
+                    "method",
+                    "averaging with the oscillator's own response to the dither and, under normal dither, \
+                     the fast motion to second order",
+                );
+                averaged.put(study, &mut inner);
+                fields.nested("sharper", inner);
+            }
+            Err(why) => {
+                fields.plain("sharper", Json::Null).why("sharper", why);
+            }
+        }
+        fields.plain("warnings", self.warnings(study));
+        fields.finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn growth_rates_solve_the_characteristic_equation() {
+        for criterion in [-0.3, 0.0, 0.01, 1.9] {
+            assert_eq!(growth_rate(criterion), -0.5 * criterion);
+        }
+        for criterion in [-5.0, 2.5, 40.0] {
+            let rate = growth_rate(criterion);
+            assert!((rate * rate + criterion * rate + 1.0).abs() < 1e-12 * criterion * criterion);
+        }
+    }
+}

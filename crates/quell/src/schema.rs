@@ -1,0 +1,299 @@
+//! The JSON Schema of a study file (draft 2020-12), made from the registry of parameters.
+//!
+//! A study is in one system, so the schema is one of two: in the numbers of the equations or
+//! in SI. Relations between values (μ_m ≤ μ_s, ΣD_N ≤ F) are beyond a schema; `quell check`
+//! judges them.
+
+use quell_model::LawKind;
+use quell_model::parameter::{Bounds, Parameter};
+use quell_model::units::Quantity;
+use serde_json::{Map, Value as Json, json};
+
+use crate::study::vocabulary::{self, Choice, Key, MOST_POINTS, Role, SCHEMA_VERSION, Section};
+
+/// The dialect of the schema.
+const DIALECT: &str = "https://json-schema.org/draft/2020-12/schema";
+
+/// The system of a study.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum System {
+    Scaled,
+    Si,
+}
+
+impl System {
+    fn suffix(self) -> &'static str {
+        match self {
+            Self::Scaled => "scaled",
+            Self::Si => "si",
+        }
+    }
+}
+
+/// The JSON Schema of a study file.
+pub fn schema() -> Json {
+    let mut definitions = Map::new();
+    for system in [System::Scaled, System::Si] {
+        for section in [Section::Belt, Section::Initial, Section::Dither, Section::Solver] {
+            definitions.insert(name(section, system), table(section, system));
+        }
+        definitions.insert(name(Section::Friction, system), friction(system));
+        definitions.insert(name(Section::Root, system), root(system));
+    }
+    definitions.insert("sweep".to_owned(), sweep());
+    json!({
+        "$schema": DIALECT,
+        "title": "Quell study file",
+        "description": "A mass on a moving belt with dither. A study is either in the numbers of \
+                        the equations or in SI.",
+        "oneOf": [
+            { "$ref": reference(Section::Root, System::Scaled) },
+            { "$ref": reference(Section::Root, System::Si) },
+        ],
+        "$defs": definitions,
+    })
+}
+
+fn name(section: Section, system: System) -> String {
+    let table = match section {
+        Section::Root => "study",
+        Section::Initial => "initial",
+        _ => section.path(),
+    };
+    format!("{table}_{}", system.suffix())
+}
+
+fn reference(section: Section, system: System) -> String {
+    format!("#/$defs/{}", name(section, system))
+}
+
+fn root(system: System) -> Json {
+    let dither = reference(Section::Dither, system);
+    let about = match system {
+        System::Scaled => "a study in the numbers of the equations",
+        System::Si => "a study in SI",
+    };
+    json!({
+        "type": "object",
+        "description": about,
+        "properties": {
+            "schema": { "const": SCHEMA_VERSION, "description": "version of the study file" },
+            "title": { "type": "string", "description": "what the study is about" },
+            "belt": { "$ref": reference(Section::Belt, system) },
+            "friction": { "$ref": reference(Section::Friction, system) },
+            "dither": {
+                "description": Section::Dither.about(),
+                "oneOf": [
+                    { "$ref": dither },
+                    { "type": "array", "items": { "$ref": dither } },
+                ],
+            },
+            "solver": { "$ref": reference(Section::Solver, system) },
+            "sweep": { "type": "array", "items": { "$ref": "#/$defs/sweep" } },
+        },
+        "required": ["schema", "belt", "friction"],
+        "additionalProperties": false,
+    })
+}
+
+/// A table with the keys of one system.
+fn table(section: Section, system: System) -> Json {
+    let mut properties = Map::new();
+    let mut required = Vec::new();
+    let mut either = Vec::new();
+    for key in vocabulary::keys_of(section).filter(|key| belongs(key, system)) {
+        properties.insert(key.name.to_owned(), property(key));
+        match key.role {
+            Role::Number(parameter) if needed(parameter) => required.push(key.name),
+            Role::Twin(parameter, twin) if needed(parameter) && parameter.si.len() == 1 => {
+                required.push(twin.key);
+            }
+            // Several SI keys give one parameter: exactly one of them.
+            Role::Twin(parameter, twin) if needed(parameter) => {
+                either.push(json!({ "required": [twin.key] }));
+            }
+            Role::Scale(_) | Role::Choice(Choice::Direction | Choice::Waveform) => {
+                required.push(key.name);
+            }
+            _ => {}
+        }
+    }
+    if section == Section::Belt {
+        properties.insert("initial".into(), json!({ "$ref": reference(Section::Initial, system) }));
+    }
+    let mut object = object(section, &properties, &required);
+    if !either.is_empty() {
+        object["oneOf"] = either.into();
+    }
+    if section == Section::Initial {
+        let numbers: Vec<Json> = vocabulary::keys_of(section)
+            .filter(|key| key.parameter().is_some() && belongs(key, system))
+            .map(|key| json!({ "required": [key.name] }))
+            .collect();
+        object["not"] = json!({ "required": ["state"], "anyOf": numbers });
+    }
+    object
+}
+
+fn object(section: Section, properties: &Map<String, Json>, required: &[&str]) -> Json {
+    json!({
+        "type": "object",
+        "description": section.about(),
+        "properties": properties,
+        "required": required,
+        "additionalProperties": false,
+    })
+}
+
+/// One alternative a law.
+fn friction(system: System) -> Json {
+    let laws: Vec<Json> = LawKind::ALL
+        .iter()
+        .map(|law| {
+            let mut properties = Map::new();
+            properties.insert("law".into(), json!({ "const": law.name(), "description": law.about() }));
+            let mut required = vec!["law"];
+            for key in vocabulary::keys_of(Section::Friction).filter(|key| belongs(key, system)) {
+                let known = |parameter: Parameter| law.parameters().iter().any(|known| known.path == parameter.path);
+                if key.parameter().is_some_and(known) {
+                    properties.insert(key.name.to_owned(), property(key));
+                    required.push(key.name);
+                }
+            }
+            object(Section::Friction, &properties, &required)
+        })
+        .collect();
+    json!({ "description": Section::Friction.about(), "oneOf": laws })
+}
+
+fn sweep() -> Json {
+    let properties: Map<String, Json> = vocabulary::keys_of(Section::Sweep)
+        .map(|key| (key.name.to_owned(), property(key)))
+        .collect();
+    let mut object = object(Section::Sweep, &properties, &["parameter"]);
+    object["oneOf"] = json!([
+        {
+            "required": ["values"],
+            "not": { "anyOf": [
+                { "required": ["from"] },
+                { "required": ["to"] },
+                { "required": ["points"] },
+                { "required": ["spacing"] },
+            ] },
+        },
+        { "required": ["from", "to", "points"], "not": { "required": ["values"] } },
+    ]);
+    object
+}
+
+/// Whether a key may stand in a study of a system.
+fn belongs(key: &Key, system: System) -> bool {
+    match key.role {
+        Role::Number(parameter) => system == System::Scaled || parameter.si.is_empty(),
+        Role::Twin(..) | Role::Scale(_) => system == System::Si,
+        _ => true,
+    }
+}
+
+/// Whether a parameter has to be given.
+fn needed(parameter: Parameter) -> bool {
+    let optional = ["belt.initial", "solver", "dither.phase"];
+    !optional.iter().any(|path| parameter.path.starts_with(path))
+}
+
+fn property(key: &Key) -> Json {
+    let mut schema = match key.role {
+        Role::Number(parameter) => bounded(parameter.bounds, parameter.quantity),
+        // The bounds of a twin depend on the scales unless they are about the sign.
+        Role::Twin(parameter, _) => match parameter.bounds {
+            Bounds { lower: 0.0, upper: f64::INFINITY, .. } => bounded(parameter.bounds, Quantity::Ratio),
+            Bounds { lower: 0.0, .. } => bounded(Bounds::NOT_NEGATIVE, Quantity::Ratio),
+            _ => bounded(Bounds::FINITE, Quantity::Ratio),
+        },
+        Role::Scale(scale) => bounded(scale.bounds, Quantity::Ratio),
+        Role::Choice(choice) => json!({ "enum": choice.names() }),
+        Role::Text => json!({ "type": "string" }),
+        Role::Schema => json!({ "const": SCHEMA_VERSION }),
+        Role::AxisNumber => json!({ "type": "number" }),
+        Role::AxisPoints => json!({ "type": "integer", "minimum": 2, "maximum": MOST_POINTS }),
+        Role::AxisValues => json!({ "type": "array", "items": { "type": "number" }, "minItems": 1 }),
+    };
+    schema["description"] = about(key).into();
+    schema
+}
+
+fn about(key: &Key) -> String {
+    match key.role {
+        Role::Number(parameter) => {
+            format!("{}: {}, in {}", parameter.symbol, key.about, key.unit())
+        }
+        Role::Twin(parameter, twin) if twin.rms => {
+            format!("{}: {}, as root mean square, in N", parameter.symbol, key.about)
+        }
+        Role::Twin(parameter, _) => format!("{}: {}, in {}", parameter.symbol, key.about, key.unit()),
+        Role::Scale(scale) => format!("{}: {}, in {}", scale.symbol, key.about, key.unit()),
+        _ => key.about.to_owned(),
+    }
+}
+
+fn bounded(bounds: Bounds, quantity: Quantity) -> Json {
+    let whole = quantity == Quantity::Count;
+    let mut schema = json!({ "type": if whole { "integer" } else { "number" } });
+    if bounds.lower.is_finite() {
+        let keyword = if bounds.lower_included { "minimum" } else { "exclusiveMinimum" };
+        schema[keyword] = bounds.lower.into();
+    }
+    if bounds.upper.is_finite() {
+        schema["maximum"] = bounds.upper.into();
+    }
+    schema
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every `$ref` leads somewhere, and every object says what it does with other keys.
+    fn walk(schema: &Json, root: &Json) {
+        if let Some(target) = schema.get("$ref").and_then(Json::as_str) {
+            let pointer = target.trim_start_matches('#');
+            assert!(root.pointer(pointer).is_some(), "{target}");
+        }
+        if schema.get("type").is_some_and(|kind| kind == "object") {
+            assert_eq!(schema["additionalProperties"], false);
+            let required = schema["required"].as_array().expect("required");
+            for key in required {
+                let key = key.as_str().expect("a name");
+                assert!(schema["properties"].get(key).is_some(), "{key}");
+            }
+        }
+        match schema {
+            Json::Object(object) => object.values().for_each(|inner| walk(inner, root)),
+            Json::Array(list) => list.iter().for_each(|inner| walk(inner, root)),
+            _ => {}
+        }
+    }
+
+    #[test]
+    fn references_lead_somewhere_and_required_keys_exist() {
+        let schema = schema();
+        walk(&schema, &schema);
+    }
+
+    #[test]
+    fn every_key_of_the_registry_is_in_it() {
+        let schema = schema();
+        for key in vocabulary::keys() {
+            let defs = schema["$defs"].as_object().expect("definitions");
+            let found = defs.values().any(|table| {
+                let inside = |table: &Json| table["properties"].get(key.name).is_some();
+                inside(table) || table["oneOf"].as_array().is_some_and(|laws| laws.iter().any(inside))
+            });
+            assert!(found, "{}", key.path());
+        }
+        let amplitude = &schema["$defs"]["dither_scaled"]["properties"]["amplitude"];
+        assert_eq!(amplitude["minimum"], 0.0);
+        let load = &schema["$defs"]["belt_scaled"]["properties"]["normal_load"];
+        assert_eq!(load["exclusiveMinimum"], 0.0);
+    }
+}

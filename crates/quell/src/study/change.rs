@@ -1,0 +1,173 @@
+//! Changes of a study from outside its file: `--set path=value`, `--tolerance`, points of a
+//! sweep. They change the mirror, which is checked afterwards.
+
+use std::fmt;
+
+use super::mirror::{Node, Table, Value};
+use super::vocabulary::{self, Key, NOT_BUILT, Role, Section};
+use crate::complaint::{Complaint, Fault, Origin};
+
+/// One change.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// Path of the key, such as `dither[1].amplitude`.
+    pub path: String,
+    /// Its new value.
+    pub node: Node,
+}
+
+impl Change {
+    /// From `path=value`.
+    ///
+    /// # Errors
+    /// A complaint where there is no `=`.
+    pub fn parse(text: &str, option: &'static str) -> Result<Self, Box<Complaint>> {
+        match text.split_once('=') {
+            Some((path, value)) if !path.trim().is_empty() => Ok(Self {
+                path: path.trim().to_owned(),
+                node: Node::from_argument(value, option),
+            }),
+            _ => {
+                let allowed = "path=value, such as belt.belt_velocity=0.1";
+                Err(Box::new(Complaint::option(option, text, allowed)))
+            }
+        }
+    }
+
+    /// A number for a path.
+    pub fn number(path: &str, value: f64, option: &'static str) -> Self {
+        Self {
+            path: path.to_owned(),
+            node: Node { value: Value::Number(value), origin: Origin::Argument(option) },
+        }
+    }
+
+    /// Makes the change.
+    pub(super) fn apply(&self, root: &mut Table) -> Result<(), Box<Complaint>> {
+        let address = vocabulary::resolve(&self.path).map_err(|nearest| self.unknown(nearest))?;
+        let key = address.key;
+        let Some(table) = self.section(root, key.section, address.index)? else {
+            return Ok(());
+        };
+        for sibling in vocabulary::keys_of(key.section) {
+            if replaces(key, sibling) {
+                table.remove(sibling.name);
+            }
+        }
+        table.set(key.name, self.node.clone());
+        Ok(())
+    }
+
+    fn unknown(&self, nearest: Option<String>) -> Box<Complaint> {
+        let first = self.path.split(['.', '[']).next().unwrap_or_default();
+        if NOT_BUILT.contains(&first) {
+            let allowed = format!("[{first}] is not built yet");
+            return Box::new(self.complaint(Fault::NotBuilt, allowed));
+        }
+        let complaint = self.complaint(Fault::Unknown, "the keys that `quell schema` lists");
+        Box::new(complaint.suggesting(nearest))
+    }
+
+    fn complaint(&self, fault: Fault, allowed: impl Into<String>) -> Complaint {
+        Complaint::new(fault, &self.path, self.node.origin, self.node.given(), allowed)
+    }
+
+    /// The table of a section, made where it is not there. `None` where something else has
+    /// its name, which the check complains about.
+    fn section<'a>(
+        &self,
+        root: &'a mut Table,
+        section: Section,
+        index: Option<usize>,
+    ) -> Result<Option<&'a mut Table>, Box<Complaint>> {
+        match section {
+            Section::Root => Ok(Some(root)),
+            Section::Initial => {
+                let Some(belt) = self.table(root, "belt") else { return Ok(None) };
+                Ok(self.table(belt, "initial"))
+            }
+            Section::Dither | Section::Sweep => self.entry(root, section.path(), index),
+            _ => Ok(self.table(root, section.path())),
+        }
+    }
+
+    fn table<'a>(&self, parent: &'a mut Table, name: &str) -> Option<&'a mut Table> {
+        if !parent.has(name) {
+            let value = Value::Table(Table::default());
+            parent.set(name, Node { value, origin: self.node.origin });
+        }
+        match parent.get_mut(name).map(|node| &mut node.value) {
+            Some(Value::Table(table)) => Some(table),
+            _ => None,
+        }
+    }
+
+    /// An entry of `[[dither]]` or `[[sweep]]`.
+    fn entry<'a>(
+        &self,
+        root: &'a mut Table,
+        name: &str,
+        index: Option<usize>,
+    ) -> Result<Option<&'a mut Table>, Box<Complaint>> {
+        let count = match root.get(name).map(|node| &node.value) {
+            Some(Value::List(list)) => list.len(),
+            Some(_) => 1,
+            None => 0,
+        };
+        let chosen = match (index, count) {
+            (None | Some(0), 0 | 1) => 0,
+            (Some(index), count) if index < count => index,
+            (_, count) => {
+                let allowed = match count {
+                    0 => format!("the study has no [{name}]"),
+                    1 => format!("the study has one [{name}]: {name}[0]"),
+                    _ => format!("say which one: {name}[0] to {name}[{}]", count - 1),
+                };
+                return Err(Box::new(self.complaint(Fault::Conflict, allowed)));
+            }
+        };
+        let origin = self.node.origin;
+        let fresh = || Node { value: Value::Table(Table::default()), origin };
+        if count == 0 {
+            // An axis is always one of a list; a single dither is a plain table.
+            let node = match name {
+                "sweep" => Node { value: Value::List(vec![fresh()]), origin },
+                _ => fresh(),
+            };
+            root.set(name, node);
+        }
+        Ok(match root.get_mut(name).map(|node| &mut node.value) {
+            Some(Value::Table(table)) => Some(table),
+            Some(Value::List(list)) => match list.get_mut(chosen).map(|node| &mut node.value) {
+                Some(Value::Table(table)) => Some(table),
+                _ => None,
+            },
+            _ => None,
+        })
+    }
+}
+
+impl fmt::Display for Change {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}={}", self.path, self.node.given())
+    }
+}
+
+/// Whether setting `key` takes the place of `sibling`: another SI key of the same parameter,
+/// a named state for numbers, values of an axis for its ends, and the other way round.
+fn replaces(key: &Key, sibling: &Key) -> bool {
+    if key.name == sibling.name {
+        return false;
+    }
+    match (key.section, key.role, sibling.role) {
+        (_, Role::Twin(parameter, _), Role::Twin(other, _)) => parameter.path == other.path,
+        (Section::Initial, role, other) => is_word(role) || is_word(other),
+        (Section::Sweep, role, other) => (role == Role::AxisValues) != (other == Role::AxisValues)
+            && key.name != "parameter" && sibling.name != "parameter",
+        _ => false,
+    }
+}
+
+fn is_word(role: Role) -> bool {
+    matches!(role, Role::Choice(_))
+}

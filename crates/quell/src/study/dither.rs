@@ -1,0 +1,62 @@
+//! `[dither]` or `[[dither]]`.
+
+use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE};
+use quell_model::{Direction, Dither, Waveform};
+
+use super::mirror::{Node, Table, Value};
+use super::reader::{Found, Reader};
+use super::vocabulary::{Choice, Section};
+
+/// Reads every dither; `None` where one of them is wrong.
+pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Dither>> {
+    let Some(node) = root.get("dither") else {
+        return Some(Vec::new());
+    };
+    match &node.value {
+        Value::Table(_) => one(reader, node, "dither").map(|dither| vec![dither]),
+        Value::List(list) => {
+            let single = list.len() == 1;
+            let dithers: Vec<Option<Dither>> = list
+                .iter()
+                .enumerate()
+                .map(|(index, node)| {
+                    let prefix = if single { "dither".into() } else { format!("dither[{index}]") };
+                    one(reader, node, &prefix)
+                })
+                .collect();
+            dithers.into_iter().collect()
+        }
+        _ => {
+            reader.wrong("dither", node, format!("a table [dither] or tables [[dither]]; this is {}", node.kind()));
+            None
+        }
+    }
+}
+
+fn one(reader: &mut Reader, node: &Node, prefix: &str) -> Option<Dither> {
+    let Some(table) = node.table() else {
+        reader.wrong(prefix, node, format!("a table; this is {}", node.kind()));
+        return None;
+    };
+    reader.unknown_keys(table, Section::Dither, prefix, &[]);
+    let direction = reader
+        .needed_choice(table, prefix, node.origin, "direction", Choice::Direction)
+        .and_then(Direction::from_name);
+    let waveform = reader
+        .needed_choice(table, prefix, node.origin, "waveform", Choice::Waveform)
+        .and_then(Waveform::from_name);
+    let amplitude = match reader.optional(table, prefix, DITHER_AMPLITUDE, waveform) {
+        Found::Value(value) => Some(value),
+        Found::Wrong => None,
+        Found::Absent => reader.number(table, prefix, node.origin, DITHER_AMPLITUDE),
+    };
+    let frequency_ratio = reader.number(table, prefix, node.origin, DITHER_FREQUENCY_RATIO);
+    let phase = reader.optional(table, prefix, DITHER_PHASE, None).or(0.0);
+    Some(Dither {
+        direction: direction?,
+        waveform: waveform?,
+        amplitude: amplitude?,
+        frequency_ratio: frequency_ratio?,
+        phase: phase?,
+    })
+}

@@ -1,0 +1,58 @@
+//! Reads the text of a study file, whatever it turns out to be.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use serde_json::Value as Json;
+
+use crate::complaint::{Complaint, Fault, Origin};
+
+/// The largest study file that is read; anything larger is no study, and some files never end.
+const LARGEST: u64 = 16 << 20;
+
+/// Reads a study file; `-` is standard input.
+///
+/// # Errors
+/// A complaint about a file that is missing, unreadable, a directory, too large, empty, or
+/// not text.
+pub(super) fn text(path: &Path) -> Result<String, Box<Complaint>> {
+    let complaint = |allowed: String| {
+        let given = Json::String(path.display().to_string());
+        Box::new(Complaint::new(Fault::Path, "study file", Origin::Whole, given, allowed))
+    };
+    let mut bytes = Vec::new();
+    let read = if path == Path::new("-") {
+        io::stdin().lock().take(LARGEST + 1).read_to_end(&mut bytes)
+    } else {
+        if path.is_dir() {
+            return Err(complaint("is a directory; a study file is wanted".into()));
+        }
+        File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
+    };
+    match read {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            return Err(complaint("there is no such file".into()));
+        }
+        Err(error) => return Err(complaint(format!("cannot be read: {error}"))),
+        Ok(_) => {}
+    }
+    if bytes.len() as u64 > LARGEST {
+        return Err(complaint("is larger than 16 MiB; no study is".into()));
+    }
+    let text = String::from_utf8(bytes).map_err(|error| {
+        complaint(format!(
+            "is not text: byte {} is not UTF-8; a study is a TOML file",
+            error.utf8_error().valid_up_to()
+        ))
+    })?;
+    if text.contains('\0') {
+        return Err(complaint("is not text: it has zero bytes; a study is a TOML file".into()));
+    }
+    if text.trim_start_matches('\u{feff}').trim().is_empty() {
+        return Err(complaint(
+            "is empty; a study has at least schema = 1, [belt] and [friction]".into(),
+        ));
+    }
+    Ok(text)
+}

@@ -1,0 +1,254 @@
+//! The study file: text, its mirror, and the checked study.
+//!
+//! `study.toml` → [`mirror::Table`] → [`Study`], which is valid by construction. Every
+//! complaint is told at once, with key, line, value, what is allowed, and the nearest
+//! right key.
+
+use std::path::Path;
+
+use quell_model::parameter::NORMAL_LOAD;
+use quell_model::units::{Quantity, Scales};
+use quell_model::{Belt, Dither, Friction, LawKind};
+use serde_json::Value as Json;
+
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use belt::BeltTable;
+use mirror::{Table, Value};
+use reader::Reader;
+use vocabulary::{NOT_BUILT, SCHEMA_VERSION, Section};
+
+mod belt;
+mod change;
+mod dither;
+mod file;
+mod friction;
+pub mod mirror;
+mod reader;
+mod solver;
+pub mod suggest;
+mod sweep;
+pub mod vocabulary;
+
+pub use change::Change;
+pub use quell_belt::response::Solver;
+pub use quell_belt::start::InitialState;
+pub use sweep::{Axis, Sweep};
+
+/// A checked study of a belt.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Study {
+    title: Option<String>,
+    belt: Belt,
+    initial: InitialState,
+    solver: Solver,
+    scales: Option<Scales>,
+    sweeps: Vec<Sweep>,
+    mirror: Table,
+    text: String,
+    changes: Vec<String>,
+}
+
+impl Study {
+    /// Reads and checks a study file (`-` is standard input) after changing it.
+    ///
+    /// # Errors
+    /// Every complaint at once.
+    pub fn read(path: &Path, changes: &[Change]) -> Result<Self, Failure> {
+        let text = file::text(path)?;
+        Self::parse(&text, changes).map_err(Failure::Wrong)
+    }
+
+    /// Checks the text of a study after changing it.
+    ///
+    /// # Errors
+    /// Every complaint at once.
+    pub fn parse(text: &str, changes: &[Change]) -> Result<Self, Vec<Complaint>> {
+        let mut mirror = Table::parse(text)?;
+        let refused: Vec<Complaint> =
+            changes.iter().filter_map(|change| change.apply(&mut mirror).err()).map(|complaint| *complaint).collect();
+        match Self::check(mirror, text) {
+            Ok(mut study) if refused.is_empty() => {
+                study.changes = changes.iter().map(Change::to_string).collect();
+                Ok(study)
+            }
+            Ok(_) => Err(refused),
+            Err(mut complaints) => {
+                complaints.extend(refused);
+                Err(complaints)
+            }
+        }
+    }
+
+    /// The same study with one number changed, by any path of the file, SI twins included.
+    ///
+    /// # Errors
+    /// Every complaint about the changed study.
+    pub fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Complaint>> {
+        let mut mirror = self.mirror.clone();
+        Change::number(path, value, "change").apply(&mut mirror).map_err(|complaint| vec![*complaint])?;
+        let mut study = Self::check(mirror, &self.text)?;
+        study.changes.clone_from(&self.changes);
+        study.changes.push(format!("{path}={value:?}"));
+        Ok(study)
+    }
+
+    fn check(mirror: Table, text: &str) -> Result<Self, Vec<Complaint>> {
+        let mut reader = Reader::new(&mirror);
+        let title = root(&mut reader, &mirror);
+        if mirror.has("disc") {
+            return Err(reader.into_complaints());
+        }
+        let belt = belt::read(&mut reader, &mirror);
+        let friction = friction::read(&mut reader, &mirror);
+        let dithers = dither::read(&mut reader, &mirror);
+        let solver = solver::read(&mut reader, &mirror);
+        let sweeps = sweep::read(&mut reader, &mirror);
+        let built = build(&mut reader, belt, friction, dithers);
+        let scales = reader.known_scales();
+        let complaints = reader.into_complaints();
+        let parts = (built, belt.initial, solver, sweeps);
+        let (Some(belt), Some(initial), Some(solver), Some(sweeps)) = parts else {
+            return Err(complaints);
+        };
+        if !complaints.is_empty() {
+            return Err(complaints);
+        }
+        let study = Self { title, belt, initial, solver, scales, sweeps, mirror, text: text.to_owned(), changes: Vec::new() };
+        study.check_sweeps()?;
+        Ok(study)
+    }
+
+    /// Whether the study is valid at the ends of every axis.
+    fn check_sweeps(&self) -> Result<(), Vec<Complaint>> {
+        let mut bare = self.clone();
+        bare.mirror.remove("sweep");
+        let mut complaints = Vec::new();
+        for (index, sweep) in self.sweeps.iter().enumerate() {
+            for value in sweep.axis.extremes() {
+                let Err(wrong) = bare.with(&sweep.path, value) else { continue };
+                let entry = match self.mirror.get("sweep").map(|node| &node.value) {
+                    Some(Value::List(list)) => list.get(index),
+                    _ => None,
+                };
+                let origin = entry.map_or(Origin::Whole, |node| node.origin);
+                let key = format!("sweep[{index}].parameter");
+                complaints.extend(wrong.into_iter().map(|mut complaint| {
+                    complaint.allowed = match complaint.fault {
+                        Fault::Value => format!(
+                            "a path and values that make valid studies; {} = {value} must be {}",
+                            complaint.key, complaint.allowed
+                        ),
+                        _ => complaint.allowed,
+                    };
+                    Complaint { key: key.clone(), origin, value: sweep.path.clone().into(), ..complaint }
+                }));
+            }
+        }
+        complaints.dedup_by(|a, b| a.key == b.key && a.fault == b.fault && a.allowed == b.allowed);
+        if complaints.is_empty() { Ok(()) } else { Err(complaints) }
+    }
+
+    /// Title, if the file gives one.
+    pub fn title(&self) -> Option<&str> {
+        self.title.as_deref()
+    }
+
+    /// The belt in the numbers of the equations.
+    pub fn belt(&self) -> &Belt {
+        &self.belt
+    }
+
+    /// Where a run starts.
+    pub fn initial(&self) -> InitialState {
+        self.initial
+    }
+
+    /// Accuracy and length of the computations.
+    pub fn solver(&self) -> &Solver {
+        &self.solver
+    }
+
+    /// Mass and stiffness of a study in SI.
+    pub fn scales(&self) -> Option<Scales> {
+        self.scales
+    }
+
+    /// The axes of a map, in order.
+    pub fn sweeps(&self) -> &[Sweep] {
+        &self.sweeps
+    }
+
+    /// Changes made to the text, as `path=value`.
+    pub fn changes(&self) -> &[String] {
+        &self.changes
+    }
+
+    /// The text of the file as it was read, without changes.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+/// Reads what stands outside the tables; the title.
+fn root(reader: &mut Reader, mirror: &Table) -> Option<String> {
+    let tables: Vec<&str> = Section::ALL.iter().map(|section| section.path()).collect();
+    for (name, node) in mirror.iter() {
+        if NOT_BUILT.contains(&name) {
+            let allowed = format!("[{name}] is not built yet; this version computes belts");
+            reader.complain(Complaint::new(Fault::NotBuilt, name, node.origin, Json::Null, allowed));
+        } else if vocabulary::key(Section::Root, name).is_none() && !tables.contains(&name) {
+            let names = ["schema", "title", "belt", "friction", "dither", "solver", "sweep"];
+            let nearest = suggest::word(name, names).or_else(|| suggest::path("", name, None));
+            let complaint = Complaint::new(Fault::Unknown, name, node.origin, node.given(), names.join(", "));
+            reader.complain(complaint.suggesting(nearest));
+        }
+    }
+    match mirror.get("schema") {
+        None => {
+            let allowed = format!("schema = {SCHEMA_VERSION}, the version of the study file");
+            reader.complain(Complaint::new(Fault::Missing, "schema", Origin::Whole, Json::Null, allowed));
+        }
+        Some(node) if node.value != Value::Number(f64::from(SCHEMA_VERSION)) => {
+            reader.wrong("schema", node, format!("{SCHEMA_VERSION}, the only version there is"));
+        }
+        Some(_) => {}
+    }
+    mirror.get("title").and_then(|node| reader.text("title", node))
+}
+
+/// Puts the belt together. What was already complained about is stood in for, so that
+/// relations between the rest are judged at the same time.
+fn build(
+    reader: &mut Reader,
+    table: BeltTable,
+    friction: Option<Friction>,
+    dithers: Option<Vec<Dither>>,
+) -> Option<Belt> {
+    let dithers = dithers?;
+    let stand_in = || LawKind::Stribeck.build(&[0.0, 0.0, 1.0]).ok();
+    let law = friction.or_else(stand_in)?;
+    let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    let (damping, load, velocity) =
+        (number(table.damping_ratio), number(table.normal_load), number(table.belt_velocity));
+    match Belt::new(damping, load, velocity, law, dithers) {
+        Ok(belt) => friction.map(|_| belt),
+        Err(mut invalid) => {
+            // In SI the normal load is told in newtons.
+            if let Some(scales) = reader.known_scales() {
+                let newtons = scales.to_si(Quantity::Force, load);
+                for complaint in &mut invalid {
+                    if complaint.key.starts_with("dither") && complaint.key.ends_with(".amplitude") {
+                        complaint.allowed = format!(
+                            "such that the peaks of normal dither together stay at most \
+                             {} = {newtons} N: more would pull the contact apart, which this \
+                             model does not describe",
+                            NORMAL_LOAD.si.first().map_or(NORMAL_LOAD.path, |twin| twin.key)
+                        );
+                    }
+                }
+            }
+            reader.adopt(invalid);
+            None
+        }
+    }
+}

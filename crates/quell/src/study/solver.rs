@@ -1,0 +1,32 @@
+//! `[solver]`: optional, with the defaults of the design.
+
+use quell_model::parameter::{RECORD_PERIODS, SETTLE, TOLERANCE};
+
+use super::Solver;
+use super::mirror::Table;
+use super::reader::Reader;
+use super::vocabulary::Section;
+
+/// Reads `[solver]`.
+pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Solver> {
+    let default = Solver::default();
+    let Some(node) = root.get("solver") else {
+        return Some(default);
+    };
+    let table = reader.table("solver", node)?;
+    reader.unknown_keys(table, Section::Solver, "solver", &[]);
+    let tolerance = reader.optional(table, "solver", TOLERANCE, None);
+    let settle = reader.optional(table, "solver", SETTLE, None);
+    let periods = reader.optional(table, "solver", RECORD_PERIODS, None);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a whole number within the bounds of the registry"
+    )]
+    let record_periods = periods.or(f64::from(default.record_periods))? as _;
+    Some(Solver {
+        tolerance: tolerance.or(default.tolerance)?,
+        settle: settle.or(default.settle)?,
+        record_periods,
+    })
+}

@@ -1,0 +1,123 @@
+//! The nearest right key to a wrong one.
+//!
+//! Near means: the same symbol (`zeta`, `v0`, `D_T`), a few letters apart
+//! (Damerau–Levenshtein), a common beginning (Jaro–Winkler), or one inside the other.
+
+use super::vocabulary::{self, Key, Section, join};
+
+/// The score from which a word is near enough to be offered.
+const NEAR: f64 = 0.6;
+/// The likeness from which a common beginning counts.
+const SAME_BEGINNING: f64 = 0.85;
+/// A word inside the other is worth this.
+const INSIDE: f64 = 0.7;
+
+fn likeness(wrong: &str, right: &str) -> f64 {
+    let (wrong, right) = (wrong.to_lowercase(), right.to_lowercase());
+    let letters = strsim::normalized_damerau_levenshtein(&wrong, &right);
+    let beginning = strsim::jaro_winkler(&wrong, &right);
+    let inside = wrong.len() >= 4 && right.contains(&wrong) || right.len() >= 4 && wrong.contains(&right);
+    let mut score = letters;
+    if beginning >= SAME_BEGINNING {
+        score = score.max(0.9 * beginning);
+    }
+    if inside {
+        score = score.max(INSIDE);
+    }
+    score
+}
+
+/// The nearest of some words.
+pub fn word<'a>(wrong: &str, right: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    right
+        .into_iter()
+        .map(|candidate| (likeness(wrong, candidate), candidate))
+        .filter(|(score, _)| *score >= NEAR)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| candidate.to_owned())
+}
+
+/// The nearest path to an unknown key of a table; `index` is kept where the table is the same.
+pub fn path(table: &str, name: &str, index: Option<usize>) -> Option<String> {
+    let score = |key: &Key| {
+        let letters = if same_symbol(name, key) { 1.0 } else { likeness(name, key.name) };
+        // A key of the same table is nearer than one of another, unless that one is spelled so.
+        let elsewhere = key.section.path() != table;
+        letters - if elsewhere { 0.35 } else { 0.0 }
+    };
+    let key = vocabulary::keys()
+        .iter()
+        .filter(|key| key.section != Section::Sweep || table == Section::Sweep.path())
+        .map(|key| (score(key), key))
+        .filter(|(score, _)| *score >= NEAR)
+        // The first of equals: dimensionless before SI, in the order of the file.
+        .rev()
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, key)| key)?;
+    let same_list = key.section.path() == table;
+    Some(match index {
+        Some(index) if same_list => join(&format!("{table}[{index}]"), key.name),
+        _ => key.path(),
+    })
+}
+
+/// Whether a key was called by its symbol, as `zeta` for ζ or `mu_s` for μ_s.
+fn same_symbol(name: &str, key: &Key) -> bool {
+    let symbol = match key.role {
+        vocabulary::Role::Number(parameter) => parameter.symbol,
+        vocabulary::Role::Scale(scale) => scale.symbol,
+        _ => return false,
+    };
+    let symbol = spelled(symbol);
+    let name = spelled(name);
+    name == symbol || (symbol == "d" && (name == "dt" || name == "dn"))
+}
+
+/// A symbol in plain letters: Greek by name, no underscores, subscripts as digits.
+fn spelled(symbol: &str) -> String {
+    let mut plain = String::new();
+    for letter in symbol.chars() {
+        match letter {
+            'ζ' => plain.push_str("zeta"),
+            'μ' => plain.push_str("mu"),
+            'φ' => plain.push_str("phi"),
+            'ε' => plain.push_str("epsilon"),
+            'τ' => plain.push_str("tau"),
+            'ω' => plain.push_str("omega"),
+            '₀' => plain.push('0'),
+            '_' => {}
+            other => plain.extend(other.to_lowercase()),
+        }
+    }
+    plain
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slips_of_the_pen_are_understood() {
+        for (table, wrong, right) in [
+            ("belt", "dampng_ratio", "belt.damping_ratio"),
+            ("belt", "damping", "belt.damping_ratio"),
+            ("belt", "zeta", "belt.damping_ratio"),
+            ("belt", "v0", "belt.belt_velocity"),
+            ("belt", "velocity", "belt.belt_velocity"),
+            ("belt", "mass", "belt.mass_kg"),
+            ("friction", "mu_s", "friction.static_coefficient"),
+            ("friction", "damping_ratio", "belt.damping_ratio"),
+            ("dither", "freqency_ratio", "dither.frequency_ratio"),
+            ("dither", "amplitud", "dither.amplitude"),
+            ("dither", "D_T", "dither.amplitude"),
+            ("", "titel", "title"),
+            ("solver", "tolerence", "solver.tolerance"),
+        ] {
+            assert_eq!(path(table, wrong, None).as_deref(), Some(right), "{table}.{wrong}");
+        }
+        assert_eq!(path("dither", "phse", Some(1)).as_deref(), Some("dither[1].phase"));
+        assert_eq!(path("belt", "xyzzy", None), None);
+        assert_eq!(word("stribek", ["stribeck", "decreasing"]).as_deref(), Some("stribeck"));
+        assert_eq!(word("sawtooth", ["sine", "triangle", "square"]), None);
+    }
+}
