@@ -35,8 +35,8 @@ pub use clock::Clock;
 pub use event::{Event, EventKind};
 pub use observer::{EventRecorder, Observer, Sample, Sampler, Segment, VelocitySection};
 
-/// Order of the Taylor series. At tolerance 10⁻¹⁰ about three steps cover a dither period;
-/// measured best from 14 to 20 within 10 % (see `benches/`).
+/// Order of the Taylor series. At tolerance 10⁻¹⁰ about three steps cover a period of free
+/// slip; the kernel is unrolled for it.
 pub const ORDER: usize = 16;
 
 /// Default bound on the last retained terms, relative to F.

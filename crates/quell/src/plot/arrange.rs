@@ -1,0 +1,418 @@
+//! Arrangement: where frames, margins and texts of a figure go.
+//!
+//! All frames of a figure are equally large. A column's left margin is as wide as its widest
+//! numbers ask, a row's upper margin as high as its highest title and legend ask.
+
+use super::canvas::Rectangle;
+use super::draw::Sizes;
+use super::figure::{Figure, Legend, Panel, SharedLegend, Sharing, Size};
+use super::legend::{self, Entry};
+use super::obstacles::Obstacles;
+use super::stretches::{Stretches, stretches};
+use super::ticks::{Room, Ticks};
+use super::typeset::{Label, wrap};
+
+/// Space between a number and its frame (pixels).
+pub(super) const NUMBER_GAP: f64 = 6.0;
+/// Space between numbers and the axis label (pixels).
+pub(super) const LABEL_GAP: f64 = 7.0;
+const EDGE: f64 = 10.0;
+const LEAST_FRAME: f64 = 60.0;
+
+/// Where the legend of one panel goes.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum LegendPlan {
+    None,
+    Box(Rectangle),
+    Above,
+}
+
+/// One panel with its place.
+#[derive(Debug, Clone)]
+pub(super) struct PanelPlan {
+    pub(super) frame: Rectangle,
+    pub(super) x_stretch: (f64, f64),
+    pub(super) y_stretch: (f64, f64),
+    pub(super) x_ticks: Ticks,
+    pub(super) y_ticks: Ticks,
+    pub(super) x_numbers: bool,
+    pub(super) y_numbers: bool,
+    pub(super) x_label: Vec<Label>,
+    pub(super) y_label: Vec<Label>,
+    pub(super) title: Vec<Label>,
+    /// Distance from the frame to the nearest baseline of the y label.
+    pub(super) y_label_distance: f64,
+    pub(super) entries: Vec<Entry>,
+    pub(super) legend: LegendPlan,
+}
+
+/// A figure with all places.
+#[derive(Debug)]
+pub(super) struct Plan {
+    pub(super) width: f64,
+    pub(super) height: f64,
+    pub(super) sizes: Sizes,
+    pub(super) panels: Vec<PanelPlan>,
+    pub(super) title: Vec<Label>,
+    pub(super) caption: Vec<Label>,
+    /// Top of the caption.
+    pub(super) caption_top: f64,
+    pub(super) shared: Vec<Entry>,
+    /// Top of the shared legend.
+    pub(super) shared_top: f64,
+    /// Left and right of all frames.
+    pub(super) body: (f64, f64),
+}
+
+/// Margins of every column and row.
+#[derive(Debug, Clone, Default)]
+struct Margins {
+    left: Vec<f64>,
+    right: Vec<f64>,
+    top: Vec<f64>,
+    bottom: Vec<f64>,
+}
+
+/// Arranges a figure.
+pub(super) fn arrange(figure: &Figure) -> Plan {
+    let columns = figure.columns.max(1).min(figure.panels.len().max(1));
+    let rows = figure.panels.len().div_ceil(columns).max(1);
+    let (frame, sizes) = frame_size(figure, columns, rows);
+    let (mut panels, margins) = measure(figure, columns, frame, sizes);
+
+    let body_left = margins.left.first().copied().unwrap_or(0.0);
+    let width = margins.left.iter().chain(&margins.right).sum::<f64>() + frame.0 * columns as f64;
+    let last_right = margins.right.last().copied().unwrap_or(0.0);
+    let body = (body_left, width - last_right);
+    let outer = outer(figure, width, body, sizes);
+
+    let mut top = outer.head;
+    for row in 0..rows {
+        top += margins.top[row];
+        let mut left = 0.0;
+        for column in 0..columns {
+            left += margins.left[column];
+            if let Some(plan) = panels.get_mut(row * columns + column) {
+                plan.frame = Rectangle {
+                    left,
+                    top,
+                    right: left + frame.0,
+                    bottom: top + frame.1,
+                };
+                if let LegendPlan::Box(area) = &mut plan.legend {
+                    *area = Rectangle {
+                        left: area.left + left,
+                        top: area.top + top,
+                        right: area.right + left,
+                        bottom: area.bottom + top,
+                    };
+                }
+            }
+            left += frame.0 + margins.right[column];
+        }
+        top += frame.1 + margins.bottom[row];
+    }
+    let shared_top = match figure.legend {
+        SharedLegend::Below => top,
+        _ => outer.head - outer.shared_height,
+    };
+    if figure.legend == SharedLegend::Below {
+        top += outer.shared_height;
+    }
+    Plan {
+        width,
+        height: top + outer.caption_height,
+        sizes,
+        panels,
+        title: outer.title,
+        caption: outer.caption,
+        caption_top: top,
+        shared: outer.shared,
+        shared_top,
+        body,
+    }
+}
+
+/// What stands around the panels.
+struct Outer {
+    title: Vec<Label>,
+    caption: Vec<Label>,
+    shared: Vec<Entry>,
+    /// Height of everything above the panels.
+    head: f64,
+    shared_height: f64,
+    caption_height: f64,
+}
+
+fn outer(figure: &Figure, width: f64, body: (f64, f64), sizes: Sizes) -> Outer {
+    let line = |size: u32| 1.35 * f64::from(size);
+    let room = width - 2.0 * EDGE;
+    let title = lines(&figure.title, sizes.figure_title, true, room);
+    let caption = lines(&figure.caption, sizes.caption, false, room);
+    let shared = match figure.legend {
+        SharedLegend::None => Vec::new(),
+        SharedLegend::Above | SharedLegend::Below => legend::entries(&figure.panels),
+    };
+    let shared_height = if shared.is_empty() {
+        0.0
+    } else {
+        legend::lines_height(&shared, body.1 - body.0, sizes) + 6.0
+    };
+    let mut head = EDGE + line(sizes.figure_title) * title.len() as f64;
+    if figure.legend == SharedLegend::Above {
+        head += shared_height;
+    }
+    let caption_height = if caption.is_empty() {
+        0.0
+    } else {
+        line(sizes.caption) * caption.len() as f64 + EDGE
+    };
+    Outer {
+        title,
+        caption,
+        shared,
+        head,
+        shared_height,
+        caption_height,
+    }
+}
+
+fn lines(source: &str, size: u32, bold: bool, room: f64) -> Vec<Label> {
+    let lines = if source.is_empty() {
+        Vec::new()
+    } else {
+        wrap(source, f64::from(size), bold, room)
+    };
+    lines.into_iter().filter(|line| !line.is_empty()).collect()
+}
+
+fn frame_size(figure: &Figure, columns: usize, rows: usize) -> ((f64, f64), Sizes) {
+    let usual = match columns {
+        1 => (440.0, 280.0),
+        2 => (300.0, 205.0),
+        _ => (225.0, 160.0),
+    };
+    let sensible = |pixels: f64, usual: f64| {
+        if pixels.is_finite() {
+            pixels.clamp(LEAST_FRAME, 2e4)
+        } else {
+            usual
+        }
+    };
+    match figure.size {
+        Size::Auto => (usual, Sizes::for_frame(usual.0)),
+        Size::Frame(width, height) => {
+            let frame = (sensible(width, usual.0), sensible(height, usual.1));
+            (frame, Sizes::for_frame(frame.0))
+        }
+        Size::Whole(width, height) => {
+            let mut frame = (
+                sensible(0.85 * width / columns as f64, usual.0),
+                sensible(0.8 * height / rows as f64, usual.1),
+            );
+            let sizes = Sizes::for_frame(frame.0);
+            // Margins depend on the numbers, these on the frame: three rounds settle it.
+            for _ in 0..3 {
+                let (_, margins) = measure(figure, columns, frame, sizes);
+                let across: f64 = margins.left.iter().chain(&margins.right).sum();
+                let body = (margins.left[0], width - margins.right[columns - 1]);
+                let outer = outer(figure, width, body, sizes);
+                let below = match figure.legend {
+                    SharedLegend::Below => outer.shared_height,
+                    _ => 0.0,
+                };
+                let upright: f64 = margins.top.iter().chain(&margins.bottom).sum::<f64>()
+                    + outer.head
+                    + outer.caption_height
+                    + below;
+                frame = (
+                    sensible((width - across) / columns as f64, usual.0),
+                    sensible((height - upright) / rows as f64, usual.1),
+                );
+            }
+            (frame, sizes)
+        }
+    }
+}
+
+/// Plans every panel for a frame at the origin, and the margins around the frames.
+fn measure(
+    figure: &Figure,
+    columns: usize,
+    frame: (f64, f64),
+    sizes: Sizes,
+) -> (Vec<PanelPlan>, Margins) {
+    let count = figure.panels.len();
+    let rows = count.div_ceil(columns).max(1);
+    let stretches = stretches(figure, columns);
+    let mut margins = Margins {
+        left: vec![EDGE; columns],
+        right: vec![EDGE; columns],
+        top: vec![6.0; rows],
+        bottom: vec![EDGE; rows],
+    };
+    let mut plans: Vec<PanelPlan> = Vec::with_capacity(count);
+    for (index, panel) in figure.panels.iter().enumerate() {
+        let (row, column) = (index / columns, index % columns);
+        let x_numbers = figure.sharing_x == Sharing::Separate || index + columns >= count;
+        let y_numbers = figure.sharing_y == Sharing::Separate || column == 0;
+        let plan = plan_panel(
+            figure,
+            panel,
+            stretches[index],
+            frame,
+            sizes,
+            (x_numbers, y_numbers),
+        );
+        grow(&mut margins, (row, column), &plan, frame.0, sizes);
+        plans.push(plan);
+    }
+    // The labels of one column stand in one line.
+    for column in 0..columns {
+        let mine = || (column..count).step_by(columns);
+        let widest = mine()
+            .map(|index| plans[index].y_label_distance)
+            .fold(0.0, f64::max);
+        mine().for_each(|index| plans[index].y_label_distance = widest);
+    }
+    (plans, margins)
+}
+
+fn plan_panel(
+    figure: &Figure,
+    panel: &Panel,
+    (x_stretch, y_stretch): Stretches,
+    frame: (f64, f64),
+    sizes: Sizes,
+    (x_numbers, y_numbers): (bool, bool),
+) -> PanelPlan {
+    let number_size = f64::from(sizes.number);
+    let x_ticks = Ticks::of(&panel.x, x_stretch, Room::Across(frame.0, number_size));
+    let y_ticks = Ticks::of(&panel.y, y_stretch, Room::Upright(frame.1));
+    let widest = y_ticks
+        .major
+        .iter()
+        .map(|(_, label)| label.width(number_size, false))
+        .fold(0.0, f64::max);
+    let label = |wanted: bool, text: String, room: f64| {
+        if wanted {
+            lines(&text, sizes.label, false, room)
+        } else {
+            Vec::new()
+        }
+    };
+    let entries = match (figure.legend, panel.legend) {
+        (SharedLegend::None, Legend::Auto | Legend::Inside(_) | Legend::Above) => {
+            legend::entries([panel])
+        }
+        _ => Vec::new(),
+    };
+    let mut plan = PanelPlan {
+        frame: Rectangle {
+            left: 0.0,
+            top: 0.0,
+            right: frame.0,
+            bottom: frame.1,
+        },
+        x_stretch,
+        y_stretch,
+        x_ticks,
+        y_ticks,
+        x_numbers,
+        y_numbers,
+        x_label: label(x_numbers, panel.x.label(), frame.0 + 30.0),
+        y_label: label(y_numbers, panel.y.label(), frame.1 + 30.0),
+        title: lines(&panel.title, sizes.title, false, frame.0),
+        y_label_distance: NUMBER_GAP + widest + LABEL_GAP + 0.2 * f64::from(sizes.label),
+        entries,
+        legend: LegendPlan::None,
+    };
+    if !plan.entries.is_empty() {
+        plan.legend = match panel.legend {
+            Legend::Inside(place) => {
+                let size = legend::box_size(&plan.entries, sizes);
+                LegendPlan::Box(legend::box_at(place, plan.frame, size))
+            }
+            Legend::Auto => free_place(panel, &plan, sizes),
+            Legend::None | Legend::Above => LegendPlan::Above,
+        };
+    }
+    plan
+}
+
+/// The first place where the legend covers nothing.
+fn free_place(panel: &Panel, plan: &PanelPlan, sizes: Sizes) -> LegendPlan {
+    use super::figure::Place::{
+        Bottom, BottomLeft, BottomRight, Left, Right, Top, TopLeft, TopRight,
+    };
+    let size = legend::box_size(&plan.entries, sizes);
+    let fits = size.0 <= 0.7 * plan.frame.width() && size.1 <= 0.7 * plan.frame.height();
+    let obstacles = Obstacles::of(panel, plan, sizes);
+    [
+        TopRight,
+        TopLeft,
+        BottomRight,
+        BottomLeft,
+        Right,
+        Left,
+        Top,
+        Bottom,
+    ]
+    .into_iter()
+    .map(|place| legend::box_at(place, plan.frame, size))
+    .find(|area| fits && obstacles.covered_by(area.grown(3.0)) == 0)
+    .map_or(LegendPlan::Above, LegendPlan::Box)
+}
+
+fn grow(
+    margins: &mut Margins,
+    (row, column): (usize, usize),
+    plan: &PanelPlan,
+    frame_width: f64,
+    sizes: Sizes,
+) {
+    let (number, label) = (f64::from(sizes.number), f64::from(sizes.label));
+    let widen = |margin: &mut f64, wanted: f64| *margin = margin.max(wanted);
+    let mut left = EDGE;
+    if plan.y_numbers {
+        left += plan.y_label_distance - LABEL_GAP;
+    }
+    if !plan.y_label.is_empty() {
+        left += LABEL_GAP + 1.25 * label * plan.y_label.len() as f64 - 2.0;
+    }
+    widen(&mut margins.left[column], left);
+    let overhang = |ticks: &Ticks, first: bool| {
+        let end = if first {
+            ticks.major.first()
+        } else {
+            ticks.major.last()
+        };
+        end.map_or(0.0, |(_, text)| 0.5 * text.width(number, false))
+    };
+    if plan.x_numbers {
+        widen(
+            &mut margins.right[column],
+            overhang(&plan.x_ticks, false) + 4.0,
+        );
+        widen(
+            &mut margins.left[column],
+            overhang(&plan.x_ticks, true) + 4.0,
+        );
+    }
+    let mut top = 6.0 + 1.3 * f64::from(sizes.title) * plan.title.len() as f64;
+    if plan.legend == LegendPlan::Above {
+        top += legend::lines_height(&plan.entries, frame_width, sizes) + 2.0;
+    }
+    if plan.y_ticks.exponent != 0 && plan.y_numbers {
+        top = top.max(number + 8.0);
+    }
+    widen(&mut margins.top[row], top);
+    let mut bottom = EDGE;
+    if plan.x_numbers {
+        bottom += NUMBER_GAP + number;
+    }
+    if !plan.x_label.is_empty() || (plan.x_ticks.exponent != 0 && plan.x_numbers) {
+        bottom += LABEL_GAP + 1.25 * label * plan.x_label.len().max(1) as f64;
+    }
+    widen(&mut margins.bottom[row], bottom);
+}

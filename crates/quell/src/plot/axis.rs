@@ -1,0 +1,330 @@
+//! Axes: name, symbol, unit, scale and range of one coordinate.
+
+/// How a coordinate is laid out along its axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Scale {
+    /// Equal steps.
+    #[default]
+    Linear,
+    /// Equal ratios; values that are not positive are left out.
+    Log,
+}
+
+/// Which part of a coordinate is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Range {
+    /// What the layers need, with a little air.
+    #[default]
+    Auto,
+    /// From the first to the second value.
+    Between(f64, f64),
+    /// From this value to what the layers need.
+    From(f64),
+    /// From what the layers need to this value.
+    UpTo(f64),
+}
+
+/// One axis of a panel.
+///
+/// It prints as `name symbol (unit)`, with the symbol in italics: `slip velocity v_r (m/s)`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Axis {
+    /// The quantity in words; may hold `$…$`.
+    pub name: String,
+    /// Its symbol, written as between dollars, e.g. `v_r`; empty for none.
+    pub symbol: String,
+    /// Its unit; empty for a dimensionless quantity.
+    pub unit: String,
+    /// Linear or logarithmic.
+    pub scale: Scale,
+    /// What is shown.
+    pub range: Range,
+    /// Values to label in place of those found by themselves.
+    pub ticks: Option<Vec<f64>>,
+}
+
+impl Axis {
+    /// A linear axis of the quantity with this name.
+    #[must_use]
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            ..Self::default()
+        }
+    }
+
+    /// The symbol of the quantity, written as between dollars (`v_r`, `\bar{μ}`).
+    #[must_use]
+    pub fn symbol(mut self, symbol: impl Into<String>) -> Self {
+        self.symbol = symbol.into();
+        self
+    }
+
+    /// The unit of the quantity.
+    #[must_use]
+    pub fn unit(mut self, unit: impl Into<String>) -> Self {
+        self.unit = unit.into();
+        self
+    }
+
+    /// A logarithmic axis.
+    #[must_use]
+    pub fn log(mut self) -> Self {
+        self.scale = Scale::Log;
+        self
+    }
+
+    /// Shows exactly this stretch.
+    #[must_use]
+    pub fn between(mut self, lower: f64, upper: f64) -> Self {
+        self.range = Range::Between(lower, upper);
+        self
+    }
+
+    /// Starts at this value.
+    #[must_use]
+    pub fn from(mut self, lower: f64) -> Self {
+        self.range = Range::From(lower);
+        self
+    }
+
+    /// Ends at this value.
+    #[must_use]
+    pub fn up_to(mut self, upper: f64) -> Self {
+        self.range = Range::UpTo(upper);
+        self
+    }
+
+    /// Labels exactly these values.
+    #[must_use]
+    pub fn ticks(mut self, ticks: impl Into<Vec<f64>>) -> Self {
+        self.ticks = Some(ticks.into());
+        self
+    }
+
+    /// The whole label, still to be typeset.
+    pub(super) fn label(&self) -> String {
+        let mut words = Vec::new();
+        if !self.name.is_empty() {
+            words.push(self.name.clone());
+        }
+        if !self.symbol.is_empty() {
+            words.push(format!("${}$", self.symbol));
+        }
+        if !self.unit.is_empty() {
+            words.push(format!("({})", self.unit));
+        }
+        words.join(" ")
+    }
+
+    /// The stretch to show, when the layers reach over `extent` (nothing when there are none).
+    ///
+    /// `air` is the share of the length added at an end that the layers decide.
+    pub(super) fn stretch(&self, extent: Option<(f64, f64)>, air: f64) -> (f64, f64) {
+        let (fixed_lower, fixed_upper) = match self.range {
+            Range::Auto => (None, None),
+            Range::Between(lower, upper) => (Some(lower), Some(upper)),
+            Range::From(lower) => (Some(lower), None),
+            Range::UpTo(upper) => (None, Some(upper)),
+        };
+        let usable =
+            |value: &f64| value.is_finite() && (self.scale == Scale::Linear || *value > 0.0);
+        let (fixed_lower, fixed_upper) = (fixed_lower.filter(usable), fixed_upper.filter(usable));
+        if let (Some(one), Some(other)) = (fixed_lower, fixed_upper)
+            && one != other
+        {
+            return (one.min(other), one.max(other));
+        }
+        let fallback = if self.scale == Scale::Log {
+            (0.1, 1.0)
+        } else {
+            (0.0, 1.0)
+        };
+        let (least, greatest) = extent.unwrap_or((
+            fixed_lower
+                .or(fixed_upper.map(|upper| self.step_away(upper, -1.0)))
+                .unwrap_or(fallback.0),
+            fixed_upper
+                .or(fixed_lower.map(|lower| self.step_away(lower, 1.0)))
+                .unwrap_or(fallback.1),
+        ));
+        if extent.is_none() && least < greatest {
+            return (least, greatest);
+        }
+        let (mut lower, mut upper) = (
+            fixed_lower.unwrap_or(least),
+            fixed_upper.unwrap_or(greatest),
+        );
+        if lower > upper {
+            (lower, upper) = match (fixed_lower, fixed_upper) {
+                (Some(lower), None) => (lower, self.step_away(lower, 1.0)),
+                (None, Some(upper)) => (self.step_away(upper, -1.0), upper),
+                _ => (upper, lower),
+            };
+        }
+        let width = self.along(upper) - self.along(lower);
+        if width <= 1e-12 * self.along(upper).abs().max(self.along(lower).abs()) {
+            return (self.step_away(lower, -1.0), self.step_away(upper, 1.0));
+        }
+        // A quantity that starts at zero (an amplitude, a time) keeps zero as its end.
+        let keeps_zero = self.scale == Scale::Linear && lower == 0.0;
+        if fixed_lower.is_none() && !keeps_zero {
+            lower = self.back(self.along(lower) - air * width);
+        }
+        if fixed_upper.is_none() {
+            upper = self.back(self.along(upper) + air * width);
+        }
+        let rounded = self.round_ends((lower, upper));
+        (
+            if fixed_lower.is_none() && !keeps_zero {
+                rounded.0
+            } else {
+                lower
+            },
+            if fixed_upper.is_none() {
+                rounded.1
+            } else {
+                upper
+            },
+        )
+    }
+
+    /// Ends moved outwards to a round value that lies close by: 99.999 becomes 100.
+    fn round_ends(&self, (lower, upper): (f64, f64)) -> (f64, f64) {
+        const CLOSE: f64 = 0.015;
+        if self.scale == Scale::Log {
+            return (lower, upper);
+        }
+        let width = upper - lower;
+        let step = 10f64.powf((width / 5.0).log10().floor()) * 2.0;
+        let (below, above) = ((lower / step).floor() * step, (upper / step).ceil() * step);
+        (
+            if lower - below < CLOSE * width {
+                below
+            } else {
+                lower
+            },
+            if above - upper < CLOSE * width {
+                above
+            } else {
+                upper
+            },
+        )
+    }
+
+    /// Position of a value on the axis, before scaling to pixels.
+    pub(super) fn along(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => value,
+            Scale::Log => value.log10(),
+        }
+    }
+
+    fn back(&self, position: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => position,
+            Scale::Log => 10f64.powf(position),
+        }
+    }
+
+    fn step_away(&self, value: f64, sign: f64) -> f64 {
+        match self.scale {
+            Scale::Linear if value == 0.0 => sign,
+            Scale::Linear => value + sign * 0.1 * value.abs(),
+            Scale::Log => value * 2f64.powf(sign),
+        }
+    }
+}
+
+/// An axis with its stretch and its pixels: takes values to the picture.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Mapping {
+    scale: Scale,
+    origin: f64,
+    slope: f64,
+    first_pixel: f64,
+    /// Least and greatest value shown.
+    pub(super) stretch: (f64, f64),
+}
+
+impl Mapping {
+    pub(super) fn new(axis: &Axis, stretch: (f64, f64), pixels: (f64, f64)) -> Self {
+        let origin = axis.along(stretch.0);
+        let slope = (pixels.1 - pixels.0) / (axis.along(stretch.1) - origin);
+        Self {
+            scale: axis.scale,
+            origin,
+            slope,
+            first_pixel: pixels.0,
+            stretch,
+        }
+    }
+
+    /// Pixel of a value; nothing for a value without a place on this axis.
+    pub(super) fn pixel(&self, value: f64) -> Option<f64> {
+        let along = match self.scale {
+            Scale::Linear => value,
+            Scale::Log if value > 0.0 => value.log10(),
+            Scale::Log => return None,
+        };
+        let pixel = self.first_pixel + (along - self.origin) * self.slope;
+        // Far outside the frame a coordinate only has to stay outside.
+        pixel.is_finite().then(|| pixel.clamp(-1e5, 1e5))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_settle_on_round_values_and_zero() {
+        let axis = Axis::new("time");
+        assert_eq!(axis.stretch(Some((0.0, 99.999)), 0.0), (0.0, 100.0));
+        assert_eq!(axis.stretch(Some((0.0, 93.0)), 0.0), (0.0, 93.0));
+        assert_eq!(
+            axis.clone().up_to(50.0).stretch(Some((-1.0, 99.0)), 0.0).1,
+            50.0
+        );
+    }
+
+    #[test]
+    fn every_stretch_has_a_length() {
+        for axis in [
+            Axis::new("x"),
+            Axis::new("x").log(),
+            Axis::new("x").from(5.0),
+            Axis::new("x").between(2.0, 2.0),
+        ] {
+            for extent in [
+                None,
+                Some((3.0, 3.0)),
+                Some((1e-300, 1e-300)),
+                Some((0.5, 1.0)),
+            ] {
+                let (lower, upper) = axis.stretch(extent, 0.05);
+                assert!(
+                    lower < upper && lower.is_finite() && upper.is_finite(),
+                    "{axis:?} {extent:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_reversed_stretch_is_turned() {
+        assert_eq!(
+            Axis::new("x")
+                .between(3.0, 1.0)
+                .stretch(Some((0.0, 9.0)), 0.1),
+            (1.0, 3.0)
+        );
+    }
+
+    #[test]
+    fn what_is_not_positive_has_no_place_on_a_log_axis() {
+        let mapping = Mapping::new(&Axis::new("x").log(), (1.0, 100.0), (0.0, 200.0));
+        assert_eq!(mapping.pixel(0.0), None);
+        assert!((mapping.pixel(10.0).unwrap_or(f64::NAN) - 100.0).abs() < 1e-9);
+    }
+}

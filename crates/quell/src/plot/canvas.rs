@@ -1,0 +1,347 @@
+//! The sheet on which a figure is drawn: pixels in, kuva's scene inside, SVG text out.
+
+use std::fmt::Write as _;
+
+use kuva::backend::svg::SvgBackend;
+use kuva::render::color::Color;
+use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
+
+use super::fonts::FAMILY;
+use super::palette::{Colour, FRAME};
+use super::typeset::{Label, Tags};
+
+/// Stands for the picture's own name in identifiers until its contents are known.
+const PICTURE_NAME: &str = "quell-picture";
+
+/// A rectangle in pixels, y downwards.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Rectangle {
+    pub(super) left: f64,
+    pub(super) top: f64,
+    pub(super) right: f64,
+    pub(super) bottom: f64,
+}
+
+impl Rectangle {
+    pub(super) fn width(&self) -> f64 {
+        self.right - self.left
+    }
+
+    pub(super) fn height(&self) -> f64 {
+        self.bottom - self.top
+    }
+
+    pub(super) fn grown(&self, by: f64) -> Self {
+        Self {
+            left: self.left - by,
+            top: self.top - by,
+            right: self.right + by,
+            bottom: self.bottom + by,
+        }
+    }
+}
+
+/// A stroke: colour, width in pixels, dash lengths.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Stroke {
+    pub(super) colour: Colour,
+    pub(super) width: f64,
+    pub(super) dashes: Option<String>,
+}
+
+impl Stroke {
+    pub(super) fn solid(colour: Colour, width: f64) -> Self {
+        Self {
+            colour,
+            width,
+            dashes: None,
+        }
+    }
+}
+
+/// How a text is set.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Setting {
+    pub(super) size: u32,
+    pub(super) anchor: TextAnchor,
+    pub(super) bold: bool,
+    pub(super) colour: Colour,
+    /// Turned to read upwards.
+    pub(super) upwards: bool,
+}
+
+impl Setting {
+    pub(super) fn new(size: u32, anchor: TextAnchor) -> Self {
+        Self {
+            size,
+            anchor,
+            bold: false,
+            colour: FRAME,
+            upwards: false,
+        }
+    }
+}
+
+pub(super) struct Canvas {
+    scene: Scene,
+    tags: Tags,
+    clips: usize,
+    hatches: Vec<Colour>,
+}
+
+impl Canvas {
+    pub(super) fn new(width: f64, height: f64) -> Self {
+        let mut scene = Scene::new(width.ceil(), height.ceil()).with_background(Some("#ffffff"));
+        scene.font_family = Some(FAMILY.to_string());
+        Self {
+            scene,
+            tags: Tags::default(),
+            clips: 0,
+            hatches: Vec::new(),
+        }
+    }
+
+    pub(super) fn text(&mut self, label: &Label, (x, y): (f64, f64), setting: Setting) {
+        if label.is_empty() {
+            return;
+        }
+        self.scene.add(Primitive::Text {
+            x,
+            y,
+            content: label.encode(&mut self.tags),
+            size: setting.size,
+            anchor: setting.anchor,
+            rotate: setting.upwards.then_some(-90.0),
+            bold: setting.bold,
+            color: Some(paint(setting.colour)),
+        });
+    }
+
+    /// Strokes an SVG path.
+    pub(super) fn stroke(&mut self, path: String, stroke: &Stroke) {
+        if path.is_empty() {
+            return;
+        }
+        self.scene.add(Primitive::Path(Box::new(PathData {
+            d: path,
+            fill: None,
+            stroke: paint(stroke.colour),
+            stroke_width: stroke.width,
+            opacity: None,
+            stroke_dasharray: stroke.dashes.clone(),
+        })));
+    }
+
+    /// Fills an SVG path.
+    pub(super) fn fill(&mut self, path: String, colour: Colour, opacity: f64) {
+        self.fill_with(path, paint(colour), Some(opacity));
+    }
+
+    /// Fills an SVG path with thin diagonal strokes.
+    pub(super) fn hatch(&mut self, path: String, colour: Colour) {
+        let known = self.hatches.iter().position(|hatch| *hatch == colour);
+        let number = known.unwrap_or_else(|| {
+            self.hatches.push(colour);
+            let number = self.hatches.len() - 1;
+            self.scene.defs.push(format!(
+                "<pattern id=\"{PICTURE_NAME}-hatch{number}\" patternUnits=\"userSpaceOnUse\" \
+                 width=\"7\" height=\"7\" patternTransform=\"rotate(45)\"><path d=\"M3.5 -1V8\" \
+                 stroke=\"{}\" stroke-width=\"0.8\" stroke-opacity=\"0.6\" /></pattern>",
+                paint(colour).to_svg_string()
+            ));
+            number
+        });
+        let url = format!("url(#{PICTURE_NAME}-hatch{number})");
+        self.fill_with(path, Color::Css(url.into_boxed_str()), None);
+    }
+
+    fn fill_with(&mut self, path: String, fill: Color, opacity: Option<f64>) {
+        if path.is_empty() {
+            return;
+        }
+        self.scene.add(Primitive::Path(Box::new(PathData {
+            d: path,
+            fill: Some(fill),
+            stroke: Color::None,
+            stroke_width: 0.0,
+            opacity,
+            stroke_dasharray: None,
+        })));
+    }
+
+    pub(super) fn rectangle(
+        &mut self,
+        area: Rectangle,
+        fill: Option<(Colour, f64)>,
+        edge: Option<(Colour, f64)>,
+    ) {
+        self.scene.add(Primitive::Rect {
+            x: area.left,
+            y: area.top,
+            width: area.width().max(0.0),
+            height: area.height().max(0.0),
+            fill: fill.map_or(Color::None, |(colour, _)| paint(colour)),
+            stroke: edge.map(|(colour, _)| paint(colour)),
+            stroke_width: edge.map(|(_, width)| width),
+            opacity: fill.map(|(_, opacity)| opacity),
+        });
+    }
+
+    /// Everything until [`Canvas::end_clip`] is cut at this rectangle.
+    pub(super) fn begin_clip(&mut self, area: Rectangle) {
+        let id = format!("{PICTURE_NAME}-clip{}", self.clips);
+        self.clips += 1;
+        self.scene.defs.push(format!(
+            "<clipPath id=\"{id}\"><rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" /></clipPath>",
+            area.left,
+            area.top,
+            area.width(),
+            area.height()
+        ));
+        self.scene.add(Primitive::ClipStart {
+            x: area.left,
+            y: area.top,
+            width: area.width(),
+            height: area.height(),
+            id,
+        });
+    }
+
+    pub(super) fn end_clip(&mut self) {
+        self.scene.add(Primitive::ClipEnd);
+    }
+
+    /// Opens a group with these SVG attributes.
+    pub(super) fn begin_group(&mut self, attributes: &str) {
+        self.scene.add(Primitive::GroupStart {
+            transform: None,
+            title: None,
+            extra_attrs: Some(attributes.to_string()),
+        });
+    }
+
+    pub(super) fn end_group(&mut self) {
+        self.scene.add(Primitive::GroupEnd);
+    }
+
+    /// The finished SVG.
+    ///
+    /// Identifiers get a name made from the contents, so that several pictures can stand in one page.
+    pub(super) fn into_svg(self) -> String {
+        let drawn = SvgBackend::new().render_scene(&self.scene);
+        let svg = self.tags.resolve(&drawn);
+        let svg = svg.replace(
+            PICTURE_NAME,
+            &format!("q{:016x}", fingerprint(svg.as_bytes())),
+        );
+        // kuva writes no view box, without which a picture does not scale in a page.
+        let view_box = format!(
+            "<svg viewBox=\"0 0 {} {}\" role=\"img\"",
+            self.scene.width, self.scene.height
+        );
+        svg.replacen("<svg", &view_box, 1)
+    }
+}
+
+/// Fowler–Noll–Vo hash (FNV-1a, 64 bits): the same in every build, unlike the standard hasher.
+fn fingerprint(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+fn paint((red, green, blue): Colour) -> Color {
+    Color::Rgb(red, green, blue)
+}
+
+/// A path with more points than this is written in tenths of a pixel.
+const LONG_PATH: usize = 10_000;
+
+/// Writes polylines as one SVG path; closed ones end at their start.
+///
+/// Each step is written from the rounded place of the last, so that rounding never adds up.
+pub(super) fn path(pieces: &[Vec<(f64, f64)>], closed: bool) -> String {
+    let count: usize = pieces.iter().map(Vec::len).sum();
+    let grain: i64 = if count > LONG_PATH { 10 } else { 1 };
+    let mut path = String::with_capacity(count * 9);
+    for piece in pieces {
+        let mut last: Option<(i64, i64)> = None;
+        for point in piece {
+            let place = (hundredths(point.0, grain), hundredths(point.1, grain));
+            let step = match last {
+                None => {
+                    path.push('M');
+                    place
+                }
+                Some(last) => {
+                    path.push('l');
+                    (place.0 - last.0, place.1 - last.1)
+                }
+            };
+            if last.is_some() && step == (0, 0) && piece.len() > 2 {
+                path.pop();
+                continue;
+            }
+            push_hundredths(&mut path, step.0);
+            if step.1 >= 0 {
+                path.push(' ');
+            }
+            push_hundredths(&mut path, step.1);
+            last = Some(place);
+        }
+        if closed && !piece.is_empty() {
+            path.push('Z');
+        } else if piece.len() == 1 {
+            path.push_str("h0");
+        }
+    }
+    path
+}
+
+/// A coordinate in hundredths of a pixel, a multiple of `grain`.
+fn hundredths(pixel: f64, grain: i64) -> i64 {
+    #[expect(clippy::cast_possible_truncation, reason = "pixels are clamped to 1e5")]
+    let whole = (pixel * 100.0 / grain as f64).round() as i64;
+    whole * grain
+}
+
+/// Writes hundredths as a decimal number without idle zeros.
+fn push_hundredths(path: &mut String, value: i64) {
+    if value < 0 {
+        path.push('-');
+    }
+    let (whole, rest) = (value.abs() / 100, value.abs() % 100);
+    let _ = match (rest, rest % 10) {
+        (0, _) => write!(path, "{whole}"),
+        (_, 0) => write!(path, "{whole}.{}", rest / 10),
+        _ => write!(path, "{whole}.{rest:02}"),
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_is_short_and_exact_to_a_hundredth() {
+        let pieces = vec![
+            vec![(1.0, 2.0), (1.5, 1.25), (-0.004, 1.25)],
+            vec![(3.0, 4.0)],
+        ];
+        assert_eq!(path(&pieces, false), "M1 2l0.5-0.75l-1.5 0M3 4h0");
+    }
+
+    #[test]
+    fn rounding_does_not_add_up() {
+        let piece: Vec<_> = (0..30_000)
+            .map(|step| (0.013 * f64::from(step), 0.0))
+            .collect();
+        let text = path(&[piece], false);
+        let end: f64 = text
+            .trim_start_matches('M')
+            .split('l')
+            .filter_map(|step| step.split(' ').next()?.parse::<f64>().ok())
+            .sum();
+        assert!((end - 0.013 * 29_999.0).abs() < 0.06, "{end}");
+    }
+}

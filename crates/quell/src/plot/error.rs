@@ -1,0 +1,85 @@
+//! What can go wrong between a figure and its file.
+
+use std::error::Error;
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+
+/// Why a picture could not be made or written.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum PlotError {
+    /// The file name says neither `.svg` nor `.png`.
+    UnknownExtension {
+        /// The path as it was given.
+        path: PathBuf,
+        /// Its extension, if it has one.
+        extension: Option<String>,
+    },
+    /// The file could not be written; nothing was left at `path`, and what stood there still does.
+    Write {
+        /// The path as it was given.
+        path: PathBuf,
+        /// What the file system said.
+        source: io::Error,
+    },
+    /// The picture is too large, or of no size, for a pixel image.
+    PixelSize {
+        /// Width asked for (pixels).
+        width: u32,
+        /// Height asked for (pixels).
+        height: u32,
+    },
+    /// The drawn scene could not be turned into pixels.
+    Raster {
+        /// What the rasteriser said.
+        source: Box<dyn Error + Send + Sync>,
+    },
+}
+
+impl fmt::Display for PlotError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownExtension {
+                path,
+                extension: Some(extension),
+            } => write!(
+                out,
+                "cannot tell the picture's kind from '{}': extension '.{extension}' is not known, use .svg or .png",
+                path.display()
+            ),
+            Self::UnknownExtension {
+                path,
+                extension: None,
+            } => write!(
+                out,
+                "cannot tell the picture's kind from '{}': it has no extension, use .svg or .png",
+                path.display()
+            ),
+            Self::Write { path, source } => {
+                write!(
+                    out,
+                    "cannot write the picture '{}': {source}",
+                    path.display()
+                )
+            }
+            Self::PixelSize { width, height } => {
+                write!(
+                    out,
+                    "a picture of {width} by {height} pixels cannot be made"
+                )
+            }
+            Self::Raster { source } => write!(out, "cannot turn the picture into pixels: {source}"),
+        }
+    }
+}
+
+impl Error for PlotError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            Self::Write { source, .. } => Some(source),
+            Self::Raster { source } => Some(source.as_ref()),
+            Self::UnknownExtension { .. } | Self::PixelSize { .. } => None,
+        }
+    }
+}

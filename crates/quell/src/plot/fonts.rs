@@ -1,0 +1,101 @@
+//! The fonts of every picture: DejaVu Sans as kuva bundles it, never the machine's own.
+//!
+//! kuva hands its fonts out only inside an SVG with embedded faces; they are taken from there once.
+
+use std::sync::{Arc, OnceLock};
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use kuva::backend::svg::SvgBackend;
+use kuva::render::render::Scene;
+use resvg::usvg::fontdb::Database;
+use ttf_parser::Face as Table;
+
+/// Families asked for in an SVG; the later ones have nearly the widths of the first.
+pub(super) const FAMILY: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, sans-serif";
+/// Family asked for when turning an SVG into pixels.
+pub(super) const BUNDLED_FAMILY: &str = "DejaVu Sans";
+
+/// A face of the family, in the order in which kuva embeds them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Face {
+    Regular,
+    Bold,
+    Oblique,
+}
+
+fn files() -> &'static [Vec<u8>] {
+    static FILES: OnceLock<Vec<Vec<u8>>> = OnceLock::new();
+    FILES.get_or_init(|| {
+        let scene = Scene::new(1.0, 1.0);
+        let svg = SvgBackend::new()
+            .with_embedded_font(true)
+            .render_scene(&scene);
+        svg.split(";base64,")
+            .skip(1)
+            .filter_map(|rest| rest.split('\'').next())
+            .filter_map(|encoded| STANDARD.decode(encoded).ok())
+            .collect()
+    })
+}
+
+fn tables() -> &'static [Table<'static>] {
+    static TABLES: OnceLock<Vec<Table<'static>>> = OnceLock::new();
+    TABLES.get_or_init(|| {
+        files()
+            .iter()
+            .filter_map(|file| Table::parse(file, 0).ok())
+            .collect()
+    })
+}
+
+/// The bundled fonts for the rasteriser.
+pub(super) fn database() -> Arc<Database> {
+    static DATABASE: OnceLock<Arc<Database>> = OnceLock::new();
+    Arc::clone(DATABASE.get_or_init(|| {
+        let mut database = Database::new();
+        for file in files() {
+            database.load_font_data(file.clone());
+        }
+        database.set_sans_serif_family(BUNDLED_FAMILY);
+        Arc::new(database)
+    }))
+}
+
+/// Width of a text at font size 1.
+pub(super) fn width(text: &str, face: Face) -> f64 {
+    // A plain estimate, should a face or a glyph be missing.
+    const TYPICAL: f64 = 0.6;
+    let Some(table) = tables().get(face as usize) else {
+        return TYPICAL * text.chars().count() as f64;
+    };
+    let units = f64::from(table.units_per_em());
+    text.chars()
+        .map(|letter| {
+            table
+                .glyph_index(letter)
+                .and_then(|glyph| table.glyph_hor_advance(glyph))
+                .map_or(TYPICAL, |advance| f64::from(advance) / units)
+        })
+        .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bundled_faces_hold_the_letters_of_the_field() {
+        assert!(tables().len() >= 3);
+        for face in [Face::Regular, Face::Bold, Face::Oblique] {
+            for letter in "τωαζμκγξβΩφθ−×⁻²₀ρ≤∞".chars() {
+                assert!(
+                    tables()[face as usize].glyph_index(letter).is_some(),
+                    "{face:?} lacks {letter}"
+                );
+            }
+        }
+        assert!(width("mm", Face::Bold) > width("mm", Face::Regular));
+        assert!(tables()[Face::Oblique as usize].italic_angle() != 0.0);
+    }
+}

@@ -1,0 +1,451 @@
+//! Layers of a panel: curves, points, regions, rules and notes.
+
+use super::palette::{LineStyle, Role};
+
+/// A curve, perhaps in several pieces, under one entry of the legend.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    /// What the curve stands for.
+    pub role: Role,
+    /// The pieces, each a list of (x, y); no stroke leads from one piece to the next.
+    pub pieces: Vec<Vec<(f64, f64)>>,
+    /// Dashes, where the role's own are not wanted.
+    pub style: Option<LineStyle>,
+    /// Width in pixels, where the role's own is not wanted.
+    pub width: Option<f64>,
+    /// Text in the legend; empty for no entry.
+    pub label: String,
+}
+
+impl Line {
+    /// A curve through these points. A point that is not finite ends one piece.
+    #[must_use]
+    pub fn new(role: Role, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self::pieces(role, [points])
+    }
+
+    /// A curve of several pieces: a discontinuity stays open between them.
+    #[must_use]
+    pub fn pieces<Piece>(role: Role, pieces: impl IntoIterator<Item = Piece>) -> Self
+    where
+        Piece: IntoIterator<Item = (f64, f64)>,
+    {
+        let mut whole = Vec::new();
+        for piece in pieces {
+            let mut current = Vec::new();
+            for (x, y) in piece {
+                if x.is_finite() && y.is_finite() {
+                    current.push((x, y));
+                } else if !current.is_empty() {
+                    whole.push(std::mem::take(&mut current));
+                }
+            }
+            if !current.is_empty() {
+                whole.push(current);
+            }
+        }
+        Self {
+            role,
+            pieces: whole,
+            style: None,
+            width: None,
+            label: String::new(),
+        }
+    }
+
+    /// Opens the curve wherever y changes by more than `jump` between neighbours.
+    #[must_use]
+    pub fn broken_at_jumps(mut self, jump: f64) -> Self {
+        self.pieces = self
+            .pieces
+            .into_iter()
+            .flat_map(|piece| {
+                piece
+                    .chunk_by(|before, after| (after.1 - before.1).abs() <= jump)
+                    .map(<[(f64, f64)]>::to_vec)
+                    .collect::<Vec<_>>()
+            })
+            .collect();
+        self
+    }
+
+    /// Text in the legend.
+    #[must_use]
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+
+    /// Dashes other than the role's.
+    #[must_use]
+    pub fn style(mut self, style: LineStyle) -> Self {
+        self.style = Some(style);
+        self
+    }
+
+    /// Width (pixels) other than the role's.
+    #[must_use]
+    pub fn width(mut self, width: f64) -> Self {
+        self.width = Some(width);
+        self
+    }
+}
+
+/// Shape of a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Marker {
+    /// Filled circle.
+    #[default]
+    Disc,
+    /// Open circle.
+    Circle,
+    /// Filled square.
+    Square,
+    /// Filled triangle.
+    Triangle,
+    /// Filled diamond.
+    Diamond,
+    /// Upright cross.
+    Plus,
+    /// Diagonal cross.
+    Cross,
+}
+
+/// Separate points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Points {
+    /// What the points stand for.
+    pub role: Role,
+    /// The points (x, y).
+    pub points: Vec<(f64, f64)>,
+    /// Their shape.
+    pub marker: Marker,
+    /// Their diameter (pixels).
+    pub size: f64,
+    /// Text in the legend; empty for no entry.
+    pub label: String,
+}
+
+impl Points {
+    /// Discs of 5 pixels at these points; a point that is not finite is left out.
+    #[must_use]
+    pub fn new(role: Role, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        let points = points
+            .into_iter()
+            .filter(|(x, y)| x.is_finite() && y.is_finite())
+            .collect();
+        Self {
+            role,
+            points,
+            marker: Marker::Disc,
+            size: 5.0,
+            label: String::new(),
+        }
+    }
+
+    /// Shape of the points.
+    #[must_use]
+    pub fn marker(mut self, marker: Marker) -> Self {
+        self.marker = marker;
+        self
+    }
+
+    /// Diameter of the points (pixels).
+    #[must_use]
+    pub fn size(mut self, size: f64) -> Self {
+        self.size = size;
+        self
+    }
+
+    /// Text in the legend.
+    #[must_use]
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+}
+
+/// How a region is filled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Fill {
+    /// A light tint, under which curves stay readable.
+    #[default]
+    Shade,
+    /// A stronger tint.
+    Solid,
+    /// Thin diagonal strokes, for a second region over a first.
+    Hatched,
+}
+
+/// What a region covers.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// The inside of a closed polygon of (x, y).
+    Polygon(Vec<(f64, f64)>),
+    /// All y while x is between two values; infinite values reach the frame.
+    AcrossX(f64, f64),
+    /// All x while y is between two values; infinite values reach the frame.
+    AcrossY(f64, f64),
+}
+
+/// A part of the plane.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Region {
+    /// What the region stands for.
+    pub role: Role,
+    /// What it covers.
+    pub shape: Shape,
+    /// How it is filled.
+    pub fill: Fill,
+    /// Text in the legend; empty for no entry.
+    pub label: String,
+}
+
+impl Region {
+    /// The inside of a polygon; it closes itself.
+    #[must_use]
+    pub fn polygon(role: Role, corners: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        let corners = corners
+            .into_iter()
+            .filter(|(x, y)| x.is_finite() && y.is_finite())
+            .collect();
+        Self::of(role, Shape::Polygon(corners))
+    }
+
+    /// What lies between two curves, each given from left to right; their x need not be the same.
+    #[must_use]
+    pub fn between(
+        role: Role,
+        lower: impl IntoIterator<Item = (f64, f64)>,
+        upper: impl IntoIterator<Item = (f64, f64)>,
+    ) -> Self {
+        let mut back: Vec<_> = upper.into_iter().collect();
+        back.reverse();
+        Self::polygon(role, lower.into_iter().chain(back))
+    }
+
+    /// The vertical strip between two x.
+    #[must_use]
+    pub fn across_x(role: Role, from: f64, to: f64) -> Self {
+        Self::of(role, Shape::AcrossX(from, to))
+    }
+
+    /// The horizontal strip between two y.
+    #[must_use]
+    pub fn across_y(role: Role, from: f64, to: f64) -> Self {
+        Self::of(role, Shape::AcrossY(from, to))
+    }
+
+    fn of(role: Role, shape: Shape) -> Self {
+        Self {
+            role,
+            shape,
+            fill: Fill::Shade,
+            label: String::new(),
+        }
+    }
+
+    /// How the region is filled.
+    #[must_use]
+    pub fn fill(mut self, fill: Fill) -> Self {
+        self.fill = fill;
+        self
+    }
+
+    /// Text in the legend.
+    #[must_use]
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+}
+
+/// Direction of a rule.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// At one x, from bottom to top.
+    Vertical,
+    /// At one y, from left to right.
+    Horizontal,
+}
+
+/// A straight line through the whole panel, at one value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rule {
+    /// What the rule stands for.
+    pub role: Role,
+    /// Upright or level.
+    pub direction: Direction,
+    /// The x of an upright rule, the y of a level one.
+    pub value: f64,
+    /// Dashes, where the role's own are not wanted.
+    pub style: Option<LineStyle>,
+    /// Text beside the rule; empty for none.
+    pub label: String,
+}
+
+impl Rule {
+    /// A thin dotted grey line at this x.
+    #[must_use]
+    pub fn vertical(x: f64) -> Self {
+        Self::of(Direction::Vertical, x)
+    }
+
+    /// A thin dotted grey line at this y.
+    #[must_use]
+    pub fn horizontal(y: f64) -> Self {
+        Self::of(Direction::Horizontal, y)
+    }
+
+    fn of(direction: Direction, value: f64) -> Self {
+        Self {
+            role: Role::Guide,
+            direction,
+            value,
+            style: None,
+            label: String::new(),
+        }
+    }
+
+    /// What the rule stands for.
+    #[must_use]
+    pub fn role(mut self, role: Role) -> Self {
+        self.role = role;
+        self
+    }
+
+    /// Dashes other than the role's.
+    #[must_use]
+    pub fn style(mut self, style: LineStyle) -> Self {
+        self.style = Some(style);
+        self
+    }
+
+    /// Text beside the rule; it takes whichever end covers no data.
+    #[must_use]
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+}
+
+/// Where a note stands with respect to its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum NoteAnchor {
+    /// Centred on the point.
+    #[default]
+    Centre,
+    /// Right of the point.
+    Right,
+    /// Left of the point.
+    Left,
+    /// Above the point.
+    Above,
+    /// Below the point.
+    Below,
+}
+
+/// A text at a point of the data.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Note {
+    /// The point (x, y) it belongs to.
+    pub at: (f64, f64),
+    /// The text.
+    pub text: String,
+    /// Where it stands.
+    pub anchor: NoteAnchor,
+    /// Colour of this role in place of black.
+    pub role: Option<Role>,
+}
+
+impl Note {
+    /// A text centred on (x, y).
+    #[must_use]
+    pub fn new(x: f64, y: f64, text: impl Into<String>) -> Self {
+        Self {
+            at: (x, y),
+            text: text.into(),
+            anchor: NoteAnchor::Centre,
+            role: None,
+        }
+    }
+
+    /// Where the text stands with respect to its point.
+    #[must_use]
+    pub fn anchor(mut self, anchor: NoteAnchor) -> Self {
+        self.anchor = anchor;
+        self
+    }
+
+    /// Prints in the colour of this role.
+    #[must_use]
+    pub fn role(mut self, role: Role) -> Self {
+        self.role = Some(role);
+        self
+    }
+}
+
+/// Anything that can lie on a panel. Maps and contours are to join.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Layer {
+    /// A curve.
+    Line(Line),
+    /// Points.
+    Points(Points),
+    /// A part of the plane.
+    Region(Region),
+    /// A line at one value.
+    Rule(Rule),
+    /// A text.
+    Note(Note),
+}
+
+macro_rules! layer_from {
+    ($($kind:ident),*) => {$(
+        impl From<$kind> for Layer {
+            fn from(layer: $kind) -> Self {
+                Self::$kind(layer)
+            }
+        }
+    )*};
+}
+layer_from!(Line, Points, Region, Rule, Note);
+
+impl Layer {
+    /// Hands every (x, y) that asks for room on the axes to `visit`; a strip or a rule asks in one coordinate only.
+    pub(super) fn each_extent(&self, mut visit: impl FnMut(Option<f64>, Option<f64>)) {
+        match self {
+            Self::Line(line) => {
+                for &(x, y) in line.pieces.iter().flatten() {
+                    visit(Some(x), Some(y));
+                }
+            }
+            Self::Points(points) => {
+                for &(x, y) in &points.points {
+                    visit(Some(x), Some(y));
+                }
+            }
+            Self::Region(region) => match &region.shape {
+                Shape::Polygon(corners) => {
+                    for &(x, y) in corners {
+                        visit(Some(x), Some(y));
+                    }
+                }
+                Shape::AcrossX(from, to) => {
+                    visit(Some(*from), None);
+                    visit(Some(*to), None);
+                }
+                Shape::AcrossY(from, to) => {
+                    visit(None, Some(*from));
+                    visit(None, Some(*to));
+                }
+            },
+            Self::Rule(rule) => match rule.direction {
+                Direction::Vertical => visit(Some(rule.value), None),
+                Direction::Horizontal => visit(None, Some(rule.value)),
+            },
+            Self::Note(note) => visit(Some(note.at.0), Some(note.at.1)),
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! Legends: one entry for each label, its sample beside it, in a box or in lines.
+
+use kuva::render::render::TextAnchor;
+
+use super::canvas::{Canvas, Rectangle, Setting, Stroke, path};
+use super::draw::Sizes;
+use super::figure::{Panel, Place};
+use super::layer::{Fill, Layer, Line, Marker};
+use super::marks;
+use super::palette::{LEGEND_EDGE, PAPER, Role};
+use super::typeset::Label;
+
+const SAMPLE: f64 = 26.0;
+const SAMPLE_GAP: f64 = 6.0;
+const ENTRY_GAP: f64 = 18.0;
+const PADDING: f64 = 6.0;
+const LINE_GAP: f64 = 5.0;
+
+/// What stands beside a label.
+#[derive(Debug, Clone, PartialEq)]
+enum Sample {
+    Stroke(Stroke),
+    Point(Role, Marker, f64),
+    Patch(Role, Fill),
+}
+
+/// One label with its samples.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Entry {
+    text: String,
+    label: Label,
+    samples: Vec<Sample>,
+}
+
+/// The entries of these panels: equal labels join, equal samples show once.
+pub(super) fn entries<'a>(panels: impl IntoIterator<Item = &'a Panel>) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = Vec::new();
+    for layer in panels.into_iter().flat_map(|panel| &panel.layers) {
+        let Some((text, sample)) = sample(layer) else {
+            continue;
+        };
+        match entries.iter_mut().find(|entry| entry.text == text) {
+            Some(entry) if entry.samples.contains(&sample) => {}
+            Some(entry) => entry.samples.push(sample),
+            None => entries.push(Entry {
+                text: text.to_string(),
+                label: Label::parse(text),
+                samples: vec![sample],
+            }),
+        }
+    }
+    entries
+}
+
+fn sample(layer: &Layer) -> Option<(&str, Sample)> {
+    let (label, sample) = match layer {
+        Layer::Line(line) => (&line.label, Sample::Stroke(stroke_of(line))),
+        Layer::Points(points) => (
+            &points.label,
+            Sample::Point(points.role, points.marker, points.size),
+        ),
+        Layer::Region(region) => (&region.label, Sample::Patch(region.role, region.fill)),
+        Layer::Rule(_) | Layer::Note(_) => return None,
+    };
+    (!label.is_empty()).then_some((label.as_str(), sample))
+}
+
+/// The stroke of a line, from its role and its own wishes.
+pub(super) fn stroke_of(line: &Line) -> Stroke {
+    let width = line.width.unwrap_or(line.role.width());
+    let dashes = line.style.unwrap_or(line.role.style()).dashes(width);
+    Stroke {
+        colour: line.role.colour(),
+        width,
+        dashes,
+    }
+}
+
+fn line_height(sizes: Sizes) -> f64 {
+    f64::from(sizes.legend) + LINE_GAP
+}
+
+fn width(entry: &Entry, sizes: Sizes) -> f64 {
+    SAMPLE + SAMPLE_GAP + entry.label.width(f64::from(sizes.legend), false)
+}
+
+/// Width and height of the box that holds the entries one below the other.
+pub(super) fn box_size(entries: &[Entry], sizes: Sizes) -> (f64, f64) {
+    let widest = entries
+        .iter()
+        .map(|entry| width(entry, sizes))
+        .fold(0.0, f64::max);
+    let height = line_height(sizes) * entries.len() as f64 - LINE_GAP;
+    (widest + 2.0 * PADDING, height + 2.0 * PADDING)
+}
+
+/// The box at a place inside the frame.
+pub(super) fn box_at(place: Place, frame: Rectangle, (width, height): (f64, f64)) -> Rectangle {
+    const MARGIN: f64 = 8.0;
+    let inner = frame.grown(-MARGIN);
+    let left = match place {
+        Place::TopLeft | Place::BottomLeft | Place::Left => inner.left,
+        Place::TopRight | Place::BottomRight | Place::Right => inner.right - width,
+        Place::Top | Place::Bottom => 0.5 * (inner.left + inner.right - width),
+    };
+    let top = match place {
+        Place::TopLeft | Place::TopRight | Place::Top => inner.top,
+        Place::BottomLeft | Place::BottomRight | Place::Bottom => inner.bottom - height,
+        Place::Left | Place::Right => 0.5 * (inner.top + inner.bottom - height),
+    };
+    Rectangle {
+        left,
+        top,
+        right: left + width,
+        bottom: top + height,
+    }
+}
+
+/// Draws the entries one below the other.
+pub(super) fn draw_box(canvas: &mut Canvas, entries: &[Entry], area: Rectangle, sizes: Sizes) {
+    canvas.rectangle(area, Some((PAPER, 0.94)), Some((LEGEND_EDGE, 0.7)));
+    let mut top = area.top + PADDING;
+    for entry in entries {
+        draw_entry(canvas, entry, (area.left + PADDING, top), sizes);
+        top += line_height(sizes);
+    }
+}
+
+/// The entries dealt to lines no wider than `room`.
+fn deal(entries: &[Entry], room: f64, sizes: Sizes) -> Vec<Vec<&Entry>> {
+    let mut lines: Vec<(f64, Vec<&Entry>)> = Vec::new();
+    for entry in entries {
+        let own = width(entry, sizes);
+        match lines.last_mut() {
+            Some((used, line)) if *used + ENTRY_GAP + own <= room => {
+                *used += ENTRY_GAP + own;
+                line.push(entry);
+            }
+            _ => lines.push((own, vec![entry])),
+        }
+    }
+    lines.into_iter().map(|(_, line)| line).collect()
+}
+
+/// Height of the entries set in lines.
+pub(super) fn lines_height(entries: &[Entry], room: f64, sizes: Sizes) -> f64 {
+    line_height(sizes) * deal(entries, room, sizes).len() as f64
+}
+
+/// Draws the entries in lines, each centred between `left` and `left + room`.
+pub(super) fn draw_lines(
+    canvas: &mut Canvas,
+    entries: &[Entry],
+    (left, top): (f64, f64),
+    room: f64,
+    sizes: Sizes,
+) {
+    let mut top = top;
+    for line in deal(entries, room, sizes) {
+        let gaps = ENTRY_GAP * line.len().saturating_sub(1) as f64;
+        let used: f64 = line.iter().map(|entry| width(entry, sizes)).sum::<f64>() + gaps;
+        let mut x = left + 0.5 * (room - used).max(0.0);
+        for entry in line {
+            draw_entry(canvas, entry, (x, top), sizes);
+            x += width(entry, sizes) + ENTRY_GAP;
+        }
+        top += line_height(sizes);
+    }
+}
+
+fn draw_entry(canvas: &mut Canvas, entry: &Entry, (left, top): (f64, f64), sizes: Sizes) {
+    let size = f64::from(sizes.legend);
+    let middle = top + 0.5 * size;
+    for sample in &entry.samples {
+        match sample {
+            Sample::Stroke(stroke) => {
+                let ends = vec![(left, middle), (left + SAMPLE, middle)];
+                canvas.stroke(path(&[ends], false), stroke);
+            }
+            Sample::Point(role, marker, diameter) => {
+                let at = [(left + 0.5 * SAMPLE, middle)];
+                marks::markers(canvas, &at, *role, *marker, diameter.max(3.0));
+            }
+            Sample::Patch(role, fill) => {
+                let half = 0.42 * size;
+                let patch = Rectangle {
+                    left: left + 3.0,
+                    top: middle - half,
+                    right: left + SAMPLE - 3.0,
+                    bottom: middle + half,
+                };
+                marks::fill(canvas, marks::outline(patch), *role, *fill);
+                canvas.rectangle(patch, None, Some((role.colour(), 0.6)));
+            }
+        }
+    }
+    let baseline = (left + SAMPLE + SAMPLE_GAP, middle + 0.36 * size);
+    canvas.text(
+        &entry.label,
+        baseline,
+        Setting::new(sizes.legend, TextAnchor::Start),
+    );
+}

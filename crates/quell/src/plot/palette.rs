@@ -1,0 +1,123 @@
+//! Colours, widths and dashes of every role, in one place.
+//!
+//! Colours are those of Okabe and Ito (2008), which remain distinct under the common kinds of
+//! colour blindness; roles differ in dash or width as well, so that a grey print still tells them
+//! apart.
+
+/// A colour as red, green, blue.
+pub(super) type Colour = (u8, u8, u8);
+
+const BLACK: Colour = (0x00, 0x00, 0x00);
+const BLUE: Colour = (0x00, 0x72, 0xB2);
+const VERMILLION: Colour = (0xD5, 0x5E, 0x00);
+const GREEN: Colour = (0x00, 0x9E, 0x73);
+const PURPLE: Colour = (0xCC, 0x79, 0xA7);
+const ORANGE: Colour = (0xE6, 0x9F, 0x00);
+const SKY: Colour = (0x56, 0xB4, 0xE9);
+const GREY: Colour = (0x80, 0x80, 0x80);
+
+/// Frames, ticks and text.
+pub(super) const FRAME: Colour = (0x22, 0x22, 0x22);
+/// Paper.
+pub(super) const PAPER: Colour = (0xFF, 0xFF, 0xFF);
+/// Footnotes.
+pub(super) const FAINT: Colour = (0x55, 0x55, 0x55);
+/// Box of a legend.
+pub(super) const LEGEND_EDGE: Colour = (0xC8, 0xC8, 0xC8);
+
+/// Order in which numbered series take their colours (the yellow of the set is too pale for lines).
+const SERIES: [Colour; 7] = [BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY, BLACK];
+
+/// What a curve, a set of points or a region stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Role {
+    /// The response with dither: solid blue.
+    Dithered,
+    /// The response without dither: dashed grey.
+    Undithered,
+    /// What averaging predicts: solid vermillion, wider.
+    Averaged,
+    /// What exact numerics give: solid black.
+    Exact,
+    /// What a publication prints: black.
+    Printed,
+    /// A boundary in a parameter plane: solid black.
+    Boundary,
+    /// A set of parameters where sliding is stable: blue.
+    Stable,
+    /// A set of parameters where sliding is unstable: vermillion.
+    Unstable,
+    /// A set of parameters that could not be decided: grey.
+    Undecided,
+    /// A line that only guides the eye: thin dotted grey.
+    Guide,
+    /// Member number `n`, from 0, of a family of curves; colours repeat after seven, dashes change then.
+    Series(usize),
+}
+
+/// Dashes of a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum LineStyle {
+    /// No gaps.
+    Solid,
+    /// Long dashes.
+    Dashed,
+    /// Dots.
+    Dotted,
+    /// Dash, dot.
+    DashDotted,
+}
+
+impl LineStyle {
+    /// Dash lengths for a line of this width (pixels); nothing for a solid line.
+    pub(super) fn dashes(self, width: f64) -> Option<String> {
+        let scale = width.max(1.0);
+        let lengths: &[f64] = match self {
+            Self::Solid => return None,
+            Self::Dashed => &[4.5, 2.8],
+            Self::Dotted => &[1.2, 2.2],
+            Self::DashDotted => &[5.5, 2.2, 1.2, 2.2],
+        };
+        let words: Vec<String> = lengths
+            .iter()
+            .map(|length| format!("{:.1}", length * scale))
+            .collect();
+        Some(words.join(" "))
+    }
+}
+
+impl Role {
+    pub(super) fn colour(self) -> Colour {
+        match self {
+            Self::Dithered | Self::Stable => BLUE,
+            Self::Averaged | Self::Unstable => VERMILLION,
+            Self::Undithered | Self::Undecided | Self::Guide => GREY,
+            Self::Exact | Self::Printed | Self::Boundary => BLACK,
+            Self::Series(number) => SERIES[number % SERIES.len()],
+        }
+    }
+
+    pub(super) fn style(self) -> LineStyle {
+        match self {
+            Self::Undithered => LineStyle::Dashed,
+            Self::Guide => LineStyle::Dotted,
+            Self::Series(number) => match number / SERIES.len() % 3 {
+                0 => LineStyle::Solid,
+                1 => LineStyle::Dashed,
+                _ => LineStyle::DashDotted,
+            },
+            _ => LineStyle::Solid,
+        }
+    }
+
+    /// Line width (pixels).
+    pub(super) fn width(self) -> f64 {
+        match self {
+            Self::Averaged => 1.8,
+            Self::Guide => 0.9,
+            Self::Undithered | Self::Boundary => 1.3,
+            _ => 1.4,
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! The label of a rule: beside it, at whichever end covers least.
+
+use super::axis::Mapping;
+use super::canvas::Rectangle;
+use super::draw::Sizes;
+use super::layer::{Direction, Rule};
+use super::obstacles::{Obstacles, rule_ends};
+use super::typeset::Label;
+
+/// The place of the label; nothing when the rule lies outside the frame.
+pub(super) fn place(
+    rule: &Rule,
+    (x, y): (&Mapping, &Mapping),
+    frame: Rectangle,
+    obstacles: &Obstacles,
+    sizes: Sizes,
+) -> Option<Rectangle> {
+    const GAP: f64 = 5.0;
+    let at = *rule_ends(rule.direction, rule.value, x, y, frame)?.first()?;
+    let size = f64::from(sizes.note);
+    let (width, height) = (Label::parse(&rule.label).width(size, false), 0.95 * size);
+    let (lefts, tops) = match rule.direction {
+        Direction::Vertical => (
+            vec![at.0 + GAP, at.0 - GAP - width],
+            vec![
+                frame.top + 2.0 * GAP,
+                frame.bottom - 2.0 * GAP - height,
+                frame.top + 0.25 * frame.height(),
+                frame.top + 0.5 * frame.height(),
+                frame.top + 0.75 * frame.height(),
+            ],
+        ),
+        Direction::Horizontal => (
+            vec![
+                frame.right - 2.0 * GAP - width,
+                frame.left + 2.0 * GAP,
+                0.5 * (frame.left + frame.right - width),
+            ],
+            vec![at.1 - 0.6 * GAP - height, at.1 + 0.6 * GAP],
+        ),
+    };
+    let mut best: Option<(usize, Rectangle)> = None;
+    for &top in &tops {
+        for &left in &lefts {
+            let area = Rectangle {
+                left,
+                top,
+                right: left + width,
+                bottom: top + height,
+            };
+            let outside = left < frame.left
+                || area.right > frame.right
+                || top < frame.top
+                || area.bottom > frame.bottom;
+            let cost = obstacles.covered_by(area.grown(1.0)) + if outside { 1000 } else { 0 };
+            if best.is_none_or(|(least, _)| cost < least) {
+                best = Some((cost, area));
+            }
+        }
+    }
+    best.map(|(_, area)| area)
+}

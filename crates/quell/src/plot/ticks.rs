@@ -1,0 +1,241 @@
+//! Ticks: where an axis carries marks, and what numbers stand beside them.
+
+use kuva::render::render_utils::generate_ticks_with_step;
+
+use super::axis::{Axis, Scale};
+use super::typeset::{Label, number};
+
+/// The marks of one axis.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Ticks {
+    /// Values with a number, and the number.
+    pub(super) major: Vec<(f64, Label)>,
+    /// Values with a short mark only.
+    pub(super) minor: Vec<f64>,
+    /// Power of ten taken out of all numbers; 0 for none.
+    pub(super) exponent: i32,
+}
+
+/// How numbers take room along the axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Room {
+    /// Side by side, in this many pixels at this font size.
+    Across(f64, f64),
+    /// One above the other, in this many pixels.
+    Upright(f64),
+}
+
+impl Ticks {
+    /// Ticks for an axis that shows `stretch`.
+    pub(super) fn of(axis: &Axis, stretch: (f64, f64), room: Room) -> Self {
+        if let Some(chosen) = &axis.ticks {
+            let inside = |value: &f64| *value >= stretch.0 && *value <= stretch.1;
+            let values: Vec<f64> = chosen.iter().copied().filter(inside).collect();
+            let step = values
+                .windows(2)
+                .map(|pair| (pair[1] - pair[0]).abs())
+                .fold(stretch.1 - stretch.0, f64::min);
+            return Self::linear(values, Vec::new(), step);
+        }
+        if axis.scale == Scale::Log && stretch.1 / stretch.0 >= 10.0 {
+            return Self::logarithmic(stretch, room);
+        }
+        let most = match room {
+            Room::Across(pixels, _) => pixels / 42.0,
+            Room::Upright(pixels) => pixels / 36.0,
+        };
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "2 to 9"
+        )]
+        let mut count = most.clamp(2.0, 9.0) as usize;
+        loop {
+            let ticks = Self::evenly(stretch, count);
+            if count <= 2 || ticks.fits(axis, stretch, room) {
+                return ticks;
+            }
+            count -= 1;
+        }
+    }
+
+    fn evenly(stretch: (f64, f64), count: usize) -> Self {
+        let step = step_for((stretch.1 - stretch.0) / count as f64);
+        let values = generate_ticks_with_step(stretch.0, stretch.1, step);
+        let leading = step / 10f64.powf((step.log10() + 1e-9).floor());
+        let parts = if (leading - 2.0).abs() < 0.1 { 4 } else { 5 };
+        let minor = values
+            .first()
+            .map(|first| {
+                (-parts..=parts * 12)
+                    .map(|part| first + step * f64::from(part) / f64::from(parts))
+                    .filter(|value| *value > stretch.0 && *value < stretch.1)
+                    .collect()
+            })
+            .unwrap_or_default();
+        Self::linear(values, minor, step)
+    }
+
+    fn linear(values: Vec<f64>, minor: Vec<f64>, step: f64) -> Self {
+        let greatest = values
+            .iter()
+            .fold(0.0, |most: f64, value| most.max(value.abs()));
+        let exponent = if greatest >= 1e5 || (greatest > 0.0 && greatest < 2e-3) {
+            #[expect(clippy::cast_possible_truncation, reason = "a decimal exponent")]
+            let exponent = greatest.log10().floor() as i32;
+            exponent
+        } else {
+            0
+        };
+        let unit = 10f64.powi(exponent);
+        let decimals = decimals(step / unit);
+        let major = values
+            .into_iter()
+            .map(|value| (value, Label::parse(&number(value / unit, decimals))))
+            .collect();
+        Self {
+            major,
+            minor,
+            exponent,
+        }
+    }
+
+    fn logarithmic(stretch: (f64, f64), room: Room) -> Self {
+        let (low, high) = (stretch.0.log10(), stretch.1.log10());
+        let decades = high - low;
+        let most = match room {
+            Room::Across(pixels, _) => pixels / 45.0,
+            Room::Upright(pixels) => pixels / 26.0,
+        };
+        let leading: &[f64] = match most / decades.max(0.1) {
+            dense if dense >= 3.0 && decades < 3.0 => &[1.0, 2.0, 5.0],
+            _ => &[1.0],
+        };
+        #[expect(clippy::cast_possible_truncation, reason = "decimal exponents")]
+        let (first, last, stride) = (
+            low.floor() as i32,
+            high.ceil() as i32,
+            (decades / most).ceil().max(1.0) as i32,
+        );
+        let plain = first >= -2 && last <= 3 && decades < 3.2;
+        let inside =
+            |value: &f64| *value >= stretch.0 * (1.0 - 1e-9) && *value <= stretch.1 * (1.0 + 1e-9);
+        let (mut major, mut minor) = (Vec::new(), Vec::new());
+        for exponent in first..=last {
+            let decade = 10f64.powi(exponent);
+            for digit in 1..=9 {
+                let value = f64::from(digit) * decade;
+                let labelled =
+                    leading.contains(&f64::from(digit)) && exponent.rem_euclid(stride) == 0;
+                if !inside(&value) {
+                } else if labelled {
+                    major.push((value, Label::parse(&power(digit, exponent, plain))));
+                } else if stride == 1 || digit == 1 {
+                    minor.push(value);
+                }
+            }
+        }
+        Self {
+            major,
+            minor,
+            exponent: 0,
+        }
+    }
+
+    fn fits(&self, axis: &Axis, stretch: (f64, f64), room: Room) -> bool {
+        let Room::Across(pixels, size) = room else {
+            return true;
+        };
+        let per_unit = pixels / (axis.along(stretch.1) - axis.along(stretch.0));
+        self.major.windows(2).all(|pair| {
+            let apart = (axis.along(pair[1].0) - axis.along(pair[0].0)) * per_unit;
+            apart
+                >= 0.5 * (pair[0].1.width(size, false) + pair[1].1.width(size, false)) + 0.9 * size
+        })
+    }
+}
+
+/// The least of 1, 2 and 5 times a power of ten that comes near `wanted` or lies above it.
+fn step_for(wanted: f64) -> f64 {
+    let least = 0.65 * wanted;
+    let decade = 10f64.powf(least.log10().floor());
+    [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .map(|leading| leading * decade)
+        .find(|step| *step >= least * (1.0 - 1e-9))
+        .unwrap_or(wanted)
+}
+
+fn power(digit: i32, exponent: i32, plain: bool) -> String {
+    if plain {
+        let decimals = usize::try_from(-exponent).unwrap_or(0);
+        return number(f64::from(digit) * 10f64.powi(exponent), decimals);
+    }
+    let mantissa = if digit == 1 {
+        String::new()
+    } else {
+        format!("{digit}·")
+    };
+    format!("{mantissa}$10^{{{exponent}}}$")
+}
+
+/// Decimals that tell multiples of `step` apart.
+fn decimals(step: f64) -> usize {
+    (0..9)
+        .find(|decimals| {
+            let scaled = step * 10f64.powi(*decimals);
+            (scaled - scaled.round()).abs() <= 1e-6 * scaled && scaled.round() >= 1.0
+        })
+        .map_or(9, |decimals| decimals.unsigned_abs() as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn printed(ticks: &Ticks) -> Vec<f64> {
+        ticks.major.iter().map(|(value, _)| *value).collect()
+    }
+
+    #[test]
+    fn numbers_of_one_axis_have_equal_decimals() {
+        let ticks = Ticks::of(&Axis::new("x"), (0.0, 1.0), Room::Upright(200.0));
+        assert_eq!(ticks.major[0].1, Label::parse("0.0"));
+        assert!(ticks.major.len() >= 4);
+        assert_eq!(decimals(0.25), 2);
+        assert_eq!(decimals(20.0), 0);
+    }
+
+    #[test]
+    fn small_values_share_a_power_of_ten() {
+        let ticks = Ticks::of(&Axis::new("x"), (0.0, 3e-5), Room::Upright(200.0));
+        assert_eq!(ticks.exponent, -5);
+    }
+
+    #[test]
+    fn a_log_axis_has_its_decades() {
+        let axis = Axis::new("f").log();
+        let ticks = Ticks::of(&axis, (1e-6, 1e2), Room::Upright(300.0));
+        assert!(
+            printed(&ticks)
+                .iter()
+                .any(|value| (value - 1e-3).abs() < 1e-12)
+        );
+        assert!(ticks.major.len() >= 4 && ticks.major.len() <= 9);
+    }
+
+    #[test]
+    fn numbers_side_by_side_do_not_touch() {
+        let ticks = Ticks::of(
+            &Axis::new("x"),
+            (-0.0123, 0.0117),
+            Room::Across(120.0, 11.0),
+        );
+        let widest = ticks
+            .major
+            .iter()
+            .map(|(_, label)| label.width(11.0, false))
+            .fold(0.0, f64::max);
+        assert!(widest * ticks.major.len() as f64 <= 160.0);
+    }
+}

@@ -1,0 +1,502 @@
+//! Labels: plain text with symbols between dollars, measured with the bundled fonts.
+//!
+//! Between `$` and `$`: Latin and lower-case Greek letters print in italics, `_x` and `_{xy}` lower
+//! (upright), `^x` and `^{xy}` raise (`_x` within lowers again), `\bar{…}` puts a bar over its letters (so does a combining
+//! macron after a letter), `\word` prints the word upright (`\ln`), and `-` prints as a minus sign.
+//! A dollar without a partner prints as itself. Greek letters are typed as they are: `$τ$`, `$ω_0$`.
+//!
+//! kuva prints one style per text, so each run is wrapped into private-use characters on the way in,
+//! and these become `<tspan>` elements on the way out ([`Tags::resolve`]).
+
+use std::fmt::Write as _;
+
+use super::fonts::{self, Face};
+
+const FIRST_TAG: u32 = 0xE000;
+const LAST_TAG: u32 = 0xF000;
+const CLOSE: char = '\u{F8FF}';
+/// Size of a subscript or superscript, as a share of the text's.
+const SMALL: f64 = 0.72;
+/// How far they are lowered (em of the text, downwards).
+const LOWERED: f64 = 0.20;
+/// How far they are raised (em of the text, downwards).
+const RAISED: f64 = -0.36;
+/// Size of a subscript within a superscript, and how far it is raised.
+const SMALLER: f64 = 0.55;
+const RAISED_LESS: f64 = -0.24;
+/// The bar over a letter: a macron moved back over it, higher over a tall letter (em of the text).
+const BAR: &str = "¯";
+const BAR_OVER_TALL: f64 = -0.16;
+/// Letters in italics lean to the right by this at the height of the bar (em).
+const LEAN: f64 = 0.06;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Level {
+    #[default]
+    Base,
+    Lowered,
+    Raised,
+    RaisedLowered,
+}
+
+impl Level {
+    /// Size as a share of the text's.
+    fn share(self) -> f64 {
+        match self {
+            Self::Base => 1.0,
+            Self::Lowered | Self::Raised => SMALL,
+            Self::RaisedLowered => SMALLER,
+        }
+    }
+
+    /// Distance below the base line (em of the text).
+    fn depth(self) -> f64 {
+        match self {
+            Self::Base => 0.0,
+            Self::Lowered => LOWERED,
+            Self::Raised => RAISED,
+            Self::RaisedLowered => RAISED_LESS,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+struct Look {
+    italic: bool,
+    barred: bool,
+    level: Level,
+}
+
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Run {
+    text: String,
+    look: Look,
+}
+
+/// A label taken apart into runs of one look.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Label {
+    runs: Vec<Run>,
+}
+
+/// What each private-use character stands for in one picture.
+#[derive(Debug, Default)]
+pub(super) struct Tags {
+    opening: Vec<String>,
+}
+
+impl Label {
+    /// Takes a label apart.
+    pub(super) fn parse(source: &str) -> Self {
+        let mut label = Self { runs: Vec::new() };
+        let mut rest = source;
+        while let Some(start) = rest.find('$') {
+            let Some(length) = rest[start + 1..].find('$') else {
+                break;
+            };
+            label.push_text(&rest[..start], Look::default());
+            label.push_symbols(&rest[start + 1..start + 1 + length]);
+            rest = &rest[start + length + 2..];
+        }
+        label.push_text(rest, Look::default());
+        label
+    }
+
+    /// True when nothing prints.
+    pub(super) fn is_empty(&self) -> bool {
+        self.runs.is_empty()
+    }
+
+    /// Width in pixels at this font size.
+    pub(super) fn width(&self, size: f64, bold: bool) -> f64 {
+        self.runs
+            .iter()
+            .map(|run| {
+                let face = match (bold, run.look.italic) {
+                    (true, _) => Face::Bold,
+                    (false, true) => Face::Oblique,
+                    (false, false) => Face::Regular,
+                };
+                fonts::width(&run.text, face) * size * run.look.level.share()
+            })
+            .sum()
+    }
+
+    /// The text for kuva, with looks as private-use characters.
+    pub(super) fn encode(&self, tags: &mut Tags) -> String {
+        let mut pen = Pen {
+            tags,
+            text: String::new(),
+            depth: 0.0,
+            aside: 0.0,
+        };
+        for run in &self.runs {
+            // kuva reads `$…$` and `\$` itself; a dollar that is left here is to print.
+            let printed = run.text.replace('$', "\\$");
+            if run.look.barred {
+                run.text
+                    .chars()
+                    .for_each(|letter| pen.put_barred(letter, run.look));
+            } else {
+                pen.put(&printed, run.look, run.look.level.depth());
+            }
+        }
+        pen.text
+    }
+
+    fn push_text(&mut self, text: &str, look: Look) {
+        for letter in text.chars() {
+            // Controls and private-use characters have no print, and no place in XML.
+            let private = ('\u{E000}'..='\u{F8FF}').contains(&letter);
+            if private || matches!(letter, '\u{FFFE}' | '\u{FFFF}') {
+                continue;
+            }
+            let letter = if letter.is_control() { ' ' } else { letter };
+            match self.runs.last_mut() {
+                Some(run) if run.look == look => run.text.push(letter),
+                _ => self.runs.push(Run {
+                    text: letter.to_string(),
+                    look,
+                }),
+            }
+        }
+    }
+
+    fn push_symbols(&mut self, source: &str) {
+        let letters: Vec<char> = source.chars().collect();
+        let mut at = 0;
+        while at < letters.len() {
+            match letters[at] {
+                '_' | '^' => {
+                    let level = if letters[at] == '_' {
+                        Level::Lowered
+                    } else {
+                        Level::Raised
+                    };
+                    let (inner, next) = group(&letters, at + 1);
+                    self.push_letters(&inner, level, false);
+                    at = next;
+                }
+                '\\' => {
+                    let end = word_end(&letters, at + 1);
+                    let word: String = letters[at + 1..end].iter().collect();
+                    if word == "bar" {
+                        let (inner, next) = group(&letters, end);
+                        self.push_letters(&inner, Level::Base, true);
+                        at = next;
+                    } else {
+                        self.push_text(&word, Look::default());
+                        at = end.max(at + 1);
+                    }
+                }
+                '{' | '}' => at += 1,
+                letter => {
+                    let barred = letters.get(at + 1).is_some_and(|next| is_macron(*next));
+                    self.push_letters(&[letter], Level::Base, barred);
+                    at += 1;
+                }
+            }
+        }
+    }
+
+    fn push_letters(&mut self, letters: &[char], level: Level, barred: bool) {
+        let mut level = level;
+        let usual = level;
+        for &letter in letters.iter().filter(|letter| !is_macron(**letter)) {
+            if letter == '_' && usual == Level::Raised {
+                level = Level::RaisedLowered;
+                continue;
+            }
+            let italic = matches!(level, Level::Base | Level::Raised) && is_slanted(letter);
+            let printed = if letter == '-' { '\u{2212}' } else { letter };
+            self.push_text(
+                printed.encode_utf8(&mut [0; 4]),
+                Look {
+                    italic,
+                    barred,
+                    level,
+                },
+            );
+            level = usual;
+        }
+    }
+}
+
+/// Writes runs one after the other and knows where the last one left off.
+struct Pen<'a> {
+    tags: &'a mut Tags,
+    text: String,
+    /// Depth of the base line now (em of the text).
+    depth: f64,
+    /// Way to go before the next run (em of the text).
+    aside: f64,
+}
+
+impl Pen<'_> {
+    fn put(&mut self, printed: &str, look: Look, depth: f64) {
+        let (down, aside) = (depth - self.depth, std::mem::take(&mut self.aside));
+        self.depth = depth;
+        if look == Look::default() && down == 0.0 && aside == 0.0 {
+            self.text.push_str(printed);
+        } else {
+            self.text.push(self.tags.open(look, down, aside));
+            self.text.push_str(printed);
+            self.text.push(CLOSE);
+        }
+    }
+
+    fn put_barred(&mut self, letter: char, look: Look) {
+        let letter_text = letter.to_string();
+        let face = if look.italic {
+            Face::Oblique
+        } else {
+            Face::Regular
+        };
+        let lean = if look.italic { LEAN } else { 0.0 };
+        let (own, bar) = (
+            fonts::width(&letter_text, face),
+            fonts::width(BAR, Face::Regular),
+        );
+        self.put(&letter_text, look, 0.0);
+        let tall = letter.is_uppercase() || "bdfhkltβδζθλξφψ".contains(letter);
+        self.aside = lean - 0.5 * (own + bar);
+        self.put(BAR, Look::default(), if tall { BAR_OVER_TALL } else { 0.0 });
+        self.aside = 0.5 * (own - bar) - lean;
+    }
+}
+
+/// The letters of `{…}` or the one letter at `at`, and where the text goes on.
+fn group(letters: &[char], at: usize) -> (Vec<char>, usize) {
+    match letters.get(at) {
+        Some('{') => {
+            let length = letters[at..].iter().position(|letter| *letter == '}');
+            let end = length.map_or(letters.len(), |length| at + length);
+            (letters[at + 1..end].to_vec(), (end + 1).min(letters.len()))
+        }
+        Some(letter) => (vec![*letter], at + 1),
+        None => (Vec::new(), at),
+    }
+}
+
+fn word_end(letters: &[char], at: usize) -> usize {
+    let length = letters[at..]
+        .iter()
+        .take_while(|letter| letter.is_ascii_alphabetic())
+        .count();
+    at + length
+}
+
+fn is_macron(letter: char) -> bool {
+    matches!(letter, '\u{304}' | '\u{305}')
+}
+
+/// Symbols that print in italics: Latin letters and lower-case Greek.
+fn is_slanted(letter: char) -> bool {
+    letter.is_ascii_alphabetic()
+        || ('α'..='ω').contains(&letter)
+        || matches!(letter, 'ϕ' | 'ϵ' | 'ϑ')
+}
+
+impl Tags {
+    /// The character for a look that starts so far below and right of the last run (em of the text).
+    fn open(&mut self, look: Look, down: f64, aside: f64) -> char {
+        let mut tag = String::from("<tspan");
+        if look.italic {
+            tag.push_str(" font-style=\"italic\"");
+        }
+        let share = look.level.share();
+        if look.level != Level::Base {
+            let _ = write!(tag, " font-size=\"{:.0}%\"", 100.0 * share);
+        }
+        if aside != 0.0 {
+            let _ = write!(tag, " dx=\"{:.3}em\"", aside / share);
+        }
+        if down != 0.0 {
+            let _ = write!(tag, " dy=\"{:.3}em\"", down / share);
+        }
+        tag.push('>');
+        let index = self
+            .opening
+            .iter()
+            .position(|known| *known == tag)
+            .unwrap_or_else(|| {
+                self.opening.push(tag);
+                self.opening.len() - 1
+            });
+        // There are no more than a few dozen different looks.
+        u32::try_from(index)
+            .ok()
+            .and_then(|index| char::from_u32(FIRST_TAG + index))
+            .unwrap_or(CLOSE)
+    }
+
+    /// Puts the elements in place of the private-use characters.
+    pub(super) fn resolve(&self, svg: &str) -> String {
+        let mut resolved = String::with_capacity(svg.len() + 1024);
+        for letter in svg.chars() {
+            match u32::from(letter) {
+                code @ FIRST_TAG..=LAST_TAG => {
+                    if let Some(tag) = self.opening.get((code - FIRST_TAG) as usize) {
+                        resolved.push_str(tag);
+                    }
+                }
+                _ if letter == CLOSE => resolved.push_str("</tspan>"),
+                _ => resolved.push(letter),
+            }
+        }
+        resolved
+    }
+}
+
+/// Breaks a text into labels no wider than `room` pixels, at spaces outside of `$…$`.
+///
+/// A single word that is wider stands alone on its line.
+pub(super) fn wrap(source: &str, size: f64, bold: bool, room: f64) -> Vec<Label> {
+    let mut lines: Vec<String> = Vec::new();
+    for paragraph in source.lines() {
+        let mut line = String::new();
+        let mut symbols = false;
+        let words = paragraph.split(|letter: char| {
+            symbols ^= letter == '$';
+            letter == ' ' && !symbols
+        });
+        for word in words {
+            let longer = if line.is_empty() {
+                word.to_string()
+            } else {
+                format!("{line} {word}")
+            };
+            if line.is_empty() || Label::parse(&longer).width(size, bold) <= room {
+                line = longer;
+            } else {
+                lines.push(std::mem::replace(&mut line, word.to_string()));
+            }
+        }
+        lines.push(line);
+    }
+    lines.iter().map(|line| Label::parse(line)).collect()
+}
+
+/// A number as it prints on an axis: minus sign, and never minus zero.
+pub(super) fn number(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(digits) if digits.chars().any(|digit| ('1'..='9').contains(&digit)) => {
+            format!("\u{2212}{digits}")
+        }
+        Some(digits) => digits.to_string(),
+        None => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn looks(source: &str) -> Vec<(String, Look)> {
+        Label::parse(source)
+            .runs
+            .into_iter()
+            .map(|run| (run.text, run.look))
+            .collect()
+    }
+
+    #[test]
+    fn symbols_are_italic_and_subscripts_upright() {
+        let runs = looks("slip velocity $v_r$ (m/s)");
+        let italic = Look {
+            italic: true,
+            ..Look::default()
+        };
+        let lowered = Look {
+            level: Level::Lowered,
+            ..Look::default()
+        };
+        assert_eq!(
+            runs,
+            vec![
+                ("slip velocity ".into(), Look::default()),
+                ("v".into(), italic),
+                ("r".into(), lowered),
+                (" (m/s)".into(), Look::default()),
+            ]
+        );
+    }
+
+    #[test]
+    fn a_bar_can_be_written_in_two_ways() {
+        assert_eq!(looks("$\\bar{μ}(v)$"), looks("$μ\u{304}(v)$"));
+        assert!(looks("$\\bar{μ}$")[0].1.barred);
+    }
+
+    #[test]
+    fn a_bar_leaves_the_width_as_it_is() {
+        let (plain, barred) = (Label::parse("$μ(v)$"), Label::parse("$\\bar{μ}(v)$"));
+        assert_eq!(plain.width(10.0, false), barred.width(10.0, false));
+        let mut tags = Tags::default();
+        let svg = tags_of(&barred, &mut tags);
+        let moves: f64 = svg
+            .split("dx=\"")
+            .skip(1)
+            .filter_map(|rest| rest.split("em").next()?.parse::<f64>().ok())
+            .sum();
+        assert!(
+            (moves + fonts::width(BAR, Face::Regular)).abs() < 2e-3,
+            "{svg}"
+        );
+    }
+
+    fn tags_of(label: &Label, tags: &mut Tags) -> String {
+        let text = label.encode(tags);
+        tags.resolve(&text)
+    }
+
+    #[test]
+    fn a_lone_dollar_prints_and_survives_kuva() {
+        assert_eq!(
+            looks("5 $ each"),
+            vec![("5 $ each".into(), Look::default())]
+        );
+        assert_eq!(
+            Label::parse("5 $ each").encode(&mut Tags::default()),
+            "5 \\$ each"
+        );
+    }
+
+    #[test]
+    fn private_characters_of_a_label_cannot_pass_for_tags() {
+        let mut tags = Tags::default();
+        let text = Label::parse("a\u{E000}b\u{F8FF}\u{1}").encode(&mut tags);
+        assert_eq!(tags.resolve(&text), "ab ");
+    }
+
+    #[test]
+    fn a_shift_is_undone_after_a_subscript() {
+        let mut tags = Tags::default();
+        let text = Label::parse("$x_1y$").encode(&mut tags);
+        let svg = tags.resolve(&text);
+        assert!(
+            svg.contains("dy=\"0.278em\"") && svg.contains("dy=\"-0.200em\""),
+            "{svg}"
+        );
+        assert_eq!(
+            svg.matches("<tspan").count(),
+            svg.matches("</tspan>").count()
+        );
+    }
+
+    #[test]
+    fn lines_break_at_spaces_but_not_within_symbols() {
+        let lines = wrap("aaaa bbbb $x + y$", 10.0, false, 60.0);
+        assert_eq!(
+            lines,
+            vec![Label::parse("aaaa bbbb"), Label::parse("$x + y$")]
+        );
+    }
+
+    #[test]
+    fn numbers_have_a_minus_sign_but_no_minus_zero() {
+        assert_eq!(number(-0.25, 2), "\u{2212}0.25");
+        assert_eq!(number(-0.0001, 2), "0.00");
+    }
+}
