@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use quell::dataset::Dataset;
 use quell::output::Output;
+use quell::picture::{self, EXTENSIONS};
+use quell::plot::Figure;
 use quell::study::mirror::Node;
 use quell::{Change, Complaint, Failure, Study};
 use serde_json::Value as Json;
@@ -44,7 +46,53 @@ impl StudyArguments {
     }
 }
 
-/// Where results go besides standard output.
+/// Where the picture goes.
+#[derive(Debug, Args)]
+pub(crate) struct PlotArguments {
+    /// Draws a picture
+    #[arg(long, value_name = "FILE.svg|.png")]
+    plot: Option<PathBuf>,
+}
+
+impl PlotArguments {
+    /// Tries whether the picture can be written.
+    pub(crate) fn prepare(&self) -> Result<Plot, Failure> {
+        let output = self
+            .plot
+            .as_ref()
+            .map(|path| Output::prepare(path, "--plot", EXTENSIONS));
+        Ok(Plot {
+            output: output.transpose()?,
+        })
+    }
+}
+
+/// A picture to be drawn, or none.
+#[derive(Debug)]
+pub(crate) struct Plot {
+    output: Option<Output>,
+}
+
+impl Plot {
+    /// Whether there is one to be drawn.
+    pub(crate) fn wanted(&self) -> bool {
+        self.output.is_some()
+    }
+
+    /// Draws it and adds its path to the object.
+    pub(crate) fn write(
+        self,
+        figure: impl FnOnce() -> Figure,
+        object: &mut Json,
+    ) -> Result<(), Failure> {
+        if let Some(output) = self.output {
+            object["plotted"] = picture::write(&figure(), output)?.into();
+        }
+        Ok(())
+    }
+}
+
+/// Where the numbers go besides standard output.
 #[derive(Debug, Args)]
 pub(crate) struct OutputArguments {
     /// Saves the numbers
@@ -83,7 +131,12 @@ impl Outputs {
     pub(crate) fn write(self, datasets: &[Dataset], object: &mut Json) -> Result<(), Failure> {
         let mut saved = Vec::new();
         for (output, dataset) in self.save.into_iter().zip(datasets) {
-            saved.push(output.write(dataset.csv().as_bytes())?.display().to_string());
+            saved.push(
+                output
+                    .write(dataset.csv().as_bytes())?
+                    .display()
+                    .to_string(),
+            );
         }
         if !saved.is_empty() {
             object["saved"] = saved.into();

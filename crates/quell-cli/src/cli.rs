@@ -16,7 +16,12 @@ use crate::verbs::{check, cite, friction, response, schema, simulate, stability}
 
 /// Finds the dither that silences friction-induced vibration, and tells how sure it is.
 #[derive(Debug, Parser)]
-#[command(name = "quell", version, propagate_version = true, arg_required_else_help = true)]
+#[command(
+    name = "quell",
+    version,
+    propagate_version = true,
+    arg_required_else_help = true
+)]
 #[command(after_help = "Exit status: 0 done, 2 the input is wrong, 1 it failed.")]
 struct Cli {
     #[command(subcommand)]
@@ -37,7 +42,10 @@ enum Verb {
 /// Runs the command line `arguments`, program name first.
 pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let json = arguments.iter().take_while(|argument| *argument != "--").any(|argument| argument == "--json");
+    let json = arguments
+        .iter()
+        .take_while(|argument| *argument != "--")
+        .any(|argument| argument == "--json");
     let cli = match Cli::try_parse_from(&arguments) {
         Ok(cli) => cli,
         Err(error) => return misunderstood(&error, json),
@@ -59,7 +67,10 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 /// Shows help, or what was not understood.
 fn misunderstood(error: &clap::Error, json: bool) -> ExitCode {
-    let asked = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
+    let asked = matches!(
+        error.kind(),
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion
+    );
     if asked {
         return answer::print(&error.render().to_string());
     }
@@ -79,9 +90,17 @@ fn complaint(error: &clap::Error) -> Complaint {
     };
     let argument = told(ContextKind::InvalidArg).or_else(|| told(ContextKind::InvalidSubcommand));
     // "--until <T>" and "<STUDY>" are named without their placeholders.
-    let key = argument.as_deref().and_then(|name| name.split([' ', '=']).next()).unwrap_or("command line");
+    let key = argument
+        .as_deref()
+        .and_then(|name| name.split([' ', '=']).next())
+        .unwrap_or("command line");
     let text = error.render().to_string();
-    let first = text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_owned();
+    let first = text
+        .lines()
+        .next()
+        .unwrap_or_default()
+        .trim_start_matches("error: ")
+        .to_owned();
     // The names of missing arguments follow on the next line.
     let message = if first.ends_with(':') {
         format!("{first} {}", text.lines().nth(1).unwrap_or_default().trim())

@@ -87,7 +87,10 @@ impl Place {
 
     fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_quell"));
-        command.current_dir(&self.folder).args(arguments).stdin(Stdio::null());
+        command
+            .current_dir(&self.folder)
+            .args(arguments)
+            .stdin(Stdio::null());
         command
     }
 
@@ -98,7 +101,8 @@ impl Place {
         with.push("--json");
         let output = self.quell(&with);
         let text = String::from_utf8(output.stdout).expect("UTF-8");
-        let object: Json = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
+        let object: Json =
+            serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
         assert!(object.is_object(), "{text}");
         (object, output.status.code().expect("an exit status"))
     }
@@ -120,7 +124,11 @@ impl Place {
         assert!(told.contains("error"), "{arguments:?}: {told}");
         assert!(!told.contains("panicked"), "{told}");
         let (object, status) = self.json(arguments);
-        assert_eq!((status, &object["ok"]), (2, &Json::Bool(false)), "{arguments:?}");
+        assert_eq!(
+            (status, &object["ok"]),
+            (2, &Json::Bool(false)),
+            "{arguments:?}"
+        );
         assert_eq!(self.files(), before, "{arguments:?}");
         let errors = object["errors"].as_array().expect("errors").clone();
         assert!(!errors.is_empty());
@@ -135,7 +143,13 @@ impl Place {
     fn files(&self) -> Vec<String> {
         let entries = fs::read_dir(&self.folder).expect("a folder");
         let mut names: Vec<String> = entries
-            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+            .map(|entry| {
+                entry
+                    .expect("an entry")
+                    .file_name()
+                    .to_string_lossy()
+                    .into_owned()
+            })
             .collect();
         names.sort();
         names
@@ -149,7 +163,9 @@ fn nulls_have_reasons(object: &Json) {
             Json::Null => {
                 let named = |path: &str| why.get(path).is_some_and(Json::is_string);
                 // An SI twin is null for the reason of its field.
-                let of_twin = why.as_object().is_some_and(|why| why.keys().any(|key| path.starts_with(key)));
+                let of_twin = why
+                    .as_object()
+                    .is_some_and(|why| why.keys().any(|key| path.starts_with(key)));
                 assert!(named(path) || of_twin, "null without a reason: {path}");
             }
             Json::Array(list) => {
@@ -159,7 +175,11 @@ fn nulls_have_reasons(object: &Json) {
             }
             Json::Object(object) => {
                 for (key, inner) in object {
-                    let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+                    let path = if path.is_empty() {
+                        key.clone()
+                    } else {
+                        format!("{path}.{key}")
+                    };
                     walk(inner, &path, why);
                 }
             }
@@ -191,14 +211,42 @@ fn bad_studies_are_refused_by_every_verb() {
     let place = Place::new("bad_studies");
     let with = |from: &str, to: &str| STUDY.replace(from, to).into_bytes();
     let cases: Vec<(&str, Vec<u8>, &str)> = vec![
-        ("apart", with("\"tangential\"", "\"normal\""), "dither.amplitude"),
+        (
+            "apart",
+            with("\"tangential\"", "\"normal\""),
+            "dither.amplitude",
+        ),
         ("damping", with("= 0.005", "= -0.005"), "belt.damping_ratio"),
-        ("frequency", with("frequency_ratio = 10.0", "frequency_ratio = 0"), "dither.frequency_ratio"),
-        ("minimum", with("0.2857", "0.5"), "friction.minimum_coefficient"),
-        ("nan", with("normal_load = 1.0", "normal_load = nan"), "belt.normal_load"),
-        ("unknown", with("belt_velocity", "belt_velosity"), "belt.belt_velosity"),
-        ("mixed", with("normal_load = 1.0", "normal_load = 1.0\nmass_kg = 1"), "belt.normal_load"),
-        ("text", with("= 0.4\nfreq", "= \"0.4\"\nfreq"), "dither.amplitude"),
+        (
+            "frequency",
+            with("frequency_ratio = 10.0", "frequency_ratio = 0"),
+            "dither.frequency_ratio",
+        ),
+        (
+            "minimum",
+            with("0.2857", "0.5"),
+            "friction.minimum_coefficient",
+        ),
+        (
+            "nan",
+            with("normal_load = 1.0", "normal_load = nan"),
+            "belt.normal_load",
+        ),
+        (
+            "unknown",
+            with("belt_velocity", "belt_velosity"),
+            "belt.belt_velosity",
+        ),
+        (
+            "mixed",
+            with("normal_load = 1.0", "normal_load = 1.0\nmass_kg = 1"),
+            "belt.normal_load",
+        ),
+        (
+            "text",
+            with("= 0.4\nfreq", "= \"0.4\"\nfreq"),
+            "dither.amplitude",
+        ),
         ("empty", Vec::new(), "study file"),
         ("blank", b"\n \n\t\n".to_vec(), "study file"),
         ("binary", vec![0xff, 0xfe, 0x00, 0x80, 0x0a], "study file"),
@@ -209,7 +257,9 @@ fn bad_studies_are_refused_by_every_verb() {
     ];
     for (name, bytes, key) in &cases {
         let bytes = match *name {
-            "apart" => String::from_utf8_lossy(bytes).replace("amplitude = 0.4", "amplitude = 1.4").into_bytes(),
+            "apart" => String::from_utf8_lossy(bytes)
+                .replace("amplitude = 0.4", "amplitude = 1.4")
+                .into_bytes(),
             _ => bytes.clone(),
         };
         place.write("bad.toml", &bytes);
@@ -217,7 +267,10 @@ fn bad_studies_are_refused_by_every_verb() {
             let mut arguments = verb.to_vec();
             arguments.push("bad.toml");
             let errors = place.refused(&arguments);
-            assert!(errors.iter().any(|error| error["key"] == *key), "{name}: {errors:?}");
+            assert!(
+                errors.iter().any(|error| error["key"] == *key),
+                "{name}: {errors:?}"
+            );
         }
     }
     for missing in ["nowhere.toml", ".", "study.toml/below"] {
@@ -241,30 +294,75 @@ fn bad_arguments_are_refused() {
         (&["simulate", "--until", "1"], "<STUDY>"),
         (&["friction", "study.toml", "--at", "fast"], "--at"),
         (&["friction", "study.toml", "--at", "0.1,20mm/s"], "--at"),
-        (&["check", "study.toml", "--set", "belt.normal_load"], "--set"),
-        (&["check", "study.toml", "--set", "belt.normal_laod=1"], "belt.normal_laod"),
-        (&["check", "study.toml", "--set", "belt.normal_load=-1"], "belt.normal_load"),
-        (&["check", "study.toml", "--tolerance", "1"], "solver.tolerance"),
-        (&["check", "study.toml", "--tolerance", "-1e-9"], "solver.tolerance"),
-        (&["check", "study.toml", "--tolerance", "tight"], "solver.tolerance"),
+        (
+            &["check", "study.toml", "--set", "belt.normal_load"],
+            "--set",
+        ),
+        (
+            &["check", "study.toml", "--set", "belt.normal_laod=1"],
+            "belt.normal_laod",
+        ),
+        (
+            &["check", "study.toml", "--set", "belt.normal_load=-1"],
+            "belt.normal_load",
+        ),
+        (
+            &["check", "study.toml", "--tolerance", "1"],
+            "solver.tolerance",
+        ),
+        (
+            &["check", "study.toml", "--tolerance", "-1e-9"],
+            "solver.tolerance",
+        ),
+        (
+            &["check", "study.toml", "--tolerance", "tight"],
+            "solver.tolerance",
+        ),
         (&["check", "study.toml", "--colour"], "--colour"),
         (&["chekc", "study.toml"], "chekc"),
         (&["response", "study.toml", "--save", "x.xlsx"], "--save"),
-        (&["response", "study.toml", "--save", "nowhere/x.csv"], "--save"),
-        (&["simulate", "study.toml", "--until", "1", "--save", "study.toml/x.csv"], "--save"),
+        (
+            &["response", "study.toml", "--save", "nowhere/x.csv"],
+            "--save",
+        ),
+        (
+            &[
+                "simulate",
+                "study.toml",
+                "--until",
+                "1",
+                "--save",
+                "study.toml/x.csv",
+            ],
+            "--save",
+        ),
     ];
     for (arguments, key) in cases {
         let errors = place.refused(arguments);
-        assert!(errors.iter().any(|error| error["key"] == *key), "{arguments:?}: {errors:?}");
+        assert!(
+            errors.iter().any(|error| error["key"] == *key),
+            "{arguments:?}: {errors:?}"
+        );
     }
     // Everything wrong is told at once, wherever it stands.
     place.write("bad.toml", STUDY.replace("= 0.005", "= -1").as_bytes());
-    let errors = place.refused(&["simulate", "bad.toml", "--until", "-3", "--save", "no/x.csv", "--set", "belt.x=1"]);
-    let keys: Vec<&str> = errors.iter().filter_map(|error| error["key"].as_str()).collect();
+    let errors = place.refused(&[
+        "simulate", "bad.toml", "--until", "-3", "--save", "no/x.csv", "--set", "belt.x=1",
+    ]);
+    let keys: Vec<&str> = errors
+        .iter()
+        .filter_map(|error| error["key"].as_str())
+        .collect();
     for key in ["belt.damping_ratio", "belt.x", "--until", "--save"] {
         assert!(keys.contains(&key), "{key} in {keys:?}");
     }
-    assert_eq!(errors.iter().find(|error| error["key"] == "belt.damping_ratio").map(|error| &error["line"]), Some(&4.into()));
+    assert_eq!(
+        errors
+            .iter()
+            .find(|error| error["key"] == "belt.damping_ratio")
+            .map(|error| &error["line"]),
+        Some(&4.into())
+    );
 }
 
 #[test]
@@ -272,7 +370,14 @@ fn nothing_is_computed_before_the_output_is_tried() {
     let place = Place::new("unwritable");
     fs::create_dir(place.folder.join("folder.csv")).expect("a folder");
     // A run of this length would not end today.
-    let errors = place.refused(&["simulate", "study.toml", "--until", "1e12", "--save", "folder.csv"]);
+    let errors = place.refused(&[
+        "simulate",
+        "study.toml",
+        "--until",
+        "1e12",
+        "--save",
+        "folder.csv",
+    ]);
     assert_eq!(errors[0]["key"], "--save");
     assert_eq!(errors[0]["value"], "folder.csv");
 }
@@ -288,15 +393,26 @@ fn a_saved_trajectory_is_whole_and_reads_back() {
     assert!(text.contains("# units: time [1/ω₀], displacement [length]"));
     let rows: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
     assert_eq!(rows[0], "time,displacement,velocity,slip_velocity,sticking");
-    let cells = |row: &str| -> Vec<f64> { row.split(',').map(|cell| cell.parse().expect("a number")).collect() };
+    let cells = |row: &str| -> Vec<f64> {
+        row.split(',')
+            .map(|cell| cell.parse().expect("a number"))
+            .collect()
+    };
     assert_eq!(cells(rows[1]), [0.0, 0.0, 0.0, 0.05, 0.0]);
     let last = cells(rows[rows.len() - 1]);
     assert_eq!(object["final"]["time"].as_f64(), Some(last[0]));
     assert_eq!(object["final"]["displacement"].as_f64(), Some(last[1]));
     let object = place.good(&["response", "si.toml", "--save", "r.csv"]);
-    assert_eq!(object["saved"], serde_json::json!(["r.csv", "r_spectrum.csv"]));
+    assert_eq!(
+        object["saved"],
+        serde_json::json!(["r.csv", "r_spectrum.csv"])
+    );
     let spectrum = fs::read_to_string(place.folder.join("r_spectrum.csv")).expect("saved");
-    assert!(spectrum.contains("frequency,frequency_hz,amplitude,amplitude_m,undithered_amplitude"), "{}", &spectrum[..900]);
+    assert!(
+        spectrum.contains("frequency,frequency_hz,amplitude,amplitude_m,undithered_amplitude"),
+        "{}",
+        &spectrum[..900]
+    );
     assert!(place.files().iter().all(|name| !name.contains("part")));
 }
 
@@ -305,15 +421,34 @@ fn a_saved_trajectory_is_whole_and_reads_back() {
 fn devices_are_written_not_replaced() {
     use std::os::unix::fs::FileTypeExt;
     let place = Place::new("devices");
-    place.good(&["simulate", "study.toml", "--until", "5", "--save", "/dev/null"]);
+    place.good(&[
+        "simulate",
+        "study.toml",
+        "--until",
+        "5",
+        "--save",
+        "/dev/null",
+    ]);
     let kind = fs::metadata("/dev/null").expect("there").file_type();
     assert!(kind.is_char_device());
     if Path::new("/dev/full").exists() {
-        let (object, status) = place.json(&["simulate", "study.toml", "--until", "5", "--save", "/dev/full"]);
+        let (object, status) = place.json(&[
+            "simulate",
+            "study.toml",
+            "--until",
+            "5",
+            "--save",
+            "/dev/full",
+        ]);
         assert_eq!((status, &object["ok"]), (1, &Json::Bool(false)), "{object}");
         let output = place
             .command(&["check", "study.toml", "--json"])
-            .stdout(fs::OpenOptions::new().write(true).open("/dev/full").expect("there"))
+            .stdout(
+                fs::OpenOptions::new()
+                    .write(true)
+                    .open("/dev/full")
+                    .expect("there"),
+            )
             .output()
             .expect("quell runs");
         assert_eq!(output.status.code(), Some(1));
@@ -330,8 +465,17 @@ fn links_are_followed_not_replaced() {
     place.write("real.csv", b"");
     std::os::unix::fs::symlink("real.csv", place.folder.join("link.csv")).expect("a link");
     place.good(&["friction", "study.toml", "--save", "link.csv"]);
-    assert!(fs::symlink_metadata(place.folder.join("link.csv")).expect("there").is_symlink());
-    assert!(fs::metadata(place.folder.join("real.csv")).expect("there").len() > 100);
+    assert!(
+        fs::symlink_metadata(place.folder.join("link.csv"))
+            .expect("there")
+            .is_symlink()
+    );
+    assert!(
+        fs::metadata(place.folder.join("real.csv"))
+            .expect("there")
+            .len()
+            > 100
+    );
 }
 
 #[test]
@@ -345,7 +489,12 @@ fn a_closed_pipe_is_no_panic() {
         .expect("quell runs");
     drop(child.stdout.take());
     let mut told = String::new();
-    child.stderr.take().expect("piped").read_to_string(&mut told).expect("text");
+    child
+        .stderr
+        .take()
+        .expect("piped")
+        .read_to_string(&mut told)
+        .expect("text");
     assert_eq!(child.wait().expect("ends").code(), Some(0), "{told}");
     assert_eq!(told, "");
 }
@@ -354,14 +503,25 @@ fn a_closed_pipe_is_no_panic() {
 fn a_study_comes_from_standard_input() {
     let place = Place::new("stdin");
     let file = fs::File::open(place.folder.join("study.toml")).expect("there");
-    let output = place.command(&["check", "-", "--json"]).stdin(file).output().expect("quell runs");
+    let output = place
+        .command(&["check", "-", "--json"])
+        .stdin(file)
+        .output()
+        .expect("quell runs");
     assert_eq!(output.status.code(), Some(0));
 }
 
 #[test]
 fn changes_and_units_reach_the_engine() {
     let place = Place::new("changes");
-    let changed = place.good(&["check", "study.toml", "--set", "dither[0].amplitude=0.7", "--set", "friction.law=decreasing"]);
+    let changed = place.good(&[
+        "check",
+        "study.toml",
+        "--set",
+        "dither[0].amplitude=0.7",
+        "--set",
+        "friction.law=decreasing",
+    ]);
     assert_eq!(changed["dithers"][0]["amplitude"], 0.7);
     assert_eq!(changed["friction"]["law"], "decreasing");
     let seconds = place.good(&["simulate", "si.toml", "--until", "50ms", "--events"]);
@@ -371,12 +531,31 @@ fn changes_and_units_reach_the_engine() {
     let end = seconds["final"]["time_s"].as_f64().expect("a number");
     assert!((end - 0.05).abs() < 1e-15);
     assert_eq!(seconds["units"]["time_s"], "s");
-    let plain = place.good(&["simulate", "si.toml", "--until", &time.to_string(), "--events"]);
+    let plain = place.good(&[
+        "simulate",
+        "si.toml",
+        "--until",
+        &time.to_string(),
+        "--events",
+    ]);
     assert_eq!(plain["events"], seconds["events"]);
-    assert!(seconds["event_count"].as_u64() == seconds["events"].as_array().map(|list| list.len() as u64));
+    assert!(
+        seconds["event_count"].as_u64()
+            == seconds["events"].as_array().map(|list| list.len() as u64)
+    );
     let first = &seconds["events"][0];
-    assert_eq!((&first["kind"], &first["slip_sign"], &first["contact"]), (&"stick".into(), &0.into(), &0.into()));
-    let coarse = place.good(&["simulate", "study.toml", "--until", "20", "--tolerance", "1e-6"]);
+    assert_eq!(
+        (&first["kind"], &first["slip_sign"], &first["contact"]),
+        (&"stick".into(), &0.into(), &0.into())
+    );
+    let coarse = place.good(&[
+        "simulate",
+        "study.toml",
+        "--until",
+        "20",
+        "--tolerance",
+        "1e-6",
+    ]);
     let fine = place.good(&["simulate", "study.toml", "--until", "20"]);
     assert_eq!(coarse["tolerance"], 1e-6);
     assert!(coarse["steps"].as_u64() < fine["steps"].as_u64());
@@ -389,15 +568,30 @@ fn changes_and_units_reach_the_engine() {
 fn fields_have_the_names_scripts_rely_on() {
     let place = Place::new("names");
     let friction = place.good(&["friction", "study.toml", "--at", "0,0.1"]);
-    for name in ["slip_velocity", "coefficient", "effective_coefficient", "effective_slope"] {
+    for name in [
+        "slip_velocity",
+        "coefficient",
+        "effective_coefficient",
+        "effective_slope",
+    ] {
         assert_eq!(friction[name].as_array().map(Vec::len), Some(2), "{name}");
     }
     assert!(friction["coefficient"][0].is_null() && friction["why"]["coefficient[0]"].is_string());
     let response = place.good(&["response", "si.toml"]);
     for name in [
-        "amplitude", "amplitude_m", "stick_fraction", "efficiency", "undithered_amplitude",
-        "mean_friction", "mean_friction_n", "mean_friction_undithered", "dither_power",
-        "dither_power_w", "dither_stroke", "dither_stroke_m", "minimum_normal_load",
+        "amplitude",
+        "amplitude_m",
+        "stick_fraction",
+        "efficiency",
+        "undithered_amplitude",
+        "mean_friction",
+        "mean_friction_n",
+        "mean_friction_undithered",
+        "dither_power",
+        "dither_power_w",
+        "dither_stroke",
+        "dither_stroke_m",
+        "minimum_normal_load",
         "minimum_normal_load_n",
     ] {
         assert!(response[name].is_number(), "{name}");
@@ -425,5 +619,8 @@ fn help_version_and_schema_are_answers() {
     assert_eq!(place.quell(&[]).status.code(), Some(2));
     let (schema, status) = place.json(&["schema"]);
     assert_eq!(status, 0);
-    assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+    assert_eq!(
+        schema["$schema"],
+        "https://json-schema.org/draft/2020-12/schema"
+    );
 }

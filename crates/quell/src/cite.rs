@@ -23,8 +23,12 @@ pub enum Task {
 
 impl Task {
     /// Every task.
-    pub const ALL: &'static [Self] =
-        &[Self::Friction, Self::Stability, Self::Simulate, Self::Response];
+    pub const ALL: &'static [Self] = &[
+        Self::Friction,
+        Self::Stability,
+        Self::Simulate,
+        Self::Response,
+    ];
 
     /// Name of the verb.
     pub fn name(self) -> &'static str {
@@ -156,21 +160,39 @@ fn model(belt: &Belt) -> &'static str {
         (LawKind::Stribeck, false) => "equation of motion (2.1), (3.1); Stribeck law (2.7)",
         (LawKind::Stribeck, true) => "equation of motion (2.1), (3.1), (4.1); Stribeck law (2.7)",
         (LawKind::Decreasing, false) => "equation of motion (2.1), (3.1); decreasing law (2.8)",
-        (LawKind::Decreasing, true) => "equation of motion (2.1), (3.1), (4.1); decreasing law (2.8)",
+        (LawKind::Decreasing, true) => {
+            "equation of motion (2.1), (3.1), (4.1); decreasing law (2.8)"
+        }
     }
 }
 
 fn averaging(belt: &Belt, task: Task, cite: &mut impl FnMut(Task, Source, &'static str)) {
-    cite(task, THOMSEN_1999, "averaging over the fast motion; effective friction");
+    cite(
+        task,
+        THOMSEN_1999,
+        "averaging over the fast motion; effective friction",
+    );
     if has(belt, Direction::Tangential, None) {
-        cite(task, MICHAUX_2005, "effective friction under tangential dither (2.21), (3.19)–(3.27)");
+        cite(
+            task,
+            MICHAUX_2005,
+            "effective friction under tangential dither (2.21), (3.19)–(3.27)",
+        );
         cite(task, MICHAUX_2005, closed_form(belt.friction().kind()));
     }
     if has(belt, Direction::Normal, None) {
-        cite(task, MICHAUX_2005, "fast motion under normal dither (4.13)–(4.23), effective friction (4.27), (4.28)");
+        cite(
+            task,
+            MICHAUX_2005,
+            "fast motion under normal dither (4.13)–(4.23), effective friction (4.27), (4.28)",
+        );
     }
     if task == Task::Stability {
-        cite(task, MICHAUX_2005, "criterion of stability (2.26), thresholds (3.41)–(3.62), (4.33)–(4.42)");
+        cite(
+            task,
+            MICHAUX_2005,
+            "criterion of stability (2.26), thresholds (3.41)–(3.62), (4.33)–(4.42)",
+        );
     }
 }
 
@@ -182,12 +204,24 @@ fn closed_form(law: LawKind) -> &'static str {
 }
 
 fn simulation(task: Task, cite: &mut impl FnMut(Task, Source, &'static str)) {
-    cite(task, JORBA_ZOU_2005, "Taylor steps and the choice of their length");
-    cite(task, FILIPPOV_1988, "what a solution is where the friction law is set-valued");
+    cite(
+        task,
+        JORBA_ZOU_2005,
+        "Taylor steps and the choice of their length",
+    );
+    cite(
+        task,
+        FILIPPOV_1988,
+        "what a solution is where the friction law is set-valued",
+    );
     if task == Task::Response {
         cite(task, MICHAUX_2005, "efficiency of dither (2.27)");
         cite(task, HARRIS_1978, "Hann window of the spectrum");
-        cite(task, THOMSEN_FIDLIN_2003, "the stick-slip of the belt without dither");
+        cite(
+            task,
+            THOMSEN_FIDLIN_2003,
+            "the stick-slip of the belt without dither",
+        );
         cite(task, CUNEFARE_GRAF_2002, "dither against squeal");
     }
 }
@@ -293,14 +327,22 @@ fn corrections(belt: &Belt) -> Vec<Correction> {
     entries
         .into_iter()
         .filter(|(applies, ..)| *applies)
-        .map(|(_, equations, right, tasks)| Correction { equations, right, tasks })
+        .map(|(_, equations, right, tasks)| Correction {
+            equations,
+            right,
+            tasks,
+        })
         .collect()
 }
 
 impl Sources {
     /// The sources without repetition, in the order of [`SOURCES`].
     pub fn unique(&self) -> Vec<Source> {
-        let cited = |source: &&Source| self.citations.iter().any(|citation| citation.source == **source);
+        let cited = |source: &&Source| {
+            self.citations
+                .iter()
+                .any(|citation| citation.source == **source)
+        };
         SOURCES.iter().filter(cited).copied().collect()
     }
 
@@ -354,7 +396,11 @@ mod tests {
     fn only_corrections_that_bear_on_the_study_are_told() {
         let told = |law, waveform, direction| {
             let found = sources(&study(law, waveform, direction)).corrections;
-            found.iter().map(|correction| correction.equations).collect::<Vec<_>>().join("; ")
+            found
+                .iter()
+                .map(|correction| correction.equations)
+                .collect::<Vec<_>>()
+                .join("; ")
         };
         assert!(told("decreasing", "triangle", "tangential").contains("(3.38a)"));
         assert!(!told("decreasing", "sine", "tangential").contains("(3.38a)"));
@@ -367,7 +413,12 @@ mod tests {
     fn every_task_cites_something_and_keys_are_unique() {
         let found = sources(&study("stribeck", "sine", "tangential"));
         for task in Task::ALL {
-            assert!(found.citations.iter().any(|citation| citation.task == *task));
+            assert!(
+                found
+                    .citations
+                    .iter()
+                    .any(|citation| citation.task == *task)
+            );
         }
         let mut keys: Vec<&str> = SOURCES.iter().map(|source| source.key).collect();
         keys.sort_unstable();

@@ -102,8 +102,18 @@ impl Complaint {
     }
 
     /// A complaint about the value of a command-line option.
-    pub fn option(option: &'static str, value: impl Into<Value>, allowed: impl Into<String>) -> Self {
-        Self::new(Fault::Value, option, Origin::Argument(option), value, allowed)
+    pub fn option(
+        option: &'static str,
+        value: impl Into<Value>,
+        allowed: impl Into<String>,
+    ) -> Self {
+        Self::new(
+            Fault::Value,
+            option,
+            Origin::Argument(option),
+            value,
+            allowed,
+        )
     }
 
     /// The same complaint with a suggestion.
@@ -138,7 +148,9 @@ impl fmt::Display for Complaint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.origin {
             Origin::Line(line) => write!(f, "line {line}: ")?,
-            Origin::Argument(option) if option != self.key && self.fault != Fault::Usage => write!(f, "{option}: ")?,
+            Origin::Argument(option) if option != self.key && self.fault != Fault::Usage => {
+                write!(f, "{option}: ")?
+            }
             Origin::Argument(_) | Origin::Whole => {}
         }
         let Self { key, allowed, .. } = self;
@@ -226,7 +238,11 @@ impl fmt::Display for Failure {
         match self {
             Self::Wrong(complaints) => {
                 for (index, complaint) in complaints.iter().enumerate() {
-                    let end = if index + 1 < complaints.len() { "\n" } else { "" };
+                    let end = if index + 1 < complaints.len() {
+                        "\n"
+                    } else {
+                        ""
+                    };
                     write!(f, "{complaint}{end}")?;
                 }
                 Ok(())

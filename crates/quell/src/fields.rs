@@ -8,7 +8,8 @@ use quell_model::units::{Quantity, Scales};
 use serde_json::{Map, Value as Json};
 
 /// A slope per unit velocity: its unit, its SI unit, and the suffix for that.
-pub(crate) const PER_VELOCITY: (&str, &str, &str) = ("1/length (per velocity/ω₀)", "s/m", "s_per_m");
+pub(crate) const PER_VELOCITY: (&str, &str, &str) =
+    ("1/length (per velocity/ω₀)", "s/m", "s_per_m");
 
 /// An object under construction.
 #[derive(Clone, Debug)]
@@ -42,9 +43,18 @@ impl Fields {
     }
 
     /// A quantity, or null and why.
-    pub fn known(&mut self, name: &str, quantity: Quantity, value: Result<f64, String>) -> &mut Self {
+    pub fn known(
+        &mut self,
+        name: &str,
+        quantity: Quantity,
+        value: Result<f64, String>,
+    ) -> &mut Self {
         let value = value.and_then(|value| {
-            if value.is_finite() { Ok(value) } else { Err(format!("it is {value}")) }
+            if value.is_finite() {
+                Ok(value)
+            } else {
+                Err(format!("it is {value}"))
+            }
         });
         let twin = self.twin(name, quantity);
         self.name_units(name, quantity, twin.as_ref());
@@ -86,7 +96,8 @@ impl Fields {
             let (_, unit, suffix) = PER_VELOCITY;
             let omega = scales.si_per_unit(Quantity::Velocity);
             let values: Vec<f64> = values.iter().map(|value| value / omega).collect();
-            self.object.insert(format!("{name}_{suffix}"), values.into());
+            self.object
+                .insert(format!("{name}_{suffix}"), values.into());
             self.units.insert(format!("{name}_{suffix}"), unit.into());
         }
         self
@@ -95,7 +106,9 @@ impl Fields {
     /// A growth rate per unit τ, in SI per second; or null and why.
     pub fn rate(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
         self.units.insert(name.to_owned(), "ω₀".into());
-        let twin = self.scales.map(|scales| (format!("{name}_per_s"), scales.angular_frequency()));
+        let twin = self
+            .scales
+            .map(|scales| (format!("{name}_per_s"), scales.angular_frequency()));
         if let Some((key, _)) = &twin {
             self.units.insert(key.clone(), "1/s".into());
         }
@@ -144,7 +157,8 @@ impl Fields {
     /// The finished object, with `units` and `why`.
     pub fn finish(mut self) -> Json {
         if !self.units.is_empty() {
-            self.object.insert("units".to_owned(), Json::Object(self.units));
+            self.object
+                .insert("units".to_owned(), Json::Object(self.units));
         }
         if !self.why.is_empty() {
             self.object.insert("why".to_owned(), Json::Object(self.why));
@@ -158,7 +172,12 @@ impl Fields {
         Some((format!("{name}_{suffix}"), factor, unit))
     }
 
-    fn name_units(&mut self, name: &str, quantity: Quantity, twin: Option<&(String, f64, &'static str)>) {
+    fn name_units(
+        &mut self,
+        name: &str,
+        quantity: Quantity,
+        twin: Option<&(String, f64, &'static str)>,
+    ) {
         let unit = match (quantity, self.scales) {
             // The lengths of a study in SI are metres.
             (Quantity::Displacement | Quantity::Velocity | Quantity::Force, Some(_)) => {
@@ -192,9 +211,15 @@ mod tests {
     fn a_study_in_si_answers_in_both() {
         let scales = Scales::new(2.0, 200.0).expect("valid");
         let mut fields = Fields::new(Some(scales));
-        fields.number("time", Quantity::Time, 30.0).number("stick_fraction", Quantity::Ratio, 0.5);
+        fields
+            .number("time", Quantity::Time, 30.0)
+            .number("stick_fraction", Quantity::Ratio, 0.5);
         let mut inner = Fields::new(Some(scales));
-        inner.known("efficiency", Quantity::Ratio, Err("nothing to quench".into()));
+        inner.known(
+            "efficiency",
+            Quantity::Ratio,
+            Err("nothing to quench".into()),
+        );
         fields.list("points", [inner]);
         let json = fields.finish();
         assert_eq!(json["time"], 30.0);

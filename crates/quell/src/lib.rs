@@ -5,6 +5,7 @@ pub mod complaint;
 pub mod dataset;
 pub mod fields;
 pub mod output;
+pub mod picture;
 pub mod plot;
 pub mod quantity;
 pub mod run;

@@ -34,7 +34,12 @@ impl System {
 pub fn schema() -> Json {
     let mut definitions = Map::new();
     for system in [System::Scaled, System::Si] {
-        for section in [Section::Belt, Section::Initial, Section::Dither, Section::Solver] {
+        for section in [
+            Section::Belt,
+            Section::Initial,
+            Section::Dither,
+            Section::Solver,
+        ] {
             definitions.insert(name(section, system), table(section, system));
         }
         definitions.insert(name(Section::Friction, system), friction(system));
@@ -119,7 +124,10 @@ fn table(section: Section, system: System) -> Json {
         }
     }
     if section == Section::Belt {
-        properties.insert("initial".into(), json!({ "$ref": reference(Section::Initial, system) }));
+        properties.insert(
+            "initial".into(),
+            json!({ "$ref": reference(Section::Initial, system) }),
+        );
     }
     let mut object = object(section, &properties, &required);
     if !either.is_empty() {
@@ -151,10 +159,17 @@ fn friction(system: System) -> Json {
         .iter()
         .map(|law| {
             let mut properties = Map::new();
-            properties.insert("law".into(), json!({ "const": law.name(), "description": law.about() }));
+            properties.insert(
+                "law".into(),
+                json!({ "const": law.name(), "description": law.about() }),
+            );
             let mut required = vec!["law"];
             for key in vocabulary::keys_of(Section::Friction).filter(|key| belongs(key, system)) {
-                let known = |parameter: Parameter| law.parameters().iter().any(|known| known.path == parameter.path);
+                let known = |parameter: Parameter| {
+                    law.parameters()
+                        .iter()
+                        .any(|known| known.path == parameter.path)
+                };
                 if key.parameter().is_some_and(known) {
                     properties.insert(key.name.to_owned(), property(key));
                     required.push(key.name);
@@ -206,7 +221,11 @@ fn property(key: &Key) -> Json {
         Role::Number(parameter) => bounded(parameter.bounds, parameter.quantity),
         // The bounds of a twin depend on the scales unless they are about the sign.
         Role::Twin(parameter, _) => match parameter.bounds {
-            Bounds { lower: 0.0, upper: f64::INFINITY, .. } => bounded(parameter.bounds, Quantity::Ratio),
+            Bounds {
+                lower: 0.0,
+                upper: f64::INFINITY,
+                ..
+            } => bounded(parameter.bounds, Quantity::Ratio),
             Bounds { lower: 0.0, .. } => bounded(Bounds::NOT_NEGATIVE, Quantity::Ratio),
             _ => bounded(Bounds::FINITE, Quantity::Ratio),
         },
@@ -216,7 +235,9 @@ fn property(key: &Key) -> Json {
         Role::Schema => json!({ "const": SCHEMA_VERSION }),
         Role::AxisNumber => json!({ "type": "number" }),
         Role::AxisPoints => json!({ "type": "integer", "minimum": 2, "maximum": MOST_POINTS }),
-        Role::AxisValues => json!({ "type": "array", "items": { "type": "number" }, "minItems": 1 }),
+        Role::AxisValues => {
+            json!({ "type": "array", "items": { "type": "number" }, "minItems": 1 })
+        }
     };
     schema["description"] = about(key).into();
     schema
@@ -228,9 +249,14 @@ fn about(key: &Key) -> String {
             format!("{}: {}, in {}", parameter.symbol, key.about, key.unit())
         }
         Role::Twin(parameter, twin) if twin.rms => {
-            format!("{}: {}, as root mean square, in N", parameter.symbol, key.about)
+            format!(
+                "{}: {}, as root mean square, in N",
+                parameter.symbol, key.about
+            )
         }
-        Role::Twin(parameter, _) => format!("{}: {}, in {}", parameter.symbol, key.about, key.unit()),
+        Role::Twin(parameter, _) => {
+            format!("{}: {}, in {}", parameter.symbol, key.about, key.unit())
+        }
         Role::Scale(scale) => format!("{}: {}, in {}", scale.symbol, key.about, key.unit()),
         _ => key.about.to_owned(),
     }
@@ -240,7 +266,11 @@ fn bounded(bounds: Bounds, quantity: Quantity) -> Json {
     let whole = quantity == Quantity::Count;
     let mut schema = json!({ "type": if whole { "integer" } else { "number" } });
     if bounds.lower.is_finite() {
-        let keyword = if bounds.lower_included { "minimum" } else { "exclusiveMinimum" };
+        let keyword = if bounds.lower_included {
+            "minimum"
+        } else {
+            "exclusiveMinimum"
+        };
         schema[keyword] = bounds.lower.into();
     }
     if bounds.upper.is_finite() {
@@ -287,7 +317,10 @@ mod tests {
             let defs = schema["$defs"].as_object().expect("definitions");
             let found = defs.values().any(|table| {
                 let inside = |table: &Json| table["properties"].get(key.name).is_some();
-                inside(table) || table["oneOf"].as_array().is_some_and(|laws| laws.iter().any(inside))
+                inside(table)
+                    || table["oneOf"]
+                        .as_array()
+                        .is_some_and(|laws| laws.iter().any(inside))
             });
             assert!(found, "{}", key.path());
         }

@@ -49,7 +49,10 @@ phase = 0.5
 "#;
 
 fn set(changes: &[&str]) -> Vec<Change> {
-    changes.iter().map(|text| Change::parse(text, "--set").expect("path=value")).collect()
+    changes
+        .iter()
+        .map(|text| Change::parse(text, "--set").expect("path=value"))
+        .collect()
 }
 
 fn good(changes: &[&str]) -> Study {
@@ -61,18 +64,29 @@ fn complaints(text: &str, changes: &[&str]) -> Vec<Complaint> {
 }
 
 /// What one complaint must say: fault, key, line, a part of what is allowed, suggestion.
-type Said = (Fault, &'static str, Option<usize>, &'static str, Option<&'static str>);
+type Said = (
+    Fault,
+    &'static str,
+    Option<usize>,
+    &'static str,
+    Option<&'static str>,
+);
 
 fn check(text: &str, expected: &[Said]) {
     let told = complaints(text, &[]);
     let told: Vec<_> = told.iter().collect();
     for (fault, key, line, allowed, suggestion) in expected {
-        let found = told.iter().find(|complaint| complaint.fault == *fault && complaint.key == *key);
+        let found = told
+            .iter()
+            .find(|complaint| complaint.fault == *fault && complaint.key == *key);
         let Some(found) = found else {
             panic!("no complaint {fault:?} about {key} in {told:#?}\n{text}");
         };
         assert_eq!(found.origin.line(), *line, "{found}");
-        assert!(found.allowed.contains(allowed), "{found}: wants {allowed:?}");
+        assert!(
+            found.allowed.contains(allowed),
+            "{found}: wants {allowed:?}"
+        );
         assert_eq!(found.suggestion.as_deref(), *suggestion, "{found}");
     }
     assert_eq!(told.len(), expected.len(), "{told:#?}");
@@ -83,9 +97,15 @@ fn a_good_study_is_read() {
     let study = good(&[]);
     assert_eq!(study.title(), Some("Stribeck belt"));
     assert_eq!(study.belt().get("dither.frequency_ratio"), Some(10.0));
-    assert_eq!(study.belt().get("friction.minimum_coefficient"), Some(0.2857));
+    assert_eq!(
+        study.belt().get("friction.minimum_coefficient"),
+        Some(0.2857)
+    );
     assert_eq!(study.initial(), InitialState::Rest);
-    assert_eq!((study.solver().tolerance, study.solver().record_periods), (1e-12, 60));
+    assert_eq!(
+        (study.solver().tolerance, study.solver().record_periods),
+        (1e-12, 60)
+    );
     assert_eq!(study.solver().settle, 1200.0);
     assert!(study.scales().is_none() && study.sweeps().is_empty());
 }
@@ -94,42 +114,276 @@ fn a_good_study_is_read() {
 fn one_wrong_value_gives_one_complaint() {
     let wrong = |from: &str, to: &str| GOOD.replace(from, to);
     let cases: &[(&str, &str, Said)] = &[
-        ("= 0.005", "= -0.1", (Fault::Value, "belt.damping_ratio", Some(4), "≥ 0", None)),
-        ("= 0.005", "= nan", (Fault::Value, "belt.damping_ratio", Some(4), "≥ 0", None)),
-        ("= 0.005", "= inf", (Fault::Value, "belt.damping_ratio", Some(4), "finite", None)),
-        ("= 0.005", "= 1e999", (Fault::Value, "belt.damping_ratio", Some(4), "finite", None)),
-        ("= 0.005", "= \"0.1\"", (Fault::Value, "belt.damping_ratio", Some(4), "without quotes", None)),
-        ("= 0.005", "= true", (Fault::Value, "belt.damping_ratio", Some(4), "number", None)),
-        ("= 0.005", "= [1]", (Fault::Value, "belt.damping_ratio", Some(4), "an array", None)),
-        ("= 0.005", "= 1979-05-27", (Fault::Value, "belt.damping_ratio", Some(4), "a date", None)),
-        ("normal_load = 1.0", "normal_load = 0", (Fault::Value, "belt.normal_load", Some(5), "> 0", None)),
-        ("normal_load = 1.0\n", "", (Fault::Missing, "belt.normal_load", Some(3), "> 0", None)),
-        ("frequency_ratio = 10", "frequency_ratio = 0", (Fault::Value, "dither.frequency_ratio", Some(16), "> 0", None)),
-        ("amplitude = 0.4", "amplitude = -1", (Fault::Value, "dither.amplitude", Some(15), "≥ 0", None)),
-        ("0.2857", "0.5", (Fault::Value, "friction.minimum_coefficient", Some(10), "static_coefficient = 0.4", None)),
-        ("\"stribeck\"", "\"stribek\"", (Fault::Value, "friction.law", Some(8), "\"decreasing\"", Some("\"stribeck\""))),
-        ("\"stribeck\"", "3", (Fault::Value, "friction.law", Some(8), "\"decreasing\"", None)),
-        ("law = \"stribeck\"\n", "", (Fault::Missing, "friction.law", Some(7), "\"decreasing\"", None)),
-        ("\"sine\"", "\"sin\"", (Fault::Value, "dither.waveform", Some(14), "\"square\"", Some("\"sine\""))),
-        ("\"tangential\"", "\"sideways\"", (Fault::Value, "dither.direction", Some(13), "\"normal\"", None)),
-        ("schema = 1\n", "", (Fault::Missing, "schema", None, "schema = 1", None)),
-        ("schema = 1", "schema = 2", (Fault::Value, "schema", Some(1), "1", None)),
-        ("title = \"Stribeck belt\"", "title = 3", (Fault::Value, "title", Some(2), "a string", None)),
-        ("title", "titel", (Fault::Unknown, "titel", Some(2), "title", Some("title"))),
-        ("[friction]", "[frction]", (Fault::Unknown, "frction", Some(7), "friction", Some("friction"))),
-        ("[dither]", "[solver]\ntolerance = 0.5\n[dither]", (Fault::Value, "solver.tolerance", Some(13), "0.001", None)),
-        ("[dither]", "[solver]\nrecord_periods = 2.5\n[dither]", (Fault::Value, "solver.record_periods", Some(13), "whole", None)),
-        ("[dither]", "[solver]\nsettle = -1\n[dither]", (Fault::Value, "solver.settle", Some(13), "[0", None)),
-        ("[dither]", "[solver]\nsteps = 1\n[dither]", (Fault::Unknown, "solver.steps", Some(13), "tolerance", None)),
-        ("[dither]", "solver = 1\n[dither]", (Fault::Unknown, "friction.solver", Some(12), "law", None)),
-        ("[friction]", "initial = 3\n[friction]", (Fault::Value, "belt.initial", Some(7), "a table", None)),
-        ("[friction]", "[belt.initial]\nstate = \"resting\"\n[friction]", (Fault::Value, "belt.initial.state", Some(8), "\"sliding\"", Some("\"rest\""))),
-        ("[friction]", "[belt.initial]\nstate = \"rest\"\nvelocity = 1\n[friction]", (Fault::Conflict, "belt.initial.state", Some(8), "not both", None)),
-        ("[friction]", "[belt.initial]\ndisplacement = nan\n[friction]", (Fault::Value, "belt.initial.displacement", Some(8), "finite", None)),
-        ("amplitude = 0.4", "amplitude_n = 0.4", (Fault::Mixed, "dither.amplitude_n", Some(15), "dither.amplitude", Some("dither.amplitude"))),
-        ("[dither]", "[system]\n[dither]", (Fault::NotBuilt, "system", Some(12), "not built yet", None)),
-        ("schema = 1", "schema = 1\nschema = 1", (Fault::Syntax, "study", Some(2), "duplicate", None)),
-        ("schema = 1", "schema == 1", (Fault::Syntax, "study", Some(1), "", None)),
+        (
+            "= 0.005",
+            "= -0.1",
+            (Fault::Value, "belt.damping_ratio", Some(4), "≥ 0", None),
+        ),
+        (
+            "= 0.005",
+            "= nan",
+            (Fault::Value, "belt.damping_ratio", Some(4), "≥ 0", None),
+        ),
+        (
+            "= 0.005",
+            "= inf",
+            (Fault::Value, "belt.damping_ratio", Some(4), "finite", None),
+        ),
+        (
+            "= 0.005",
+            "= 1e999",
+            (Fault::Value, "belt.damping_ratio", Some(4), "finite", None),
+        ),
+        (
+            "= 0.005",
+            "= \"0.1\"",
+            (
+                Fault::Value,
+                "belt.damping_ratio",
+                Some(4),
+                "without quotes",
+                None,
+            ),
+        ),
+        (
+            "= 0.005",
+            "= true",
+            (Fault::Value, "belt.damping_ratio", Some(4), "number", None),
+        ),
+        (
+            "= 0.005",
+            "= [1]",
+            (
+                Fault::Value,
+                "belt.damping_ratio",
+                Some(4),
+                "an array",
+                None,
+            ),
+        ),
+        (
+            "= 0.005",
+            "= 1979-05-27",
+            (Fault::Value, "belt.damping_ratio", Some(4), "a date", None),
+        ),
+        (
+            "normal_load = 1.0",
+            "normal_load = 0",
+            (Fault::Value, "belt.normal_load", Some(5), "> 0", None),
+        ),
+        (
+            "normal_load = 1.0\n",
+            "",
+            (Fault::Missing, "belt.normal_load", Some(3), "> 0", None),
+        ),
+        (
+            "frequency_ratio = 10",
+            "frequency_ratio = 0",
+            (
+                Fault::Value,
+                "dither.frequency_ratio",
+                Some(16),
+                "> 0",
+                None,
+            ),
+        ),
+        (
+            "amplitude = 0.4",
+            "amplitude = -1",
+            (Fault::Value, "dither.amplitude", Some(15), "≥ 0", None),
+        ),
+        (
+            "0.2857",
+            "0.5",
+            (
+                Fault::Value,
+                "friction.minimum_coefficient",
+                Some(10),
+                "static_coefficient = 0.4",
+                None,
+            ),
+        ),
+        (
+            "\"stribeck\"",
+            "\"stribek\"",
+            (
+                Fault::Value,
+                "friction.law",
+                Some(8),
+                "\"decreasing\"",
+                Some("\"stribeck\""),
+            ),
+        ),
+        (
+            "\"stribeck\"",
+            "3",
+            (
+                Fault::Value,
+                "friction.law",
+                Some(8),
+                "\"decreasing\"",
+                None,
+            ),
+        ),
+        (
+            "law = \"stribeck\"\n",
+            "",
+            (
+                Fault::Missing,
+                "friction.law",
+                Some(7),
+                "\"decreasing\"",
+                None,
+            ),
+        ),
+        (
+            "\"sine\"",
+            "\"sin\"",
+            (
+                Fault::Value,
+                "dither.waveform",
+                Some(14),
+                "\"square\"",
+                Some("\"sine\""),
+            ),
+        ),
+        (
+            "\"tangential\"",
+            "\"sideways\"",
+            (
+                Fault::Value,
+                "dither.direction",
+                Some(13),
+                "\"normal\"",
+                None,
+            ),
+        ),
+        (
+            "schema = 1\n",
+            "",
+            (Fault::Missing, "schema", None, "schema = 1", None),
+        ),
+        (
+            "schema = 1",
+            "schema = 2",
+            (Fault::Value, "schema", Some(1), "1", None),
+        ),
+        (
+            "title = \"Stribeck belt\"",
+            "title = 3",
+            (Fault::Value, "title", Some(2), "a string", None),
+        ),
+        (
+            "title",
+            "titel",
+            (Fault::Unknown, "titel", Some(2), "title", Some("title")),
+        ),
+        (
+            "[friction]",
+            "[frction]",
+            (
+                Fault::Unknown,
+                "frction",
+                Some(7),
+                "friction",
+                Some("friction"),
+            ),
+        ),
+        (
+            "[dither]",
+            "[solver]\ntolerance = 0.5\n[dither]",
+            (Fault::Value, "solver.tolerance", Some(13), "0.001", None),
+        ),
+        (
+            "[dither]",
+            "[solver]\nrecord_periods = 2.5\n[dither]",
+            (
+                Fault::Value,
+                "solver.record_periods",
+                Some(13),
+                "whole",
+                None,
+            ),
+        ),
+        (
+            "[dither]",
+            "[solver]\nsettle = -1\n[dither]",
+            (Fault::Value, "solver.settle", Some(13), "[0", None),
+        ),
+        (
+            "[dither]",
+            "[solver]\nsteps = 1\n[dither]",
+            (Fault::Unknown, "solver.steps", Some(13), "tolerance", None),
+        ),
+        (
+            "[dither]",
+            "solver = 1\n[dither]",
+            (Fault::Unknown, "friction.solver", Some(12), "law", None),
+        ),
+        (
+            "[friction]",
+            "initial = 3\n[friction]",
+            (Fault::Value, "belt.initial", Some(7), "a table", None),
+        ),
+        (
+            "[friction]",
+            "[belt.initial]\nstate = \"resting\"\n[friction]",
+            (
+                Fault::Value,
+                "belt.initial.state",
+                Some(8),
+                "\"sliding\"",
+                Some("\"rest\""),
+            ),
+        ),
+        (
+            "[friction]",
+            "[belt.initial]\nstate = \"rest\"\nvelocity = 1\n[friction]",
+            (
+                Fault::Conflict,
+                "belt.initial.state",
+                Some(8),
+                "not both",
+                None,
+            ),
+        ),
+        (
+            "[friction]",
+            "[belt.initial]\ndisplacement = nan\n[friction]",
+            (
+                Fault::Value,
+                "belt.initial.displacement",
+                Some(8),
+                "finite",
+                None,
+            ),
+        ),
+        (
+            "amplitude = 0.4",
+            "amplitude_n = 0.4",
+            (
+                Fault::Mixed,
+                "dither.amplitude_n",
+                Some(15),
+                "dither.amplitude",
+                Some("dither.amplitude"),
+            ),
+        ),
+        (
+            "[dither]",
+            "[system]\n[dither]",
+            (Fault::NotBuilt, "system", Some(12), "not built yet", None),
+        ),
+        (
+            "schema = 1",
+            "schema = 1\nschema = 1",
+            (Fault::Syntax, "study", Some(2), "duplicate", None),
+        ),
+        (
+            "schema = 1",
+            "schema == 1",
+            (Fault::Syntax, "study", Some(1), "", None),
+        ),
     ];
     for (from, to, said) in cases {
         if *from == "[friction]" && *to == "[frction]" {
@@ -143,12 +397,30 @@ fn one_wrong_value_gives_one_complaint() {
 
 #[test]
 fn normal_dither_beyond_the_load_is_refused() {
-    let text = GOOD.replace("\"tangential\"", "\"normal\"").replace("amplitude = 0.4", "amplitude = 1.5");
-    check(&text, &[(Fault::Value, "dither.amplitude", Some(15), "pull the contact apart", None)]);
+    let text = GOOD
+        .replace("\"tangential\"", "\"normal\"")
+        .replace("amplitude = 0.4", "amplitude = 1.5");
+    check(
+        &text,
+        &[(
+            Fault::Value,
+            "dither.amplitude",
+            Some(15),
+            "pull the contact apart",
+            None,
+        )],
+    );
     let text = SI.replace("amplitude_n_rms = 60.0", "amplitude_n_rms = 300.0");
     let told = complaints(&text, &[]);
-    assert_eq!((told.len(), told[0].key.as_str()), (1, "dither[0].amplitude_n_rms"));
-    assert!(told[0].allowed.contains("normal_force_n = 350 N"), "{}", told[0]);
+    assert_eq!(
+        (told.len(), told[0].key.as_str()),
+        (1, "dither[0].amplitude_n_rms")
+    );
+    assert!(
+        told[0].allowed.contains("normal_force_n = 350 N"),
+        "{}",
+        told[0]
+    );
     let given = told[0].value.as_f64().expect("a number");
     assert!((given - 300.0).abs() < 1e-10, "{given}");
 }
@@ -183,21 +455,60 @@ phse = 1
         text,
         &[
             (Fault::Unknown, "colour", Some(2), "title", None),
-            (Fault::Unknown, "belt.dampng_ratio", Some(4), "damping_ratio", Some("belt.damping_ratio")),
+            (
+                Fault::Unknown,
+                "belt.dampng_ratio",
+                Some(4),
+                "damping_ratio",
+                Some("belt.damping_ratio"),
+            ),
             (Fault::Value, "belt.damping_ratio", Some(5), "≥ 0", None),
             (Fault::Value, "belt.belt_velocity", Some(7), "number", None),
-            (Fault::Value, "friction.minimum_coefficient", Some(11), "at most", None),
-            (Fault::Value, "friction.reference_velocity", Some(12), "> 0", None),
+            (
+                Fault::Value,
+                "friction.minimum_coefficient",
+                Some(11),
+                "at most",
+                None,
+            ),
+            (
+                Fault::Value,
+                "friction.reference_velocity",
+                Some(12),
+                "> 0",
+                None,
+            ),
             (Fault::Value, "dither[1].amplitude", Some(21), "≥ 0", None),
-            (Fault::Value, "dither[1].frequency_ratio", Some(22), "> 0", None),
-            (Fault::Unknown, "dither[1].phse", Some(23), "phase", Some("dither[1].phase")),
+            (
+                Fault::Value,
+                "dither[1].frequency_ratio",
+                Some(22),
+                "> 0",
+                None,
+            ),
+            (
+                Fault::Unknown,
+                "dither[1].phse",
+                Some(23),
+                "phase",
+                Some("dither[1].phase"),
+            ),
         ],
     );
     // With the second dither right, the first one's separation is told beside the rest.
-    let text = text.replace("= nan", "= 1").replace("frequency_ratio = 0\n", "frequency_ratio = 3\n");
+    let text = text
+        .replace("= nan", "= 1")
+        .replace("frequency_ratio = 0\n", "frequency_ratio = 3\n");
     let told = complaints(&text, &[]);
-    assert!(told.iter().any(|complaint| complaint.allowed.contains("pull the contact apart")), "{told:#?}");
-    let lines: Vec<_> = told.iter().filter_map(|complaint| complaint.origin.line()).collect();
+    assert!(
+        told.iter()
+            .any(|complaint| complaint.allowed.contains("pull the contact apart")),
+        "{told:#?}"
+    );
+    let lines: Vec<_> = told
+        .iter()
+        .filter_map(|complaint| complaint.origin.line())
+        .collect();
     assert!(lines.is_sorted() && lines.len() == told.len(), "{lines:?}");
 }
 
@@ -255,15 +566,47 @@ fn systems_do_not_mix() {
     let mixed = SI.replace("damping_n_s_per_m = 15.8", "damping_ratio = 0.005");
     check(
         &mixed,
-        &[(Fault::Mixed, "belt.damping_ratio", Some(5), "damping_n_s_per_m", Some("belt.damping_n_s_per_m"))],
+        &[(
+            Fault::Mixed,
+            "belt.damping_ratio",
+            Some(5),
+            "damping_n_s_per_m",
+            Some("belt.damping_n_s_per_m"),
+        )],
     );
-    let both = SI.replace("amplitude_n = 40.0", "amplitude_n = 40.0\namplitude_n_rms = 40.0");
-    check(&both, &[(Fault::Conflict, "dither[1].amplitude_n_rms", Some(22), "not both", None)]);
+    let both = SI.replace(
+        "amplitude_n = 40.0",
+        "amplitude_n = 40.0\namplitude_n_rms = 40.0",
+    );
+    check(
+        &both,
+        &[(
+            Fault::Conflict,
+            "dither[1].amplitude_n_rms",
+            Some(22),
+            "not both",
+            None,
+        )],
+    );
     let solver = format!("{SI}[solver]\nsettle = 100\n");
-    check(&solver, &[(Fault::Mixed, "solver.settle", Some(25), "settle_s", Some("solver.settle_s"))]);
+    check(
+        &solver,
+        &[(
+            Fault::Mixed,
+            "solver.settle",
+            Some(25),
+            "settle_s",
+            Some("solver.settle_s"),
+        )],
+    );
     let no_mass = SI.replace("mass_kg = 2.5\n", "");
-    check(&no_mass, &[(Fault::Missing, "belt.mass_kg", Some(2), "kg", None)]);
-    let negative = SI.replace("mass_kg = 2.5", "mass_kg = -2.5").replace("= 350.0", "= -3");
+    check(
+        &no_mass,
+        &[(Fault::Missing, "belt.mass_kg", Some(2), "kg", None)],
+    );
+    let negative = SI
+        .replace("mass_kg = 2.5", "mass_kg = -2.5")
+        .replace("= 350.0", "= -3");
     check(
         &negative,
         &[
@@ -290,14 +633,26 @@ fn set_reaches_every_key() {
     assert_eq!(study.belt().dithers()[0].waveform.name(), "square");
     assert_eq!(study.belt().dithers()[0].amplitude, 0.9);
     assert_eq!(study.initial(), InitialState::Sliding);
-    assert_eq!((study.solver().tolerance, study.title()), (1e-9, Some("another")));
-    let si = Study::parse(SI, &set(&["dither[0].amplitude_n=100", "belt.normal_force_n=400"]));
+    assert_eq!(
+        (study.solver().tolerance, study.title()),
+        (1e-9, Some("another"))
+    );
+    let si = Study::parse(
+        SI,
+        &set(&["dither[0].amplitude_n=100", "belt.normal_force_n=400"]),
+    );
     let si = si.unwrap_or_else(|errors| panic!("{errors:?}"));
     assert_eq!(si.belt().normal_load(), 400.0 / 1.0e6);
     assert_eq!(si.belt().dithers()[0].amplitude, 100.0 / 1.0e6);
     // A later state takes the place of an earlier one.
     let study = good(&["belt.initial.state=sliding", "belt.initial.displacement=2"]);
-    assert_eq!(study.initial(), InitialState::Explicit { displacement: 2.0, velocity: 0.0 });
+    assert_eq!(
+        study.initial(),
+        InitialState::Explicit {
+            displacement: 2.0,
+            velocity: 0.0
+        }
+    );
 }
 
 #[test]
@@ -308,15 +663,25 @@ fn set_complains_about_what_it_cannot_reach() {
         told.into_iter().next().expect("one")
     };
     let unknown = one(&["belt.belt_velocty=0.1"]);
-    assert_eq!((unknown.fault, unknown.suggestion.as_deref()), (Fault::Unknown, Some("belt.belt_velocity")));
+    assert_eq!(
+        (unknown.fault, unknown.suggestion.as_deref()),
+        (Fault::Unknown, Some("belt.belt_velocity"))
+    );
     assert_eq!(unknown.origin.line(), None);
     assert_eq!(one(&["dither[1].amplitude=1"]).fault, Fault::Conflict);
     assert_eq!(one(&["disc.inner_radius_ratio=1"]).fault, Fault::NotBuilt);
     assert_eq!(one(&["belt.normal_load=-1"]).key, "belt.normal_load");
     assert_eq!(one(&["belt.normal_force_n=3"]).fault, Fault::Mixed);
     let told = complaints(SI, &["dither.phase=1", "belt.belt_velocity=1"]);
-    assert!(told.iter().any(|complaint| complaint.fault == Fault::Conflict && complaint.key == "dither.phase"));
-    assert!(told.iter().any(|complaint| complaint.fault == Fault::Mixed && complaint.key == "belt.belt_velocity"));
+    assert!(
+        told.iter()
+            .any(|complaint| complaint.fault == Fault::Conflict && complaint.key == "dither.phase")
+    );
+    assert!(
+        told.iter()
+            .any(|complaint| complaint.fault == Fault::Mixed
+                && complaint.key == "belt.belt_velocity")
+    );
     assert!(Change::parse("belt.belt_velocity", "--set").is_err());
 }
 
@@ -335,19 +700,89 @@ fn axes_are_read_and_checked() {
     assert_eq!(changed.belt().dithers()[0].amplitude, 0.7);
 
     let axis = |lines: &str| format!("{GOOD}[[sweep]]\n{lines}\n");
-    let said = |fault, key, line, allowed, suggestion| -> Said { (fault, key, line, allowed, suggestion) };
+    let said =
+        |fault, key, line, allowed, suggestion| -> Said { (fault, key, line, allowed, suggestion) };
     for (lines, expected) in [
-        ("parameter = \"dither.amplitud\"\nvalues = [1]", said(Fault::Value, "sweep[0].parameter", Some(18), "path", Some("dither.amplitude"))),
-        ("parameter = \"friction.law\"\nvalues = [1]", said(Fault::Value, "sweep[0].parameter", Some(18), "a number", None)),
-        ("values = [1]", said(Fault::Missing, "sweep[0].parameter", Some(17), "path", None)),
-        ("parameter = \"dither.phase\"\nvalues = []", said(Fault::Value, "sweep[0].values", Some(19), "at least one", None)),
-        ("parameter = \"dither.phase\"\nvalues = [nan]", said(Fault::Value, "sweep[0].values[0]", Some(19), "finite", None)),
-        ("parameter = \"dither.phase\"\nvalues = [1]\npoints = 3", said(Fault::Conflict, "sweep[0].points", Some(20), "not both", None)),
-        ("parameter = \"dither.phase\"\nfrom = 0\nto = 1\npoints = 1", said(Fault::Value, "sweep[0].points", Some(21), "[2", None)),
-        ("parameter = \"dither.phase\"\nfrom = 0\nto = 1\npoints = 3\nspacing = \"log\"", said(Fault::Value, "sweep[0].from", Some(19), "> 0", None)),
-        ("parameter = \"dither.amplitude\"\nvalues = [-1]", said(Fault::Value, "sweep[0].parameter", Some(17), "≥ 0", None)),
-        ("parameter = \"dither[3].amplitude\"\nvalues = [1]", said(Fault::Conflict, "sweep[0].parameter", Some(17), "one [dither]", None)),
-        ("parameter = \"dither.amplitude_n\"\nvalues = [1]", said(Fault::Mixed, "sweep[0].parameter", Some(17), "dimensionless", Some("dither.amplitude"))),
+        (
+            "parameter = \"dither.amplitud\"\nvalues = [1]",
+            said(
+                Fault::Value,
+                "sweep[0].parameter",
+                Some(18),
+                "path",
+                Some("dither.amplitude"),
+            ),
+        ),
+        (
+            "parameter = \"friction.law\"\nvalues = [1]",
+            said(
+                Fault::Value,
+                "sweep[0].parameter",
+                Some(18),
+                "a number",
+                None,
+            ),
+        ),
+        (
+            "values = [1]",
+            said(Fault::Missing, "sweep[0].parameter", Some(17), "path", None),
+        ),
+        (
+            "parameter = \"dither.phase\"\nvalues = []",
+            said(
+                Fault::Value,
+                "sweep[0].values",
+                Some(19),
+                "at least one",
+                None,
+            ),
+        ),
+        (
+            "parameter = \"dither.phase\"\nvalues = [nan]",
+            said(Fault::Value, "sweep[0].values[0]", Some(19), "finite", None),
+        ),
+        (
+            "parameter = \"dither.phase\"\nvalues = [1]\npoints = 3",
+            said(
+                Fault::Conflict,
+                "sweep[0].points",
+                Some(20),
+                "not both",
+                None,
+            ),
+        ),
+        (
+            "parameter = \"dither.phase\"\nfrom = 0\nto = 1\npoints = 1",
+            said(Fault::Value, "sweep[0].points", Some(21), "[2", None),
+        ),
+        (
+            "parameter = \"dither.phase\"\nfrom = 0\nto = 1\npoints = 3\nspacing = \"log\"",
+            said(Fault::Value, "sweep[0].from", Some(19), "> 0", None),
+        ),
+        (
+            "parameter = \"dither.amplitude\"\nvalues = [-1]",
+            said(Fault::Value, "sweep[0].parameter", Some(17), "≥ 0", None),
+        ),
+        (
+            "parameter = \"dither[3].amplitude\"\nvalues = [1]",
+            said(
+                Fault::Conflict,
+                "sweep[0].parameter",
+                Some(17),
+                "one [dither]",
+                None,
+            ),
+        ),
+        (
+            "parameter = \"dither.amplitude_n\"\nvalues = [1]",
+            said(
+                Fault::Mixed,
+                "sweep[0].parameter",
+                Some(17),
+                "dimensionless",
+                Some("dither.amplitude"),
+            ),
+        ),
     ] {
         check(&axis(lines), &[expected]);
     }

@@ -221,8 +221,10 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         let w = &series.slip;
         let length = self.slip_length(w, room);
         if zeros > 0 && w[zeros] * sign <= 0.0 {
-            // The zero is of higher order than its cause allows: rounding at a touch.
+            // The zero is of higher order than its cause allows: rounding at a touch. The slip
+            // that was announced has no length.
             self.contact = Contact::Stick { held: true };
+            self.report(EventKind::Stick);
             return;
         }
         let root = first_crossing_after(w, zeros, length);

@@ -3,12 +3,13 @@
 use std::fmt::Write as _;
 
 use clap::Args;
+use quell::picture;
 use quell::run::simulate::{MOST_SAMPLES, Options, Simulation, run as simulate};
 use quell::{Complaint, Failure, Study, quantity};
 use quell_model::units::{Quantity, Scales};
 
 use crate::answer::Answer;
-use crate::arguments::{Complaints, OutputArguments, StudyArguments};
+use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
 use crate::table::{Table, figure};
 
 /// Computes one trajectory with every event at the contact
@@ -23,6 +24,8 @@ pub(crate) struct Arguments {
     #[arg(long)]
     events: bool,
     #[command(flatten)]
+    plot: PlotArguments,
+    #[command(flatten)]
     output: OutputArguments,
 }
 
@@ -32,13 +35,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = complaints.take(arguments.study.read());
     let until = complaints.take(until(&arguments.until, study.as_ref()));
     let outputs = complaints.take(arguments.output.prepare(&[]));
-    let (study, until, outputs) =
-        complaints.finish(study.zip(until).zip(outputs).map(|((a, b), c)| (a, b, c)))?;
+    let plot = complaints.take(arguments.plot.prepare());
+    let ((study, until), (outputs, plot)) =
+        complaints.finish(study.zip(until).zip(outputs.zip(plot)))?;
 
-    let options = Options { events: arguments.events, samples: arguments.output.saves() };
+    let options = Options {
+        events: arguments.events,
+        samples: arguments.output.saves() || plot.wanted(),
+        undithered: plot.wanted(),
+    };
     let done = simulate(&study, until, options)?;
     let mut object = done.json(&study);
     outputs.write(&[done.dataset(&study)], &mut object)?;
+    plot.write(|| picture::simulate(&study, &done), &mut object)?;
     let answer = Answer::new(arguments.study.json, || object, || text(&study, &done));
     Ok(answer.warning(warnings(&done)))
 }
@@ -48,7 +57,11 @@ fn until(text: &str, study: Option<&Study>) -> Result<f64, Box<Complaint>> {
     let scales = study.map_or_else(|| Scales::new(1.0, 1.0).ok(), Study::scales);
     let time = quantity::parse(text, Quantity::Time, scales, "--until")?;
     if time < 0.0 {
-        return Err(Box::new(Complaint::option("--until", text, "a time ≥ 0: a run starts at τ = 0")));
+        return Err(Box::new(Complaint::option(
+            "--until",
+            text,
+            "a time ≥ 0: a run starts at τ = 0",
+        )));
     }
     Ok(time)
 }
@@ -56,7 +69,9 @@ fn until(text: &str, study: Option<&Study>) -> Result<f64, Box<Complaint>> {
 fn warnings(done: &Simulation) -> Vec<String> {
     let mut warnings = Vec::new();
     if done.coarse {
-        warnings.push(format!("only {MOST_SAMPLES} samples are kept; they are coarser than the dither deserves"));
+        warnings.push(format!(
+            "only {MOST_SAMPLES} samples are kept; they are coarser than the dither deserves"
+        ));
     }
     let releases = done.end.near_tangential_releases;
     if releases > 0 {
@@ -71,7 +86,11 @@ fn text(study: &Study, done: &Simulation) -> String {
     let mut text = done.sentence(study) + "\n";
     if let Some(events) = &done.events {
         text.push('\n');
-        let _ = writeln!(text, "  {:>14}  {:<8}  {:>4}  {:>14}", "τ", "event", "slip", "x");
+        let _ = writeln!(
+            text,
+            "  {:>14}  {:<8}  {:>4}  {:>14}",
+            "τ", "event", "slip", "x"
+        );
         for event in events {
             let (time, place) = (figure(event.time), figure(event.displacement));
             let _ = writeln!(

@@ -3,12 +3,13 @@
 use std::fmt::Write as _;
 
 use clap::Args;
+use quell::picture;
 use quell::run::stability::{Averaged, Stability, becomes, kind, run as stability};
 use quell::{Failure, Study};
 use quell_model::units::Quantity;
 
 use crate::answer::Answer;
-use crate::arguments::StudyArguments;
+use crate::arguments::{Complaints, PlotArguments, StudyArguments};
 use crate::table::{Table, figure};
 
 /// Says whether steady sliding is stable by averaging, and which dither changes that
@@ -16,13 +17,21 @@ use crate::table::{Table, figure};
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
+    #[command(flatten)]
+    plot: PlotArguments,
 }
 
 /// Answers.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let study = arguments.study.read()?;
+    let mut complaints = Complaints::default();
+    let study = complaints.take(arguments.study.read());
+    let plot = complaints.take(arguments.plot.prepare());
+    let (study, plot) = complaints.finish(study.zip(plot))?;
+
     let done = stability(&study);
-    let answer = Answer::new(arguments.study.json, || done.json(&study), || text(&study, &done));
+    let mut object = done.json(&study);
+    plot.write(|| picture::stability(&study, &done), &mut object)?;
+    let answer = Answer::new(arguments.study.json, || object, || text(&study, &done));
     Ok(answer.warning(done.warnings(&study)))
 }
 
@@ -45,7 +54,11 @@ fn averaged(study: &Study, found: &Averaged) -> String {
     let mut table = Table::new(study.scales());
     table.word("verdict", found.verdict());
     let value = found.criterion.as_ref().map(|criterion| criterion.value);
-    table.known("criterion 2ζ + Fμ̄′", Quantity::Ratio, value.map_err(ToString::to_string));
+    table.known(
+        "criterion 2ζ + Fμ̄′",
+        Quantity::Ratio,
+        value.map_err(ToString::to_string),
+    );
     if let Ok(criterion) = &found.criterion {
         table.number("  error", Quantity::Ratio, criterion.error);
     }
@@ -54,7 +67,11 @@ fn averaged(study: &Study, found: &Averaged) -> String {
             for critical in list {
                 let label = format!("{} from α", becomes(critical.becomes));
                 table.number(&label, Quantity::Velocity, critical.amplitude_ratio);
-                table.number(&format!("  D, by a {}", kind(critical.crossing)), Quantity::Force, critical.amplitude);
+                table.number(
+                    &format!("  D, by a {}", kind(critical.crossing)),
+                    Quantity::Force,
+                    critical.amplitude,
+                );
             }
         }
         Err(why) => table.word("critical amplitudes", &format!("unknown: {why}")),
@@ -72,7 +89,11 @@ fn averaged(study: &Study, found: &Averaged) -> String {
                 format!("{} to {upper}", figure(band.lower))
             })
             .collect();
-        let bands = if bands.is_empty() { "none".to_owned() } else { bands.join(", ") };
+        let bands = if bands.is_empty() {
+            "none".to_owned()
+        } else {
+            bands.join(", ")
+        };
         table.word("unstable belt velocities", &bands);
     }
     table.text()

@@ -2,9 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use quell_belt::simulation::{
-    Event, EventRecorder, FinalState, Sample, Sampler, Start, simulate,
-};
+use quell_belt::simulation::{Event, EventRecorder, FinalState, Sample, Sampler, Start, simulate};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -28,6 +26,8 @@ pub struct Options {
     pub events: bool,
     /// Whether the trajectory is sampled densely.
     pub samples: bool,
+    /// Whether the same is computed without dither, beside it.
+    pub undithered: bool,
 }
 
 /// A trajectory.
@@ -41,8 +41,8 @@ pub struct Simulation {
     pub events: Option<Vec<Event>>,
     /// Samples at equal steps, both ends included, where they were asked for.
     pub samples: Option<Vec<Sample>>,
-    /// Step between samples.
-    pub sample_step: f64,
+    /// The same without dither, where it was asked for and there is dither.
+    pub undithered_samples: Option<Vec<Sample>>,
     /// Whether the samples are coarser than the fastest dither deserves.
     pub coarse: bool,
 }
@@ -55,7 +55,11 @@ pub struct Simulation {
 pub fn run(study: &Study, until: f64, options: Options) -> Result<Simulation, Failure> {
     let belt = study.belt();
     let start = start(study)?;
-    let (intervals, coarse) = if options.samples { grid(study, until - start.time) } else { (0, false) };
+    let (intervals, coarse) = if options.samples {
+        grid(study, until - start.time)
+    } else {
+        (0, false)
+    };
     let sample_step = (until - start.time) / (intervals.max(1) as f64);
     let count = if options.samples { intervals } else { 0 };
     let mut sampler = Sampler::new(start.time, sample_step, count);
@@ -68,27 +72,43 @@ pub fn run(study: &Study, until: f64, options: Options) -> Result<Simulation, Fa
         simulate(belt, start, until, tolerance, &mut sampler)
     }
     .map_err(failed)?;
-    let mut samples = sampler.samples;
-    // The end itself: a grid point may round to just behind it.
+    let samples = with_end(sampler.samples, &end);
+    let undithered_samples = if options.undithered && !belt.dithers().is_empty() {
+        let mut sampler = Sampler::new(start.time, sample_step, count);
+        let end =
+            simulate(&belt.undithered(), start, until, tolerance, &mut sampler).map_err(failed)?;
+        Some(with_end(sampler.samples, &end))
+    } else {
+        None
+    };
+    Ok(Simulation {
+        start,
+        end,
+        events: options.events.then_some(recorder.events),
+        samples: options.samples.then_some(samples),
+        undithered_samples,
+        coarse,
+    })
+}
+
+/// Samples with the end itself: a grid point may round to just behind it.
+fn with_end(mut samples: Vec<Sample>, end: &FinalState) -> Vec<Sample> {
     samples.push(Sample {
         time: end.time,
         displacement: end.displacement,
         velocity: end.velocity,
         sticking: end.sticking,
     });
-    Ok(Simulation {
-        start,
-        end,
-        events: options.events.then_some(recorder.events),
-        samples: options.samples.then_some(samples),
-        sample_step,
-        coarse,
-    })
+    samples
 }
 
 /// Number of intervals between samples, and whether it had to be cut.
 fn grid(study: &Study, length: f64) -> (usize, bool) {
-    let dithers = study.belt().dithers().iter().filter(|dither| dither.amplitude > 0.0);
+    let dithers = study
+        .belt()
+        .dithers()
+        .iter()
+        .filter(|dither| dither.amplitude > 0.0);
     let fastest = dithers.fold(0.0_f64, |rate, dither| rate.max(dither.frequency_ratio));
     let per_slow = SAMPLES_PER_SLOW_PERIOD.max(SAMPLES_PER_DITHER_PERIOD * fastest);
     let wanted = (length / TAU * per_slow).ceil().max(1.0);
@@ -119,18 +139,29 @@ impl Simulation {
             1 => "there was one event at the contact".to_owned(),
             count => format!("there were {count} events at the contact"),
         };
-        format!("Started {}, at {} = {} {state}; on the way {events}.", start_in_words(study), time, in_words(study, Quantity::Time, end.time))
+        format!(
+            "Started {}, at {} = {} {state}; on the way {events}.",
+            start_in_words(study),
+            time,
+            in_words(study, Quantity::Time, end.time)
+        )
     }
 
     /// As JSON.
     pub fn json(&self, study: &Study) -> Json {
         let scales = study.scales();
         let mut fields = Fields::new(scales);
-        fields.plain("ok", true).plain("sentence", self.sentence(study));
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study));
         let mut inner = Fields::new(scales);
         inner
             .number("time", Quantity::Time, self.start.time)
-            .number("displacement", Quantity::Displacement, self.start.displacement)
+            .number(
+                "displacement",
+                Quantity::Displacement,
+                self.start.displacement,
+            )
             .number("velocity", Quantity::Velocity, self.start.velocity);
         fields.nested("start", inner);
         let end = &self.end;
@@ -169,14 +200,30 @@ impl Simulation {
         let column = |value: fn(&Sample) -> f64| samples.iter().map(value).collect::<Vec<f64>>();
         let belt_velocity = study.belt().belt_velocity();
         let slip = samples.iter().map(|sample| {
-            if sample.sticking { 0.0 } else { belt_velocity - sample.velocity }
+            if sample.sticking {
+                0.0
+            } else {
+                belt_velocity - sample.velocity
+            }
         });
         Dataset::new(study, "simulate")
             .fact(format!("start: {}", start_in_words(study)))
             .axis("time", Quantity::Time, column(|sample| sample.time))
-            .array("displacement", Quantity::Displacement, column(|sample| sample.displacement))
-            .array("velocity", Quantity::Velocity, column(|sample| sample.velocity))
+            .array(
+                "displacement",
+                Quantity::Displacement,
+                column(|sample| sample.displacement),
+            )
+            .array(
+                "velocity",
+                Quantity::Velocity,
+                column(|sample| sample.velocity),
+            )
             .array("slip_velocity", Quantity::Velocity, slip.collect())
-            .array("sticking", Quantity::Count, column(|sample| f64::from(u8::from(sample.sticking))))
+            .array(
+                "sticking",
+                Quantity::Count,
+                column(|sample| f64::from(u8::from(sample.sticking))),
+            )
     }
 }

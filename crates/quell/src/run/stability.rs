@@ -6,8 +6,8 @@
 
 use quell_belt::averaging::{
     AveragingError, AveragingOptions, Band, Becomes, Criterion, CriticalAmplitude, Crossing,
-    EverywhereStable, FastWave, NeverStable, NormalOrder, Response, Side, UndecidedBecause, Verdict,
-    critical_amplitudes, criterion, everywhere_stable_amplitude, unstable_bands,
+    EverywhereStable, FastWave, NeverStable, NormalOrder, Response, Side, UndecidedBecause,
+    Verdict, criterion, critical_amplitudes, everywhere_stable_amplitude, unstable_bands,
 };
 use quell_model::units::Quantity;
 use quell_model::{Belt, Dither};
@@ -47,12 +47,17 @@ pub struct Stability {
 /// Averaged stability of a study.
 pub fn run(study: &Study) -> Stability {
     let belt = study.belt();
-    let sharper = AveragingOptions { response: Response::Oscillator, normal_order: NormalOrder::Second };
+    let sharper = AveragingOptions {
+        response: Response::Oscillator,
+        normal_order: NormalOrder::Second,
+    };
     let slow = belt
         .dithers()
         .iter()
         .find(|dither| dither.frequency_ratio <= 1.0)
-        .map(|dither| AveragingError::NotFast { frequency_ratio: dither.frequency_ratio });
+        .map(|dither| AveragingError::NotFast {
+            frequency_ratio: dither.frequency_ratio,
+        });
     Stability {
         limit: averaged(belt, AveragingOptions::default()),
         sharper: match slow {
@@ -89,11 +94,17 @@ fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, Stri
     );
     match found.map_err(|why| why.to_string())? {
         EverywhereStable::Always => Ok(0.0),
-        EverywhereStable::From { amplitude_ratio, .. } => Ok(amplitude_ratio),
+        EverywhereStable::From {
+            amplitude_ratio, ..
+        } => Ok(amplitude_ratio),
         EverywhereStable::Never { why } => Err(match why {
-            NeverStable::NoDamping => "without damping a law that falls for ever leaves fast belts unstable at \
-                                       any amplitude",
-            NeverStable::InnerRegion => "slow belts stay unstable at any amplitude: the law falls too steeply",
+            NeverStable::NoDamping => {
+                "without damping a law that falls for ever leaves fast belts unstable at \
+                                       any amplitude"
+            }
+            NeverStable::InnerRegion => {
+                "slow belts stay unstable at any amplitude: the law falls too steeply"
+            }
             NeverStable::OffScale => "there is none up to 10¹² v_m",
         }
         .to_owned()),
@@ -102,9 +113,16 @@ fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, Stri
 
 /// Shape of the fast slip velocity of a dither.
 fn fast_wave(dither: &Dither, response: Response) -> FastWave {
-    let Dither { waveform, frequency_ratio, .. } = *dither;
+    let Dither {
+        waveform,
+        frequency_ratio,
+        ..
+    } = *dither;
     match response {
-        Response::Oscillator => FastWave::Oscillator { waveform, frequency_ratio },
+        Response::Oscillator => FastWave::Oscillator {
+            waveform,
+            frequency_ratio,
+        },
         Response::Limit => FastWave::Integral(waveform),
     }
 }
@@ -137,22 +155,36 @@ impl Averaged {
         let value = |field: fn(&Criterion) -> f64| self.criterion.as_ref().map(field).map_err(told);
         fields
             .plain("verdict", self.verdict())
-            .known("criterion", Quantity::Ratio, value(|criterion| criterion.value))
+            .known(
+                "criterion",
+                Quantity::Ratio,
+                value(|criterion| criterion.value),
+            )
             .known("error", Quantity::Ratio, value(|criterion| criterion.error))
-            .rate("growth_rate", value(|criterion| growth_rate(criterion.value)))
+            .rate(
+                "growth_rate",
+                value(|criterion| growth_rate(criterion.value)),
+            )
             .known(
                 "effective_coefficient",
                 Quantity::Ratio,
                 value(|criterion| criterion.effective.coefficient),
             );
-        let one_sided = self.criterion.as_ref().is_ok_and(|found| found.effective.side == Side::Outer);
+        let one_sided = self
+            .criterion
+            .as_ref()
+            .is_ok_and(|found| found.effective.side == Side::Outer);
         fields.plain("one_sided", one_sided);
         match &self.critical_amplitudes {
             Ok(found) => {
                 let items = found.iter().map(|critical| {
                     let mut inner = Fields::new(scales);
                     inner
-                        .number("amplitude_ratio", Quantity::Velocity, critical.amplitude_ratio)
+                        .number(
+                            "amplitude_ratio",
+                            Quantity::Velocity,
+                            critical.amplitude_ratio,
+                        )
                         .number("amplitude", Quantity::Force, critical.amplitude)
                         .plain("kind", kind(critical.crossing))
                         .plain("becomes", becomes(critical.becomes))
@@ -163,13 +195,23 @@ impl Averaged {
                 fields.list("critical_amplitudes", items);
             }
             Err(why) => {
-                fields.plain("critical_amplitudes", Json::Null).why("critical_amplitudes", told(why));
+                fields
+                    .plain("critical_amplitudes", Json::Null)
+                    .why("critical_amplitudes", told(why));
             }
         }
-        let frequency_ratio = study.belt().dithers().first().map_or(0.0, |dither| dither.frequency_ratio);
+        let frequency_ratio = study
+            .belt()
+            .dithers()
+            .first()
+            .map_or(0.0, |dither| dither.frequency_ratio);
         let ratio = &self.everywhere_stable;
         fields
-            .known("everywhere_stable_amplitude_ratio", Quantity::Velocity, ratio.clone())
+            .known(
+                "everywhere_stable_amplitude_ratio",
+                Quantity::Velocity,
+                ratio.clone(),
+            )
             .known(
                 "everywhere_stable_amplitude",
                 Quantity::Force,
@@ -180,9 +222,11 @@ impl Averaged {
                 let items = bands.iter().map(|band| {
                     let mut inner = Fields::new(scales);
                     let no_end = || "instability has no upper end".to_owned();
-                    inner
-                        .number("lower", Quantity::Velocity, band.lower)
-                        .known("upper", Quantity::Velocity, band.upper.ok_or_else(no_end));
+                    inner.number("lower", Quantity::Velocity, band.lower).known(
+                        "upper",
+                        Quantity::Velocity,
+                        band.upper.ok_or_else(no_end),
+                    );
                     match band.lower_crossing {
                         Some(crossing) => inner.plain("lower_kind", kind(crossing)),
                         None => inner.plain("lower_kind", "rest"),
@@ -225,16 +269,23 @@ impl Stability {
             Ok(found) => match found.verdict {
                 Verdict::Stable => format!("steady sliding at v₀ = {v} is stable"),
                 Verdict::Unstable => format!("steady sliding at v₀ = {v} is unstable"),
-                Verdict::Undecided { why: UndecidedBecause::WithinError } => format!(
+                Verdict::Undecided {
+                    why: UndecidedBecause::WithinError,
+                } => format!(
                     "steady sliding at v₀ = {v} is undecided: the criterion is zero within its error"
                 ),
-                Verdict::Undecided { why: UndecidedBecause::AtCorner } => format!(
+                Verdict::Undecided {
+                    why: UndecidedBecause::AtCorner,
+                } => format!(
                     "steady sliding at v₀ = {v} is undecided: the belt is exactly as fast as the fast motion, \
                      unstable for slightly faster belts and stable for slightly slower ones"
                 ),
             },
         };
-        format!("By averaging over the fast motion (locally, for small slow motions), {verdict}{}.", self.next(study))
+        format!(
+            "By averaging over the fast motion (locally, for small slow motions), {verdict}{}.",
+            self.next(study)
+        )
     }
 
     /// The next amplitude at which the verdict changes.
@@ -246,16 +297,20 @@ impl Stability {
             return String::new();
         };
         let now = dither.amplitude_ratio();
-        let next = critical
-            .iter()
-            .find(|critical| critical.amplitude_ratio > now && becomes(critical.becomes) != self.limit.verdict());
+        let next = critical.iter().find(|critical| {
+            critical.amplitude_ratio > now && becomes(critical.becomes) != self.limit.verdict()
+        });
         match next {
             Some(next) => format!(
                 "; more dither makes it {} from D = {} (α = {}) on{}",
                 becomes(next.becomes),
                 in_words(study, Quantity::Force, next.amplitude),
                 in_words(study, Quantity::Velocity, next.amplitude_ratio),
-                if next.contact_stays_closed { "" } else { ", but would pull the contact apart" }
+                if next.contact_stays_closed {
+                    ""
+                } else {
+                    ", but would pull the contact apart"
+                }
             ),
             None if critical.is_empty() => "; no amplitude of this dither changes that".to_owned(),
             None => "; more of this dither does not change that".to_owned(),
@@ -264,7 +319,11 @@ impl Stability {
 
     /// What a reader of the numbers should know.
     pub fn warnings(&self, study: &Study) -> Vec<String> {
-        let slow = study.belt().dithers().iter().filter(|dither| dither.frequency_ratio < FAST);
+        let slow = study
+            .belt()
+            .dithers()
+            .iter()
+            .filter(|dither| dither.frequency_ratio < FAST);
         slow.map(|dither| {
             format!(
                 "averaging presumes fast dither; R = {} is hardly fast, simulate to be sure",
@@ -281,7 +340,10 @@ impl Stability {
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
             .plain("protocol", "averaged")
-            .plain("method", "averaging over the fast motion in the limit of high frequency");
+            .plain(
+                "method",
+                "averaging over the fast motion in the limit of high frequency",
+            );
         self.limit.put(study, &mut fields);
         match &self.sharper {
             Ok(averaged) => {

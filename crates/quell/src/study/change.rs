@@ -38,7 +38,10 @@ impl Change {
     pub fn number(path: &str, value: f64, option: &'static str) -> Self {
         Self {
             path: path.to_owned(),
-            node: Node { value: Value::Number(value), origin: Origin::Argument(option) },
+            node: Node {
+                value: Value::Number(value),
+                origin: Origin::Argument(option),
+            },
         }
     }
 
@@ -69,7 +72,13 @@ impl Change {
     }
 
     fn complaint(&self, fault: Fault, allowed: impl Into<String>) -> Complaint {
-        Complaint::new(fault, &self.path, self.node.origin, self.node.given(), allowed)
+        Complaint::new(
+            fault,
+            &self.path,
+            self.node.origin,
+            self.node.given(),
+            allowed,
+        )
     }
 
     /// The table of a section, made where it is not there. `None` where something else has
@@ -83,7 +92,9 @@ impl Change {
         match section {
             Section::Root => Ok(Some(root)),
             Section::Initial => {
-                let Some(belt) = self.table(root, "belt") else { return Ok(None) };
+                let Some(belt) = self.table(root, "belt") else {
+                    return Ok(None);
+                };
                 Ok(self.table(belt, "initial"))
             }
             Section::Dither | Section::Sweep => self.entry(root, section.path(), index),
@@ -94,7 +105,13 @@ impl Change {
     fn table<'a>(&self, parent: &'a mut Table, name: &str) -> Option<&'a mut Table> {
         if !parent.has(name) {
             let value = Value::Table(Table::default());
-            parent.set(name, Node { value, origin: self.node.origin });
+            parent.set(
+                name,
+                Node {
+                    value,
+                    origin: self.node.origin,
+                },
+            );
         }
         match parent.get_mut(name).map(|node| &mut node.value) {
             Some(Value::Table(table)) => Some(table),
@@ -127,11 +144,17 @@ impl Change {
             }
         };
         let origin = self.node.origin;
-        let fresh = || Node { value: Value::Table(Table::default()), origin };
+        let fresh = || Node {
+            value: Value::Table(Table::default()),
+            origin,
+        };
         if count == 0 {
             // An axis is always one of a list; a single dither is a plain table.
             let node = match name {
-                "sweep" => Node { value: Value::List(vec![fresh()]), origin },
+                "sweep" => Node {
+                    value: Value::List(vec![fresh()]),
+                    origin,
+                },
                 _ => fresh(),
             };
             root.set(name, node);
@@ -162,8 +185,11 @@ fn replaces(key: &Key, sibling: &Key) -> bool {
     match (key.section, key.role, sibling.role) {
         (_, Role::Twin(parameter, _), Role::Twin(other, _)) => parameter.path == other.path,
         (Section::Initial, role, other) => is_word(role) || is_word(other),
-        (Section::Sweep, role, other) => (role == Role::AxisValues) != (other == Role::AxisValues)
-            && key.name != "parameter" && sibling.name != "parameter",
+        (Section::Sweep, role, other) => {
+            (role == Role::AxisValues) != (other == Role::AxisValues)
+                && key.name != "parameter"
+                && sibling.name != "parameter"
+        }
         _ => false,
     }
 }

@@ -20,14 +20,25 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Dither>> {
                 .iter()
                 .enumerate()
                 .map(|(index, node)| {
-                    let prefix = if single { "dither".into() } else { format!("dither[{index}]") };
+                    let prefix = if single {
+                        "dither".into()
+                    } else {
+                        format!("dither[{index}]")
+                    };
                     one(reader, node, &prefix)
                 })
                 .collect();
             dithers.into_iter().collect()
         }
         _ => {
-            reader.wrong("dither", node, format!("a table [dither] or tables [[dither]]; this is {}", node.kind()));
+            reader.wrong(
+                "dither",
+                node,
+                format!(
+                    "a table [dither] or tables [[dither]]; this is {}",
+                    node.kind()
+                ),
+            );
             None
         }
     }

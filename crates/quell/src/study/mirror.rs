@@ -81,18 +81,27 @@ impl Table {
             .collect();
         entries.sort_by_key(|(start, _, _)| *start);
         Self {
-            entries: entries.into_iter().map(|(_, key, node)| (key, node)).collect(),
+            entries: entries
+                .into_iter()
+                .map(|(_, key, node)| (key, node))
+                .collect(),
         }
     }
 
     /// The value of a key.
     pub fn get(&self, key: &str) -> Option<&Node> {
-        self.entries.iter().find(|(name, _)| name == key).map(|(_, node)| node)
+        self.entries
+            .iter()
+            .find(|(name, _)| name == key)
+            .map(|(_, node)| node)
     }
 
     /// The value of a key, to change it.
     pub fn get_mut(&mut self, key: &str) -> Option<&mut Node> {
-        self.entries.iter_mut().find(|(name, _)| name == key).map(|(_, node)| node)
+        self.entries
+            .iter_mut()
+            .find(|(name, _)| name == key)
+            .map(|(_, node)| node)
     }
 
     /// Sets a key, in its old place where it had one.
@@ -124,15 +133,19 @@ impl Node {
         let origin = Origin::Line(lines.at(value.span().start));
         let value = match value.get_ref() {
             DeValue::String(text) => Value::Text(text.clone().into_owned()),
-            DeValue::Integer(integer) => Value::Number(integer_value(integer.as_str(), integer.radix())),
+            DeValue::Integer(integer) => {
+                Value::Number(integer_value(integer.as_str(), integer.radix()))
+            }
             // A TOML float is a Rust float once the parser has taken out the underscores; one
             // too large for f64 becomes infinite and is refused by the bounds.
             DeValue::Float(float) => Value::Number(float.as_str().parse().unwrap_or(f64::NAN)),
             DeValue::Boolean(flag) => Value::Flag(*flag),
             DeValue::Datetime(date) => Value::Date(date.to_string()),
-            DeValue::Array(list) => {
-                Value::List(list.iter().map(|entry| Self::from_toml(entry, lines)).collect())
-            }
+            DeValue::Array(list) => Value::List(
+                list.iter()
+                    .map(|entry| Self::from_toml(entry, lines))
+                    .collect(),
+            ),
             DeValue::Table(table) => Value::Table(Table::from_toml(table, lines)),
         };
         Self { value, origin }
@@ -146,7 +159,9 @@ impl Node {
             Self::from_toml(&value, &lines).value
         });
         let value = match parsed {
-            Ok(value @ (Value::Number(_) | Value::Flag(_) | Value::List(_) | Value::Text(_))) => value,
+            Ok(value @ (Value::Number(_) | Value::Flag(_) | Value::List(_) | Value::Text(_))) => {
+                value
+            }
             _ => Value::Text(text.trim().to_owned()),
         };
         Self {
@@ -217,7 +232,9 @@ impl Lines {
     fn of(text: &str) -> Self {
         let breaks = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
         Self {
-            starts: std::iter::once(0).chain(breaks.map(|(index, _)| index + 1)).collect(),
+            starts: std::iter::once(0)
+                .chain(breaks.map(|(index, _)| index + 1))
+                .collect(),
         }
     }
 
@@ -232,19 +249,32 @@ mod tests {
 
     #[test]
     fn values_keep_their_lines_and_order() {
-        let table = Table::parse("b = 1_000\na = 0x10\n\n[t]\nc = 'x'\n[[l]]\nd = nan\n[[l]]\n").expect("TOML");
+        let table = Table::parse("b = 1_000\na = 0x10\n\n[t]\nc = 'x'\n[[l]]\nd = nan\n[[l]]\n")
+            .expect("TOML");
         let keys: Vec<_> = table.iter().map(|(key, node)| (key, node.origin)).collect();
         assert_eq!(keys[0], ("b", Origin::Line(1)));
         assert_eq!(keys[1], ("a", Origin::Line(2)));
         assert_eq!(keys[2], ("t", Origin::Line(4)));
-        assert_eq!(table.get("b").map(|node| &node.value), Some(&Value::Number(1000.0)));
-        assert_eq!(table.get("a").map(|node| &node.value), Some(&Value::Number(16.0)));
+        assert_eq!(
+            table.get("b").map(|node| &node.value),
+            Some(&Value::Number(1000.0))
+        );
+        assert_eq!(
+            table.get("a").map(|node| &node.value),
+            Some(&Value::Number(16.0))
+        );
         let inner = table.get("t").and_then(Node::table).expect("table");
-        assert_eq!(inner.get("c").map(|node| node.origin), Some(Origin::Line(5)));
+        assert_eq!(
+            inner.get("c").map(|node| node.origin),
+            Some(Origin::Line(5))
+        );
         let Some(Value::List(list)) = table.get("l").map(|node| &node.value) else {
             panic!("a list of tables");
         };
-        assert_eq!(list.iter().map(|node| node.origin).collect::<Vec<_>>(), [6, 8].map(Origin::Line));
+        assert_eq!(
+            list.iter().map(|node| node.origin).collect::<Vec<_>>(),
+            [6, 8].map(Origin::Line)
+        );
     }
 
     #[test]

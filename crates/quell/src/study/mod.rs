@@ -64,8 +64,11 @@ impl Study {
     /// Every complaint at once.
     pub fn parse(text: &str, changes: &[Change]) -> Result<Self, Vec<Complaint>> {
         let mut mirror = Table::parse(text)?;
-        let refused: Vec<Complaint> =
-            changes.iter().filter_map(|change| change.apply(&mut mirror).err()).map(|complaint| *complaint).collect();
+        let refused: Vec<Complaint> = changes
+            .iter()
+            .filter_map(|change| change.apply(&mut mirror).err())
+            .map(|complaint| *complaint)
+            .collect();
         match Self::check(mirror, text) {
             Ok(mut study) if refused.is_empty() => {
                 study.changes = changes.iter().map(Change::to_string).collect();
@@ -85,7 +88,9 @@ impl Study {
     /// Every complaint about the changed study.
     pub fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Complaint>> {
         let mut mirror = self.mirror.clone();
-        Change::number(path, value, "change").apply(&mut mirror).map_err(|complaint| vec![*complaint])?;
+        Change::number(path, value, "change")
+            .apply(&mut mirror)
+            .map_err(|complaint| vec![*complaint])?;
         let mut study = Self::check(mirror, &self.text)?;
         study.changes.clone_from(&self.changes);
         study.changes.push(format!("{path}={value:?}"));
@@ -113,7 +118,17 @@ impl Study {
         if !complaints.is_empty() {
             return Err(complaints);
         }
-        let study = Self { title, belt, initial, solver, scales, sweeps, mirror, text: text.to_owned(), changes: Vec::new() };
+        let study = Self {
+            title,
+            belt,
+            initial,
+            solver,
+            scales,
+            sweeps,
+            mirror,
+            text: text.to_owned(),
+            changes: Vec::new(),
+        };
         study.check_sweeps()?;
         Ok(study)
     }
@@ -125,7 +140,9 @@ impl Study {
         let mut complaints = Vec::new();
         for (index, sweep) in self.sweeps.iter().enumerate() {
             for value in sweep.axis.extremes() {
-                let Err(wrong) = bare.with(&sweep.path, value) else { continue };
+                let Err(wrong) = bare.with(&sweep.path, value) else {
+                    continue;
+                };
                 let entry = match self.mirror.get("sweep").map(|node| &node.value) {
                     Some(Value::List(list)) => list.get(index),
                     _ => None,
@@ -140,12 +157,21 @@ impl Study {
                         ),
                         _ => complaint.allowed,
                     };
-                    Complaint { key: key.clone(), origin, value: sweep.path.clone().into(), ..complaint }
+                    Complaint {
+                        key: key.clone(),
+                        origin,
+                        value: sweep.path.clone().into(),
+                        ..complaint
+                    }
                 }));
             }
         }
         complaints.dedup_by(|a, b| a.key == b.key && a.fault == b.fault && a.allowed == b.allowed);
-        if complaints.is_empty() { Ok(()) } else { Err(complaints) }
+        if complaints.is_empty() {
+            Ok(())
+        } else {
+            Err(complaints)
+        }
     }
 
     /// Title, if the file gives one.
@@ -195,25 +221,51 @@ fn root(reader: &mut Reader, mirror: &Table) -> Option<String> {
     for (name, node) in mirror.iter() {
         if NOT_BUILT.contains(&name) {
             let allowed = format!("[{name}] is not built yet; this version computes belts");
-            reader.complain(Complaint::new(Fault::NotBuilt, name, node.origin, Json::Null, allowed));
+            reader.complain(Complaint::new(
+                Fault::NotBuilt,
+                name,
+                node.origin,
+                Json::Null,
+                allowed,
+            ));
         } else if vocabulary::key(Section::Root, name).is_none() && !tables.contains(&name) {
-            let names = ["schema", "title", "belt", "friction", "dither", "solver", "sweep"];
+            let names = [
+                "schema", "title", "belt", "friction", "dither", "solver", "sweep",
+            ];
             let nearest = suggest::word(name, names).or_else(|| suggest::path("", name, None));
-            let complaint = Complaint::new(Fault::Unknown, name, node.origin, node.given(), names.join(", "));
+            let complaint = Complaint::new(
+                Fault::Unknown,
+                name,
+                node.origin,
+                node.given(),
+                names.join(", "),
+            );
             reader.complain(complaint.suggesting(nearest));
         }
     }
     match mirror.get("schema") {
         None => {
             let allowed = format!("schema = {SCHEMA_VERSION}, the version of the study file");
-            reader.complain(Complaint::new(Fault::Missing, "schema", Origin::Whole, Json::Null, allowed));
+            reader.complain(Complaint::new(
+                Fault::Missing,
+                "schema",
+                Origin::Whole,
+                Json::Null,
+                allowed,
+            ));
         }
         Some(node) if node.value != Value::Number(f64::from(SCHEMA_VERSION)) => {
-            reader.wrong("schema", node, format!("{SCHEMA_VERSION}, the only version there is"));
+            reader.wrong(
+                "schema",
+                node,
+                format!("{SCHEMA_VERSION}, the only version there is"),
+            );
         }
         Some(_) => {}
     }
-    mirror.get("title").and_then(|node| reader.text("title", node))
+    mirror
+        .get("title")
+        .and_then(|node| reader.text("title", node))
 }
 
 /// Puts the belt together. What was already complained about is stood in for, so that
@@ -228,8 +280,11 @@ fn build(
     let stand_in = || LawKind::Stribeck.build(&[0.0, 0.0, 1.0]).ok();
     let law = friction.or_else(stand_in)?;
     let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
-    let (damping, load, velocity) =
-        (number(table.damping_ratio), number(table.normal_load), number(table.belt_velocity));
+    let (damping, load, velocity) = (
+        number(table.damping_ratio),
+        number(table.normal_load),
+        number(table.belt_velocity),
+    );
     match Belt::new(damping, load, velocity, law, dithers) {
         Ok(belt) => friction.map(|_| belt),
         Err(mut invalid) => {
@@ -237,12 +292,16 @@ fn build(
             if let Some(scales) = reader.known_scales() {
                 let newtons = scales.to_si(Quantity::Force, load);
                 for complaint in &mut invalid {
-                    if complaint.key.starts_with("dither") && complaint.key.ends_with(".amplitude") {
+                    if complaint.key.starts_with("dither") && complaint.key.ends_with(".amplitude")
+                    {
                         complaint.allowed = format!(
                             "such that the peaks of normal dither together stay at most \
                              {} = {newtons} N: more would pull the contact apart, which this \
                              model does not describe",
-                            NORMAL_LOAD.si.first().map_or(NORMAL_LOAD.path, |twin| twin.key)
+                            NORMAL_LOAD
+                                .si
+                                .first()
+                                .map_or(NORMAL_LOAD.path, |twin| twin.key)
                         );
                     }
                 }

@@ -107,8 +107,14 @@ impl Choice {
         match self {
             Self::State => vec!["rest", "sliding", "squealing"],
             Self::Law => LawKind::ALL.iter().map(|law| law.name()).collect(),
-            Self::Direction => Direction::ALL.iter().map(|direction| direction.name()).collect(),
-            Self::Waveform => Waveform::ALL.iter().map(|waveform| waveform.name()).collect(),
+            Self::Direction => Direction::ALL
+                .iter()
+                .map(|direction| direction.name())
+                .collect(),
+            Self::Waveform => Waveform::ALL
+                .iter()
+                .map(|waveform| waveform.name())
+                .collect(),
             Self::Spacing => vec!["linear", "log"],
         }
     }
@@ -206,16 +212,43 @@ pub fn keys() -> &'static [Key] {
 }
 
 fn build() -> Vec<Key> {
-    let plain = |section, name, role, about| Key { section, name, role, about };
+    let plain = |section, name, role, about| Key {
+        section,
+        name,
+        role,
+        about,
+    };
     let mut keys = vec![
-        plain(Section::Root, "schema", Role::Schema, "version of the study file"),
-        plain(Section::Root, "title", Role::Text, "what the study is about"),
+        plain(
+            Section::Root,
+            "schema",
+            Role::Schema,
+            "version of the study file",
+        ),
+        plain(
+            Section::Root,
+            "title",
+            Role::Text,
+            "what the study is about",
+        ),
     ];
-    keys.extend(parameter::SCALES.iter().map(|scale| {
-        plain(Section::Belt, scale.key(), Role::Scale(*scale), scale.about)
-    }));
-    keys.push(plain(Section::Initial, "state", Role::Choice(Choice::State), "a named state"));
-    keys.push(plain(Section::Friction, "law", Role::Choice(Choice::Law), "the friction law"));
+    keys.extend(
+        parameter::SCALES
+            .iter()
+            .map(|scale| plain(Section::Belt, scale.key(), Role::Scale(*scale), scale.about)),
+    );
+    keys.push(plain(
+        Section::Initial,
+        "state",
+        Role::Choice(Choice::State),
+        "a named state",
+    ));
+    keys.push(plain(
+        Section::Friction,
+        "law",
+        Role::Choice(Choice::Law),
+        "the friction law",
+    ));
     keys.push(plain(
         Section::Dither,
         "direction",
@@ -237,15 +270,28 @@ fn build() -> Vec<Key> {
         }
     }
     for parameter in parameters {
-        let table = parameter.path.strip_suffix(parameter.key()).unwrap_or_default();
+        let table = parameter
+            .path
+            .strip_suffix(parameter.key())
+            .unwrap_or_default();
         let section = Section::ALL
             .iter()
             .copied()
             .find(|section| section.path() == table.trim_end_matches('.'))
             .unwrap_or(Section::Root);
-        keys.push(plain(section, parameter.key(), Role::Number(parameter), parameter.about));
+        keys.push(plain(
+            section,
+            parameter.key(),
+            Role::Number(parameter),
+            parameter.about,
+        ));
         for &twin in parameter.si {
-            keys.push(plain(section, twin.key, Role::Twin(parameter, twin), parameter.about));
+            keys.push(plain(
+                section,
+                twin.key,
+                Role::Twin(parameter, twin),
+                parameter.about,
+            ));
         }
     }
     let sweep = |name, role, about| plain(Section::Sweep, name, role, about);
@@ -253,11 +299,27 @@ fn build() -> Vec<Key> {
         sweep("parameter", Role::Text, "path of the number that is varied"),
         sweep("from", Role::AxisNumber, "first value"),
         sweep("to", Role::AxisNumber, "last value"),
-        sweep("points", Role::AxisPoints, "number of values, both ends included"),
-        sweep("values", Role::AxisValues, "the values themselves, instead of from, to and points"),
-        sweep("spacing", Role::Choice(Choice::Spacing), "how the values lie between the ends"),
+        sweep(
+            "points",
+            Role::AxisPoints,
+            "number of values, both ends included",
+        ),
+        sweep(
+            "values",
+            Role::AxisValues,
+            "the values themselves, instead of from, to and points",
+        ),
+        sweep(
+            "spacing",
+            Role::Choice(Choice::Spacing),
+            "how the values lie between the ends",
+        ),
     ]);
-    keys.sort_by_key(|key| Section::ALL.iter().position(|section| *section == key.section));
+    keys.sort_by_key(|key| {
+        Section::ALL
+            .iter()
+            .position(|section| *section == key.section)
+    });
     keys
 }
 
@@ -294,7 +356,10 @@ pub fn resolve(path: &str) -> Result<Address, Option<String>> {
         },
         None => (table, None),
     };
-    let section = Section::ALL.iter().copied().find(|section| section.path() == table);
+    let section = Section::ALL
+        .iter()
+        .copied()
+        .find(|section| section.path() == table);
     let listed = matches!(section, Some(Section::Dither | Section::Sweep));
     let found = section.and_then(|section| key(section, name));
     match found {
@@ -331,7 +396,10 @@ mod tests {
 
     #[test]
     fn indices_belong_to_lists_alone() {
-        assert_eq!(resolve("dither[1].amplitude_n").map(|found| found.index), Ok(Some(1)));
+        assert_eq!(
+            resolve("dither[1].amplitude_n").map(|found| found.index),
+            Ok(Some(1))
+        );
         assert!(resolve("belt[0].damping_ratio").is_err());
         assert!(resolve("dither[one].amplitude").is_err());
     }

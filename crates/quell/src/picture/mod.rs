@@ -1,0 +1,39 @@
+//! Pictures of outcomes: one file per verb, the undithered case dashed beside the dithered one.
+//!
+//! A study in SI is drawn in SI, with the metric prefix that suits the values; any other in the
+//! numbers of the equations. The caption says what the picture cannot.
+
+mod caption;
+mod friction;
+mod response;
+mod ruler;
+mod simulate;
+mod stability;
+
+pub use friction::friction;
+pub use response::response;
+pub use simulate::simulate;
+pub use stability::stability;
+
+use crate::complaint::Failure;
+use crate::output::Output;
+use crate::plot::Figure;
+
+/// Kinds of pictures that can be written.
+pub const EXTENSIONS: &[&str] = &["svg", "png"];
+
+/// Writes a figure as the output's extension says.
+///
+/// # Errors
+/// [`Failure::Failed`] where it cannot be drawn or written.
+pub fn write(figure: &Figure, output: Output) -> Result<String, Failure> {
+    let bytes = if output.extension() == "png" {
+        figure.to_png().map_err(|why| Failure::Failed {
+            key: "--plot".to_owned(),
+            why: why.to_string(),
+        })?
+    } else {
+        figure.to_svg().into_bytes()
+    };
+    output.write(&bytes).map(|path| path.display().to_string())
+}

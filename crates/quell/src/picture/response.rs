@@ -1,0 +1,113 @@
+//! The end of the record and the spectra, with and without dither.
+
+use std::f64::consts::TAU;
+
+use quell_belt::response::BAND_END;
+use quell_belt::simulation::Sample;
+use quell_model::units::Quantity;
+use quell_numerics::spectrum::Spectrum;
+
+use super::caption::caption_of_run;
+use super::ruler::Ruler;
+use super::simulate::time_axis;
+use crate::plot::{Figure, Line, Panel, Role, Rule, SharedLegend};
+use crate::run::response::Steady;
+use crate::study::Study;
+
+/// Slow periods of the record that are shown.
+const PERIODS: f64 = 6.0;
+
+/// Decades of the spectrum that are shown below its largest line.
+const DECADES: i32 = 5;
+
+/// The picture of a steady response.
+pub fn response(study: &Study, done: &Steady) -> Figure {
+    let panels = [record(study, done), spectrum(study, done)];
+    Figure::grid(1, panels)
+        .legend(SharedLegend::Above)
+        .title(study.title().unwrap_or_default())
+        .caption(caption_of_run(study))
+}
+
+fn record(study: &Study, done: &Steady) -> Panel {
+    let end = |samples: &[Sample]| -> Vec<Sample> {
+        let last = samples.last().map_or(0.0, |sample| sample.time);
+        samples
+            .iter()
+            .copied()
+            .filter(|sample| sample.time >= last - PERIODS * TAU)
+            .collect()
+    };
+    let with = end(&done.response.record.samples);
+    let without = end(&done.response.undithered_record.samples);
+    let both = || with.iter().chain(&without);
+    let time = Ruler::of(study, Quantity::Time, both().map(|sample| sample.time));
+    let place = Ruler::of(
+        study,
+        Quantity::Displacement,
+        both().map(|sample| sample.displacement),
+    );
+    let curve = |samples: &[Sample], role| {
+        let points = samples
+            .iter()
+            .map(|sample| (time.place(sample.time), place.place(sample.displacement)));
+        Line::new(role, points.collect::<Vec<_>>())
+    };
+    let panel = Panel::new(time_axis(study, &time), place.axis("displacement", "x"));
+    if study.belt().dithers().is_empty() {
+        return panel.with(curve(&with, Role::Exact));
+    }
+    panel
+        .with(curve(&without, Role::Undithered).label("without dither"))
+        .with(curve(&with, Role::Dithered).label("with dither"))
+}
+
+fn spectrum(study: &Study, done: &Steady) -> Panel {
+    let with = &done.response.record.spectrum;
+    let without = &done.response.undithered_record.spectrum;
+    let largest = |spectrum: &Spectrum| spectrum.amplitudes().iter().copied().fold(0.0, f64::max);
+    let top = largest(with).max(largest(without));
+    let fastest = study
+        .belt()
+        .dithers()
+        .iter()
+        .fold(0.0_f64, |rate, dither| rate.max(dither.frequency_ratio));
+    let end = (1.3 * fastest).max(4.0);
+    let rate = Ruler::new(study, Quantity::FrequencyRatio, end);
+    let size = Ruler::new(study, Quantity::Displacement, top);
+    let floor = top * 10f64.powi(-DECADES);
+    let curve = |spectrum: &Spectrum, role| {
+        let lines = spectrum
+            .frequencies()
+            .zip(spectrum.amplitudes().iter().copied());
+        let shown = lines.skip(1).take_while(|(frequency, _)| *frequency <= end);
+        // What lies below the picture still leads into it.
+        let points = shown.map(|(frequency, amplitude)| {
+            (
+                rate.place(frequency),
+                size.place(amplitude.max(0.1 * floor)),
+            )
+        });
+        Line::new(role, points.collect::<Vec<_>>())
+    };
+    let symbol = if study.scales().is_some() {
+        "f"
+    } else {
+        "ω/ω_0"
+    };
+    let mut vertical = size.axis("spectral amplitude", "|x|").log();
+    if top > 0.0 {
+        vertical = vertical.between(size.place(floor), size.place(2.0 * top));
+    }
+    let panel = Panel::new(
+        rate.axis("frequency", symbol).between(0.0, rate.place(end)),
+        vertical,
+    )
+    .with(Rule::vertical(rate.place(BAND_END)).label("band of $E$"));
+    if study.belt().dithers().is_empty() {
+        return panel.with(curve(with, Role::Exact));
+    }
+    panel
+        .with(curve(without, Role::Undithered).label("without dither"))
+        .with(curve(with, Role::Dithered).label("with dither"))
+}

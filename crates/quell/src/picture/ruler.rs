@@ -1,0 +1,86 @@
+//! Axes of quantities: in a study in SI with unit and metric prefix.
+
+use quell_model::units::Quantity;
+
+use crate::plot::Axis;
+use crate::study::Study;
+
+/// Metric prefixes from large to small.
+const PREFIXES: &[(&str, f64)] = &[("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9)];
+
+/// How a quantity is measured along an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Ruler {
+    /// What one unit of the equations is along the axis.
+    factor: f64,
+    /// Unit; empty for the numbers of the equations.
+    unit: String,
+}
+
+impl Ruler {
+    /// A ruler for values up to `largest` in size (numbers of the equations).
+    pub(super) fn new(study: &Study, quantity: Quantity, largest: f64) -> Self {
+        let Some((scales, (unit, _))) = study.scales().zip(quantity.si_unit()) else {
+            return Self {
+                factor: 1.0,
+                unit: String::new(),
+            };
+        };
+        let si = scales.si_per_unit(quantity);
+        let size = (largest * si).abs();
+        // Kilo is for forces and frequencies; nobody says kilosecond.
+        let kilo = matches!(quantity, Quantity::Force | Quantity::FrequencyRatio);
+        let fits = |(prefix, scale): &&(&str, f64)| size >= *scale && (kilo || *prefix != "k");
+        let (prefix, scale) = PREFIXES.iter().find(fits).copied().unwrap_or(("", 1.0));
+        Self {
+            factor: si / scale,
+            unit: format!("{prefix}{unit}"),
+        }
+    }
+
+    /// A ruler for values.
+    pub(super) fn of(
+        study: &Study,
+        quantity: Quantity,
+        values: impl IntoIterator<Item = f64>,
+    ) -> Self {
+        let sizes = values
+            .into_iter()
+            .map(f64::abs)
+            .filter(|size| size.is_finite());
+        Self::new(study, quantity, sizes.fold(0.0, f64::max))
+    }
+
+    /// The axis of a quantity.
+    pub(super) fn axis(&self, name: &str, symbol: &str) -> Axis {
+        let axis = Axis::new(name).symbol(symbol);
+        if self.unit.is_empty() {
+            axis
+        } else {
+            axis.unit(self.unit.clone())
+        }
+    }
+
+    /// A value along the axis.
+    pub(super) fn place(&self, value: f64) -> f64 {
+        value * self.factor
+    }
+
+    /// A value with its unit.
+    pub(super) fn words(&self, value: f64) -> String {
+        let text = format!("{:.3e}", self.place(value));
+        let number = text
+            .parse::<f64>()
+            .map_or(text, |rounded| rounded.to_string());
+        if self.unit.is_empty() {
+            number
+        } else {
+            format!("{number} {}", self.unit)
+        }
+    }
+}
+
+/// A value of a study with its unit, for captions and labels.
+pub(super) fn words(study: &Study, quantity: Quantity, value: f64) -> String {
+    Ruler::new(study, quantity, value).words(value)
+}

@@ -1,0 +1,198 @@
+//! Reads keys out of the mirror, turns SI into the numbers of the equations, and collects
+//! every complaint.
+//!
+//! A study is in one system. It is in SI as soon as `belt.mass_kg` or
+//! `belt.stiffness_n_per_m` is there, or where all its quantities are; then a dimensionless
+//! key that has an SI twin is refused, and the other way round.
+
+use quell_model::Invalid;
+use quell_model::units::Scales;
+use serde_json::Value as Json;
+
+use super::mirror::{Node, Table, Value, given_number};
+use super::suggest;
+use super::vocabulary::{self, Role, Section, join};
+use crate::complaint::{Complaint, Fault, Origin};
+
+mod numbers;
+mod words;
+
+pub(super) use numbers::Found;
+
+/// The system a study is written in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Units {
+    /// The numbers of the equations.
+    Scaled,
+    /// SI; without scales where mass or stiffness are wrong.
+    Si(Option<Scales>),
+}
+
+/// Where and how a parameter was written.
+#[derive(Clone, Debug)]
+struct Written {
+    /// Path in the registry, with index.
+    path: String,
+    /// Path of the key that gave it.
+    key: String,
+    origin: Origin,
+    /// What one unit of the equations is in the unit of that key.
+    factor: f64,
+}
+
+/// Reads keys and collects complaints.
+#[derive(Debug)]
+pub(super) struct Reader {
+    units: Units,
+    complaints: Vec<Complaint>,
+    written: Vec<Written>,
+}
+
+impl Reader {
+    /// Finds out the system of a study and reads its scales.
+    pub(super) fn new(root: &Table) -> Self {
+        let mut reader = Self {
+            units: Units::Scaled,
+            complaints: Vec::new(),
+            written: Vec::new(),
+        };
+        if is_si(root) {
+            reader.units = Units::Si(None);
+            if let Some(belt) = root.get("belt") {
+                reader.units = Units::Si(reader.scales(belt));
+            }
+        }
+        reader
+    }
+
+    /// The scales, in a study in SI whose mass and stiffness are right.
+    pub(super) fn known_scales(&self) -> Option<Scales> {
+        match self.units {
+            Units::Si(scales) => scales,
+            Units::Scaled => None,
+        }
+    }
+
+    /// Adds a complaint.
+    pub(super) fn complain(&mut self, complaint: Complaint) {
+        self.complaints.push(complaint);
+    }
+
+    /// All complaints, in the order of the text.
+    pub(super) fn into_complaints(mut self) -> Vec<Complaint> {
+        self.complaints
+            .sort_by_key(|complaint| complaint.origin.line().unwrap_or(usize::MAX));
+        self.complaints
+    }
+    /// Complains about keys that a table does not have.
+    pub(super) fn unknown_keys(
+        &mut self,
+        table: &Table,
+        section: Section,
+        prefix: &str,
+        also: &[&str],
+    ) {
+        for (name, node) in table.iter() {
+            if vocabulary::key(section, name).is_some() || also.contains(&name) {
+                continue;
+            }
+            self.unknown_key(section, prefix, name, node);
+        }
+    }
+
+    /// Complains about one unknown key.
+    pub(super) fn unknown_key(&mut self, section: Section, prefix: &str, name: &str, node: &Node) {
+        let index = prefix
+            .split_once('[')
+            .and_then(|(_, rest)| rest.trim_end_matches(']').parse().ok());
+        let si = matches!(self.units, Units::Si(_));
+        let there: Vec<&str> = vocabulary::keys_of(section)
+            .filter(|key| match key.role {
+                Role::Number(parameter) => !si || parameter.si.is_empty(),
+                Role::Twin(..) | Role::Scale(_) => si,
+                _ => true,
+            })
+            .map(|key| key.name)
+            .collect();
+        let complaint = Complaint::new(
+            Fault::Unknown,
+            join(prefix, name),
+            node.origin,
+            node.given(),
+            there.join(", "),
+        );
+        self.complain(complaint.suggesting(suggest::path(section.path(), name, index)));
+    }
+
+    /// Adds what a constructor of the model said, in the words of the file. What was
+    /// already complained about is not said again.
+    pub(super) fn adopt(&mut self, invalid: Vec<Invalid>) {
+        for complaint in invalid {
+            let written = self
+                .written
+                .iter()
+                .find(|written| written.path == complaint.key);
+            let Some(written) = written else { continue };
+            let key = written.key.clone();
+            if self.complaints.iter().any(|known| known.key == key) {
+                continue;
+            }
+            let number = complaint.value.parse::<f64>();
+            let value = number.map_or(Json::String(complaint.value), |number| {
+                given_number(number * written.factor)
+            });
+            let origin = written.origin;
+            self.complain(Complaint::new(
+                Fault::Value,
+                key,
+                origin,
+                value,
+                complaint.allowed,
+            ));
+        }
+    }
+
+    fn remember(&mut self, path: &str, key: &str, origin: Origin, factor: f64) {
+        self.written.push(Written {
+            path: path.to_owned(),
+            key: key.to_owned(),
+            origin,
+            factor,
+        });
+    }
+}
+
+/// Whether a study is in SI.
+fn is_si(root: &Table) -> bool {
+    let (mut plain, mut twins) = (false, false);
+    for section in Section::ALL {
+        for table in tables(root, *section) {
+            for (name, _) in table.iter() {
+                match vocabulary::key(*section, name).map(|key| key.role) {
+                    Some(Role::Scale(_)) => return true,
+                    Some(Role::Twin(..)) => twins = true,
+                    Some(Role::Number(parameter)) if !parameter.si.is_empty() => plain = true,
+                    _ => {}
+                }
+            }
+        }
+    }
+    twins && !plain
+}
+
+/// The tables of a section.
+fn tables(root: &Table, section: Section) -> Vec<&Table> {
+    let node = match section {
+        Section::Root | Section::Sweep => None,
+        Section::Initial => root
+            .get("belt")
+            .and_then(Node::table)
+            .and_then(|belt| belt.get("initial")),
+        _ => root.get(section.path()),
+    };
+    match node.map(|node| &node.value) {
+        Some(Value::Table(table)) => vec![table],
+        Some(Value::List(list)) => list.iter().filter_map(Node::table).collect(),
+        _ => Vec::new(),
+    }
+}

@@ -1,0 +1,274 @@
+//! Numbers: bounds, SI twins, and keys of the wrong system.
+
+use quell_model::Waveform;
+use quell_model::parameter::{Bounds, Parameter, SCALES, ScaleKey, SiTwin};
+use quell_model::units::{Quantity, Scales};
+use serde_json::Value as Json;
+
+use super::{Reader, Units};
+use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::mirror::{Node, Table, Value};
+use crate::study::vocabulary::join;
+
+/// What was found under a parameter's keys.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::study) enum Found {
+    /// A valid value in the numbers of the equations.
+    Value(f64),
+    /// Something that was complained about.
+    Wrong,
+    /// Nothing.
+    Absent,
+}
+
+impl Found {
+    /// The value, or the default where nothing was given.
+    pub(in crate::study) fn or(self, default: f64) -> Option<f64> {
+        match self {
+            Self::Value(value) => Some(value),
+            Self::Absent => Some(default),
+            Self::Wrong => None,
+        }
+    }
+}
+
+impl Reader {
+    fn scales(&mut self, belt: &Node) -> Option<Scales> {
+        let table = belt.table()?;
+        let [mass, stiffness] =
+            [SCALES[0], SCALES[1]].map(|scale| self.scale(table, scale, belt.origin));
+        Scales::new(mass?, stiffness?).ok()
+    }
+
+    fn scale(&mut self, table: &Table, scale: ScaleKey, header: Origin) -> Option<f64> {
+        let Some(node) = table.get(scale.key()) else {
+            let allowed = format!(
+                "{} in {} ({}, {}); a study in SI needs mass and stiffness",
+                scale.bounds, scale.unit, scale.symbol, scale.about
+            );
+            self.complain(Complaint::new(
+                Fault::Missing,
+                scale.path,
+                header,
+                Json::Null,
+                allowed,
+            ));
+            return None;
+        };
+        self.within(scale.path, node, scale.bounds, scale.unit, false)
+    }
+
+    /// A parameter that has to be there.
+    pub(in crate::study) fn number(
+        &mut self,
+        table: &Table,
+        prefix: &str,
+        header: Origin,
+        parameter: Parameter,
+    ) -> Option<f64> {
+        match self.optional(table, prefix, parameter, None) {
+            Found::Value(value) => Some(value),
+            Found::Wrong => None,
+            Found::Absent => {
+                let keys = self.right_keys(parameter);
+                let Parameter {
+                    bounds,
+                    symbol,
+                    about,
+                    ..
+                } = parameter;
+                let or = keys.get(1).map(|key| format!("; or {}", join(prefix, key)));
+                let allowed = format!("{bounds} ({symbol}, {about}){}", or.unwrap_or_default());
+                let key = join(prefix, &keys[0]);
+                self.complain(Complaint::new(
+                    Fault::Missing,
+                    key,
+                    header,
+                    Json::Null,
+                    allowed,
+                ));
+                None
+            }
+        }
+    }
+
+    /// A parameter that may be absent. The waveform turns a root mean square into a peak.
+    pub(in crate::study) fn optional(
+        &mut self,
+        table: &Table,
+        prefix: &str,
+        parameter: Parameter,
+        waveform: Option<Waveform>,
+    ) -> Found {
+        let twins: Vec<SiTwin> = parameter
+            .si
+            .iter()
+            .copied()
+            .filter(|twin| table.has(twin.key))
+            .collect();
+        let plain = table.get(parameter.key());
+        let si = matches!(self.units, Units::Si(_));
+        match (plain, twins.as_slice()) {
+            (None, []) => Found::Absent,
+            (Some(node), []) if !si || parameter.si.is_empty() => {
+                self.plain(node, &join(prefix, parameter.key()), parameter)
+            }
+            (None, [twin]) if si => self.twin(table, prefix, parameter, *twin, waveform),
+            (None, [first, .., last]) if si => {
+                let key = join(prefix, last.key);
+                let allowed = format!(
+                    "say either {} or {}, not both",
+                    join(prefix, first.key),
+                    key
+                );
+                let node = table.get(last.key);
+                let origin = node.map_or(Origin::Whole, |node| node.origin);
+                let given = node.map_or(Json::Null, Node::given);
+                self.complain(Complaint::new(Fault::Conflict, key, origin, given, allowed));
+                Found::Wrong
+            }
+            (plain, twins) => {
+                self.mixed(table, prefix, parameter, plain, twins);
+                Found::Wrong
+            }
+        }
+    }
+
+    /// Complains about keys of the wrong system.
+    fn mixed(
+        &mut self,
+        table: &Table,
+        prefix: &str,
+        parameter: Parameter,
+        plain: Option<&Node>,
+        twins: &[SiTwin],
+    ) {
+        let plain_key = join(prefix, parameter.key());
+        let twin_key = join(prefix, twins.first().unwrap_or(&parameter.si[0]).key);
+        if matches!(self.units, Units::Si(_)) {
+            let Some(node) = plain else { return };
+            let instead = if twins.is_empty() {
+                "give"
+            } else {
+                "drop it and keep"
+            };
+            let allowed = format!(
+                "this study is in SI, {plain_key} is dimensionless: {instead} {twin_key} ({})",
+                parameter.si[0].unit
+            );
+            let complaint =
+                Complaint::new(Fault::Mixed, plain_key, node.origin, node.given(), allowed);
+            self.complain(complaint.suggesting(Some(twin_key)));
+            return;
+        }
+        for twin in twins {
+            let Some(node) = table.get(twin.key) else {
+                continue;
+            };
+            let key = join(prefix, twin.key);
+            let allowed = format!(
+                "this study is dimensionless, {key} is in SI: give {plain_key}, or make the whole \
+                 study one in SI with belt.mass_kg and belt.stiffness_n_per_m"
+            );
+            let complaint = Complaint::new(Fault::Mixed, key, node.origin, node.given(), allowed);
+            self.complain(complaint.suggesting(Some(plain_key.clone())));
+        }
+    }
+
+    fn plain(&mut self, node: &Node, key: &str, parameter: Parameter) -> Found {
+        let count = parameter.quantity == Quantity::Count;
+        let value = self.within(key, node, parameter.bounds, "", count);
+        self.remember(key, key, node.origin, 1.0);
+        value.map_or(Found::Wrong, Found::Value)
+    }
+
+    fn twin(
+        &mut self,
+        table: &Table,
+        prefix: &str,
+        parameter: Parameter,
+        twin: SiTwin,
+        waveform: Option<Waveform>,
+    ) -> Found {
+        let Some(node) = table.get(twin.key) else {
+            return Found::Absent;
+        };
+        let key = join(prefix, twin.key);
+        let rms = match (twin.rms, waveform) {
+            (true, Some(waveform)) => Some(waveform.root_mean_square()),
+            (true, None) => None,
+            (false, _) => Some(1.0),
+        };
+        let factor = self
+            .known_scales()
+            .zip(rms)
+            .map(|(scales, rms)| scales.si_per_unit(parameter.quantity) * rms);
+        // Without scales the sign can still be judged.
+        let scale = factor.unwrap_or(1.0);
+        let judged = factor.is_some()
+            || (parameter.bounds.lower == 0.0 && parameter.bounds.upper.is_infinite());
+        let bounds = if judged {
+            Bounds {
+                lower: parameter.bounds.lower * scale,
+                upper: parameter.bounds.upper * scale,
+                ..parameter.bounds
+            }
+        } else {
+            Bounds::FINITE
+        };
+        let Some(given) = self.within(&key, node, bounds, twin.unit, false) else {
+            return Found::Wrong;
+        };
+        let Some((scales, rms)) = self.known_scales().zip(rms) else {
+            return Found::Wrong;
+        };
+        self.remember(&join(prefix, parameter.key()), &key, node.origin, scale);
+        Found::Value(scales.from_si(parameter.quantity, given / rms))
+    }
+
+    /// A finite number within bounds.
+    pub(in crate::study) fn within(
+        &mut self,
+        key: &str,
+        node: &Node,
+        bounds: Bounds,
+        unit: &str,
+        whole: bool,
+    ) -> Option<f64> {
+        let range = if whole {
+            bounds.to_string().replacen("number", "whole number", 1)
+        } else {
+            bounds.to_string()
+        };
+        let range = if unit.is_empty() {
+            range
+        } else {
+            format!("{range}, in {unit}")
+        };
+        let Value::Number(value) = node.value else {
+            let advice = match &node.value {
+                Value::Text(text) if text.trim().parse::<f64>().is_ok() => ", without quotes",
+                _ => "",
+            };
+            let allowed = format!("{range}{advice}; this is {}", node.kind());
+            self.wrong(key, node, allowed);
+            return None;
+        };
+        if !bounds.contains(value) || (whole && value.fract() != 0.0) {
+            self.wrong(key, node, range);
+            return None;
+        }
+        Some(value)
+    }
+    /// Keys that give a parameter in the system of this study.
+    fn right_keys(&self, parameter: Parameter) -> Vec<String> {
+        match self.units {
+            Units::Si(_) if !parameter.si.is_empty() => parameter
+                .si
+                .iter()
+                .map(|twin| twin.key.to_owned())
+                .collect(),
+            _ => vec![parameter.key().to_owned()],
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Words, tables, and what is neither.
+
+use serde_json::Value as Json;
+
+use super::Reader;
+use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::mirror::{Node, Table, Value};
+use crate::study::suggest;
+use crate::study::vocabulary::{Choice, join};
+
+impl Reader {
+    /// A word out of a list.
+    pub(in crate::study) fn choice(
+        &mut self,
+        key: &str,
+        node: &Node,
+        choice: Choice,
+    ) -> Option<&'static str> {
+        let names = choice.names();
+        let list = names
+            .iter()
+            .map(|name| format!("\"{name}\""))
+            .collect::<Vec<_>>()
+            .join(", ");
+        let Value::Text(text) = &node.value else {
+            self.wrong(key, node, format!("one of {list}; this is {}", node.kind()));
+            return None;
+        };
+        let found = names.iter().copied().find(|name| name == text);
+        if found.is_none() {
+            let nearest =
+                suggest::word(text, names.iter().copied()).map(|name| format!("\"{name}\""));
+            let complaint = Complaint::new(
+                Fault::Value,
+                key,
+                node.origin,
+                node.given(),
+                format!("one of {list}"),
+            );
+            self.complain(complaint.suggesting(nearest));
+        }
+        found
+    }
+
+    /// A word out of a list that has to be there.
+    pub(in crate::study) fn needed_choice(
+        &mut self,
+        table: &Table,
+        prefix: &str,
+        header: Origin,
+        name: &str,
+        choice: Choice,
+    ) -> Option<&'static str> {
+        let key = join(prefix, name);
+        let Some(node) = table.get(name) else {
+            let list = choice
+                .names()
+                .iter()
+                .map(|name| format!("\"{name}\""))
+                .collect::<Vec<_>>();
+            let allowed = format!("one of {}", list.join(", "));
+            self.complain(Complaint::new(
+                Fault::Missing,
+                key,
+                header,
+                Json::Null,
+                allowed,
+            ));
+            return None;
+        };
+        self.choice(&key, node, choice)
+    }
+
+    /// Free text.
+    pub(in crate::study) fn text(&mut self, key: &str, node: &Node) -> Option<String> {
+        let Value::Text(text) = &node.value else {
+            self.wrong(
+                key,
+                node,
+                format!("a string in quotes; this is {}", node.kind()),
+            );
+            return None;
+        };
+        Some(text.clone())
+    }
+
+    /// Complains about a value.
+    pub(in crate::study) fn wrong(&mut self, key: &str, node: &Node, allowed: impl Into<String>) {
+        self.complain(Complaint::new(
+            Fault::Value,
+            key,
+            node.origin,
+            node.given(),
+            allowed,
+        ));
+    }
+
+    /// A table of the root or of `[belt]`; a complaint where it is something else.
+    pub(in crate::study) fn table<'a>(&mut self, key: &str, node: &'a Node) -> Option<&'a Table> {
+        let table = node.table();
+        if table.is_none() {
+            self.wrong(
+                key,
+                node,
+                format!("a table [{key}]; this is {}", node.kind()),
+            );
+        }
+        table
+    }
+}
