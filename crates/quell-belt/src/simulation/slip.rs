@@ -69,6 +69,10 @@ pub(super) struct SlipSeries<V> {
 impl<V: Lane> SlipEquation<V> {
     /// Series of y and w to order [`ORDER`] from `start`, under the tangential dither's
     /// coefficients and the load.
+    #[expect(
+        clippy::out_of_bounds_indexing,
+        reason = "the last turn of the unrolled loop is empty, K < ORDER is false there"
+    )]
     #[inline(always)]
     pub(super) fn series<L: SlidingLaw>(
         &self,
