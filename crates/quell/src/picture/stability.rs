@@ -61,7 +61,7 @@ pub fn stability(study: &Study, done: &Stability) -> Figure {
     let levels = pieces.iter().map(low_of).filter(|level| level.is_finite());
     let highest = 2.0 * levels.fold(0.5 * lowest.abs(), f64::max);
     let span = highest - lowest;
-    let vertical = Axis::new("criterion").symbol("2ζ + F\\bar{μ}'");
+    let vertical = Axis::new("criterion").symbol("2ζ + F\\bar{μ}′");
     let vertical = if span > 0.0 {
         vertical.between(lowest - 0.08 * span, highest + 0.08 * span)
     } else {
