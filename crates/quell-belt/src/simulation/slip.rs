@@ -112,7 +112,8 @@ impl<V: Lane> SlipEquation<V> {
                         known - partial_product(load, &mu, K, 1, K)
                     }
                 };
-                w[K + 1] = newest.mul_add(w[K], known) * inverse;
+                // Two products apart, so that the newest coefficient waits for one operation only.
+                w[K + 1] = (newest * inverse).mul_add(w[K], known * inverse);
                 y[K + 1] = -(w[K] * inverse);
             }
         });
