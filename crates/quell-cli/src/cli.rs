@@ -12,11 +12,16 @@ use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
 use crate::answer;
-use crate::verbs::{check, cite, friction, response, schema, simulate, stability};
+use crate::verbs::{check, cite, friction, reproduce, response, schema, simulate, stability};
 
 /// Finds the dither that silences friction-induced vibration, and tells how sure it is.
 #[derive(Debug, Parser)]
-#[command(name = "quell", version, propagate_version = true, arg_required_else_help = true)]
+#[command(
+    name = "quell",
+    version,
+    propagate_version = true,
+    arg_required_else_help = true
+)]
 #[command(after_help = "Exit status: 0 done, 2 the input is wrong, 1 it failed.")]
 struct Cli {
     #[command(subcommand)]
@@ -32,6 +37,7 @@ enum Verb {
     Stability(stability::Arguments),
     Simulate(simulate::Arguments),
     Response(response::Arguments),
+    Reproduce(reproduce::Arguments),
 }
 
 /// Runs the command line `arguments`, program name first.
@@ -53,6 +59,7 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Stability(arguments) => stability::run(arguments),
         Verb::Simulate(arguments) => simulate::run(arguments),
         Verb::Response(arguments) => response::run(arguments),
+        Verb::Reproduce(arguments) => reproduce::run(arguments),
     };
     match outcome {
         Ok(answer) => answer.show(),
@@ -62,7 +69,10 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 /// Shows help, or what was not understood.
 fn misunderstood(error: &clap::Error, json: bool) -> ExitCode {
-    let asked = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
+    let asked = matches!(
+        error.kind(),
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion
+    );
     if asked {
         return answer::print(&error.render().to_string());
     }
@@ -87,7 +97,12 @@ fn complaint(error: &clap::Error) -> Complaint {
         .and_then(|name| name.split([' ', '=']).next())
         .unwrap_or("command line");
     let text = error.render().to_string();
-    let first = text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_owned();
+    let first = text
+        .lines()
+        .next()
+        .unwrap_or_default()
+        .trim_start_matches("error: ")
+        .to_owned();
     // The names of missing arguments follow on the next line.
     let message = if first.ends_with(':') {
         format!("{first} {}", text.lines().nth(1).unwrap_or_default().trim())

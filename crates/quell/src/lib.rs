@@ -8,6 +8,7 @@ pub mod output;
 pub mod picture;
 pub mod plot;
 pub mod quantity;
+pub mod reproduce;
 pub mod run;
 pub mod schema;
 pub mod study;

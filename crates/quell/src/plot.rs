@@ -32,7 +32,6 @@ mod draw;
 mod error;
 mod figure;
 mod fonts;
-mod frame;
 mod layer;
 mod legend;
 mod marks;

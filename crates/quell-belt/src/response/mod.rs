@@ -8,6 +8,7 @@
 //! the start-up under a rectangular window puts a floor of about 0.3 under E.
 
 mod cost;
+mod effective;
 mod record;
 
 use std::fmt;
@@ -16,6 +17,7 @@ use quell_model::{Belt, Direction};
 pub use quell_numerics::spectrum::{Peak, Spectrum};
 
 use crate::simulation::{DEFAULT_TOLERANCE, Stalled, Start};
+pub use effective::{WindowMean, measured_effective_friction};
 pub use record::Record;
 
 /// Upper end of the band in which M is taken, in ω₀ (2.27).

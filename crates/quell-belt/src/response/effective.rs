@@ -1,0 +1,147 @@
+//! Effective friction measured on a trajectory (4.30), (4.31): means over one dither period.
+//!
+//! For a window [τ_i − π/R, τ_i + π/R] the mean slip velocity is exact, ⟨v_r⟩ = v₀ − (x(τ_i + π/R) − x(τ_i − π/R))R/(2π), and
+//! the mean of f/N = μ(v_r) is integrated along the Taylor segments by Gauss–Legendre between neighbouring window
+//! edges. Windows that contain stick (f/N is no function of v_r there) or a reversal into it are dropped, as the
+//! dissertation does.
+//!
+//! What it is good for: a curve μ̄(v_r) that owes nothing to averaging. What limits it: within one window the slow
+//! velocity moves, by up to 2πx/R per window, so that points scatter about the curve for R like 1/R.
+
+use std::f64::consts::TAU;
+
+use quell_model::{Belt, Friction};
+
+use crate::simulation::{Observer, Segment, Stalled, Start, simulate};
+
+/// Nodes and weights of the 8-point Gauss–Legendre rule on [−1, 1] (positive half).
+const GAUSS: [(f64, f64); 4] = [
+    (0.183_434_642_495_649_8, 0.362_683_783_378_361_96),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
+    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+];
+
+/// Means over one dither period without stick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WindowMean {
+    /// τ_i, the middle of the window.
+    pub time: f64,
+    /// ⟨v_r⟩ (4.31), a velocity.
+    pub slip_velocity: f64,
+    /// ⟨f/N⟩ (4.30), dimensionless.
+    pub coefficient: f64,
+}
+
+/// Integrates `belt` from each start over `duration` and takes the means of all windows without stick, `per_period`
+/// (at least 1) window edges in each period 2π/`frequency_ratio`.
+///
+/// # Errors
+/// [`Stalled`] if a run stops.
+pub fn measured_effective_friction(
+    belt: &Belt,
+    frequency_ratio: f64,
+    starts: &[Start],
+    duration: f64,
+    per_period: usize,
+    tolerance: f64,
+) -> Result<Vec<WindowMean>, Stalled> {
+    let mut means = Vec::new();
+    for &start in starts {
+        let mut edges = Edges::new(belt, start, frequency_ratio, per_period.max(1));
+        simulate(belt, start, start.time + duration, tolerance, &mut edges)?;
+        means.extend(edges.means());
+    }
+    Ok(means)
+}
+
+/// What is known at a window edge: everything since the start of the run.
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    displacement: f64,
+    /// ∫μ(v_r) dτ over slip.
+    impulse: f64,
+    /// Time spent in stick.
+    stuck: f64,
+}
+
+/// Observer that keeps the integrals at equally spaced window edges.
+#[derive(Clone, Debug)]
+struct Edges {
+    law: Friction,
+    belt_velocity: f64,
+    start: f64,
+    per_period: usize,
+    period: f64,
+    edges: Vec<Edge>,
+    now: Edge,
+}
+
+impl Edges {
+    fn new(belt: &Belt, start: Start, frequency_ratio: f64, per_period: usize) -> Self {
+        Self {
+            law: *belt.friction(),
+            belt_velocity: belt.belt_velocity(),
+            start: start.time,
+            per_period,
+            period: TAU / frequency_ratio,
+            edges: Vec::new(),
+            now: Edge { displacement: start.displacement, impulse: 0.0, stuck: 0.0 },
+        }
+    }
+
+    fn time(&self, edge: usize) -> f64 {
+        self.start + edge as f64 * self.period / self.per_period as f64
+    }
+
+    /// Adds what happens between two moments of a segment.
+    fn pass(&mut self, segment: &Segment<'_>, from: f64, to: f64) {
+        if segment.slip_sign() == 0 {
+            self.now.stuck += to - from;
+            return;
+        }
+        let sign = f64::from(segment.slip_sign());
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let coefficient = |at: f64| {
+            // The sign of v_r is the branch's; a rounding of the other sign next to an event is none.
+            self.law.coefficient((sign * segment.slip_velocity(at)).max(0.0))
+        };
+        let sum: f64 = GAUSS
+            .iter()
+            .map(|&(node, weight)| {
+                weight * (coefficient(middle - half * node) + coefficient(middle + half * node))
+            })
+            .sum();
+        self.now.impulse += sign * half * sum;
+    }
+
+    fn means(&self) -> impl Iterator<Item = WindowMean> + '_ {
+        let windows = self.edges.windows(self.per_period + 1);
+        windows.enumerate().filter_map(|(first, window)| {
+            let (begin, end) = (window[0], window[self.per_period]);
+            (begin.stuck == end.stuck).then(|| WindowMean {
+                time: self.time(first) + 0.5 * self.period,
+                slip_velocity: self.belt_velocity - (end.displacement - begin.displacement) / self.period,
+                coefficient: (end.impulse - begin.impulse) / self.period,
+            })
+        })
+    }
+}
+
+impl Observer for Edges {
+    fn segment(&mut self, segment: &Segment<'_>) {
+        let mut from = 0.0;
+        loop {
+            let to = segment.clock().until(self.time(self.edges.len()));
+            if to > segment.duration() {
+                break;
+            }
+            let to = to.max(0.0);
+            self.pass(segment, from, to);
+            self.now.displacement = segment.displacement(to);
+            self.edges.push(self.now);
+            from = to;
+        }
+        self.pass(segment, from, segment.duration());
+    }
+}

@@ -1,0 +1,114 @@
+//! The table of claims: what the dissertation says, what independent numerics measure, and the verdict.
+//!
+//! A claim is made by a function that measures (`chapter2`, `chapter3`, `chapter4`); the verdict follows from printed and
+//! measured values by the rules of [`Verdict`], never from words.
+
+use serde_json::{Value as Json, json};
+
+use super::product::{Cell, Product, Table};
+use super::source::Source;
+use crate::complaint::Failure;
+
+mod chapter2;
+mod chapter3;
+mod chapter4;
+mod sheet;
+
+pub use sheet::{Claim, Verdict};
+
+use sheet::Sheet;
+
+/// Functions that measure, in the order of the dissertation.
+const SECTIONS: &[fn(&mut Sheet) -> Result<(), Failure>] = &[
+    chapter2::friction_laws,
+    chapter2::responses,
+    chapter2::forced_response,
+    chapter2::stability_maps,
+    chapter2::destabilisation,
+    chapter3::waveforms,
+    chapter3::formulas,
+    chapter3::everywhere_stable,
+    chapter3::thresholds,
+    chapter3::responses,
+    chapter4::responses,
+    chapter4::effective_friction,
+    chapter4::stability_maps,
+    chapter4::formulas,
+];
+
+/// Measures every claim.
+///
+/// # Errors
+/// [`Failure`] if a run stops or an average has no value.
+pub fn measure() -> Result<Vec<Claim>, Failure> {
+    let mut sheet = Sheet::default();
+    for section in SECTIONS {
+        section(&mut sheet)?;
+    }
+    Ok(sheet.claims)
+}
+
+/// The table as a product.
+pub(super) fn product(_: &Source) -> Result<Product, Failure> {
+    let claims = measure()?;
+    let columns = ["claim", "where", "statement", "printed", "measured", "verdict", "note"].map(|name| (name, "1"));
+    let mut table = Table::new("", &columns);
+    for claim in &claims {
+        let verdict = claim.verdict.to_string();
+        let cells = [
+            &claim.name,
+            &claim.place,
+            &claim.statement,
+            &claim.printed,
+            &claim.measured,
+            &verdict,
+            &claim.note,
+        ];
+        table.row(cells.map(|text| Cell::Text(text.clone())));
+    }
+    let caption = "Claims of the dissertation: printed, measured, verdict.".to_owned();
+    Ok(Product { caption, tables: vec![table], claims, ..Product::default() })
+}
+
+/// The table as JSON.
+pub fn json(claims: &[Claim]) -> Json {
+    claims
+        .iter()
+        .map(|claim| {
+            json!({
+                "claim": claim.name,
+                "where": claim.place,
+                "statement": claim.statement,
+                "printed": claim.printed,
+                "measured": claim.measured,
+                "measured_values": claim.values,
+                "verdict": claim.verdict.to_string(),
+                "deviation": claim.verdict.deviation(),
+                "note": claim.note,
+            })
+        })
+        .collect()
+}
+
+/// The table as Markdown.
+pub fn markdown(claims: &[Claim]) -> String {
+    let count = |name: &str| claims.iter().filter(|claim| claim.verdict.name() == name).count();
+    let mut text = format!(
+        "# Claims of the dissertation\n\n{} claims: {} reproduced, {} reproduced within a stated deviation, \
+         {} not reproduced, {} printed formulas wrong.\n\n\
+         | where | claim | printed | measured | verdict | note |\n|---|---|---|---|---|---|\n",
+        claims.len(),
+        count("reproduced"),
+        count("reproduced within"),
+        count("not reproduced"),
+        count("printed formula wrong"),
+    );
+    for claim in claims {
+        let verdict = claim.verdict.to_string();
+        let cells =
+            [&claim.place, &claim.statement, &claim.printed, &claim.measured, &verdict, &claim.note];
+        let cells = cells.map(|cell| cell.replace('|', "\\|"));
+        text += &format!("| {} |\n", cells.join(" | "));
+    }
+    text
+}

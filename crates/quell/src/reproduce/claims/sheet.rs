@@ -1,0 +1,253 @@
+//! A claim, its verdict, and the sheet on which measurements are written down.
+
+use std::fmt;
+
+/// What becomes of a claim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Verdict {
+    /// The measured value rounds to the printed one; the statement holds.
+    Reproduced,
+    /// The largest relative deviation from the print is at most the claim's limit.
+    Within {
+        /// |measured − printed|/|printed|, the largest.
+        deviation: f64,
+    },
+    /// Further off than the limit; the statement does not hold.
+    NotReproduced {
+        /// The relative deviation, where numbers are compared.
+        deviation: Option<f64>,
+    },
+    /// The printed formula does not give what its definition gives.
+    FormulaWrong {
+        /// |printed − right|/|right|.
+        deviation: f64,
+    },
+}
+
+impl Verdict {
+    /// Its kind, as counted in the summary.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Reproduced => "reproduced",
+            Self::Within { .. } => "reproduced within",
+            Self::NotReproduced { .. } => "not reproduced",
+            Self::FormulaWrong { .. } => "printed formula wrong",
+        }
+    }
+
+    /// The relative deviation behind it.
+    pub fn deviation(self) -> Option<f64> {
+        match self {
+            Self::Reproduced => None,
+            Self::Within { deviation } | Self::FormulaWrong { deviation } => Some(deviation),
+            Self::NotReproduced { deviation } => deviation,
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Within { deviation } => write!(f, "reproduced within {}", percent(*deviation)),
+            Self::NotReproduced { deviation: Some(deviation) } => {
+                write!(f, "not reproduced ({} off)", percent(*deviation))
+            }
+            Self::FormulaWrong { deviation } => {
+                write!(f, "printed formula wrong ({} off)", percent(*deviation))
+            }
+            _ => f.write_str(self.name()),
+        }
+    }
+}
+
+/// A share as a percentage, rounded up so that "within" stays true.
+fn percent(share: f64) -> String {
+    let value = 100.0 * share;
+    if value >= 10.0 {
+        format!("{:.0} %", value.ceil())
+    } else {
+        format!("{:.1} %", (10.0 * value).ceil() / 10.0)
+    }
+}
+
+/// One claim with its verdict.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claim {
+    /// Name that stays, such as `2.3-undithered-fundamental`.
+    pub name: String,
+    /// Figure, equation or section.
+    pub place: String,
+    /// What is claimed.
+    pub statement: String,
+    /// As printed; empty where the claim is no number.
+    pub printed: String,
+    /// As measured.
+    pub measured: String,
+    /// The numbers behind `measured`.
+    pub values: Vec<f64>,
+    /// What follows.
+    pub verdict: Verdict,
+    /// What a reader should know; empty for nothing.
+    pub note: String,
+}
+
+/// Claims under construction.
+#[derive(Debug, Default)]
+pub(super) struct Sheet {
+    /// Those finished.
+    pub(super) claims: Vec<Claim>,
+}
+
+/// Most that a number may be off and still be called reproduced.
+const USUAL_LIMIT: f64 = 0.05;
+/// Relative difference below which a printed formula is right.
+const FORMULA_AGREES: f64 = 1e-9;
+
+impl Sheet {
+    /// A printed number, such as `0.666`, against measured ones; all of them must agree.
+    pub(super) fn number(
+        &mut self,
+        name: &str,
+        place: &str,
+        statement: &str,
+        printed: &str,
+        measured: &[f64],
+    ) -> &mut Claim {
+        self.number_within(USUAL_LIMIT, [name, place, statement], printed, measured)
+    }
+
+    /// The same with another limit, for a number that is printed as rough; `words` are name, place, statement.
+    pub(super) fn number_within(
+        &mut self,
+        limit: f64,
+        words: [&str; 3],
+        printed: &str,
+        measured: &[f64],
+    ) -> &mut Claim {
+        let (value, half_digit) = read(printed);
+        let off = measured.iter().map(|m| (m - value).abs()).fold(0.0, f64::max);
+        let deviation = off / value.abs();
+        let verdict = if measured.is_empty() {
+            Verdict::NotReproduced { deviation: None }
+        } else if off <= half_digit * (1.0 + 1e-9) {
+            Verdict::Reproduced
+        } else if deviation <= limit {
+            Verdict::Within { deviation }
+        } else {
+            Verdict::NotReproduced { deviation: Some(deviation) }
+        };
+        self.push(words, printed.to_owned(), list(measured), measured, verdict)
+    }
+
+    /// A statement that holds or not, with the numbers that say so.
+    pub(super) fn statement(
+        &mut self,
+        words: [&str; 3],
+        measured: impl Into<String>,
+        values: &[f64],
+        holds: bool,
+    ) -> &mut Claim {
+        let verdict =
+            if holds { Verdict::Reproduced } else { Verdict::NotReproduced { deviation: None } };
+        self.push(words, String::new(), measured.into(), values, verdict)
+    }
+
+    /// A printed formula at one point against the value of its definition.
+    pub(super) fn formula(&mut self, words: [&str; 3], printed: f64, right: f64) -> &mut Claim {
+        let deviation = (printed - right).abs() / right.abs();
+        let verdict = if deviation <= FORMULA_AGREES {
+            Verdict::Reproduced
+        } else {
+            Verdict::FormulaWrong { deviation }
+        };
+        self.push(words, digits(printed, 8), digits(right, 8), &[right], verdict)
+    }
+
+    fn push(
+        &mut self,
+        [name, place, statement]: [&str; 3],
+        printed: String,
+        measured: String,
+        values: &[f64],
+        verdict: Verdict,
+    ) -> &mut Claim {
+        self.claims.push(Claim {
+            name: name.to_owned(),
+            place: place.to_owned(),
+            statement: statement.to_owned(),
+            printed,
+            measured,
+            values: values.to_vec(),
+            verdict,
+            note: String::new(),
+        });
+        let last = self.claims.len() - 1;
+        &mut self.claims[last]
+    }
+}
+
+impl Claim {
+    /// Adds what a reader should know.
+    pub(super) fn note(&mut self, note: impl Into<String>) {
+        self.note = note.into();
+    }
+}
+
+/// The value of a printed number and half a unit of its last digit.
+fn read(printed: &str) -> (f64, f64) {
+    let value = printed.parse().unwrap_or(f64::INFINITY);
+    let decimals = printed.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    (value, 0.5 * 10f64.powi(-i32::try_from(decimals).unwrap_or(0)))
+}
+
+/// Numbers with four significant digits, in a row.
+pub(super) fn list(values: &[f64]) -> String {
+    let values: Vec<String> = values.iter().map(|value| digits(*value, 4)).collect();
+    values.join(", ")
+}
+
+/// A number with so many significant digits.
+pub(super) fn digits(value: f64, count: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let magnitude = value.abs().log10().floor();
+    if magnitude < -4.0 {
+        return format!("{value:.*e}", count - 1);
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "not negative, below 20"
+    )]
+    let decimals = (count as f64 - 1.0 - magnitude).max(0.0) as usize;
+    format!("{value:.decimals$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn verdicts_follow_from_the_numbers() {
+        let mut sheet = Sheet::default();
+        let rounds = sheet.number("a", "", "", "0.67", &[0.6651]).verdict;
+        assert_eq!(rounds, Verdict::Reproduced);
+        let within = sheet.number("b", "", "", "0.666", &[0.6544]).verdict;
+        assert_eq!(within.to_string(), "reproduced within 1.8 %");
+        let off = sheet.number("c", "", "", "1.0", &[1.0, 1.2]).verdict;
+        assert_eq!(off.name(), "not reproduced");
+        let nothing = sheet.number("d", "", "", "1.0", &[]).verdict;
+        assert_eq!(nothing, Verdict::NotReproduced { deviation: None });
+        let wrong = sheet.formula(["e", "", ""], 2.0, 1.0).verdict;
+        assert_eq!(wrong, Verdict::FormulaWrong { deviation: 1.0 });
+        assert_eq!(sheet.formula(["f", "", ""], 1.0, 1.0).verdict, Verdict::Reproduced);
+    }
+
+    #[test]
+    fn digits_are_significant() {
+        assert_eq!(digits(0.654_435_1, 4), "0.6544");
+        assert_eq!(digits(12.73, 2), "13");
+        assert_eq!(digits(2e-7, 2), "2.0e-7");
+    }
+}

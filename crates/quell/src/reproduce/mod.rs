@@ -1,0 +1,236 @@
+//! `reproduce`: every figure and table of the dissertation again, with its data, and a table of its claims.
+//!
+//! One entry of [`ENTRIES`] is one figure or table: a name, a study file that holds its parameters, and a function that
+//! makes a [`Product`] of them. A further figure is one more line there.
+//!
+//! | file | what |
+//! |---|---|
+//! | `source` | study files of the entries, their cases |
+//! | `product`, `write` | pictures, tables of data, and their files |
+//! | `laws`, `waveforms`, `effective_friction`, `stability_map`, `responses`, `measured_friction` | the kinds of figures |
+//! | `print` | formulas as the dissertation prints them, right or wrong |
+//! | `claims` | claim, printed, measured, verdict |
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use serde_json::{Value as Json, json};
+
+use crate::complaint::{Complaint, Failure};
+use crate::study::suggest;
+
+pub mod claims;
+mod effective_friction;
+mod laws;
+mod measured_friction;
+mod print;
+mod product;
+mod responses;
+mod source;
+mod stability_map;
+mod waveforms;
+mod write;
+
+pub use product::{Cell, Column, Product, Table};
+pub use source::Source;
+
+/// One figure or table of the dissertation.
+#[derive(Clone, Copy)]
+pub struct Entry {
+    /// Name on the command line: `2.3`, `claims`.
+    pub name: &'static str,
+    /// What it shows, in one line.
+    pub about: &'static str,
+    /// Text of its study file; empty for a table that has its own.
+    study: &'static str,
+    make: fn(&Source) -> Result<Product, Failure>,
+}
+
+/// A figure whose parameters stand in `studies/figure-NAME.toml`.
+macro_rules! figure {
+    ($name:literal, $about:literal, $make:path) => {
+        Entry {
+            name: $name,
+            about: $about,
+            study: include_str!(concat!("../../../../studies/figure-", $name, ".toml")),
+            make: $make,
+        }
+    };
+}
+
+/// Everything that can be reproduced, in the order of the dissertation.
+pub const ENTRIES: &[Entry] = &[
+    figure!("2.2", "Stribeck and decreasing friction law", laws::figure),
+    figure!("2.3", "responses, Stribeck law, sinusoidal tangential dither", responses::figure),
+    figure!("2.4", "effective friction, Stribeck law", effective_friction::figure),
+    figure!("2.5", "effective friction, decreasing law", effective_friction::figure),
+    figure!("2.6", "stability map, Stribeck law", stability_map::single),
+    figure!("2.7", "stability map, decreasing law", stability_map::single),
+    figure!("3.2", "dither waveforms and their integrals", waveforms::figure),
+    figure!("3.3", "effective friction, Stribeck law, three waveforms", effective_friction::three),
+    figure!("3.4", "effective friction, decreasing law, three waveforms", effective_friction::three),
+    figure!("3.5", "stability maps, Stribeck law, three waveforms", stability_map::three),
+    figure!("3.6", "stability maps, decreasing law, three waveforms", stability_map::three),
+    figure!("3.7", "responses, Stribeck law, sinusoidal tangential dither", responses::figure),
+    figure!("3.8", "responses, Stribeck law, triangular tangential dither", responses::figure),
+    figure!("3.9", "responses, Stribeck law, square tangential dither", responses::figure),
+    figure!("4.2", "Stribeck and decreasing friction law", laws::figure),
+    figure!("4.3", "responses, Stribeck law, sinusoidal normal dither", responses::figure),
+    figure!("4.4", "responses, decreasing law, sinusoidal normal dither", responses::figure),
+    figure!("4.5", "effective friction from simulation, Stribeck law", measured_friction::figure),
+    figure!("4.6", "effective friction from simulation, decreasing law", measured_friction::figure),
+    figure!("4.7", "stability maps, Stribeck law, normal dither", stability_map::three),
+    figure!("4.8", "stability maps, decreasing law, normal dither", stability_map::three),
+    Entry {
+        name: "claims",
+        about: "numerical claims and formulas: printed, measured, verdict",
+        study: "",
+        make: claims::product,
+    },
+];
+
+impl Entry {
+    /// Makes the figure or table.
+    ///
+    /// # Errors
+    /// [`Failure`] if a run stops or an average has no value.
+    pub fn product(&self) -> Result<Product, Failure> {
+        (self.make)(&self.source())
+    }
+
+    /// Its name and study file.
+    pub fn source(&self) -> Source {
+        Source { name: self.name, about: self.about, text: self.study }
+    }
+
+    /// What its files are called, without extension.
+    pub fn stem(&self) -> String {
+        match self.name.chars().next() {
+            Some(first) if first.is_ascii_digit() => format!("figure-{}", self.name),
+            _ => self.name.to_owned(),
+        }
+    }
+}
+
+impl fmt::Debug for Entry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Entry").field("name", &self.name).field("about", &self.about).finish_non_exhaustive()
+    }
+}
+
+/// The entries of these names, in the order of [`ENTRIES`]; all of them where no name is given.
+///
+/// # Errors
+/// A complaint for each unknown name, with the known ones.
+pub fn find(names: &[String]) -> Result<Vec<Entry>, Vec<Complaint>> {
+    use crate::complaint::{Fault, Origin};
+    let known = || ENTRIES.iter().map(|entry| entry.name);
+    let complaints: Vec<Complaint> = names
+        .iter()
+        .filter(|name| !known().any(|entry| entry == bare(name)))
+        .map(|name| {
+            let list: Vec<&str> = known().collect();
+            Complaint::new(Fault::Value, "NAME", Origin::Whole, name.as_str(), format!("one of {}", list.join(", ")))
+                .suggesting(suggest::word(bare(name), known()))
+        })
+        .collect();
+    if !complaints.is_empty() {
+        return Err(complaints);
+    }
+    let wanted = |entry: &&Entry| names.is_empty() || names.iter().any(|name| bare(name) == entry.name);
+    Ok(ENTRIES.iter().filter(wanted).copied().collect())
+}
+
+/// `figure-2.3` means 2.3.
+fn bare(name: &str) -> &str {
+    name.strip_prefix("figure-").unwrap_or(name)
+}
+
+/// One entry that has been written.
+#[derive(Clone, Debug)]
+pub struct Written {
+    /// Its entry.
+    pub entry: Entry,
+    /// Its files.
+    pub files: Vec<PathBuf>,
+    /// Its caption, plain text.
+    pub caption: String,
+    /// How long it took.
+    pub elapsed: Duration,
+    /// The claims, where it is the table of claims.
+    pub claims: Vec<claims::Claim>,
+}
+
+impl Written {
+    /// As JSON.
+    pub fn json(&self) -> Json {
+        let files: Vec<String> = self.files.iter().map(|file| file.display().to_string()).collect();
+        let mut object = json!({
+            "name": self.entry.name,
+            "about": self.entry.about,
+            "files": files,
+            "caption": self.caption,
+            "seconds": self.elapsed.as_secs_f64(),
+        });
+        if !self.claims.is_empty() {
+            object["claims"] = claims::json(&self.claims);
+        }
+        object
+    }
+}
+
+/// Makes `entries` and writes them into `directory`, which is made if it is missing; two at a time. `progress` hears
+/// of each as soon as it is written.
+///
+/// # Errors
+/// A complaint where the directory cannot be written; the first failure otherwise. What was written stays.
+pub fn run(
+    entries: &[Entry],
+    directory: &Path,
+    progress: impl Fn(&Written) + Sync,
+) -> Result<Vec<Written>, Failure> {
+    write::prepare(directory)?;
+    let next = AtomicUsize::new(0);
+    let done: Mutex<Vec<(usize, Result<Written, Failure>)>> = Mutex::new(Vec::new());
+    let work = || {
+        while let Some(entry) = entries.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let outcome = one(entry, directory);
+            if let Ok(written) = &outcome {
+                progress(written);
+            }
+            let failed = outcome.is_err();
+            if let Ok(mut done) = done.lock() {
+                let place = entries.iter().position(|other| other.name == entry.name).unwrap_or(usize::MAX);
+                done.push((place, outcome));
+            }
+            if failed {
+                next.store(entries.len(), Ordering::Relaxed);
+            }
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..entries.len().min(2) {
+            scope.spawn(work);
+        }
+    });
+    let mut done = done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    done.sort_by_key(|(place, _)| *place);
+    done.into_iter().map(|(_, outcome)| outcome).collect()
+}
+
+fn one(entry: &Entry, directory: &Path) -> Result<Written, Failure> {
+    let began = Instant::now();
+    let product = entry.product()?;
+    let files = write::product(&product, &entry.stem(), directory)?;
+    Ok(Written {
+        entry: *entry,
+        files,
+        caption: product.plain_caption(),
+        elapsed: began.elapsed(),
+        claims: product.claims,
+    })
+}

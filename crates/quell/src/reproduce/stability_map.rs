@@ -1,0 +1,314 @@
+//! Figures 2.6, 2.7, 3.5, 3.6, 4.7, 4.8: where averaged steady sliding is unstable, in the plane of α and v₀.
+//!
+//! At each α the unstable band is αG_max ≤ v₀ ≤ the upper edge of (3.43)–(3.59), in closed form. Normal dither is the same
+//! map with (α_T, v₀) → (α_T/μ(v₀), v₀), the substitution of (4.33)–(4.42). Drawn too: the boundary with the oscillator's
+//! own response at the study's R in place of αG (for a sine α = DR/(R² − 1)), and the print's upper edge for
+//! the triangle, (3.47), (4.35), where it is wrong.
+
+use quell_belt::averaging::{
+    AveragingOptions, EverywhereStable, FastWave, Response, closed_band, everywhere_stable_amplitude, unstable_bands,
+};
+use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
+
+use super::print::{self, LawNumbers};
+use super::product::{Product, Table};
+use super::source::{Source, failed, law_name, letter, parameters, values, waveform_name};
+use crate::complaint::Failure;
+use crate::plot::{
+    Axis, Figure, Legend, Line, LineStyle, Marker, Note, Panel, Points, Region, Role, Rule, SharedLegend, Sharing, Size,
+};
+use crate::study::Study;
+
+/// Points on an edge.
+const POINTS: u32 = 240;
+/// Points on an edge that needs quadrature.
+const FEWER_POINTS: u32 = 48;
+
+/// A curve of (α, v₀).
+type Curve = Vec<(f64, f64)>;
+
+/// The plane of one panel.
+struct Plane<'a> {
+    source: &'a Source,
+    belt: &'a Belt,
+    waveform: Waveform,
+    direction: Direction,
+    /// Largest α and v₀ shown.
+    reach: (f64, f64),
+}
+
+/// An unstable region: its edges from α = 0 on, and the α beyond which there is none.
+struct Unstable {
+    damping_ratio: f64,
+    lower: Curve,
+    upper: Curve,
+    /// (α^L, α^L G_max) where it exists.
+    tip: Option<(f64, f64)>,
+}
+
+/// Figures 2.6 and 2.7: one waveform, one damping ratio.
+pub(super) fn single(source: &Source) -> Result<Product, Failure> {
+    let study = source.study()?;
+    let mut table = empty_table();
+    let panel = panel(source, &study, study.belt().dithers()[0].waveform, &mut table)?;
+    let caption = format!("{} $ζ$ = {}, {}.{}", opening(source, &study), study.belt().damping_ratio(), parameters(&study), closing(&study, false));
+    Ok(Product::new(Figure::single(panel), caption, &study).table(table))
+}
+
+/// Figures 3.5, 3.6, 4.7, 4.8: three waveforms, three damping ratios.
+pub(super) fn three(source: &Source) -> Result<Product, Failure> {
+    let study = source.study()?;
+    let mut table = empty_table();
+    let mut panels = Vec::new();
+    for (index, (waveform, study)) in source.with_waveforms()?.into_iter().enumerate() {
+        let title = format!("({}) {}", letter(index), waveform_name(waveform));
+        panels.push(panel(source, &study, waveform, &mut table)?.title(title).legend(Legend::None));
+    }
+    let damping: Vec<String> = values(&study, "belt.damping_ratio").iter().map(f64::to_string).collect();
+    let caption = format!("{} $ζ$ = {}; {}.{}", opening(source, &study), damping.join(", "), parameters(&study), closing(&study, true));
+    let figure = Figure::grid(3, panels)
+        .sharing_x(Sharing::All)
+        .sharing_y(Sharing::All)
+        .legend(SharedLegend::Below)
+        .size(Size::Frame(270.0, 250.0));
+    Ok(Product::new(figure, caption, &study).table(table))
+}
+
+fn opening(source: &Source, study: &Study) -> String {
+    let dither = study.belt().dithers()[0];
+    format!(
+        "Figure {}. Stability map with the {} law and {} dither: in the shaded region averaged steady sliding is unstable, \
+         2$ζ$ + $F$ d$\\bar{{μ}}$/d$v$ < 0.",
+        source.name,
+        law_name(study.belt().friction().kind()),
+        dither.direction.name(),
+    )
+}
+
+/// What the picture shows beyond the print, and where it departs from it.
+fn closing(study: &Study, three: bool) -> String {
+    let dither = study.belt().dithers()[0];
+    let normal = dither.direction == Direction::Normal;
+    let stribeck = study.belt().friction().kind() == LawKind::Stribeck;
+    let ratio = dither.frequency_ratio;
+    let mut text = format!(
+        " Dash-dotted: the boundary at $R$ = {ratio} with the oscillator's own response, for a sine $α$ = $DR$/($R^2$ − 1){}.",
+        if three { format!(", $ζ$ = {}", study.belt().damping_ratio()) } else { String::new() }
+    );
+    if three && stribeck {
+        let equation = if normal { "(4.35)" } else { "(3.47)" };
+        text += &format!(" Dotted in (b): the upper edge as printed {equation}, with π²/48 for π²/30.");
+    }
+    if normal {
+        text += &format!(
+            " $α_N$ = $D_N$/$R_N$ cannot exceed $F$/$R_N$ (4.29), marked for $R_N$ = {ratio}; $α$ of chapter 3 is replaced by \
+             $μ$($v_0$)$α_N$."
+        );
+        if stribeck {
+            text += " The square's $α^L$ is half of (4.38), which repeats the triangle's (4.36).";
+        }
+    }
+    if !stribeck && !normal {
+        text += " Stability is local: a stick-slip cycle can coexist with stable sliding.";
+    }
+    text
+}
+
+fn empty_table() -> Table {
+    Table::new("", &[
+        ("waveform", "1"),
+        ("damping_ratio", "1"),
+        ("curve", "1"),
+        ("amplitude_ratio", "length (velocity/ω0)"),
+        ("belt_velocity", "length (velocity/ω0)"),
+    ])
+}
+
+fn panel(source: &Source, study: &Study, waveform: Waveform, table: &mut Table) -> Result<Panel, Failure> {
+    let belt = study.belt();
+    let dither = belt.dithers()[0];
+    let last = |path: &str| values(study, path).last().copied();
+    let velocity = last("belt.belt_velocity").unwrap_or(1.0);
+    let normal = dither.direction == Direction::Normal;
+    let alpha = match (normal, belt.friction().kind()) {
+        (false, _) => last("dither.amplitude").unwrap_or(1.0) / dither.frequency_ratio,
+        // The print goes beyond what a closed contact allows.
+        (true, LawKind::Stribeck) => 0.8,
+        (true, LawKind::Decreasing) => 6.0,
+    };
+    let plane = Plane { source, belt, waveform, direction: dither.direction, reach: (alpha, velocity) };
+    let mut damping = values(study, "belt.damping_ratio");
+    if damping.is_empty() {
+        damping.push(belt.damping_ratio());
+    }
+    let symbol = if normal { "α_N" } else { "α_T" };
+    let mut panel = Panel::new(
+        Axis::new("dither amplitude").symbol(symbol).between(0.0, alpha),
+        Axis::new("belt velocity").symbol("v_0").between(0.0, velocity),
+    );
+    let regions: Result<Vec<Unstable>, Failure> = damping.iter().map(|&zeta| plane.unstable(zeta)).collect();
+    let regions = regions?;
+    let lone = regions.len() == 1;
+    for region in &regions {
+        panel = panel.with(Region::between(Role::Unstable, region.lower.clone(), region.upper.clone()));
+    }
+    for (index, region) in regions.iter().enumerate() {
+        let role = if lone { Role::Boundary } else { Role::Series([1, 2, 0][index % 3]) };
+        let label = if lone { "averaging".to_owned() } else { format!("$ζ$ = {}", region.damping_ratio) };
+        panel = panel.with(Line::pieces(role, [region.lower.clone(), region.upper.clone()]).label(label));
+        plane.record(table, region.damping_ratio, "lower", &region.lower);
+        plane.record(table, region.damping_ratio, "upper", &region.upper);
+    }
+    panel = plane.sharper(panel, belt.damping_ratio(), table)?;
+    panel = plane.printed(panel, &damping, table);
+    panel = tips(panel, &regions, lone);
+    Ok(plane.words(panel, &regions))
+}
+
+/// Marks α^L.
+fn tips(mut panel: Panel, regions: &[Unstable], lone: bool) -> Panel {
+    let tips: Curve = regions.iter().filter_map(|region| region.tip).collect();
+    if lone {
+        for &(alpha, _) in &tips {
+            panel = panel.with(Rule::vertical(alpha).label(format!("$α^L$ = {alpha:.4}")));
+        }
+    }
+    if tips.is_empty() {
+        return panel;
+    }
+    panel.with(Points::new(Role::Boundary, tips).marker(Marker::Disc).label("$α^L$"))
+}
+
+impl Plane<'_> {
+    fn law(&self) -> &Friction {
+        self.belt.friction()
+    }
+
+    /// α of the axis for the tangential α at v₀.
+    fn along(&self, alpha: f64, v: f64) -> (f64, f64) {
+        match self.direction {
+            Direction::Tangential => (alpha, v),
+            Direction::Normal => (alpha / self.law().coefficient(v), v),
+        }
+    }
+
+    /// Largest tangential α that the axis shows.
+    fn largest(&self) -> f64 {
+        match self.direction {
+            Direction::Tangential => self.reach.0,
+            Direction::Normal => self.reach.0 * self.law().static_coefficient(),
+        }
+    }
+
+    fn unstable(&self, damping_ratio: f64) -> Result<Unstable, Failure> {
+        let load = self.belt.normal_load();
+        let wave = FastWave::Integral(self.waveform);
+        let everywhere = everywhere_stable_amplitude(self.law(), damping_ratio, load, wave, Direction::Tangential)
+            .map_err(|error| failed(self.source.name, &error))?;
+        let tip = match everywhere {
+            EverywhereStable::From { amplitude_ratio, .. } => Some(amplitude_ratio),
+            EverywhereStable::Always => Some(0.0),
+            EverywhereStable::Never { .. } => None,
+        };
+        let end = tip.unwrap_or(f64::INFINITY).min(self.largest());
+        let mut region = Unstable {
+            damping_ratio,
+            lower: Vec::new(),
+            upper: Vec::new(),
+            tip: tip.map(|alpha| self.along(alpha, alpha * wave.peak())),
+        };
+        for k in 0..=POINTS {
+            let alpha = end * f64::from(k) / f64::from(POINTS);
+            if let Some(band) = closed_band(self.law(), damping_ratio, load, self.waveform, alpha) {
+                region.lower.push(self.along(alpha, band.lower));
+                // Without an upper edge the band leaves the plane.
+                region.upper.push(self.along(alpha, band.upper.unwrap_or(10.0 * self.reach.1)));
+            }
+        }
+        if let Some(tip) = region.tip.filter(|_| end < self.largest()) {
+            region.lower.push(tip);
+            region.upper.push(tip);
+        }
+        Ok(region)
+    }
+
+    /// The boundary with the oscillator's own response in place of αG.
+    fn sharper(&self, panel: Panel, damping_ratio: f64, table: &mut Table) -> Result<Panel, Failure> {
+        let ratio = self.belt.dithers()[0].frequency_ratio;
+        let mut edges: [Curve; 2] = Default::default();
+        if self.waveform == Waveform::Sine {
+            // The same curves over a shorter α.
+            let region = self.unstable(damping_ratio)?;
+            let shorter = (ratio * ratio - 1.0) / (ratio * ratio);
+            for (edge, curve) in edges.iter_mut().zip([region.lower, region.upper]) {
+                edge.extend(curve.into_iter().map(|(alpha, v)| (alpha * shorter, v)));
+            }
+        } else {
+            let options = AveragingOptions { response: Response::Oscillator, ..AveragingOptions::default() };
+            for k in 0..=FEWER_POINTS {
+                let alpha = self.largest() * f64::from(k) / f64::from(FEWER_POINTS);
+                let dither = Dither {
+                    direction: Direction::Tangential,
+                    waveform: self.waveform,
+                    amplitude: alpha * ratio,
+                    frequency_ratio: ratio,
+                    phase: 0.0,
+                };
+                let belt = Belt::new(damping_ratio, self.belt.normal_load(), 1.0, *self.law(), vec![dither])
+                    .map_err(|_| failed(self.source.name, &"a belt of the map is not valid"))?;
+                let bands = unstable_bands(&belt, options).map_err(|error| failed(self.source.name, &error))?;
+                let Some(band) = bands.last() else { break };
+                edges[0].push(self.along(alpha, band.lower));
+                edges[1].push(self.along(alpha, band.upper.unwrap_or(10.0 * self.reach.1)));
+            }
+        }
+        self.record(table, damping_ratio, "lower_oscillator", &edges[0]);
+        self.record(table, damping_ratio, "upper_oscillator", &edges[1]);
+        let line = Line::pieces(Role::Exact, edges).style(LineStyle::DashDotted).width(0.9);
+        Ok(panel.with(line.label(format!("oscillator's response, $R$ = {ratio}"))))
+    }
+
+    /// The print's upper edge for Stribeck and triangle, up to its own α^L.
+    fn printed(&self, mut panel: Panel, damping: &[f64], table: &mut Table) -> Panel {
+        if self.waveform != Waveform::Triangle || self.law().kind() != LawKind::Stribeck {
+            return panel;
+        }
+        let numbers = LawNumbers::DISSERTATION;
+        let mut pieces = Vec::new();
+        for &zeta in damping {
+            let end = print::everywhere_348(numbers, zeta);
+            let edge: Curve = (0..=POINTS)
+                .map(|k| end * f64::from(k) / f64::from(POINTS))
+                .map(|alpha| self.along(alpha, print::upper_edge_347(numbers, zeta, alpha)))
+                .collect();
+            self.record(table, zeta, "upper_printed", &edge);
+            pieces.push(edge);
+        }
+        let equation = if self.direction == Direction::Normal { "(4.35)" } else { "(3.47)" };
+        let line = Line::pieces(Role::Printed, pieces).style(LineStyle::Dotted).width(1.1);
+        panel = panel.with(line.label(format!("as printed {equation}")));
+        panel
+    }
+
+    /// "stable", "unstable", and where (4.29) ends.
+    fn words(&self, mut panel: Panel, regions: &[Unstable]) -> Panel {
+        if let Some(region) = regions.first().filter(|region| region.lower.len() > 4) {
+            let place = region.lower.len() / 5;
+            let (low, high) = (region.lower[place], region.upper[place]);
+            let middle = 0.5 * (low.1 + high.1.min(self.reach.1));
+            panel = panel.with(Note::new(0.5 * (low.0 + high.0), middle, "unstable"));
+        }
+        panel = panel.with(Note::new(0.8 * self.reach.0, 0.1 * self.reach.1, "stable"));
+        if self.direction == Direction::Normal {
+            let limit = self.belt.normal_load() / self.belt.dithers()[0].frequency_ratio;
+            panel = panel.with(Rule::vertical(limit).label("$F$/$R_N$"));
+        }
+        panel
+    }
+
+    fn record(&self, table: &mut Table, damping_ratio: f64, curve: &str, points: &Curve) {
+        for &(alpha, v) in points {
+            table.row([self.waveform.name().into(), damping_ratio.into(), curve.into(), alpha.into(), v.into()]);
+        }
+    }
+}
