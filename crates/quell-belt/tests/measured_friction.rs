@@ -44,7 +44,8 @@ fn the_impulse_closes_the_balance_of_momentum() {
     let belt = belt(0.3, 0.01, 0.0);
     let start = at(0.45);
     let window = TAU / 5.0;
-    let means = measured_effective_friction(&belt, 5.0, &[start], window * 1.01, 1, 1e-13).expect("runs");
+    let means =
+        measured_effective_friction(&belt, 5.0, &[start], window * 1.01, 1, 1e-13).expect("runs");
     let mut sampler = Sampler::new(0.0, window / 4000.0, 4001);
     simulate(&belt, start, window * 1.01, 1e-13, &mut sampler).expect("runs");
     let samples = &sampler.samples;
@@ -53,7 +54,13 @@ fn the_impulse_closes_the_balance_of_momentum() {
         .iter()
         .enumerate()
         .map(|(k, sample)| {
-            let weight = if k == 0 || k == 4000 { 1.0 } else if k % 2 == 1 { 4.0 } else { 2.0 };
+            let weight = if k == 0 || k == 4000 {
+                1.0
+            } else if k % 2 == 1 {
+                4.0
+            } else {
+                2.0
+            };
             weight * sample.displacement
         })
         .sum::<f64>()

@@ -121,7 +121,8 @@ impl Edges {
             let (begin, end) = (window[0], window[self.per_period]);
             (begin.stuck == end.stuck).then(|| WindowMean {
                 time: self.time(first) + 0.5 * self.period,
-                slip_velocity: self.belt_velocity - (end.displacement - begin.displacement) / self.period,
+                slip_velocity: self.belt_velocity
+                    - (end.displacement - begin.displacement) / self.period,
                 coefficient: (end.impulse - begin.impulse) / self.period,
             })
         })

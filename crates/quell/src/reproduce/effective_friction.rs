@@ -11,7 +11,9 @@ use super::print::{self, LawNumbers};
 use super::product::{Product, Table};
 use super::source::{Source, failed, letter, parameters, values, waveform_name};
 use crate::complaint::Failure;
-use crate::plot::{Axis, Figure, Legend, Line, LineStyle, Panel, Place, Role, Rule, SharedLegend, Sharing, Size};
+use crate::plot::{
+    Axis, Figure, Legend, Line, LineStyle, Panel, Place, Role, Rule, SharedLegend, Sharing, Size,
+};
 use crate::study::Study;
 
 /// Slip velocities shown, in v_m.
@@ -66,24 +68,34 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
 }
 
 fn empty_table() -> Table {
-    Table::new("", &[
-        ("waveform", "1"),
-        ("amplitude_ratio_over_reference", "1"),
-        ("slip_velocity_over_reference", "1"),
-        ("effective_coefficient", "1"),
-        ("effective_slope", "1/velocity"),
-        ("printed_coefficient", "1"),
-    ])
+    Table::new(
+        "",
+        &[
+            ("waveform", "1"),
+            ("amplitude_ratio_over_reference", "1"),
+            ("slip_velocity_over_reference", "1"),
+            ("effective_coefficient", "1"),
+            ("effective_slope", "1/velocity"),
+            ("printed_coefficient", "1"),
+        ],
+    )
 }
 
-fn panel(source: &Source, study: &Study, waveform: Waveform, table: &mut Table) -> Result<Panel, Failure> {
+fn panel(
+    source: &Source,
+    study: &Study,
+    waveform: Waveform,
+    table: &mut Table,
+) -> Result<Panel, Failure> {
     let belt = study.belt();
     let law = belt.friction();
     let vm = law.velocity_scale();
     let static_level = law.static_coefficient();
     let mut panel = Panel::new(
         Axis::new("slip velocity").symbol("v_r/v_m").between(FROM, TO),
-        Axis::new("effective friction").symbol("\\bar{μ}").between(-0.45, if law.kind() == LawKind::Stribeck { 0.7 } else { 0.45 }),
+        Axis::new("effective friction")
+            .symbol("\\bar{μ}")
+            .between(-0.45, if law.kind() == LawKind::Stribeck { 0.7 } else { 0.45 }),
     )
     .with(Rule::horizontal(0.0));
     let mut printed = Vec::new();
@@ -92,8 +104,12 @@ fn panel(source: &Source, study: &Study, waveform: Waveform, table: &mut Table) 
         let corner = alpha * waveform.peak_integral() / vm;
         let motion = FastMotion::single(FastWave::Integral(waveform), alpha);
         let as_printed = |w: f64| {
-            let inside = law.kind() == LawKind::Decreasing && waveform == Waveform::Triangle && w.abs() < corner;
-            inside.then(|| print::effective_338a(LawNumbers::DISSERTATION, w.abs() * vm, alpha).copysign(w))
+            let inside = law.kind() == LawKind::Decreasing
+                && waveform == Waveform::Triangle
+                && w.abs() < corner;
+            inside.then(|| {
+                print::effective_338a(LawNumbers::DISSERTATION, w.abs() * vm, alpha).copysign(w)
+            })
         };
         let mut pieces = vec![Vec::new()];
         for w in grid(corner) {
@@ -103,7 +119,8 @@ fn panel(source: &Source, study: &Study, waveform: Waveform, table: &mut Table) 
                 pieces.push(vec![(0.0, static_level)]);
                 continue;
             }
-            let found = effective(law, &motion, w * vm).map_err(|error| failed(source.name, &error))?;
+            let found =
+                effective(law, &motion, w * vm).map_err(|error| failed(source.name, &error))?;
             pieces.last_mut().into_iter().for_each(|piece| piece.push((w, found.coefficient)));
             table.row([
                 waveform.name().into(),
@@ -115,7 +132,12 @@ fn panel(source: &Source, study: &Study, waveform: Waveform, table: &mut Table) 
             ]);
         }
         if alpha > 0.0 {
-            printed.push(grid(corner).into_iter().filter_map(|w| Some((w, as_printed(w)?))).collect::<Vec<_>>());
+            printed.push(
+                grid(corner)
+                    .into_iter()
+                    .filter_map(|w| Some((w, as_printed(w)?)))
+                    .collect::<Vec<_>>(),
+            );
         } else {
             let jump = [(0.0, -static_level), (0.0, static_level)];
             panel = panel.with(Line::new(Role::Guide, jump).style(LineStyle::Solid));

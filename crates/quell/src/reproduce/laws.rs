@@ -16,11 +16,14 @@ const POINTS: u32 = 300;
 
 pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
     let studies = [source.study()?, source.changed(&["friction.law=decreasing"])?];
-    let mut table = Table::new("", &[
-        ("slip_velocity_over_reference", "1"),
-        ("stribeck_coefficient", "1"),
-        ("decreasing_coefficient", "1"),
-    ]);
+    let mut table = Table::new(
+        "",
+        &[
+            ("slip_velocity_over_reference", "1"),
+            ("stribeck_coefficient", "1"),
+            ("decreasing_coefficient", "1"),
+        ],
+    );
     let laws: Vec<&Friction> = studies.iter().map(|study| study.belt().friction()).collect();
     let (static_level, minimum) = (laws[0].static_coefficient(), laws[0].values()[1]);
     for w in grid() {
@@ -35,11 +38,21 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
     .with(Rule::horizontal(0.0))
     .with(Rule::horizontal(static_level).label("$μ_s$"))
     .with(Rule::horizontal(minimum).label("$μ_m$"))
-    .with(Line::new(Role::Guide, [(0.0, -static_level), (0.0, static_level)]).style(LineStyle::Solid));
+    .with(
+        Line::new(Role::Guide, [(0.0, -static_level), (0.0, static_level)]).style(LineStyle::Solid),
+    );
     for (law, style, index) in [(laws[0], LineStyle::Solid, 0), (laws[1], LineStyle::Dashed, 1)] {
         let sides = [
-            grid().filter(|w| *w < 0.0).chain([-0.0]).map(|w| (w, signed(law, w))).collect::<Vec<_>>(),
-            [0.0].into_iter().chain(grid().filter(|w| *w > 0.0)).map(|w| (w, signed(law, w))).collect(),
+            grid()
+                .filter(|w| *w < 0.0)
+                .chain([-0.0])
+                .map(|w| (w, signed(law, w)))
+                .collect::<Vec<_>>(),
+            [0.0]
+                .into_iter()
+                .chain(grid().filter(|w| *w > 0.0))
+                .map(|w| (w, signed(law, w)))
+                .collect(),
         ];
         let name = format!("{} law", law_name(law.kind()));
         panel = panel.with(Line::pieces(Role::Series(index), sides).style(style).label(name));

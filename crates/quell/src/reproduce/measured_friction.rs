@@ -11,7 +11,9 @@ use quell_belt::simulation::Start;
 use super::product::{Product, Table};
 use super::source::{Source, failed, law_name, letter, parameters, values};
 use crate::complaint::Failure;
-use crate::plot::{Axis, Figure, Line, LineStyle, Panel, Points, Role, SharedLegend, Sharing, Size};
+use crate::plot::{
+    Axis, Figure, Line, LineStyle, Panel, Points, Role, SharedLegend, Sharing, Size,
+};
 use crate::study::Study;
 
 /// Length of a decay.
@@ -51,7 +53,9 @@ pub(super) fn cases(source: &Source) -> Result<Vec<Case>, Failure> {
                 .collect();
             let mut windows = Vec::new();
             for velocity in values(&study, "belt.belt_velocity") {
-                let study = study.with("dither.amplitude", amplitude)?.with("belt.belt_velocity", velocity)?;
+                let study = study
+                    .with("dither.amplitude", amplitude)?
+                    .with("belt.belt_velocity", velocity)?;
                 let found = measured_effective_friction(
                     study.belt(),
                     ratio,
@@ -72,21 +76,29 @@ pub(super) fn cases(source: &Source) -> Result<Vec<Case>, Failure> {
 pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
     let study = source.study()?;
     let law = study.belt().friction();
-    let mut bins = Table::new("", &[
-        ("amplitude", "length (force/k)"),
-        ("slip_velocity", "length (velocity/ω0)"),
-        ("measured_coefficient", "1"),
-        ("windows", "1"),
-        ("averaged_coefficient", "1"),
-        ("law_coefficient", "1"),
-    ]);
+    let mut bins = Table::new(
+        "",
+        &[
+            ("amplitude", "length (force/k)"),
+            ("slip_velocity", "length (velocity/ω0)"),
+            ("measured_coefficient", "1"),
+            ("windows", "1"),
+            ("averaged_coefficient", "1"),
+            ("law_coefficient", "1"),
+        ],
+    );
     let mut panels = Vec::new();
     for (index, case) in cases(source)?.iter().enumerate() {
         for &(v, median, count) in &case.bins {
             let averaged = interpolated(&case.averaged, v);
-            bins.row([case.amplitude, v, median, count as f64, averaged, law.coefficient(v)].map(Into::into));
+            bins.row(
+                [case.amplitude, v, median, count as f64, averaged, law.coefficient(v)]
+                    .map(Into::into),
+            );
         }
-        let law_curve = (0..=POINTS).map(|k| TO * f64::from(k) / f64::from(POINTS)).map(|v| (v, law.coefficient(v)));
+        let law_curve = (0..=POINTS)
+            .map(|k| TO * f64::from(k) / f64::from(POINTS))
+            .map(|v| (v, law.coefficient(v)));
         let title = format!("({}) $D_N$ = {}", letter(index), case.amplitude);
         panels.push(
             Panel::new(
@@ -94,10 +106,28 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
                 Axis::new("friction").symbol("⟨f/N⟩, \\bar{μ}, μ").between(0.1, 0.42),
             )
             .title(title)
-            .with(Points::new(Role::Guide, case.windows.iter().map(|w| (w.slip_velocity, w.coefficient))).size(1.2).label("single windows"))
-            .with(Line::new(Role::Undithered, law_curve).label(format!("{} law", law_name(law.kind()))))
-            .with(Line::new(Role::Averaged, case.averaged.iter().copied()).style(LineStyle::Dotted).label("averaging"))
-            .with(Points::new(Role::Exact, case.bins.iter().map(|&(v, median, _)| (v, median))).size(3.6).label("simulation, medians")),
+            .with(
+                Points::new(
+                    Role::Guide,
+                    case.windows.iter().map(|w| (w.slip_velocity, w.coefficient)),
+                )
+                .size(1.2)
+                .label("single windows"),
+            )
+            .with(
+                Line::new(Role::Undithered, law_curve)
+                    .label(format!("{} law", law_name(law.kind()))),
+            )
+            .with(
+                Line::new(Role::Averaged, case.averaged.iter().copied())
+                    .style(LineStyle::Dotted)
+                    .label("averaging"),
+            )
+            .with(
+                Points::new(Role::Exact, case.bins.iter().map(|&(v, median, _)| (v, median)))
+                    .size(3.6)
+                    .label("simulation, medians"),
+            ),
         );
     }
     let figure = Figure::grid(2, panels)
@@ -121,7 +151,8 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
 
 /// μ̄(v) of (4.28) with φ′ of (4.23).
 fn averaged(source: &Source, study: &Study) -> Result<Vec<(f64, f64)>, Failure> {
-    let options = AveragingOptions { normal_order: NormalOrder::Second, ..AveragingOptions::default() };
+    let options =
+        AveragingOptions { normal_order: NormalOrder::Second, ..AveragingOptions::default() };
     (1..=POINTS)
         .map(|k| {
             let v = TO * f64::from(k) / f64::from(POINTS);
@@ -145,7 +176,11 @@ fn medians(windows: &[WindowMean]) -> Vec<(f64, f64, usize)> {
         .map(|(bin, mut values)| {
             values.sort_unstable_by(f64::total_cmp);
             let half = values.len() / 2;
-            let median = if values.len() % 2 == 1 { values[half] } else { 0.5 * (values[half - 1] + values[half]) };
+            let median = if values.len() % 2 == 1 {
+                values[half]
+            } else {
+                0.5 * (values[half - 1] + values[half])
+            };
             ((bin as f64 + 0.5) * BIN, median, values.len())
         })
         .collect()

@@ -72,7 +72,11 @@ pub const ENTRIES: &[Entry] = &[
     figure!("2.7", "stability map, decreasing law", stability_map::single),
     figure!("3.2", "dither waveforms and their integrals", waveforms::figure),
     figure!("3.3", "effective friction, Stribeck law, three waveforms", effective_friction::three),
-    figure!("3.4", "effective friction, decreasing law, three waveforms", effective_friction::three),
+    figure!(
+        "3.4",
+        "effective friction, decreasing law, three waveforms",
+        effective_friction::three
+    ),
     figure!("3.5", "stability maps, Stribeck law, three waveforms", stability_map::three),
     figure!("3.6", "stability maps, decreasing law, three waveforms", stability_map::three),
     figure!("3.7", "responses, Stribeck law, sinusoidal tangential dither", responses::figure),
@@ -118,7 +122,10 @@ impl Entry {
 
 impl fmt::Debug for Entry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Entry").field("name", &self.name).field("about", &self.about).finish_non_exhaustive()
+        f.debug_struct("Entry")
+            .field("name", &self.name)
+            .field("about", &self.about)
+            .finish_non_exhaustive()
     }
 }
 
@@ -134,14 +141,21 @@ pub fn find(names: &[String]) -> Result<Vec<Entry>, Vec<Complaint>> {
         .filter(|name| !known().any(|entry| entry == bare(name)))
         .map(|name| {
             let list: Vec<&str> = known().collect();
-            Complaint::new(Fault::Value, "NAME", Origin::Whole, name.as_str(), format!("one of {}", list.join(", ")))
-                .suggesting(suggest::word(bare(name), known()))
+            Complaint::new(
+                Fault::Value,
+                "NAME",
+                Origin::Whole,
+                name.as_str(),
+                format!("one of {}", list.join(", ")),
+            )
+            .suggesting(suggest::word(bare(name), known()))
         })
         .collect();
     if !complaints.is_empty() {
         return Err(complaints);
     }
-    let wanted = |entry: &&Entry| names.is_empty() || names.iter().any(|name| bare(name) == entry.name);
+    let wanted =
+        |entry: &&Entry| names.is_empty() || names.iter().any(|name| bare(name) == entry.name);
     Ok(ENTRIES.iter().filter(wanted).copied().collect())
 }
 
@@ -204,7 +218,8 @@ pub fn run(
             }
             let failed = outcome.is_err();
             if let Ok(mut done) = done.lock() {
-                let place = entries.iter().position(|other| other.name == entry.name).unwrap_or(usize::MAX);
+                let place =
+                    entries.iter().position(|other| other.name == entry.name).unwrap_or(usize::MAX);
                 done.push((place, outcome));
             }
             if failed {

@@ -54,8 +54,11 @@ impl Product {
         let mut text = String::new();
         let mut lines = vec![format!("quell {} reproduce", env!("CARGO_PKG_VERSION"))];
         lines.extend((!self.caption.is_empty()).then(|| self.plain_caption()));
-        let units: Vec<String> =
-            table.columns.iter().map(|column| format!("{} [{}]", column.name, column.unit)).collect();
+        let units: Vec<String> = table
+            .columns
+            .iter()
+            .map(|column| format!("{} [{}]", column.name, column.unit))
+            .collect();
         lines.push(format!("units: {}", units.join(", ")));
         lines.extend(self.provenance.iter().cloned());
         for line in &lines {
@@ -98,7 +101,9 @@ impl Cell {
         match self {
             // Shortest digits that read back as the same number.
             Self::Number(value) if value.is_finite() => format!("{value:?}"),
-            Self::Text(text) if text.contains([',', '"', '\n']) => format!("\"{}\"", text.replace('"', "\"\"")),
+            Self::Text(text) if text.contains([',', '"', '\n']) => {
+                format!("\"{}\"", text.replace('"', "\"\""))
+            }
             Self::Text(text) => text.clone(),
             Self::Number(_) | Self::Empty => String::new(),
         }
@@ -137,7 +142,8 @@ pub struct Table {
 impl Table {
     /// An empty table with these (name, unit) columns.
     pub fn new(part: &'static str, columns: &[(&str, &'static str)]) -> Self {
-        let columns = columns.iter().map(|&(name, unit)| Column { name: name.to_owned(), unit }).collect();
+        let columns =
+            columns.iter().map(|&(name, unit)| Column { name: name.to_owned(), unit }).collect();
         Self { part, columns, rows: Vec::new() }
     }
 
@@ -150,7 +156,9 @@ impl Table {
     pub fn of_columns(part: &'static str, columns: Vec<(String, &'static str, Vec<f64>)>) -> Self {
         let length = columns.iter().map(|(_, _, values)| values.len()).max().unwrap_or(0);
         let rows = (0..length)
-            .map(|row| columns.iter().map(|(_, _, values)| values.get(row).copied().into()).collect())
+            .map(|row| {
+                columns.iter().map(|(_, _, values)| values.get(row).copied().into()).collect()
+            })
             .collect();
         let columns = columns.into_iter().map(|(name, unit, _)| Column { name, unit }).collect();
         Self { part, columns, rows }

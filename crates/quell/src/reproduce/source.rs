@@ -94,7 +94,8 @@ pub(super) fn parameters(study: &Study) -> String {
     let belt = study.belt();
     let law = belt.friction();
     let values = law.values();
-    let [static_level, minimum] = [values.first().copied(), values.get(1).copied()].map(|v| v.unwrap_or(0.0));
+    let [static_level, minimum] =
+        [values.first().copied(), values.get(1).copied()].map(|v| v.unwrap_or(0.0));
     format!(
         "$F$ = {}, $v_m$ = {}, $μ_s$ = {static_level}, $μ_m$ = {minimum}",
         belt.normal_load(),

@@ -23,7 +23,11 @@ pub(super) fn prepare(directory: &Path) -> Result<(), Failure> {
 }
 
 /// Writes a product; its files are whole or not there.
-pub(super) fn product(product: &Product, stem: &str, directory: &Path) -> Result<Vec<PathBuf>, Failure> {
+pub(super) fn product(
+    product: &Product,
+    stem: &str,
+    directory: &Path,
+) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     let mut put = |name: String, bytes: &[u8]| -> Result<(), Failure> {
         let extension = name.rsplit('.').next().unwrap_or_default().to_owned();
@@ -37,7 +41,11 @@ pub(super) fn product(product: &Product, stem: &str, directory: &Path) -> Result
         put(format!("{stem}.png"), &png)?;
     }
     for table in &product.tables {
-        let name = if table.part.is_empty() { format!("{stem}.csv") } else { format!("{stem}_{}.csv", table.part) };
+        let name = if table.part.is_empty() {
+            format!("{stem}.csv")
+        } else {
+            format!("{stem}_{}.csv", table.part)
+        };
         put(name, product.csv(table).as_bytes())?;
     }
     if !product.claims.is_empty() {

@@ -51,7 +51,8 @@ pub fn measure() -> Result<Vec<Claim>, Failure> {
 /// The table as a product.
 pub(super) fn product(_: &Source) -> Result<Product, Failure> {
     let claims = measure()?;
-    let columns = ["claim", "where", "statement", "printed", "measured", "verdict", "note"].map(|name| (name, "1"));
+    let columns = ["claim", "where", "statement", "printed", "measured", "verdict", "note"]
+        .map(|name| (name, "1"));
     let mut table = Table::new("", &columns);
     for claim in &claims {
         let verdict = claim.verdict.to_string();
@@ -105,8 +106,14 @@ pub fn markdown(claims: &[Claim]) -> String {
     );
     for claim in claims {
         let verdict = claim.verdict.to_string();
-        let cells =
-            [&claim.place, &claim.statement, &claim.printed, &claim.measured, &verdict, &claim.note];
+        let cells = [
+            &claim.place,
+            &claim.statement,
+            &claim.printed,
+            &claim.measured,
+            &verdict,
+            &claim.note,
+        ];
         let cells = cells.map(|cell| cell.replace('|', "\\|"));
         text += &format!("| {} |\n", cells.join(" | "));
     }
