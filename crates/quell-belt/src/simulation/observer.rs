@@ -112,6 +112,16 @@ impl<A: Observer, B: Observer> Observer for (A, B) {
     }
 }
 
+impl<A: Observer> Observer for &mut A {
+    fn segment(&mut self, segment: &Segment<'_>) {
+        (**self).segment(segment);
+    }
+
+    fn event(&mut self, event: &Event) {
+        (**self).event(event);
+    }
+}
+
 /// Keeps every event.
 #[derive(Clone, Debug, Default)]
 pub struct EventRecorder {
