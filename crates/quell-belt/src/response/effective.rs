@@ -31,10 +31,13 @@ pub struct WindowMean {
     pub slip_velocity: f64,
     /// ⟨f/N⟩ (4.30), dimensionless.
     pub coefficient: f64,
+    /// Change of the slow slip velocity across the window: ⟨v_r⟩ half a period later less half a period earlier. None at
+    /// the ends of a run. (4.30) takes it for small.
+    pub drift: Option<f64>,
 }
 
 /// Integrates `belt` from each start over `duration` and takes the means of all windows without stick, `per_period`
-/// (at least 1) window edges in each period 2π/`frequency_ratio`.
+/// window edges (an even number, at least 2, or the next larger one) in each period 2π/`frequency_ratio`.
 ///
 /// # Errors
 /// [`Stalled`] if a run stops.
@@ -48,7 +51,7 @@ pub fn measured_effective_friction(
 ) -> Result<Vec<WindowMean>, Stalled> {
     let mut means = Vec::new();
     for &start in starts {
-        let mut edges = Edges::new(belt, start, frequency_ratio, per_period.max(1));
+        let mut edges = Edges::new(belt, start, frequency_ratio, per_period.max(1).div_ceil(2) * 2);
         simulate(belt, start, start.time + duration, tolerance, &mut edges)?;
         means.extend(edges.means());
     }
@@ -115,15 +118,23 @@ impl Edges {
         self.now.impulse += sign * half * sum;
     }
 
+    /// ⟨v_r⟩ of the window that begins at edge `first`.
+    fn slip_velocity(&self, first: usize) -> Option<f64> {
+        let (begin, end) = (self.edges.get(first)?, self.edges.get(first + self.per_period)?);
+        Some(self.belt_velocity - (end.displacement - begin.displacement) / self.period)
+    }
+
     fn means(&self) -> impl Iterator<Item = WindowMean> + '_ {
         let windows = self.edges.windows(self.per_period + 1);
         windows.enumerate().filter_map(|(first, window)| {
             let (begin, end) = (window[0], window[self.per_period]);
             (begin.stuck == end.stuck).then(|| WindowMean {
                 time: self.time(first) + 0.5 * self.period,
-                slip_velocity: self.belt_velocity
-                    - (end.displacement - begin.displacement) / self.period,
+                slip_velocity: self.slip_velocity(first).unwrap_or_default(),
                 coefficient: (end.impulse - begin.impulse) / self.period,
+                drift: first
+                    .checked_sub(self.per_period / 2)
+                    .and_then(|before| Some(self.slip_velocity(first + self.per_period / 2)? - self.slip_velocity(before)?)),
             })
         })
     }

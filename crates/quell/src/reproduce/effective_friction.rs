@@ -9,7 +9,7 @@ use quell_model::{LawKind, Waveform};
 
 use super::print::{self, LawNumbers};
 use super::product::{Product, Table};
-use super::source::{Source, failed, letter, parameters, values, waveform_name};
+use super::source::{Source, failed, letter, parameters, short, values, waveform_name};
 use crate::complaint::Failure;
 use crate::plot::{
     Axis, Figure, Legend, Line, LineStyle, Panel, Place, Role, Rule, SharedLegend, Sharing, Size,
@@ -142,7 +142,7 @@ fn panel(
             let jump = [(0.0, -static_level), (0.0, static_level)];
             panel = panel.with(Line::new(Role::Guide, jump).style(LineStyle::Solid));
         }
-        let label = format!("$α$/$v_m$ = {}", alpha / vm);
+        let label = format!("$α$/$v_m$ = {}", short(alpha / vm));
         panel = panel.with(Line::pieces(Role::Series(index), pieces).label(label));
     }
     printed.retain(|piece| !piece.is_empty());

@@ -24,7 +24,8 @@ pub struct Product {
 impl Product {
     /// A figure with its data; the caption is put below the picture too.
     pub fn new(figure: Figure, caption: impl Into<String>, study: &Study) -> Self {
-        let caption = caption.into();
+        // A symbol, its sign and its number stay on one line.
+        let caption = caption.into().replace(" = ", "\u{a0}=\u{a0}");
         let mut provenance: Vec<String> =
             study.changes().iter().map(|change| format!("changed: {change}")).collect();
         provenance.push("study:".to_owned());
@@ -46,7 +47,7 @@ impl Product {
 
     /// The caption without the marks of typesetting.
     pub fn plain_caption(&self) -> String {
-        self.caption.replace("\\bar{μ}", "μ̄").replace(['$', '{', '}', '\\'], "")
+        self.caption.replace("\\bar{μ}", "μ̄").replace(['$', '{', '}', '\\'], "").replace('\u{a0}', " ")
     }
 
     /// A table as CSV: comment lines (`#`) with caption, units and study, names, rows.

@@ -3,9 +3,9 @@
 //! Rows: x(τ), x′(τ) from rest, and the spectral amplitudes of the steady record (settling time discarded, mean removed,
 //! Hann). One column for each amplitude of the study's sweep.
 
-use quell_belt::response::{BAND_END, Response, respond};
+use quell_belt::response::{BAND_END, Response, Spectrum, respond};
 use quell_belt::simulation::{Sample, Sampler, simulate};
-use quell_model::{Belt, Direction};
+use quell_model::{Belt, Direction, LawKind};
 
 use super::product::{Product, Table};
 use super::source::{Source, failed, law_name, letter, parameters, values, waveform_name};
@@ -39,8 +39,7 @@ pub(super) fn cases(source: &Source) -> Result<Vec<Case>, Failure> {
         .map(|amplitude| {
             let study = study.with("dither.amplitude", amplitude)?;
             let start = run::start(&study)?;
-            let response = respond(study.belt(), start, study.solver())
-                .map_err(|error| failed(source.name, &error))?;
+            let response = respond(study.belt(), start, study.solver()).map_err(|error| failed(source.name, &error))?;
             Ok(Case { study, amplitude, response })
         })
         .collect()
@@ -52,38 +51,19 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
     let cases = cases(source)?;
     let step = std::f64::consts::TAU / dither.frequency_ratio / SAMPLES_PER_PERIOD;
     let undithered = history(source, &study, &study.belt().undithered(), step)?;
-    let mut histories =
-        vec![("time".to_owned(), "1/ω0", undithered.iter().map(|s| s.time).collect())];
+    let mut histories = vec![("time".to_owned(), "1/ω0", undithered.iter().map(|s| s.time).collect())];
     let mut push = |name: &str, samples: &[Sample]| {
-        histories.push((
-            format!("{name}_displacement"),
-            "length",
-            samples.iter().map(|s| s.displacement).collect(),
-        ));
-        histories.push((
-            format!("{name}_velocity"),
-            "length (velocity/ω0)",
-            samples.iter().map(|s| s.velocity).collect(),
-        ));
+        histories.push((format!("{name}_displacement"), "length", samples.iter().map(|s| s.displacement).collect()));
+        histories.push((format!("{name}_velocity"), "length (velocity/ω0)", samples.iter().map(|s| s.velocity).collect()));
     };
     push("undithered", &undithered);
     let top = dither.frequency_ratio * 1.25;
-    let shown = |response: &Response| {
-        response.record.spectrum.frequencies().take_while(|ω| *ω <= top).count()
-    };
+    let shown = |response: &Response| response.record.spectrum.frequencies().take_while(|ω| *ω <= top).count();
     let first = &cases[0].response;
     let (spectrum, without) = (&first.record.spectrum, &first.undithered_record.spectrum);
     let mut spectra = vec![
-        (
-            "frequency".to_owned(),
-            "ω0",
-            spectrum.frequencies().take(shown(first)).collect::<Vec<f64>>(),
-        ),
-        (
-            "undithered_amplitude".to_owned(),
-            "length",
-            without.amplitudes()[..shown(first)].to_vec(),
-        ),
+        ("frequency".to_owned(), "ω0", spectrum.frequencies().take(shown(first)).collect::<Vec<f64>>()),
+        ("undithered_amplitude".to_owned(), "length", without.amplitudes()[..shown(first)].to_vec()),
     ];
     let mut rows: [Vec<Panel>; 3] = Default::default();
     for (index, case) in cases.iter().enumerate() {
@@ -108,27 +88,30 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
             ]
         };
         rows[0].push(
-            Panel::new(time_axis(), Axis::new("displacement").symbol("x"))
-                .title(title)
-                .with_all(pair(|s| s.displacement)),
+            Panel::new(time_axis(), Axis::new("displacement").symbol("x")).title(title).with_all(pair(|s| s.displacement)),
         );
         let belt_velocity = case.study.belt().belt_velocity();
         rows[1].push(
-            Panel::new(time_axis(), Axis::new("velocity").symbol("x′"))
+            Panel::new(time_axis(), Axis::new("velocity").symbol("x′").up_to(1.7 * belt_velocity))
                 .with_all(pair(|s| s.velocity))
                 .with(Rule::horizontal(belt_velocity).label("$v_0$")),
         );
         rows[2].push(spectrum_panel(case, top));
     }
-    let figure =
-        Figure::grid(3, rows.into_iter().flatten().map(|panel| panel.legend(Legend::None)))
-            .sharing_y(Sharing::Aligned)
-            .legend(SharedLegend::Above)
-            .size(Size::Frame(270.0, 165.0));
-    let caption = caption(source, &study);
+    let figure = Figure::grid(3, rows.into_iter().flatten().map(|panel| panel.legend(Legend::None)))
+        .sharing_y(Sharing::Aligned)
+        .legend(SharedLegend::Above)
+        .size(Size::Frame(270.0, 165.0));
+    let caption = caption(source, &study, &cases[0].response);
     Ok(Product::new(figure, caption, &study)
         .table(Table::of_columns("", histories))
         .table(Table::of_columns("spectrum", spectra)))
+}
+
+/// Frequency of the largest peak in the band of E.
+pub(super) fn fundamental(spectrum: &Spectrum) -> Option<f64> {
+    let peaks = spectrum.peaks(1e-3).into_iter().filter(|peak| peak.frequency <= BAND_END);
+    peaks.max_by(|a, b| a.amplitude.total_cmp(&b.amplitude)).map(|peak| peak.frequency)
 }
 
 fn time_axis() -> Axis {
@@ -137,10 +120,9 @@ fn time_axis() -> Axis {
 
 fn spectrum_panel(case: &Case, top: f64) -> Panel {
     let Response { record, undithered_record, .. } = &case.response;
-    let curve = |role, spectrum: &quell_belt::response::Spectrum| {
+    let curve = |role, spectrum: &Spectrum| {
         let amplitudes = spectrum.amplitudes().iter().map(|amplitude| amplitude.max(0.1 * FLOOR));
-        let points: Vec<(f64, f64)> =
-            spectrum.frequencies().zip(amplitudes).take_while(|(ω, _)| *ω <= top).collect();
+        let points: Vec<(f64, f64)> = spectrum.frequencies().zip(amplitudes).take_while(|(ω, _)| *ω <= top).collect();
         Line::new(role, points)
     };
     Panel::new(
@@ -154,11 +136,7 @@ fn spectrum_panel(case: &Case, top: f64) -> Panel {
 
 /// Samples of the first [`UNTIL`] of a run.
 fn history(source: &Source, study: &Study, belt: &Belt, step: f64) -> Result<Vec<Sample>, Failure> {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a count of samples"
-    )]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of samples")]
     let count = (UNTIL / step).floor() as usize + 1;
     let start = run::start(study)?;
     let mut sampler = Sampler::new(0.0, step, count);
@@ -167,18 +145,24 @@ fn history(source: &Source, study: &Study, belt: &Belt, step: f64) -> Result<Vec
     Ok(sampler.samples)
 }
 
-fn caption(source: &Source, study: &Study) -> String {
+fn caption(source: &Source, study: &Study, response: &Response) -> String {
     let belt = study.belt();
     let dither = belt.dithers()[0];
     let (direction, symbol) = match dither.direction {
         Direction::Tangential => ("tangential", "R_T"),
         Direction::Normal => ("normal", "R_N"),
     };
+    let fundamental = match (belt.friction().kind(), fundamental(&response.undithered_record.spectrum)) {
+        (LawKind::Stribeck, Some(frequency)) => {
+            format!(" The fundamental without dither, printed as 0.666 $ω_0$, is {frequency:.3} $ω_0$.")
+        }
+        _ => String::new(),
+    };
     format!(
         "Figure {}. Responses from rest with the {} law and {} {direction} dither (solid) and without dither (dashed): displacement, \
          velocity, and spectral amplitude of the steady displacement. $ζ$ = {}, $v_0$ = {}, ${symbol}$ = {}, {}. $E$ is the largest \
          amplitude below {BAND_END} $ω_0$ over that without dither (2.27). Spectra: $τ$ < {} discarded, {} slow periods kept, mean \
-         removed, Hann window; the print gives no record, and its fundamental of 0.666 without dither is 0.654.",
+         removed, Hann window; the print gives no record.{fundamental}",
         source.name,
         law_name(belt.friction().kind()),
         waveform_name(dither.waveform),

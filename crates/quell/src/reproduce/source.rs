@@ -62,6 +62,12 @@ pub(super) fn values(study: &Study, path: &str) -> Vec<f64> {
         .unwrap_or_default()
 }
 
+/// A number without the rounding of its last digits.
+pub(super) fn short(value: f64) -> String {
+    let text = format!("{value:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
 /// (a), (b), … of a panel.
 pub(super) fn letter(index: usize) -> char {
     char::from(b'a' + u8::try_from(index % 26).unwrap_or(0))

@@ -6,8 +6,7 @@
 //! the triangle, (3.47), (4.35), where it is wrong.
 
 use quell_belt::averaging::{
-    AveragingOptions, EverywhereStable, FastWave, Response, closed_band,
-    everywhere_stable_amplitude, unstable_bands,
+    AveragingOptions, EverywhereStable, FastWave, Response, closed_band, everywhere_stable_amplitude, unstable_bands,
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 
@@ -16,8 +15,7 @@ use super::product::{Product, Table};
 use super::source::{Source, failed, law_name, letter, parameters, values, waveform_name};
 use crate::complaint::Failure;
 use crate::plot::{
-    Axis, Figure, Legend, Line, LineStyle, Marker, Note, Panel, Points, Region, Role, Rule,
-    SharedLegend, Sharing, Size,
+    Axis, Figure, Legend, Line, LineStyle, Note, Panel, Points, Region, Role, Rule, SharedLegend, Sharing, Size,
 };
 use crate::study::Study;
 
@@ -53,13 +51,7 @@ pub(super) fn single(source: &Source) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
     let panel = panel(source, &study, study.belt().dithers()[0].waveform, &mut table)?;
-    let caption = format!(
-        "{} $ζ$ = {}, {}.{}",
-        opening(source, &study),
-        study.belt().damping_ratio(),
-        parameters(&study),
-        closing(&study, false)
-    );
+    let caption = format!("{} $ζ$ = {}, {}.{}", opening(source, &study), study.belt().damping_ratio(), parameters(&study), closing(&study, false));
     Ok(Product::new(Figure::single(panel), caption, &study).table(table))
 }
 
@@ -72,15 +64,8 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
         let title = format!("({}) {}", letter(index), waveform_name(waveform));
         panels.push(panel(source, &study, waveform, &mut table)?.title(title).legend(Legend::None));
     }
-    let damping: Vec<String> =
-        values(&study, "belt.damping_ratio").iter().map(f64::to_string).collect();
-    let caption = format!(
-        "{} $ζ$ = {}; {}.{}",
-        opening(source, &study),
-        damping.join(", "),
-        parameters(&study),
-        closing(&study, true)
-    );
+    let damping: Vec<String> = values(&study, "belt.damping_ratio").iter().map(f64::to_string).collect();
+    let caption = format!("{} $ζ$ = {}; {}.{}", opening(source, &study), damping.join(", "), parameters(&study), closing(&study, true));
     let figure = Figure::grid(3, panels)
         .sharing_x(Sharing::All)
         .sharing_y(Sharing::All)
@@ -107,13 +92,12 @@ fn closing(study: &Study, three: bool) -> String {
     let stribeck = study.belt().friction().kind() == LawKind::Stribeck;
     let ratio = dither.frequency_ratio;
     let mut text = format!(
-        " Dash-dotted: the boundary at $R$ = {ratio} with the oscillator's own response, for a sine $α$ = $DR$/($R^2$ − 1){}.",
+        " Dash-dotted: the boundary at $R$ = {ratio} with the exact fast motion of the oscillator in place of $αG$, for a sine $α$ = $DR$/($R^2$ − 1){}.",
         if three { format!(", $ζ$ = {}", study.belt().damping_ratio()) } else { String::new() }
     );
     if three && stribeck {
         let equation = if normal { "(4.35)" } else { "(3.47)" };
-        text +=
-            &format!(" Dotted in (b): the upper edge as printed {equation}, with π²/48 for π²/30.");
+        text += &format!(" Dotted in (b): the upper edge as printed {equation}, with π²/48 for π²/30.");
     }
     if normal {
         text += &format!(
@@ -124,6 +108,15 @@ fn closing(study: &Study, three: bool) -> String {
             text += " The square's $α^L$ is half of (4.38), which repeats the triangle's (4.36).";
         }
     }
+    if !stribeck && !normal && !three {
+        // The tip of the band lies far outside.
+        let wave = FastWave::Integral(dither.waveform);
+        let belt = study.belt();
+        let tip = everywhere_stable_amplitude(belt.friction(), belt.damping_ratio(), belt.normal_load(), wave, dither.direction);
+        if let Ok(EverywhereStable::From { amplitude_ratio, .. }) = tip {
+            text += &format!(" The band closes only at $α^L$ = {amplitude_ratio:.0}.");
+        }
+    }
     if !stribeck && !normal {
         text += " Stability is local: a stick-slip cycle can coexist with stable sliding.";
     }
@@ -131,24 +124,16 @@ fn closing(study: &Study, three: bool) -> String {
 }
 
 fn empty_table() -> Table {
-    Table::new(
-        "",
-        &[
-            ("waveform", "1"),
-            ("damping_ratio", "1"),
-            ("curve", "1"),
-            ("amplitude_ratio", "length (velocity/ω0)"),
-            ("belt_velocity", "length (velocity/ω0)"),
-        ],
-    )
+    Table::new("", &[
+        ("waveform", "1"),
+        ("damping_ratio", "1"),
+        ("curve", "1"),
+        ("amplitude_ratio", "length (velocity/ω0)"),
+        ("belt_velocity", "length (velocity/ω0)"),
+    ])
 }
 
-fn panel(
-    source: &Source,
-    study: &Study,
-    waveform: Waveform,
-    table: &mut Table,
-) -> Result<Panel, Failure> {
+fn panel(source: &Source, study: &Study, waveform: Waveform, table: &mut Table) -> Result<Panel, Failure> {
     let belt = study.belt();
     let dither = belt.dithers()[0];
     let last = |path: &str| values(study, path).last().copied();
@@ -160,8 +145,7 @@ fn panel(
         (true, LawKind::Stribeck) => 0.8,
         (true, LawKind::Decreasing) => 6.0,
     };
-    let plane =
-        Plane { source, belt, waveform, direction: dither.direction, reach: (alpha, velocity) };
+    let plane = Plane { source, belt, waveform, direction: dither.direction, reach: (alpha, velocity) };
     let mut damping = values(study, "belt.damping_ratio");
     if damping.is_empty() {
         damping.push(belt.damping_ratio());
@@ -171,41 +155,23 @@ fn panel(
         Axis::new("dither amplitude").symbol(symbol).between(0.0, alpha),
         Axis::new("belt velocity").symbol("v_0").between(0.0, velocity),
     );
-    let regions: Result<Vec<Unstable>, Failure> =
-        damping.iter().map(|&zeta| plane.unstable(zeta)).collect();
+    let regions: Result<Vec<Unstable>, Failure> = damping.iter().map(|&zeta| plane.unstable(zeta)).collect();
     let regions = regions?;
     let lone = regions.len() == 1;
     for region in &regions {
-        panel =
-            panel.with(Region::between(Role::Unstable, region.lower.clone(), region.upper.clone()));
+        panel = panel.with(Region::between(Role::Unstable, region.lower.clone(), region.upper.clone()));
     }
     for (index, region) in regions.iter().enumerate() {
         let role = if lone { Role::Boundary } else { Role::Series([1, 2, 0][index % 3]) };
-        let label =
-            if lone { "averaging".to_owned() } else { format!("$ζ$ = {}", region.damping_ratio) };
-        panel = panel
-            .with(Line::pieces(role, [region.lower.clone(), region.upper.clone()]).label(label));
+        let label = if lone { "averaging".to_owned() } else { format!("$ζ$ = {}", region.damping_ratio) };
+        panel = panel.with(Line::pieces(role, [region.lower.clone(), region.upper.clone()]).label(label));
         plane.record(table, region.damping_ratio, "lower", &region.lower);
         plane.record(table, region.damping_ratio, "upper", &region.upper);
     }
     panel = plane.sharper(panel, belt.damping_ratio(), table)?;
     panel = plane.printed(panel, &damping, table);
-    panel = tips(panel, &regions, lone);
+    panel = plane.tips(panel, &regions, lone);
     Ok(plane.words(panel, &regions))
-}
-
-/// Marks α^L.
-fn tips(mut panel: Panel, regions: &[Unstable], lone: bool) -> Panel {
-    let tips: Curve = regions.iter().filter_map(|region| region.tip).collect();
-    if lone {
-        for &(alpha, _) in &tips {
-            panel = panel.with(Rule::vertical(alpha).label(format!("$α^L$ = {alpha:.4}")));
-        }
-    }
-    if tips.is_empty() {
-        return panel;
-    }
-    panel.with(Points::new(Role::Boundary, tips).marker(Marker::Disc).label("$α^L$"))
 }
 
 impl Plane<'_> {
@@ -232,19 +198,7 @@ impl Plane<'_> {
     fn unstable(&self, damping_ratio: f64) -> Result<Unstable, Failure> {
         let load = self.belt.normal_load();
         let wave = FastWave::Integral(self.waveform);
-        let everywhere = everywhere_stable_amplitude(
-            self.law(),
-            damping_ratio,
-            load,
-            wave,
-            Direction::Tangential,
-        )
-        .map_err(|error| failed(self.source.name, &error))?;
-        let tip = match everywhere {
-            EverywhereStable::From { amplitude_ratio, .. } => Some(amplitude_ratio),
-            EverywhereStable::Always => Some(0.0),
-            EverywhereStable::Never { .. } => None,
-        };
+        let tip = self.tip(damping_ratio, wave)?;
         let end = tip.unwrap_or(f64::INFINITY).min(self.largest());
         let mut region = Unstable {
             damping_ratio,
@@ -268,52 +222,64 @@ impl Plane<'_> {
     }
 
     /// The boundary with the oscillator's own response in place of αG.
-    fn sharper(
-        &self,
-        panel: Panel,
-        damping_ratio: f64,
-        table: &mut Table,
-    ) -> Result<Panel, Failure> {
+    fn sharper(&self, panel: Panel, damping_ratio: f64, table: &mut Table) -> Result<Panel, Failure> {
         let ratio = self.belt.dithers()[0].frequency_ratio;
-        let mut edges: [Curve; 2] = Default::default();
-        if self.waveform == Waveform::Sine {
+        let edges = if self.waveform == Waveform::Sine {
             // The same curves over a shorter α.
             let region = self.unstable(damping_ratio)?;
             let shorter = (ratio * ratio - 1.0) / (ratio * ratio);
-            for (edge, curve) in edges.iter_mut().zip([region.lower, region.upper]) {
-                edge.extend(curve.into_iter().map(|(alpha, v)| (alpha * shorter, v)));
-            }
+            [region.lower, region.upper]
+                .map(|curve| curve.into_iter().map(|(alpha, v)| (alpha * shorter, v)).collect::<Curve>())
         } else {
-            let options =
-                AveragingOptions { response: Response::Oscillator, ..AveragingOptions::default() };
-            for k in 0..=FEWER_POINTS {
-                let alpha = self.largest() * f64::from(k) / f64::from(FEWER_POINTS);
-                let dither = Dither {
-                    direction: Direction::Tangential,
-                    waveform: self.waveform,
-                    amplitude: alpha * ratio,
-                    frequency_ratio: ratio,
-                    phase: 0.0,
-                };
-                let belt = Belt::new(
-                    damping_ratio,
-                    self.belt.normal_load(),
-                    1.0,
-                    *self.law(),
-                    vec![dither],
-                )
-                .map_err(|_| failed(self.source.name, &"a belt of the map is not valid"))?;
-                let bands = unstable_bands(&belt, options)
-                    .map_err(|error| failed(self.source.name, &error))?;
-                let Some(band) = bands.last() else { break };
-                edges[0].push(self.along(alpha, band.lower));
-                edges[1].push(self.along(alpha, band.upper.unwrap_or(10.0 * self.reach.1)));
-            }
-        }
+            self.oscillator_edges(damping_ratio, ratio)?
+        };
         self.record(table, damping_ratio, "lower_oscillator", &edges[0]);
         self.record(table, damping_ratio, "upper_oscillator", &edges[1]);
         let line = Line::pieces(Role::Exact, edges).style(LineStyle::DashDotted).width(0.9);
-        Ok(panel.with(line.label(format!("oscillator's response, $R$ = {ratio}"))))
+        Ok(panel.with(line.label(format!("exact fast motion, $R$ = {ratio}"))))
+    }
+
+    /// Edges of the bands under the oscillator's response to a triangle or square, by quadrature.
+    fn oscillator_edges(&self, damping_ratio: f64, ratio: f64) -> Result<[Curve; 2], Failure> {
+        let load = self.belt.normal_load();
+        let wave = FastWave::Oscillator { waveform: self.waveform, frequency_ratio: ratio };
+        let tip = self.tip(damping_ratio, wave)?;
+        let end = tip.unwrap_or(f64::INFINITY).min(self.largest());
+        let options = AveragingOptions { response: Response::Oscillator, ..AveragingOptions::default() };
+        let mut edges: [Curve; 2] = Default::default();
+        for k in 0..=FEWER_POINTS {
+            let alpha = end * f64::from(k) / f64::from(FEWER_POINTS);
+            let dither = Dither {
+                direction: Direction::Tangential,
+                waveform: self.waveform,
+                amplitude: alpha * ratio,
+                frequency_ratio: ratio,
+                phase: 0.0,
+            };
+            let belt = Belt::new(damping_ratio, load, 1.0, *self.law(), vec![dither])
+                .map_err(|_| failed(self.source.name, &"a belt of the map is not valid"))?;
+            let bands = unstable_bands(&belt, options).map_err(|error| failed(self.source.name, &error))?;
+            let Some(band) = bands.last() else { break };
+            edges[0].push(self.along(alpha, band.lower));
+            edges[1].push(self.along(alpha, band.upper.unwrap_or(10.0 * self.reach.1)));
+        }
+        if let Some(alpha) = tip.filter(|tip| *tip < self.largest()) {
+            let tip = self.along(alpha, alpha * wave.peak());
+            edges.iter_mut().for_each(|edge| edge.push(tip));
+        }
+        Ok(edges)
+    }
+
+    /// α^L of tangential dither, none where it does not exist.
+    fn tip(&self, damping_ratio: f64, wave: FastWave) -> Result<Option<f64>, Failure> {
+        let load = self.belt.normal_load();
+        let everywhere =
+            everywhere_stable_amplitude(self.law(), damping_ratio, load, wave, Direction::Tangential);
+        Ok(match everywhere.map_err(|error| failed(self.source.name, &error))? {
+            EverywhereStable::From { amplitude_ratio, .. } => Some(amplitude_ratio),
+            EverywhereStable::Always => Some(0.0),
+            EverywhereStable::Never { .. } => None,
+        })
     }
 
     /// The print's upper edge for Stribeck and triangle, up to its own α^L.
@@ -338,15 +304,31 @@ impl Plane<'_> {
         panel
     }
 
+    /// Marks α^L where the plane shows it.
+    fn tips(&self, mut panel: Panel, regions: &[Unstable], lone: bool) -> Panel {
+        let shown = |tip: &(f64, f64)| tip.0 <= self.reach.0 && tip.1 <= self.reach.1;
+        let tips: Curve = regions.iter().filter_map(|region| region.tip).filter(shown).collect();
+        if tips.is_empty() {
+            return panel;
+        }
+        if lone {
+            let alpha = tips[0].0;
+            panel = panel.with(Rule::vertical(alpha).label(format!("$α^L$ = {alpha:.4}")));
+        }
+        panel.with(Points::new(Role::Boundary, tips).label("$α^L$"))
+    }
+
     /// "stable", "unstable", and where (4.29) ends.
     fn words(&self, mut panel: Panel, regions: &[Unstable]) -> Panel {
-        if let Some(region) = regions.first().filter(|region| region.lower.len() > 4) {
-            let place = region.lower.len() / 5;
-            let (low, high) = (region.lower[place], region.upper[place]);
-            let middle = 0.5 * (low.1 + high.1.min(self.reach.1));
-            panel = panel.with(Note::new(0.5 * (low.0 + high.0), middle, "unstable"));
+        // In the region of the lightest damping, where it is wide.
+        if let Some(region) = regions.last().filter(|region| !region.lower.is_empty()) {
+            let v = 0.75 * region.upper[0].1;
+            let edge = region.lower.iter().take_while(|point| point.1 < v).last();
+            panel = panel.with(Note::new(0.5 * edge.map_or(0.0, |point| point.0), v, "unstable"));
         }
-        panel = panel.with(Note::new(0.8 * self.reach.0, 0.1 * self.reach.1, "stable"));
+        for (alpha, v) in [(0.65, 0.1), (0.3, 0.93)] {
+            panel = panel.with(Note::new(alpha * self.reach.0, v * self.reach.1, "stable"));
+        }
         if self.direction == Direction::Normal {
             let limit = self.belt.normal_load() / self.belt.dithers()[0].frequency_ratio;
             panel = panel.with(Rule::vertical(limit).label("$F$/$R_N$"));
@@ -356,13 +338,7 @@ impl Plane<'_> {
 
     fn record(&self, table: &mut Table, damping_ratio: f64, curve: &str, points: &Curve) {
         for &(alpha, v) in points {
-            table.row([
-                self.waveform.name().into(),
-                damping_ratio.into(),
-                curve.into(),
-                alpha.into(),
-                v.into(),
-            ]);
+            table.row([self.waveform.name().into(), damping_ratio.into(), curve.into(), alpha.into(), v.into()]);
         }
     }
 }
