@@ -32,7 +32,8 @@ fn without_dither_the_points_lie_on_the_law() {
     assert_eq!(means.len(), 124, "40 τ hold 127 quarter periods, hence 124 windows of four");
     for (index, mean) in means.iter().enumerate() {
         // The slow velocity changes by the difference of the windows half a period before and after.
-        let ends = index.checked_sub(2).and_then(|before| Some((means[before], *means.get(index + 2)?)));
+        let ends =
+            index.checked_sub(2).and_then(|before| Some((means[before], *means.get(index + 2)?)));
         let drift = ends.map(|(before, after)| after.slip_velocity - before.slip_velocity);
         assert_eq!(mean.drift, drift);
         let law = belt.friction().coefficient(mean.slip_velocity);
@@ -48,7 +49,8 @@ fn the_impulse_closes_the_balance_of_momentum() {
     let belt = belt(0.3, 0.01, 0.0);
     let start = at(0.45);
     let window = TAU / 5.0;
-    let means = measured_effective_friction(&belt, 5.0, &[start], window * 1.01, 2, 1e-13).expect("runs");
+    let means =
+        measured_effective_friction(&belt, 5.0, &[start], window * 1.01, 2, 1e-13).expect("runs");
     let mut sampler = Sampler::new(0.0, window / 4000.0, 4001);
     simulate(&belt, start, window * 1.01, 1e-13, &mut sampler).expect("runs");
     let samples = &sampler.samples;
@@ -57,7 +59,13 @@ fn the_impulse_closes_the_balance_of_momentum() {
         .iter()
         .enumerate()
         .map(|(k, sample)| {
-            let weight = if k == 0 || k == 4000 { 1.0 } else if k % 2 == 1 { 4.0 } else { 2.0 };
+            let weight = if k == 0 || k == 4000 {
+                1.0
+            } else if k % 2 == 1 {
+                4.0
+            } else {
+                2.0
+            };
             weight * sample.displacement
         })
         .sum::<f64>()

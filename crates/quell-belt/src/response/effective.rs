@@ -132,9 +132,12 @@ impl Edges {
                 time: self.time(first) + 0.5 * self.period,
                 slip_velocity: self.slip_velocity(first).unwrap_or_default(),
                 coefficient: (end.impulse - begin.impulse) / self.period,
-                drift: first
-                    .checked_sub(self.per_period / 2)
-                    .and_then(|before| Some(self.slip_velocity(first + self.per_period / 2)? - self.slip_velocity(before)?)),
+                drift: first.checked_sub(self.per_period / 2).and_then(|before| {
+                    Some(
+                        self.slip_velocity(first + self.per_period / 2)?
+                            - self.slip_velocity(before)?,
+                    )
+                }),
             })
         })
     }

@@ -47,7 +47,10 @@ impl Product {
 
     /// The caption without the marks of typesetting.
     pub fn plain_caption(&self) -> String {
-        self.caption.replace("\\bar{μ}", "μ̄").replace(['$', '{', '}', '\\'], "").replace('\u{a0}', " ")
+        self.caption
+            .replace("\\bar{μ}", "μ̄")
+            .replace(['$', '{', '}', '\\'], "")
+            .replace('\u{a0}', " ")
     }
 
     /// A table as CSV: comment lines (`#`) with caption, units and study, names, rows.

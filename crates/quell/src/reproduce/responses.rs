@@ -39,7 +39,8 @@ pub(super) fn cases(source: &Source) -> Result<Vec<Case>, Failure> {
         .map(|amplitude| {
             let study = study.with("dither.amplitude", amplitude)?;
             let start = run::start(&study)?;
-            let response = respond(study.belt(), start, study.solver()).map_err(|error| failed(source.name, &error))?;
+            let response = respond(study.belt(), start, study.solver())
+                .map_err(|error| failed(source.name, &error))?;
             Ok(Case { study, amplitude, response })
         })
         .collect()
@@ -51,19 +52,38 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
     let cases = cases(source)?;
     let step = std::f64::consts::TAU / dither.frequency_ratio / SAMPLES_PER_PERIOD;
     let undithered = history(source, &study, &study.belt().undithered(), step)?;
-    let mut histories = vec![("time".to_owned(), "1/ω0", undithered.iter().map(|s| s.time).collect())];
+    let mut histories =
+        vec![("time".to_owned(), "1/ω0", undithered.iter().map(|s| s.time).collect())];
     let mut push = |name: &str, samples: &[Sample]| {
-        histories.push((format!("{name}_displacement"), "length", samples.iter().map(|s| s.displacement).collect()));
-        histories.push((format!("{name}_velocity"), "length (velocity/ω0)", samples.iter().map(|s| s.velocity).collect()));
+        histories.push((
+            format!("{name}_displacement"),
+            "length",
+            samples.iter().map(|s| s.displacement).collect(),
+        ));
+        histories.push((
+            format!("{name}_velocity"),
+            "length (velocity/ω0)",
+            samples.iter().map(|s| s.velocity).collect(),
+        ));
     };
     push("undithered", &undithered);
     let top = dither.frequency_ratio * 1.25;
-    let shown = |response: &Response| response.record.spectrum.frequencies().take_while(|ω| *ω <= top).count();
+    let shown = |response: &Response| {
+        response.record.spectrum.frequencies().take_while(|ω| *ω <= top).count()
+    };
     let first = &cases[0].response;
     let (spectrum, without) = (&first.record.spectrum, &first.undithered_record.spectrum);
     let mut spectra = vec![
-        ("frequency".to_owned(), "ω0", spectrum.frequencies().take(shown(first)).collect::<Vec<f64>>()),
-        ("undithered_amplitude".to_owned(), "length", without.amplitudes()[..shown(first)].to_vec()),
+        (
+            "frequency".to_owned(),
+            "ω0",
+            spectrum.frequencies().take(shown(first)).collect::<Vec<f64>>(),
+        ),
+        (
+            "undithered_amplitude".to_owned(),
+            "length",
+            without.amplitudes()[..shown(first)].to_vec(),
+        ),
     ];
     let mut rows: [Vec<Panel>; 3] = Default::default();
     for (index, case) in cases.iter().enumerate() {
@@ -88,7 +108,9 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
             ]
         };
         rows[0].push(
-            Panel::new(time_axis(), Axis::new("displacement").symbol("x")).title(title).with_all(pair(|s| s.displacement)),
+            Panel::new(time_axis(), Axis::new("displacement").symbol("x"))
+                .title(title)
+                .with_all(pair(|s| s.displacement)),
         );
         let belt_velocity = case.study.belt().belt_velocity();
         rows[1].push(
@@ -98,10 +120,11 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
         );
         rows[2].push(spectrum_panel(case, top));
     }
-    let figure = Figure::grid(3, rows.into_iter().flatten().map(|panel| panel.legend(Legend::None)))
-        .sharing_y(Sharing::Aligned)
-        .legend(SharedLegend::Above)
-        .size(Size::Frame(270.0, 165.0));
+    let figure =
+        Figure::grid(3, rows.into_iter().flatten().map(|panel| panel.legend(Legend::None)))
+            .sharing_y(Sharing::Aligned)
+            .legend(SharedLegend::Above)
+            .size(Size::Frame(270.0, 165.0));
     let caption = caption(source, &study, &cases[0].response);
     Ok(Product::new(figure, caption, &study)
         .table(Table::of_columns("", histories))
@@ -122,7 +145,8 @@ fn spectrum_panel(case: &Case, top: f64) -> Panel {
     let Response { record, undithered_record, .. } = &case.response;
     let curve = |role, spectrum: &Spectrum| {
         let amplitudes = spectrum.amplitudes().iter().map(|amplitude| amplitude.max(0.1 * FLOOR));
-        let points: Vec<(f64, f64)> = spectrum.frequencies().zip(amplitudes).take_while(|(ω, _)| *ω <= top).collect();
+        let points: Vec<(f64, f64)> =
+            spectrum.frequencies().zip(amplitudes).take_while(|(ω, _)| *ω <= top).collect();
         Line::new(role, points)
     };
     Panel::new(
@@ -136,7 +160,11 @@ fn spectrum_panel(case: &Case, top: f64) -> Panel {
 
 /// Samples of the first [`UNTIL`] of a run.
 fn history(source: &Source, study: &Study, belt: &Belt, step: f64) -> Result<Vec<Sample>, Failure> {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of samples")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a count of samples"
+    )]
     let count = (UNTIL / step).floor() as usize + 1;
     let start = run::start(study)?;
     let mut sampler = Sampler::new(0.0, step, count);
@@ -152,9 +180,14 @@ fn caption(source: &Source, study: &Study, response: &Response) -> String {
         Direction::Tangential => ("tangential", "R_T"),
         Direction::Normal => ("normal", "R_N"),
     };
-    let fundamental = match (belt.friction().kind(), fundamental(&response.undithered_record.spectrum)) {
+    let fundamental = match (
+        belt.friction().kind(),
+        fundamental(&response.undithered_record.spectrum),
+    ) {
         (LawKind::Stribeck, Some(frequency)) => {
-            format!(" The fundamental without dither, printed as 0.666 $ω_0$, is {frequency:.3} $ω_0$.")
+            format!(
+                " The fundamental without dither, printed as 0.666 $ω_0$, is {frequency:.3} $ω_0$."
+            )
         }
         _ => String::new(),
     };

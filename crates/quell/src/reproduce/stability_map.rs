@@ -6,7 +6,8 @@
 //! the triangle, (3.47), (4.35), where it is wrong.
 
 use quell_belt::averaging::{
-    AveragingOptions, EverywhereStable, FastWave, Response, closed_band, everywhere_stable_amplitude, unstable_bands,
+    AveragingOptions, EverywhereStable, FastWave, Response, closed_band,
+    everywhere_stable_amplitude, unstable_bands,
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 
@@ -15,7 +16,8 @@ use super::product::{Product, Table};
 use super::source::{Source, failed, law_name, letter, parameters, values, waveform_name};
 use crate::complaint::Failure;
 use crate::plot::{
-    Axis, Figure, Legend, Line, LineStyle, Note, Panel, Points, Region, Role, Rule, SharedLegend, Sharing, Size,
+    Axis, Figure, Legend, Line, LineStyle, Note, Panel, Points, Region, Role, Rule, SharedLegend,
+    Sharing, Size,
 };
 use crate::study::Study;
 
@@ -51,7 +53,13 @@ pub(super) fn single(source: &Source) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
     let panel = panel(source, &study, study.belt().dithers()[0].waveform, &mut table)?;
-    let caption = format!("{} $ζ$ = {}, {}.{}", opening(source, &study), study.belt().damping_ratio(), parameters(&study), closing(&study, false));
+    let caption = format!(
+        "{} $ζ$ = {}, {}.{}",
+        opening(source, &study),
+        study.belt().damping_ratio(),
+        parameters(&study),
+        closing(&study, false)
+    );
     Ok(Product::new(Figure::single(panel), caption, &study).table(table))
 }
 
@@ -64,8 +72,15 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
         let title = format!("({}) {}", letter(index), waveform_name(waveform));
         panels.push(panel(source, &study, waveform, &mut table)?.title(title).legend(Legend::None));
     }
-    let damping: Vec<String> = values(&study, "belt.damping_ratio").iter().map(f64::to_string).collect();
-    let caption = format!("{} $ζ$ = {}; {}.{}", opening(source, &study), damping.join(", "), parameters(&study), closing(&study, true));
+    let damping: Vec<String> =
+        values(&study, "belt.damping_ratio").iter().map(f64::to_string).collect();
+    let caption = format!(
+        "{} $ζ$ = {}; {}.{}",
+        opening(source, &study),
+        damping.join(", "),
+        parameters(&study),
+        closing(&study, true)
+    );
     let figure = Figure::grid(3, panels)
         .sharing_x(Sharing::All)
         .sharing_y(Sharing::All)
@@ -97,7 +112,8 @@ fn closing(study: &Study, three: bool) -> String {
     );
     if three && stribeck {
         let equation = if normal { "(4.35)" } else { "(3.47)" };
-        text += &format!(" Dotted in (b): the upper edge as printed {equation}, with π²/48 for π²/30.");
+        text +=
+            &format!(" Dotted in (b): the upper edge as printed {equation}, with π²/48 for π²/30.");
     }
     if normal {
         text += &format!(
@@ -112,7 +128,13 @@ fn closing(study: &Study, three: bool) -> String {
         // The tip of the band lies far outside.
         let wave = FastWave::Integral(dither.waveform);
         let belt = study.belt();
-        let tip = everywhere_stable_amplitude(belt.friction(), belt.damping_ratio(), belt.normal_load(), wave, dither.direction);
+        let tip = everywhere_stable_amplitude(
+            belt.friction(),
+            belt.damping_ratio(),
+            belt.normal_load(),
+            wave,
+            dither.direction,
+        );
         if let Ok(EverywhereStable::From { amplitude_ratio, .. }) = tip {
             text += &format!(" The band closes only at $α^L$ = {amplitude_ratio:.0}.");
         }
@@ -124,16 +146,24 @@ fn closing(study: &Study, three: bool) -> String {
 }
 
 fn empty_table() -> Table {
-    Table::new("", &[
-        ("waveform", "1"),
-        ("damping_ratio", "1"),
-        ("curve", "1"),
-        ("amplitude_ratio", "length (velocity/ω0)"),
-        ("belt_velocity", "length (velocity/ω0)"),
-    ])
+    Table::new(
+        "",
+        &[
+            ("waveform", "1"),
+            ("damping_ratio", "1"),
+            ("curve", "1"),
+            ("amplitude_ratio", "length (velocity/ω0)"),
+            ("belt_velocity", "length (velocity/ω0)"),
+        ],
+    )
 }
 
-fn panel(source: &Source, study: &Study, waveform: Waveform, table: &mut Table) -> Result<Panel, Failure> {
+fn panel(
+    source: &Source,
+    study: &Study,
+    waveform: Waveform,
+    table: &mut Table,
+) -> Result<Panel, Failure> {
     let belt = study.belt();
     let dither = belt.dithers()[0];
     let last = |path: &str| values(study, path).last().copied();
@@ -145,7 +175,8 @@ fn panel(source: &Source, study: &Study, waveform: Waveform, table: &mut Table) 
         (true, LawKind::Stribeck) => 0.8,
         (true, LawKind::Decreasing) => 6.0,
     };
-    let plane = Plane { source, belt, waveform, direction: dither.direction, reach: (alpha, velocity) };
+    let plane =
+        Plane { source, belt, waveform, direction: dither.direction, reach: (alpha, velocity) };
     let mut damping = values(study, "belt.damping_ratio");
     if damping.is_empty() {
         damping.push(belt.damping_ratio());
@@ -155,16 +186,20 @@ fn panel(source: &Source, study: &Study, waveform: Waveform, table: &mut Table) 
         Axis::new("dither amplitude").symbol(symbol).between(0.0, alpha),
         Axis::new("belt velocity").symbol("v_0").between(0.0, velocity),
     );
-    let regions: Result<Vec<Unstable>, Failure> = damping.iter().map(|&zeta| plane.unstable(zeta)).collect();
+    let regions: Result<Vec<Unstable>, Failure> =
+        damping.iter().map(|&zeta| plane.unstable(zeta)).collect();
     let regions = regions?;
     let lone = regions.len() == 1;
     for region in &regions {
-        panel = panel.with(Region::between(Role::Unstable, region.lower.clone(), region.upper.clone()));
+        panel =
+            panel.with(Region::between(Role::Unstable, region.lower.clone(), region.upper.clone()));
     }
     for (index, region) in regions.iter().enumerate() {
         let role = if lone { Role::Boundary } else { Role::Series([1, 2, 0][index % 3]) };
-        let label = if lone { "averaging".to_owned() } else { format!("$ζ$ = {}", region.damping_ratio) };
-        panel = panel.with(Line::pieces(role, [region.lower.clone(), region.upper.clone()]).label(label));
+        let label =
+            if lone { "averaging".to_owned() } else { format!("$ζ$ = {}", region.damping_ratio) };
+        panel = panel
+            .with(Line::pieces(role, [region.lower.clone(), region.upper.clone()]).label(label));
         plane.record(table, region.damping_ratio, "lower", &region.lower);
         plane.record(table, region.damping_ratio, "upper", &region.upper);
     }
@@ -222,14 +257,20 @@ impl Plane<'_> {
     }
 
     /// The boundary with the oscillator's own response in place of αG.
-    fn sharper(&self, panel: Panel, damping_ratio: f64, table: &mut Table) -> Result<Panel, Failure> {
+    fn sharper(
+        &self,
+        panel: Panel,
+        damping_ratio: f64,
+        table: &mut Table,
+    ) -> Result<Panel, Failure> {
         let ratio = self.belt.dithers()[0].frequency_ratio;
         let edges = if self.waveform == Waveform::Sine {
             // The same curves over a shorter α.
             let region = self.unstable(damping_ratio)?;
             let shorter = (ratio * ratio - 1.0) / (ratio * ratio);
-            [region.lower, region.upper]
-                .map(|curve| curve.into_iter().map(|(alpha, v)| (alpha * shorter, v)).collect::<Curve>())
+            [region.lower, region.upper].map(|curve| {
+                curve.into_iter().map(|(alpha, v)| (alpha * shorter, v)).collect::<Curve>()
+            })
         } else {
             self.oscillator_edges(damping_ratio, ratio)?
         };
@@ -245,7 +286,8 @@ impl Plane<'_> {
         let wave = FastWave::Oscillator { waveform: self.waveform, frequency_ratio: ratio };
         let tip = self.tip(damping_ratio, wave)?;
         let end = tip.unwrap_or(f64::INFINITY).min(self.largest());
-        let options = AveragingOptions { response: Response::Oscillator, ..AveragingOptions::default() };
+        let options =
+            AveragingOptions { response: Response::Oscillator, ..AveragingOptions::default() };
         let mut edges: [Curve; 2] = Default::default();
         for k in 0..=FEWER_POINTS {
             let alpha = end * f64::from(k) / f64::from(FEWER_POINTS);
@@ -258,7 +300,8 @@ impl Plane<'_> {
             };
             let belt = Belt::new(damping_ratio, load, 1.0, *self.law(), vec![dither])
                 .map_err(|_| failed(self.source.name, &"a belt of the map is not valid"))?;
-            let bands = unstable_bands(&belt, options).map_err(|error| failed(self.source.name, &error))?;
+            let bands =
+                unstable_bands(&belt, options).map_err(|error| failed(self.source.name, &error))?;
             let Some(band) = bands.last() else { break };
             edges[0].push(self.along(alpha, band.lower));
             edges[1].push(self.along(alpha, band.upper.unwrap_or(10.0 * self.reach.1)));
@@ -273,8 +316,13 @@ impl Plane<'_> {
     /// α^L of tangential dither, none where it does not exist.
     fn tip(&self, damping_ratio: f64, wave: FastWave) -> Result<Option<f64>, Failure> {
         let load = self.belt.normal_load();
-        let everywhere =
-            everywhere_stable_amplitude(self.law(), damping_ratio, load, wave, Direction::Tangential);
+        let everywhere = everywhere_stable_amplitude(
+            self.law(),
+            damping_ratio,
+            load,
+            wave,
+            Direction::Tangential,
+        );
         Ok(match everywhere.map_err(|error| failed(self.source.name, &error))? {
             EverywhereStable::From { amplitude_ratio, .. } => Some(amplitude_ratio),
             EverywhereStable::Always => Some(0.0),
@@ -338,7 +386,13 @@ impl Plane<'_> {
 
     fn record(&self, table: &mut Table, damping_ratio: f64, curve: &str, points: &Curve) {
         for &(alpha, v) in points {
-            table.row([self.waveform.name().into(), damping_ratio.into(), curve.into(), alpha.into(), v.into()]);
+            table.row([
+                self.waveform.name().into(),
+                damping_ratio.into(),
+                curve.into(),
+                alpha.into(),
+                v.into(),
+            ]);
         }
     }
 }

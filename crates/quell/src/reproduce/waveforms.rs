@@ -18,8 +18,16 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
     let mut rows: [Vec<Panel>; 2] = [Vec::new(), Vec::new()];
     for (index, (waveform, _)) in source.with_waveforms()?.into_iter().enumerate() {
         let name = waveform.name();
-        columns.push((format!("{name}_g"), "1", cycles().map(|c| waveform.value(TAU * c)).collect()));
-        columns.push((format!("{name}_G"), "1", cycles().map(|c| waveform.integral(TAU * c)).collect()));
+        columns.push((
+            format!("{name}_g"),
+            "1",
+            cycles().map(|c| waveform.value(TAU * c)).collect(),
+        ));
+        columns.push((
+            format!("{name}_G"),
+            "1",
+            cycles().map(|c| waveform.integral(TAU * c)).collect(),
+        ));
         let title = format!("({}) {}", letter(index), waveform_name(waveform));
         rows[0].push(
             axes("waveform", "g", "")
@@ -36,7 +44,9 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
                 .legend(Legend::None),
         );
     }
-    let figure = Figure::grid(3, rows.into_iter().flatten()).sharing_x(Sharing::Aligned).sharing_y(Sharing::Aligned);
+    let figure = Figure::grid(3, rows.into_iter().flatten())
+        .sharing_x(Sharing::Aligned)
+        .sharing_y(Sharing::Aligned);
     let caption = "Figure 3.2. Two cycles of the dither waveforms $g$ (3.4)–(3.6), odd and of unit amplitude, and their \
         zero-mean integrals $G$, which are even (the text after (3.25) calls them odd).";
     Ok(Product::new(figure, caption, &study).table(Table::of_columns("", columns)))
@@ -45,7 +55,10 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
 fn axes(name: &str, symbol: &str, below: &str) -> Panel {
     Panel::new(
         Axis::new(below).between(0.0, f64::from(CYCLES)).ticks([0.0, 0.5, 1.0, 1.5, 2.0]),
-        Axis::new(name).symbol(symbol).between(-2.0, 2.0).ticks([-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5]),
+        Axis::new(name)
+            .symbol(symbol)
+            .between(-2.0, 2.0)
+            .ticks([-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5]),
     )
     .with(Rule::horizontal(0.0))
 }
