@@ -18,7 +18,7 @@ use crate::plot::{
 use crate::study::Study;
 
 /// Length of a decay.
-const DURATION: f64 = 80.0;
+const DURATION: f64 = 40.0;
 /// Window edges per dither period.
 const WINDOWS_PER_PERIOD: usize = 8;
 /// Width of a bin of the slip velocity.
@@ -141,14 +141,17 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
         .sharing_y(Sharing::All)
         .legend(SharedLegend::Below)
         .size(Size::Frame(340.0, 220.0));
+    let displacements = values(&study, "belt.initial.displacement");
     let caption = format!(
         "Figure {}. Effective friction with the {} law under sinusoidal normal dither: means of $f/N$ and of the slip velocity over one \
-         dither period of free decays from $x_0$ = 0.36, 0.45, 0.6 at {} belt speeds (4.30), (4.31); windows with stick, and those across which the \
+         dither period of free decays from $x_0$ between {} and {} at {} belt velocities (4.30), (4.31); windows with stick, and those across which the \
          slow velocity changes by more than {DRIFT}, are dropped; dots are \
          medians in bins of {BIN}. Dotted: averaging with both terms of (4.23). $ζ$ = {}, $R_N$ = {}, {}. The print does not say from which \
          trajectories its points come.",
         source.name,
         law_name(law.kind()),
+        displacements.first().copied().unwrap_or_default(),
+        displacements.last().copied().unwrap_or_default(),
         values(&study, "belt.belt_velocity").len(),
         study.belt().damping_ratio(),
         study.belt().dithers()[0].frequency_ratio,

@@ -1,3 +1,4 @@
+<<<<<<< HEAD
 //! Claims.
 use super::Sheet;
 use crate::complaint::Failure;
@@ -14,5 +15,321 @@ pub(super) fn thresholds(_: &mut Sheet) -> Result<(), Failure> {
     Ok(())
 }
 pub(super) fn responses(_: &mut Sheet) -> Result<(), Failure> {
+=======
+//! Claims of chapter 3: waveforms, formulas of averaging, thresholds, responses.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use quell_belt::averaging::{
+    Effective, EverywhereStable, FastMotion, FastWave, Response as FastResponse, closed_band, effective,
+    effective_by_quadrature, everywhere_stable_amplitude,
+};
+use quell_model::{Direction, LawKind, Waveform};
+use quell_numerics::quadrature::{QuadratureOptions, integrate};
+use quell_numerics::special::exp;
+
+use super::super::print::{self, LawNumbers};
+use super::super::responses::{cases, fundamental};
+use super::super::source::{failed, waveform_name};
+use super::chapter2::{LIGHT, SUPPRESSED, belt, critical, efficiencies, law, partial, source};
+use super::sheet::{Sheet, digits, list};
+use crate::complaint::Failure;
+
+const NUMBERS: LawNumbers = LawNumbers::DISSERTATION;
+
+/// μ̄ and its slope by quadrature of the definition.
+fn definition(kind: LawKind, waveform: Waveform, v: f64, alpha: f64) -> Result<Effective, Failure> {
+    effective_by_quadrature(&law(kind)?, FastWave::Integral(waveform), alpha, v)
+        .map_err(|error| failed("claims", &error))
+}
+
+/// Section 3.2: integrals of the waveforms.
+pub(super) fn waveforms(sheet: &mut Sheet) -> Result<(), Failure> {
+    let [sine, triangle, square] = [Waveform::Sine, Waveform::Triangle, Waveform::Square];
+    // From the waveforms themselves: half the integral of g over its positive half cycle.
+    let peak = |waveform: Waveform| {
+        integrate(|x| waveform.value(x), 0.0, PI, waveform.breaks(), &QuadratureOptions::default())
+            .map(|integral| 0.5 * integral.value)
+            .map_err(|error| failed("claims", &error))
+    };
+    for (waveform, printed) in [(sine, 1.0), (triangle, PI / 4.0), (square, FRAC_PI_2)] {
+        let name = format!("3.3-peak-{}", waveform.name());
+        let statement = format!("G_max of the {} waveform", waveform_name(waveform));
+        sheet.formula([&name, "before Figure 3.3", &statement], printed, peak(waveform)?);
+    }
+    let odd = Waveform::ALL
+        .iter()
+        .all(|waveform| (waveform.integral(-0.7) + waveform.integral(0.7)).abs() < 1e-12);
+    sheet
+        .statement(
+            ["3.25-odd", "after (3.25)", "G is an odd function"],
+            "G(−0.7) = G(0.7) ≠ 0 for all three",
+            &[],
+            odd,
+        )
+        .note("G is even, g is odd; the formulas use it rightly");
+    Ok(())
+}
+
+/// Printed formulas against their definitions: v_r = 0.08, α = 0.2 unless said.
+pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
+    let (v, alpha) = (0.08, 0.2);
+    let [stribeck, decreasing] = [LawKind::Stribeck, LawKind::Decreasing];
+    let [triangle, square] = [Waveform::Triangle, Waveform::Square];
+    let inside = definition(decreasing, triangle, v, alpha)?;
+    let point = "v_r = 0.08, α = 0.2";
+    let at = |what: &str| format!("{what}, {point}");
+    let printed = print::effective_338a(NUMBERS, v, alpha);
+    sheet
+        .formula(["3.38a", "(3.38a), (B.10a)", &at("μ̄, decreasing law, triangle")], printed, inside.coefficient)
+        .note("the error functions carry exp(γ − w), not exp(−γ − w)");
+    let corner = PI * alpha / 4.0;
+    let outside = law(decreasing)
+        .and_then(|law| {
+            let motion = FastMotion::single(FastWave::Integral(triangle), alpha);
+            effective(&law, &motion, corner).map_err(|error| failed("claims", &error))
+        })?
+        .coefficient;
+    sheet
+        .formula(
+            ["3.38a-corner", "(3.38a)", "μ̄ at v_r = πα/4, where it must meet (3.38b)"],
+            print::effective_338a(NUMBERS, corner, alpha),
+            outside,
+        )
+        .note("as printed μ̄ is not continuous");
+    sheet
+        .formula(["3.53a", "(3.53a)", &at("slope, decreasing law, triangle")], print::slope_353a(NUMBERS, v, alpha), inside.slope)
+        .note("exponent −1/2 for 1/2, a factor 1/(2√(γ − w)) is missing, and (3.38a) itself is wrong");
+    let slope = definition(stribeck, triangle, v, alpha)?.slope;
+    sheet
+        .formula(["3.45a", "(3.45a)", &at("slope, Stribeck law, triangle")], print::slope_345a(NUMBERS, v, alpha), slope)
+        .note("π²/16 for π²/10");
+    let slope = definition(stribeck, triangle, 0.18, 0.15)?.slope;
+    sheet
+        .formula(
+            ["3.45b", "(3.45b)", "slope, Stribeck law, triangle, v_r = 0.18, α = 0.15"],
+            print::slope_345b(NUMBERS, 0.18, 0.15),
+            slope,
+        )
+        .note("π²/16 for π²/10");
+    let upper = closed_band(&law(stribeck)?, LIGHT, 1.0, triangle, 0.15).and_then(|band| band.upper);
+    sheet
+        .formula(
+            ["3.47", "(3.46), (3.47)", "upper edge, Stribeck law, triangle, ζ = 0.005, α = 0.15"],
+            print::upper_edge_347(NUMBERS, LIGHT, 0.15),
+            upper.unwrap_or(f64::NAN),
+        )
+        .note("π²/48 for π²/30");
+    // With v_r inside the bracket, as printed, a negative slip has the sign of the bracket twice.
+    let negative = definition(decreasing, square, -v, alpha)?.coefficient;
+    sheet
+        .formula(["3.36a", "(3.36a)", "μ̄, decreasing law, square, v_r = −0.08, α = 0.2"], -negative, negative)
+        .note("sign(v_r) stands before a bracket that is odd in v_r already: |v_r| belongs inside");
+    integrals(sheet, v, alpha)?;
+    right(sheet)
+}
+
+/// (B.3)–(B.5): integrals of appendix B.
+fn integrals(sheet: &mut Sheet, v: f64, alpha: f64) -> Result<(), Failure> {
+    let vm = NUMBERS.vm;
+    let crossing = (PI * (PI / 4.0 - v / alpha)).sqrt();
+    let integral = |from: f64, to: f64, sign: f64| {
+        integrate(
+            |x| exp(sign * (v + alpha * Waveform::Triangle.integral(x)) / vm),
+            from,
+            to,
+            &[FRAC_PI_2, 3.0 * FRAC_PI_2],
+            &QuadratureOptions::default(),
+        )
+        .map(|integral| integral.value)
+        .map_err(|error| failed("claims", &error))
+    };
+    let [first, second] = [integral(0.0, crossing, 1.0)?, integral(crossing, 2.0 * PI - crossing, -1.0)?];
+    let point = "v_r = 0.08, α = 0.2";
+    sheet
+        .formula(["B.3", "(B.3)", &format!("integral over 0…Rτ₁, {point}")], print::integral_b3(NUMBERS, v, alpha), first)
+        .note("exponent (v_r − πα/v_m)/v_m for v_r/v_m − πα/(4v_m)");
+    sheet
+        .formula(["B.4", "(B.4)", &format!("integral over Rτ₁…Rτ₂, {point}")], print::integral_b4(NUMBERS, v, alpha), second)
+        .note("the same fault as (3.38a), which follows from it");
+    sheet
+        .formula(["B.5", "(B.5)", &format!("integral over Rτ₂…2π, {point}")], print::integral_b5(NUMBERS, v, alpha), first)
+        .note("exponent v_r/v_m − πα/4 for v_r/v_m − πα/(4v_m)");
+    Ok(())
+}
+
+/// Some that are right as printed.
+fn right(sheet: &mut Sheet) -> Result<(), Failure> {
+    let (b0, b1, vm) = (NUMBERS.minimum, NUMBERS.difference(), NUMBERS.vm);
+    let (v, alpha) = (0.08, 0.2);
+    let square = definition(LawKind::Decreasing, Waveform::Square, v, alpha)?;
+    let decay = exp(-PI * alpha / (2.0 * vm));
+    let printed = 2.0 * b0 / (PI * alpha) * v + 2.0 * b1 / PI * vm / alpha * decay * (v / vm).sinh();
+    sheet.formula(["3.39a", "(3.39a)", "μ̄, decreasing law, square, v_r = 0.08, α = 0.2"], printed, square.coefficient);
+    let printed = 2.0 * b0 / (PI * alpha) + 2.0 * b1 / (PI * alpha) * decay * (v / vm).cosh();
+    sheet.formula(["3.57a", "(3.57a)", "its slope"], printed, square.slope);
+    let outside = definition(LawKind::Decreasing, Waveform::Square, 0.4, alpha)?.coefficient;
+    let printed = b0 + 2.0 * b1 * vm / (PI * alpha) * exp(-0.4 / vm) * (PI * alpha / (2.0 * vm)).sinh();
+    sheet.formula(["3.39b", "(3.39b)", "μ̄, decreasing law, square, v_r = 0.4, α = 0.2"], printed, outside);
+    let a3 = 0.5 * b1 / vm.powi(3);
+    let sine = definition(LawKind::Stribeck, Waveform::Sine, v, alpha)?.slope;
+    let printed = 2.0 * NUMBERS.static_level / (PI * (alpha * alpha - v * v).sqrt()) - 1.5 * b1 / vm
+        + 1.5 * a3 * alpha * alpha
+        + 3.0 * a3 * v * v;
+    sheet.formula(["3.41a", "(3.41a)", "slope, Stribeck law, sine, v_r = 0.08, α = 0.2"], printed, sine);
+    Ok(())
+}
+
+/// α^L of one case, NaN where there is none.
+fn everywhere(kind: LawKind, damping_ratio: f64, waveform: Waveform, direction: Direction) -> Result<f64, Failure> {
+    let wave = FastWave::Integral(waveform);
+    let found = everywhere_stable_amplitude(&law(kind)?, damping_ratio, 1.0, wave, direction)
+        .map_err(|error| failed("claims", &error))?;
+    Ok(match found {
+        EverywhereStable::From { amplitude_ratio, .. } => amplitude_ratio,
+        EverywhereStable::Always | EverywhereStable::Never { .. } => f64::NAN,
+    })
+}
+
+/// α^L: formulas, order of the waveforms, the inner region.
+pub(super) fn everywhere_stable(sheet: &mut Sheet) -> Result<(), Failure> {
+    let tangential = |kind, zeta, waveform| everywhere(kind, zeta, waveform, Direction::Tangential);
+    let stribeck = Waveform::ALL
+        .iter()
+        .map(|&waveform| tangential(LawKind::Stribeck, LIGHT, waveform))
+        .collect::<Result<Vec<f64>, Failure>>()?;
+    for (name, zeta) in [("3.44", LIGHT), ("3.44-damped", 0.1)] {
+        let statement = format!("α^L, Stribeck law, sine, ζ = {zeta}");
+        let value = tangential(LawKind::Stribeck, zeta, Waveform::Sine)?;
+        sheet
+            .formula([name, "(3.44)", &statement], print::everywhere_344(NUMBERS, zeta), value)
+            .note("the inner root does not belong there: v_m√(2(1 − κ)/3)");
+    }
+    sheet
+        .formula(["3.48", "(3.48)", "α^L, Stribeck law, triangle, ζ = 0.005"], print::everywhere_348(NUMBERS, LIGHT), stribeck[1])
+        .note("follows from (3.47); right is (v_m/π)√(240(1 − κ)/23)");
+    sheet.formula(["3.52", "(3.52)", "α^L, Stribeck law, square, ζ = 0.005"], print::everywhere_352(NUMBERS, LIGHT), stribeck[2]);
+    sheet.statement(
+        ["3.5-order", "Figure 3.5", "square is better than sine, sine better than triangle"],
+        format!("α^L: {}", list(&[stribeck[2], stribeck[0], stribeck[1]])),
+        &stribeck,
+        stribeck[2] < stribeck[0] && stribeck[0] < stribeck[1],
+    );
+    let decreasing = Waveform::ALL
+        .iter()
+        .map(|&waveform| tangential(LawKind::Decreasing, 0.05, waveform))
+        .collect::<Result<Vec<f64>, Failure>>()?;
+    sheet.statement(
+        ["3.6-order", "Figure 3.6", "the same with the decreasing law, ζ = 0.05"],
+        format!("α^L: {}", list(&[decreasing[2], decreasing[0], decreasing[1]])),
+        &decreasing,
+        decreasing[2] < decreasing[0] && decreasing[0] < decreasing[1],
+    );
+    let far = tangential(LawKind::Decreasing, LIGHT, Waveform::Sine)?;
+    sheet.statement(
+        ["3.6-far", "Figure 3.6", "for very light damping the band extends far beyond the area displayed"],
+        format!("sine, ζ = 0.005: α^L = {}", digits(far, 4)),
+        &[far],
+        far > 20.0,
+    );
+    inner_slope(sheet)
+}
+
+/// "It can be shown that μ̄′(v₀) ≥ 0 for |v₀| ≤ αG_max", for the dissertation's laws.
+fn inner_slope(sheet: &mut Sheet) -> Result<(), Failure> {
+    let mut smallest = [f64::INFINITY; 2];
+    for (kind, smallest) in [LawKind::Stribeck, LawKind::Decreasing].into_iter().zip(&mut smallest) {
+        let law = law(kind)?;
+        for &waveform in Waveform::ALL {
+            for (k, j) in (0..40).flat_map(|k| (0..20).map(move |j| (k, j))) {
+                let alpha = 0.01 * 1.2f64.powi(k);
+                let motion = FastMotion::single(FastWave::Integral(waveform), alpha);
+                let v = alpha * waveform.peak_integral() * f64::from(j) / 20.0;
+                let found = effective(&law, &motion, v).map_err(|error| failed("claims", &error))?;
+                *smallest = smallest.min(found.slope);
+            }
+        }
+    }
+    sheet
+        .statement(
+            ["3.41-inner-slope", "after (3.41), (3.45), (3.49), (3.53), (3.57)", "μ̄′ ≥ 0 for |v₀| ≤ αG_max with the values chosen"],
+            format!("smallest slope, α from 0.01 to 12: {}", list(&smallest)),
+            &smallest,
+            smallest.iter().all(|slope| *slope >= 0.0),
+        )
+        .note("for Stribeck in general only if (μ_s − μ_m)/μ_s ≤ √6/π (sine), √0.4 (triangle), 1 (square)");
+    Ok(())
+}
+
+/// Thresholds predicted by averaging at v₀ = 1, R = 10, decreasing law.
+pub(super) fn thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
+    type Row = (Waveform, usize, &'static str, bool, &'static str);
+    let rows: [Row; 6] = [
+        (Waveform::Triangle, 0, "0.54", true, "3.61"),
+        (Waveform::Triangle, 0, "5.4", false, "3.61"),
+        (Waveform::Triangle, 1, "1.27", true, "3.61"),
+        (Waveform::Triangle, 1, "12.7", false, "3.61"),
+        (Waveform::Square, 0, "3.3", false, "3.62"),
+        (Waveform::Square, 1, "6.3", false, "3.62"),
+    ];
+    for (waveform, which, printed, is_ratio, equation) in rows {
+        let belt = belt(LawKind::Decreasing, LIGHT, 1.0, Some((Direction::Tangential, waveform, 1.0, 10.0)))?;
+        let found = critical(&belt, FastResponse::Limit)?;
+        let sharper = critical(&belt, FastResponse::Oscillator)?.get(which).map(|change| change.amplitude);
+        let becomes = ["unstable", "stable again"][which];
+        let (symbol, suffix) = if is_ratio { ("α", "-ratio") } else { ("D_T", "") };
+        let value = found.get(which).map(|change| if is_ratio { change.amplitude_ratio } else { change.amplitude });
+        let name = format!("{equation}-{}-{}{suffix}", waveform.name(), ["unstable", "stable"][which]);
+        let statement =
+            format!("averaging, v₀ = 1, {}: {becomes} from {symbol} =", waveform_name(waveform));
+        let claim = sheet.number(&name, &format!("({equation})"), &statement, printed, value.as_slice());
+        if let (false, Some(sharper)) = (is_ratio, sharper) {
+            claim.note(format!("with the exact fast motion {}", digits(sharper, 6)));
+        }
+    }
+    Ok(())
+}
+
+/// Figures 3.7–3.9.
+pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
+    let figures = ["3.7", "3.8", "3.9"]
+        .map(|name| Ok((name, cases(&source(name)?)?)))
+        .into_iter()
+        .collect::<Result<Vec<_>, Failure>>()?;
+    let mut frequencies = Vec::new();
+    for (name, cases) in &figures {
+        let found = efficiencies(cases);
+        let amplitudes: Vec<f64> = cases.iter().map(|case| case.amplitude).collect();
+        let statement = format!("partial control at D_T = {}, {}", amplitudes[0], amplitudes[1]);
+        let holds = found[..2].iter().all(|e| partial(*e));
+        let words = [&format!("{name}-partial"), &format!("Figure {name}(a), (b)"), &statement];
+        sheet.statement(words.map(String::as_str), format!("E = {}", list(&found[..2])), &found[..2], holds);
+        let statement = format!("full control at D_T = {}", amplitudes[2]);
+        let words = [&format!("{name}-suppressed"), &format!("Figure {name}(c)"), &statement];
+        let holds = found[2] < SUPPRESSED;
+        sheet.statement(words.map(String::as_str), format!("E = {:.4}", found[2]), &found[2..], holds);
+        let records = cases[..2].iter().map(|case| &case.response.record.spectrum);
+        frequencies.extend(records.filter_map(fundamental));
+    }
+    sheet.number(
+        "3.7-fundamental",
+        "Figures 3.7–3.9 (a), (b)",
+        "fundamental of the partly controlled responses (ω₀)",
+        "0.746",
+        &frequencies,
+    );
+    // At the amplitude that the three figures share.
+    let at = |figure: usize| {
+        let case = figures[figure].1.iter().find(|case| case.amplitude == 0.4);
+        case.and_then(|case| case.response.efficiency.ok())
+    };
+    let found: Vec<f64> = [2, 0, 1].into_iter().filter_map(at).collect();
+    sheet.statement(
+        ["3.7-order", "Figures 3.7–3.9", "for one amplitude square controls better than sine, sine better than triangle"],
+        format!("E at D_T = 0.4: {}", list(&found)),
+        &found,
+        found.len() == 3 && found.windows(2).all(|pair| pair[0] < pair[1]),
+    );
+>>>>>>> reproduce
     Ok(())
 }
