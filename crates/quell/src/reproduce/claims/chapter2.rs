@@ -1,21 +1,3 @@
-<<<<<<< HEAD
-//! Claims.
-use super::Sheet;
-use crate::complaint::Failure;
-pub(super) fn friction_laws(_: &mut Sheet) -> Result<(), Failure> {
-    Ok(())
-}
-pub(super) fn responses(_: &mut Sheet) -> Result<(), Failure> {
-    Ok(())
-}
-pub(super) fn forced_response(_: &mut Sheet) -> Result<(), Failure> {
-    Ok(())
-}
-pub(super) fn stability_maps(_: &mut Sheet) -> Result<(), Failure> {
-    Ok(())
-}
-pub(super) fn destabilisation(_: &mut Sheet) -> Result<(), Failure> {
-=======
 //! Claims of chapter 2: friction laws, responses under sinusoidal tangential dither, averaging.
 
 use quell_belt::averaging::{
@@ -81,7 +63,10 @@ pub(super) fn partial(efficiency: f64) -> bool {
 }
 
 /// Critical amplitudes of averaging, where the exact fast motion may take the place of αG.
-pub(super) fn critical(belt: &Belt, response: FastResponse) -> Result<Vec<CriticalAmplitude>, Failure> {
+pub(super) fn critical(
+    belt: &Belt,
+    response: FastResponse,
+) -> Result<Vec<CriticalAmplitude>, Failure> {
     let options = AveragingOptions { response, ..AveragingOptions::default() };
     critical_amplitudes(belt, options).map_err(|error| failed("claims", &error))
 }
@@ -90,7 +75,8 @@ pub(super) fn critical(belt: &Belt, response: FastResponse) -> Result<Vec<Critic
 fn stick_slip_frequency(belt: &Belt) -> Result<f64, Failure> {
     let mut recorder = EventRecorder::default();
     let tolerance = Solver::default().tolerance;
-    simulate(belt, Start::REST, 600.0, tolerance, &mut recorder).map_err(|error| failed("claims", &error))?;
+    simulate(belt, Start::REST, 600.0, tolerance, &mut recorder)
+        .map_err(|error| failed("claims", &error))?;
     let sticks: Vec<f64> = recorder
         .events
         .iter()
@@ -130,7 +116,13 @@ pub(super) fn friction_laws(sheet: &mut Sheet) -> Result<(), Failure> {
         .note("so 0.2587 is a misprint of 0.2857");
     let decreasing = law(LawKind::Decreasing)?;
     let share = (decreasing.coefficient(decreasing.velocity_scale()) - 0.2857) / (0.4 - 0.2857);
-    sheet.number("2.8-share-at-reference", "after (2.8)", "(μ − μ_m)/(μ_s − μ_m) at v_m", "0.368", &[share]);
+    sheet.number(
+        "2.8-share-at-reference",
+        "after (2.8)",
+        "(μ − μ_m)/(μ_s − μ_m) at v_m",
+        "0.368",
+        &[share],
+    );
     Ok(())
 }
 
@@ -154,14 +146,24 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
     };
     let (with, without) = (cases[0].response.stick_fraction, stuck(&cases[0]));
     sheet.statement(
-        ["2.3-stick-durations", "Figure 2.3(a)", "sticking is a great deal shorter than without dither"],
+        [
+            "2.3-stick-durations",
+            "Figure 2.3(a)",
+            "sticking is a great deal shorter than without dither",
+        ],
         format!("stick fraction {} against {}", digits(with, 3), digits(without, 3)),
         &[with, without],
         with < 0.7 * without,
     );
     let names = ["2.3-partial", "Figure 2.3(a), (b)", "partial cancellation at D_T = 0.3, 0.4"];
-    sheet.statement(names, format!("E = {}", list(&found[..2])), &found[..2], found[..2].iter().all(|e| partial(*e)));
-    let names = ["2.3-suppressed", "Figure 2.3(c)", "self-excited vibration suppressed at D_T = 0.5"];
+    sheet.statement(
+        names,
+        format!("E = {}", list(&found[..2])),
+        &found[..2],
+        found[..2].iter().all(|e| partial(*e)),
+    );
+    let names =
+        ["2.3-suppressed", "Figure 2.3(c)", "self-excited vibration suppressed at D_T = 0.5"];
     sheet.statement(names, format!("E = {:.4}", found[2]), &found[2..], found[2] < SUPPRESSED);
     let peaks = &cases[2].response.peaks;
     let strongest = peaks.iter().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude));
@@ -180,8 +182,8 @@ pub(super) fn forced_response(sheet: &mut Sheet) -> Result<(), Failure> {
     let amplitude = |ratio: f64| -> Result<f64, Failure> {
         let dither = Some((Direction::Tangential, Waveform::Sine, 0.5, ratio));
         let belt = belt(LawKind::Stribeck, LIGHT, 0.05, dither)?;
-        let response =
-            respond(&belt, Start::REST, &Solver::default()).map_err(|error| failed("claims", &error))?;
+        let response = respond(&belt, Start::REST, &Solver::default())
+            .map_err(|error| failed("claims", &error))?;
         let near = response.peaks.iter().filter(|peak| (peak.frequency - ratio).abs() < 0.1);
         Ok(near.map(|peak| peak.amplitude).fold(0.0, f64::max))
     };
@@ -212,9 +214,21 @@ pub(super) fn stability_maps(sheet: &mut Sheet) -> Result<(), Failure> {
         closed_band(law, LIGHT, 1.0, Waveform::Sine, alpha).and_then(|band| band.upper)
     };
     let stable_above: Vec<f64> = upper(&stribeck, 0.0).into_iter().collect();
-    sheet.number("2.6-undithered", "Figure 2.6", "Stribeck: undithered sliding is stable above v₀", "0.2", &stable_above);
+    sheet.number(
+        "2.6-undithered",
+        "Figure 2.6",
+        "Stribeck: undithered sliding is stable above v₀",
+        "0.2",
+        &stable_above,
+    );
     let tip = 0.2 * (2.0 / 3.0 * (1.0 - 4.0 * 0.2 * LIGHT / (3.0 * (0.4 - 0.2857)))).sqrt();
-    sheet.number("2.6-linear-up-to", "Figure 2.6", "Stribeck: α* grows linearly with v₀ up to", "0.16", &[tip]);
+    sheet.number(
+        "2.6-linear-up-to",
+        "Figure 2.6",
+        "Stribeck: α* grows linearly with v₀ up to",
+        "0.16",
+        &[tip],
+    );
     let worst = (1..=16)
         .map(|k| {
             let v = tip * f64::from(k) / 17.0;
@@ -240,7 +254,8 @@ pub(super) fn stability_maps(sheet: &mut Sheet) -> Result<(), Failure> {
     );
     let mut destabilised = 0;
     for k in 1..=50 {
-        let found = critical(&belt_at(LawKind::Stribeck, 0.006 * f64::from(k))?, FastResponse::Limit)?;
+        let found =
+            critical(&belt_at(LawKind::Stribeck, 0.006 * f64::from(k))?, FastResponse::Limit)?;
         destabilised += found.iter().filter(|change| change.becomes == Becomes::Unstable).count();
     }
     sheet.statement(
@@ -251,7 +266,13 @@ pub(super) fn stability_maps(sheet: &mut Sheet) -> Result<(), Failure> {
     );
     let stable_above: Vec<f64> = upper(&decreasing, 0.0).into_iter().collect();
     sheet
-        .number("2.7-undithered", "Figure 2.7", "decreasing: undithered sliding is stable above v₀", "0.8", &stable_above)
+        .number(
+            "2.7-undithered",
+            "Figure 2.7",
+            "decreasing: undithered sliding is stable above v₀",
+            "0.8",
+            &stable_above,
+        )
         .note("only locally: see 2.7-undithered-from-afar");
     let widths = [1.0, 1.5, 2.0]
         .map(|v| {
@@ -261,7 +282,11 @@ pub(super) fn stability_maps(sheet: &mut Sheet) -> Result<(), Failure> {
         .into_iter()
         .collect::<Result<Vec<f64>, Failure>>()?;
     sheet.statement(
-        ["2.7-narrower", "Figure 2.7", "decreasing: the band becomes narrower as the belt velocity grows"],
+        [
+            "2.7-narrower",
+            "Figure 2.7",
+            "decreasing: the band becomes narrower as the belt velocity grows",
+        ],
         format!("width in α at v₀ = 1, 1.5, 2: {}", list(&widths)),
         &widths,
         widths.windows(2).all(|pair| 0.0 < pair[1] && pair[1] < pair[0]),
@@ -280,21 +305,45 @@ pub(super) fn destabilisation(sheet: &mut Sheet) -> Result<(), Failure> {
     let late = |displacement: f64| -> Result<f64, Failure> {
         let start = Start { displacement, ..Start::REST };
         let mut sampler = Sampler::new(1500.0, 0.05, 500);
-        simulate(&undithered, start, 1526.0, 1e-12, &mut sampler).map_err(|error| failed("claims", &error))?;
-        let low = sampler.samples.iter().fold(f64::INFINITY, |low, sample| low.min(sample.displacement));
-        let high = sampler.samples.iter().fold(f64::NEG_INFINITY, |high, sample| high.max(sample.displacement));
+        simulate(&undithered, start, 1526.0, 1e-12, &mut sampler)
+            .map_err(|error| failed("claims", &error))?;
+        let low =
+            sampler.samples.iter().fold(f64::INFINITY, |low, sample| low.min(sample.displacement));
+        let high = sampler
+            .samples
+            .iter()
+            .fold(f64::NEG_INFINITY, |high, sample| high.max(sample.displacement));
         Ok(high - low)
     };
     let (rest, afar) = (late(0.0)?, late(1.5)?);
-    let names = ["2.7-undithered-from-rest", "Figure 2.7", "decreasing, v₀ = 1: the undithered system is stable (from rest)"];
-    sheet.statement(names, format!("peak-to-peak {} at τ = 1500", digits(rest, 2)), &[rest], rest < 0.05);
+    let names = [
+        "2.7-undithered-from-rest",
+        "Figure 2.7",
+        "decreasing, v₀ = 1: the undithered system is stable (from rest)",
+    ];
+    sheet.statement(
+        names,
+        format!("peak-to-peak {} at τ = 1500", digits(rest, 2)),
+        &[rest],
+        rest < 0.05,
+    );
     let names = ["2.7-undithered-from-afar", "Figure 2.7", "the same from x = 1.5"];
     sheet
-        .statement(names, format!("peak-to-peak {} at τ = 1500", digits(afar, 3)), &[afar], afar < 0.05)
-        .note("a stick-slip cycle coexists with stable sliding; averaging judges small motions only");
-    for (velocity, printed) in [(1.0, [("0.43", "4.3"), ("0.98", "9.8")]), (1.5, [("", "10"), ("", "15")])] {
+        .statement(
+            names,
+            format!("peak-to-peak {} at τ = 1500", digits(afar, 3)),
+            &[afar],
+            afar < 0.05,
+        )
+        .note(
+            "a stick-slip cycle coexists with stable sliding; averaging judges small motions only",
+        );
+    for (velocity, printed) in
+        [(1.0, [("0.43", "4.3"), ("0.98", "9.8")]), (1.5, [("", "10"), ("", "15")])]
+    {
         let belt = belt_at(LawKind::Decreasing, velocity)?;
-        let (limit, exact) = (critical(&belt, FastResponse::Limit)?, critical(&belt, FastResponse::Oscillator)?);
+        let (limit, exact) =
+            (critical(&belt, FastResponse::Limit)?, critical(&belt, FastResponse::Oscillator)?);
         for (which, (alpha, amplitude)) in printed.into_iter().enumerate() {
             let becomes = ["unstable", "stable again"][which];
             let found: Vec<&CriticalAmplitude> = limit.get(which).into_iter().collect();
@@ -305,8 +354,18 @@ pub(super) fn destabilisation(sheet: &mut Sheet) -> Result<(), Failure> {
             if !alpha.is_empty() {
                 let values: Vec<f64> = found.iter().map(|change| change.amplitude_ratio).collect();
                 sheet
-                    .number(&format!("{stem}-ratio"), place, &format!("{statement} α ="), alpha, &values)
-                    .note(if which == 1 { "averaging gives α = v₀ exactly; 0.98 is a value of a plotting grid" } else { "" });
+                    .number(
+                        &format!("{stem}-ratio"),
+                        place,
+                        &format!("{statement} α ="),
+                        alpha,
+                        &values,
+                    )
+                    .note(if which == 1 {
+                        "averaging gives α = v₀ exactly; 0.98 is a value of a plotting grid"
+                    } else {
+                        ""
+                    });
             }
             let values: Vec<f64> = found.iter().map(|change| change.amplitude).collect();
             sheet
@@ -314,6 +373,5 @@ pub(super) fn destabilisation(sheet: &mut Sheet) -> Result<(), Failure> {
                 .note(format!("with the exact fast motion {}", digits(sharper, 6)));
         }
     }
->>>>>>> reproduce
     Ok(())
 }

@@ -1,28 +1,10 @@
-<<<<<<< HEAD
-//! Claims.
-use super::Sheet;
-use crate::complaint::Failure;
-pub(super) fn waveforms(_: &mut Sheet) -> Result<(), Failure> {
-    Ok(())
-}
-pub(super) fn formulas(_: &mut Sheet) -> Result<(), Failure> {
-    Ok(())
-}
-pub(super) fn everywhere_stable(_: &mut Sheet) -> Result<(), Failure> {
-    Ok(())
-}
-pub(super) fn thresholds(_: &mut Sheet) -> Result<(), Failure> {
-    Ok(())
-}
-pub(super) fn responses(_: &mut Sheet) -> Result<(), Failure> {
-=======
 //! Claims of chapter 3: waveforms, formulas of averaging, thresholds, responses.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use quell_belt::averaging::{
-    Effective, EverywhereStable, FastMotion, FastWave, Response as FastResponse, closed_band, effective,
-    effective_by_quadrature, everywhere_stable_amplitude,
+    Effective, EverywhereStable, FastMotion, FastWave, Response as FastResponse, closed_band,
+    effective, effective_by_quadrature, everywhere_stable_amplitude,
 };
 use quell_model::{Direction, LawKind, Waveform};
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
@@ -81,7 +63,11 @@ pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
     let at = |what: &str| format!("{what}, {point}");
     let printed = print::effective_338a(NUMBERS, v, alpha);
     sheet
-        .formula(["3.38a", "(3.38a), (B.10a)", &at("μ̄, decreasing law, triangle")], printed, inside.coefficient)
+        .formula(
+            ["3.38a", "(3.38a), (B.10a)", &at("μ̄, decreasing law, triangle")],
+            printed,
+            inside.coefficient,
+        )
         .note("the error functions carry exp(γ − w), not exp(−γ − w)");
     let corner = PI * alpha / 4.0;
     let outside = law(decreasing)
@@ -98,11 +84,21 @@ pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
         )
         .note("as printed μ̄ is not continuous");
     sheet
-        .formula(["3.53a", "(3.53a)", &at("slope, decreasing law, triangle")], print::slope_353a(NUMBERS, v, alpha), inside.slope)
-        .note("exponent −1/2 for 1/2, a factor 1/(2√(γ − w)) is missing, and (3.38a) itself is wrong");
+        .formula(
+            ["3.53a", "(3.53a)", &at("slope, decreasing law, triangle")],
+            print::slope_353a(NUMBERS, v, alpha),
+            inside.slope,
+        )
+        .note(
+            "exponent −1/2 for 1/2, a factor 1/(2√(γ − w)) is missing, and (3.38a) itself is wrong",
+        );
     let slope = definition(stribeck, triangle, v, alpha)?.slope;
     sheet
-        .formula(["3.45a", "(3.45a)", &at("slope, Stribeck law, triangle")], print::slope_345a(NUMBERS, v, alpha), slope)
+        .formula(
+            ["3.45a", "(3.45a)", &at("slope, Stribeck law, triangle")],
+            print::slope_345a(NUMBERS, v, alpha),
+            slope,
+        )
         .note("π²/16 for π²/10");
     let slope = definition(stribeck, triangle, 0.18, 0.15)?.slope;
     sheet
@@ -112,7 +108,8 @@ pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
             slope,
         )
         .note("π²/16 for π²/10");
-    let upper = closed_band(&law(stribeck)?, LIGHT, 1.0, triangle, 0.15).and_then(|band| band.upper);
+    let upper =
+        closed_band(&law(stribeck)?, LIGHT, 1.0, triangle, 0.15).and_then(|band| band.upper);
     sheet
         .formula(
             ["3.47", "(3.46), (3.47)", "upper edge, Stribeck law, triangle, ζ = 0.005, α = 0.15"],
@@ -123,7 +120,11 @@ pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
     // With v_r inside the bracket, as printed, a negative slip has the sign of the bracket twice.
     let negative = definition(decreasing, square, -v, alpha)?.coefficient;
     sheet
-        .formula(["3.36a", "(3.36a)", "μ̄, decreasing law, square, v_r = −0.08, α = 0.2"], -negative, negative)
+        .formula(
+            ["3.36a", "(3.36a)", "μ̄, decreasing law, square, v_r = −0.08, α = 0.2"],
+            -negative,
+            negative,
+        )
         .note("sign(v_r) stands before a bracket that is odd in v_r already: |v_r| belongs inside");
     integrals(sheet, v, alpha)?;
     right(sheet)
@@ -144,16 +145,29 @@ fn integrals(sheet: &mut Sheet, v: f64, alpha: f64) -> Result<(), Failure> {
         .map(|integral| integral.value)
         .map_err(|error| failed("claims", &error))
     };
-    let [first, second] = [integral(0.0, crossing, 1.0)?, integral(crossing, 2.0 * PI - crossing, -1.0)?];
+    let [first, second] =
+        [integral(0.0, crossing, 1.0)?, integral(crossing, 2.0 * PI - crossing, -1.0)?];
     let point = "v_r = 0.08, α = 0.2";
     sheet
-        .formula(["B.3", "(B.3)", &format!("integral over 0…Rτ₁, {point}")], print::integral_b3(NUMBERS, v, alpha), first)
+        .formula(
+            ["B.3", "(B.3)", &format!("integral over 0…Rτ₁, {point}")],
+            print::integral_b3(NUMBERS, v, alpha),
+            first,
+        )
         .note("exponent (v_r − πα/v_m)/v_m for v_r/v_m − πα/(4v_m)");
     sheet
-        .formula(["B.4", "(B.4)", &format!("integral over Rτ₁…Rτ₂, {point}")], print::integral_b4(NUMBERS, v, alpha), second)
+        .formula(
+            ["B.4", "(B.4)", &format!("integral over Rτ₁…Rτ₂, {point}")],
+            print::integral_b4(NUMBERS, v, alpha),
+            second,
+        )
         .note("the same fault as (3.38a), which follows from it");
     sheet
-        .formula(["B.5", "(B.5)", &format!("integral over Rτ₂…2π, {point}")], print::integral_b5(NUMBERS, v, alpha), first)
+        .formula(
+            ["B.5", "(B.5)", &format!("integral over Rτ₂…2π, {point}")],
+            print::integral_b5(NUMBERS, v, alpha),
+            first,
+        )
         .note("exponent v_r/v_m − πα/4 for v_r/v_m − πα/(4v_m)");
     Ok(())
 }
@@ -164,24 +178,44 @@ fn right(sheet: &mut Sheet) -> Result<(), Failure> {
     let (v, alpha) = (0.08, 0.2);
     let square = definition(LawKind::Decreasing, Waveform::Square, v, alpha)?;
     let decay = exp(-PI * alpha / (2.0 * vm));
-    let printed = 2.0 * b0 / (PI * alpha) * v + 2.0 * b1 / PI * vm / alpha * decay * (v / vm).sinh();
-    sheet.formula(["3.39a", "(3.39a)", "μ̄, decreasing law, square, v_r = 0.08, α = 0.2"], printed, square.coefficient);
+    let printed =
+        2.0 * b0 / (PI * alpha) * v + 2.0 * b1 / PI * vm / alpha * decay * (v / vm).sinh();
+    sheet.formula(
+        ["3.39a", "(3.39a)", "μ̄, decreasing law, square, v_r = 0.08, α = 0.2"],
+        printed,
+        square.coefficient,
+    );
     let printed = 2.0 * b0 / (PI * alpha) + 2.0 * b1 / (PI * alpha) * decay * (v / vm).cosh();
     sheet.formula(["3.57a", "(3.57a)", "its slope"], printed, square.slope);
     let outside = definition(LawKind::Decreasing, Waveform::Square, 0.4, alpha)?.coefficient;
-    let printed = b0 + 2.0 * b1 * vm / (PI * alpha) * exp(-0.4 / vm) * (PI * alpha / (2.0 * vm)).sinh();
-    sheet.formula(["3.39b", "(3.39b)", "μ̄, decreasing law, square, v_r = 0.4, α = 0.2"], printed, outside);
+    let printed =
+        b0 + 2.0 * b1 * vm / (PI * alpha) * exp(-0.4 / vm) * (PI * alpha / (2.0 * vm)).sinh();
+    sheet.formula(
+        ["3.39b", "(3.39b)", "μ̄, decreasing law, square, v_r = 0.4, α = 0.2"],
+        printed,
+        outside,
+    );
     let a3 = 0.5 * b1 / vm.powi(3);
     let sine = definition(LawKind::Stribeck, Waveform::Sine, v, alpha)?.slope;
-    let printed = 2.0 * NUMBERS.static_level / (PI * (alpha * alpha - v * v).sqrt()) - 1.5 * b1 / vm
+    let printed = 2.0 * NUMBERS.static_level / (PI * (alpha * alpha - v * v).sqrt())
+        - 1.5 * b1 / vm
         + 1.5 * a3 * alpha * alpha
         + 3.0 * a3 * v * v;
-    sheet.formula(["3.41a", "(3.41a)", "slope, Stribeck law, sine, v_r = 0.08, α = 0.2"], printed, sine);
+    sheet.formula(
+        ["3.41a", "(3.41a)", "slope, Stribeck law, sine, v_r = 0.08, α = 0.2"],
+        printed,
+        sine,
+    );
     Ok(())
 }
 
 /// α^L of one case, NaN where there is none.
-fn everywhere(kind: LawKind, damping_ratio: f64, waveform: Waveform, direction: Direction) -> Result<f64, Failure> {
+fn everywhere(
+    kind: LawKind,
+    damping_ratio: f64,
+    waveform: Waveform,
+    direction: Direction,
+) -> Result<f64, Failure> {
     let wave = FastWave::Integral(waveform);
     let found = everywhere_stable_amplitude(&law(kind)?, damping_ratio, 1.0, wave, direction)
         .map_err(|error| failed("claims", &error))?;
@@ -206,9 +240,17 @@ pub(super) fn everywhere_stable(sheet: &mut Sheet) -> Result<(), Failure> {
             .note("the inner root does not belong there: v_m√(2(1 − κ)/3)");
     }
     sheet
-        .formula(["3.48", "(3.48)", "α^L, Stribeck law, triangle, ζ = 0.005"], print::everywhere_348(NUMBERS, LIGHT), stribeck[1])
+        .formula(
+            ["3.48", "(3.48)", "α^L, Stribeck law, triangle, ζ = 0.005"],
+            print::everywhere_348(NUMBERS, LIGHT),
+            stribeck[1],
+        )
         .note("follows from (3.47); right is (v_m/π)√(240(1 − κ)/23)");
-    sheet.formula(["3.52", "(3.52)", "α^L, Stribeck law, square, ζ = 0.005"], print::everywhere_352(NUMBERS, LIGHT), stribeck[2]);
+    sheet.formula(
+        ["3.52", "(3.52)", "α^L, Stribeck law, square, ζ = 0.005"],
+        print::everywhere_352(NUMBERS, LIGHT),
+        stribeck[2],
+    );
     sheet.statement(
         ["3.5-order", "Figure 3.5", "square is better than sine, sine better than triangle"],
         format!("α^L: {}", list(&[stribeck[2], stribeck[0], stribeck[1]])),
@@ -227,7 +269,11 @@ pub(super) fn everywhere_stable(sheet: &mut Sheet) -> Result<(), Failure> {
     );
     let far = tangential(LawKind::Decreasing, LIGHT, Waveform::Sine)?;
     sheet.statement(
-        ["3.6-far", "Figure 3.6", "for very light damping the band extends far beyond the area displayed"],
+        [
+            "3.6-far",
+            "Figure 3.6",
+            "for very light damping the band extends far beyond the area displayed",
+        ],
         format!("sine, ζ = 0.005: α^L = {}", digits(far, 4)),
         &[far],
         far > 20.0,
@@ -238,14 +284,16 @@ pub(super) fn everywhere_stable(sheet: &mut Sheet) -> Result<(), Failure> {
 /// "It can be shown that μ̄′(v₀) ≥ 0 for |v₀| ≤ αG_max", for the dissertation's laws.
 fn inner_slope(sheet: &mut Sheet) -> Result<(), Failure> {
     let mut smallest = [f64::INFINITY; 2];
-    for (kind, smallest) in [LawKind::Stribeck, LawKind::Decreasing].into_iter().zip(&mut smallest) {
+    for (kind, smallest) in [LawKind::Stribeck, LawKind::Decreasing].into_iter().zip(&mut smallest)
+    {
         let law = law(kind)?;
         for &waveform in Waveform::ALL {
             for (k, j) in (0..40).flat_map(|k| (0..20).map(move |j| (k, j))) {
                 let alpha = 0.01 * 1.2f64.powi(k);
                 let motion = FastMotion::single(FastWave::Integral(waveform), alpha);
                 let v = alpha * waveform.peak_integral() * f64::from(j) / 20.0;
-                let found = effective(&law, &motion, v).map_err(|error| failed("claims", &error))?;
+                let found =
+                    effective(&law, &motion, v).map_err(|error| failed("claims", &error))?;
                 *smallest = smallest.min(found.slope);
             }
         }
@@ -273,16 +321,26 @@ pub(super) fn thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
         (Waveform::Square, 1, "6.3", false, "3.62"),
     ];
     for (waveform, which, printed, is_ratio, equation) in rows {
-        let belt = belt(LawKind::Decreasing, LIGHT, 1.0, Some((Direction::Tangential, waveform, 1.0, 10.0)))?;
+        let belt = belt(
+            LawKind::Decreasing,
+            LIGHT,
+            1.0,
+            Some((Direction::Tangential, waveform, 1.0, 10.0)),
+        )?;
         let found = critical(&belt, FastResponse::Limit)?;
-        let sharper = critical(&belt, FastResponse::Oscillator)?.get(which).map(|change| change.amplitude);
+        let sharper =
+            critical(&belt, FastResponse::Oscillator)?.get(which).map(|change| change.amplitude);
         let becomes = ["unstable", "stable again"][which];
         let (symbol, suffix) = if is_ratio { ("α", "-ratio") } else { ("D_T", "") };
-        let value = found.get(which).map(|change| if is_ratio { change.amplitude_ratio } else { change.amplitude });
-        let name = format!("{equation}-{}-{}{suffix}", waveform.name(), ["unstable", "stable"][which]);
+        let value = found
+            .get(which)
+            .map(|change| if is_ratio { change.amplitude_ratio } else { change.amplitude });
+        let name =
+            format!("{equation}-{}-{}{suffix}", waveform.name(), ["unstable", "stable"][which]);
         let statement =
             format!("averaging, v₀ = 1, {}: {becomes} from {symbol} =", waveform_name(waveform));
-        let claim = sheet.number(&name, &format!("({equation})"), &statement, printed, value.as_slice());
+        let claim =
+            sheet.number(&name, &format!("({equation})"), &statement, printed, value.as_slice());
         if let (false, Some(sharper)) = (is_ratio, sharper) {
             claim.note(format!("with the exact fast motion {}", digits(sharper, 6)));
         }
@@ -303,11 +361,21 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
         let statement = format!("partial control at D_T = {}, {}", amplitudes[0], amplitudes[1]);
         let holds = found[..2].iter().all(|e| partial(*e));
         let words = [&format!("{name}-partial"), &format!("Figure {name}(a), (b)"), &statement];
-        sheet.statement(words.map(String::as_str), format!("E = {}", list(&found[..2])), &found[..2], holds);
+        sheet.statement(
+            words.map(String::as_str),
+            format!("E = {}", list(&found[..2])),
+            &found[..2],
+            holds,
+        );
         let statement = format!("full control at D_T = {}", amplitudes[2]);
         let words = [&format!("{name}-suppressed"), &format!("Figure {name}(c)"), &statement];
         let holds = found[2] < SUPPRESSED;
-        sheet.statement(words.map(String::as_str), format!("E = {:.4}", found[2]), &found[2..], holds);
+        sheet.statement(
+            words.map(String::as_str),
+            format!("E = {:.4}", found[2]),
+            &found[2..],
+            holds,
+        );
         let records = cases[..2].iter().map(|case| &case.response.record.spectrum);
         frequencies.extend(records.filter_map(fundamental));
     }
@@ -325,11 +393,14 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
     };
     let found: Vec<f64> = [2, 0, 1].into_iter().filter_map(at).collect();
     sheet.statement(
-        ["3.7-order", "Figures 3.7–3.9", "for one amplitude square controls better than sine, sine better than triangle"],
+        [
+            "3.7-order",
+            "Figures 3.7–3.9",
+            "for one amplitude square controls better than sine, sine better than triangle",
+        ],
         format!("E at D_T = 0.4: {}", list(&found)),
         &found,
         found.len() == 3 && found.windows(2).all(|pair| pair[0] < pair[1]),
     );
->>>>>>> reproduce
     Ok(())
 }

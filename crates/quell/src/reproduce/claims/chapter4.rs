@@ -1,18 +1,3 @@
-<<<<<<< HEAD
-//! Claims.
-use super::Sheet;
-use crate::complaint::Failure;
-pub(super) fn responses(_: &mut Sheet) -> Result<(), Failure> {
-    Ok(())
-}
-pub(super) fn effective_friction(_: &mut Sheet) -> Result<(), Failure> {
-    Ok(())
-}
-pub(super) fn stability_maps(_: &mut Sheet) -> Result<(), Failure> {
-    Ok(())
-}
-pub(super) fn formulas(_: &mut Sheet) -> Result<(), Failure> {
-=======
 //! Claims of chapter 4: normal dither.
 
 use quell_belt::averaging::{
@@ -35,7 +20,11 @@ const NUMBERS: LawNumbers = LawNumbers::DISSERTATION;
 pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
     let found = efficiencies(&cases(&source("4.3")?)?);
     sheet.statement(
-        ["4.3-never-suppressed", "Figure 4.3", "D_N = 0.3, 0.6, 0.9 do not suppress the vibration, Stribeck law, R_N = 10"],
+        [
+            "4.3-never-suppressed",
+            "Figure 4.3",
+            "D_N = 0.3, 0.6, 0.9 do not suppress the vibration, Stribeck law, R_N = 10",
+        ],
         format!("E = {}", list(&found)),
         &found,
         found.iter().all(|e| partial(*e)),
@@ -43,14 +32,27 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
     sheet
         .number_within(
             0.2,
-            ["4.3-cancelled", "Figure 4.3(c)", "share of the vibration cancelled at D_N = 0.9, approximately"],
+            [
+                "4.3-cancelled",
+                "Figure 4.3(c)",
+                "share of the vibration cancelled at D_N = 0.9, approximately",
+            ],
             "0.5",
             &[1.0 - found[2]],
         )
         .note("printed as approximate");
     let found = efficiencies(&cases(&source("4.4")?)?);
-    let words = ["4.4-partial", "Figure 4.4(a), (b)", "partial control at D_N = 0.3, 0.6, decreasing law, R_N = 7"];
-    sheet.statement(words, format!("E = {}", list(&found[..2])), &found[..2], found[..2].iter().all(|e| partial(*e)));
+    let words = [
+        "4.4-partial",
+        "Figure 4.4(a), (b)",
+        "partial control at D_N = 0.3, 0.6, decreasing law, R_N = 7",
+    ];
+    sheet.statement(
+        words,
+        format!("E = {}", list(&found[..2])),
+        &found[..2],
+        found[..2].iter().all(|e| partial(*e)),
+    );
     let words = ["4.4-suppressed", "Figure 4.4(c)", "full control at D_N = 0.9"];
     sheet.statement(words, format!("E = {:.4}", found[2]), &found[2..], found[2] < SUPPRESSED);
     Ok(())
@@ -62,7 +64,10 @@ pub(super) fn effective_friction(sheet: &mut Sheet) -> Result<(), Failure> {
         let cases = measured_friction::cases(&source(figure)?)?;
         let place = format!("Figure {figure}");
         let pairs: Vec<(f64, f64)> = cases.iter().map(tops).collect();
-        let worst = pairs.iter().map(|(measured, averaged)| (measured - averaged).abs()).fold(0.0, f64::max);
+        let worst = pairs
+            .iter()
+            .map(|(measured, averaged)| (measured - averaged).abs())
+            .fold(0.0, f64::max);
         let (measured, averaged): (Vec<f64>, Vec<f64>) = pairs.into_iter().unzip();
         sheet
             .statement(
@@ -100,7 +105,8 @@ fn tops(case: &Case) -> (f64, f64) {
     let below = |v: f64| v < 0.15;
     let measured: Vec<(f64, f64)> =
         case.bins.iter().map(|&(v, mu, _)| (v, mu)).filter(|point| below(point.0)).collect();
-    let averaged: Vec<(f64, f64)> = case.averaged.iter().copied().filter(|point| below(point.0)).collect();
+    let averaged: Vec<(f64, f64)> =
+        case.averaged.iter().copied().filter(|point| below(point.0)).collect();
     (top(&measured), top(&averaged))
 }
 
@@ -117,17 +123,31 @@ pub(super) fn stability_maps(sheet: &mut Sheet) -> Result<(), Failure> {
     let everywhere = |direction| everywhere(Waveform::Sine, direction);
     let (normal, tangential) = (everywhere(Direction::Normal)?, everywhere(Direction::Tangential)?);
     sheet.statement(
-        ["4.7-larger", "Figures 4.7, 3.5", "normal dither needs a much larger amplitude than tangential, Stribeck law"],
+        [
+            "4.7-larger",
+            "Figures 4.7, 3.5",
+            "normal dither needs a much larger amplitude than tangential, Stribeck law",
+        ],
         format!("α_N^L = {} against α_T^L = {}", digits(normal, 4), digits(tangential, 4)),
         &[normal, tangential],
         normal > 2.0 * tangential,
     );
-    let belt = belt(LawKind::Decreasing, 0.2, 0.075, Some((Direction::Normal, Waveform::Square, 0.5, 5.0)))?;
-    let undithered =
-        criterion(&belt.undithered(), AveragingOptions::default()).map_err(|error| failed("claims", &error))?.value;
+    let belt = belt(
+        LawKind::Decreasing,
+        0.2,
+        0.075,
+        Some((Direction::Normal, Waveform::Square, 0.5, 5.0)),
+    )?;
+    let undithered = criterion(&belt.undithered(), AveragingOptions::default())
+        .map_err(|error| failed("claims", &error))?
+        .value;
     sheet
         .statement(
-            ["4.11-undithered", "Figure 4.11(a)", "decreasing law, ζ = 0.2, v₀ = 0.075: undithered sliding is stable"],
+            [
+                "4.11-undithered",
+                "Figure 4.11(a)",
+                "decreasing law, ζ = 0.2, v₀ = 0.075: undithered sliding is stable",
+            ],
             format!("2ζ + Fμ′ = {}", digits(undithered, 3)),
             &[undithered],
             undithered > 0.0,
@@ -137,10 +157,18 @@ pub(super) fn stability_maps(sheet: &mut Sheet) -> Result<(), Failure> {
     let rows = [(0, "0.115", true), (0, "0.575", false), (1, "0.13", true), (1, "0.65", false)];
     for (which, printed, is_ratio) in rows {
         let (symbol, suffix) = if is_ratio { ("α_N", "-ratio") } else { ("D_N", "") };
-        let value = found.get(which).map(|change| if is_ratio { change.amplitude_ratio } else { change.amplitude });
+        let value = found
+            .get(which)
+            .map(|change| if is_ratio { change.amplitude_ratio } else { change.amplitude });
         let becomes = ["unstable", "stable"][which];
         let statement = format!("averaging, square, R_N = 5: {becomes} from {symbol} =");
-        sheet.number(&format!("4.41-{becomes}{suffix}"), "(4.41)", &statement, printed, value.as_slice());
+        sheet.number(
+            &format!("4.41-{becomes}{suffix}"),
+            "(4.41)",
+            &statement,
+            printed,
+            value.as_slice(),
+        );
     }
     Ok(())
 }
@@ -162,7 +190,12 @@ pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
     let rows: [(&str, Waveform, fn(LawNumbers, f64) -> f64, &str); 3] = [
         ("4.34", Waveform::Sine, print::everywhere_344, "the nested root of (3.44)"),
         ("4.36", Waveform::Triangle, print::everywhere_348, "as (3.48)"),
-        ("4.38", Waveform::Square, print::everywhere_348, "2/π for 1/π: twice too large; it repeats (4.36)"),
+        (
+            "4.38",
+            Waveform::Square,
+            print::everywhere_348,
+            "2/π for 1/π: twice too large; it repeats (4.36)",
+        ),
     ];
     for (equation, waveform, printed, note) in rows {
         let tip = everywhere(waveform, Direction::Tangential)? * waveform.peak_integral();
@@ -177,14 +210,24 @@ pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
     }
     // R = 1 keeps the contact closed at α_N = 0.5; in the limit of high frequency only α_N matters.
     let alpha = 0.5;
-    let belt = belt(LawKind::Stribeck, LIGHT, 0.1, Some((Direction::Normal, Waveform::Triangle, alpha, 1.0)))?;
-    let bands = unstable_bands(&belt, AveragingOptions::default()).map_err(|error| failed("claims", &error))?;
+    let belt = belt(
+        LawKind::Stribeck,
+        LIGHT,
+        0.1,
+        Some((Direction::Normal, Waveform::Triangle, alpha, 1.0)),
+    )?;
+    let bands = unstable_bands(&belt, AveragingOptions::default())
+        .map_err(|error| failed("claims", &error))?;
     let right = bands.last().and_then(|band| band.upper).unwrap_or(f64::NAN);
     // The print gives v₀ by itself: v₀ = edge(μ(v₀)α_N), a contraction.
-    let printed = (0..200).fold(right, |v, _| print::upper_edge_347(NUMBERS, LIGHT, law.coefficient(v) * alpha));
+    let printed = (0..200)
+        .fold(right, |v, _| print::upper_edge_347(NUMBERS, LIGHT, law.coefficient(v) * alpha));
     sheet
-        .formula(["4.35", "(4.35)", "upper edge, Stribeck law, triangle, ζ = 0.005, α_N = 0.5"], printed, right)
+        .formula(
+            ["4.35", "(4.35)", "upper edge, Stribeck law, triangle, ζ = 0.005, α_N = 0.5"],
+            printed,
+            right,
+        )
         .note("π²/48 for π²/30, as (3.47)");
->>>>>>> reproduce
     Ok(())
 }
