@@ -2,11 +2,11 @@
 //!
 //! For a window [τ_i − π/R, τ_i + π/R] the mean slip velocity is exact, ⟨v_r⟩ = v₀ − (x(τ_i + π/R) − x(τ_i − π/R))R/(2π), and
 //! the mean of f/N = μ(v_r) is integrated along the Taylor segments by Gauss–Legendre between neighbouring window
-//! edges. Windows that contain stick (f/N is no function of v_r there) or a reversal into it are dropped, as the
-//! dissertation does.
+//! edges. Windows that contain stick (f/N is no function of v_r there) are dropped,
+//! as in the dissertation.
 //!
 //! What it is good for: a curve μ̄(v_r) that owes nothing to averaging. What limits it: within one window the slow
-//! velocity moves, by up to 2πx/R per window, so that points scatter about the curve for R like 1/R.
+//! velocity moves; [`WindowMean::drift`] says how far.
 
 use std::f64::consts::TAU;
 
@@ -77,7 +77,7 @@ struct EdgeRecorder {
     start: f64,
     per_period: usize,
     period: f64,
-    edges: Vec<Edge>,
+    passed: Vec<Edge>,
     now: Edge,
 }
 
@@ -89,7 +89,7 @@ impl EdgeRecorder {
             start: start.time,
             per_period,
             period: TAU / frequency_ratio,
-            edges: Vec::new(),
+            passed: Vec::new(),
             now: Edge { displacement: start.displacement, impulse: 0.0, stuck: 0.0 },
         }
     }
@@ -121,12 +121,12 @@ impl EdgeRecorder {
 
     /// ⟨v_r⟩ of the window that begins at edge `first`.
     fn slip_velocity(&self, first: usize) -> Option<f64> {
-        let (begin, end) = (self.edges.get(first)?, self.edges.get(first + self.per_period)?);
+        let (begin, end) = (self.passed.get(first)?, self.passed.get(first + self.per_period)?);
         Some(self.belt_velocity - (end.displacement - begin.displacement) / self.period)
     }
 
     fn means(&self) -> impl Iterator<Item = WindowMean> + '_ {
-        let windows = self.edges.windows(self.per_period + 1);
+        let windows = self.passed.windows(self.per_period + 1);
         windows.enumerate().filter_map(|(first, window)| {
             let (begin, end) = (window[0], window[self.per_period]);
             (begin.stuck == end.stuck).then(|| WindowMean {
@@ -148,14 +148,14 @@ impl Observer for EdgeRecorder {
     fn segment(&mut self, segment: &Segment<'_>) {
         let mut from = 0.0;
         loop {
-            let to = segment.clock().until(self.time(self.edges.len()));
+            let to = segment.clock().until(self.time(self.passed.len()));
             if to > segment.duration() {
                 break;
             }
             let to = to.max(0.0);
             self.pass(segment, from, to);
             self.now.displacement = segment.displacement(to);
-            self.edges.push(self.now);
+            self.passed.push(self.now);
             from = to;
         }
         self.pass(segment, from, segment.duration());

@@ -95,7 +95,7 @@ fn panel(
         Axis::new("slip velocity").symbol("v_r/v_m").between(FROM, TO),
         Axis::new("effective friction")
             .symbol("\\bar{μ}")
-            .between(-0.45, if law.kind() == LawKind::Stribeck { 0.7 } else { 0.45 }),
+            .between(-0.45, if law.kind() == LawKind::Stribeck { 0.75 } else { 0.45 }),
     )
     .with(Rule::horizontal(0.0));
     let mut printed = Vec::new();

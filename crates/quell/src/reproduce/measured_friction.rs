@@ -109,7 +109,7 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
         panels.push(
             Panel::new(
                 Axis::new("mean slip velocity").symbol("⟨v_r⟩").between(0.0, TO),
-                Axis::new("friction").symbol("⟨f/N⟩, \\bar{μ}, μ").between(0.1, 0.42),
+                Axis::new("friction").symbol("⟨f/N⟩, \\bar{μ}, μ").between(0.0, 0.42),
             )
             .title(title)
             .with(
@@ -125,14 +125,14 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
                     .label(format!("{} law", law_name(law.kind()))),
             )
             .with(
-                Line::new(Role::Averaged, case.averaged.iter().copied())
-                    .style(LineStyle::Dotted)
-                    .label("averaging"),
-            )
-            .with(
                 Points::new(Role::Exact, case.bins.iter().map(|&(v, median, _)| (v, median)))
                     .size(3.6)
                     .label("simulation, medians"),
+            )
+            .with(
+                Line::new(Role::Averaged, case.averaged.iter().copied())
+                    .style(LineStyle::Dotted)
+                    .label("averaging"),
             ),
         );
     }

@@ -54,7 +54,7 @@ pub(super) fn single(source: &Source) -> Result<Product, Failure> {
     let mut table = empty_table();
     let panel = panel(source, &study, study.belt().dithers()[0].waveform, &mut table)?;
     let caption = format!(
-        "{} $ζ$ = {}, {}.{}",
+        "{} $ζ$ = {}, {}. {}",
         opening(source, &study),
         study.belt().damping_ratio(),
         parameters(&study),
@@ -75,7 +75,7 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
     let damping: Vec<String> =
         values(&study, "belt.damping_ratio").iter().map(f64::to_string).collect();
     let caption = format!(
-        "{} $ζ$ = {}; {}.{}",
+        "{} $ζ$ = {}; {}. {}",
         opening(source, &study),
         damping.join(", "),
         parameters(&study),
@@ -102,47 +102,48 @@ fn opening(source: &Source, study: &Study) -> String {
 
 /// What the picture shows beyond the print, and where it departs from it.
 fn closing(study: &Study, three: bool) -> String {
-    let dither = study.belt().dithers()[0];
+    let belt = study.belt();
+    let dither = belt.dithers()[0];
     let normal = dither.direction == Direction::Normal;
-    let stribeck = study.belt().friction().kind() == LawKind::Stribeck;
+    let stribeck = belt.friction().kind() == LawKind::Stribeck;
     let ratio = dither.frequency_ratio;
-    let mut text = format!(
-        " Dash-dotted: the boundary at $R$ = {ratio} with the exact fast motion of the oscillator in place of $αG$, for a sine $α$ = $DR$/($R^2$ − 1){}.",
-        if three { format!(", $ζ$ = {}", study.belt().damping_ratio()) } else { String::new() }
-    );
+    let damping = if three { format!(", $ζ$ = {}", belt.damping_ratio()) } else { String::new() };
+    let mut sentences = vec![format!(
+        "Dash-dotted: the boundary at $R$ = {ratio} with the exact fast motion of the oscillator in place of \
+         $αG$, for a sine $α$ = $DR$/($R^2$ − 1){damping}."
+    )];
     if three && stribeck {
         let equation = if normal { "(4.35)" } else { "(3.47)" };
-        text +=
-            &format!(" Dotted in (b): the upper edge as printed {equation}, with π²/48 for π²/30.");
+        sentences.push(format!(
+            "Dotted in (b): the upper edge as printed {equation}, with π²/48 for π²/30."
+        ));
     }
     if normal {
-        text += &format!(
-            " $α_N$ = $D_N$/$R_N$ cannot exceed $F$/$R_N$ (4.29), marked for $R_N$ = {ratio}; $α$ of chapter 3 is replaced by \
-             $μ$($v_0$)$α_N$."
+        sentences.push(format!(
+            "$α_N$ = $D_N$/$R_N$ cannot exceed $F$/$R_N$ (4.29), marked for $R_N$ = {ratio}; $α$ of chapter 3 is \
+             replaced by $μ$($v_0$)$α_N$."
+        ));
+    }
+    if normal && stribeck {
+        sentences.push(
+            "The square's $α^L$ is half of (4.38), which repeats the triangle's (4.36).".to_owned(),
         );
-        if stribeck {
-            text += " The square's $α^L$ is half of (4.38), which repeats the triangle's (4.36).";
-        }
     }
     if !stribeck && !normal && !three {
-        // The tip of the band lies far outside.
         let wave = FastWave::Integral(dither.waveform);
-        let belt = study.belt();
-        let tip = everywhere_stable_amplitude(
-            belt.friction(),
-            belt.damping_ratio(),
-            belt.normal_load(),
-            wave,
-            dither.direction,
-        );
+        let (law, load) = (belt.friction(), belt.normal_load());
+        let tip =
+            everywhere_stable_amplitude(law, belt.damping_ratio(), load, wave, dither.direction);
         if let Ok(EverywhereStable::From { amplitude_ratio, .. }) = tip {
-            text += &format!(" The band closes only at $α^L$ = {amplitude_ratio:.0}.");
+            sentences.push(format!("The band closes only at $α^L$ = {amplitude_ratio:.0}."));
         }
     }
     if !stribeck && !normal {
-        text += " Stability is local: a stick-slip cycle can coexist with stable sliding.";
+        sentences.push(
+            "Stability is local: a stick-slip cycle can coexist with stable sliding.".to_owned(),
+        );
     }
-    text
+    sentences.join(" ")
 }
 
 fn empty_table() -> Table {
@@ -308,7 +309,9 @@ impl Plane<'_> {
         }
         if let Some(alpha) = tip.filter(|tip| *tip < self.largest()) {
             let tip = self.along(alpha, alpha * wave.peak());
-            edges.iter_mut().for_each(|edge| edge.push(tip));
+            for edge in &mut edges {
+                edge.push(tip);
+            }
         }
         Ok(edges)
     }

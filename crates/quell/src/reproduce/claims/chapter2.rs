@@ -1,8 +1,8 @@
 //! Claims of chapter 2: friction laws, responses under sinusoidal tangential dither, averaging.
 
 use quell_belt::averaging::{
-    AveragingOptions, Becomes, CriticalAmplitude, Response as FastResponse, closed_band,
-    critical_amplitudes,
+    AveragingOptions, Becomes, CriticalAmplitude, EverywhereStable, FastWave,
+    Response as FastResponse, closed_band, critical_amplitudes, everywhere_stable_amplitude,
 };
 use quell_belt::response::{Solver, respond};
 use quell_belt::simulation::{EventKind, EventRecorder, Sampler, Start, simulate};
@@ -11,7 +11,7 @@ use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 use super::super::responses::{Case, cases, fundamental};
 use super::super::source::failed;
 use super::super::{ENTRIES, Source};
-use super::sheet::{Sheet, digits, list};
+use super::sheet::{Sheet, digits, list, shares};
 use crate::complaint::Failure;
 
 /// Below this share of the undithered vibration the dissertation calls it suppressed (figure 2.8 takes 5 %).
@@ -158,13 +158,18 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
     let names = ["2.3-partial", "Figure 2.3(a), (b)", "partial cancellation at D_T = 0.3, 0.4"];
     sheet.statement(
         names,
-        format!("E = {}", list(&found[..2])),
+        format!("E = {}", shares(&found[..2])),
         &found[..2],
         found[..2].iter().all(|e| partial(*e)),
     );
     let names =
         ["2.3-suppressed", "Figure 2.3(c)", "self-excited vibration suppressed at D_T = 0.5"];
-    sheet.statement(names, format!("E = {:.4}", found[2]), &found[2..], found[2] < SUPPRESSED);
+    sheet.statement(
+        names,
+        format!("E = {}", shares(&found[2..])),
+        &found[2..],
+        found[2] < SUPPRESSED,
+    );
     let peaks = &cases[2].response.peaks;
     let strongest = peaks.iter().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude));
     sheet.number(
@@ -206,91 +211,76 @@ pub(super) fn forced_response(sheet: &mut Sheet) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Figures 2.6 and 2.7.
-pub(super) fn stability_maps(sheet: &mut Sheet) -> Result<(), Failure> {
-    let stribeck = law(LawKind::Stribeck)?;
-    let decreasing = law(LawKind::Decreasing)?;
-    let upper = |law: &Friction, alpha: f64| {
-        closed_band(law, LIGHT, 1.0, Waveform::Sine, alpha).and_then(|band| band.upper)
+/// Upper edge of the unstable belt velocities under a sine.
+fn upper(law: &Friction, alpha: f64) -> Option<f64> {
+    closed_band(law, LIGHT, 1.0, Waveform::Sine, alpha).and_then(|band| band.upper)
+}
+
+/// Figure 2.6.
+pub(super) fn stribeck_map(sheet: &mut Sheet) -> Result<(), Failure> {
+    let law = law(LawKind::Stribeck)?;
+    let words = "Stribeck: undithered sliding is stable above v₀";
+    sheet.number("2.6-undithered", "Figure 2.6", words, "0.2", upper(&law, 0.0).as_slice());
+    let wave = FastWave::Integral(Waveform::Sine);
+    let everywhere = everywhere_stable_amplitude(&law, LIGHT, 1.0, wave, Direction::Tangential);
+    let EverywhereStable::From { amplitude_ratio: tip, .. } =
+        everywhere.map_err(|error| failed("claims", &error))?
+    else {
+        return Err(failed("claims", &"figure 2.6 has no tip"));
     };
-    let stable_above: Vec<f64> = upper(&stribeck, 0.0).into_iter().collect();
-    sheet.number(
-        "2.6-undithered",
-        "Figure 2.6",
-        "Stribeck: undithered sliding is stable above v₀",
-        "0.2",
-        &stable_above,
-    );
-    let tip = 0.2 * (2.0 / 3.0 * (1.0 - 4.0 * 0.2 * LIGHT / (3.0 * (0.4 - 0.2857)))).sqrt();
-    sheet.number(
-        "2.6-linear-up-to",
-        "Figure 2.6",
-        "Stribeck: α* grows linearly with v₀ up to",
-        "0.16",
-        &[tip],
-    );
-    let worst = (1..=16)
-        .map(|k| {
-            let v = tip * f64::from(k) / 17.0;
-            let found = critical(&belt_at(LawKind::Stribeck, v)?, FastResponse::Limit)?;
-            Ok(found.last().map_or(1.0, |change| (change.amplitude_ratio / v - 1.0).abs()))
-        })
-        .collect::<Result<Vec<f64>, Failure>>()?
-        .into_iter()
-        .fold(0.0, f64::max);
-    sheet.statement(
-        ["2.6-linear", "Figure 2.6", "there α* = v₀, on a straight line"],
-        format!("largest deviation {}", digits(worst, 2)),
-        &[worst],
-        worst < 1e-9,
-    );
+    let words = "Stribeck: α* grows linearly with v₀ up to";
+    sheet.number("2.6-linear-up-to", "Figure 2.6", words, "0.16", &[tip]);
+    let mut worst: f64 = 0.0;
+    for k in 1..=16 {
+        let v = tip * f64::from(k) / 17.0;
+        let found = critical(&belt_at(LawKind::Stribeck, v)?, FastResponse::Limit)?;
+        let star = found.last().map_or(f64::MAX, |change| change.amplitude_ratio);
+        worst = worst.max((star / v - 1.0).abs());
+    }
+    let measured = format!("largest deviation {}", digits(worst, 2));
+    let words = ["2.6-linear", "Figure 2.6", "there α* = v₀, on a straight line"];
+    sheet.statement(words, measured, &[worst], worst < 1e-9);
     let grid = (0..=40).map(|k| tip * f64::from(k) / 41.0);
-    let edges: Vec<f64> = grid.filter_map(|alpha| upper(&stribeck, alpha)).collect();
-    sheet.statement(
-        ["2.6-upper-edge", "Figure 2.6", "Stribeck: the upper edge falls with α, the lower rises"],
-        format!("upper edge {} to {}", digits(edges[0], 4), digits(edges[edges.len() - 1], 4)),
-        &[edges[0], edges[edges.len() - 1]],
-        edges.len() == 41 && edges.windows(2).all(|pair| pair[1] < pair[0]),
-    );
+    let edges: Vec<f64> = grid.filter_map(|alpha| upper(&law, alpha)).collect();
+    let falls = edges.len() == 41 && edges.windows(2).all(|pair| pair[1] < pair[0]);
+    let measured = format!("from {} to {}", digits(edges[0], 4), digits(edges[edges.len() - 1], 4));
+    let words = ["2.6-upper-edge", "Figure 2.6", "Stribeck: the upper edge falls as α grows"];
+    sheet.statement(words, measured, &edges, falls);
     let mut destabilised = 0;
     for k in 1..=50 {
-        let found =
-            critical(&belt_at(LawKind::Stribeck, 0.006 * f64::from(k))?, FastResponse::Limit)?;
-        destabilised += found.iter().filter(|change| change.becomes == Becomes::Unstable).count();
+        let belt = belt_at(LawKind::Stribeck, 0.006 * f64::from(k))?;
+        let found = critical(&belt, FastResponse::Limit)?;
+        destabilised += u8::from(found.iter().any(|change| change.becomes == Becomes::Unstable));
     }
-    sheet.statement(
-        ["2.6-never-destabilised", "Figure 2.6", "Stribeck: a larger dither never destabilises"],
-        format!("{destabilised} of 50 belt velocities up to 0.3 are destabilised"),
-        &[destabilised as f64],
-        destabilised == 0,
-    );
-    let stable_above: Vec<f64> = upper(&decreasing, 0.0).into_iter().collect();
+    let measured = format!("{destabilised} of 50 belt velocities up to 0.3 are destabilised");
+    let words =
+        ["2.6-never-destabilised", "Figure 2.6", "Stribeck: a larger dither never destabilises"];
+    sheet.statement(words, measured, &[f64::from(destabilised)], destabilised == 0);
+    Ok(())
+}
+
+/// Figure 2.7.
+pub(super) fn decreasing_map(sheet: &mut Sheet) -> Result<(), Failure> {
+    let law = law(LawKind::Decreasing)?;
+    let words = "decreasing: undithered sliding is stable above v₀";
     sheet
-        .number(
-            "2.7-undithered",
-            "Figure 2.7",
-            "decreasing: undithered sliding is stable above v₀",
-            "0.8",
-            &stable_above,
-        )
+        .number("2.7-undithered", "Figure 2.7", words, "0.8", upper(&law, 0.0).as_slice())
         .note("only locally: see 2.7-undithered-from-afar");
-    let widths = [1.0, 1.5, 2.0]
-        .map(|v| {
-            let found = critical(&belt_at(LawKind::Decreasing, v)?, FastResponse::Limit)?;
-            Ok(found.windows(2).map(|pair| pair[1].amplitude_ratio - pair[0].amplitude_ratio).sum())
-        })
-        .into_iter()
-        .collect::<Result<Vec<f64>, Failure>>()?;
-    sheet.statement(
-        [
-            "2.7-narrower",
-            "Figure 2.7",
-            "decreasing: the band becomes narrower as the belt velocity grows",
-        ],
-        format!("width in α at v₀ = 1, 1.5, 2: {}", list(&widths)),
-        &widths,
-        widths.windows(2).all(|pair| 0.0 < pair[1] && pair[1] < pair[0]),
-    );
+    let mut widths = Vec::new();
+    for v in [1.0, 1.5, 2.0] {
+        let found = critical(&belt_at(LawKind::Decreasing, v)?, FastResponse::Limit)?;
+        widths
+            .extend(found.windows(2).map(|pair| pair[1].amplitude_ratio - pair[0].amplitude_ratio));
+    }
+    let narrows =
+        widths.len() == 3 && widths.windows(2).all(|pair| 0.0 < pair[1] && pair[1] < pair[0]);
+    let measured = format!("width in α at v₀ = 1, 1.5, 2: {}", list(&widths));
+    let words = [
+        "2.7-narrower",
+        "Figure 2.7",
+        "decreasing: the band becomes narrower as the belt velocity grows",
+    ];
+    sheet.statement(words, measured, &widths, narrows);
     Ok(())
 }
 
@@ -338,40 +328,39 @@ pub(super) fn destabilisation(sheet: &mut Sheet) -> Result<(), Failure> {
         .note(
             "a stick-slip cycle coexists with stable sliding; averaging judges small motions only",
         );
-    for (velocity, printed) in
-        [(1.0, [("0.43", "4.3"), ("0.98", "9.8")]), (1.5, [("", "10"), ("", "15")])]
-    {
+    averaged_thresholds(sheet)
+}
+
+/// "Unstable for α_T = 0.43", "stable for α_T > 0.98" at v₀ = 1; 10 ≤ D_T ≤ 15 at v₀ = 1.5.
+fn averaged_thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
+    let rows = [
+        (1.0, 0, "2.10", Some("0.43"), "4.3"),
+        (1.0, 1, "2.10", Some("0.98"), "9.8"),
+        (1.5, 0, "2.11", None, "10"),
+        (1.5, 1, "2.11", None, "15"),
+    ];
+    for (velocity, which, figure, ratio, amplitude) in rows {
         let belt = belt_at(LawKind::Decreasing, velocity)?;
-        let (limit, exact) =
-            (critical(&belt, FastResponse::Limit)?, critical(&belt, FastResponse::Oscillator)?);
-        for (which, (alpha, amplitude)) in printed.into_iter().enumerate() {
-            let becomes = ["unstable", "stable again"][which];
-            let found: Vec<&CriticalAmplitude> = limit.get(which).into_iter().collect();
-            let sharper = exact.get(which).map_or(f64::NAN, |change| change.amplitude);
-            let place = if velocity == 1.0 { "Figures 2.7, 2.10" } else { "Figures 2.7, 2.11" };
-            let statement = format!("averaging, v₀ = {velocity}: {becomes} from");
-            let stem = format!("2.7-v{velocity}-{}", ["unstable", "stable"][which]);
-            if !alpha.is_empty() {
-                let values: Vec<f64> = found.iter().map(|change| change.amplitude_ratio).collect();
-                sheet
-                    .number(
-                        &format!("{stem}-ratio"),
-                        place,
-                        &format!("{statement} α ="),
-                        alpha,
-                        &values,
-                    )
-                    .note(if which == 1 {
-                        "averaging gives α = v₀ exactly; 0.98 is a value of a plotting grid"
-                    } else {
-                        ""
-                    });
+        let found = critical(&belt, FastResponse::Limit)?.get(which).copied();
+        let sharper = critical(&belt, FastResponse::Oscillator)?.get(which).copied();
+        let place = format!("Figures 2.7, {figure}");
+        let becomes = ["unstable", "stable again"][which];
+        let statement = format!("averaging, v₀ = {velocity}: {becomes} from");
+        let stem = format!("2.7-v{velocity}-{}", ["unstable", "stable"][which]);
+        if let Some(printed) = ratio {
+            let value = found.map(|change| change.amplitude_ratio);
+            let (name, statement) = (format!("{stem}-ratio"), format!("{statement} α ="));
+            let claim = sheet.number(&name, &place, &statement, printed, value.as_slice());
+            if which == 1 {
+                claim.note("averaging gives α = v₀ exactly; 0.98 is a value of a plotting grid");
             }
-            let values: Vec<f64> = found.iter().map(|change| change.amplitude).collect();
-            sheet
-                .number(&stem, place, &format!("{statement} D_T ="), amplitude, &values)
-                .note(format!("with the exact fast motion {}", digits(sharper, 6)));
         }
+        let value = found.map(|change| change.amplitude);
+        let sharper = sharper.map_or_else(String::new, |change| {
+            format!("with the exact fast motion {}", digits(change.amplitude, 6))
+        });
+        let statement = format!("{statement} D_T =");
+        sheet.number(&stem, &place, &statement, amplitude, value.as_slice()).note(sharper);
     }
     Ok(())
 }

@@ -14,7 +14,7 @@ use super::super::print::{self, LawNumbers};
 use super::super::responses::{cases, fundamental};
 use super::super::source::{failed, waveform_name};
 use super::chapter2::{LIGHT, SUPPRESSED, belt, critical, efficiencies, law, partial, source};
-use super::sheet::{Sheet, digits, list};
+use super::sheet::{Sheet, digits, list, shares};
 use crate::complaint::Failure;
 
 const NUMBERS: LawNumbers = LawNumbers::DISSERTATION;
@@ -39,14 +39,16 @@ pub(super) fn waveforms(sheet: &mut Sheet) -> Result<(), Failure> {
         let statement = format!("G_max of the {} waveform", waveform_name(waveform));
         sheet.formula([&name, "before Figure 3.3", &statement], printed, peak(waveform)?);
     }
-    let odd = Waveform::ALL
-        .iter()
-        .all(|waveform| (waveform.integral(-0.7) + waveform.integral(0.7)).abs() < 1e-12);
+    let sides = |side: f64| {
+        Waveform::ALL.iter().map(|waveform| waveform.integral(side)).collect::<Vec<f64>>()
+    };
+    let (left, right) = (sides(-0.7), sides(0.7));
+    let odd = left.iter().zip(&right).all(|(left, right)| (left + right).abs() < 1e-12);
     sheet
         .statement(
             ["3.25-odd", "after (3.25)", "G is an odd function"],
-            "G(−0.7) = G(0.7) ≠ 0 for all three",
-            &[],
+            format!("G(−0.7) = {}; G(0.7) = {}", list(&left), list(&right)),
+            &[left, right].concat(),
             odd,
         )
         .note("G is even, g is odd; the formulas use it rightly");
@@ -363,7 +365,7 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
         let words = [&format!("{name}-partial"), &format!("Figure {name}(a), (b)"), &statement];
         sheet.statement(
             words.map(String::as_str),
-            format!("E = {}", list(&found[..2])),
+            format!("E = {}", shares(&found[..2])),
             &found[..2],
             holds,
         );
@@ -372,7 +374,7 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
         let holds = found[2] < SUPPRESSED;
         sheet.statement(
             words.map(String::as_str),
-            format!("E = {:.4}", found[2]),
+            format!("E = {}", shares(&found[2..])),
             &found[2..],
             holds,
         );
@@ -398,7 +400,7 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
             "Figures 3.7–3.9",
             "for one amplitude square controls better than sine, sine better than triangle",
         ],
-        format!("E at D_T = 0.4: {}", list(&found)),
+        format!("E at D_T = 0.4: {}", shares(&found)),
         &found,
         found.len() == 3 && found.windows(2).all(|pair| pair[0] < pair[1]),
     );

@@ -11,7 +11,7 @@ use super::super::print::{self, LawNumbers};
 use super::super::responses::cases;
 use super::super::source::failed;
 use super::chapter2::{LIGHT, SUPPRESSED, belt, critical, efficiencies, law, partial, source};
-use super::sheet::{Sheet, digits, list};
+use super::sheet::{Sheet, digits, list, shares};
 use crate::complaint::Failure;
 
 const NUMBERS: LawNumbers = LawNumbers::DISSERTATION;
@@ -25,7 +25,7 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
             "Figure 4.3",
             "D_N = 0.3, 0.6, 0.9 do not suppress the vibration, Stribeck law, R_N = 10",
         ],
-        format!("E = {}", list(&found)),
+        format!("E = {}", shares(&found)),
         &found,
         found.iter().all(|e| partial(*e)),
     );
@@ -49,12 +49,17 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
     ];
     sheet.statement(
         words,
-        format!("E = {}", list(&found[..2])),
+        format!("E = {}", shares(&found[..2])),
         &found[..2],
         found[..2].iter().all(|e| partial(*e)),
     );
     let words = ["4.4-suppressed", "Figure 4.4(c)", "full control at D_N = 0.9"];
-    sheet.statement(words, format!("E = {:.4}", found[2]), &found[2..], found[2] < SUPPRESSED);
+    sheet.statement(
+        words,
+        format!("E = {}", shares(&found[2..])),
+        &found[2..],
+        found[2] < SUPPRESSED,
+    );
     Ok(())
 }
 
@@ -186,8 +191,9 @@ fn everywhere(waveform: Waveform, direction: Direction) -> Result<f64, Failure> 
 
 /// (4.34)–(4.38), with μ(v₀) at the tip v₀ = α^L G_max, which the print leaves open.
 pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
-    let law = law(LawKind::Stribeck)?;
-    let rows: [(&str, Waveform, fn(LawNumbers, f64) -> f64, &str); 3] = [
+    /// Equation, waveform, α^L as printed for ζ, what is wrong.
+    type Row = (&'static str, Waveform, fn(LawNumbers, f64) -> f64, &'static str);
+    let rows: [Row; 3] = [
         ("4.34", Waveform::Sine, print::everywhere_344, "the nested root of (3.44)"),
         ("4.36", Waveform::Triangle, print::everywhere_348, "as (3.48)"),
         (
@@ -197,6 +203,7 @@ pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
             "2/π for 1/π: twice too large; it repeats (4.36)",
         ),
     ];
+    let law = law(LawKind::Stribeck)?;
     for (equation, waveform, printed, note) in rows {
         let tip = everywhere(waveform, Direction::Tangential)? * waveform.peak_integral();
         let statement = format!("α_N^L, Stribeck law, {}, ζ = 0.005, at its tip", waveform.name());

@@ -18,12 +18,16 @@ pub use sheet::{Claim, Verdict};
 
 use sheet::Sheet;
 
-/// Functions that measure, in the order of the dissertation.
-const SECTIONS: &[fn(&mut Sheet) -> Result<(), Failure>] = &[
+/// Measures a few claims and writes them down.
+type Section = fn(&mut Sheet) -> Result<(), Failure>;
+
+/// In the order of the dissertation.
+const SECTIONS: &[Section] = &[
     chapter2::friction_laws,
     chapter2::responses,
     chapter2::forced_response,
-    chapter2::stability_maps,
+    chapter2::stribeck_map,
+    chapter2::decreasing_map,
     chapter2::destabilisation,
     chapter3::waveforms,
     chapter3::formulas,
@@ -115,7 +119,9 @@ pub fn markdown(claims: &[Claim]) -> String {
             &claim.note,
         ];
         let cells = cells.map(|cell| cell.replace('|', "\\|"));
-        text += &format!("| {} |\n", cells.join(" | "));
+        text += "| ";
+        text += &cells.join(" | ");
+        text += " |\n";
     }
     text
 }

@@ -206,22 +206,29 @@ pub(super) fn list(values: &[f64]) -> String {
     values.join(", ")
 }
 
+/// Ratios with three decimals, in a row.
+pub(super) fn shares(values: &[f64]) -> String {
+    let values: Vec<String> = values.iter().map(|value| format!("{value:.3}")).collect();
+    values.join(", ")
+}
+
 /// A number with so many significant digits.
 pub(super) fn digits(value: f64, count: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }
-    let magnitude = value.abs().log10().floor();
-    if magnitude < -4.0 {
-        return format!("{value:.*e}", count - 1);
+    let scientific = format!("{value:.*e}", count - 1);
+    // The exponent after rounding: 9.9999 counts as 10.
+    let exponent =
+        scientific.split_once('e').and_then(|(_, exponent)| exponent.parse::<i64>().ok());
+    match exponent {
+        Some(exponent @ -4..) => {
+            let before = usize::try_from(exponent + 1).unwrap_or(0);
+            let leading_zeros = usize::try_from(-exponent - 1).unwrap_or(0);
+            format!("{value:.*}", (count + leading_zeros).saturating_sub(before))
+        }
+        _ => scientific,
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "not negative, below 20"
-    )]
-    let decimals = (count as f64 - 1.0 - magnitude).max(0.0) as usize;
-    format!("{value:.decimals$}")
 }
 
 #[cfg(test)]
@@ -248,6 +255,8 @@ mod tests {
     fn digits_are_significant() {
         assert_eq!(digits(0.654_435_1, 4), "0.6544");
         assert_eq!(digits(12.73, 2), "13");
+        assert_eq!(digits(9.999_999, 4), "10.00");
+        assert_eq!(digits(0.0062, 2), "0.0062");
         assert_eq!(digits(2e-7, 2), "2.0e-7");
     }
 }

@@ -1,0 +1,44 @@
+//! `quell reproduce` as a process.
+
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn quell(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_quell")).args(arguments).output().expect("quell runs")
+}
+
+#[test]
+fn figures_and_claims_are_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("figures");
+    let out = out.to_str().expect("a path");
+    let done = quell(&["reproduce", "2.2", "claims", "--out", out, "--json"]);
+    assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
+    let object: Value = serde_json::from_slice(&done.stdout).expect("one JSON object");
+    assert_eq!(object["ok"], true);
+    assert_eq!(object["entries"][0]["name"], "2.2");
+    for entry in object["entries"].as_array().expect("entries") {
+        for file in entry["files"].as_array().expect("files") {
+            let path = file.as_str().expect("a path");
+            assert!(std::fs::metadata(path).expect(path).len() > 1000, "{path}");
+        }
+    }
+    let claims = object["entries"][1]["claims"].as_array().expect("claims");
+    assert!(claims.len() > 60 && claims.iter().all(|claim| claim["verdict"].is_string()));
+}
+
+#[test]
+fn unknown_names_and_unwritable_directories_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("file");
+    std::fs::write(&file, "").expect("written");
+    let done = quell(&["reproduce", "2.9x", "--out", "anywhere", "--json"]);
+    assert_eq!(done.status.code(), Some(2));
+    let object: Value = serde_json::from_slice(&done.stdout).expect("one JSON object");
+    assert!(object["errors"][0]["allowed"].as_str().expect("text").contains("2.2, 2.3"));
+    let done = quell(&["reproduce", "2.2", "--out", file.to_str().expect("a path")]);
+    assert_eq!(done.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&done.stderr).contains("--out"));
+    assert!(!folder.path().join("file/figure-2.2.svg").exists());
+}
