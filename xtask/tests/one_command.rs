@@ -12,20 +12,20 @@ fn commands(script: &str) -> Vec<&str> {
         .collect()
 }
 
-/// Lines of the first code block in the section whose heading speaks of tests.
+/// Words that introduce the command in the README.
+const INTRODUCTION: &str = "everything that must pass:";
+
+/// Lines of the code block that the README introduces as everything that must pass.
 fn readme_test_commands(readme: &str) -> Vec<&str> {
-    let speaks_of_tests =
-        |line: &&str| line.starts_with('#') && line.to_lowercase().contains("test");
-    readme
+    let mut after = readme
         .lines()
-        .skip_while(|line| !speaks_of_tests(line))
+        .skip_while(|line| !line.ends_with(INTRODUCTION))
         .skip(1)
-        .take_while(|line| !line.starts_with("# ") && !line.starts_with("## "))
-        .skip_while(|line| !line.starts_with("```"))
-        .skip(1)
-        .take_while(|line| !line.starts_with("```"))
-        .map(str::trim)
-        .collect()
+        .skip_while(|line| line.is_empty());
+    if !after.next().is_some_and(|line| line.starts_with("```")) {
+        return Vec::new();
+    }
+    after.take_while(|line| !line.starts_with("```")).collect()
 }
 
 fn read(name: &str) -> String {
@@ -58,9 +58,12 @@ fn the_script_can_be_executed() {
 
 #[test]
 fn planted_differences_are_seen() {
-    let readme = "# Quell\n```sh\nquell --help\n```\n## Build and test\nRun\n```sh\ncargo test\n```\n## Next\n```\nx\n```\n";
+    let readme = "```sh\nquell --help\n```\nand everything that must pass:\n\n\
+                  ```sh\ncargo test\n```\n```\nx\n```\n";
     assert_eq!(readme_test_commands(readme), ["cargo test"]);
-    assert!(readme_test_commands("# Quell\n## Test\nNo code.\n## Next\n```\nx\n```\n").is_empty());
+    let text = "Run everything that must pass:\n\nText.\n```sh\ncargo xtask test\n```\n";
+    assert!(readme_test_commands(text).is_empty());
+    assert!(readme_test_commands("```sh\ncargo xtask test\n```\n").is_empty());
     assert_eq!(
         commands("#!/bin/sh\nset -eu\ncargo xtask test\ntrue\n"),
         ["cargo xtask test", "true"]

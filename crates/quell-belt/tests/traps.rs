@@ -133,6 +133,9 @@ fn a_start_on_a_jump_takes_the_value_after_it() {
 /// Trap 6: observers are passive.
 #[test]
 fn watching_changes_no_bit() {
+    fn watched(belt: &Belt, observer: &mut impl Observer) -> FinalState {
+        simulate(belt, Start::REST, 300.0, DEFAULT_TOLERANCE, observer).expect("no stall")
+    }
     let dithers = vec![
         tangential(Waveform::Sine, 0.3, 10.0, 0.0),
         tangential(Waveform::Triangle, 0.1, 3.7, 1.0),
@@ -142,9 +145,6 @@ fn watching_changes_no_bit() {
         let end = observer();
         [end.time, end.displacement, end.velocity].map(f64::to_bits)
     };
-    fn watched(belt: &Belt, observer: &mut impl Observer) -> FinalState {
-        simulate(belt, Start::REST, 300.0, DEFAULT_TOLERANCE, observer).expect("no stall")
-    }
     let alone = bits(&mut || watched(&belt, &mut ()));
     let mut sampler = Sampler::new(0.0, 0.001, 300_000);
     let mut strobe = Sampler::strobe(10.0, 0.0, 0.0, 300.0);

@@ -22,15 +22,8 @@ impl Answer {
         object: impl FnOnce() -> Json,
         text: impl FnOnce() -> String,
     ) -> Self {
-        let output = if json {
-            format!("{}\n", object())
-        } else {
-            text()
-        };
-        Self {
-            output,
-            warnings: Vec::new(),
-        }
+        let output = if json { format!("{}\n", object()) } else { text() };
+        Self { output, warnings: Vec::new() }
     }
 
     /// With warnings, which go to standard error.
@@ -62,15 +55,9 @@ pub(crate) fn refuse(failure: &Failure, json: bool) -> ExitCode {
 /// One line a complaint.
 fn lines(failure: &Failure) -> String {
     let text = failure.to_string();
-    let mut lines: Vec<String> = text
-        .lines()
-        .map(|line| format!("error: {line}\n"))
-        .collect();
+    let mut lines: Vec<String> = text.lines().map(|line| format!("error: {line}\n")).collect();
     if lines.len() > 1 {
-        lines.push(format!(
-            "{} complaints; nothing was computed\n",
-            lines.len()
-        ));
+        lines.push(format!("{} complaints; nothing was computed\n", lines.len()));
     }
     lines.concat()
 }
@@ -78,16 +65,11 @@ fn lines(failure: &Failure) -> String {
 /// Writes to standard output.
 pub(crate) fn print(text: &str) -> ExitCode {
     let mut output = io::stdout().lock();
-    match output
-        .write_all(text.as_bytes())
-        .and_then(|()| output.flush())
-    {
+    match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
-            tell(&format!(
-                "error: standard output cannot be written: {error}\n"
-            ));
+            tell(&format!("error: standard output cannot be written: {error}\n"));
             ExitCode::from(1)
         }
     }

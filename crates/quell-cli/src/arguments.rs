@@ -57,13 +57,8 @@ pub(crate) struct PlotArguments {
 impl PlotArguments {
     /// Tries whether the picture can be written.
     pub(crate) fn prepare(&self) -> Result<Plot, Failure> {
-        let output = self
-            .plot
-            .as_ref()
-            .map(|path| Output::prepare(path, "--plot", EXTENSIONS));
-        Ok(Plot {
-            output: output.transpose()?,
-        })
+        let output = self.plot.as_ref().map(|path| Output::prepare(path, "--plot", EXTENSIONS));
+        Ok(Plot { output: output.transpose()? })
     }
 }
 
@@ -131,12 +126,7 @@ impl Outputs {
     pub(crate) fn write(self, datasets: &[Dataset], object: &mut Json) -> Result<(), Failure> {
         let mut saved = Vec::new();
         for (output, dataset) in self.save.into_iter().zip(datasets) {
-            saved.push(
-                output
-                    .write(dataset.csv().as_bytes())?
-                    .display()
-                    .to_string(),
-            );
+            saved.push(output.write(dataset.csv().as_bytes())?.display().to_string());
         }
         if !saved.is_empty() {
             object["saved"] = saved.into();

@@ -16,12 +16,7 @@ use crate::verbs::{check, cite, friction, reproduce, response, schema, simulate,
 
 /// Finds the dither that silences friction-induced vibration, and tells how sure it is.
 #[derive(Debug, Parser)]
-#[command(
-    name = "quell",
-    version,
-    propagate_version = true,
-    arg_required_else_help = true
-)]
+#[command(name = "quell", version, propagate_version = true, arg_required_else_help = true)]
 #[command(after_help = "Exit status: 0 done, 2 the input is wrong, 1 it failed.")]
 struct Cli {
     #[command(subcommand)]
@@ -69,10 +64,7 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 /// Shows help, or what was not understood.
 fn misunderstood(error: &clap::Error, json: bool) -> ExitCode {
-    let asked = matches!(
-        error.kind(),
-        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion
-    );
+    let asked = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
     if asked {
         return answer::print(&error.render().to_string());
     }
@@ -97,12 +89,7 @@ fn complaint(error: &clap::Error) -> Complaint {
         .and_then(|name| name.split([' ', '=']).next())
         .unwrap_or("command line");
     let text = error.render().to_string();
-    let first = text
-        .lines()
-        .next()
-        .unwrap_or_default()
-        .trim_start_matches("error: ")
-        .to_owned();
+    let first = text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_owned();
     // The names of missing arguments follow on the next line.
     let message = if first.ends_with(':') {
         format!("{first} {}", text.lines().nth(1).unwrap_or_default().trim())

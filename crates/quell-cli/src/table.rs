@@ -15,10 +15,7 @@ pub(crate) struct Table {
 impl Table {
     /// An empty table of a study with these scales.
     pub(crate) fn new(scales: Option<Scales>) -> Self {
-        Self {
-            scales,
-            rows: Vec::new(),
-        }
+        Self { scales, rows: Vec::new() }
     }
 
     /// A row of a quantity.
@@ -49,12 +46,7 @@ impl Table {
 
     /// A row of words.
     pub(crate) fn word(&mut self, label: &str, value: &str) {
-        self.rows.push([
-            label.to_owned(),
-            value.to_owned(),
-            String::new(),
-            String::new(),
-        ]);
+        self.rows.push([label.to_owned(), value.to_owned(), String::new(), String::new()]);
     }
 
     /// The table as text.
@@ -62,10 +54,7 @@ impl Table {
         // Words may be long; they are not what the columns are made for.
         let width = |column: usize| {
             let measured = self.rows.iter().filter(|row| column == 0 || !is_word(row));
-            measured
-                .map(|row| row[column].chars().count())
-                .max()
-                .unwrap_or(0)
+            measured.map(|row| row[column].chars().count()).max().unwrap_or(0)
         };
         let widths = [width(0), width(1), width(2)];
         let mut text = String::new();
@@ -117,11 +106,7 @@ pub(crate) fn figure(value: f64) -> String {
 }
 
 fn trimmed(digits: &str) -> &str {
-    if digits.contains('.') {
-        digits.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        digits
-    }
+    if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
 }
 
 #[cfg(test)]
@@ -149,9 +134,6 @@ mod tests {
         let mut table = Table::new(Scales::new(2.0, 200.0).ok());
         table.number("time", Quantity::Time, 30.0);
         table.number("stick fraction", Quantity::Ratio, 0.25);
-        assert_eq!(
-            table.text(),
-            "  time            30    1/ω₀  3 s\n  stick fraction  0.25\n"
-        );
+        assert_eq!(table.text(), "  time            30    1/ω₀  3 s\n  stick fraction  0.25\n");
     }
 }

@@ -502,6 +502,81 @@ fn fields_have_the_names_scripts_rely_on() {
     assert!(normal["dither_power"].is_null() && normal["why"]["dither_power"].is_string());
 }
 
+/// The dissertation's belt with the decreasing law at v₀ = 1: exact thresholds of the dither are
+/// 4.322392624 and 9.900214849; sharper averaging is within 4·10⁻⁵ of them, plain averaging within 1 %.
+#[test]
+fn averaging_finds_the_known_thresholds() {
+    let place = Place::new("thresholds");
+    let at = |amplitude: &str| {
+        let amplitude = format!("dither.amplitude={amplitude}");
+        let law = "friction.law=decreasing";
+        place.good(&[
+            "stability",
+            "study.toml",
+            "--set",
+            law,
+            "--set",
+            "belt.belt_velocity=1",
+            "--set",
+            &amplitude,
+        ])
+    };
+    let (below, within, above) = (at("4"), at("6"), at("9.95"));
+    let verdicts = [&below, &within, &above].map(|found| found["sharper"]["verdict"].clone());
+    assert_eq!(verdicts, ["stable", "unstable", "stable"]);
+    assert_eq!(above["verdict"], "unstable");
+    let amplitudes = |list: &Json| -> Vec<f64> {
+        let list = list["critical_amplitudes"].as_array().expect("a list");
+        list.iter().map(|critical| critical["amplitude"].as_f64().expect("a number")).collect()
+    };
+    let close = |found: Vec<f64>, share: f64| {
+        assert_eq!(found.len(), 2, "{found:?}");
+        for (found, exact) in found.iter().zip([4.322392624, 9.900214849]) {
+            assert!((found / exact - 1.0).abs() < share, "{found} {exact}");
+        }
+    };
+    close(amplitudes(&below["sharper"]), 4e-5);
+    close(amplitudes(&below), 0.0102);
+    // The list does not depend on the study's own amplitude.
+    assert_eq!(amplitudes(&below), amplitudes(&within));
+    let kinds: Vec<&str> = below["critical_amplitudes"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(|critical| critical["kind"].as_str())
+        .collect();
+    assert_eq!(kinds, ["root", "jump"]);
+    assert_eq!(below["protocol"], "averaged");
+    for found in [&below, &within, &above] {
+        let sentence = found["sentence"].as_str().expect("a sentence");
+        assert!(
+            sentence.contains("averaging")
+                && sentence.contains(found["verdict"].as_str().expect("a word"))
+        );
+    }
+}
+
+/// At rest the belt of the dissertation squeals without dither, and one that is dithered past its
+/// threshold does not.
+#[test]
+fn dither_past_its_threshold_quenches() {
+    let place = Place::new("quench");
+    let quenched = place.good(&[
+        "response",
+        "study.toml",
+        "--set",
+        "dither.amplitude=0.6",
+        "--set",
+        "solver.settle=600",
+    ]);
+    let ratio = quenched["efficiency"].as_f64().expect("a number");
+    assert!(ratio < 0.01, "{ratio}");
+    assert!(quenched["sentence"].as_str().is_some_and(|sentence| sentence.contains("quenches")));
+    let weak = place.good(&["response", "study.toml", "--set", "dither.amplitude=0.3"]);
+    let ratio = weak["efficiency"].as_f64().expect("a number");
+    assert!(ratio > 0.1 && ratio < 1.0, "{ratio}");
+}
+
 #[test]
 fn help_version_and_schema_are_answers() {
     let place = Place::new("help");

@@ -12,6 +12,7 @@ use crate::parameter::{
 
 /// Mass, spring, damper, contact, friction law and dither, in the numbers of the equations.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::struct_field_names, reason = "the velocity of the belt, beside that of the mass")]
 pub struct Belt {
     damping_ratio: f64,
     normal_load: f64,

@@ -80,41 +80,49 @@ impl Lane for f64 {
 
 /// Σ aⱼ bₖ₋ⱼ over j = `from`…`to`: part of the k-th coefficient of a product of two series.
 ///
-/// Order of summation: j ascends, even and odd offsets in two accumulators, then their sum.
-/// Two chains hide half of the latency of a fused multiply-add.
+/// Order of summation: from the middle outwards, downwards in one accumulator and upwards in
+/// another, then their sum. Both ends hold the newest coefficients of a recurrence: they come
+/// last, so that all before them is summed while they are still being computed.
 #[inline(always)]
 pub fn partial_product<V: Lane>(a: &[V], b: &[V], k: usize, from: usize, to: usize) -> V {
     if to < from {
         return V::splat(0.0);
     }
-    let mut first = a[from] * b[k - from];
-    if to == from {
-        return first;
+    let middle = usize::midpoint(from, to);
+    let mut down = a[middle] * b[k - middle];
+    let mut j = middle;
+    while j > from {
+        j -= 1;
+        down = a[j].mul_add(b[k - j], down);
     }
-    let mut second = a[from + 1] * b[k - from - 1];
-    let mut j = from + 2;
+    if middle == to {
+        return down;
+    }
+    let mut up = a[middle + 1] * b[k - middle - 1];
+    let mut j = middle + 1;
     while j < to {
-        first = a[j].mul_add(b[k - j], first);
-        second = a[j + 1].mul_add(b[k - j - 1], second);
-        j += 2;
+        j += 1;
+        up = a[j].mul_add(b[k - j], up);
     }
-    if j == to {
-        first = a[j].mul_add(b[k - j], first);
-    }
-    first + second
+    down + up
 }
 
-/// Σ aⱼ aₖ₋ⱼ over j = 1…k−1: the square of a series without its newest coefficient, at half
-/// the work of a product.
+/// Half of Σ aⱼ aₖ₋ⱼ over j = 1…k−1: the square of a series without its newest coefficient, at
+/// half the work of a product, the newest terms last.
 #[inline(always)]
-pub fn inner_square<V: Lane>(a: &[V], k: usize) -> V {
+pub fn half_inner_square<V: Lane>(a: &[V], k: usize) -> V {
     if k < 2 {
         return V::splat(0.0);
     }
-    let half = k.div_ceil(2);
-    let sum = partial_product(a, a, k, 1, half - 1);
-    let twice = sum + sum;
-    if k.is_multiple_of(2) { a[k / 2].mul_add(a[k / 2], twice) } else { twice }
+    let half = k / 2;
+    let mut j = half;
+    let mut sum =
+        if k.is_multiple_of(2) { V::splat(0.5) * a[half] * a[half] } else { a[half] * a[half + 1] };
+    while j > 1 {
+        j -= 1;
+        sum = a[j].mul_add(a[k - j], sum);
+    }
+    sum
 }
 
 /// Repeats a block for `$k` = 0…15 with `$k` a constant, so that every loop inside has a
@@ -169,7 +177,7 @@ mod tests {
             let plain: f64 = (0..=k).map(|j| a[j] * b[k - j]).sum();
             assert_eq!(partial_product(&a, &b, k, 0, k), plain, "product, k = {k}");
             let square: f64 = (1..k).map(|j| a[j] * a[k - j]).sum();
-            assert_eq!(inner_square(&a, k), square, "square, k = {k}");
+            assert_eq!(2.0 * half_inner_square(&a, k), square, "square, k = {k}");
         }
     }
 }

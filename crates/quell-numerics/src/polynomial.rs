@@ -43,6 +43,7 @@ pub fn first_crossing_after<const N: usize>(c: &[f64; N], zeros: usize, h: f64) 
         return None;
     }
     let mut slope_tail = 0.0;
+    #[expect(clippy::needless_range_loop, reason = "k is a factor of the term")]
     for k in 2..N {
         slope_tail = f64::mul_add(k as f64, a[k].abs(), slope_tail);
     }
@@ -83,6 +84,7 @@ fn scaled<const N: usize, const ZEROS: usize>(c: &[f64; N], h: f64) -> [f64; N] 
 
 /// Whether the Bernstein coefficients of the cubic part exceed what the rest can take away.
 /// Needs N ≥ 4.
+#[expect(clippy::needless_bitwise_bool, reason = "no branch between the comparisons")]
 #[inline(always)]
 fn keeps_sign_by_cubic<const N: usize>(a: &[f64; N], tail: f64) -> bool {
     const THIRD: f64 = 1.0 / 3.0;
@@ -177,6 +179,7 @@ fn isolate<const N: usize>(b: &[f64; N], low: f64, high: f64, depth: u32) -> Opt
     // De Casteljau: the diagonal of the averages is the left half, what remains the right.
     let mut right = *b;
     let mut left = [0.0; N];
+    #[expect(clippy::needless_range_loop, reason = "the pass shortens the inner loop too")]
     for pass in 0..N {
         left[pass] = right[0];
         for k in 0..N - 1 - pass {
@@ -355,12 +358,12 @@ mod tests {
                 let last = 10f64.powf(f64::from(i) * 0.11);
                 for previous in [0.0, 0.3 * last, 1e3 * last] {
                     let h = step_length(1e-12, last, previous, k);
-                    let terms = (last * h.powi(k as i32)).max(previous * h.powi(k as i32 - 1));
+                    let power = i32::try_from(k).expect("a small order");
+                    let largest = |h: f64| (last * h.powi(power)).max(previous * h.powi(power - 1));
+                    let terms = largest(h);
                     assert!(terms <= 1e-12, "k = {k}, last = {last:e}: {terms:e}");
                     // … and not much shorter than that needs.
-                    let long = 1.16 * h;
-                    let terms =
-                        (last * long.powi(k as i32)).max(previous * long.powi(k as i32 - 1));
+                    let terms = largest(1.16 * h);
                     assert!(terms >= 1e-12, "k = {k}, last = {last:e}: {terms:e}");
                 }
             }

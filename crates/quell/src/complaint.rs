@@ -161,6 +161,8 @@ impl fmt::Display for Complaint {
             Fault::Conflict | Fault::Mixed | Fault::NotBuilt => write!(f, "{key}: {allowed}")?,
         }
         match (&self.suggestion, self.fault) {
+            // These say the right key already.
+            (_, Fault::Mixed) => Ok(()),
             (Some(suggestion), _) => write!(f, "; did you mean {suggestion}?"),
             (None, Fault::Unknown) if !allowed.is_empty() => write!(f, "; there are {allowed}"),
             (None, _) => Ok(()),

@@ -99,11 +99,7 @@ impl Dataset {
                 values: values.iter().map(|value| value / omega).collect(),
             }
         });
-        self.arrays.push(Array {
-            name: name.to_owned(),
-            unit: unit.to_owned(),
-            values,
-        });
+        self.arrays.push(Array { name: name.to_owned(), unit: unit.to_owned(), values });
         self.arrays.extend(twin);
         self
     }
@@ -136,12 +132,8 @@ impl Dataset {
     /// As CSV.
     pub fn csv(&self) -> String {
         let mut text = self.header();
-        let names: Vec<&str> = self
-            .axes
-            .iter()
-            .chain(&self.arrays)
-            .map(|array| array.name.as_str())
-            .collect();
+        let names: Vec<&str> =
+            self.axes.iter().chain(&self.arrays).map(|array| array.name.as_str()).collect();
         text += &names.join(",");
         text.push('\n');
         let rows: usize = self.axes.iter().map(|axis| axis.values.len()).product();
@@ -152,10 +144,8 @@ impl Dataset {
                 axis.values[row / after % axis.values.len()]
             });
             let cells: Vec<f64> = axes.collect();
-            let arrays = self
-                .arrays
-                .iter()
-                .map(|array| array.values.get(row).copied().unwrap_or(f64::NAN));
+            let arrays =
+                self.arrays.iter().map(|array| array.values.get(row).copied().unwrap_or(f64::NAN));
             for (index, cell) in cells.into_iter().chain(arrays).enumerate() {
                 if index > 0 {
                     text.push(',');
@@ -171,18 +161,10 @@ impl Dataset {
     }
 
     fn header(&self) -> String {
-        let Provenance {
-            verb,
-            title,
-            text,
-            changes,
-            facts,
-        } = &self.provenance;
+        let Provenance { verb, title, text, changes, facts } = &self.provenance;
         let mut lines = vec![format!("quell {} {verb}", env!("CARGO_PKG_VERSION"))];
         lines.extend(
-            title
-                .iter()
-                .map(|title| format!("title: {}", title.replace(['\n', '\r'], " "))),
+            title.iter().map(|title| format!("title: {}", title.replace(['\n', '\r'], " "))),
         );
         lines.extend(facts.iter().cloned());
         let units: Vec<String> = self
@@ -205,11 +187,7 @@ impl Dataset {
 }
 
 fn array(name: &str, quantity: Quantity, values: Vec<f64>) -> Array {
-    Array {
-        name: name.to_owned(),
-        unit: quantity.scaled_unit().to_owned(),
-        values,
-    }
+    Array { name: name.to_owned(), unit: quantity.scaled_unit().to_owned(), values }
 }
 
 #[cfg(test)]
@@ -226,11 +204,7 @@ mod tests {
         let csv = Dataset::new(&study, "map")
             .axis("a", Quantity::Ratio, vec![1.0, 2.0])
             .axis("b", Quantity::Ratio, vec![0.1, 0.2, 0.3])
-            .array(
-                "c",
-                Quantity::Force,
-                vec![1.0, 2.0, 3.0, 4.0, f64::NAN, 1e-300],
-            )
+            .array("c", Quantity::Force, vec![1.0, 2.0, 3.0, 4.0, f64::NAN, 1e-300])
             .csv();
         let rows: Vec<&str> = csv.lines().filter(|line| !line.starts_with('#')).collect();
         assert_eq!(rows[0], "a,b,c");

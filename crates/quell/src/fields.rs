@@ -23,12 +23,7 @@ pub struct Fields {
 impl Fields {
     /// An empty object for a study with these scales.
     pub fn new(scales: Option<Scales>) -> Self {
-        Self {
-            scales,
-            object: Map::new(),
-            units: Map::new(),
-            why: Map::new(),
-        }
+        Self { scales, object: Map::new(), units: Map::new(), why: Map::new() }
     }
 
     /// A word, a flag, a count, or anything else without unit.
@@ -50,11 +45,7 @@ impl Fields {
         value: Result<f64, String>,
     ) -> &mut Self {
         let value = value.and_then(|value| {
-            if value.is_finite() {
-                Ok(value)
-            } else {
-                Err(format!("it is {value}"))
-            }
+            if value.is_finite() { Ok(value) } else { Err(format!("it is {value}")) }
         });
         let twin = self.twin(name, quantity);
         self.name_units(name, quantity, twin.as_ref());
@@ -96,8 +87,7 @@ impl Fields {
             let (_, unit, suffix) = PER_VELOCITY;
             let omega = scales.si_per_unit(Quantity::Velocity);
             let values: Vec<f64> = values.iter().map(|value| value / omega).collect();
-            self.object
-                .insert(format!("{name}_{suffix}"), values.into());
+            self.object.insert(format!("{name}_{suffix}"), values.into());
             self.units.insert(format!("{name}_{suffix}"), unit.into());
         }
         self
@@ -106,9 +96,7 @@ impl Fields {
     /// A growth rate per unit τ, in SI per second; or null and why.
     pub fn rate(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
         self.units.insert(name.to_owned(), "ω₀".into());
-        let twin = self
-            .scales
-            .map(|scales| (format!("{name}_per_s"), scales.angular_frequency()));
+        let twin = self.scales.map(|scales| (format!("{name}_per_s"), scales.angular_frequency()));
         if let Some((key, _)) = &twin {
             self.units.insert(key.clone(), "1/s".into());
         }
@@ -157,8 +145,7 @@ impl Fields {
     /// The finished object, with `units` and `why`.
     pub fn finish(mut self) -> Json {
         if !self.units.is_empty() {
-            self.object
-                .insert("units".to_owned(), Json::Object(self.units));
+            self.object.insert("units".to_owned(), Json::Object(self.units));
         }
         if !self.why.is_empty() {
             self.object.insert("why".to_owned(), Json::Object(self.why));
@@ -211,15 +198,9 @@ mod tests {
     fn a_study_in_si_answers_in_both() {
         let scales = Scales::new(2.0, 200.0).expect("valid");
         let mut fields = Fields::new(Some(scales));
-        fields
-            .number("time", Quantity::Time, 30.0)
-            .number("stick_fraction", Quantity::Ratio, 0.5);
+        fields.number("time", Quantity::Time, 30.0).number("stick_fraction", Quantity::Ratio, 0.5);
         let mut inner = Fields::new(Some(scales));
-        inner.known(
-            "efficiency",
-            Quantity::Ratio,
-            Err("nothing to quench".into()),
-        );
+        inner.known("efficiency", Quantity::Ratio, Err("nothing to quench".into()));
         fields.list("points", [inner]);
         let json = fields.finish();
         assert_eq!(json["time"], 30.0);

@@ -34,34 +34,17 @@ impl Output {
     ) -> Result<Self, Box<Complaint>> {
         let complaint = |allowed: String| {
             let given = path.display().to_string();
-            Box::new(Complaint::new(
-                Fault::Path,
-                option,
-                Origin::Argument(option),
-                given,
-                allowed,
-            ))
+            Box::new(Complaint::new(Fault::Path, option, Origin::Argument(option), given, allowed))
         };
         let special = fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
-        let extension = path
-            .extension()
-            .and_then(|extension| extension.to_str())
-            .unwrap_or_default();
+        let extension =
+            path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
         if !special && !extensions.contains(&extension.to_ascii_lowercase().as_str()) {
             let list: Vec<String> = extensions.iter().map(|name| format!(".{name}")).collect();
-            return Err(complaint(format!(
-                "the file name must end in {}",
-                list.join(" or ")
-            )));
+            return Err(complaint(format!("the file name must end in {}", list.join(" or "))));
         }
-        let mut output = Self {
-            given: path.to_owned(),
-            path: path.to_owned(),
-            special,
-        };
-        output
-            .probe()
-            .map_err(|error| complaint(format!("cannot be written: {error}")))?;
+        let mut output = Self { given: path.to_owned(), path: path.to_owned(), special };
+        output.probe().map_err(|error| complaint(format!("cannot be written: {error}")))?;
         Ok(output)
     }
 
@@ -70,28 +53,16 @@ impl Output {
     /// # Errors
     /// A complaint that names `option` and the path.
     pub fn beside(&self, part: &str, option: &'static str) -> Result<Self, Box<Complaint>> {
-        let stem = self
-            .given
-            .file_stem()
-            .and_then(|stem| stem.to_str())
-            .unwrap_or("quell");
-        let extension = self
-            .given
-            .extension()
-            .and_then(|extension| extension.to_str())
-            .unwrap_or("csv");
-        let path = self
-            .given
-            .with_file_name(format!("{stem}_{part}.{extension}"));
+        let stem = self.given.file_stem().and_then(|stem| stem.to_str()).unwrap_or("quell");
+        let extension =
+            self.given.extension().and_then(|extension| extension.to_str()).unwrap_or("csv");
+        let path = self.given.with_file_name(format!("{stem}_{part}.{extension}"));
         Self::prepare(&path, option, &[extension.to_ascii_lowercase().as_str()])
     }
 
     /// The extension in lower case.
     pub fn extension(&self) -> String {
-        let extension = self
-            .given
-            .extension()
-            .and_then(|extension| extension.to_str());
+        let extension = self.given.extension().and_then(|extension| extension.to_str());
         extension.unwrap_or_default().to_ascii_lowercase()
     }
 
@@ -114,12 +85,10 @@ impl Output {
             }
             written
         };
-        written
-            .map(|()| self.given.clone())
-            .map_err(|error| Failure::Failed {
-                key: self.given.display().to_string(),
-                why: format!("cannot be written: {error}"),
-            })
+        written.map(|()| self.given.clone()).map_err(|error| Failure::Failed {
+            key: self.given.display().to_string(),
+            why: format!("cannot be written: {error}"),
+        })
     }
 
     /// Tries what [`Output::write`] will do.
@@ -135,19 +104,13 @@ impl Output {
             OpenOptions::new().append(true).open(&self.path)?;
         }
         let temporary = self.temporary();
-        OpenOptions::new()
-            .write(true)
-            .create_new(true)
-            .open(&temporary)?;
+        OpenOptions::new().write(true).create_new(true).open(&temporary)?;
         fs::remove_file(&temporary)
     }
 
     /// A name beside the file that no other process uses.
     fn temporary(&self) -> PathBuf {
-        let name = self
-            .path
-            .file_name()
-            .map(|name| name.to_string_lossy().into_owned());
+        let name = self.path.file_name().map(|name| name.to_string_lossy().into_owned());
         let name = format!(".{}.{}.part", name.unwrap_or_default(), process::id());
         self.path.with_file_name(name)
     }

@@ -68,19 +68,12 @@ pub fn parse(
         _ => format!("a finite number in {}", quantity.scaled_unit()),
     };
     if let Ok(number) = text.parse::<f64>() {
-        return if number.is_finite() {
-            Ok(number)
-        } else {
-            Err(complaint(wanted()))
-        };
+        return if number.is_finite() { Ok(number) } else { Err(complaint(wanted())) };
     }
     // The longest unit that fits: "ms" before "s".
     let fitting = known
         .iter()
-        .filter_map(|(unit, size)| {
-            text.strip_suffix(unit)
-                .map(|rest| (rest.trim(), *unit, *size))
-        })
+        .filter_map(|(unit, size)| text.strip_suffix(unit).map(|rest| (rest.trim(), *unit, *size)))
         .min_by_key(|(rest, ..)| rest.len());
     let Some((rest, unit, size)) = fitting else {
         return Err(complaint(wanted()));
@@ -113,15 +106,10 @@ mod tests {
         assert_eq!(time("3s"), Ok(30.0));
         assert_eq!(time("3000 ms"), Ok(30.0));
         assert_eq!(time("-1e0s"), Ok(-10.0));
-        for wrong in [
-            "", "s", "fast", "3m", "nan", "inf", "infs", "1e999", "--json",
-        ] {
+        for wrong in ["", "s", "fast", "3m", "nan", "inf", "infs", "1e999", "--json"] {
             assert!(time(wrong).is_err(), "{wrong}");
         }
-        assert_eq!(
-            parse("50mm/s", Quantity::Velocity, scales, "--at").ok(),
-            Some(0.005)
-        );
+        assert_eq!(parse("50mm/s", Quantity::Velocity, scales, "--at").ok(), Some(0.005));
     }
 
     #[test]

@@ -8,10 +8,7 @@ use quell::plot::{
 };
 
 fn axes() -> Panel {
-    Panel::new(
-        Axis::new("time").symbol("τ"),
-        Axis::new("displacement").symbol("x"),
-    )
+    Panel::new(Axis::new("time").symbol("τ"), Axis::new("displacement").symbol("x"))
 }
 
 fn wave(count: u32) -> Vec<(f64, f64)> {
@@ -28,16 +25,10 @@ fn rich() -> Figure {
         axes()
             .title(title)
             .with(
-                Region::across_x(Role::Unstable, 20.0, 40.0)
-                    .fill(Fill::Hatched)
-                    .label("unstable"),
+                Region::across_x(Role::Unstable, 20.0, 40.0).fill(Fill::Hatched).label("unstable"),
             )
             .with(Line::new(Role::Undithered, wave(5000)).label("undithered"))
-            .with(
-                Points::new(Role::Printed, wave(20))
-                    .marker(Marker::Circle)
-                    .label("printed"),
-            )
+            .with(Points::new(Role::Printed, wave(20)).marker(Marker::Circle).label("printed"))
             .with(Rule::vertical(50.0).label("$R$ = 10"))
             .with(Note::new(60.0, 0.5, "$\\bar{μ}$"))
     };
@@ -71,10 +62,7 @@ fn an_unknown_extension_is_refused_before_anything_is_written() {
     for name in ["picture.pdf", "picture", "picture.svg.txt"] {
         let path = folder.path().join(name);
         let refused = Figure::single(axes()).write(&path);
-        assert!(
-            matches!(refused, Err(PlotError::UnknownExtension { .. })),
-            "{name}"
-        );
+        assert!(matches!(refused, Err(PlotError::UnknownExtension { .. })), "{name}");
         assert!(Figure::check_path(&path).is_err());
     }
     assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 0);
@@ -91,10 +79,7 @@ fn a_path_that_cannot_be_written_is_an_error_and_leaves_nothing() {
     let taken = folder.path().join("taken.svg");
     fs::create_dir(&taken).expect("a folder");
     fs::write(taken.join("content"), "kept").expect("a file");
-    assert!(matches!(
-        Figure::single(axes()).write(&taken),
-        Err(PlotError::Write { .. })
-    ));
+    assert!(matches!(Figure::single(axes()).write(&taken), Err(PlotError::Write { .. })));
     let left: Vec<_> = fs::read_dir(folder.path()).expect("the folder").collect();
     assert_eq!(left.len(), 1, "{left:?}");
 }
@@ -117,20 +102,14 @@ fn files_hold_what_the_memory_holds() {
 #[test]
 fn equal_figures_give_equal_pictures() {
     assert_eq!(rich().to_svg(), rich().to_svg());
-    assert_eq!(
-        rich().to_png().expect("a PNG"),
-        rich().to_png().expect("a PNG")
-    );
+    assert_eq!(rich().to_png().expect("a PNG"), rich().to_png().expect("a PNG"));
 }
 
 #[test]
 fn identifiers_of_different_pictures_differ() {
     let id = |figure: &Figure| {
         let svg = figure.to_svg();
-        svg.split("clipPath id=\"")
-            .nth(1)
-            .and_then(|rest| rest.split('"').next())
-            .map(String::from)
+        svg.split("clipPath id=\"").nth(1).and_then(|rest| rest.split('"').next()).map(String::from)
     };
     assert!(id(&rich()).is_some());
     assert_ne!(id(&rich()), id(&Figure::single(axes())));
@@ -138,22 +117,13 @@ fn identifiers_of_different_pictures_differ() {
 
 #[test]
 fn roles_and_styles_decide_the_dashes() {
-    let dashes = |line: Line| {
-        Figure::single(axes().with(line))
-            .to_svg()
-            .contains("stroke-dasharray=\"")
-    };
+    let dashes =
+        |line: Line| Figure::single(axes().with(line)).to_svg().contains("stroke-dasharray=\"");
     assert!(dashes(Line::new(Role::Undithered, wave(100))));
     assert!(!dashes(Line::new(Role::Dithered, wave(100))));
-    assert!(dashes(
-        Line::new(Role::Dithered, wave(100)).style(LineStyle::Dashed)
-    ));
-    assert!(dashes(
-        Line::new(Role::Exact, wave(100)).style(LineStyle::Dotted)
-    ));
-    assert!(!dashes(
-        Line::new(Role::Undithered, wave(100)).style(LineStyle::Solid)
-    ));
+    assert!(dashes(Line::new(Role::Dithered, wave(100)).style(LineStyle::Dashed)));
+    assert!(dashes(Line::new(Role::Exact, wave(100)).style(LineStyle::Dotted)));
+    assert!(!dashes(Line::new(Role::Undithered, wave(100)).style(LineStyle::Solid)));
 }
 
 #[test]
@@ -173,14 +143,8 @@ fn a_break_is_not_bridged() {
         strokes(&svg, BLUE)[0].matches('M').count()
     };
     assert_eq!(count(Line::new(Role::Dithered, jump())), 1);
-    assert_eq!(
-        count(Line::new(Role::Dithered, jump()).broken_at_jumps(0.5)),
-        2
-    );
-    assert_eq!(
-        count(Line::pieces(Role::Dithered, [wave(50), wave(50), wave(50)])),
-        3
-    );
+    assert_eq!(count(Line::new(Role::Dithered, jump()).broken_at_jumps(0.5)), 2);
+    assert_eq!(count(Line::pieces(Role::Dithered, [wave(50), wave(50), wave(50)])), 3);
     let hole = jump().map(|(x, y)| (x, if x == 70.0 { f64::INFINITY } else { y }));
     assert_eq!(count(Line::new(Role::Dithered, hole)), 2);
 }
@@ -215,10 +179,7 @@ fn a_long_series_stays_small_and_keeps_its_spike() {
         .split('l')
         .filter_map(|step| {
             let split = step.rfind(['-', ' ']).filter(|at| *at > 0)?;
-            Some((
-                step[..split].parse().ok()?,
-                step[split..].trim().parse().ok()?,
-            ))
+            Some((step[..split].parse().ok()?, step[split..].trim().parse().ok()?))
         })
         .collect();
     let mut height = 0.0;
@@ -230,11 +191,7 @@ fn a_long_series_stays_small_and_keeps_its_spike() {
         })
         .collect();
     let top = heights.iter().copied().fold(f64::INFINITY, f64::min);
-    let second = heights
-        .iter()
-        .copied()
-        .filter(|y| *y > top + 1.0)
-        .fold(f64::INFINITY, f64::min);
+    let second = heights.iter().copied().filter(|y| *y > top + 1.0).fold(f64::INFINITY, f64::min);
     assert!(second - top > 100.0, "{top} {second}");
 }
 
@@ -267,11 +224,7 @@ fn odd_figures_are_pictures_too() {
     let single = axes().with(Line::new(Role::Dithered, [(2.0, 3.0)]));
     let negative = Panel::new(Axis::new("x").log(), Axis::new("y").log())
         .with(Line::new(Role::Dithered, [(-1.0, -1.0), (0.0, 0.0)]))
-        .with(Region::across_y(
-            Role::Stable,
-            f64::NEG_INFINITY,
-            f64::INFINITY,
-        ));
+        .with(Region::across_y(Role::Stable, f64::NEG_INFINITY, f64::INFINITY));
     let huge = axes().with(Line::new(Role::Dithered, [(0.0, -1e308), (1.0, 1e308)]));
     let far = axes().with(Line::new(Role::Dithered, [(0.0, 1e300), (1.0, 1.0)]).label("a"));
     let tiny =
@@ -288,24 +241,15 @@ fn odd_figures_are_pictures_too() {
     ];
     for (number, figure) in figures.iter().enumerate() {
         let svg = figure.to_svg();
-        assert!(
-            !svg.contains("NaN") && !svg.contains("inf"),
-            "figure {number}"
-        );
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "figure {number}");
         assert!(figure.to_png().is_ok(), "figure {number}");
     }
 }
 
 #[test]
 fn points_out_of_the_frame_are_not_drawn() {
-    let panel = Panel::new(
-        Axis::new("x").between(0.0, 1.0),
-        Axis::new("y").between(0.0, 1.0),
-    )
-    .with(Points::new(
-        Role::Undithered,
-        [(0.5, 0.5), (2.0, 0.5), (0.5, -3.0), (1.0, 1.0)],
-    ));
+    let panel = Panel::new(Axis::new("x").between(0.0, 1.0), Axis::new("y").between(0.0, 1.0))
+        .with(Points::new(Role::Undithered, [(0.5, 0.5), (2.0, 0.5), (0.5, -3.0), (1.0, 1.0)]));
     let svg = Figure::single(panel).to_svg();
     assert_eq!(strokes(&svg, GREY)[0].matches("h0").count(), 2);
 }
@@ -320,14 +264,6 @@ fn the_whole_size_is_kept() {
             .and_then(|rest| rest.split('"').next()?.parse().ok())
             .expect("a size")
     };
-    assert!(
-        (number("width") - 700.0).abs() <= 2.0,
-        "{}",
-        number("width")
-    );
-    assert!(
-        (number("height") - 600.0).abs() <= 2.0,
-        "{}",
-        number("height")
-    );
+    assert!((number("width") - 700.0).abs() <= 2.0, "{}", number("width"));
+    assert!((number("height") - 600.0).abs() <= 2.0, "{}", number("height"));
 }

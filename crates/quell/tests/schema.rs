@@ -7,65 +7,47 @@ use serde_json::Value as Json;
 /// Whether `value` is valid under `schema`: the keywords that our schema uses, and no others.
 fn valid(value: &Json, schema: &Json, root: &Json) -> bool {
     let keywords = schema.as_object().expect("a schema is an object");
-    keywords
-        .iter()
-        .all(|(keyword, argument)| match keyword.as_str() {
-            "$schema" | "$defs" | "title" | "description" => true,
-            "$ref" => {
-                let pointer = argument
-                    .as_str()
-                    .expect("a reference")
-                    .trim_start_matches('#');
-                valid(value, root.pointer(pointer).expect(pointer), root)
-            }
-            "oneOf" => {
-                schemas(argument)
-                    .filter(|schema| valid(value, schema, root))
-                    .count()
-                    == 1
-            }
-            "anyOf" => schemas(argument).any(|schema| valid(value, schema, root)),
-            "not" => !valid(value, argument, root),
-            "type" => match argument.as_str() {
-                Some("object") => value.is_object(),
-                Some("array") => value.is_array(),
-                Some("string") => value.is_string(),
-                Some("number") => value.is_number(),
-                Some("integer") => value.as_f64().is_some_and(|number| number.fract() == 0.0),
-                other => panic!("type {other:?}"),
-            },
-            "const" => value == argument,
-            "enum" => schemas(argument).any(|allowed| value == allowed),
-            "minimum" => compare(value, argument, |value, bound| value >= bound),
-            "exclusiveMinimum" => compare(value, argument, |value, bound| value > bound),
-            "maximum" => compare(value, argument, |value, bound| value <= bound),
-            "minItems" => value
-                .as_array()
-                .is_none_or(|list| list.len() as u64 >= argument.as_u64().expect("a count")),
-            "items" => value
-                .as_array()
-                .is_none_or(|list| list.iter().all(|item| valid(item, argument, root))),
-            "required" => {
-                schemas(argument).all(|name| value.get(name.as_str().expect("a name")).is_some())
-            }
-            "properties" => {
-                argument
-                    .as_object()
-                    .expect("properties")
-                    .iter()
-                    .all(|(name, schema)| {
-                        value
-                            .get(name)
-                            .is_none_or(|value| valid(value, schema, root))
-                    })
-            }
-            "additionalProperties" => value.as_object().is_none_or(|object| {
-                object
-                    .keys()
-                    .all(|name| keywords["properties"].get(name).is_some())
-            }),
-            other => panic!("the schema uses {other}, which this test does not know"),
-        })
+    keywords.iter().all(|(keyword, argument)| match keyword.as_str() {
+        "$schema" | "$defs" | "title" | "description" => true,
+        "$ref" => {
+            let pointer = argument.as_str().expect("a reference").trim_start_matches('#');
+            valid(value, root.pointer(pointer).expect(pointer), root)
+        }
+        "oneOf" => schemas(argument).filter(|schema| valid(value, schema, root)).count() == 1,
+        "anyOf" => schemas(argument).any(|schema| valid(value, schema, root)),
+        "not" => !valid(value, argument, root),
+        "type" => match argument.as_str() {
+            Some("object") => value.is_object(),
+            Some("array") => value.is_array(),
+            Some("string") => value.is_string(),
+            Some("number") => value.is_number(),
+            Some("integer") => value.as_f64().is_some_and(|number| number.fract() == 0.0),
+            other => panic!("type {other:?}"),
+        },
+        "const" => value == argument,
+        "enum" => schemas(argument).any(|allowed| value == allowed),
+        "minimum" => compare(value, argument, |value, bound| value >= bound),
+        "exclusiveMinimum" => compare(value, argument, |value, bound| value > bound),
+        "maximum" => compare(value, argument, |value, bound| value <= bound),
+        "minItems" => value
+            .as_array()
+            .is_none_or(|list| list.len() as u64 >= argument.as_u64().expect("a count")),
+        "items" => {
+            value.as_array().is_none_or(|list| list.iter().all(|item| valid(item, argument, root)))
+        }
+        "required" => {
+            schemas(argument).all(|name| value.get(name.as_str().expect("a name")).is_some())
+        }
+        "properties" => {
+            argument.as_object().expect("properties").iter().all(|(name, schema)| {
+                value.get(name).is_none_or(|value| valid(value, schema, root))
+            })
+        }
+        "additionalProperties" => value.as_object().is_none_or(|object| {
+            object.keys().all(|name| keywords["properties"].get(name).is_some())
+        }),
+        other => panic!("the schema uses {other}, which this test does not know"),
+    })
 }
 
 fn schemas(list: &Json) -> impl Iterator<Item = &Json> {
@@ -73,9 +55,7 @@ fn schemas(list: &Json) -> impl Iterator<Item = &Json> {
 }
 
 fn compare(value: &Json, bound: &Json, holds: fn(f64, f64) -> bool) -> bool {
-    value
-        .as_f64()
-        .is_none_or(|value| holds(value, bound.as_f64().expect("a number")))
+    value.as_f64().is_none_or(|value| holds(value, bound.as_f64().expect("a number")))
 }
 
 const SCALED: &str = "schema = 1\ntitle = 'x'\n[belt]\ndamping_ratio = 0.1\nnormal_load = 1\nbelt_velocity = 1\n\
@@ -90,10 +70,7 @@ const SI: &str = "schema = 1\n[belt]\nmass_kg = 1\nstiffness_n_per_m = 1\ndampin
 fn judged(text: &str) -> (bool, bool) {
     let schema = schema();
     let value: Json = toml::from_str(text).expect(text);
-    (
-        valid(&value, &schema, &schema),
-        Study::parse(text, &[]).is_ok(),
-    )
+    (valid(&value, &schema, &schema), Study::parse(text, &[]).is_ok())
 }
 
 #[test]

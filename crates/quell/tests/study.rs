@@ -375,6 +375,16 @@ fn systems_do_not_mix() {
 }
 
 #[test]
+fn suggestions_are_in_the_system_of_the_study() {
+    let told = complaints(&SI.replace("damping_n_s_per_m", "dampng_ratio"), &[]);
+    let unknown = told.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
+    assert_eq!(unknown.suggestion.as_deref(), Some("belt.damping_n_s_per_m"));
+    let told = complaints(&GOOD.replace("amplitude = 0.4", "amplitud_n = 0.4"), &[]);
+    let unknown = told.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
+    assert_eq!(unknown.suggestion.as_deref(), Some("dither.amplitude"));
+}
+
+#[test]
 fn set_reaches_every_key() {
     let study = good(&[
         "belt.damping_ratio=0.1",

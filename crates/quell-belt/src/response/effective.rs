@@ -51,7 +51,8 @@ pub fn measured_effective_friction(
 ) -> Result<Vec<WindowMean>, Stalled> {
     let mut means = Vec::new();
     for &start in starts {
-        let mut edges = Edges::new(belt, start, frequency_ratio, per_period.max(1).div_ceil(2) * 2);
+        let mut edges =
+            EdgeRecorder::new(belt, start, frequency_ratio, per_period.max(1).div_ceil(2) * 2);
         simulate(belt, start, start.time + duration, tolerance, &mut edges)?;
         means.extend(edges.means());
     }
@@ -70,7 +71,7 @@ struct Edge {
 
 /// Observer that keeps the integrals at equally spaced window edges.
 #[derive(Clone, Debug)]
-struct Edges {
+struct EdgeRecorder {
     law: Friction,
     belt_velocity: f64,
     start: f64,
@@ -80,7 +81,7 @@ struct Edges {
     now: Edge,
 }
 
-impl Edges {
+impl EdgeRecorder {
     fn new(belt: &Belt, start: Start, frequency_ratio: f64, per_period: usize) -> Self {
         Self {
             law: *belt.friction(),
@@ -143,7 +144,7 @@ impl Edges {
     }
 }
 
-impl Observer for Edges {
+impl Observer for EdgeRecorder {
     fn segment(&mut self, segment: &Segment<'_>) {
         let mut from = 0.0;
         loop {

@@ -25,7 +25,7 @@ const HOLD: f64 = 1e-8;
 /// Sure stick shorter than this is left to the search.
 const WORTH_SKIPPING: f64 = 1e-3;
 
-pub(super) struct Engine<'a, L, O> {
+pub(super) struct Engine<'a, L> {
     pub(super) law: L,
     pub(super) equation: SlipEquation<f64>,
     pub(super) bond: Bond,
@@ -51,10 +51,10 @@ pub(super) struct Engine<'a, L, O> {
     pub(super) events: u64,
     pub(super) steps: u64,
     pub(super) near_tangential_releases: u64,
-    pub(super) observer: &'a mut O,
+    pub(super) observer: &'a mut dyn Observer,
 }
 
-impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
+impl<'a, L: SlidingLaw> Engine<'a, L> {
     #[inline(always)]
     pub(super) fn new(
         belt: &Belt,
@@ -62,7 +62,7 @@ impl<'a, L: SlidingLaw, O: Observer> Engine<'a, L, O> {
         start: Start,
         until: f64,
         tolerance: f64,
-        observer: &'a mut O,
+        observer: &'a mut dyn Observer,
     ) -> Self {
         let unit = law.velocity_scale();
         let clock = Clock::at(start.time);

@@ -191,6 +191,11 @@ impl Component {
         self.ends = self.break_time(self.ending);
     }
 
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_possible_wrap,
+        reason = "a remainder by the number of breaks, which are few"
+    )]
     #[inline(always)]
     fn break_time(&self, number: i64) -> f64 {
         let breaks = self.waveform.breaks();
@@ -201,6 +206,11 @@ impl Component {
     }
 
     /// Value and slope (per unit time) of a straight piece at `clock`, or `None` if harmonic.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_possible_wrap,
+        reason = "a remainder by the number of pieces, which are few"
+    )]
     #[inline(always)]
     fn straight(&self, clock: Clock) -> Option<(f64, f64)> {
         if self.ends == f64::INFINITY {

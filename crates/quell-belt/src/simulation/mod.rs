@@ -108,37 +108,38 @@ impl std::error::Error for Stalled {}
 /// Integrates `belt` from `start` to τ = `until`, showing every segment and event to `observer`.
 ///
 /// `tolerance` bounds the last two retained Taylor terms of a step relative to F
-/// ([`DEFAULT_TOLERANCE`]). Nothing is allocated per step. A start with x′ = v₀ is decided by
+/// ([`DEFAULT_TOLERANCE`]). Nothing is allocated per step. The engine is compiled once per law and
+/// instruction set, whatever watches: an observer costs one indirect call a segment. A start with x′ = v₀ is decided by
 /// f_s alone and gives no event.
 ///
 /// # Errors
 /// [`Stalled`] if a state leaves the finite numbers or no step advances time.
-pub fn simulate<O: Observer>(
+pub fn simulate(
     belt: &Belt,
     start: Start,
     until: f64,
     tolerance: f64,
-    observer: &mut O,
+    observer: &mut dyn Observer,
 ) -> Result<FinalState, Stalled> {
     belt.friction().visit(Run { belt, start, until, tolerance, observer })
 }
 
 /// One run, before the law is known.
-struct Run<'a, O> {
+struct Run<'a> {
     belt: &'a Belt,
     start: Start,
     until: f64,
     tolerance: f64,
-    observer: &'a mut O,
+    observer: &'a mut dyn Observer,
 }
 
 /// One run with its law.
-struct RunOf<'a, O, L> {
-    run: Run<'a, O>,
+struct RunOf<'a, L> {
+    run: Run<'a>,
     law: L,
 }
 
-impl<O: Observer> LawVisitor for Run<'_, O> {
+impl LawVisitor for Run<'_> {
     type Output = Result<FinalState, Stalled>;
 
     fn visit<L: SlidingLaw>(self, law: &L) -> Self::Output {
@@ -146,7 +147,7 @@ impl<O: Observer> LawVisitor for Run<'_, O> {
     }
 }
 
-impl<O: Observer, L: SlidingLaw> Work for RunOf<'_, O, L> {
+impl<L: SlidingLaw> Work for RunOf<'_, L> {
     type Output = Result<FinalState, Stalled>;
 
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! Passive observers of a run: they see every smooth segment and every event, and change no bit.
 
+use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::lane::horner;
 use quell_numerics::polynomial::first_crossing;
 
@@ -40,25 +41,21 @@ impl Segment<'_> {
     }
 
     /// Displacement x at `since` after its start.
-    #[inline(always)]
     pub fn displacement(&self, since: f64) -> f64 {
-        self.unit * horner(self.displacement, since)
+        self.unit * value_of(self.displacement, since)
     }
 
     /// Slip velocity v_r = v₀ − x′ at `since` after its start.
-    #[inline(always)]
     pub fn slip_velocity(&self, since: f64) -> f64 {
-        self.unit * horner(self.slip, since)
+        self.unit * value_of(self.slip, since)
     }
 
     /// Velocity x′ at `since` after its start; exactly the belt's in stick.
-    #[inline(always)]
     pub fn velocity(&self, since: f64) -> f64 {
         self.belt_velocity - self.slip_velocity(since)
     }
 
     /// ∫x dτ over the whole segment.
-    #[inline(always)]
     pub fn displacement_integral(&self) -> f64 {
         let mut sum = 0.0;
         for (k, &coefficient) in self.displacement.iter().enumerate().rev() {
@@ -68,16 +65,34 @@ impl Segment<'_> {
     }
 }
 
+/// A Taylor polynomial at a moment, with the machine's best instructions: observers are called
+/// from the engine, not compiled into it.
+struct Value<'a> {
+    coefficients: &'a [f64],
+    since: f64,
+}
+
+impl Work for Value<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        horner(self.coefficients, self.since)
+    }
+}
+
+fn value_of(coefficients: &[f64], since: f64) -> f64 {
+    with_fused_multiply_add(Value { coefficients, since })
+}
+
 /// Watches a run.
 pub trait Observer {
     /// A segment has been integrated.
-    #[inline(always)]
     fn segment(&mut self, segment: &Segment<'_>) {
         let _ = segment;
     }
 
     /// An event has happened, at the end of the last segment.
-    #[inline(always)]
     fn event(&mut self, event: &Event) {
         let _ = event;
     }
@@ -86,13 +101,11 @@ pub trait Observer {
 impl Observer for () {}
 
 impl<A: Observer, B: Observer> Observer for (A, B) {
-    #[inline(always)]
     fn segment(&mut self, segment: &Segment<'_>) {
         self.0.segment(segment);
         self.1.segment(segment);
     }
 
-    #[inline(always)]
     fn event(&mut self, event: &Event) {
         self.0.event(event);
         self.1.event(event);
@@ -100,12 +113,10 @@ impl<A: Observer, B: Observer> Observer for (A, B) {
 }
 
 impl<A: Observer> Observer for &mut A {
-    #[inline(always)]
     fn segment(&mut self, segment: &Segment<'_>) {
         (**self).segment(segment);
     }
 
-    #[inline(always)]
     fn event(&mut self, event: &Event) {
         (**self).event(event);
     }
@@ -119,7 +130,6 @@ pub struct EventRecorder {
 }
 
 impl Observer for EventRecorder {
-    #[inline(always)]
     fn event(&mut self, event: &Event) {
         self.events.push(*event);
     }
@@ -173,7 +183,6 @@ impl Sampler {
 }
 
 impl Observer for Sampler {
-    #[inline(always)]
     fn segment(&mut self, segment: &Segment<'_>) {
         while self.samples.len() < self.count {
             let time = f64::mul_add(self.samples.len() as f64, self.step, self.first);
@@ -209,13 +218,28 @@ impl VelocitySection {
 }
 
 impl Observer for VelocitySection {
-    #[inline(always)]
     fn segment(&mut self, segment: &Segment<'_>) {
+        with_fused_multiply_add(Scan { section: self, segment });
+    }
+}
+
+/// The search of one segment.
+struct Scan<'a, 'b> {
+    section: &'a mut VelocitySection,
+    segment: &'a Segment<'b>,
+}
+
+impl Work for Scan<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { section, segment } = self;
         // level − x′ falls through zero at an upward crossing. Each crossing is divided out
         // by shifting the expansion to it, so that the next one on the segment is found too.
         let mut shifted = [0.0; super::ORDER + 1];
         shifted[..segment.slip.len()].copy_from_slice(segment.slip);
-        shifted[0] += (self.level - segment.belt_velocity) / segment.unit;
+        shifted[0] += (section.level - segment.belt_velocity) / segment.unit;
         let mut since = 0.0;
         let mut rest = segment.duration;
         while shifted[0] != 0.0 && rest > 0.0 {
@@ -226,7 +250,7 @@ impl Observer for VelocitySection {
             since += root;
             rest -= root;
             if upward {
-                self.crossings.push(Sample {
+                section.crossings.push(Sample {
                     time: segment.clock.after(since).time(),
                     displacement: segment.displacement(since),
                     velocity: segment.velocity(since),

@@ -69,6 +69,10 @@ pub(super) struct SlipSeries<V> {
 impl<V: Lane> SlipEquation<V> {
     /// Series of y and w to order [`ORDER`] from `start`, under the tangential dither's
     /// coefficients and the load.
+    #[expect(
+        clippy::out_of_bounds_indexing,
+        reason = "the last turn of the unrolled loop is empty, K < ORDER is false there"
+    )]
     #[inline(always)]
     pub(super) fn series<L: SlidingLaw>(
         &self,
@@ -108,7 +112,8 @@ impl<V: Lane> SlipEquation<V> {
                         known - partial_product(load, &mu, K, 1, K)
                     }
                 };
-                w[K + 1] = newest.mul_add(w[K], known) * inverse;
+                // Two products apart, so that the newest coefficient waits for one operation only.
+                w[K + 1] = (newest * inverse).mul_add(w[K], known * inverse);
                 y[K + 1] = -(w[K] * inverse);
             }
         });

@@ -4,7 +4,6 @@ use quell_model::friction::SlidingLaw;
 
 use super::engine::Engine;
 use super::event::{Event, EventKind};
-use super::observer::Observer;
 
 /// Changes of contact at one moment before the bond is held. A jump that breaks a bond just
 /// made needs two; a touch of the threshold repeats for ever.
@@ -25,7 +24,7 @@ pub(super) enum Contact {
     Slip { sign: f64, zeros: usize },
 }
 
-impl<L: SlidingLaw, O: Observer> Engine<'_, L, O> {
+impl<L: SlidingLaw> Engine<'_, L> {
     #[inline(always)]
     pub(super) fn slip_sign(&self) -> i8 {
         match self.contact {

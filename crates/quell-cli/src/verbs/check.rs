@@ -22,11 +22,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let text = || {
         let belt = study.belt();
         let mut table = Table::new(study.scales());
-        table.number(
-            "damping ratio ζ",
-            Quantity::DampingRatio,
-            belt.damping_ratio(),
-        );
+        table.number("damping ratio ζ", Quantity::DampingRatio, belt.damping_ratio());
         table.number("normal load F", Quantity::Force, belt.normal_load());
         table.number("belt velocity v₀", Quantity::Velocity, belt.belt_velocity());
         let law = belt.friction().kind();
@@ -36,40 +32,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             table.number(&label, parameter.quantity, value);
         }
         for dither in belt.dithers() {
-            table.word(
-                "dither",
-                &format!("{} {}", dither.direction.name(), dither.waveform.name()),
-            );
+            table
+                .word("dither", &format!("{} {}", dither.direction.name(), dither.waveform.name()));
             table.number("  amplitude D", Quantity::Force, dither.amplitude);
-            table.number(
-                "  frequency ratio R",
-                Quantity::FrequencyRatio,
-                dither.frequency_ratio,
-            );
+            table.number("  frequency ratio R", Quantity::FrequencyRatio, dither.frequency_ratio);
             table.number("  phase φ", Quantity::Angle, dither.phase);
-            table.number(
-                "  amplitude ratio α = D/R",
-                Quantity::Velocity,
-                dither.amplitude_ratio(),
-            );
+            table.number("  amplitude ratio α = D/R", Quantity::Velocity, dither.amplitude_ratio());
         }
         for sweep in study.sweeps() {
             let last = sweep.axis.value(usize::MAX);
             let (first, points) = (sweep.axis.value(0), sweep.axis.len());
-            table.word(
-                "axis",
-                &format!("{} from {first} to {last}, {points} points", sweep.path),
-            );
+            table.word("axis", &format!("{} from {first} to {last}, {points} points", sweep.path));
         }
-        let title = study
-            .title()
-            .map(|title| format!("{title}: "))
-            .unwrap_or_default();
+        let title = study.title().map(|title| format!("{title}: ")).unwrap_or_default();
         format!("{title}the study is valid.\n{}", table.text())
     };
-    Ok(Answer::new(
-        arguments.study.json,
-        || Check { study: &study }.json(),
-        text,
-    ))
+    Ok(Answer::new(arguments.study.json, || Check { study: &study }.json(), text))
 }

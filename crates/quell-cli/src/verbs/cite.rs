@@ -25,11 +25,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         for source in found.unique() {
             let _ = writeln!(text, "[{}] {}", source.key, source.reference);
             let mut uses: Vec<(&str, Vec<&str>)> = Vec::new();
-            for citation in found
-                .citations
-                .iter()
-                .filter(|citation| citation.source == source)
-            {
+            for citation in found.citations.iter().filter(|citation| citation.source == source) {
                 match uses.iter_mut().find(|(used, _)| *used == citation.used) {
                     Some((_, verbs)) => verbs.push(citation.task.name()),
                     None => uses.push((citation.used, vec![citation.task.name()])),

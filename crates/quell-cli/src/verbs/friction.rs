@@ -18,12 +18,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
     /// Slip velocities: numbers, or with a unit such as 20mm/s in a study in SI
-    #[arg(
-        long,
-        value_name = "V,…",
-        value_delimiter = ',',
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "V,…", value_delimiter = ',', allow_hyphen_values = true)]
     at: Vec<String>,
     #[command(flatten)]
     plot: PlotArguments,
@@ -40,20 +35,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let plot = complaints.take(arguments.plot.prepare());
     let (study, (outputs, plot)) = complaints.finish(study.zip(outputs.zip(plot)))?;
 
-    let at = if at.is_empty() {
-        grid(study.belt())
-    } else {
-        at
-    };
+    let at = if at.is_empty() { grid(study.belt()) } else { at };
     let curve = friction(&study, &at);
     let mut object = curve.json(&study);
     outputs.write(&[curve.dataset(&study)], &mut object)?;
     plot.write(|| picture::friction(&study, &curve), &mut object)?;
-    Ok(Answer::new(
-        arguments.study.json,
-        || object,
-        || text(&study, &curve),
-    ))
+    Ok(Answer::new(arguments.study.json, || object, || text(&study, &curve)))
 }
 
 fn velocities(texts: &[String], study: Option<&Study>, complaints: &mut Complaints) -> Vec<f64> {
@@ -69,11 +56,8 @@ fn velocities(texts: &[String], study: Option<&Study>, complaints: &mut Complain
 }
 
 fn text(study: &Study, curve: &FrictionCurve) -> String {
-    let unit = if study.scales().is_some() {
-        "m (velocity/ω₀)"
-    } else {
-        "length (velocity/ω₀)"
-    };
+    let unit =
+        if study.scales().is_some() { "m (velocity/ω₀)" } else { "length (velocity/ω₀)" };
     let mut text = format!(
         "Friction over the slip velocity v_r, in {unit}: the law μ, the effective μ̄ under the dither, \
          its slope\n  {:>14}  {:>14}  {:>14}  {:>14}\n",
@@ -82,10 +66,8 @@ fn text(study: &Study, curve: &FrictionCurve) -> String {
     // A grid is for a file or a program; people see every tenth point of it.
     let stride = if curve.points.len() > 100 { 10 } else { 1 };
     for point in curve.points.iter().step_by(stride) {
-        let law = point
-            .coefficient
-            .as_ref()
-            .map_or_else(|_| "any".to_owned(), |value| figure(*value));
+        let law =
+            point.coefficient.as_ref().map_or_else(|_| "any".to_owned(), |value| figure(*value));
         let (mean, slope) = match &point.effective {
             Ok(found) => (figure(found.coefficient), figure(found.slope)),
             Err(_) => ("any".to_owned(), "none".to_owned()),

@@ -53,50 +53,28 @@ fn text(study: &Study, done: &Steady) -> String {
         response.efficiency.map_err(|why| why.to_string()),
     );
     table.number("amplitude M", Quantity::Displacement, response.amplitude);
-    table.number(
-        "undithered amplitude M₀",
-        Quantity::Displacement,
-        response.undithered_amplitude,
-    );
+    table.number("undithered amplitude M₀", Quantity::Displacement, response.undithered_amplitude);
     table.number("stick fraction", Quantity::Ratio, response.stick_fraction);
     table.word("settled", if response.settled { "yes" } else { "no" });
     table.number("mean friction", Quantity::Force, response.mean_friction);
-    table.number(
-        "  steady, undithered",
-        Quantity::Force,
-        response.mean_friction_undithered,
-    );
+    table.number("  steady, undithered", Quantity::Force, response.mean_friction_undithered);
     let only_normal = || "all dither is normal".to_owned();
-    table.known(
-        "dither power",
-        Quantity::Power,
-        response.dither_power.ok_or_else(only_normal),
-    );
+    table.known("dither power", Quantity::Power, response.dither_power.ok_or_else(only_normal));
     table.known(
         "dither stroke",
         Quantity::Displacement,
         response.dither_stroke.ok_or_else(only_normal),
     );
-    table.number(
-        "smallest normal load",
-        Quantity::Force,
-        response.minimum_normal_load,
-    );
+    table.number("smallest normal load", Quantity::Force, response.minimum_normal_load);
     let mut text = format!("{}\n{}", done.sentence(study), table.text());
     if !response.peaks.is_empty() {
         text.push_str("\nPeaks of the spectrum, largest first:\n");
         let mut peaks = response.peaks.clone();
         peaks.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
-        let hertz = study
-            .scales()
-            .map(|scales| scales.si_per_unit(Quantity::FrequencyRatio));
+        let hertz = study.scales().map(|scales| scales.si_per_unit(Quantity::FrequencyRatio));
         for peak in peaks.iter().take(PEAKS) {
             let hertz = hertz.map(|hertz| format!(" ({} Hz)", figure(peak.frequency * hertz)));
-            let unit = if study.scales().is_some() {
-                "m"
-            } else {
-                "length"
-            };
+            let unit = if study.scales().is_some() { "m" } else { "length" };
             let (frequency, amplitude) = (figure(peak.frequency), figure(peak.amplitude));
             let hertz = hertz.unwrap_or_default();
             let _ = writeln!(text, "  {amplitude:>12} {unit} at {frequency} ω₀{hertz}");

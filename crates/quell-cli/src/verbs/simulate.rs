@@ -86,11 +86,7 @@ fn text(study: &Study, done: &Simulation) -> String {
     let mut text = done.sentence(study) + "\n";
     if let Some(events) = &done.events {
         text.push('\n');
-        let _ = writeln!(
-            text,
-            "  {:>14}  {:<8}  {:>4}  {:>14}",
-            "τ", "event", "slip", "x"
-        );
+        let _ = writeln!(text, "  {:>14}  {:<8}  {:>4}  {:>14}", "τ", "event", "slip", "x");
         for event in events {
             let (time, place) = (figure(event.time), figure(event.displacement));
             let _ = writeln!(

@@ -54,11 +54,7 @@ fn averaged(study: &Study, found: &Averaged) -> String {
     let mut table = Table::new(study.scales());
     table.word("verdict", found.verdict());
     let value = found.criterion.as_ref().map(|criterion| criterion.value);
-    table.known(
-        "criterion 2ζ + Fμ̄′",
-        Quantity::Ratio,
-        value.map_err(ToString::to_string),
-    );
+    table.known("criterion 2ζ + Fμ̄′", Quantity::Ratio, value.map_err(ToString::to_string));
     if let Ok(criterion) = &found.criterion {
         table.number("  error", Quantity::Ratio, criterion.error);
     }
@@ -89,11 +85,7 @@ fn averaged(study: &Study, found: &Averaged) -> String {
                 format!("{} to {upper}", figure(band.lower))
             })
             .collect();
-        let bands = if bands.is_empty() {
-            "none".to_owned()
-        } else {
-            bands.join(", ")
-        };
+        let bands = if bands.is_empty() { "none".to_owned() } else { bands.join(", ") };
         table.word("unstable belt velocities", &bands);
     }
     table.text()

@@ -131,7 +131,6 @@ impl<V: Lane, const N: usize> BranchSeries<V> for DecreasingSeries<V, N> {
             self.rate[k - 1] = -(newest * V::splat((k - 1) as f64));
             self.decay[k - 1] = (-newest).mul_add(self.decay[0], self.partial);
         }
-        // Descending age: the newest coefficients come in the first and the last term.
         let sum = partial_product(&self.rate, &self.decay, k, 1, k - 1);
         self.partial = sum * V::splat(1.0 / k as f64);
         self.sign * self.partial

@@ -2,7 +2,7 @@
 //!
 //! μ = μ_s sgn(v_r) − (3/2)(μ_s − μ_m)(w − w³/3), w = v_r/v_m.
 
-use quell_numerics::lane::{Lane, inner_square, partial_product};
+use quell_numerics::lane::{Lane, half_inner_square, partial_product};
 
 use super::{BranchSeries, SlidingLaw, checked, minimum_at_most_static};
 use crate::Invalid;
@@ -76,37 +76,36 @@ impl SlidingLaw for Stribeck {
         let fall = 1.5 * (self.static_coefficient - self.minimum_coefficient);
         let linear = V::splat(-fall);
         let cubic = V::splat(fall / 3.0);
-        let mut square = [V::splat(0.0); N];
-        square[0] = w0 * w0;
-        let first = (square[0] * w0)
+        let square = w0 * w0;
+        let first = (square * w0)
             .mul_add(cubic, w0.mul_add(linear, sign * V::splat(self.static_coefficient)));
         StribeckSeries {
             first,
-            slope: square[0].mul_add(V::splat(fall), linear),
-            cubic,
-            twice_w0: w0 + w0,
-            w0,
+            slope: square.mul_add(V::splat(fall), linear),
+            twice_cubic: cubic + cubic,
+            thrice_w0: V::splat(fall) * w0,
             inner: V::splat(0.0),
-            square,
+            factor: [V::splat(0.0); N],
         }
     }
 }
 
-/// Recurrence of [`Stribeck`]: w² and w³ by Cauchy products.
+/// Recurrence of [`Stribeck`], w³ by Cauchy products.
 ///
-/// With Iₖ = Σ wⱼwₖ₋ⱼ over j = 1…k−1 and (w²)ⱼ = 2w₀wⱼ + Iⱼ,
-/// (w³)ₖ = 3w₀²wₖ + w₀Iₖ + Σ (w²)ⱼwₖ₋ⱼ over j = 1…k−1.
+/// With Iⱼ = Σ wᵢwⱼ₋ᵢ over i = 1…j−1,
+/// (w³)ₖ = 3w₀²wₖ + Σ (3w₀wⱼ + Iⱼ)wₖ₋ⱼ over j = 1…k−1.
 #[derive(Clone, Copy, Debug)]
 pub struct StribeckSeries<V, const N: usize> {
     first: V,
     slope: V,
-    cubic: V,
-    w0: V,
-    twice_w0: V,
-    /// Iₖ of the last k.
+    /// 2c of the cubic term c w³.
+    twice_cubic: V,
+    /// 3c w₀.
+    thrice_w0: V,
+    /// c Iₖ of the last k.
     inner: V,
-    /// Coefficients of w², complete below the last k.
-    square: [V; N],
+    /// c (3w₀wⱼ + Iⱼ), complete below the last k.
+    factor: [V; N],
 }
 
 impl<V: Lane, const N: usize> BranchSeries<V> for StribeckSeries<V, N> {
@@ -123,11 +122,9 @@ impl<V: Lane, const N: usize> BranchSeries<V> for StribeckSeries<V, N> {
     #[inline(always)]
     fn lower(&mut self, k: usize, w: &[V]) -> V {
         if k > 1 {
-            self.square[k - 1] = self.twice_w0.mul_add(w[k - 1], self.inner);
+            self.factor[k - 1] = self.thrice_w0.mul_add(w[k - 1], self.inner);
         }
-        self.inner = inner_square(w, k);
-        // Ascending j: the newest coefficient of w² comes last, when it is ready.
-        let cube = partial_product(&self.square, w, k, 1, k - 1);
-        self.w0.mul_add(self.inner, cube) * self.cubic
+        self.inner = half_inner_square(w, k) * self.twice_cubic;
+        partial_product(&self.factor, w, k, 1, k - 1)
     }
 }

@@ -1,7 +1,7 @@
 //! Values and slopes of the sliding branch.
 
-use quell_model::Friction;
 use quell_model::friction::{LawVisitor, SlidingLaw};
+use quell_model::{Friction, LawKind};
 
 use crate::law_samples::{SCALED_SPEEDS, all_samples};
 
@@ -76,5 +76,56 @@ fn extreme_slip_gives_finite_numbers() {
         // The branch starts without a jump.
         assert_eq!(law.coefficient(1e-300), law.coefficient(0.0), "{law:?}");
         assert_eq!(law.slope(1e-300), law.slope(0.0), "{law:?}");
+    }
+}
+
+/// Friction takes energy and never gives any: μ ≥ 0 at every slip speed, up to rounding.
+#[test]
+fn friction_never_drives() {
+    for law in all_samples() {
+        let spread = (0..4000).map(|i| 10f64.powf(f64::from(i) * 0.004 - 8.0));
+        // About where an exponential leaves the normal numbers.
+        let edge = (0..200).map(|i| 650.0 + f64::from(i));
+        for scaled in spread.chain(edge) {
+            let value = law.coefficient(scaled * law.velocity_scale());
+            let rounding = 4.0 * f64::EPSILON * law.static_coefficient();
+            assert!(value >= -rounding, "{law:?} at {scaled} v_m: {value}");
+        }
+    }
+}
+
+/// Stored numbers: (2.7) and (2.8) with the values of the dissertation.
+#[test]
+fn laws_of_the_dissertation_have_its_values() {
+    let (level, minimum, velocity) = (0.4, 0.2857, 0.2);
+    let halfway = 0.5 * (level + minimum);
+    for (kind, places) in [
+        // w − w³/3 is 0 at 0 and √3, 2/3 at 1, 11/24 at 1/2, −2/3 at 2.
+        (
+            LawKind::Stribeck,
+            [
+                (0.0, level),
+                (0.5, level - 11.0 / 16.0 * (level - minimum)),
+                (1.0, minimum),
+                (3f64.sqrt(), level),
+                (2.0, 2.0 * level - minimum),
+            ],
+        ),
+        (
+            LawKind::Decreasing,
+            [
+                (0.0, level),
+                (2f64.ln(), halfway),
+                (4f64.ln(), 0.5 * (halfway + minimum)),
+                (40.0, minimum),
+                (5e6, minimum),
+            ],
+        ),
+    ] {
+        let law = kind.build(&[level, minimum, velocity]).expect("valid");
+        for (scaled, value) in places {
+            let found = law.coefficient(scaled * velocity);
+            assert!((found - value).abs() < 4e-16, "{kind:?} at {scaled} v_m: {found}, {value}");
+        }
     }
 }

@@ -99,5 +99,7 @@ fn names_lead_back_and_paths_are_those_of_the_friction_table() {
             assert!(earlier.iter().all(|other| other.path != parameter.path));
         }
     }
-    assert_eq!(LawKind::from_name("no such law"), None);
+    for unknown in ["", "no such law", "Stribeck"] {
+        assert_eq!(LawKind::from_name(unknown), None);
+    }
 }

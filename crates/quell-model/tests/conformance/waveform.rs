@@ -109,7 +109,9 @@ fn names_lead_back() {
         assert_eq!(Waveform::from_name(waveform.name()), Some(waveform));
         assert!(Waveform::ALL[..index].iter().all(|other| other.name() != waveform.name()));
     }
-    assert_eq!(Waveform::from_name("no such wave"), None);
+    for unknown in ["", "no such wave", "Sine"] {
+        assert_eq!(Waveform::from_name(unknown), None);
+    }
 }
 
 /// Stored numbers: g at 0, π/4, π/2, π, 5π/4, 3π/2; G_max, ⟨G²⟩, √⟨g²⟩ as printed.

@@ -16,25 +16,12 @@ pub(super) fn caption(study: &Study) -> String {
         format!("$ζ$ = {}", words_of_ratio(belt.damping_ratio())),
     ];
     let load = if study.scales().is_some() { "N_0" } else { "F" };
-    let velocity = if study.scales().is_some() {
-        "V_0"
-    } else {
-        "v_0"
-    };
-    parts.push(format!(
-        "${load}$ = {}",
-        words(study, Quantity::Force, belt.normal_load())
-    ));
-    parts.push(format!(
-        "${velocity}$ = {}",
-        words(study, Quantity::Velocity, belt.belt_velocity())
-    ));
+    let velocity = if study.scales().is_some() { "V_0" } else { "v_0" };
+    parts.push(format!("${load}$ = {}", words(study, Quantity::Force, belt.normal_load())));
+    parts
+        .push(format!("${velocity}$ = {}", words(study, Quantity::Velocity, belt.belt_velocity())));
     for (parameter, value) in law.parameters().iter().zip(belt.friction().values()) {
-        parts.push(format!(
-            "${}$ = {}",
-            parameter.symbol,
-            words(study, parameter.quantity, value)
-        ));
+        parts.push(format!("${}$ = {}", parameter.symbol, words(study, parameter.quantity, value)));
     }
     for dither in belt.dithers() {
         let letter = match dither.direction {
@@ -67,13 +54,10 @@ pub(super) fn caption_of_run(study: &Study) -> String {
 
 fn words_of_ratio(value: f64) -> String {
     let text = format!("{value:.3e}");
-    text.parse::<f64>()
-        .map_or(text, |rounded| rounded.to_string())
+    text.parse::<f64>().map_or(text, |rounded| rounded.to_string())
 }
 
 fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
-    letters.next().map_or_else(String::new, |first| {
-        first.to_uppercase().chain(letters).collect()
-    })
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -13,35 +13,22 @@ pub fn friction(study: &Study, curve: &FrictionCurve) -> Figure {
     let slip = curve.slip_velocities();
     let ruler = Ruler::of(study, Quantity::Velocity, slip.iter().copied());
     let line = |role, values: Vec<f64>| {
-        let mut points: Vec<(f64, f64)> = slip
-            .iter()
-            .zip(values)
-            .map(|(&v, value)| (ruler.place(v), value))
-            .collect();
+        let mut points: Vec<(f64, f64)> =
+            slip.iter().zip(values).map(|(&v, value)| (ruler.place(v), value)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         // The law jumps at rest.
         let (left, right): (Vec<_>, Vec<_>) = points.into_iter().partition(|(v, _)| *v <= 0.0);
         Line::pieces(role, [left, right])
     };
     let whole = |role, values: Vec<f64>| {
-        let mut points: Vec<(f64, f64)> = slip
-            .iter()
-            .zip(values)
-            .map(|(&v, value)| (ruler.place(v), value))
-            .collect();
+        let mut points: Vec<(f64, f64)> =
+            slip.iter().zip(values).map(|(&v, value)| (ruler.place(v), value)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         Line::new(role, points)
     };
-    let symbol = if study.scales().is_some() {
-        "V_0"
-    } else {
-        "v_0"
-    };
+    let symbol = if study.scales().is_some() { "V_0" } else { "v_0" };
     let belt_velocity = study.belt().belt_velocity();
-    let label = format!(
-        "${symbol}$ = {}",
-        words(study, Quantity::Velocity, belt_velocity)
-    );
+    let label = format!("${symbol}$ = {}", words(study, Quantity::Velocity, belt_velocity));
     let mut panel = Panel::new(
         ruler.axis("slip velocity", "v_r"),
         Axis::new("friction coefficient").symbol("μ"),

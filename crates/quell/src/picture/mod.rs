@@ -28,10 +28,9 @@ pub const EXTENSIONS: &[&str] = &["svg", "png"];
 /// [`Failure::Failed`] where it cannot be drawn or written.
 pub fn write(figure: &Figure, output: Output) -> Result<String, Failure> {
     let bytes = if output.extension() == "png" {
-        figure.to_png().map_err(|why| Failure::Failed {
-            key: "--plot".to_owned(),
-            why: why.to_string(),
-        })?
+        figure
+            .to_png()
+            .map_err(|why| Failure::Failed { key: "--plot".to_owned(), why: why.to_string() })?
     } else {
         figure.to_svg().into_bytes()
     };

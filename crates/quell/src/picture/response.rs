@@ -32,21 +32,13 @@ pub fn response(study: &Study, done: &Steady) -> Figure {
 fn record(study: &Study, done: &Steady) -> Panel {
     let end = |samples: &[Sample]| -> Vec<Sample> {
         let last = samples.last().map_or(0.0, |sample| sample.time);
-        samples
-            .iter()
-            .copied()
-            .filter(|sample| sample.time >= last - PERIODS * TAU)
-            .collect()
+        samples.iter().copied().filter(|sample| sample.time >= last - PERIODS * TAU).collect()
     };
     let with = end(&done.response.record.samples);
     let without = end(&done.response.undithered_record.samples);
     let both = || with.iter().chain(&without);
     let time = Ruler::of(study, Quantity::Time, both().map(|sample| sample.time));
-    let place = Ruler::of(
-        study,
-        Quantity::Displacement,
-        both().map(|sample| sample.displacement),
-    );
+    let place = Ruler::of(study, Quantity::Displacement, both().map(|sample| sample.displacement));
     let curve = |samples: &[Sample], role| {
         let points = samples
             .iter()
@@ -77,33 +69,21 @@ fn spectrum(study: &Study, done: &Steady) -> Panel {
     let size = Ruler::new(study, Quantity::Displacement, top);
     let floor = top * 10f64.powi(-DECADES);
     let curve = |spectrum: &Spectrum, role| {
-        let lines = spectrum
-            .frequencies()
-            .zip(spectrum.amplitudes().iter().copied());
+        let lines = spectrum.frequencies().zip(spectrum.amplitudes().iter().copied());
         let shown = lines.skip(1).take_while(|(frequency, _)| *frequency <= end);
         // What lies below the picture still leads into it.
         let points = shown.map(|(frequency, amplitude)| {
-            (
-                rate.place(frequency),
-                size.place(amplitude.max(0.1 * floor)),
-            )
+            (rate.place(frequency), size.place(amplitude.max(0.1 * floor)))
         });
         Line::new(role, points.collect::<Vec<_>>())
     };
-    let symbol = if study.scales().is_some() {
-        "f"
-    } else {
-        "ω/ω_0"
-    };
+    let symbol = if study.scales().is_some() { "f" } else { "ω/ω_0" };
     let mut vertical = size.axis("spectral amplitude", "|x|").log();
     if top > 0.0 {
         vertical = vertical.between(size.place(floor), size.place(2.0 * top));
     }
-    let panel = Panel::new(
-        rate.axis("frequency", symbol).between(0.0, rate.place(end)),
-        vertical,
-    )
-    .with(Rule::vertical(rate.place(BAND_END)).label("band of $E$"));
+    let panel = Panel::new(rate.axis("frequency", symbol).between(0.0, rate.place(end)), vertical)
+        .with(Rule::vertical(rate.place(BAND_END)).label("band of $E$"));
     if study.belt().dithers().is_empty() {
         return panel.with(curve(with, Role::Exact));
     }

@@ -21,10 +21,7 @@ impl Ruler {
     /// A ruler for values up to `largest` in size (numbers of the equations).
     pub(super) fn new(study: &Study, quantity: Quantity, largest: f64) -> Self {
         let Some((scales, (unit, _))) = study.scales().zip(quantity.si_unit()) else {
-            return Self {
-                factor: 1.0,
-                unit: String::new(),
-            };
+            return Self { factor: 1.0, unit: String::new() };
         };
         let si = scales.si_per_unit(quantity);
         let size = (largest * si).abs();
@@ -32,10 +29,7 @@ impl Ruler {
         let kilo = matches!(quantity, Quantity::Force | Quantity::FrequencyRatio);
         let fits = |(prefix, scale): &&(&str, f64)| size >= *scale && (kilo || *prefix != "k");
         let (prefix, scale) = PREFIXES.iter().find(fits).copied().unwrap_or(("", 1.0));
-        Self {
-            factor: si / scale,
-            unit: format!("{prefix}{unit}"),
-        }
+        Self { factor: si / scale, unit: format!("{prefix}{unit}") }
     }
 
     /// A ruler for values.
@@ -44,21 +38,14 @@ impl Ruler {
         quantity: Quantity,
         values: impl IntoIterator<Item = f64>,
     ) -> Self {
-        let sizes = values
-            .into_iter()
-            .map(f64::abs)
-            .filter(|size| size.is_finite());
+        let sizes = values.into_iter().map(f64::abs).filter(|size| size.is_finite());
         Self::new(study, quantity, sizes.fold(0.0, f64::max))
     }
 
     /// The axis of a quantity.
     pub(super) fn axis(&self, name: &str, symbol: &str) -> Axis {
         let axis = Axis::new(name).symbol(symbol);
-        if self.unit.is_empty() {
-            axis
-        } else {
-            axis.unit(self.unit.clone())
-        }
+        if self.unit.is_empty() { axis } else { axis.unit(self.unit.clone()) }
     }
 
     /// A value along the axis.
@@ -69,14 +56,8 @@ impl Ruler {
     /// A value with its unit.
     pub(super) fn words(&self, value: f64) -> String {
         let text = format!("{:.3e}", self.place(value));
-        let number = text
-            .parse::<f64>()
-            .map_or(text, |rounded| rounded.to_string());
-        if self.unit.is_empty() {
-            number
-        } else {
-            format!("{number} {}", self.unit)
-        }
+        let number = text.parse::<f64>().map_or(text, |rounded| rounded.to_string());
+        if self.unit.is_empty() { number } else { format!("{number} {}", self.unit) }
     }
 }
 

@@ -15,20 +15,10 @@ pub fn simulate(study: &Study, done: &Simulation) -> Figure {
     let without = done.undithered_samples.as_deref().unwrap_or_default();
     let both = || with.iter().chain(without);
     let time = Ruler::of(study, Quantity::Time, both().map(|sample| sample.time));
-    let place = Ruler::of(
-        study,
-        Quantity::Displacement,
-        both().map(|sample| sample.displacement),
-    );
-    let speed = Ruler::of(
-        study,
-        Quantity::Velocity,
-        both().map(|sample| sample.velocity),
-    );
+    let place = Ruler::of(study, Quantity::Displacement, both().map(|sample| sample.displacement));
+    let speed = Ruler::of(study, Quantity::Velocity, both().map(|sample| sample.velocity));
     let curve = |samples: &[Sample], role, value: &dyn Fn(&Sample) -> f64| {
-        let points = samples
-            .iter()
-            .map(|sample| (time.place(sample.time), value(sample)));
+        let points = samples.iter().map(|sample| (time.place(sample.time), value(sample)));
         Line::new(role, points.collect::<Vec<_>>())
     };
     let displacement = |sample: &Sample| place.place(sample.displacement);
@@ -58,11 +48,7 @@ pub fn simulate(study: &Study, done: &Simulation) -> Figure {
         .sharing_x(Sharing::All)
         .caption(caption_of_run(study))
         .title(study.title().unwrap_or_default());
-    if study.belt().dithers().is_empty() {
-        figure
-    } else {
-        figure.legend(SharedLegend::Above)
-    }
+    if study.belt().dithers().is_empty() { figure } else { figure.legend(SharedLegend::Above) }
 }
 
 /// The axis of time.
@@ -72,9 +58,5 @@ pub(super) fn time_axis(study: &Study, ruler: &Ruler) -> Axis {
 
 /// Symbols of the belt's and of the mass's velocity.
 fn symbols(study: &Study) -> (&'static str, &'static str) {
-    if study.scales().is_some() {
-        ("$V_0$", "v")
-    } else {
-        ("$v_0$", "x′")
-    }
+    if study.scales().is_some() { ("$V_0$", "v") } else { ("$v_0$", "x′") }
 }

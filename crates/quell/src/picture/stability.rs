@@ -24,38 +24,23 @@ pub fn stability(study: &Study, done: &Stability) -> Figure {
         .flatten()
         .map(|critical| critical.amplitude)
         .collect();
-    let own = belt
-        .dithers()
-        .first()
-        .map_or(0.0, |dither| dither.amplitude);
+    let own = belt.dithers().first().map_or(0.0, |dither| dither.amplitude);
     let mut end = 1.5 * critical.iter().copied().fold(own, f64::max);
     if end == 0.0 {
-        let rate = belt
-            .dithers()
-            .first()
-            .map_or(1.0, |dither| dither.frequency_ratio);
+        let rate = belt.dithers().first().map_or(1.0, |dither| dither.frequency_ratio);
         end = 2.0 * belt.friction().velocity_scale() * rate;
     }
-    if belt
-        .dithers()
-        .first()
-        .is_some_and(|dither| dither.direction == Direction::Normal)
-    {
+    if belt.dithers().first().is_some_and(|dither| dither.direction == Direction::Normal) {
         end = end.min(belt.normal_load());
     }
     let force = Ruler::new(study, Quantity::Force, end);
     let value = |amplitude: f64| {
-        let changed = belt
-            .with(&belt.dither_path(0, "amplitude"), amplitude)
-            .ok()?;
+        let changed = belt.with(&belt.dither_path(0, "amplitude"), amplitude).ok()?;
         let found = criterion(&changed, AveragingOptions::default()).ok()?;
         Some((force.place(amplitude), found.value))
     };
-    let mut bounds: Vec<f64> = critical
-        .iter()
-        .copied()
-        .filter(|amplitude| *amplitude < end)
-        .collect();
+    let mut bounds: Vec<f64> =
+        critical.iter().copied().filter(|amplitude| *amplitude < end).collect();
     bounds.insert(0, 0.0);
     bounds.push(end);
     let pieces: Vec<Vec<(f64, f64)>> = bounds
@@ -69,45 +54,31 @@ pub fn stability(study: &Study, done: &Stability) -> Figure {
             (0..=POINTS).filter_map(|k| value(inside(k))).collect()
         })
         .collect();
-    let lowest = pieces
-        .iter()
-        .flatten()
-        .map(|point| point.1)
-        .fold(0.0, f64::min);
+    let lowest = pieces.iter().flatten().map(|point| point.1).fold(0.0, f64::min);
     // Beyond a jump the criterion falls from infinity: the picture shows where it comes to.
-    let low_of = |piece: &Vec<(f64, f64)>| {
-        piece
-            .iter()
-            .map(|point| point.1)
-            .fold(f64::INFINITY, f64::min)
-    };
+    let low_of =
+        |piece: &Vec<(f64, f64)>| piece.iter().map(|point| point.1).fold(f64::INFINITY, f64::min);
     let levels = pieces.iter().map(low_of).filter(|level| level.is_finite());
     let highest = 2.0 * levels.fold(0.5 * lowest.abs(), f64::max);
     let span = highest - lowest;
-    let vertical = Axis::new("criterion").symbol("2ζ + F\\bar{μ}'");
+    let vertical = Axis::new("criterion").symbol("2ζ + F\\bar{μ}′");
     let vertical = if span > 0.0 {
         vertical.between(lowest - 0.08 * span, highest + 0.08 * span)
     } else {
         vertical
     };
     let symbol = if study.scales().is_some() { "A" } else { "D" };
-    let mut panel = Panel::new(
-        force
-            .axis("dither amplitude", symbol)
-            .between(0.0, force.place(end)),
-        vertical,
-    )
-    .with(Region::across_y(Role::Unstable, f64::NEG_INFINITY, 0.0).label("unstable"))
-    .with(Rule::horizontal(0.0));
+    let mut panel =
+        Panel::new(force.axis("dither amplitude", symbol).between(0.0, force.place(end)), vertical)
+            .with(Region::across_y(Role::Unstable, f64::NEG_INFINITY, 0.0).label("unstable"))
+            .with(Rule::horizontal(0.0));
     if let Ok(found) = criterion(&belt.undithered(), AveragingOptions::default()) {
         let level = [(0.0, found.value), (force.place(end), found.value)];
         panel = panel.with(Line::new(Role::Undithered, level).label("without dither"));
     }
     panel = panel.with(Line::pieces(Role::Averaged, pieces).label("averaged"));
     if let Some((place, value)) = value(own).filter(|_| !belt.dithers().is_empty()) {
-        let point = Points::new(Role::Dithered, [(place, value)])
-            .marker(Marker::Disc)
-            .size(7.0);
+        let point = Points::new(Role::Dithered, [(place, value)]).marker(Marker::Disc).size(7.0);
         panel = panel.with(point.label("this study"));
     }
     Figure::single(panel)

@@ -93,12 +93,7 @@ pub(super) fn arrange(figure: &Figure) -> Plan {
         for column in 0..columns {
             left += margins.left[column];
             if let Some(plan) = panels.get_mut(row * columns + column) {
-                plan.frame = Rectangle {
-                    left,
-                    top,
-                    right: left + frame.0,
-                    bottom: top + frame.1,
-                };
+                plan.frame = Rectangle { left, top, right: left + frame.0, bottom: top + frame.1 };
                 if let LegendPlan::Box(area) = &mut plan.legend {
                     *area = Rectangle {
                         left: area.left + left,
@@ -162,27 +157,14 @@ fn outer(figure: &Figure, width: f64, body: (f64, f64), sizes: Sizes) -> Outer {
     if figure.legend == SharedLegend::Above {
         head += shared_height;
     }
-    let caption_height = if caption.is_empty() {
-        0.0
-    } else {
-        line(sizes.caption) * caption.len() as f64 + EDGE
-    };
-    Outer {
-        title,
-        caption,
-        shared,
-        head,
-        shared_height,
-        caption_height,
-    }
+    let caption_height =
+        if caption.is_empty() { 0.0 } else { line(sizes.caption) * caption.len() as f64 + EDGE };
+    Outer { title, caption, shared, head, shared_height, caption_height }
 }
 
 fn lines(source: &str, size: u32, bold: bool, room: f64) -> Vec<Label> {
-    let lines = if source.is_empty() {
-        Vec::new()
-    } else {
-        wrap(source, f64::from(size), bold, room)
-    };
+    let lines =
+        if source.is_empty() { Vec::new() } else { wrap(source, f64::from(size), bold, room) };
     lines.into_iter().filter(|line| !line.is_empty()).collect()
 }
 
@@ -193,11 +175,7 @@ fn frame_size(figure: &Figure, columns: usize, rows: usize) -> ((f64, f64), Size
         _ => (225.0, 160.0),
     };
     let sensible = |pixels: f64, usual: f64| {
-        if pixels.is_finite() {
-            pixels.clamp(LEAST_FRAME, 2e4)
-        } else {
-            usual
-        }
+        if pixels.is_finite() { pixels.clamp(LEAST_FRAME, 2e4) } else { usual }
     };
     match figure.size {
         Size::Auto => (usual, Sizes::for_frame(usual.0)),
@@ -256,23 +234,15 @@ fn measure(
         let (row, column) = (index / columns, index % columns);
         let x_numbers = figure.sharing_x == Sharing::Separate || index + columns >= count;
         let y_numbers = figure.sharing_y == Sharing::Separate || column == 0;
-        let plan = plan_panel(
-            figure,
-            panel,
-            stretches[index],
-            frame,
-            sizes,
-            (x_numbers, y_numbers),
-        );
+        let plan =
+            plan_panel(figure, panel, stretches[index], frame, sizes, (x_numbers, y_numbers));
         grow(&mut margins, (row, column), &plan, frame.0, sizes);
         plans.push(plan);
     }
     // The labels of one column stand in one line.
     for column in 0..columns {
         let mine = || (column..count).step_by(columns);
-        let widest = mine()
-            .map(|index| plans[index].y_label_distance)
-            .fold(0.0, f64::max);
+        let widest = mine().map(|index| plans[index].y_label_distance).fold(0.0, f64::max);
         mine().for_each(|index| plans[index].y_label_distance = widest);
     }
     (plans, margins)
@@ -289,17 +259,10 @@ fn plan_panel(
     let number_size = f64::from(sizes.number);
     let x_ticks = Ticks::of(&panel.x, x_stretch, Room::Across(frame.0, number_size));
     let y_ticks = Ticks::of(&panel.y, y_stretch, Room::Upright(frame.1));
-    let widest = y_ticks
-        .major
-        .iter()
-        .map(|(_, label)| label.width(number_size, false))
-        .fold(0.0, f64::max);
+    let widest =
+        y_ticks.major.iter().map(|(_, label)| label.width(number_size, false)).fold(0.0, f64::max);
     let label = |wanted: bool, text: String, room: f64| {
-        if wanted {
-            lines(&text, sizes.label, false, room)
-        } else {
-            Vec::new()
-        }
+        if wanted { lines(&text, sizes.label, false, room) } else { Vec::new() }
     };
     let entries = match (figure.legend, panel.legend) {
         (SharedLegend::None, Legend::Auto | Legend::Inside(_) | Legend::Above) => {
@@ -308,12 +271,7 @@ fn plan_panel(
         _ => Vec::new(),
     };
     let mut plan = PanelPlan {
-        frame: Rectangle {
-            left: 0.0,
-            top: 0.0,
-            right: frame.0,
-            bottom: frame.1,
-        },
+        frame: Rectangle { left: 0.0, top: 0.0, right: frame.0, bottom: frame.1 },
         x_stretch,
         y_stretch,
         x_ticks,
@@ -348,20 +306,11 @@ fn free_place(panel: &Panel, plan: &PanelPlan, sizes: Sizes) -> LegendPlan {
     let size = legend::box_size(&plan.entries, sizes);
     let fits = size.0 <= 0.7 * plan.frame.width() && size.1 <= 0.7 * plan.frame.height();
     let obstacles = Obstacles::of(panel, plan, sizes);
-    [
-        TopRight,
-        TopLeft,
-        BottomRight,
-        BottomLeft,
-        Right,
-        Left,
-        Top,
-        Bottom,
-    ]
-    .into_iter()
-    .map(|place| legend::box_at(place, plan.frame, size))
-    .find(|area| fits && obstacles.covered_by(area.grown(3.0)) == 0)
-    .map_or(LegendPlan::Above, LegendPlan::Box)
+    [TopRight, TopLeft, BottomRight, BottomLeft, Right, Left, Top, Bottom]
+        .into_iter()
+        .map(|place| legend::box_at(place, plan.frame, size))
+        .find(|area| fits && obstacles.covered_by(area.grown(3.0)) == 0)
+        .map_or(LegendPlan::Above, LegendPlan::Box)
 }
 
 fn grow(
@@ -382,22 +331,12 @@ fn grow(
     }
     widen(&mut margins.left[column], left);
     let overhang = |ticks: &Ticks, first: bool| {
-        let end = if first {
-            ticks.major.first()
-        } else {
-            ticks.major.last()
-        };
+        let end = if first { ticks.major.first() } else { ticks.major.last() };
         end.map_or(0.0, |(_, text)| 0.5 * text.width(number, false))
     };
     if plan.x_numbers {
-        widen(
-            &mut margins.right[column],
-            overhang(&plan.x_ticks, false) + 4.0,
-        );
-        widen(
-            &mut margins.left[column],
-            overhang(&plan.x_ticks, true) + 4.0,
-        );
+        widen(&mut margins.right[column], overhang(&plan.x_ticks, false) + 4.0);
+        widen(&mut margins.left[column], overhang(&plan.x_ticks, true) + 4.0);
     }
     let mut top = 6.0 + 1.3 * f64::from(sizes.title) * plan.title.len() as f64;
     if plan.legend == LegendPlan::Above {

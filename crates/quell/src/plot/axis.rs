@@ -47,10 +47,7 @@ impl Axis {
     /// A linear axis of the quantity with this name.
     #[must_use]
     pub fn new(name: impl Into<String>) -> Self {
-        Self {
-            name: name.into(),
-            ..Self::default()
-        }
+        Self { name: name.into(), ..Self::default() }
     }
 
     /// The symbol of the quantity, written as between dollars (`v_r`, `\bar{μ}`).
@@ -135,11 +132,7 @@ impl Axis {
         {
             return (one.min(other), one.max(other));
         }
-        let fallback = if self.scale == Scale::Log {
-            (0.1, 1.0)
-        } else {
-            (0.0, 1.0)
-        };
+        let fallback = if self.scale == Scale::Log { (0.1, 1.0) } else { (0.0, 1.0) };
         let (least, greatest) = extent.unwrap_or((
             fixed_lower
                 .or(fixed_upper.map(|upper| self.step_away(upper, -1.0)))
@@ -151,10 +144,8 @@ impl Axis {
         if extent.is_none() && least < greatest {
             return (least, greatest);
         }
-        let (mut lower, mut upper) = (
-            fixed_lower.unwrap_or(least),
-            fixed_upper.unwrap_or(greatest),
-        );
+        let (mut lower, mut upper) =
+            (fixed_lower.unwrap_or(least), fixed_upper.unwrap_or(greatest));
         if lower > upper {
             (lower, upper) = match (fixed_lower, fixed_upper) {
                 (Some(lower), None) => (lower, self.step_away(lower, 1.0)),
@@ -176,16 +167,8 @@ impl Axis {
         }
         let rounded = self.round_ends((lower, upper));
         (
-            if fixed_lower.is_none() && !keeps_zero {
-                rounded.0
-            } else {
-                lower
-            },
-            if fixed_upper.is_none() {
-                rounded.1
-            } else {
-                upper
-            },
+            if fixed_lower.is_none() && !keeps_zero { rounded.0 } else { lower },
+            if fixed_upper.is_none() { rounded.1 } else { upper },
         )
     }
 
@@ -199,16 +182,8 @@ impl Axis {
         let step = 10f64.powf((width / 5.0).log10().floor()) * 2.0;
         let (below, above) = ((lower / step).floor() * step, (upper / step).ceil() * step);
         (
-            if lower - below < CLOSE * width {
-                below
-            } else {
-                lower
-            },
-            if above - upper < CLOSE * width {
-                above
-            } else {
-                upper
-            },
+            if lower - below < CLOSE * width { below } else { lower },
+            if above - upper < CLOSE * width { above } else { upper },
         )
     }
 
@@ -251,13 +226,7 @@ impl Mapping {
     pub(super) fn new(axis: &Axis, stretch: (f64, f64), pixels: (f64, f64)) -> Self {
         let origin = axis.along(stretch.0);
         let slope = (pixels.1 - pixels.0) / (axis.along(stretch.1) - origin);
-        Self {
-            scale: axis.scale,
-            origin,
-            slope,
-            first_pixel: pixels.0,
-            stretch,
-        }
+        Self { scale: axis.scale, origin, slope, first_pixel: pixels.0, stretch }
     }
 
     /// Pixel of a value; nothing for a value without a place on this axis.
@@ -282,10 +251,7 @@ mod tests {
         let axis = Axis::new("time");
         assert_eq!(axis.stretch(Some((0.0, 99.999)), 0.0), (0.0, 100.0));
         assert_eq!(axis.stretch(Some((0.0, 93.0)), 0.0), (0.0, 93.0));
-        assert_eq!(
-            axis.clone().up_to(50.0).stretch(Some((-1.0, 99.0)), 0.0).1,
-            50.0
-        );
+        assert_eq!(axis.clone().up_to(50.0).stretch(Some((-1.0, 99.0)), 0.0).1, 50.0);
     }
 
     #[test]
@@ -296,12 +262,7 @@ mod tests {
             Axis::new("x").from(5.0),
             Axis::new("x").between(2.0, 2.0),
         ] {
-            for extent in [
-                None,
-                Some((3.0, 3.0)),
-                Some((1e-300, 1e-300)),
-                Some((0.5, 1.0)),
-            ] {
+            for extent in [None, Some((3.0, 3.0)), Some((1e-300, 1e-300)), Some((0.5, 1.0))] {
                 let (lower, upper) = axis.stretch(extent, 0.05);
                 assert!(
                     lower < upper && lower.is_finite() && upper.is_finite(),
@@ -313,12 +274,7 @@ mod tests {
 
     #[test]
     fn a_reversed_stretch_is_turned() {
-        assert_eq!(
-            Axis::new("x")
-                .between(3.0, 1.0)
-                .stretch(Some((0.0, 9.0)), 0.1),
-            (1.0, 3.0)
-        );
+        assert_eq!(Axis::new("x").between(3.0, 1.0).stretch(Some((0.0, 9.0)), 0.1), (1.0, 3.0));
     }
 
     #[test]

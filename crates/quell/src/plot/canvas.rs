@@ -51,11 +51,7 @@ pub(super) struct Stroke {
 
 impl Stroke {
     pub(super) fn solid(colour: Colour, width: f64) -> Self {
-        Self {
-            colour,
-            width,
-            dashes: None,
-        }
+        Self { colour, width, dashes: None }
     }
 }
 
@@ -72,13 +68,7 @@ pub(super) struct Setting {
 
 impl Setting {
     pub(super) fn new(size: u32, anchor: TextAnchor) -> Self {
-        Self {
-            size,
-            anchor,
-            bold: false,
-            colour: FRAME,
-            upwards: false,
-        }
+        Self { size, anchor, bold: false, colour: FRAME, upwards: false }
     }
 }
 
@@ -93,12 +83,7 @@ impl Canvas {
     pub(super) fn new(width: f64, height: f64) -> Self {
         let mut scene = Scene::new(width.ceil(), height.ceil()).with_background(Some("#ffffff"));
         scene.font_family = Some(FAMILY.to_string());
-        Self {
-            scene,
-            tags: Tags::default(),
-            clips: 0,
-            hatches: Vec::new(),
-        }
+        Self { scene, tags: Tags::default(), clips: 0, hatches: Vec::new() }
     }
 
     pub(super) fn text(&mut self, label: &Label, (x, y): (f64, f64), setting: Setting) {
@@ -230,15 +215,10 @@ impl Canvas {
     pub(super) fn into_svg(self) -> String {
         let drawn = SvgBackend::new().render_scene(&self.scene);
         let svg = self.tags.resolve(&drawn);
-        let svg = svg.replace(
-            PICTURE_NAME,
-            &format!("q{:016x}", fingerprint(svg.as_bytes())),
-        );
+        let svg = svg.replace(PICTURE_NAME, &format!("q{:016x}", fingerprint(svg.as_bytes())));
         // kuva writes no view box, without which a picture does not scale in a page.
-        let view_box = format!(
-            "<svg viewBox=\"0 0 {} {}\" role=\"img\"",
-            self.scene.width, self.scene.height
-        );
+        let view_box =
+            format!("<svg viewBox=\"0 0 {} {}\" role=\"img\"", self.scene.width, self.scene.height);
         svg.replacen("<svg", &view_box, 1)
     }
 }
@@ -324,18 +304,13 @@ mod tests {
 
     #[test]
     fn a_path_is_short_and_exact_to_a_hundredth() {
-        let pieces = vec![
-            vec![(1.0, 2.0), (1.5, 1.25), (-0.004, 1.25)],
-            vec![(3.0, 4.0)],
-        ];
+        let pieces = vec![vec![(1.0, 2.0), (1.5, 1.25), (-0.004, 1.25)], vec![(3.0, 4.0)]];
         assert_eq!(path(&pieces, false), "M1 2l0.5-0.75l-1.5 0M3 4h0");
     }
 
     #[test]
     fn rounding_does_not_add_up() {
-        let piece: Vec<_> = (0..30_000)
-            .map(|step| (0.013 * f64::from(step), 0.0))
-            .collect();
+        let piece: Vec<_> = (0..30_000).map(|step| (0.013 * f64::from(step), 0.0)).collect();
         let text = path(&[piece], false);
         let end: f64 = text
             .trim_start_matches('M')

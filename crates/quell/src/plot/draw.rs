@@ -71,27 +71,17 @@ fn draw_outer(canvas: &mut Canvas, plan: &Plan) {
     let size = f64::from(plan.sizes.figure_title);
     for (number, line) in plan.title.iter().enumerate() {
         let baseline = 10.0 + 0.85 * size + 1.35 * size * number as f64;
-        let setting = Setting {
-            bold: true,
-            ..Setting::new(plan.sizes.figure_title, TextAnchor::Middle)
-        };
+        let setting =
+            Setting { bold: true, ..Setting::new(plan.sizes.figure_title, TextAnchor::Middle) };
         canvas.text(line, (middle, baseline), setting);
     }
     let room = plan.body.1 - plan.body.0;
-    legend::draw_lines(
-        canvas,
-        &plan.shared,
-        (plan.body.0, plan.shared_top),
-        room,
-        plan.sizes,
-    );
+    legend::draw_lines(canvas, &plan.shared, (plan.body.0, plan.shared_top), room, plan.sizes);
     let size = f64::from(plan.sizes.caption);
     for (number, line) in plan.caption.iter().enumerate() {
         let baseline = plan.caption_top + 0.9 * size + 1.35 * size * number as f64;
-        let setting = Setting {
-            colour: FAINT,
-            ..Setting::new(plan.sizes.caption, TextAnchor::Start)
-        };
+        let setting =
+            Setting { colour: FAINT, ..Setting::new(plan.sizes.caption, TextAnchor::Start) };
         canvas.text(line, (10.0, baseline), setting);
     }
 }
@@ -109,11 +99,7 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, plan: &PanelPlan, sizes: Sizes
         if let Layer::Rule(rule) = layer {
             let width = rule.role.width();
             let dashes = rule.style.unwrap_or(rule.role.style()).dashes(width);
-            let stroke = Stroke {
-                colour: rule.role.colour(),
-                width,
-                dashes,
-            };
+            let stroke = Stroke { colour: rule.role.colour(), width, dashes };
             let ends = rule_ends(rule.direction, rule.value, &x, &y, plan.frame);
             canvas.stroke(path(ends.as_slice(), false), &stroke);
         }
@@ -163,18 +149,12 @@ pub(super) fn pixels(
     frame: Rectangle,
 ) -> Vec<Vec<(f64, f64)>> {
     let beside = |point: (f64, f64)| {
-        if point.0 < frame.left - 2.0 {
-            -1
-        } else {
-            i32::from(point.0 > frame.right + 2.0)
-        }
+        if point.0 < frame.left - 2.0 { -1 } else { i32::from(point.0 > frame.right + 2.0) }
     };
     let mut drawn = Vec::new();
     for piece in pieces {
-        let mapped: Vec<Option<(f64, f64)>> = piece
-            .iter()
-            .map(|&(at, value)| x.pixel(at).zip(y.pixel(value)))
-            .collect();
+        let mapped: Vec<Option<(f64, f64)>> =
+            piece.iter().map(|&(at, value)| x.pixel(at).zip(y.pixel(value))).collect();
         for run in mapped.split(Option::is_none) {
             let run: Vec<(f64, f64)> = run.iter().copied().flatten().collect();
             let visible = run.chunk_by(|before, after| {
@@ -226,34 +206,21 @@ fn draw_region(canvas: &mut Canvas, region: &Region, x: &Mapping, y: &Mapping, f
                 let value = y.pixel(value).unwrap_or(frame.bottom + 10.0);
                 (at, value)
             };
-            path(
-                &[thin::polyline(
-                    &corners.iter().map(inside).collect::<Vec<_>>(),
-                )],
-                true,
-            )
+            path(&[thin::polyline(&corners.iter().map(inside).collect::<Vec<_>>())], true)
         }
         Shape::AcrossX(from, to) => {
             let (left, right) = strip(x, from.min(*to), to.max(*from), frame.left, frame.right);
             if left >= right {
                 return;
             }
-            marks::outline(Rectangle {
-                left,
-                right,
-                ..frame
-            })
+            marks::outline(Rectangle { left, right, ..frame })
         }
         Shape::AcrossY(from, to) => {
             let (bottom, top) = strip(y, from.min(*to), to.max(*from), frame.bottom, frame.top);
             if top >= bottom {
                 return;
             }
-            marks::outline(Rectangle {
-                top,
-                bottom,
-                ..frame
-            })
+            marks::outline(Rectangle { top, bottom, ..frame })
         }
     };
     marks::fill(canvas, path, region.role, region.fill);
@@ -276,36 +243,16 @@ fn draw_frame(canvas: &mut Canvas, plan: &PanelPlan, sizes: Sizes, x: &Mapping, 
         ]
     };
     for (value, _) in &plan.x_ticks.major {
-        marks.extend(
-            x.pixel(*value)
-                .map(|at| upright(at, MAJOR_TICK))
-                .into_iter()
-                .flatten(),
-        );
+        marks.extend(x.pixel(*value).map(|at| upright(at, MAJOR_TICK)).into_iter().flatten());
     }
     for (value, _) in &plan.y_ticks.major {
-        marks.extend(
-            y.pixel(*value)
-                .map(|at| level(at, MAJOR_TICK))
-                .into_iter()
-                .flatten(),
-        );
+        marks.extend(y.pixel(*value).map(|at| level(at, MAJOR_TICK)).into_iter().flatten());
     }
     for value in &plan.x_ticks.minor {
-        minor_marks.extend(
-            x.pixel(*value)
-                .map(|at| upright(at, MINOR_TICK))
-                .into_iter()
-                .flatten(),
-        );
+        minor_marks.extend(x.pixel(*value).map(|at| upright(at, MINOR_TICK)).into_iter().flatten());
     }
     for value in &plan.y_ticks.minor {
-        minor_marks.extend(
-            y.pixel(*value)
-                .map(|at| level(at, MINOR_TICK))
-                .into_iter()
-                .flatten(),
-        );
+        minor_marks.extend(y.pixel(*value).map(|at| level(at, MINOR_TICK)).into_iter().flatten());
     }
     canvas.stroke(path(&minor_marks, false), &Stroke::solid(FRAME, 0.6));
     canvas.stroke(path(&marks, false), &Stroke::solid(FRAME, FRAME_WIDTH));
@@ -321,20 +268,12 @@ fn draw_numbers(canvas: &mut Canvas, plan: &PanelPlan, sizes: Sizes, x: &Mapping
         for (value, label) in &plan.x_ticks.major {
             let Some(at) = x.pixel(*value) else { continue };
             let baseline = frame.bottom + NUMBER_GAP + 0.76 * size;
-            canvas.text(
-                label,
-                (at, baseline),
-                Setting::new(sizes.number, TextAnchor::Middle),
-            );
+            canvas.text(label, (at, baseline), Setting::new(sizes.number, TextAnchor::Middle));
         }
         if plan.x_ticks.exponent != 0 {
             let below = frame.bottom + NUMBER_GAP + size + LABEL_GAP + 0.8 * f64::from(sizes.label);
             let label = Label::parse(&format!("$×10^{{{}}}$", plan.x_ticks.exponent));
-            canvas.text(
-                &label,
-                (frame.right, below),
-                Setting::new(sizes.number, TextAnchor::End),
-            );
+            canvas.text(&label, (frame.right, below), Setting::new(sizes.number, TextAnchor::End));
         }
     }
     if plan.y_numbers {
@@ -353,24 +292,14 @@ fn draw_numbers(canvas: &mut Canvas, plan: &PanelPlan, sizes: Sizes, x: &Mapping
 
 fn draw_labels(canvas: &mut Canvas, plan: &PanelPlan, sizes: Sizes) {
     let frame = plan.frame;
-    let middle = (
-        0.5 * (frame.left + frame.right),
-        0.5 * (frame.top + frame.bottom),
-    );
+    let middle = (0.5 * (frame.left + frame.right), 0.5 * (frame.top + frame.bottom));
     let size = f64::from(sizes.label);
     let setting = Setting::new(sizes.label, TextAnchor::Middle);
     let first = frame.bottom + NUMBER_GAP + f64::from(sizes.number) + LABEL_GAP + 0.8 * size;
     for (number, line) in plan.x_label.iter().enumerate() {
-        canvas.text(
-            line,
-            (middle.0, first + 1.25 * size * number as f64),
-            setting,
-        );
+        canvas.text(line, (middle.0, first + 1.25 * size * number as f64), setting);
     }
-    let upwards = Setting {
-        upwards: true,
-        ..setting
-    };
+    let upwards = Setting { upwards: true, ..setting };
     for (number, line) in plan.y_label.iter().rev().enumerate() {
         let at = frame.left - plan.y_label_distance - 1.25 * size * number as f64;
         canvas.text(line, (at, middle.1), upwards);
@@ -380,11 +309,7 @@ fn draw_labels(canvas: &mut Canvas, plan: &PanelPlan, sizes: Sizes) {
         baseline -= legend::lines_height(&plan.entries, frame.width(), sizes) + 2.0;
     }
     for line in plan.title.iter().rev() {
-        canvas.text(
-            line,
-            (frame.left, baseline),
-            Setting::new(sizes.title, TextAnchor::Start),
-        );
+        canvas.text(line, (frame.left, baseline), Setting::new(sizes.title, TextAnchor::Start));
         baseline -= 1.3 * f64::from(sizes.title);
     }
 }
@@ -410,12 +335,7 @@ pub(super) fn note_area(
     let inner = frame.grown(-4.0);
     let left = left.min(inner.right - width).max(inner.left);
     let top = top.min(inner.bottom - height).max(inner.top);
-    Some(Rectangle {
-        left,
-        top,
-        right: left + width,
-        bottom: top + height,
-    })
+    Some(Rectangle { left, top, right: left + width, bottom: top + height })
 }
 
 fn draw_texts(canvas: &mut Canvas, panel: &Panel, plan: &PanelPlan, sizes: Sizes) {
@@ -450,19 +370,12 @@ fn draw_texts(canvas: &mut Canvas, panel: &Panel, plan: &PanelPlan, sizes: Sizes
 }
 
 fn rule_ink(rule: &Rule) -> Colour {
-    if rule.role == Role::Guide {
-        FAINT
-    } else {
-        rule.role.colour()
-    }
+    if rule.role == Role::Guide { FAINT } else { rule.role.colour() }
 }
 
 /// Prints a text into its place, with a rim of paper that keeps it readable on a curve.
 fn print(canvas: &mut Canvas, text: &str, area: Rectangle, colour: Colour, sizes: Sizes) {
-    let setting = Setting {
-        colour,
-        ..Setting::new(sizes.note, TextAnchor::Start)
-    };
+    let setting = Setting { colour, ..Setting::new(sizes.note, TextAnchor::Start) };
     canvas.begin_group(
         "stroke=\"#fff\" stroke-width=\"2.5\" stroke-opacity=\"0.75\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
     );

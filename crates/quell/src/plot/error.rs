@@ -40,34 +40,21 @@ pub enum PlotError {
 impl fmt::Display for PlotError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::UnknownExtension {
-                path,
-                extension: Some(extension),
-            } => write!(
+            Self::UnknownExtension { path, extension: Some(extension) } => write!(
                 out,
                 "cannot tell the picture's kind from '{}': extension '.{extension}' is not known, use .svg or .png",
                 path.display()
             ),
-            Self::UnknownExtension {
-                path,
-                extension: None,
-            } => write!(
+            Self::UnknownExtension { path, extension: None } => write!(
                 out,
                 "cannot tell the picture's kind from '{}': it has no extension, use .svg or .png",
                 path.display()
             ),
             Self::Write { path, source } => {
-                write!(
-                    out,
-                    "cannot write the picture '{}': {source}",
-                    path.display()
-                )
+                write!(out, "cannot write the picture '{}': {source}", path.display())
             }
             Self::PixelSize { width, height } => {
-                write!(
-                    out,
-                    "a picture of {width} by {height} pixels cannot be made"
-                )
+                write!(out, "a picture of {width} by {height} pixels cannot be made")
             }
             Self::Raster { source } => write!(out, "cannot turn the picture into pixels: {source}"),
         }

@@ -28,9 +28,7 @@ fn files() -> &'static [Vec<u8>] {
     static FILES: OnceLock<Vec<Vec<u8>>> = OnceLock::new();
     FILES.get_or_init(|| {
         let scene = Scene::new(1.0, 1.0);
-        let svg = SvgBackend::new()
-            .with_embedded_font(true)
-            .render_scene(&scene);
+        let svg = SvgBackend::new().with_embedded_font(true).render_scene(&scene);
         svg.split(";base64,")
             .skip(1)
             .filter_map(|rest| rest.split('\'').next())
@@ -41,12 +39,7 @@ fn files() -> &'static [Vec<u8>] {
 
 fn tables() -> &'static [Table<'static>] {
     static TABLES: OnceLock<Vec<Table<'static>>> = OnceLock::new();
-    TABLES.get_or_init(|| {
-        files()
-            .iter()
-            .filter_map(|file| Table::parse(file, 0).ok())
-            .collect()
-    })
+    TABLES.get_or_init(|| files().iter().filter_map(|file| Table::parse(file, 0).ok()).collect())
 }
 
 /// The bundled fonts for the rasteriser.

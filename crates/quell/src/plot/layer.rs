@@ -44,13 +44,7 @@ impl Line {
                 whole.push(current);
             }
         }
-        Self {
-            role,
-            pieces: whole,
-            style: None,
-            width: None,
-            label: String::new(),
-        }
+        Self { role, pieces: whole, style: None, width: None, label: String::new() }
     }
 
     /// Opens the curve wherever y changes by more than `jump` between neighbours.
@@ -130,17 +124,8 @@ impl Points {
     /// Discs of 5 pixels at these points; a point that is not finite is left out.
     #[must_use]
     pub fn new(role: Role, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        let points = points
-            .into_iter()
-            .filter(|(x, y)| x.is_finite() && y.is_finite())
-            .collect();
-        Self {
-            role,
-            points,
-            marker: Marker::Disc,
-            size: 5.0,
-            label: String::new(),
-        }
+        let points = points.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
+        Self { role, points, marker: Marker::Disc, size: 5.0, label: String::new() }
     }
 
     /// Shape of the points.
@@ -205,10 +190,7 @@ impl Region {
     /// The inside of a polygon; it closes itself.
     #[must_use]
     pub fn polygon(role: Role, corners: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        let corners = corners
-            .into_iter()
-            .filter(|(x, y)| x.is_finite() && y.is_finite())
-            .collect();
+        let corners = corners.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
         Self::of(role, Shape::Polygon(corners))
     }
 
@@ -237,12 +219,7 @@ impl Region {
     }
 
     fn of(role: Role, shape: Shape) -> Self {
-        Self {
-            role,
-            shape,
-            fill: Fill::Shade,
-            label: String::new(),
-        }
+        Self { role, shape, fill: Fill::Shade, label: String::new() }
     }
 
     /// How the region is filled.
@@ -298,13 +275,7 @@ impl Rule {
     }
 
     fn of(direction: Direction, value: f64) -> Self {
-        Self {
-            role: Role::Guide,
-            direction,
-            value,
-            style: None,
-            label: String::new(),
-        }
+        Self { role: Role::Guide, direction, value, style: None, label: String::new() }
     }
 
     /// What the rule stands for.
@@ -362,12 +333,7 @@ impl Note {
     /// A text centred on (x, y).
     #[must_use]
     pub fn new(x: f64, y: f64, text: impl Into<String>) -> Self {
-        Self {
-            at: (x, y),
-            text: text.into(),
-            anchor: NoteAnchor::Centre,
-            role: None,
-        }
+        Self { at: (x, y), text: text.into(), anchor: NoteAnchor::Centre, role: None }
     }
 
     /// Where the text stands with respect to its point.

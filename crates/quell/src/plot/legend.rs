@@ -55,10 +55,9 @@ pub(super) fn entries<'a>(panels: impl IntoIterator<Item = &'a Panel>) -> Vec<En
 fn sample(layer: &Layer) -> Option<(&str, Sample)> {
     let (label, sample) = match layer {
         Layer::Line(line) => (&line.label, Sample::Stroke(stroke_of(line))),
-        Layer::Points(points) => (
-            &points.label,
-            Sample::Point(points.role, points.marker, points.size),
-        ),
+        Layer::Points(points) => {
+            (&points.label, Sample::Point(points.role, points.marker, points.size))
+        }
         Layer::Region(region) => (&region.label, Sample::Patch(region.role, region.fill)),
         Layer::Rule(_) | Layer::Note(_) => return None,
     };
@@ -69,11 +68,7 @@ fn sample(layer: &Layer) -> Option<(&str, Sample)> {
 pub(super) fn stroke_of(line: &Line) -> Stroke {
     let width = line.width.unwrap_or(line.role.width());
     let dashes = line.style.unwrap_or(line.role.style()).dashes(width);
-    Stroke {
-        colour: line.role.colour(),
-        width,
-        dashes,
-    }
+    Stroke { colour: line.role.colour(), width, dashes }
 }
 
 fn line_height(sizes: Sizes) -> f64 {
@@ -86,10 +81,7 @@ fn width(entry: &Entry, sizes: Sizes) -> f64 {
 
 /// Width and height of the box that holds the entries one below the other.
 pub(super) fn box_size(entries: &[Entry], sizes: Sizes) -> (f64, f64) {
-    let widest = entries
-        .iter()
-        .map(|entry| width(entry, sizes))
-        .fold(0.0, f64::max);
+    let widest = entries.iter().map(|entry| width(entry, sizes)).fold(0.0, f64::max);
     let height = line_height(sizes) * entries.len() as f64 - LINE_GAP;
     (widest + 2.0 * PADDING, height + 2.0 * PADDING)
 }
@@ -108,12 +100,7 @@ pub(super) fn box_at(place: Place, frame: Rectangle, (width, height): (f64, f64)
         Place::BottomLeft | Place::BottomRight | Place::Bottom => inner.bottom - height,
         Place::Left | Place::Right => 0.5 * (inner.top + inner.bottom - height),
     };
-    Rectangle {
-        left,
-        top,
-        right: left + width,
-        bottom: top + height,
-    }
+    Rectangle { left, top, right: left + width, bottom: top + height }
 }
 
 /// Draws the entries one below the other.
@@ -195,9 +182,5 @@ fn draw_entry(canvas: &mut Canvas, entry: &Entry, (left, top): (f64, f64), sizes
         }
     }
     let baseline = (left + SAMPLE + SAMPLE_GAP, middle + 0.36 * size);
-    canvas.text(
-        &entry.label,
-        baseline,
-        Setting::new(sizes.legend, TextAnchor::Start),
-    );
+    canvas.text(&entry.label, baseline, Setting::new(sizes.legend, TextAnchor::Start));
 }

@@ -22,15 +22,11 @@ impl Obstacles {
         for layer in &panel.layers {
             match layer {
                 Layer::Line(line) => {
-                    obstacles
-                        .strokes
-                        .extend(draw::pixels(&line.pieces, &x, &y, plan.frame));
+                    obstacles.strokes.extend(draw::pixels(&line.pieces, &x, &y, plan.frame));
                 }
                 Layer::Points(points) => {
                     let drawn = draw::point_pixels(&points.points, &x, &y, plan.frame);
-                    obstacles
-                        .strokes
-                        .extend(drawn.into_iter().map(|point| vec![point, point]));
+                    obstacles.strokes.extend(drawn.into_iter().map(|point| vec![point, point]));
                 }
                 Layer::Rule(rule) => {
                     obstacles.strokes.extend(rule_ends(
@@ -42,9 +38,7 @@ impl Obstacles {
                     ));
                 }
                 Layer::Note(note) => {
-                    obstacles
-                        .texts
-                        .extend(draw::note_area(note, (&x, &y), plan.frame, sizes));
+                    obstacles.texts.extend(draw::note_area(note, (&x, &y), plan.frame, sizes));
                 }
                 Layer::Region(_) => {}
             }
@@ -59,11 +53,7 @@ impl Obstacles {
 
     /// How many strokes and texts this rectangle would cover.
     pub(super) fn covered_by(&self, area: Rectangle) -> usize {
-        let texts = self
-            .texts
-            .iter()
-            .filter(|text| overlap(text, &area))
-            .count();
+        let texts = self.texts.iter().filter(|text| overlap(text, &area)).count();
         let strokes = self
             .strokes
             .iter()
@@ -85,15 +75,11 @@ pub(super) fn rule_ends(
 ) -> Option<Vec<(f64, f64)>> {
     match direction {
         Direction::Vertical => {
-            let x = x
-                .pixel(value)
-                .filter(|x| *x >= frame.left && *x <= frame.right)?;
+            let x = x.pixel(value).filter(|x| *x >= frame.left && *x <= frame.right)?;
             Some(vec![(x, frame.bottom), (x, frame.top)])
         }
         Direction::Horizontal => {
-            let y = y
-                .pixel(value)
-                .filter(|y| *y >= frame.top && *y <= frame.bottom)?;
+            let y = y.pixel(value).filter(|y| *y >= frame.top && *y <= frame.bottom)?;
             Some(vec![(frame.left, y), (frame.right, y)])
         }
     }
@@ -135,12 +121,7 @@ mod tests {
 
     #[test]
     fn a_stroke_crosses_what_it_passes_through() {
-        let area = Rectangle {
-            left: 0.0,
-            top: 0.0,
-            right: 10.0,
-            bottom: 10.0,
-        };
+        let area = Rectangle { left: 0.0, top: 0.0, right: 10.0, bottom: 10.0 };
         assert!(crosses((-5.0, 5.0), (15.0, 5.0), &area));
         assert!(crosses((5.0, 5.0), (5.0, 5.0), &area));
         assert!(!crosses((-5.0, 12.0), (15.0, 11.0), &area));

@@ -27,16 +27,11 @@ enum Kind {
 
 impl Kind {
     fn of(path: &Path) -> Result<Self, PlotError> {
-        let extension = path
-            .extension()
-            .map(|extension| extension.to_string_lossy().into_owned());
+        let extension = path.extension().map(|extension| extension.to_string_lossy().into_owned());
         match extension.as_deref().map(str::to_ascii_lowercase).as_deref() {
             Some("svg") => Ok(Self::Svg),
             Some("png") => Ok(Self::Png),
-            _ => Err(PlotError::UnknownExtension {
-                path: path.to_path_buf(),
-                extension,
-            }),
+            _ => Err(PlotError::UnknownExtension { path: path.to_path_buf(), extension }),
         }
     }
 }
@@ -67,10 +62,8 @@ impl Figure {
             Kind::Svg => self.to_svg().into_bytes(),
             Kind::Png => self.to_png()?,
         };
-        write_whole(path, &bytes).map_err(|source| PlotError::Write {
-            path: path.to_path_buf(),
-            source,
-        })
+        write_whole(path, &bytes)
+            .map_err(|source| PlotError::Write { path: path.to_path_buf(), source })
     }
 
     /// Says whether [`Figure::write`] knows what to do with this path, before any work is done.
@@ -88,9 +81,8 @@ fn png(svg: &str) -> Result<Vec<u8>, PlotError> {
         fontdb: fonts::database(),
         ..Options::default()
     };
-    let tree = Tree::from_str(svg, &options).map_err(|source| PlotError::Raster {
-        source: Box::new(source),
-    })?;
+    let tree = Tree::from_str(svg, &options)
+        .map_err(|source| PlotError::Raster { source: Box::new(source) })?;
     let pixels = |units: f32| {
         #[expect(
             clippy::cast_possible_truncation,
@@ -104,14 +96,8 @@ fn png(svg: &str) -> Result<Vec<u8>, PlotError> {
     let mut pixmap = Pixmap::new(width, height).ok_or(PlotError::PixelSize { width, height })?;
     #[expect(clippy::cast_possible_truncation, reason = "a small constant")]
     let scale = PIXELS_PER_UNIT as f32;
-    resvg::render(
-        &tree,
-        Transform::from_scale(scale, scale),
-        &mut pixmap.as_mut(),
-    );
-    pixmap.encode_png().map_err(|source| PlotError::Raster {
-        source: Box::new(source),
-    })
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
+    pixmap.encode_png().map_err(|source| PlotError::Raster { source: Box::new(source) })
 }
 
 fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
@@ -132,15 +118,8 @@ fn beside(path: &Path) -> io::Result<(PathBuf, fs::File)> {
     let name = path.file_name().ok_or(io::ErrorKind::InvalidInput)?;
     let mut hidden = std::ffi::OsString::from(".");
     hidden.push(name);
-    hidden.push(format!(
-        ".{}-{}.part",
-        process::id(),
-        COUNT.fetch_add(1, Ordering::Relaxed)
-    ));
+    hidden.push(format!(".{}-{}.part", process::id(), COUNT.fetch_add(1, Ordering::Relaxed)));
     let temporary = path.with_file_name(hidden);
-    let file = OpenOptions::new()
-        .write(true)
-        .create_new(true)
-        .open(&temporary)?;
+    let file = OpenOptions::new().write(true).create_new(true).open(&temporary)?;
     Ok((temporary, file))
 }

@@ -79,10 +79,8 @@ impl LineStyle {
             Self::Dotted => &[1.2, 2.2],
             Self::DashDotted => &[5.5, 2.2, 1.2, 2.2],
         };
-        let words: Vec<String> = lengths
-            .iter()
-            .map(|length| format!("{:.1}", length * scale))
-            .collect();
+        let words: Vec<String> =
+            lengths.iter().map(|length| format!("{:.1}", length * scale)).collect();
         Some(words.join(" "))
     }
 }

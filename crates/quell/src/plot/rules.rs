@@ -42,12 +42,7 @@ pub(super) fn place(
     let mut best: Option<(usize, Rectangle)> = None;
     for &top in &tops {
         for &left in &lefts {
-            let area = Rectangle {
-                left,
-                top,
-                right: left + width,
-                bottom: top + height,
-            };
+            let area = Rectangle { left, top, right: left + width, bottom: top + height };
             let outside = left < frame.left
                 || area.right > frame.right
                 || top < frame.top

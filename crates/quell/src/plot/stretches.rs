@@ -23,18 +23,11 @@ pub(super) fn stretches(figure: &Figure, columns: usize) -> Vec<Stretches> {
 
     let x_extents: Vec<Extent> = panels.iter().map(|panel| extent(panel, None)).collect();
     let x = shared(panels, &x_extents, x_group, |panel, extent| {
-        panel
-            .x
-            .stretch(extent, if has_curves(panel) { 0.0 } else { 0.04 })
+        panel.x.stretch(extent, if has_curves(panel) { 0.0 } else { 0.04 })
     });
-    let y_extents: Vec<Extent> = panels
-        .iter()
-        .zip(&x)
-        .map(|(panel, x)| extent(panel, Some(*x)))
-        .collect();
-    let y = shared(panels, &y_extents, y_group, |panel, extent| {
-        panel.y.stretch(extent, 0.06)
-    });
+    let y_extents: Vec<Extent> =
+        panels.iter().zip(&x).map(|(panel, x)| extent(panel, Some(*x))).collect();
+    let y = shared(panels, &y_extents, y_group, |panel, extent| panel.y.stretch(extent, 0.06));
     x.into_iter().zip(y).collect()
 }
 
@@ -59,10 +52,7 @@ fn shared(
 
 /// True when a curve or a region spans the x axis, so that it needs no air at its ends.
 fn has_curves(panel: &Panel) -> bool {
-    panel
-        .layers
-        .iter()
-        .any(|layer| matches!(layer, Layer::Line(_) | Layer::Region(_)))
+    panel.layers.iter().any(|layer| matches!(layer, Layer::Line(_) | Layer::Region(_)))
 }
 
 /// Least and greatest x that the layers need, or y of what lies within the stretch of x.
@@ -71,9 +61,7 @@ fn extent(panel: &Panel, within: Option<(f64, f64)>) -> Extent {
     let mut whole: Extent = None;
     for layer in &panel.layers {
         layer.each_extent(|x, y| {
-            let hidden = within
-                .zip(x)
-                .is_some_and(|((lower, upper), x)| x < lower || x > upper);
+            let hidden = within.zip(x).is_some_and(|((lower, upper), x)| x < lower || x > upper);
             let value = if within.is_some() { y } else { x };
             let Some(value) = value.filter(|value| value.is_finite()) else {
                 return;

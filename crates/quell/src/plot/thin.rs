@@ -75,13 +75,7 @@ fn straighten(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
                 let turn = wrap(dy.atan2(dx) - reference);
                 // A stroke that turns back is not straight, whatever its direction.
                 let inside = turn >= least && turn <= greatest && distance >= reach;
-                inside.then(|| {
-                    (
-                        reference,
-                        least.max(turn - opening),
-                        greatest.min(turn + opening),
-                    )
-                })
+                inside.then(|| (reference, least.max(turn - opening), greatest.min(turn + opening)))
             }
         };
         if narrowed.is_some() {
@@ -113,11 +107,7 @@ pub(super) fn scatter(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut seen = std::collections::HashSet::new();
     #[expect(clippy::cast_possible_truncation, reason = "pixels are clamped to 1e5")]
     let grain = |pixel: f64| (pixel / GRAIN).round() as i64;
-    points
-        .iter()
-        .copied()
-        .filter(|(x, y)| seen.insert((grain(*x), grain(*y))))
-        .collect()
+    points.iter().copied().filter(|(x, y)| seen.insert((grain(*x), grain(*y)))).collect()
 }
 
 #[cfg(test)]
@@ -160,11 +150,7 @@ mod tests {
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let (px, py) = (point.0 - from.0, point.1 - from.1);
         let length = dx * dx + dy * dy;
-        let along = if length > 0.0 {
-            ((px * dx + py * dy) / length).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
+        let along = if length > 0.0 { ((px * dx + py * dy) / length).clamp(0.0, 1.0) } else { 0.0 };
         (px - along * dx).hypot(py - along * dy)
     }
 

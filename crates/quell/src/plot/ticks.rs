@@ -44,11 +44,7 @@ impl Ticks {
             Room::Across(pixels, _) => pixels / 42.0,
             Room::Upright(pixels) => pixels / 36.0,
         };
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "2 to 9"
-        )]
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "2 to 9")]
         let mut count = most.clamp(2.0, 9.0) as usize;
         loop {
             let ticks = Self::evenly(stretch, count);
@@ -77,9 +73,7 @@ impl Ticks {
     }
 
     fn linear(values: Vec<f64>, minor: Vec<f64>, step: f64) -> Self {
-        let greatest = values
-            .iter()
-            .fold(0.0, |most: f64, value| most.max(value.abs()));
+        let greatest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let exponent = if greatest >= 1e5 || (greatest > 0.0 && greatest < 2e-3) {
             #[expect(clippy::cast_possible_truncation, reason = "a decimal exponent")]
             let exponent = greatest.log10().floor() as i32;
@@ -93,11 +87,7 @@ impl Ticks {
             .into_iter()
             .map(|value| (value, Label::parse(&number(value / unit, decimals))))
             .collect();
-        Self {
-            major,
-            minor,
-            exponent,
-        }
+        Self { major, minor, exponent }
     }
 
     fn logarithmic(stretch: (f64, f64), room: Room) -> Self {
@@ -112,11 +102,8 @@ impl Ticks {
             _ => &[1.0],
         };
         #[expect(clippy::cast_possible_truncation, reason = "decimal exponents")]
-        let (first, last, stride) = (
-            low.floor() as i32,
-            high.ceil() as i32,
-            (decades / most).ceil().max(1.0) as i32,
-        );
+        let (first, last, stride) =
+            (low.floor() as i32, high.ceil() as i32, (decades / most).ceil().max(1.0) as i32);
         let plain = first >= -2 && last <= 3 && decades < 3.2;
         let inside =
             |value: &f64| *value >= stretch.0 * (1.0 - 1e-9) && *value <= stretch.1 * (1.0 + 1e-9);
@@ -135,11 +122,7 @@ impl Ticks {
                 }
             }
         }
-        Self {
-            major,
-            minor,
-            exponent: 0,
-        }
+        Self { major, minor, exponent: 0 }
     }
 
     fn fits(&self, axis: &Axis, stretch: (f64, f64), room: Room) -> bool {
@@ -171,11 +154,7 @@ fn power(digit: i32, exponent: i32, plain: bool) -> String {
         let decimals = usize::try_from(-exponent).unwrap_or(0);
         return number(f64::from(digit) * 10f64.powi(exponent), decimals);
     }
-    let mantissa = if digit == 1 {
-        String::new()
-    } else {
-        format!("{digit}·")
-    };
+    let mantissa = if digit == 1 { String::new() } else { format!("{digit}·") };
     format!("{mantissa}$10^{{{exponent}}}$")
 }
 
@@ -216,26 +195,15 @@ mod tests {
     fn a_log_axis_has_its_decades() {
         let axis = Axis::new("f").log();
         let ticks = Ticks::of(&axis, (1e-6, 1e2), Room::Upright(300.0));
-        assert!(
-            printed(&ticks)
-                .iter()
-                .any(|value| (value - 1e-3).abs() < 1e-12)
-        );
+        assert!(printed(&ticks).iter().any(|value| (value - 1e-3).abs() < 1e-12));
         assert!(ticks.major.len() >= 4 && ticks.major.len() <= 9);
     }
 
     #[test]
     fn numbers_side_by_side_do_not_touch() {
-        let ticks = Ticks::of(
-            &Axis::new("x"),
-            (-0.0123, 0.0117),
-            Room::Across(120.0, 11.0),
-        );
-        let widest = ticks
-            .major
-            .iter()
-            .map(|(_, label)| label.width(11.0, false))
-            .fold(0.0, f64::max);
+        let ticks = Ticks::of(&Axis::new("x"), (-0.0123, 0.0117), Room::Across(120.0, 11.0));
+        let widest =
+            ticks.major.iter().map(|(_, label)| label.width(11.0, false)).fold(0.0, f64::max);
         assert!(widest * ticks.major.len() as f64 <= 160.0);
     }
 }

@@ -124,19 +124,12 @@ impl Label {
 
     /// The text for kuva, with looks as private-use characters.
     pub(super) fn encode(&self, tags: &mut Tags) -> String {
-        let mut pen = Pen {
-            tags,
-            text: String::new(),
-            depth: 0.0,
-            aside: 0.0,
-        };
+        let mut pen = Pen { tags, text: String::new(), depth: 0.0, aside: 0.0 };
         for run in &self.runs {
             // kuva reads `$…$` and `\$` itself; a dollar that is left here is to print.
             let printed = run.text.replace('$', "\\$");
             if run.look.barred {
-                run.text
-                    .chars()
-                    .for_each(|letter| pen.put_barred(letter, run.look));
+                run.text.chars().for_each(|letter| pen.put_barred(letter, run.look));
             } else {
                 pen.put(&printed, run.look, run.look.level.depth());
             }
@@ -154,10 +147,7 @@ impl Label {
             let letter = if letter.is_control() { ' ' } else { letter };
             match self.runs.last_mut() {
                 Some(run) if run.look == look => run.text.push(letter),
-                _ => self.runs.push(Run {
-                    text: letter.to_string(),
-                    look,
-                }),
+                _ => self.runs.push(Run { text: letter.to_string(), look }),
             }
         }
     }
@@ -168,11 +158,7 @@ impl Label {
         while at < letters.len() {
             match letters[at] {
                 '_' | '^' => {
-                    let level = if letters[at] == '_' {
-                        Level::Lowered
-                    } else {
-                        Level::Raised
-                    };
+                    let level = if letters[at] == '_' { Level::Lowered } else { Level::Raised };
                     let (inner, next) = group(&letters, at + 1);
                     self.push_letters(&inner, level, false);
                     at = next;
@@ -209,14 +195,7 @@ impl Label {
             }
             let italic = matches!(level, Level::Base | Level::Raised) && is_slanted(letter);
             let printed = if letter == '-' { '\u{2212}' } else { letter };
-            self.push_text(
-                printed.encode_utf8(&mut [0; 4]),
-                Look {
-                    italic,
-                    barred,
-                    level,
-                },
-            );
+            self.push_text(printed.encode_utf8(&mut [0; 4]), Look { italic, barred, level });
             level = usual;
         }
     }
@@ -247,16 +226,9 @@ impl Pen<'_> {
 
     fn put_barred(&mut self, letter: char, look: Look) {
         let letter_text = letter.to_string();
-        let face = if look.italic {
-            Face::Oblique
-        } else {
-            Face::Regular
-        };
+        let face = if look.italic { Face::Oblique } else { Face::Regular };
         let lean = if look.italic { LEAN } else { 0.0 };
-        let (own, bar) = (
-            fonts::width(&letter_text, face),
-            fonts::width(BAR, Face::Regular),
-        );
+        let (own, bar) = (fonts::width(&letter_text, face), fonts::width(BAR, Face::Regular));
         self.put(&letter_text, look, 0.0);
         let tall = letter.is_uppercase() || "bdfhkltβδζθλξφψ".contains(letter);
         self.aside = lean - 0.5 * (own + bar);
@@ -279,10 +251,7 @@ fn group(letters: &[char], at: usize) -> (Vec<char>, usize) {
 }
 
 fn word_end(letters: &[char], at: usize) -> usize {
-    let length = letters[at..]
-        .iter()
-        .take_while(|letter| letter.is_ascii_alphabetic())
-        .count();
+    let length = letters[at..].iter().take_while(|letter| letter.is_ascii_alphabetic()).count();
     at + length
 }
 
@@ -315,14 +284,10 @@ impl Tags {
             let _ = write!(tag, " dy=\"{:.3}em\"", down / share);
         }
         tag.push('>');
-        let index = self
-            .opening
-            .iter()
-            .position(|known| *known == tag)
-            .unwrap_or_else(|| {
-                self.opening.push(tag);
-                self.opening.len() - 1
-            });
+        let index = self.opening.iter().position(|known| *known == tag).unwrap_or_else(|| {
+            self.opening.push(tag);
+            self.opening.len() - 1
+        });
         // There are no more than a few dozen different looks.
         u32::try_from(index)
             .ok()
@@ -361,11 +326,7 @@ pub(super) fn wrap(source: &str, size: f64, bold: bool, room: f64) -> Vec<Label>
             letter == ' ' && !symbols
         });
         for word in words {
-            let longer = if line.is_empty() {
-                word.to_string()
-            } else {
-                format!("{line} {word}")
-            };
+            let longer = if line.is_empty() { word.to_string() } else { format!("{line} {word}") };
             if line.is_empty() || Label::parse(&longer).width(size, bold) <= room {
                 line = longer;
             } else {
@@ -394,24 +355,14 @@ mod tests {
     use super::*;
 
     fn looks(source: &str) -> Vec<(String, Look)> {
-        Label::parse(source)
-            .runs
-            .into_iter()
-            .map(|run| (run.text, run.look))
-            .collect()
+        Label::parse(source).runs.into_iter().map(|run| (run.text, run.look)).collect()
     }
 
     #[test]
     fn symbols_are_italic_and_subscripts_upright() {
         let runs = looks("slip velocity $v_r$ (m/s)");
-        let italic = Look {
-            italic: true,
-            ..Look::default()
-        };
-        let lowered = Look {
-            level: Level::Lowered,
-            ..Look::default()
-        };
+        let italic = Look { italic: true, ..Look::default() };
+        let lowered = Look { level: Level::Lowered, ..Look::default() };
         assert_eq!(
             runs,
             vec![
@@ -440,10 +391,7 @@ mod tests {
             .skip(1)
             .filter_map(|rest| rest.split("em").next()?.parse::<f64>().ok())
             .sum();
-        assert!(
-            (moves + fonts::width(BAR, Face::Regular)).abs() < 2e-3,
-            "{svg}"
-        );
+        assert!((moves + fonts::width(BAR, Face::Regular)).abs() < 2e-3, "{svg}");
     }
 
     fn tags_of(label: &Label, tags: &mut Tags) -> String {
@@ -453,14 +401,8 @@ mod tests {
 
     #[test]
     fn a_lone_dollar_prints_and_survives_kuva() {
-        assert_eq!(
-            looks("5 $ each"),
-            vec![("5 $ each".into(), Look::default())]
-        );
-        assert_eq!(
-            Label::parse("5 $ each").encode(&mut Tags::default()),
-            "5 \\$ each"
-        );
+        assert_eq!(looks("5 $ each"), vec![("5 $ each".into(), Look::default())]);
+        assert_eq!(Label::parse("5 $ each").encode(&mut Tags::default()), "5 \\$ each");
     }
 
     #[test]
@@ -475,23 +417,14 @@ mod tests {
         let mut tags = Tags::default();
         let text = Label::parse("$x_1y$").encode(&mut tags);
         let svg = tags.resolve(&text);
-        assert!(
-            svg.contains("dy=\"0.278em\"") && svg.contains("dy=\"-0.200em\""),
-            "{svg}"
-        );
-        assert_eq!(
-            svg.matches("<tspan").count(),
-            svg.matches("</tspan>").count()
-        );
+        assert!(svg.contains("dy=\"0.278em\"") && svg.contains("dy=\"-0.200em\""), "{svg}");
+        assert_eq!(svg.matches("<tspan").count(), svg.matches("</tspan>").count());
     }
 
     #[test]
     fn lines_break_at_spaces_but_not_within_symbols() {
         let lines = wrap("aaaa bbbb $x + y$", 10.0, false, 60.0);
-        assert_eq!(
-            lines,
-            vec![Label::parse("aaaa bbbb"), Label::parse("$x + y$")]
-        );
+        assert_eq!(lines, vec![Label::parse("aaaa bbbb"), Label::parse("$x + y$")]);
     }
 
     #[test]

@@ -24,14 +24,7 @@ impl Check<'_> {
         fields
             .plain("ok", true)
             .plain("title", study.title().map_or(Json::Null, Json::from))
-            .plain(
-                "system",
-                if scales.is_some() {
-                    "si"
-                } else {
-                    "dimensionless"
-                },
-            );
+            .plain("system", if scales.is_some() { "si" } else { "dimensionless" });
         if study.title().is_none() {
             fields.why("title", "the study gives none");
         }
@@ -46,12 +39,8 @@ impl Check<'_> {
         fields.nested("belt", inner);
         let mut inner = Fields::new(scales);
         inner.plain("law", belt.friction().kind().name());
-        for (parameter, value) in belt
-            .friction()
-            .kind()
-            .parameters()
-            .iter()
-            .zip(belt.friction().values())
+        for (parameter, value) in
+            belt.friction().kind().parameters().iter().zip(belt.friction().values())
         {
             inner.number(parameter.key(), parameter.quantity, value);
         }
@@ -62,17 +51,9 @@ impl Check<'_> {
                 .plain("direction", dither.direction.name())
                 .plain("waveform", dither.waveform.name())
                 .number("amplitude", Quantity::Force, dither.amplitude)
-                .number(
-                    "frequency_ratio",
-                    Quantity::FrequencyRatio,
-                    dither.frequency_ratio,
-                )
+                .number("frequency_ratio", Quantity::FrequencyRatio, dither.frequency_ratio)
                 .number("phase", Quantity::Angle, dither.phase)
-                .number(
-                    "amplitude_ratio",
-                    Quantity::Velocity,
-                    dither.amplitude_ratio(),
-                );
+                .number("amplitude_ratio", Quantity::Velocity, dither.amplitude_ratio());
             inner
         });
         fields.list("dithers", dithers.collect::<Vec<_>>());

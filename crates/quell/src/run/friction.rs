@@ -47,12 +47,8 @@ pub fn grid(belt: &Belt) -> Vec<f64> {
             level * dither.amplitude_ratio() * dither.waveform.peak_integral()
         })
         .sum();
-    let end = (2.0 * scale)
-        .max(1.5 * belt.belt_velocity())
-        .max(1.5 * fast);
-    let mut side: Vec<f64> = (1..=POINTS)
-        .map(|k| end * f64::from(k) / f64::from(POINTS))
-        .collect();
+    let end = (2.0 * scale).max(1.5 * belt.belt_velocity()).max(1.5 * fast);
+    let mut side: Vec<f64> = (1..=POINTS).map(|k| end * f64::from(k) / f64::from(POINTS)).collect();
     // At the largest fast velocity the effective friction has a corner.
     if fast > 0.0 {
         side.extend((1..=CORNER).map(|k| fast * (1.0 - 0.5f64.powi(k))));
@@ -80,20 +76,13 @@ pub fn run(study: &Study, at: &[f64]) -> FrictionCurve {
             .and_then(|motion| effective(law, &motion, v))
             .map_err(|why| why.to_string()),
     });
-    FrictionCurve {
-        points: points.collect(),
-    }
+    FrictionCurve { points: points.collect() }
 }
 
 impl FrictionCurve {
     /// μ̄ at each point; NaN where there is none.
     pub fn effective_coefficients(&self) -> Vec<f64> {
-        self.column(|point| {
-            point
-                .effective
-                .as_ref()
-                .map_or(f64::NAN, |found| found.coefficient)
-        })
+        self.column(|point| point.effective.as_ref().map_or(f64::NAN, |found| found.coefficient))
     }
 
     /// μ at each point; NaN where there is no one value.
@@ -108,12 +97,7 @@ impl FrictionCurve {
 
     /// μ̄′ at each point; NaN where there is none.
     pub fn effective_slopes(&self) -> Vec<f64> {
-        self.column(|point| {
-            point
-                .effective
-                .as_ref()
-                .map_or(f64::NAN, |found| found.slope)
-        })
+        self.column(|point| point.effective.as_ref().map_or(f64::NAN, |found| found.slope))
     }
 
     fn column(&self, value: impl Fn(&Point) -> f64) -> Vec<f64> {
@@ -131,31 +115,19 @@ impl FrictionCurve {
             .plain("ok", true)
             .numbers("slip_velocity", Quantity::Velocity, &self.slip_velocities())
             .numbers("coefficient", Quantity::Ratio, &self.coefficients())
-            .numbers(
-                "effective_coefficient",
-                Quantity::Ratio,
-                &self.effective_coefficients(),
-            )
+            .numbers("effective_coefficient", Quantity::Ratio, &self.effective_coefficients())
             .numbers(
                 "effective_coefficient_error",
                 Quantity::Ratio,
                 &self.errors(|found| found.coefficient_error),
             )
             .per_velocity("effective_slope", &self.effective_slopes())
-            .per_velocity(
-                "effective_slope_error",
-                &self.errors(|found| found.slope_error),
-            );
-        let one_sided = self.points.iter().map(|point| {
-            point
-                .effective
-                .as_ref()
-                .is_ok_and(|found| found.side == Side::Outer)
-        });
-        fields.plain(
-            "effective_slope_one_sided",
-            one_sided.collect::<Vec<bool>>(),
-        );
+            .per_velocity("effective_slope_error", &self.errors(|found| found.slope_error));
+        let one_sided = self
+            .points
+            .iter()
+            .map(|point| point.effective.as_ref().is_ok_and(|found| found.side == Side::Outer));
+        fields.plain("effective_slope_one_sided", one_sided.collect::<Vec<bool>>());
         for (index, point) in self.points.iter().enumerate() {
             if let Err(why) = &point.coefficient {
                 fields.why(&format!("coefficient[{index}]"), why);
@@ -173,11 +145,7 @@ impl FrictionCurve {
         Dataset::new(study, "friction")
             .axis("slip_velocity", Quantity::Velocity, self.slip_velocities())
             .array("coefficient", Quantity::Ratio, self.coefficients())
-            .array(
-                "effective_coefficient",
-                Quantity::Ratio,
-                self.effective_coefficients(),
-            )
+            .array("effective_coefficient", Quantity::Ratio, self.effective_coefficients())
             .per_velocity("effective_slope", self.effective_slopes())
     }
 }

@@ -22,17 +22,14 @@ use crate::study::{InitialState, Study};
 /// # Errors
 /// A complaint where a squealing start is asked for and there is none.
 pub fn start(study: &Study) -> Result<Start, Failure> {
-    study
-        .initial()
-        .resolve(study.belt(), study.solver())
-        .map_err(|why| match why {
-            NoSquealingStart::Stalled(stalled) => failed(stalled),
-            NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest => {
-                let allowed = format!("another state: {why}");
-                let key = "belt.initial.state";
-                Complaint::new(Fault::Value, key, Origin::Whole, "squealing", allowed).into()
-            }
-        })
+    study.initial().resolve(study.belt(), study.solver()).map_err(|why| match why {
+        NoSquealingStart::Stalled(stalled) => failed(stalled),
+        NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest => {
+            let allowed = format!("another state: {why}");
+            let key = "belt.initial.state";
+            Complaint::new(Fault::Value, key, Origin::Whole, "squealing", allowed).into()
+        }
+    })
 }
 
 /// The start in words.
@@ -41,10 +38,7 @@ pub fn start_in_words(study: &Study) -> String {
         InitialState::Rest => "from rest".to_owned(),
         InitialState::Sliding => "from steady sliding".to_owned(),
         InitialState::Squealing => "from the undithered limit cycle".to_owned(),
-        InitialState::Explicit {
-            displacement,
-            velocity,
-        } => {
+        InitialState::Explicit { displacement, velocity } => {
             let displacement = in_words(study, Quantity::Displacement, displacement);
             let velocity = in_words(study, Quantity::Velocity, velocity);
             format!("from x = {displacement}, x′ = {velocity}")
@@ -56,9 +50,8 @@ pub fn start_in_words(study: &Study) -> String {
 fn in_words(study: &Study, quantity: Quantity, value: f64) -> String {
     let digits = |value: f64| {
         let text = format!("{value:.5e}");
-        text.parse::<f64>().map_or(text, |rounded| {
-            format!("{rounded:?}").trim_end_matches(".0").to_owned()
-        })
+        text.parse::<f64>()
+            .map_or(text, |rounded| format!("{rounded:?}").trim_end_matches(".0").to_owned())
     };
     match study.scales().zip(quantity.si_unit()) {
         Some((scales, (unit, _))) => format!("{} {unit}", digits(scales.to_si(quantity, value))),
@@ -67,8 +60,5 @@ fn in_words(study: &Study, quantity: Quantity, value: f64) -> String {
 }
 
 fn failed(stalled: Stalled) -> Failure {
-    Failure::Failed {
-        key: "simulation".to_owned(),
-        why: stalled.to_string(),
-    }
+    Failure::Failed { key: "simulation".to_owned(), why: stalled.to_string() }
 }

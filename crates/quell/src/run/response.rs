@@ -39,12 +39,7 @@ impl Steady {
     pub fn sentence(&self, study: &Study) -> String {
         let response = &self.response;
         let from = start_in_words(study);
-        if study
-            .belt()
-            .dithers()
-            .iter()
-            .all(|dither| dither.amplitude == 0.0)
-        {
+        if study.belt().dithers().iter().all(|dither| dither.amplitude == 0.0) {
             return match &response.efficiency {
                 Ok(_) => format!("Without dither, {from}, the belt keeps vibrating."),
                 Err(why) => format!("There is no dither, and {why}."),
@@ -73,22 +68,20 @@ impl Steady {
 
     /// What a reader of the numbers should know.
     pub fn warnings(&self, study: &Study) -> Vec<String> {
+        let time = if study.scales().is_some() { "t" } else { "τ" };
         let settle = in_words(study, Quantity::Time, study.solver().settle);
         let mut warnings = Vec::new();
         let mut warn = |which: &str, settled: bool| {
             if !settled {
                 warnings.push(format!(
-                    "the {which} response has not settled after {settle}: the amplitudes of the two \
+                    "the {which} response has not settled after {time} = {settle}: the amplitudes of the two \
                      halves of the record differ; raise solver.settle or solver.record_periods"
                 ));
             }
         };
         warn("dithered", self.response.settled);
         // Where it decays to nothing it need not settle: E is undefined and says so.
-        warn(
-            "undithered",
-            self.response.undithered_settled || self.response.efficiency.is_err(),
-        );
+        warn("undithered", self.response.undithered_settled || self.response.efficiency.is_err());
         warnings
     }
 
@@ -97,15 +90,18 @@ impl Steady {
         let response = &self.response;
         let scales = study.scales();
         let mut fields = Fields::new(scales);
-        fields
-            .plain("ok", true)
-            .plain("sentence", self.sentence(study))
-            .number("amplitude", Quantity::Displacement, response.amplitude);
+        fields.plain("ok", true).plain("sentence", self.sentence(study)).number(
+            "amplitude",
+            Quantity::Displacement,
+            response.amplitude,
+        );
         let peaks = response.peaks.iter().map(|peak| {
             let mut inner = Fields::new(scales);
-            inner
-                .number("frequency", Quantity::FrequencyRatio, peak.frequency)
-                .number("amplitude", Quantity::Displacement, peak.amplitude);
+            inner.number("frequency", Quantity::FrequencyRatio, peak.frequency).number(
+                "amplitude",
+                Quantity::Displacement,
+                peak.amplitude,
+            );
             inner
         });
         fields.list("peaks", peaks);
@@ -119,34 +115,18 @@ impl Steady {
                 Quantity::Ratio,
                 response.efficiency.map_err(|why| why.to_string()),
             )
-            .number(
-                "undithered_amplitude",
-                Quantity::Displacement,
-                response.undithered_amplitude,
-            )
+            .number("undithered_amplitude", Quantity::Displacement, response.undithered_amplitude)
             .plain("settled", response.settled)
             .plain("undithered_settled", response.undithered_settled)
             .number("mean_friction", Quantity::Force, response.mean_friction)
-            .number(
-                "mean_friction_undithered",
-                Quantity::Force,
-                response.mean_friction_undithered,
-            )
-            .known(
-                "dither_power",
-                Quantity::Power,
-                response.dither_power.ok_or_else(only_normal),
-            )
+            .number("mean_friction_undithered", Quantity::Force, response.mean_friction_undithered)
+            .known("dither_power", Quantity::Power, response.dither_power.ok_or_else(only_normal))
             .known(
                 "dither_stroke",
                 Quantity::Displacement,
                 response.dither_stroke.ok_or_else(only_normal),
             )
-            .number(
-                "minimum_normal_load",
-                Quantity::Force,
-                response.minimum_normal_load,
-            )
+            .number("minimum_normal_load", Quantity::Force, response.minimum_normal_load)
             .number("settle", Quantity::Time, study.solver().settle)
             .number("record_length", Quantity::Time, response.record.length())
             .plain("warnings", self.warnings(study));
@@ -155,10 +135,8 @@ impl Steady {
 
     /// The record of both runs.
     pub fn record(&self, study: &Study) -> Dataset {
-        let (with, without) = (
-            &self.response.record.samples,
-            &self.response.undithered_record.samples,
-        );
+        let (with, without) =
+            (&self.response.record.samples, &self.response.undithered_record.samples);
         let column = |samples: &[Sample], value: fn(&Sample) -> f64| -> Vec<f64> {
             samples.iter().map(value).collect()
         };
@@ -170,11 +148,7 @@ impl Steady {
                 Quantity::Displacement,
                 column(with, |sample| sample.displacement),
             )
-            .array(
-                "velocity",
-                Quantity::Velocity,
-                column(with, |sample| sample.velocity),
-            )
+            .array("velocity", Quantity::Velocity, column(with, |sample| sample.velocity))
             .array(
                 "sticking",
                 Quantity::Count,
@@ -199,10 +173,8 @@ impl Steady {
 
     /// The spectra of both records.
     pub fn spectrum(&self, study: &Study) -> Dataset {
-        let (with, without) = (
-            &self.response.record.spectrum,
-            &self.response.undithered_record.spectrum,
-        );
+        let (with, without) =
+            (&self.response.record.spectrum, &self.response.undithered_record.spectrum);
         Dataset::new(study, "response: spectrum of the displacement")
             .fact("mean removed, Hann window, four times the record's length by zeros; amplitude of a pure tone")
             .axis("frequency", Quantity::FrequencyRatio, with.frequencies().collect())

@@ -55,11 +55,8 @@ pub struct Simulation {
 pub fn run(study: &Study, until: f64, options: Options) -> Result<Simulation, Failure> {
     let belt = study.belt();
     let start = start(study)?;
-    let (intervals, coarse) = if options.samples {
-        grid(study, until - start.time)
-    } else {
-        (0, false)
-    };
+    let (intervals, coarse) =
+        if options.samples { grid(study, until - start.time) } else { (0, false) };
     let sample_step = (until - start.time) / (intervals.max(1) as f64);
     let count = if options.samples { intervals } else { 0 };
     let mut sampler = Sampler::new(start.time, sample_step, count);
@@ -104,11 +101,7 @@ fn with_end(mut samples: Vec<Sample>, end: &FinalState) -> Vec<Sample> {
 
 /// Number of intervals between samples, and whether it had to be cut.
 fn grid(study: &Study, length: f64) -> (usize, bool) {
-    let dithers = study
-        .belt()
-        .dithers()
-        .iter()
-        .filter(|dither| dither.amplitude > 0.0);
+    let dithers = study.belt().dithers().iter().filter(|dither| dither.amplitude > 0.0);
     let fastest = dithers.fold(0.0_f64, |rate, dither| rate.max(dither.frequency_ratio));
     let per_slow = SAMPLES_PER_SLOW_PERIOD.max(SAMPLES_PER_DITHER_PERIOD * fastest);
     let wanted = (length / TAU * per_slow).ceil().max(1.0);
@@ -151,17 +144,11 @@ impl Simulation {
     pub fn json(&self, study: &Study) -> Json {
         let scales = study.scales();
         let mut fields = Fields::new(scales);
-        fields
-            .plain("ok", true)
-            .plain("sentence", self.sentence(study));
+        fields.plain("ok", true).plain("sentence", self.sentence(study));
         let mut inner = Fields::new(scales);
         inner
             .number("time", Quantity::Time, self.start.time)
-            .number(
-                "displacement",
-                Quantity::Displacement,
-                self.start.displacement,
-            )
+            .number("displacement", Quantity::Displacement, self.start.displacement)
             .number("velocity", Quantity::Velocity, self.start.velocity);
         fields.nested("start", inner);
         let end = &self.end;
@@ -199,26 +186,14 @@ impl Simulation {
         let samples = self.samples.as_deref().unwrap_or_default();
         let column = |value: fn(&Sample) -> f64| samples.iter().map(value).collect::<Vec<f64>>();
         let belt_velocity = study.belt().belt_velocity();
-        let slip = samples.iter().map(|sample| {
-            if sample.sticking {
-                0.0
-            } else {
-                belt_velocity - sample.velocity
-            }
-        });
+        let slip = samples
+            .iter()
+            .map(|sample| if sample.sticking { 0.0 } else { belt_velocity - sample.velocity });
         Dataset::new(study, "simulate")
             .fact(format!("start: {}", start_in_words(study)))
             .axis("time", Quantity::Time, column(|sample| sample.time))
-            .array(
-                "displacement",
-                Quantity::Displacement,
-                column(|sample| sample.displacement),
-            )
-            .array(
-                "velocity",
-                Quantity::Velocity,
-                column(|sample| sample.velocity),
-            )
+            .array("displacement", Quantity::Displacement, column(|sample| sample.displacement))
+            .array("velocity", Quantity::Velocity, column(|sample| sample.velocity))
             .array("slip_velocity", Quantity::Velocity, slip.collect())
             .array(
                 "sticking",

@@ -47,17 +47,13 @@ pub struct Stability {
 /// Averaged stability of a study.
 pub fn run(study: &Study) -> Stability {
     let belt = study.belt();
-    let sharper = AveragingOptions {
-        response: Response::Oscillator,
-        normal_order: NormalOrder::Second,
-    };
+    let sharper =
+        AveragingOptions { response: Response::Oscillator, normal_order: NormalOrder::Second };
     let slow = belt
         .dithers()
         .iter()
         .find(|dither| dither.frequency_ratio <= 1.0)
-        .map(|dither| AveragingError::NotFast {
-            frequency_ratio: dither.frequency_ratio,
-        });
+        .map(|dither| AveragingError::NotFast { frequency_ratio: dither.frequency_ratio });
     Stability {
         limit: averaged(belt, AveragingOptions::default()),
         sharper: match slow {
@@ -94,9 +90,7 @@ fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, Stri
     );
     match found.map_err(|why| why.to_string())? {
         EverywhereStable::Always => Ok(0.0),
-        EverywhereStable::From {
-            amplitude_ratio, ..
-        } => Ok(amplitude_ratio),
+        EverywhereStable::From { amplitude_ratio, .. } => Ok(amplitude_ratio),
         EverywhereStable::Never { why } => Err(match why {
             NeverStable::NoDamping => {
                 "without damping a law that falls for ever leaves fast belts unstable at \
@@ -113,16 +107,9 @@ fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, Stri
 
 /// Shape of the fast slip velocity of a dither.
 fn fast_wave(dither: &Dither, response: Response) -> FastWave {
-    let Dither {
-        waveform,
-        frequency_ratio,
-        ..
-    } = *dither;
+    let Dither { waveform, frequency_ratio, .. } = *dither;
     match response {
-        Response::Oscillator => FastWave::Oscillator {
-            waveform,
-            frequency_ratio,
-        },
+        Response::Oscillator => FastWave::Oscillator { waveform, frequency_ratio },
         Response::Limit => FastWave::Integral(waveform),
     }
 }
@@ -155,36 +142,23 @@ impl Averaged {
         let value = |field: fn(&Criterion) -> f64| self.criterion.as_ref().map(field).map_err(told);
         fields
             .plain("verdict", self.verdict())
-            .known(
-                "criterion",
-                Quantity::Ratio,
-                value(|criterion| criterion.value),
-            )
+            .known("criterion", Quantity::Ratio, value(|criterion| criterion.value))
             .known("error", Quantity::Ratio, value(|criterion| criterion.error))
-            .rate(
-                "growth_rate",
-                value(|criterion| growth_rate(criterion.value)),
-            )
+            .rate("growth_rate", value(|criterion| growth_rate(criterion.value)))
             .known(
                 "effective_coefficient",
                 Quantity::Ratio,
                 value(|criterion| criterion.effective.coefficient),
             );
-        let one_sided = self
-            .criterion
-            .as_ref()
-            .is_ok_and(|found| found.effective.side == Side::Outer);
+        let one_sided =
+            self.criterion.as_ref().is_ok_and(|found| found.effective.side == Side::Outer);
         fields.plain("one_sided", one_sided);
         match &self.critical_amplitudes {
             Ok(found) => {
                 let items = found.iter().map(|critical| {
                     let mut inner = Fields::new(scales);
                     inner
-                        .number(
-                            "amplitude_ratio",
-                            Quantity::Velocity,
-                            critical.amplitude_ratio,
-                        )
+                        .number("amplitude_ratio", Quantity::Velocity, critical.amplitude_ratio)
                         .number("amplitude", Quantity::Force, critical.amplitude)
                         .plain("kind", kind(critical.crossing))
                         .plain("becomes", becomes(critical.becomes))
@@ -200,23 +174,14 @@ impl Averaged {
                     .why("critical_amplitudes", told(why));
             }
         }
-        let frequency_ratio = study
-            .belt()
-            .dithers()
-            .first()
-            .map_or(0.0, |dither| dither.frequency_ratio);
+        let frequency_ratio =
+            study.belt().dithers().first().map_or(0.0, |dither| dither.frequency_ratio);
         let ratio = &self.everywhere_stable;
-        fields
-            .known(
-                "everywhere_stable_amplitude_ratio",
-                Quantity::Velocity,
-                ratio.clone(),
-            )
-            .known(
-                "everywhere_stable_amplitude",
-                Quantity::Force,
-                ratio.clone().map(|ratio| ratio * frequency_ratio),
-            );
+        fields.known("everywhere_stable_amplitude_ratio", Quantity::Velocity, ratio.clone()).known(
+            "everywhere_stable_amplitude",
+            Quantity::Force,
+            ratio.clone().map(|ratio| ratio * frequency_ratio),
+        );
         match &self.unstable_bands {
             Ok(bands) => {
                 let items = bands.iter().map(|band| {
@@ -269,14 +234,10 @@ impl Stability {
             Ok(found) => match found.verdict {
                 Verdict::Stable => format!("steady sliding at v₀ = {v} is stable"),
                 Verdict::Unstable => format!("steady sliding at v₀ = {v} is unstable"),
-                Verdict::Undecided {
-                    why: UndecidedBecause::WithinError,
-                } => format!(
+                Verdict::Undecided { why: UndecidedBecause::WithinError } => format!(
                     "steady sliding at v₀ = {v} is undecided: the criterion is zero within its error"
                 ),
-                Verdict::Undecided {
-                    why: UndecidedBecause::AtCorner,
-                } => format!(
+                Verdict::Undecided { why: UndecidedBecause::AtCorner } => format!(
                     "steady sliding at v₀ = {v} is undecided: the belt is exactly as fast as the fast motion, \
                      unstable for slightly faster belts and stable for slightly slower ones"
                 ),
@@ -306,11 +267,7 @@ impl Stability {
                 becomes(next.becomes),
                 in_words(study, Quantity::Force, next.amplitude),
                 in_words(study, Quantity::Velocity, next.amplitude_ratio),
-                if next.contact_stays_closed {
-                    ""
-                } else {
-                    ", but would pull the contact apart"
-                }
+                if next.contact_stays_closed { "" } else { ", but would pull the contact apart" }
             ),
             None if critical.is_empty() => "; no amplitude of this dither changes that".to_owned(),
             None => "; more of this dither does not change that".to_owned(),
@@ -319,11 +276,7 @@ impl Stability {
 
     /// What a reader of the numbers should know.
     pub fn warnings(&self, study: &Study) -> Vec<String> {
-        let slow = study
-            .belt()
-            .dithers()
-            .iter()
-            .filter(|dither| dither.frequency_ratio < FAST);
+        let slow = study.belt().dithers().iter().filter(|dither| dither.frequency_ratio < FAST);
         slow.map(|dither| {
             format!(
                 "averaging presumes fast dither; R = {} is hardly fast, simulate to be sure",
@@ -340,10 +293,7 @@ impl Stability {
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
             .plain("protocol", "averaged")
-            .plain(
-                "method",
-                "averaging over the fast motion in the limit of high frequency",
-            );
+            .plain("method", "averaging over the fast motion in the limit of high frequency");
         self.limit.put(study, &mut fields);
         match &self.sharper {
             Ok(averaged) => {

@@ -24,13 +24,7 @@ pub(super) struct BeltTable {
 pub(super) fn read(reader: &mut Reader, root: &Table) -> BeltTable {
     let Some(node) = root.get("belt") else {
         let allowed = "a table [belt] with damping_ratio, normal_load, belt_velocity (or in SI)";
-        reader.complain(Complaint::new(
-            Fault::Missing,
-            "belt",
-            Origin::Whole,
-            Json::Null,
-            allowed,
-        ));
+        reader.complain(Complaint::new(Fault::Missing, "belt", Origin::Whole, Json::Null, allowed));
         return BeltTable::default();
     };
     let Some(table) = reader.table("belt", node) else {
@@ -38,21 +32,13 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> BeltTable {
     };
     reader.unknown_keys(table, Section::Belt, "belt", &["initial"]);
     let mut number = |parameter| reader.number(table, "belt", node.origin, parameter);
-    let (damping_ratio, normal_load, belt_velocity) = (
-        number(DAMPING_RATIO),
-        number(NORMAL_LOAD),
-        number(BELT_VELOCITY),
-    );
+    let (damping_ratio, normal_load, belt_velocity) =
+        (number(DAMPING_RATIO), number(NORMAL_LOAD), number(BELT_VELOCITY));
     let initial = match table.get("initial") {
         Some(node) => initial(reader, node),
         None => Some(InitialState::Rest),
     };
-    BeltTable {
-        damping_ratio,
-        normal_load,
-        belt_velocity,
-        initial,
-    }
+    BeltTable { damping_ratio, normal_load, belt_velocity, initial }
 }
 
 fn initial(reader: &mut Reader, node: &Node) -> Option<InitialState> {
@@ -61,9 +47,7 @@ fn initial(reader: &mut Reader, node: &Node) -> Option<InitialState> {
     reader.unknown_keys(table, Section::Initial, PREFIX, &[]);
     let displacement = reader.optional(table, PREFIX, INITIAL_DISPLACEMENT, None);
     let velocity = reader.optional(table, PREFIX, INITIAL_VELOCITY, None);
-    let numbers = [displacement, velocity]
-        .iter()
-        .any(|found| *found != Found::Absent);
+    let numbers = [displacement, velocity].iter().any(|found| *found != Found::Absent);
     let Some(state) = table.get("state") else {
         return Some(InitialState::Explicit {
             displacement: displacement.or(0.0)?,
@@ -76,13 +60,7 @@ fn initial(reader: &mut Reader, node: &Node) -> Option<InitialState> {
     if numbers {
         let allowed = "say either a named state or displacement and velocity, not both";
         let key = "belt.initial.state";
-        reader.complain(Complaint::new(
-            Fault::Conflict,
-            key,
-            state.origin,
-            state.given(),
-            allowed,
-        ));
+        reader.complain(Complaint::new(Fault::Conflict, key, state.origin, state.given(), allowed));
         return None;
     }
     name.map(|name| match name {

@@ -23,10 +23,9 @@ impl Change {
     /// A complaint where there is no `=`.
     pub fn parse(text: &str, option: &'static str) -> Result<Self, Box<Complaint>> {
         match text.split_once('=') {
-            Some((path, value)) if !path.trim().is_empty() => Ok(Self {
-                path: path.trim().to_owned(),
-                node: Node::from_argument(value, option),
-            }),
+            Some((path, value)) if !path.trim().is_empty() => {
+                Ok(Self { path: path.trim().to_owned(), node: Node::from_argument(value, option) })
+            }
             _ => {
                 let allowed = "path=value, such as belt.belt_velocity=0.1";
                 Err(Box::new(Complaint::option(option, text, allowed)))
@@ -38,10 +37,7 @@ impl Change {
     pub fn number(path: &str, value: f64, option: &'static str) -> Self {
         Self {
             path: path.to_owned(),
-            node: Node {
-                value: Value::Number(value),
-                origin: Origin::Argument(option),
-            },
+            node: Node { value: Value::Number(value), origin: Origin::Argument(option) },
         }
     }
 
@@ -72,13 +68,7 @@ impl Change {
     }
 
     fn complaint(&self, fault: Fault, allowed: impl Into<String>) -> Complaint {
-        Complaint::new(
-            fault,
-            &self.path,
-            self.node.origin,
-            self.node.given(),
-            allowed,
-        )
+        Complaint::new(fault, &self.path, self.node.origin, self.node.given(), allowed)
     }
 
     /// The table of a section, made where it is not there. `None` where something else has
@@ -105,13 +95,7 @@ impl Change {
     fn table<'a>(&self, parent: &'a mut Table, name: &str) -> Option<&'a mut Table> {
         if !parent.has(name) {
             let value = Value::Table(Table::default());
-            parent.set(
-                name,
-                Node {
-                    value,
-                    origin: self.node.origin,
-                },
-            );
+            parent.set(name, Node { value, origin: self.node.origin });
         }
         match parent.get_mut(name).map(|node| &mut node.value) {
             Some(Value::Table(table)) => Some(table),
@@ -144,17 +128,11 @@ impl Change {
             }
         };
         let origin = self.node.origin;
-        let fresh = || Node {
-            value: Value::Table(Table::default()),
-            origin,
-        };
+        let fresh = || Node { value: Value::Table(Table::default()), origin };
         if count == 0 {
             // An axis is always one of a list; a single dither is a plain table.
             let node = match name {
-                "sweep" => Node {
-                    value: Value::List(vec![fresh()]),
-                    origin,
-                },
+                "sweep" => Node { value: Value::List(vec![fresh()]), origin },
                 _ => fresh(),
             };
             root.set(name, node);

@@ -20,11 +20,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Dither>> {
                 .iter()
                 .enumerate()
                 .map(|(index, node)| {
-                    let prefix = if single {
-                        "dither".into()
-                    } else {
-                        format!("dither[{index}]")
-                    };
+                    let prefix = if single { "dither".into() } else { format!("dither[{index}]") };
                     one(reader, node, &prefix)
                 })
                 .collect();
@@ -34,10 +30,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Dither>> {
             reader.wrong(
                 "dither",
                 node,
-                format!(
-                    "a table [dither] or tables [[dither]]; this is {}",
-                    node.kind()
-                ),
+                format!("a table [dither] or tables [[dither]]; this is {}", node.kind()),
             );
             None
         }

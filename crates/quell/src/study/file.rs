@@ -19,13 +19,7 @@ const LARGEST: u64 = 16 << 20;
 pub(super) fn text(path: &Path) -> Result<String, Box<Complaint>> {
     let complaint = |allowed: String| {
         let given = Json::String(path.display().to_string());
-        Box::new(Complaint::new(
-            Fault::Path,
-            "study file",
-            Origin::Whole,
-            given,
-            allowed,
-        ))
+        Box::new(Complaint::new(Fault::Path, "study file", Origin::Whole, given, allowed))
     };
     let mut bytes = Vec::new();
     let read = if path == Path::new("-") {
@@ -53,9 +47,7 @@ pub(super) fn text(path: &Path) -> Result<String, Box<Complaint>> {
         ))
     })?;
     if text.contains('\0') {
-        return Err(complaint(
-            "is not text: it has zero bytes; a study is a TOML file".into(),
-        ));
+        return Err(complaint("is not text: it has zero bytes; a study is a TOML file".into()));
     }
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
         return Err(complaint(

@@ -33,10 +33,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Friction> {
         .map(|parameter| reader.number(table, "friction", node.origin, *parameter))
         .collect();
     // NaN stands for what was complained about: `adopt` says nothing twice.
-    let known: Vec<f64> = values
-        .iter()
-        .map(|value| value.unwrap_or(f64::NAN))
-        .collect();
+    let known: Vec<f64> = values.iter().map(|value| value.unwrap_or(f64::NAN)).collect();
     match kind?.build(&known) {
         Ok(law) => Some(law),
         Err(invalid) => {
@@ -51,9 +48,7 @@ fn unknown_keys(reader: &mut Reader, table: &Table, kind: Option<LawKind>) {
     for (name, node) in table.iter() {
         let known = vocabulary::key(Section::Friction, name).is_some_and(|key| match key.role {
             Role::Number(parameter) | Role::Twin(parameter, _) => kind.is_none_or(|kind| {
-                kind.parameters()
-                    .iter()
-                    .any(|known| known.path == parameter.path)
+                kind.parameters().iter().any(|known| known.path == parameter.path)
             }),
             _ => true,
         });

@@ -80,28 +80,17 @@ impl Table {
             })
             .collect();
         entries.sort_by_key(|(start, _, _)| *start);
-        Self {
-            entries: entries
-                .into_iter()
-                .map(|(_, key, node)| (key, node))
-                .collect(),
-        }
+        Self { entries: entries.into_iter().map(|(_, key, node)| (key, node)).collect() }
     }
 
     /// The value of a key.
     pub fn get(&self, key: &str) -> Option<&Node> {
-        self.entries
-            .iter()
-            .find(|(name, _)| name == key)
-            .map(|(_, node)| node)
+        self.entries.iter().find(|(name, _)| name == key).map(|(_, node)| node)
     }
 
     /// The value of a key, to change it.
     pub fn get_mut(&mut self, key: &str) -> Option<&mut Node> {
-        self.entries
-            .iter_mut()
-            .find(|(name, _)| name == key)
-            .map(|(_, node)| node)
+        self.entries.iter_mut().find(|(name, _)| name == key).map(|(_, node)| node)
     }
 
     /// Sets a key, in its old place where it had one.
@@ -141,11 +130,9 @@ impl Node {
             DeValue::Float(float) => Value::Number(float.as_str().parse().unwrap_or(f64::NAN)),
             DeValue::Boolean(flag) => Value::Flag(*flag),
             DeValue::Datetime(date) => Value::Date(date.to_string()),
-            DeValue::Array(list) => Value::List(
-                list.iter()
-                    .map(|entry| Self::from_toml(entry, lines))
-                    .collect(),
-            ),
+            DeValue::Array(list) => {
+                Value::List(list.iter().map(|entry| Self::from_toml(entry, lines)).collect())
+            }
             DeValue::Table(table) => Value::Table(Table::from_toml(table, lines)),
         };
         Self { value, origin }
@@ -164,10 +151,7 @@ impl Node {
             }
             _ => Value::Text(text.trim().to_owned()),
         };
-        Self {
-            value,
-            origin: Origin::Argument(option),
-        }
+        Self { value, origin: Origin::Argument(option) }
     }
 
     /// As it is told in a complaint.
@@ -231,11 +215,7 @@ struct Lines {
 impl Lines {
     fn of(text: &str) -> Self {
         let breaks = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
-        Self {
-            starts: std::iter::once(0)
-                .chain(breaks.map(|(index, _)| index + 1))
-                .collect(),
-        }
+        Self { starts: std::iter::once(0).chain(breaks.map(|(index, _)| index + 1)).collect() }
     }
 
     fn at(&self, offset: usize) -> usize {
@@ -255,19 +235,10 @@ mod tests {
         assert_eq!(keys[0], ("b", Origin::Line(1)));
         assert_eq!(keys[1], ("a", Origin::Line(2)));
         assert_eq!(keys[2], ("t", Origin::Line(4)));
-        assert_eq!(
-            table.get("b").map(|node| &node.value),
-            Some(&Value::Number(1000.0))
-        );
-        assert_eq!(
-            table.get("a").map(|node| &node.value),
-            Some(&Value::Number(16.0))
-        );
+        assert_eq!(table.get("b").map(|node| &node.value), Some(&Value::Number(1000.0)));
+        assert_eq!(table.get("a").map(|node| &node.value), Some(&Value::Number(16.0)));
         let inner = table.get("t").and_then(Node::table).expect("table");
-        assert_eq!(
-            inner.get("c").map(|node| node.origin),
-            Some(Origin::Line(5))
-        );
+        assert_eq!(inner.get("c").map(|node| node.origin), Some(Origin::Line(5)));
         let Some(Value::List(list)) = table.get("l").map(|node| &node.value) else {
             panic!("a list of tables");
         };

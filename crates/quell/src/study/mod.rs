@@ -167,11 +167,7 @@ impl Study {
             }
         }
         complaints.dedup_by(|a, b| a.key == b.key && a.fault == b.fault && a.allowed == b.allowed);
-        if complaints.is_empty() {
-            Ok(())
-        } else {
-            Err(complaints)
-        }
+        if complaints.is_empty() { Ok(()) } else { Err(complaints) }
     }
 
     /// Title, if the file gives one.
@@ -229,17 +225,10 @@ fn root(reader: &mut Reader, mirror: &Table) -> Option<String> {
                 allowed,
             ));
         } else if vocabulary::key(Section::Root, name).is_none() && !tables.contains(&name) {
-            let names = [
-                "schema", "title", "belt", "friction", "dither", "solver", "sweep",
-            ];
+            let names = ["schema", "title", "belt", "friction", "dither", "solver", "sweep"];
             let nearest = suggest::word(name, names).or_else(|| suggest::path("", name, None));
-            let complaint = Complaint::new(
-                Fault::Unknown,
-                name,
-                node.origin,
-                node.given(),
-                names.join(", "),
-            );
+            let complaint =
+                Complaint::new(Fault::Unknown, name, node.origin, node.given(), names.join(", "));
             reader.complain(complaint.suggesting(nearest));
         }
     }
@@ -255,17 +244,11 @@ fn root(reader: &mut Reader, mirror: &Table) -> Option<String> {
             ));
         }
         Some(node) if node.value != Value::Number(f64::from(SCHEMA_VERSION)) => {
-            reader.wrong(
-                "schema",
-                node,
-                format!("{SCHEMA_VERSION}, the only version there is"),
-            );
+            reader.wrong("schema", node, format!("{SCHEMA_VERSION}, the only version there is"));
         }
         Some(_) => {}
     }
-    mirror
-        .get("title")
-        .and_then(|node| reader.text("title", node))
+    mirror.get("title").and_then(|node| reader.text("title", node))
 }
 
 /// Puts the belt together. What was already complained about is stood in for, so that
@@ -280,11 +263,8 @@ fn build(
     let stand_in = || LawKind::Stribeck.build(&[0.0, 0.0, 1.0]).ok();
     let law = friction.or_else(stand_in)?;
     let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
-    let (damping, load, velocity) = (
-        number(table.damping_ratio),
-        number(table.normal_load),
-        number(table.belt_velocity),
-    );
+    let (damping, load, velocity) =
+        (number(table.damping_ratio), number(table.normal_load), number(table.belt_velocity));
     match Belt::new(damping, load, velocity, law, dithers) {
         Ok(belt) => friction.map(|_| belt),
         Err(mut invalid) => {
@@ -298,10 +278,7 @@ fn build(
                             "such that the peaks of normal dither together stay at most \
                              {} = {newtons} N: more would pull the contact apart, which this \
                              model does not describe",
-                            NORMAL_LOAD
-                                .si
-                                .first()
-                                .map_or(NORMAL_LOAD.path, |twin| twin.key)
+                            NORMAL_LOAD.si.first().map_or(NORMAL_LOAD.path, |twin| twin.key)
                         );
                     }
                 }

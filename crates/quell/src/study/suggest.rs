@@ -41,11 +41,7 @@ pub fn word<'a>(wrong: &str, right: impl IntoIterator<Item = &'a str>) -> Option
 /// The nearest path to an unknown key of a table; `index` is kept where the table is the same.
 pub fn path(table: &str, name: &str, index: Option<usize>) -> Option<String> {
     let score = |key: &Key| {
-        let letters = if same_symbol(name, key) {
-            1.0
-        } else {
-            likeness(name, key.name)
-        };
+        let letters = if same_symbol(name, key) { 1.0 } else { likeness(name, key.name) };
         // A key of the same table is nearer than one of another, unless that one is spelled so.
         let elsewhere = key.section.path() != table;
         letters - if elsewhere { 0.35 } else { 0.0 }
@@ -118,21 +114,11 @@ mod tests {
             ("", "titel", "title"),
             ("solver", "tolerence", "solver.tolerance"),
         ] {
-            assert_eq!(
-                path(table, wrong, None).as_deref(),
-                Some(right),
-                "{table}.{wrong}"
-            );
+            assert_eq!(path(table, wrong, None).as_deref(), Some(right), "{table}.{wrong}");
         }
-        assert_eq!(
-            path("dither", "phse", Some(1)).as_deref(),
-            Some("dither[1].phase")
-        );
+        assert_eq!(path("dither", "phse", Some(1)).as_deref(), Some("dither[1].phase"));
         assert_eq!(path("belt", "xyzzy", None), None);
-        assert_eq!(
-            word("stribek", ["stribeck", "decreasing"]).as_deref(),
-            Some("stribeck")
-        );
+        assert_eq!(word("stribek", ["stribeck", "decreasing"]).as_deref(), Some("stribeck"));
         assert_eq!(word("sawtooth", ["sine", "triangle", "square"]), None);
     }
 }

@@ -103,11 +103,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Sweep>> {
         return Some(Vec::new());
     };
     let Value::List(list) = &node.value else {
-        reader.wrong(
-            "sweep",
-            node,
-            format!("tables [[sweep]]; this is {}", node.kind()),
-        );
+        reader.wrong("sweep", node, format!("tables [[sweep]]; this is {}", node.kind()));
         return None;
     };
     let mut sweeps: Vec<Option<Sweep>> = Vec::new();
@@ -115,10 +111,8 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Sweep>> {
         let prefix = format!("sweep[{index}]");
         let sweep = one(reader, node, &prefix);
         if let Some(sweep) = &sweep
-            && let Some(earlier) = sweeps
-                .iter()
-                .flatten()
-                .position(|earlier| earlier.address == sweep.address)
+            && let Some(earlier) =
+                sweeps.iter().flatten().position(|earlier| earlier.address == sweep.address)
         {
             let allowed = format!("sweep[{earlier}] varies {} already", sweep.path);
             let key = join(&prefix, "parameter");
@@ -144,11 +138,7 @@ fn one(reader: &mut Reader, node: &Node, prefix: &str) -> Option<Sweep> {
     let named = parameter(reader, table, node, prefix);
     let axis = axis(reader, table, node, prefix);
     let (path, address) = named?;
-    Some(Sweep {
-        path,
-        address,
-        axis: axis?,
-    })
+    Some(Sweep { path, address, axis: axis? })
 }
 
 fn parameter(
@@ -160,37 +150,24 @@ fn parameter(
     let key = join(prefix, "parameter");
     let Some(node) = table.get("parameter") else {
         let allowed = "path of a number of the study, such as \"dither.amplitude\"";
-        reader.complain(Complaint::new(
-            Fault::Missing,
-            key,
-            header.origin,
-            Json::Null,
-            allowed,
-        ));
+        reader.complain(Complaint::new(Fault::Missing, key, header.origin, Json::Null, allowed));
         return None;
     };
     let path = reader.text(&key, node)?;
     match vocabulary::resolve(&path) {
         Ok(address)
-            if matches!(
-                address.key.role,
-                Role::Number(_) | Role::Twin(..) | Role::Scale(_)
-            ) =>
+            if matches!(address.key.role, Role::Number(_) | Role::Twin(..) | Role::Scale(_)) =>
         {
             Some((path, address))
         }
         Ok(_) => {
-            reader.wrong(
-                &key,
-                node,
-                "path of a number of the study, such as \"dither.amplitude\"",
-            );
+            reader.wrong(&key, node, "path of a number of the study, such as \"dither.amplitude\"");
             None
         }
         Err(nearest) => {
             let allowed = "path of a number of the study, such as \"dither.amplitude\"";
             let complaint = Complaint::new(Fault::Value, key, node.origin, path, allowed);
-            reader.complain(complaint.suggesting(nearest));
+            reader.complain(complaint.suggesting(nearest.map(|path| reader.in_system(path))));
             None
         }
     }
@@ -221,11 +198,7 @@ fn axis(reader: &mut Reader, table: &Table, header: &Node, prefix: &str) -> Opti
         return values(reader, node, &join(prefix, "values")).map(Axis::Values);
     }
     let logarithmic = spacing == Some("log");
-    let bounds = if logarithmic {
-        Bounds::POSITIVE
-    } else {
-        Bounds::FINITE
-    };
+    let bounds = if logarithmic { Bounds::POSITIVE } else { Bounds::FINITE };
     let mut end = |name: &str, bounds, whole| {
         let key = join(prefix, name);
         let Some(node) = table.get(name) else {
@@ -241,15 +214,9 @@ fn axis(reader: &mut Reader, table: &Table, header: &Node, prefix: &str) -> Opti
         };
         reader.within(&key, node, bounds, "", whole)
     };
-    let points = Bounds {
-        upper: f64::from(MOST_POINTS),
-        ..Bounds::at_least(2.0)
-    };
-    let (from, to, points) = (
-        end("from", bounds, false),
-        end("to", bounds, false),
-        end("points", points, true),
-    );
+    let points = Bounds { upper: f64::from(MOST_POINTS), ..Bounds::at_least(2.0) };
+    let (from, to, points) =
+        (end("from", bounds, false), end("to", bounds, false), end("points", points, true));
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -264,11 +231,7 @@ fn axis(reader: &mut Reader, table: &Table, header: &Node, prefix: &str) -> Opti
 
 fn values(reader: &mut Reader, node: &Node, key: &str) -> Option<Vec<f64>> {
     let Value::List(list) = &node.value else {
-        reader.wrong(
-            key,
-            node,
-            format!("an array of numbers; this is {}", node.kind()),
-        );
+        reader.wrong(key, node, format!("an array of numbers; this is {}", node.kind()));
         return None;
     };
     if list.is_empty() {
@@ -291,18 +254,10 @@ mod tests {
 
     #[test]
     fn both_ends_come_out_exactly() {
-        let linear = Axis::Linear {
-            from: 0.05,
-            to: 1.0,
-            points: 20,
-        };
+        let linear = Axis::Linear { from: 0.05, to: 1.0, points: 20 };
         assert_eq!((linear.value(0), linear.value(19)), (0.05, 1.0));
         assert!((linear.value(1) - 0.1).abs() < 1e-15);
-        let log = Axis::Logarithmic {
-            from: 1e-3,
-            to: 1e3,
-            points: 7,
-        };
+        let log = Axis::Logarithmic { from: 1e-3, to: 1e3, points: 7 };
         for (index, value) in log.values().enumerate() {
             let exact = 10f64.powi(i32::try_from(index).expect("small") - 3);
             assert!((value / exact - 1.0).abs() < 1e-14);

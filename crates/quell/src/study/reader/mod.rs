@@ -115,7 +115,24 @@ impl Reader {
             node.given(),
             there.join(", "),
         );
-        self.complain(complaint.suggesting(suggest::path(section.path(), name, index)));
+        let nearest = suggest::path(section.path(), name, index);
+        self.complain(complaint.suggesting(nearest.map(|path| self.in_system(path))));
+    }
+
+    /// The path that gives the same number in the system of this study.
+    pub(super) fn in_system(&self, path: String) -> String {
+        let Ok(address) = vocabulary::resolve(&path) else {
+            return path;
+        };
+        let key = match (address.key.role, self.units) {
+            (Role::Number(parameter), Units::Si(_)) => parameter.si.first().map(|twin| twin.key),
+            (Role::Twin(parameter, _), Units::Scaled) => Some(parameter.key()),
+            _ => None,
+        };
+        match (key, path.rsplit_once('.')) {
+            (Some(key), Some((table, _))) => join(table, key),
+            _ => path,
+        }
     }
 
     /// Adds what a constructor of the model said, in the words of the file. What was

@@ -67,7 +67,12 @@ impl Reader {
                 let keys = self.right_keys(parameter);
                 let Parameter { bounds, symbol, about, .. } = parameter;
                 let or = keys.get(1).map(|key| format!("; or {}", join(prefix, key)));
-                let allowed = format!("{bounds} ({symbol}, {about}){}", or.unwrap_or_default());
+                let unit = match (self.units, parameter.si.first()) {
+                    (Units::Si(_), Some(twin)) => format!(", in {}", twin.unit),
+                    _ => String::new(),
+                };
+                let or = or.unwrap_or_default();
+                let allowed = format!("{bounds}{unit} ({symbol}, {about}){or}");
                 let key = join(prefix, &keys[0]);
                 self.complain(Complaint::new(Fault::Missing, key, header, Json::Null, allowed));
                 None
