@@ -12,9 +12,7 @@ use quell_belt::simulation::Start;
 use super::product::{Product, Table};
 use super::source::{Source, failed, law_name, letter, parameters, values};
 use crate::complaint::Failure;
-use crate::plot::{
-    Axis, Figure, Line, LineStyle, Panel, Points, Role, SharedLegend, Sharing, Size,
-};
+use crate::plot::{Axis, Figure, Line, Panel, Points, Role, SharedLegend, Sharing, Size};
 use crate::study::Study;
 
 /// Length of a decay.
@@ -126,14 +124,10 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
             )
             .with(
                 Points::new(Role::Exact, case.bins.iter().map(|&(v, median, _)| (v, median)))
-                    .size(3.6)
+                    .size(2.8)
                     .label("simulation, medians"),
             )
-            .with(
-                Line::new(Role::Averaged, case.averaged.iter().copied())
-                    .style(LineStyle::Dotted)
-                    .label("averaging"),
-            ),
+            .with(Line::new(Role::Averaged, case.averaged.iter().copied()).label("averaging")),
         );
     }
     let figure = Figure::grid(2, panels)
@@ -146,7 +140,7 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
         "Figure {}. Effective friction with the {} law under sinusoidal normal dither: means of $f/N$ and of the slip velocity over one \
          dither period of free decays from $x_0$ between {} and {} at {} belt velocities (4.30), (4.31); windows with stick, and those across which the \
          slow velocity changes by more than {DRIFT}, are dropped; dots are \
-         medians in bins of {BIN}. Dotted: averaging with both terms of (4.23). $ζ$ = {}, $R_N$ = {}, {}. The print does not say from which \
+         medians in bins of {BIN}. Solid: averaging with both terms of (4.23). $ζ$ = {}, $R_N$ = {}, {}. The print does not say from which \
          trajectories its points come.",
         source.name,
         law_name(law.kind()),

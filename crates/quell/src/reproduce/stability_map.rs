@@ -334,7 +334,7 @@ impl Plane<'_> {
     }
 
     /// The print's upper edge for Stribeck and triangle, up to its own α^L.
-    fn printed(&self, mut panel: Panel, damping: &[f64], table: &mut Table) -> Panel {
+    fn printed(&self, panel: Panel, damping: &[f64], table: &mut Table) -> Panel {
         if self.waveform != Waveform::Triangle || self.law().kind() != LawKind::Stribeck {
             return panel;
         }
@@ -351,8 +351,7 @@ impl Plane<'_> {
         }
         let equation = if self.direction == Direction::Normal { "(4.35)" } else { "(3.47)" };
         let line = Line::pieces(Role::Printed, pieces).style(LineStyle::Dotted).width(1.1);
-        panel = panel.with(line.label(format!("as printed {equation}")));
-        panel
+        panel.with(line.label(format!("as printed {equation}")))
     }
 
     /// Marks α^L where the plane shows it.
@@ -371,13 +370,15 @@ impl Plane<'_> {
 
     /// "stable", "unstable", and where (4.29) ends.
     fn words(&self, mut panel: Panel, regions: &[Unstable]) -> Panel {
+        let stribeck = self.law().kind() == LawKind::Stribeck;
         // In the region of the lightest damping, where it is wide.
         if let Some(region) = regions.last().filter(|region| !region.lower.is_empty()) {
-            let v = 0.75 * region.upper[0].1;
+            let v = if stribeck { 0.75 } else { 0.85 } * region.upper[0].1;
             let edge = region.lower.iter().take_while(|point| point.1 < v).last();
             panel = panel.with(Note::new(0.5 * edge.map_or(0.0, |point| point.0), v, "unstable"));
         }
-        for (alpha, v) in [(0.65, 0.1), (0.3, 0.93)] {
+        let above = if stribeck { 0.55 } else { 0.3 };
+        for (alpha, v) in [(0.65, 0.1), (above, 0.93)] {
             panel = panel.with(Note::new(alpha * self.reach.0, v * self.reach.1, "stable"));
         }
         if self.direction == Direction::Normal {

@@ -207,7 +207,7 @@ pub(super) fn forced_response(sheet: &mut Sheet) -> Result<(), Failure> {
             &amplitudes,
             holds,
         )
-        .note(format!("the forced part is D/(R² − 1) = {}: it grows", list(&linear)));
+        .note(format!("the linear oscillator's is D/(R² − 1) = {}: it grows", list(&linear)));
     Ok(())
 }
 

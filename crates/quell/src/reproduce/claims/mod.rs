@@ -11,6 +11,7 @@ use crate::complaint::Failure;
 
 mod chapter2;
 mod chapter3;
+mod chapter3_formulas;
 mod chapter4;
 mod sheet;
 
@@ -30,7 +31,7 @@ const SECTIONS: &[Section] = &[
     chapter2::decreasing_map,
     chapter2::destabilisation,
     chapter3::waveforms,
-    chapter3::formulas,
+    chapter3_formulas::formulas,
     chapter3::everywhere_stable,
     chapter3::thresholds,
     chapter3::responses,
