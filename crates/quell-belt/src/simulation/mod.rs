@@ -156,3 +156,53 @@ impl<L: SlidingLaw> Work for RunOf<'_, L> {
         engine::Engine::new(belt, self.law, start, until, tolerance, observer).run()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use quell_model::{Direction, Dither, LawKind, Waveform};
+
+    use super::*;
+
+    /// A run in the baseline copy of the engine.
+    struct Baseline<'a>(Run<'a>);
+
+    impl LawVisitor for Baseline<'_> {
+        type Output = Result<FinalState, Stalled>;
+
+        fn visit<L: SlidingLaw>(self, law: &L) -> Self::Output {
+            RunOf { run: self.0, law: *law }.run()
+        }
+    }
+
+    #[test]
+    fn machines_without_fused_multiply_add_give_the_same_bits() {
+        for &law in LawKind::ALL {
+            let friction = law.build(&[0.4, 0.2857, 0.2]).expect("valid law");
+            let dither = |direction, waveform| Dither {
+                direction,
+                waveform,
+                amplitude: 0.3,
+                frequency_ratio: 7.3,
+                phase: 0.4,
+            };
+            let dithers = vec![
+                dither(Direction::Tangential, Waveform::Sine),
+                dither(Direction::Normal, Waveform::Triangle),
+            ];
+            let belt = Belt::new(0.005, 1.0, 0.05, friction, dithers).expect("valid belt");
+            let mut fast = EventRecorder::default();
+            let ahead = simulate(&belt, Start::REST, 300.0, DEFAULT_TOLERANCE, &mut fast);
+            let mut slow = EventRecorder::default();
+            let behind = belt.friction().visit(Baseline(Run {
+                belt: &belt,
+                start: Start::REST,
+                until: 300.0,
+                tolerance: DEFAULT_TOLERANCE,
+                observer: &mut slow,
+            }));
+            assert!(fast.events.len() > 100);
+            assert_eq!(ahead, behind, "{}", law.name());
+            assert_eq!(fast.events, slow.events, "{}", law.name());
+        }
+    }
+}

@@ -1,6 +1,6 @@
 //! Dither waveforms g: zero mean, unit amplitude, 2π-periodic, odd.
 //!
-//! A waveform is one file with a [`Shape`] and one line in the list below. Between its
+//! A waveform is one file with a `Shape` and one line in the list below. Between its
 //! breaks (kinks and jumps) it is analytic; the engine makes each break a time event. G is
 //! the zero-mean integral of g (even; the dissertation's text after (3.25) calls it odd,
 //! but τ₂ = 2π − τ₁ there needs evenness).
