@@ -245,6 +245,20 @@ macro_rules! vector_lane {
             fn min(self, other: Self) -> Self {
                 Self(pulp::Simd::min_f64s(Self::token(), self.0, other.0))
             }
+
+            #[inline(always)]
+            fn where_positive(self, yes: Self, no: Self) -> Self {
+                let zero = pulp::Simd::splat_f64s(Self::token(), 0.0);
+                let mask = pulp::Simd::greater_than_f64s(Self::token(), self.0, zero);
+                Self(pulp::Simd::select_f64s(Self::token(), mask, yes.0, no.0))
+            }
+
+            #[inline(always)]
+            fn any_positive(self) -> bool {
+                let zero = pulp::Simd::splat_f64s(Self::token(), 0.0);
+                let mask = pulp::Simd::greater_than_f64s(Self::token(), self.0, zero);
+                pulp::Simd::first_true_m64s(Self::token(), mask) < $lanes
+            }
         }
     };
 }
@@ -274,7 +288,7 @@ mod tests {
 
         #[inline(always)]
         fn run<V: Lane>(self) -> Vec<u64> {
-            let mut bits = vec![0; 16 * LANES];
+            let mut bits = vec![0; 17 * LANES];
             let mut first = 0;
             while first < LANES {
                 let (a, b) = (V::load(&self.0[first..]), V::load(&self.1[first..]));
@@ -289,6 +303,7 @@ mod tests {
                     a.min(b),
                     b.max(a),
                     b.min(a),
+                    a.where_positive(b, V::splat(7.0)),
                     a.round(),
                     a.round().power_of_two(),
                     a.abs().map(f64::sqrt),
@@ -306,6 +321,34 @@ mod tests {
                 first += V::LANES;
             }
             bits
+        }
+    }
+
+    /// Whether any of sixteen numbers is positive, in groups of lanes.
+    struct Any<'a>(&'a [f64; LANES]);
+
+    impl LaneWork for Any<'_> {
+        type Output = bool;
+
+        #[inline(always)]
+        fn run<V: Lane>(self) -> bool {
+            (0..LANES / V::LANES).any(|group| V::load(&self.0[group * V::LANES..]).any_positive())
+        }
+    }
+
+    #[test]
+    fn a_positive_number_is_seen_in_every_lane() {
+        for set in InstructionSet::ALL {
+            let mut numbers = [-1.0, 0.0, -0.0, f64::NAN].repeat(4);
+            for lane in 0..LANES {
+                let kept = numbers[lane];
+                numbers[lane] = f64::MIN_POSITIVE;
+                let lanes: [f64; LANES] = std::array::from_fn(|lane| numbers[lane]);
+                assert!(with_lanes(set, Any(&lanes)), "{}, lane {lane}", set.name());
+                numbers[lane] = kept;
+            }
+            let lanes: [f64; LANES] = std::array::from_fn(|lane| numbers[lane]);
+            assert!(!with_lanes(set, Any(&lanes)), "{}", set.name());
         }
     }
 

@@ -10,6 +10,9 @@ use std::ops::{Add, Mul, Neg, Sub};
 /// 1.5·2⁵²: adding and subtracting it rounds to the nearest integer, ties to even.
 const ROUNDING_SHIFT: f64 = 6_755_399_441_055_744.0;
 
+/// The most lanes that any type of this crate has.
+pub const MOST_LANES: usize = 16;
+
 /// One real number per lane.
 pub trait Lane:
     Copy
@@ -56,6 +59,13 @@ pub trait Lane:
     /// The smaller of two numbers; the second where they are equal.
     #[must_use]
     fn min(self, other: Self) -> Self;
+
+    /// `yes` in the lanes where `self` > 0, else `no`.
+    #[must_use]
+    fn where_positive(self, yes: Self, no: Self) -> Self;
+
+    /// Whether any lane is > 0.
+    fn any_positive(self) -> bool;
 
     /// 2ⁿ for integral `self` = n in −1022…1023.
     #[inline(always)]
@@ -121,6 +131,16 @@ impl Lane for f64 {
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         if self < other { self } else { other }
+    }
+
+    #[inline(always)]
+    fn where_positive(self, yes: Self, no: Self) -> Self {
+        if self > 0.0 { yes } else { no }
+    }
+
+    #[inline(always)]
+    fn any_positive(self) -> bool {
+        self > 0.0
     }
 }
 
@@ -212,6 +232,16 @@ impl<V: Lane> Lane for Pair<V> {
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         Self(self.0.min(other.0), self.1.min(other.1))
+    }
+
+    #[inline(always)]
+    fn where_positive(self, yes: Self, no: Self) -> Self {
+        Self(self.0.where_positive(yes.0, no.0), self.1.where_positive(yes.1, no.1))
+    }
+
+    #[inline(always)]
+    fn any_positive(self) -> bool {
+        self.0.any_positive() | self.1.any_positive()
     }
 }
 
