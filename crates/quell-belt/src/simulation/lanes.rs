@@ -10,9 +10,7 @@
 
 use quell_model::Direction;
 use quell_model::friction::{LawVisitor, SlidingLaw};
-use quell_numerics::dispatch::{
-    InstructionSet, LaneWork, Work, with_fused_multiply_add, with_lanes,
-};
+use quell_numerics::dispatch::{InstructionSet, LaneWork, with_lanes};
 use quell_numerics::elementary::sin_cos_of_phase;
 use quell_numerics::lane::{Lane, MOST_LANES, horner};
 use quell_numerics::polynomial::side_by_side::first_crossings;
@@ -26,19 +24,13 @@ use super::{FinalState, ORDER, Run, Stalled};
 /// How a run ends.
 type Outcome = Result<FinalState, Stalled>;
 
-/// One run, with the best instructions for one number at a time.
-pub(super) fn alone(run: Run<'_>, tolerance: f64) -> Outcome {
-    run.belt.friction().visit(Alone { run, tolerance })
-}
-
 /// Runs in the lanes of `set`, outcomes in the order of the runs.
 pub(super) fn side_by_side(
     set: InstructionSet,
     runs: Vec<Run<'_>>,
     tolerance: f64,
 ) -> Vec<Outcome> {
-    let none = Err(Stalled { time: 0.0, why: "it was never started" });
-    let mut outcomes = vec![none; runs.len()];
+    let mut outcomes = vec![Err(Stalled::NEVER_STARTED); runs.len()];
     let mut rest: Vec<(usize, Run<'_>)> = runs.into_iter().enumerate().collect();
     while let Some((_, first)) = rest.first() {
         let (law, shapes) = (*first.belt.friction(), shapes_of(first));
@@ -57,39 +49,6 @@ type Shapes = (Shape, Shape);
 fn shapes_of(run: &Run<'_>) -> Shapes {
     let shape = |direction| Shape::of(run.belt.dithers(), direction);
     (shape(Direction::Tangential), shape(Direction::Normal))
-}
-
-struct Alone<'a> {
-    run: Run<'a>,
-    tolerance: f64,
-}
-
-impl LawVisitor for Alone<'_> {
-    type Output = Outcome;
-
-    fn visit<L: SlidingLaw>(self, law: &L) -> Outcome {
-        with_fused_multiply_add(AloneOf { run: self.run, law: *law, tolerance: self.tolerance })
-    }
-}
-
-/// [`Alone`] with its law.
-struct AloneOf<'a, L> {
-    run: Run<'a>,
-    law: L,
-    tolerance: f64,
-}
-
-impl<L: SlidingLaw> Work for AloneOf<'_, L> {
-    type Output = Outcome;
-
-    #[inline(always)]
-    fn run(self) -> Outcome {
-        let shapes = shapes_of(&self.run);
-        let mut outcome = None;
-        let runs = [(0, self.run, self.law)].into_iter();
-        drive::<f64, L>(runs, shapes, self.tolerance, |_, it| outcome = Some(it));
-        outcome.unwrap_or(Err(Stalled { time: 0.0, why: "it was never started" }))
-    }
 }
 
 /// Runs that share a law and shapes.
