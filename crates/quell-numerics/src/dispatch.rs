@@ -92,10 +92,20 @@ impl<W: Work> pulp::NullaryFnOnce for Vectorized<W> {
 /// Runs `work` with the best instructions for scalar code.
 #[inline]
 pub fn with_fused_multiply_add<W: Work>(work: W) -> W::Output {
+    with_scalar_of(InstructionSet::Fma, work)
+}
+
+/// Runs `work` with the scalar instructions that go with the lanes of `set`: those of the baseline, or
+/// fused multiply-add where the machine has it.
+#[inline]
+pub fn with_scalar_of<W: Work>(set: InstructionSet, work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
-    if let Some(simd) = pulp::x86::V3::try_new() {
+    if set != InstructionSet::Baseline
+        && let Some(simd) = pulp::x86::V3::try_new()
+    {
         return simd.vectorize(Vectorized(work));
     }
+    let _ = set;
     pulp::NullaryFnOnce::call(Vectorized(work))
 }
 

@@ -79,7 +79,7 @@ impl<L: SlidingLaw> LaneWork for GroupOf<'_, '_, L> {
 
     #[inline(always)]
     fn run<V: Lane>(self) {
-        let Group { runs, shapes, tolerance, outcomes, .. } = self.group;
+        let Group { set, runs, shapes, tolerance, outcomes } = self.group;
         // Every run is of this law: the group was made so.
         let runs = runs
             .into_iter()
@@ -87,7 +87,7 @@ impl<L: SlidingLaw> LaneWork for GroupOf<'_, '_, L> {
             .map(|(number, law, run)| (number, run, law))
             .collect::<Vec<_>>();
         let runs = runs.into_iter();
-        drive::<V, L>(runs, shapes, tolerance, |number, outcome| outcomes[number] = outcome);
+        drive::<V, L>(runs, set, shapes, tolerance, |number, outcome| outcomes[number] = outcome);
     }
 }
 
@@ -109,12 +109,13 @@ const MOST_BENCHES: usize = 4;
 #[inline(always)]
 fn drive<'a, V: Lane, L: SlidingLaw>(
     mut queue: impl ExactSizeIterator<Item = (usize, Run<'a>, L)>,
+    set: InstructionSet,
     shapes: Shapes,
     tolerance: f64,
     mut over: impl FnMut(usize, Outcome),
 ) {
     let count = queue.len().div_ceil(V::LANES).clamp(1, MOST_BENCHES);
-    let mut benches: Vec<Bench<'a, V, L>> = (0..count).map(|_| Bench::new(shapes)).collect();
+    let mut benches: Vec<Bench<'a, V, L>> = (0..count).map(|_| Bench::new(set, shapes)).collect();
     let mut search = RootSearch::<V>::new();
     loop {
         let mut seated = 0;
@@ -137,6 +138,7 @@ fn drive<'a, V: Lane, L: SlidingLaw>(
 
 /// As many runs as there are lanes.
 struct Bench<'a, V: Lane, L: SlidingLaw> {
+    set: InstructionSet,
     board: Board<V>,
     seats: [Option<Seat<'a>>; MOST_LANES],
     laws: Vec<L>,
@@ -152,8 +154,9 @@ struct Bench<'a, V: Lane, L: SlidingLaw> {
 
 impl<'a, V: Lane, L: SlidingLaw> Bench<'a, V, L> {
     #[inline(always)]
-    fn new(shapes: Shapes) -> Self {
+    fn new(set: InstructionSet, shapes: Shapes) -> Self {
         Self {
+            set,
             board: Board::new(shapes),
             seats: std::array::from_fn(|_| None),
             laws: Vec::with_capacity(V::LANES),
@@ -180,7 +183,7 @@ impl<'a, V: Lane, L: SlidingLaw> Bench<'a, V, L> {
             while seat.is_none() {
                 let Some((number, run, law)) = queue.next() else { break };
                 let mut engine = Engine::new(run, &law, tolerance);
-                match engine.next() {
+                match engine.next(self.set) {
                     Next::Over(outcome) => over(number, outcome),
                     Next::Slip(due) => {
                         if self.laws.is_empty() {
@@ -224,7 +227,7 @@ impl<'a, V: Lane, L: SlidingLaw> Bench<'a, V, L> {
                 continue;
             }
             let Some(seat) = place else { continue };
-            if let Some(outcome) = self.board.look_after(lane, seat, self.turn) {
+            if let Some(outcome) = self.board.look_after(self.set, lane, seat, self.turn) {
                 over(seat.number, outcome);
                 *place = None;
                 self.seated -= 1;
@@ -537,7 +540,13 @@ impl<V: Lane> Board<V> {
 
     /// Lets the engine of a lane take the step and go on to its next one; how it ends if it is over.
     #[inline(always)]
-    fn look_after(&mut self, lane: usize, seat: &mut Seat<'_>, turn: u64) -> Option<Outcome> {
+    fn look_after(
+        &mut self,
+        set: InstructionSet,
+        lane: usize,
+        seat: &mut Seat<'_>,
+        turn: u64,
+    ) -> Option<Outcome> {
         let Seat { engine, due, known, .. } = seat;
         let unseen = turn - *known - 1;
         let clock = Clock::of(self.time_before.0[lane], self.low_before.0[lane]);
@@ -562,10 +571,7 @@ impl<V: Lane> Board<V> {
             slip,
         };
         let zeros = if unseen > 0 { 0 } else { due.zeros };
-        if let Err(stalled) = engine.take(SlipDue { zeros, ..*due }, &taken) {
-            return Some(Err(stalled));
-        }
-        match engine.next() {
+        match engine.take(set, SlipDue { zeros, ..*due }, &taken) {
             Next::Slip(next) => {
                 self.announce(lane, engine, next);
                 *due = next;
