@@ -4,12 +4,14 @@
 //! numbers of the equations. The caption says what the picture cannot.
 
 mod caption;
+mod curve;
 mod friction;
 mod response;
 mod ruler;
 mod simulate;
 mod stability;
 
+pub use curve::curve;
 pub use friction::friction;
 pub use response::response;
 pub use simulate::simulate;
