@@ -12,6 +12,7 @@
 
 mod cost;
 mod effective;
+mod isocline;
 mod listener;
 mod measure;
 mod record;
@@ -23,6 +24,7 @@ pub use quell_numerics::spectrum::{Peak, Spectrum};
 
 use crate::simulation::{DEFAULT_TOLERANCE, Sampler, Stalled, Start};
 pub use effective::{WindowMean, measured_effective_friction};
+pub use isocline::amplitude_at_efficiency;
 use listener::Sampling;
 pub use measure::{Case, Compared, Measured, Wanted, compare_many, measure_many};
 pub use record::Record;
