@@ -6,9 +6,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use quell_belt::averaging::{
-    AveragingOptions, Becomes, CriticalAmplitude, Response, critical_amplitudes,
-};
+use quell_belt::averaging::{Becomes, Response};
 use quell_model::{Direction, Waveform};
 
 use super::product::{Cell, Product, Table};
@@ -18,7 +16,7 @@ use crate::picture::{self, MapAxis, MapKind};
 use crate::plot::{
     Axis, Figure, Legend, Line, LineStyle, Panel, Role, SharedLegend, Sharing, Size,
 };
-use crate::run::map::{Map, run};
+use crate::run::map::{Map, boundaries, run};
 use crate::study::Study;
 use crate::sweep::{Plan, Quantity, Running, Status};
 
@@ -76,7 +74,7 @@ fn figure(source: &Source, cases: &[Case], columns: usize) -> Result<Product, Fa
             ("status", "1"),
         ],
     );
-    let mut boundaries = Table::new(
+    let mut edges = Table::new(
         "boundary",
         &[
             ("panel", "1"),
@@ -91,7 +89,7 @@ fn figure(source: &Source, cases: &[Case], columns: usize) -> Result<Product, Fa
         let done = efficiency(source, &study)?;
         let name = letter(index).to_string();
         record(&mut data, &name, case, &done);
-        let lines = boundary(source, &study, &name, &mut boundaries)?;
+        let lines = boundary(&done, &name, &mut edges);
         let title = match (columns, cases.len() > 4) {
             (1, _) => None,
             (_, false) => Some(format!("({name}) $v_0$ = {}", case.belt_velocity)),
@@ -116,7 +114,7 @@ fn figure(source: &Source, cases: &[Case], columns: usize) -> Result<Product, Fa
             .legend(SharedLegend::Below)
             .size(Size::Frame(if columns == 2 { 330.0 } else { 270.0 }, 230.0))
     };
-    Ok(Product::new(figure, caption(source, &first), &first).table(data).table(boundaries))
+    Ok(Product::new(figure, caption(source, &first), &first).table(data).table(edges))
 }
 
 /// The study of a panel: its sweep of D goes as far beyond the averaged boundary as the first panel's.
@@ -170,46 +168,30 @@ fn record(table: &mut Table, panel: &str, case: &Case, done: &Map) {
 }
 
 /// D = α*R of averaging, and the same with the oscillator's own response.
-fn boundary(
-    source: &Source,
-    study: &Study,
-    panel: &str,
-    table: &mut Table,
-) -> Result<Vec<Line>, Failure> {
-    let ratios = values(study, "dither.frequency_ratio");
-    let furthest = values(study, "dither.amplitude").last().copied().unwrap_or(1.0);
-    let curves = [
-        (Response::Limit, "averaging", "averaging, $D$ = $α^*R$", LineStyle::Solid),
-        (Response::Oscillator, "sharper", "with the exact fast motion", LineStyle::Dashed),
-    ];
+fn boundary(done: &Map, panel: &str, table: &mut Table) -> Vec<Line> {
+    let grid = done.plan().grid();
+    let furthest = grid.axes()[1].values.last().copied().unwrap_or(1.0);
     let mut lines = Vec::new();
-    for (response, name, label, style) in curves {
-        let options = AveragingOptions { response, ..AveragingOptions::default() };
-        let mut points = Vec::new();
-        for &ratio in &ratios {
-            let belt = study
-                .belt()
-                .with("dither.frequency_ratio", ratio)
-                .map_err(|_| failed(source.name, &"a belt of the map is not valid"))?;
-            let critical =
-                critical_amplitudes(&belt, options).map_err(|error| failed(source.name, &error))?;
-            if let Some(amplitude) = quenching(&critical).map(|alpha| alpha * ratio) {
-                table.row([panel.into(), name.into(), ratio.into(), amplitude.into()]);
-                points.push((ratio, amplitude));
+    for boundary in boundaries(grid) {
+        let (name, label, role, style) = match boundary.response {
+            Response::Limit => {
+                ("averaging", "averaging, $D$ = $α^*R$", Role::Boundary, LineStyle::Solid)
             }
+            Response::Oscillator => {
+                ("sharper", "with the exact fast motion", Role::Exact, LineStyle::Dashed)
+            }
+        };
+        if boundary.becomes != Becomes::Stable {
+            continue;
+        }
+        for &(ratio, amplitude) in &boundary.points {
+            table.row([panel.into(), name.into(), ratio.into(), amplitude.into()]);
         }
         // The line ends at the edge of the panel.
-        points.retain(|(_, amplitude)| *amplitude <= 1.2 * furthest);
-        let role = if response == Response::Limit { Role::Boundary } else { Role::Exact };
-        lines.push(Line::new(role, points).style(style).label(label));
+        let points = boundary.points.into_iter().filter(|point| point.1 <= 1.2 * furthest);
+        lines.push(Line::new(role, points.collect::<Vec<_>>()).style(style).label(label));
     }
-    Ok(lines)
-}
-
-/// The smallest α from which on averaged sliding becomes stable.
-fn quenching(critical: &[CriticalAmplitude]) -> Option<f64> {
-    let quenches = |it: &&CriticalAmplitude| it.becomes == Becomes::Stable;
-    critical.iter().find(quenches).map(|it| it.amplitude_ratio)
+    lines
 }
 
 fn panel(source: &Source, study: &Study, done: &Map, lines: Vec<Line>) -> Result<Panel, Failure> {
@@ -244,7 +226,7 @@ fn panel(source: &Source, study: &Study, done: &Map, lines: Vec<Line>) -> Result
         reasons: unknown.iter().map(|status| status.about().to_owned()).collect(),
         over: lines.into_iter().map(Into::into).collect(),
     };
-    picture::map_panel(&map).map_err(|error| failed(source.name, &error))
+    picture::map_panel(&map, false).map_err(|error| failed(source.name, &error))
 }
 
 fn caption(source: &Source, study: &Study) -> String {
