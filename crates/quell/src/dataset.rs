@@ -30,11 +30,7 @@ impl Array {
     }
 
     /// Codes of words.
-    pub fn of_words(
-        name: impl Into<String>,
-        words: Vec<(u8, &'static str)>,
-        codes: &[u8],
-    ) -> Self {
+    pub fn of_words(name: impl Into<String>, words: Vec<(u8, &'static str)>, codes: &[u8]) -> Self {
         let values = codes.iter().copied().map(f64::from).collect();
         Self { name: name.into(), unit: "word".to_owned(), values, words }
     }

@@ -135,7 +135,13 @@ fn drawable(grid: &Grid) -> Result<(), Box<Complaint>> {
         grid.axes().len()
     );
     let axes = grid.axes().len();
-    Err(Box::new(Complaint::new(Fault::NotBuilt, "--plot", Origin::Argument("--plot"), axes, allowed)))
+    Err(Box::new(Complaint::new(
+        Fault::NotBuilt,
+        "--plot",
+        Origin::Argument("--plot"),
+        axes,
+        allowed,
+    )))
 }
 
 fn text(done: &Map) -> String {

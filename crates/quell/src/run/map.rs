@@ -74,9 +74,7 @@ pub fn run(plan: Plan, store: Option<&Store>, running: Running<'_>) -> Result<Ma
     let left = todo.len() - done;
     let chunks = plan.chunks().len();
     match outcome {
-        Ok(()) if left == 0 => {
-            Ok(Map { plan, arrays, resumed, damaged, elapsed: begun.elapsed() })
-        }
+        Ok(()) if left == 0 => Ok(Map { plan, arrays, resumed, damaged, elapsed: begun.elapsed() }),
         Ok(()) => Err(stopped(store, left, chunks)),
         Err(failure) => Err(interrupted(failure, store, left, chunks)),
     }
@@ -116,12 +114,7 @@ fn earlier(plan: &Plan, store: Option<&Store>, arrays: &mut [Data]) -> Result<Ea
 
 /// Whether this program gives the bits that the store holds: one point of it is computed
 /// again. Versions are compared when a store is opened; this finds what has no version.
-fn same_program(
-    plan: &Plan,
-    store: &Store,
-    number: usize,
-    values: &[Data],
-) -> Result<(), Failure> {
+fn same_program(plan: &Plan, store: &Store, number: usize, values: &[Data]) -> Result<(), Failure> {
     let first = plan.chunks().points(number).into_iter().take(1).map(|(_, index)| index);
     let again = plan.compute_points(first);
     if values.iter().zip(&again).all(|(old, new)| old.same_bits(0, new, 0)) {
@@ -229,15 +222,17 @@ impl Map {
                 most = Some((value, point));
             }
         }
-        let words = match (&self.plan.sheet().fields()[entry.value].content, &self.arrays[entry.value])
-        {
-            (Content::Codes(meanings), Data::Codes(codes)) => meanings
-                .iter()
-                .map(|(code, word)| (*word, codes.iter().filter(|other| *other == code).count()))
-                .filter(|(_, count)| *count > 0)
-                .collect(),
-            _ => Vec::new(),
-        };
+        let words =
+            match (&self.plan.sheet().fields()[entry.value].content, &self.arrays[entry.value]) {
+                (Content::Codes(meanings), Data::Codes(codes)) => meanings
+                    .iter()
+                    .map(|(code, word)| {
+                        (*word, codes.iter().filter(|other| *other == code).count())
+                    })
+                    .filter(|(_, count)| *count > 0)
+                    .collect(),
+                _ => Vec::new(),
+            };
         let extreme = |found: Option<(f64, usize)>| {
             found.map(|(value, point)| Extreme { value, place: grid.values_at(point) })
         };

@@ -3,9 +3,7 @@
 use std::borrow::Cow;
 use std::num::NonZeroU64;
 
-use zarrs::array::{
-    ArrayToBytesCodecTraits, CodecError, CodecOptions, Element, ElementOwned,
-};
+use zarrs::array::{ArrayToBytesCodecTraits, CodecError, CodecOptions, Element, ElementOwned};
 
 use super::layout::Described;
 

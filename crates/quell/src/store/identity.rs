@@ -18,7 +18,8 @@ const NAMED: usize = 6;
 pub(super) fn identity(plan: &Plan) -> Json {
     let grid = plan.grid();
     // The values of the first point stand for the numbers that the axes replace.
-    let settings = grid.study_at(0).map_or_else(|_| grid.study().settings(), |study| study.settings());
+    let settings =
+        grid.study_at(0).map_or_else(|_| grid.study().settings(), |study| study.settings());
     let settings: Map<String, Json> =
         settings.into_iter().map(|(path, value)| (path, value.into())).collect();
     let axes: Map<String, Json> = grid
@@ -75,8 +76,7 @@ pub(super) fn differences(store: &Json, plan: &Json) -> Vec<String> {
 
 fn settings(store: &Json, plan: &Json, found: &mut Vec<String>) {
     let empty = Map::new();
-    let (there, here) =
-        (store.as_object().unwrap_or(&empty), plan.as_object().unwrap_or(&empty));
+    let (there, here) = (store.as_object().unwrap_or(&empty), plan.as_object().unwrap_or(&empty));
     for (path, value) in here {
         match there.get(path) {
             Some(other) if other == value => {}
@@ -93,8 +93,7 @@ fn settings(store: &Json, plan: &Json, found: &mut Vec<String>) {
 
 fn axes(store: &Json, plan: &Json, found: &mut Vec<String>) {
     let empty = Map::new();
-    let (there, here) =
-        (store.as_object().unwrap_or(&empty), plan.as_object().unwrap_or(&empty));
+    let (there, here) = (store.as_object().unwrap_or(&empty), plan.as_object().unwrap_or(&empty));
     if !here.keys().eq(there.keys()) {
         let names = |axes: &Map<String, Json>| axes.keys().cloned().collect::<Vec<_>>().join(", ");
         found.push(format!("the axes are {} here and {} there", names(here), names(there)));
@@ -103,7 +102,11 @@ fn axes(store: &Json, plan: &Json, found: &mut Vec<String>) {
     for (path, values) in here {
         if there.get(path) != Some(values) {
             let other = there.get(path).unwrap_or(&Json::Null);
-            found.push(format!("{path} runs over {} here and {} there", range(values), range(other)));
+            found.push(format!(
+                "{path} runs over {} here and {} there",
+                range(values),
+                range(other)
+            ));
         }
     }
 }

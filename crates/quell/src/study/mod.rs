@@ -101,7 +101,8 @@ impl Study {
     /// neither title nor axes. Two studies with equal settings compute the same.
     pub fn settings(&self) -> Vec<(String, String)> {
         let mut settings = Vec::new();
-        for (name, node) in self.mirror.iter().filter(|(name, _)| !matches!(*name, "title" | "sweep"))
+        for (name, node) in
+            self.mirror.iter().filter(|(name, _)| !matches!(*name, "title" | "sweep"))
         {
             node.leaves(name, &mut settings);
         }

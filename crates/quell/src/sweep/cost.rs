@@ -41,6 +41,9 @@ const SHORTEST: f64 = 0.05;
 /// Points of a chunk, at most.
 const MOST: f64 = 65_536.0;
 
+/// Points that a chunk may always have: the lanes of a batch, which fewer would leave empty.
+const LEAST: f64 = 16.0;
+
 /// Seconds of one point.
 pub(super) fn seconds(study: &Study, wanted: &[Computation]) -> f64 {
     let each = wanted.iter().map(|computation| match computation {
@@ -82,9 +85,9 @@ pub(super) fn points_per_chunk(points: usize, seconds: f64) -> usize {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "between 1 and MOST"
+        reason = "between LEAST and MOST"
     )]
-    let most = (chunk / seconds).clamp(1.0, MOST) as usize;
+    let most = (chunk / seconds).clamp(LEAST, MOST) as usize;
     most
 }
 
@@ -96,10 +99,10 @@ mod tests {
     fn chunks_are_many_where_points_are_dear_and_few_where_they_are_cheap() {
         // 40 000 points of 10 ms: 200 points take two seconds.
         assert_eq!(points_per_chunk(40_000, 0.01), 200);
-        // 1000 points of 10 ms: 128 chunks.
-        assert_eq!(points_per_chunk(1000, 0.01), 7);
-        // Points that take longer than a chunk should.
-        assert_eq!(points_per_chunk(10, 100.0), 1);
+        // 10 000 points of 10 ms: 128 chunks.
+        assert_eq!(points_per_chunk(10_000, 0.01), 78);
+        // Points that take longer than a chunk should still fill a batch.
+        assert_eq!(points_per_chunk(1000, 100.0), 16);
         // 1000 points of 20 µs: one chunk.
         assert!(points_per_chunk(1000, 2e-5) >= 1000);
     }

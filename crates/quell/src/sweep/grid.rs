@@ -249,7 +249,9 @@ mod tests {
              [[sweep]]\nparameter = \"dither[1].amplitude\"\nvalues = [0.1]\n",
         );
         assert!(told.is_ok());
-        let axis = |path| format!("[[sweep]]\nparameter = \"{path}\"\nfrom = 0.1\nto = 0.2\npoints = 100000\n");
+        let axis = |path| {
+            format!("[[sweep]]\nparameter = \"{path}\"\nfrom = 0.1\nto = 0.2\npoints = 100000\n")
+        };
         let told = grid(&(axis("belt.damping_ratio") + &axis("belt.belt_velocity")));
         assert!(told.expect_err("too many").allowed.contains("at most"));
     }

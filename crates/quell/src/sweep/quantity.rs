@@ -63,7 +63,8 @@ impl Variable {
     /// Every state it can have, in the order of their codes.
     pub fn all_statuses(&self) -> Vec<Status> {
         let common = [Status::Known, Status::InvalidStudy, Status::NotFinite, Status::Missing];
-        let mut all: Vec<Status> = common.into_iter().chain(self.statuses.iter().copied()).collect();
+        let mut all: Vec<Status> =
+            common.into_iter().chain(self.statuses.iter().copied()).collect();
         all.sort_unstable();
         all.dedup();
         all

@@ -180,9 +180,7 @@ impl Sheet {
                 };
                 let (number, code, status) = match value {
                     Ok(value) => (value, whole(value), Status::Known),
-                    Err(status) => {
-                        (unknown(status), unknown_word(entry.variable.kind), status)
-                    }
+                    Err(status) => (unknown(status), unknown_word(entry.variable.kind), status),
                 };
                 arrays[entry.value].push(number, code);
                 arrays[entry.status].push(0.0, status.code());

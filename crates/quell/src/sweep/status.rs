@@ -132,7 +132,9 @@ impl Status {
                 "without slip and without fast motion friction takes any value up to the static level"
             }
             Self::TooManyGroups => "too many incommensurate dithers for averaging",
-            Self::NotFast => "the dither is not above resonance (R ≤ 1), as this averaging presumes",
+            Self::NotFast => {
+                "the dither is not above resonance (R ≤ 1), as this averaging presumes"
+            }
             Self::NotConverged => "an integral of the averaging did not reach its tolerance",
             Self::NoDither => "there is no dither",
             Self::NeverChanges => "no amplitude of the first dither changes averaged stability",
