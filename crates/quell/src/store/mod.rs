@@ -286,7 +286,7 @@ fn complaint(path: &Path, allowed: impl Into<String>) -> Failure {
 }
 
 fn exists(path: &Path) -> Failure {
-    complaint(path, "is there already; --resume goes on with it, or choose another name")
+    complaint(path, "exists already: --resume goes on with it; or choose another name")
 }
 
 fn another(path: &Path, differences: &[String]) -> Failure {
