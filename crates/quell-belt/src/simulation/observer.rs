@@ -96,9 +96,18 @@ pub trait Observer {
     fn event(&mut self, event: &Event) {
         let _ = event;
     }
+
+    /// Whether [`Observer::segment`] wants to be called. Asked once, when a run begins.
+    fn watches(&self) -> bool {
+        true
+    }
 }
 
-impl Observer for () {}
+impl Observer for () {
+    fn watches(&self) -> bool {
+        false
+    }
+}
 
 impl<A: Observer, B: Observer> Observer for (A, B) {
     fn segment(&mut self, segment: &Segment<'_>) {
@@ -110,6 +119,10 @@ impl<A: Observer, B: Observer> Observer for (A, B) {
         self.0.event(event);
         self.1.event(event);
     }
+
+    fn watches(&self) -> bool {
+        self.0.watches() || self.1.watches()
+    }
 }
 
 impl<A: Observer> Observer for &mut A {
@@ -119,6 +132,10 @@ impl<A: Observer> Observer for &mut A {
 
     fn event(&mut self, event: &Event) {
         (**self).event(event);
+    }
+
+    fn watches(&self) -> bool {
+        (**self).watches()
     }
 }
 
@@ -130,6 +147,10 @@ pub struct EventRecorder {
 }
 
 impl Observer for EventRecorder {
+    fn watches(&self) -> bool {
+        false
+    }
+
     fn event(&mut self, event: &Event) {
         self.events.push(*event);
     }

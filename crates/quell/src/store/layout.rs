@@ -39,7 +39,7 @@ impl Layout {
         let arrays = coordinates.iter().chain(&fields);
         let described: Map<String, Json> =
             arrays.map(|array| (name(array).to_owned(), metadata(array))).collect();
-        let group = group(plan, described);
+        let group = group(plan, &described);
         Ok(Self { coordinates, fields, group })
     }
 
@@ -124,7 +124,7 @@ fn reasons(meanings: &[(u8, &str)]) -> String {
     lines.join("\n")
 }
 
-fn group(plan: &Plan, described: Map<String, Json>) -> Json {
+fn group(plan: &Plan, described: &Map<String, Json>) -> Json {
     let study = plan.grid().study();
     let used = |task: Task| {
         plan.computations().iter().any(|computation| match computation {

@@ -97,9 +97,11 @@ impl Store {
     fn locked(path: &Path, layout: Layout) -> Result<Self, Refused> {
         let own = path.join(OWN);
         fs::create_dir_all(own.join(DONE))?;
-        let lock = lock(&own.join("lock"))?;
+        let (lock, alone) = lock(&own.join("lock"))?;
         let unfinished = Unfinished::new(own.join("unfinished"))?;
-        unfinished.clear()?;
+        if alone {
+            unfinished.clear()?;
+        }
         Ok(Self { path: path.to_owned(), layout, unfinished, _lock: lock })
     }
 
@@ -266,13 +268,15 @@ impl Refused {
     }
 }
 
-/// Takes the lock, which the operating system gives back when the process ends.
-fn lock(file: &Path) -> Result<File, Refused> {
+/// Takes the lock, which the operating system gives back when the process ends; and whether it
+/// holds.
+fn lock(file: &Path) -> Result<(File, bool), Refused> {
     let lock = OpenOptions::new().create(true).truncate(false).write(true).open(file)?;
     match lock.try_lock() {
         Err(TryLockError::WouldBlock) => Err(Refused::Busy),
         // A file system without locks: chunks are whole and the same whoever writes them.
-        Ok(()) | Err(TryLockError::Error(_)) => Ok(lock),
+        Err(TryLockError::Error(_)) => Ok((lock, false)),
+        Ok(()) => Ok((lock, true)),
     }
 }
 

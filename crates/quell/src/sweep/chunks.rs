@@ -64,15 +64,13 @@ impl Chunks {
     /// The points of chunk `number`: position in a whole chunk and index in the grid, both in
     /// row-major order. Positions beyond the end of an axis are left out.
     pub fn points(&self, number: usize) -> Vec<(usize, usize)> {
-        let place = self.place(number);
         let mut points = vec![(0, 0)];
-        for axis in 0..self.shape.len() {
-            let first = place[axis] * self.chunk[axis];
-            let last = (first + self.chunk[axis]).min(self.shape[axis]);
+        let axes = self.place(number).into_iter().zip(self.shape.iter().zip(&self.chunk));
+        for (place, (shape, chunk)) in axes {
+            let first = place * chunk;
+            let last = (first + chunk).min(*shape);
             let inside = |&(position, index): &(usize, usize)| {
-                (first..last).map(move |at| {
-                    (position * self.chunk[axis] + at - first, index * self.shape[axis] + at)
-                })
+                (first..last).map(move |at| (position * chunk + at - first, index * shape + at))
             };
             points = points.iter().flat_map(inside).collect();
         }

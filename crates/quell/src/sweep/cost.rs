@@ -18,13 +18,13 @@ const SLOW_PERIOD: f64 = 4e-6;
 const SAMPLE: f64 = 3e-7;
 
 /// Seconds of one averaged criterion in closed form.
-const CLOSED_FORM: f64 = 5e-6;
+const CLOSED_FORM: f64 = 1e-6;
 
 /// Seconds of one by quadrature.
 const QUADRATURE: f64 = 4e-4;
 
 /// Evaluations of the criterion in a search for critical amplitudes.
-const SEARCH: f64 = 400.0;
+const SEARCH: f64 = 100.0;
 
 /// Seconds that a point takes to be made and stored at least.
 const POINT: f64 = 2e-5;
@@ -74,7 +74,7 @@ fn criterion(study: &Study, sharper: bool) -> f64 {
     let normal = belt.dithers().iter().any(|dither| dither.direction == Direction::Normal);
     match belt.dithers().len() {
         0 => CLOSED_FORM,
-        1 if !normal && !sharper => CLOSED_FORM,
+        1 if !(normal && sharper) => CLOSED_FORM,
         dithers => QUADRATURE * 30_f64.powi(i32::try_from(dithers).unwrap_or(4).min(4) - 1),
     }
 }

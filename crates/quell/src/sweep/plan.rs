@@ -97,3 +97,44 @@ impl Plan {
         self.sheet.fill(&points)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sweep::Status;
+
+    const TEXT: &str = "schema = 1\n[belt]\ndamping_ratio = 0.01\nnormal_load = 0.5\n\
+        belt_velocity = 0.1\n[friction]\nlaw = \"decreasing\"\nstatic_coefficient = 0.4\n\
+        minimum_coefficient = 0.2\nreference_velocity = 0.2\n[dither]\ndirection = \"normal\"\n\
+        waveform = \"sine\"\namplitude = 0.1\nfrequency_ratio = 10\n[solver]\nsettle = 5\n\
+        record_periods = 2\n[[sweep]]\nparameter = \"dither.amplitude\"\nvalues = [0.1, 0.45, 0.3]\n\
+        [[sweep]]\nparameter = \"belt.normal_load\"\nvalues = [0.48, 0.42, 0.5]\n";
+
+    #[test]
+    fn a_point_has_the_same_bits_beside_any_others() {
+        let study = Study::parse(TEXT, &[]).expect("valid");
+        let asked: Vec<&Quantity> =
+            ["efficiency", "growth", "critical-amplitude", "dither-stroke", "verdict-sharper"]
+                .iter()
+                .map(|name| Quantity::named(name, "--quantity").expect("a quantity"))
+                .collect();
+        let plan = Plan::new(&study, &asked).expect("two axes");
+        assert_eq!(plan.quantities().last().map(|last| last.name), Some(SETTLED_NAME));
+        let all = plan.compute_points(0..plan.grid().len());
+        let backwards = plan.compute_points((0..plan.grid().len()).rev());
+        let status = plan.sheet().entries()[0].status;
+        for point in 0..plan.grid().len() {
+            let alone = plan.compute_points(std::iter::once(point));
+            for ((array, alone), backwards) in all.iter().zip(&alone).zip(&backwards) {
+                assert!(array.same_bits(point, alone, 0));
+                assert!(array.same_bits(point, backwards, plan.grid().len() - 1 - point));
+            }
+        }
+        // 0.45 of dither on 0.42 of load pulls the contact apart; its neighbours know nothing of it.
+        let Data::Codes(states) = &all[status] else {
+            panic!("states are codes");
+        };
+        let invalid = states.iter().map(|code| *code == Status::InvalidStudy.code());
+        assert_eq!(invalid.collect::<Vec<_>>(), (0..9).map(|at| at == 4).collect::<Vec<_>>());
+    }
+}
