@@ -5,12 +5,14 @@
 
 mod caption;
 mod friction;
+mod map;
 mod response;
 mod ruler;
 mod simulate;
 mod stability;
 
 pub use friction::friction;
+pub use map::{Map, MapAxis, MapKind, map};
 pub use response::response;
 pub use simulate::simulate;
 pub use stability::stability;
