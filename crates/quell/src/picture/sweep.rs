@@ -42,8 +42,8 @@ pub fn sweep(done: &Map) -> Result<Figure, Failure> {
         }
         _ => map::map(&picture(done, shown[0])),
     };
-    let figure = figure
-        .map_err(|why| Failure::Failed { key: "--plot".to_owned(), why: why.to_string() })?;
+    let figure =
+        figure.map_err(|why| Failure::Failed { key: "--plot".to_owned(), why: why.to_string() })?;
     let title = plan.grid().study().title().unwrap_or_default();
     Ok(figure.title(title).caption(super::caption::caption_of_run(plan.grid().study())))
 }
@@ -65,9 +65,9 @@ fn picture(done: &Map, entry: &Entry) -> Picture {
     let array = entry.twin.unwrap_or(entry.value);
     let unit = &plan.sheet().fields()[array].unit;
     let kind = match variable.kind {
-        Kind::Word { words, .. } => MapKind::Outcome(
-            words.iter().map(|&word| (role_of(word), word.to_owned())).collect(),
-        ),
+        Kind::Word { words, .. } => {
+            MapKind::Outcome(words.iter().map(|&word| (role_of(word), word.to_owned())).collect())
+        }
         Kind::Rate => MapKind::Growth(Spread::Linear),
         Kind::Number(_) if variable.name == "efficiency" => MapKind::Efficiency,
         Kind::Number(_) => MapKind::Number(Spread::Linear),
