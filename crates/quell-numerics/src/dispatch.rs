@@ -37,6 +37,8 @@ pub trait LaneWork {
 pub enum InstructionSet {
     /// One number at a time, without fused multiply-add in hardware: runs everywhere.
     Baseline,
+    /// One number at a time, with fused multiply-add (x86-64-v3): the best for a single run.
+    Fma,
     /// AVX2 with FMA (x86-64-v3): 2 × 4 lanes.
     Avx2,
     /// AVX-512 (x86-64-v4): 2 × 8 lanes.
@@ -45,7 +47,7 @@ pub enum InstructionSet {
 
 impl InstructionSet {
     /// Every one that there is, the widest first.
-    pub const ALL: [Self; 3] = [Self::Avx512, Self::Avx2, Self::Baseline];
+    pub const ALL: [Self; 4] = [Self::Avx512, Self::Avx2, Self::Fma, Self::Baseline];
 
     /// The widest of this machine.
     pub fn widest() -> Self {
@@ -57,11 +59,11 @@ impl InstructionSet {
         match self {
             Self::Baseline => true,
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => pulp::x86::V3::try_new().is_some(),
+            Self::Avx2 | Self::Fma => pulp::x86::V3::try_new().is_some(),
             #[cfg(target_arch = "x86_64")]
             Self::Avx512 => pulp::x86::V4::try_new().is_some(),
             #[cfg(not(target_arch = "x86_64"))]
-            Self::Avx2 | Self::Avx512 => false,
+            Self::Fma | Self::Avx2 | Self::Avx512 => false,
         }
     }
 
@@ -69,6 +71,7 @@ impl InstructionSet {
     pub fn name(self) -> &'static str {
         match self {
             Self::Baseline => "baseline",
+            Self::Fma => "FMA",
             Self::Avx2 => "AVX2",
             Self::Avx512 => "AVX-512",
         }
@@ -89,10 +92,20 @@ impl<W: Work> pulp::NullaryFnOnce for Vectorized<W> {
 /// Runs `work` with the best instructions for scalar code.
 #[inline]
 pub fn with_fused_multiply_add<W: Work>(work: W) -> W::Output {
+    with_scalar_of(InstructionSet::Fma, work)
+}
+
+/// Runs `work` with the scalar instructions that go with the lanes of `set`: those of the baseline, or
+/// fused multiply-add where the machine has it.
+#[inline]
+pub fn with_scalar_of<W: Work>(set: InstructionSet, work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
-    if let Some(simd) = pulp::x86::V3::try_new() {
+    if set != InstructionSet::Baseline
+        && let Some(simd) = pulp::x86::V3::try_new()
+    {
         return simd.vectorize(Vectorized(work));
     }
+    let _ = set;
     pulp::NullaryFnOnce::call(Vectorized(work))
 }
 
@@ -122,7 +135,11 @@ pub fn with_lanes<W: LaneWork>(set: InstructionSet, work: W) -> W::Output {
         if set != InstructionSet::Baseline
             && let Some(simd) = pulp::x86::V3::try_new()
         {
-            return simd.vectorize(InLanes::<W, Pair<Four>>(work, std::marker::PhantomData));
+            return if set == InstructionSet::Fma {
+                simd.vectorize(InLanes::<W, f64>(work, std::marker::PhantomData))
+            } else {
+                simd.vectorize(InLanes::<W, Pair<Four>>(work, std::marker::PhantomData))
+            };
         }
     }
     let _ = set;

@@ -10,6 +10,7 @@
 
 use quell_model::friction::SlidingLaw;
 use quell_model::{Belt, Direction};
+use quell_numerics::dispatch::{InstructionSet, Work, with_scalar_of};
 use quell_numerics::lane::horner;
 use quell_numerics::polynomial::first_crossing_after;
 
@@ -133,7 +134,6 @@ impl Column<'_> {
 }
 
 impl<'a> Engine<'a> {
-    #[inline(always)]
     pub(super) fn new<L: SlidingLaw>(run: Run<'a>, law: &L, tolerance: f64) -> Self {
         let Run { belt, start, until, observer } = run;
         let unit = law.velocity_scale();
@@ -178,8 +178,15 @@ impl<'a> Engine<'a> {
     }
 
     /// Goes on through stick until a slip step is due or the run is over.
+    ///
+    /// This and [`Engine::take`] are compiled once per scalar instruction set and called, not
+    /// once more into the loop of every law and lane type.
+    pub(super) fn next(&mut self, set: InstructionSet) -> Next {
+        with_scalar_of(set, GoOn(self))
+    }
+
     #[inline(always)]
-    pub(super) fn next(&mut self) -> Next {
+    fn go_on(&mut self) -> Next {
         while self.clock.until(self.until) > 0.0 {
             match self.contact {
                 Contact::Slip { sign, zeros } => {
@@ -256,12 +263,22 @@ impl<'a> Engine<'a> {
         }
     }
 
-    /// Takes a slip step back from the kernel, cut at the first root of v_r.
+    /// Takes a slip step back from the kernel and goes on as [`Engine::next`].
+    pub(super) fn take(
+        &mut self,
+        set: InstructionSet,
+        due: SlipDue,
+        taken: &SlipTaken<'_>,
+    ) -> Next {
+        with_scalar_of(set, Take { engine: self, due, taken })
+    }
+
+    /// A slip step back from the kernel, cut at the first root of v_r.
     ///
     /// # Errors
     /// [`Stalled`] where time does not advance or the state is not finite.
     #[inline(always)]
-    pub(super) fn take(&mut self, due: SlipDue, taken: &SlipTaken<'_>) -> Result<(), Stalled> {
+    fn take_back(&mut self, due: SlipDue, taken: &SlipTaken<'_>) -> Result<(), Stalled> {
         let before = self.clock;
         let SlipDue { sign, zeros, stop } = due;
         let room = self.clock.until(stop);
@@ -376,6 +393,37 @@ impl<'a> Engine<'a> {
         }
         self.displacement = f64::mul_add(self.bond.belt_velocity, duration, self.displacement);
         self.advance(duration, reaches_stop, stop);
+    }
+}
+
+/// [`Engine::next`] as work.
+struct GoOn<'e, 'a>(&'e mut Engine<'a>);
+
+impl Work for GoOn<'_, '_> {
+    type Output = Next;
+
+    #[inline(always)]
+    fn run(self) -> Next {
+        self.0.go_on()
+    }
+}
+
+/// [`Engine::take`] as work.
+struct Take<'e, 'a, 's> {
+    engine: &'e mut Engine<'a>,
+    due: SlipDue,
+    taken: &'e SlipTaken<'s>,
+}
+
+impl Work for Take<'_, '_, '_> {
+    type Output = Next;
+
+    #[inline(always)]
+    fn run(self) -> Next {
+        match self.engine.take_back(self.due, self.taken) {
+            Ok(()) => self.engine.go_on(),
+            Err(stalled) => Next::Over(Err(stalled)),
+        }
     }
 }
 

@@ -10,9 +10,7 @@
 
 use quell_model::Direction;
 use quell_model::friction::{LawVisitor, SlidingLaw};
-use quell_numerics::dispatch::{
-    InstructionSet, LaneWork, Work, with_fused_multiply_add, with_lanes,
-};
+use quell_numerics::dispatch::{InstructionSet, LaneWork, with_lanes};
 use quell_numerics::elementary::sin_cos_of_phase;
 use quell_numerics::lane::{Lane, MOST_LANES, horner};
 use quell_numerics::polynomial::side_by_side::first_crossings;
@@ -26,19 +24,13 @@ use super::{FinalState, ORDER, Run, Stalled};
 /// How a run ends.
 type Outcome = Result<FinalState, Stalled>;
 
-/// One run, with the best instructions for one number at a time.
-pub(super) fn alone(run: Run<'_>, tolerance: f64) -> Outcome {
-    run.belt.friction().visit(Alone { run, tolerance })
-}
-
 /// Runs in the lanes of `set`, outcomes in the order of the runs.
 pub(super) fn side_by_side(
     set: InstructionSet,
     runs: Vec<Run<'_>>,
     tolerance: f64,
 ) -> Vec<Outcome> {
-    let none = Err(Stalled { time: 0.0, why: "it was never started" });
-    let mut outcomes = vec![none; runs.len()];
+    let mut outcomes = vec![Err(Stalled::NEVER_STARTED); runs.len()];
     let mut rest: Vec<(usize, Run<'_>)> = runs.into_iter().enumerate().collect();
     while let Some((_, first)) = rest.first() {
         let (law, shapes) = (*first.belt.friction(), shapes_of(first));
@@ -57,39 +49,6 @@ type Shapes = (Shape, Shape);
 fn shapes_of(run: &Run<'_>) -> Shapes {
     let shape = |direction| Shape::of(run.belt.dithers(), direction);
     (shape(Direction::Tangential), shape(Direction::Normal))
-}
-
-struct Alone<'a> {
-    run: Run<'a>,
-    tolerance: f64,
-}
-
-impl LawVisitor for Alone<'_> {
-    type Output = Outcome;
-
-    fn visit<L: SlidingLaw>(self, law: &L) -> Outcome {
-        with_fused_multiply_add(AloneOf { run: self.run, law: *law, tolerance: self.tolerance })
-    }
-}
-
-/// [`Alone`] with its law.
-struct AloneOf<'a, L> {
-    run: Run<'a>,
-    law: L,
-    tolerance: f64,
-}
-
-impl<L: SlidingLaw> Work for AloneOf<'_, L> {
-    type Output = Outcome;
-
-    #[inline(always)]
-    fn run(self) -> Outcome {
-        let shapes = shapes_of(&self.run);
-        let mut outcome = None;
-        let runs = [(0, self.run, self.law)].into_iter();
-        drive::<f64, L>(runs, shapes, self.tolerance, |_, it| outcome = Some(it));
-        outcome.unwrap_or(Err(Stalled { time: 0.0, why: "it was never started" }))
-    }
 }
 
 /// Runs that share a law and shapes.
@@ -120,7 +79,7 @@ impl<L: SlidingLaw> LaneWork for GroupOf<'_, '_, L> {
 
     #[inline(always)]
     fn run<V: Lane>(self) {
-        let Group { runs, shapes, tolerance, outcomes, .. } = self.group;
+        let Group { set, runs, shapes, tolerance, outcomes } = self.group;
         // Every run is of this law: the group was made so.
         let runs = runs
             .into_iter()
@@ -128,7 +87,7 @@ impl<L: SlidingLaw> LaneWork for GroupOf<'_, '_, L> {
             .map(|(number, law, run)| (number, run, law))
             .collect::<Vec<_>>();
         let runs = runs.into_iter();
-        drive::<V, L>(runs, shapes, tolerance, |number, outcome| outcomes[number] = outcome);
+        drive::<V, L>(runs, set, shapes, tolerance, |number, outcome| outcomes[number] = outcome);
     }
 }
 
@@ -150,12 +109,13 @@ const MOST_BENCHES: usize = 4;
 #[inline(always)]
 fn drive<'a, V: Lane, L: SlidingLaw>(
     mut queue: impl ExactSizeIterator<Item = (usize, Run<'a>, L)>,
+    set: InstructionSet,
     shapes: Shapes,
     tolerance: f64,
     mut over: impl FnMut(usize, Outcome),
 ) {
     let count = queue.len().div_ceil(V::LANES).clamp(1, MOST_BENCHES);
-    let mut benches: Vec<Bench<'a, V, L>> = (0..count).map(|_| Bench::new(shapes)).collect();
+    let mut benches: Vec<Bench<'a, V, L>> = (0..count).map(|_| Bench::new(set, shapes)).collect();
     let mut search = RootSearch::<V>::new();
     loop {
         let mut seated = 0;
@@ -178,6 +138,7 @@ fn drive<'a, V: Lane, L: SlidingLaw>(
 
 /// As many runs as there are lanes.
 struct Bench<'a, V: Lane, L: SlidingLaw> {
+    set: InstructionSet,
     board: Board<V>,
     seats: [Option<Seat<'a>>; MOST_LANES],
     laws: Vec<L>,
@@ -193,8 +154,9 @@ struct Bench<'a, V: Lane, L: SlidingLaw> {
 
 impl<'a, V: Lane, L: SlidingLaw> Bench<'a, V, L> {
     #[inline(always)]
-    fn new(shapes: Shapes) -> Self {
+    fn new(set: InstructionSet, shapes: Shapes) -> Self {
         Self {
+            set,
             board: Board::new(shapes),
             seats: std::array::from_fn(|_| None),
             laws: Vec::with_capacity(V::LANES),
@@ -221,7 +183,7 @@ impl<'a, V: Lane, L: SlidingLaw> Bench<'a, V, L> {
             while seat.is_none() {
                 let Some((number, run, law)) = queue.next() else { break };
                 let mut engine = Engine::new(run, &law, tolerance);
-                match engine.next() {
+                match engine.next(self.set) {
                     Next::Over(outcome) => over(number, outcome),
                     Next::Slip(due) => {
                         if self.laws.is_empty() {
@@ -265,7 +227,7 @@ impl<'a, V: Lane, L: SlidingLaw> Bench<'a, V, L> {
                 continue;
             }
             let Some(seat) = place else { continue };
-            if let Some(outcome) = self.board.look_after(lane, seat, self.turn) {
+            if let Some(outcome) = self.board.look_after(self.set, lane, seat, self.turn) {
                 over(seat.number, outcome);
                 *place = None;
                 self.seated -= 1;
@@ -578,7 +540,13 @@ impl<V: Lane> Board<V> {
 
     /// Lets the engine of a lane take the step and go on to its next one; how it ends if it is over.
     #[inline(always)]
-    fn look_after(&mut self, lane: usize, seat: &mut Seat<'_>, turn: u64) -> Option<Outcome> {
+    fn look_after(
+        &mut self,
+        set: InstructionSet,
+        lane: usize,
+        seat: &mut Seat<'_>,
+        turn: u64,
+    ) -> Option<Outcome> {
         let Seat { engine, due, known, .. } = seat;
         let unseen = turn - *known - 1;
         let clock = Clock::of(self.time_before.0[lane], self.low_before.0[lane]);
@@ -603,10 +571,7 @@ impl<V: Lane> Board<V> {
             slip,
         };
         let zeros = if unseen > 0 { 0 } else { due.zeros };
-        if let Err(stalled) = engine.take(SlipDue { zeros, ..*due }, &taken) {
-            return Some(Err(stalled));
-        }
-        match engine.next() {
+        match engine.take(set, SlipDue { zeros, ..*due }, &taken) {
             Next::Slip(next) => {
                 self.announce(lane, engine, next);
                 *due = next;

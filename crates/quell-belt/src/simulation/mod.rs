@@ -97,6 +97,11 @@ pub struct Stalled {
     pub why: &'static str,
 }
 
+impl Stalled {
+    /// What is known of a run before it is run.
+    pub(crate) const NEVER_STARTED: Self = Self { time: 0.0, why: "it was never started" };
+}
+
 impl fmt::Display for Stalled {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "the integration stopped at τ = {}: {}", self.time, self.why)
@@ -132,7 +137,9 @@ pub fn simulate(
     tolerance: f64,
     observer: &mut dyn Observer,
 ) -> Result<FinalState, Stalled> {
-    lanes::alone(Run { belt, start, until, observer }, tolerance)
+    let run = Run { belt, start, until, observer };
+    let outcomes = simulate_many_with(InstructionSet::Fma, vec![run], tolerance);
+    outcomes.into_iter().next().unwrap_or(Err(Stalled::NEVER_STARTED))
 }
 
 /// Integrates many runs side by side in the lanes of the machine's widest instruction set.

@@ -45,6 +45,13 @@ impl Segment<'_> {
         self.unit * value_of(self.displacement, since)
     }
 
+    /// [`Segment::displacement`] for observers that are compiled with the machine's best
+    /// instructions themselves.
+    #[inline(always)]
+    pub(crate) fn displacement_at(&self, since: f64) -> f64 {
+        self.unit * horner(self.displacement, since)
+    }
+
     /// Slip velocity v_r = v₀ − x′ at `since` after its start.
     pub fn slip_velocity(&self, since: f64) -> f64 {
         self.unit * value_of(self.slip, since)
@@ -184,6 +191,11 @@ impl Sampler {
     /// `count` samples from `first`, `step` apart.
     pub fn new(first: f64, step: f64, count: usize) -> Self {
         Self { first, step, count, samples: Vec::with_capacity(count) }
+    }
+
+    /// Time between two samples.
+    pub fn step(&self) -> f64 {
+        self.step
     }
 
     /// The stroboscopic section Rτ = 2πn − φ of a dither, for the periods inside `from`…`to`.

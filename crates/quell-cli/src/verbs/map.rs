@@ -92,7 +92,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         Keep::Zarr(path) => object["saved"] = vec![path.display().to_string()].into(),
         Keep::Nowhere => {}
     }
-    plot.write(|| picture::curve(&done), &mut object)?;
+    plot.try_write(|| picture::sweep(&done), &mut object)?;
     let answer = Answer::new(arguments.study.json, || object, || text(&done));
     Ok(answer.warning(done.warnings()))
 }
@@ -124,24 +124,19 @@ fn keep(arguments: &Arguments) -> Result<Keep, Box<Complaint>> {
     }
 }
 
-/// Whether there is a picture of so many axes.
+/// Whether there is a picture of so many panels: one for each point of the axes before the last two.
 fn drawable(grid: &Grid) -> Result<(), Box<Complaint>> {
-    if grid.axes().len() == 1 {
+    let shape = grid.shape();
+    let panels: usize = shape[..shape.len().saturating_sub(2)].iter().product();
+    if panels <= picture::MOST_PANELS {
         return Ok(());
     }
     let allowed = format!(
-        "--plot needs a study with one [[sweep]] axis, this one has {}; save the map and draw it from \
-         there",
-        grid.axes().len()
+        "--plot draws one panel for each point of the axes before the last two, at most {}; this study          has {panels}: save the map and draw it from there",
+        picture::MOST_PANELS
     );
-    let axes = grid.axes().len();
-    Err(Box::new(Complaint::new(
-        Fault::NotBuilt,
-        "--plot",
-        Origin::Argument("--plot"),
-        axes,
-        allowed,
-    )))
+    let origin = Origin::Argument("--plot");
+    Err(Box::new(Complaint::new(Fault::Value, "--plot", origin, panels, allowed)))
 }
 
 fn text(done: &Map) -> String {

@@ -229,6 +229,16 @@ impl Mapping {
         Self { scale: axis.scale, origin, slope, first_pixel: pixels.0, stretch }
     }
 
+    /// Position on the axis, before scaling, of a pixel.
+    pub(super) fn along(&self, pixel: f64) -> f64 {
+        self.origin + (pixel - self.first_pixel) / self.slope
+    }
+
+    /// Pixel of a position on the axis that is not yet scaled; what lies far out stays outside.
+    pub(super) fn place(&self, along: f64) -> f64 {
+        (self.first_pixel + (along - self.origin) * self.slope).clamp(-1e5, 1e5)
+    }
+
     /// Pixel of a value; nothing for a value without a place on this axis.
     pub(super) fn pixel(&self, value: f64) -> Option<f64> {
         let along = match self.scale {

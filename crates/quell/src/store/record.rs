@@ -14,8 +14,11 @@ pub(super) struct Seal {
 }
 
 impl Seal {
+    /// The sum runs from the last byte to the first: a chunk ends with its own CRC-32C, and
+    /// forwards the sum over both is the same number for every chunk.
     pub(super) fn of(bytes: &[u8]) -> Self {
-        Self { bytes: bytes.len() as u64, checksum: crc32c::crc32c(bytes) }
+        let backwards: Vec<u8> = bytes.iter().rev().copied().collect();
+        Self { bytes: bytes.len() as u64, checksum: crc32c::crc32c(&backwards) }
     }
 }
 
@@ -66,7 +69,7 @@ mod tests {
     #[test]
     fn a_record_reads_back_and_half_of_it_does_not() {
         let mut record = Record::default();
-        record.add("efficiency/c/0/1", Seal::of(b"123456789"));
+        record.add("efficiency/c/0/1", Seal::of(b"987654321"));
         record.add("efficiency_status/c/0/1", Seal::of(b""));
         // The check value of CRC-32C.
         assert_eq!(record.seal("efficiency/c/0/1").map(|seal| seal.checksum), Some(0xe306_9283));
@@ -75,5 +78,13 @@ mod tests {
         for length in 0..text.len() - 2 {
             assert_eq!(Record::parse(&text[..length]), None);
         }
+    }
+
+    #[test]
+    fn chunks_of_one_length_have_seals_of_their_own() {
+        // As the codec writes them: the content, then its CRC-32C, least byte first.
+        let chunk = |content: &[u8]| [content, &crc32c::crc32c(content).to_le_bytes()].concat();
+        assert_ne!(Seal::of(&chunk(b"one chunk")), Seal::of(&chunk(b"two chunk")));
+        assert_ne!(Seal::of(&chunk(b"one chunk")), Seal::of(&chunk(b"one chunj")));
     }
 }

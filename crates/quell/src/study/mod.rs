@@ -123,10 +123,9 @@ impl Study {
         mirror.remove("sweep");
         let mut changes = self.changes.clone();
         for (path, value) in numbers {
-            Change::number(path, value, "[[sweep]]")
-                .apply(&mut mirror)
-                .map_err(|complaint| vec![*complaint])?;
-            changes.push(format!("{path}={value:?}"));
+            let change = Change::number(path, value, "[[sweep]]");
+            change.apply(&mut mirror).map_err(|complaint| vec![*complaint])?;
+            changes.push(change.to_string());
         }
         let mut study = Self::check(mirror, &self.text)?;
         study.changes = changes;

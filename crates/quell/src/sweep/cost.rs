@@ -9,13 +9,13 @@ use super::evaluate::Computation;
 use crate::study::Study;
 
 /// Seconds of one dither period with events.
-const PERIOD: f64 = 2e-6;
+const PERIOD: f64 = 1e-6;
 
 /// Seconds of one slow period without dither.
-const SLOW_PERIOD: f64 = 4e-6;
+const SLOW_PERIOD: f64 = 3e-6;
 
-/// Seconds of one sample of a record, its spectra included.
-const SAMPLE: f64 = 3e-7;
+/// Seconds of one sample of a record, heard and forgotten.
+const SAMPLE: f64 = 5e-8;
 
 /// Seconds of one averaged criterion in closed form.
 const CLOSED_FORM: f64 = 1e-6;
@@ -38,13 +38,17 @@ const LONGEST: f64 = 2.0;
 /// Seconds of a chunk, at least: below them files cost more than points.
 const SHORTEST: f64 = 0.05;
 
+/// Points of a chunk that fill the lanes of the engine; fewer where they take longer than a
+/// chunk should.
+const LANES_FULL: f64 = 64.0;
+
 /// Points of a chunk, at most.
 const MOST: f64 = 65_536.0;
 
 /// Seconds of one point.
 pub(super) fn seconds(study: &Study, wanted: &[Computation]) -> f64 {
     let each = wanted.iter().map(|computation| match computation {
-        Computation::Response => response(study),
+        Computation::Response | Computation::ResponseWithCost => response(study),
         Computation::Criterion => criterion(study, false),
         Computation::CriterionSharper => criterion(study, true),
         Computation::CriticalAmplitudes => SEARCH * criterion(study, false),
@@ -84,7 +88,7 @@ pub(super) fn points_per_chunk(points: usize, seconds: f64) -> usize {
         clippy::cast_sign_loss,
         reason = "between 1 and MOST"
     )]
-    let most = (chunk / seconds).clamp(1.0, MOST) as usize;
+    let most = (chunk / seconds).max(LANES_FULL.min(LONGEST / seconds)).clamp(1.0, MOST) as usize;
     most
 }
 
@@ -96,8 +100,10 @@ mod tests {
     fn chunks_are_many_where_points_are_dear_and_few_where_they_are_cheap() {
         // 40 000 points of 10 ms: 200 points take two seconds.
         assert_eq!(points_per_chunk(40_000, 0.01), 200);
-        // 1000 points of 10 ms: 128 chunks.
-        assert_eq!(points_per_chunk(1000, 0.01), 7);
+        // 1000 points of 10 ms: as many as fill the lanes, although that makes few chunks.
+        assert_eq!(points_per_chunk(1000, 0.01), 64);
+        // 1000 points of 0.1 s: two seconds.
+        assert_eq!(points_per_chunk(1000, 0.1), 20);
         // Points that take longer than a chunk should.
         assert_eq!(points_per_chunk(10, 100.0), 1);
         // 1000 points of 20 µs: one chunk.

@@ -1,13 +1,13 @@
 //! What a map computes at its points: a whole chunk in, its results out.
 //!
-//! This is the one place that calls the engines for a map. It takes a chunk at once, so that an
-//! engine that works on many points side by side can take them all. A point's result depends
-//! on its own study alone.
+//! This is the one place that calls the engines for a map. Steady responses are computed for the
+//! whole chunk side by side; a point's result depends on its own study alone all the same.
 
 use quell_belt::averaging::{
     AveragingError, AveragingOptions, Criterion, CriticalAmplitude, criterion, critical_amplitudes,
 };
-use quell_belt::response::{Response, Undefined, respond};
+use quell_belt::response::{Case, Compared, Undefined, Wanted, compare_many};
+use quell_belt::simulation::Start;
 
 use super::status::Status;
 use crate::run::stability::SHARPER;
@@ -18,12 +18,21 @@ use crate::study::Study;
 pub enum Computation {
     /// The steady response with and without dither.
     Response,
+    /// The same with the power and the stroke of the dither.
+    ResponseWithCost,
     /// The criterion of averaged stability.
     Criterion,
     /// The same by the sharper averaging.
     CriterionSharper,
     /// Every critical amplitude of the first dither.
     CriticalAmplitudes,
+}
+
+impl Computation {
+    /// Whether it integrates responses.
+    pub fn is_response(self) -> bool {
+        matches!(self, Self::Response | Self::ResponseWithCost)
+    }
 }
 
 /// The numbers of a steady response that a map can show.
@@ -49,19 +58,20 @@ pub struct Steady {
     pub minimum_normal_load: f64,
 }
 
-impl From<&Response> for Steady {
-    fn from(response: &Response) -> Self {
+impl From<&Compared> for Steady {
+    fn from(compared: &Compared) -> Self {
+        let dithered = &compared.dithered;
+        let efficiency = compared.efficiency();
         Self {
-            efficiency: response.efficiency,
-            amplitude: response.amplitude,
-            undithered_amplitude: response.undithered_amplitude,
-            stick_fraction: response.stick_fraction,
-            settled: response.settled
-                && (response.undithered_settled || response.efficiency.is_err()),
-            mean_friction: response.mean_friction,
-            dither_power: response.dither_power,
-            dither_stroke: response.dither_stroke,
-            minimum_normal_load: response.minimum_normal_load,
+            efficiency,
+            amplitude: dithered.lines.whole,
+            undithered_amplitude: compared.undithered.lines.whole,
+            stick_fraction: dithered.stick_fraction,
+            settled: compared.settled() && (compared.undithered_settled() || efficiency.is_err()),
+            mean_friction: dithered.mean_friction,
+            dither_power: dithered.dither_power,
+            dither_stroke: dithered.dither_stroke,
+            minimum_normal_load: dithered.minimum_normal_load,
         }
     }
 }
@@ -81,16 +91,51 @@ pub struct Results {
 
 /// Computes at every point of a chunk.
 pub(super) fn evaluate(points: &[Study], wanted: &[Computation]) -> Vec<Results> {
-    points.iter().map(|study| at(study, wanted)).collect()
+    let mut results: Vec<Results> = points.iter().map(|study| averages(study, wanted)).collect();
+    let dither_cost = wanted.contains(&Computation::ResponseWithCost);
+    if dither_cost || wanted.contains(&Computation::Response) {
+        for (result, steady) in results.iter_mut().zip(responses(points, Wanted { dither_cost })) {
+            result.steady = Some(steady);
+        }
+    }
+    results
 }
 
-fn at(study: &Study, wanted: &[Computation]) -> Results {
+/// The steady responses, side by side where the points share their solver.
+fn responses(points: &[Study], wanted: Wanted) -> Vec<Result<Steady, Status>> {
+    let starts: Vec<Result<Start, Status>> = points
+        .iter()
+        .map(|study| Ok(study.initial().resolve(study.belt(), study.solver())?))
+        .collect();
+    let mut outcomes: Vec<Result<Steady, Status>> =
+        starts.iter().map(|start| Err(start.err().unwrap_or(Status::Stalled))).collect();
+    let mut rest: Vec<usize> = (0..points.len()).filter(|&at| starts[at].is_ok()).collect();
+    while let Some(&first) = rest.first() {
+        let solver = *points[first].solver();
+        let (alike, others): (Vec<usize>, Vec<usize>) =
+            rest.into_iter().partition(|&at| *points[at].solver() == solver);
+        rest = others;
+        let cases: Vec<Case> = alike
+            .iter()
+            .filter_map(|&at| {
+                Some(Case { belt: points[at].belt().clone(), start: starts[at].ok()? })
+            })
+            .collect();
+        for (&at, compared) in alike.iter().zip(compare_many(&cases, &solver, wanted)) {
+            outcomes[at] = compared.map(|it| Steady::from(&it)).map_err(|_| Status::Stalled);
+        }
+    }
+    outcomes
+}
+
+/// What averaging says at a point.
+fn averages(study: &Study, wanted: &[Computation]) -> Results {
     let belt = study.belt();
     let mut results = Results::default();
     let told = |why: AveragingError| Status::from(&why);
     for computation in wanted {
         match computation {
-            Computation::Response => results.steady = Some(steady(study)),
+            Computation::Response | Computation::ResponseWithCost => {}
             Computation::Criterion => {
                 let found = criterion(belt, AveragingOptions::default());
                 results.criterion = Some(found.map_err(told));
@@ -112,12 +157,4 @@ fn at(study: &Study, wanted: &[Computation]) -> Results {
         }
     }
     results
-}
-
-fn steady(study: &Study) -> Result<Steady, Status> {
-    let start = study.initial().resolve(study.belt(), study.solver())?;
-    match respond(study.belt(), start, study.solver()) {
-        Ok(response) => Ok(Steady::from(&response)),
-        Err(_) => Err(Status::Stalled),
-    }
 }

@@ -28,7 +28,7 @@ impl Plan {
     pub fn new(study: &Study, asked: &[&'static Quantity]) -> Result<Self, Box<Complaint>> {
         let grid = Grid::of(study)?;
         let mut quantities: Vec<&'static Quantity> = Vec::new();
-        let steady = asked.iter().any(|quantity| quantity.computation == Computation::Response);
+        let steady = asked.iter().any(|quantity| quantity.computation.is_response());
         let settled = Quantity::named(SETTLED_NAME, "--quantity").ok().filter(|_| steady);
         for quantity in asked.iter().copied().chain(settled) {
             if !quantities.contains(&quantity) {

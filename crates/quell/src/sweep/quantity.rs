@@ -213,10 +213,10 @@ pub const QUANTITIES: &[Quantity] = &[
     belt("mean-friction", "mean friction force, over k", Computation::Response, &[
         variable(("mean_friction", "⟨f⟩"), "mean friction force", FORCE, OF_RESPONSE, |r| Ok(steady(r)?.mean_friction)),
     ]),
-    belt("dither-power", "mean power that tangential dither feeds in", Computation::Response, &[
+    belt("dither-power", "mean power that tangential dither feeds in", Computation::ResponseWithCost, &[
         variable(("dither_power", "P"), "mean power of the dither", Kind::Number(units::Quantity::Power), OF_COST, |r| steady(r)?.dither_power.ok_or(Status::OnlyNormalDither)),
     ]),
-    belt("dither-stroke", "peak-to-peak displacement that the actuator must follow", Computation::Response, &[
+    belt("dither-stroke", "peak-to-peak displacement that the actuator must follow", Computation::ResponseWithCost, &[
         variable(("dither_stroke", ""), "stroke of the dither's actuator", LENGTH, OF_COST, |r| steady(r)?.dither_stroke.ok_or(Status::OnlyNormalDither)),
     ]),
     belt("minimum-normal-load", "smallest normal load, over k", Computation::Response, &[

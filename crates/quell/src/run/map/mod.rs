@@ -1,5 +1,6 @@
 //! `map`: quantities over the axes of a study, computed, kept in a store, resumed.
 
+mod boundary;
 mod outcome;
 
 use std::sync::Mutex;
@@ -9,6 +10,7 @@ use crate::complaint::Failure;
 use crate::store::{Found, Store};
 use crate::sweep::{self, Data, Plan, Running};
 
+pub use boundary::{Boundary, boundaries};
 pub use outcome::{Extreme, Map, Summary};
 
 /// Computes a map. With a store every finished chunk is kept there, and what it has already is
