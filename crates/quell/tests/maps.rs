@@ -208,6 +208,9 @@ fn what_is_no_map_is_refused() {
     }
 }
 
+/// What a map holds at a ratio and an amplitude.
+type Value = fn(f64, f64) -> Result<f64, usize>;
+
 #[test]
 fn odd_maps_are_pictures_too() {
     let kinds = [
@@ -217,7 +220,7 @@ fn odd_maps_are_pictures_too() {
         MapKind::Number(Spread::Linear),
         stable_or_not(),
     ];
-    let values: [fn(f64, f64) -> Result<f64, usize>; 5] = [
+    let values: [Value; 5] = [
         |_, _| Err(0),
         |_, _| Ok(0.0),
         |_, _| Ok(f64::NAN),

@@ -124,13 +124,13 @@ impl BarPlan {
         canvas.stroke(path(&minor, false), &Stroke::solid(FRAME, 0.6));
         canvas.stroke(path(&major, false), &Stroke::solid(FRAME, 0.8));
         canvas.stroke(path(&[outline], true), &Stroke::solid(FRAME, 0.8));
-        self.draw_texts(canvas, bar, place, sizes);
+        self.draw_texts(canvas, (bar, frame), place, sizes);
     }
 
     fn draw_texts(
         &self,
         canvas: &mut Canvas,
-        bar: Rectangle,
+        (bar, frame): (Rectangle, Rectangle),
         place: impl Fn(f64) -> f64,
         sizes: Sizes,
     ) {
@@ -141,11 +141,11 @@ impl BarPlan {
         }
         if self.has_exponent() {
             let label = Label::parse(&format!("$×10^{{{}}}$", self.exponent));
-            let at = (bar.left, bar.top - 6.0);
+            let at = (bar.left, frame.top - 7.0);
             canvas.text(&label, at, Setting::new(sizes.number, TextAnchor::Start));
         }
         let size = f64::from(sizes.label);
-        let middle = 0.5 * (bar.top + bar.bottom);
+        let middle = 0.5 * (frame.top + frame.bottom);
         let first = bar.right + NUMBER_GAP + self.widest + LABEL_GAP + 0.8 * size;
         for (line, label) in self.label.iter().enumerate() {
             let at = (first + 1.25 * size * line as f64, middle);

@@ -131,7 +131,8 @@ impl Paintbox {
         let place = |value: f64| match shading.spread {
             Spread::Linear => value,
             Spread::Log => value.max(f64::MIN_POSITIVE).ln(),
-            Spread::SignedLog(size) => (value / size).asinh(),
+            // asinh of what lies beyond overflows.
+            Spread::SignedLog(size) => (value / size).clamp(-1e300, 1e300).asinh(),
         };
         // Quarters, so that no difference leaves the range of numbers.
         let (low, high, at) =

@@ -30,12 +30,10 @@ impl Field {
                     why: format!("the {name} axis has a value that is not finite"),
                 });
             }
-            if let Some(pair) = axis.windows(2).find(|pair| pair[0] >= pair[1]) {
+            let mut steps = axis.iter().zip(axis.iter().skip(1));
+            if let Some((from, to)) = steps.find(|(from, to)| from >= to) {
                 return Err(PlotError::Field {
-                    why: format!(
-                        "the {name} axis does not increase from {} to {}",
-                        pair[0], pair[1]
-                    ),
+                    why: format!("the {name} axis does not increase from {from} to {to}"),
                 });
             }
         }

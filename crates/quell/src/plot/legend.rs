@@ -9,7 +9,7 @@ use super::figure::{Panel, Place};
 use super::layer::{Fill, Layer, Line, Marker};
 use super::map_layers::Grid;
 use super::marks;
-use super::palette::{Colour, FRAME, LEGEND_EDGE, PAPER, Role};
+use super::palette::{Colour, FRAME, GAP, LEGEND_EDGE, PAPER, Role};
 use super::typeset::Label;
 
 const SAMPLE: f64 = 26.0;
@@ -211,6 +211,7 @@ fn draw_entry(canvas: &mut Canvas, entry: &Entry, (left, top): (f64, f64), sizes
                 canvas.rectangle(patch, Some((*colour, 1.0)), Some((GREY_EDGE, 0.6)));
             }
             Sample::Hatch(style) => {
+                canvas.fill(marks::outline(patch), GAP, 1.0);
                 canvas.hatch(marks::outline(patch), FRAME, *style);
                 canvas.rectangle(patch, None, Some((FRAME, 0.6)));
             }

@@ -12,7 +12,7 @@ use super::layer::{Layer, Rule};
 use super::line_labels::{self, LevelLines, Occupied, Placed};
 use super::map_layers::Grid;
 use super::obstacles::rule_ends;
-use super::palette::{Colour, FRAME};
+use super::palette::{Colour, FRAME, GAP};
 use super::raster::raster;
 use super::{marks, thin};
 
@@ -34,7 +34,9 @@ pub(super) fn draw_grid(
     let columns = ends(&panel.x, grid.field.x(), x);
     let rows = ends(&panel.y, grid.field.y(), y);
     for (style, _, cells) in gaps {
-        canvas.hatch(marks::union(&cells, &columns, &rows), FRAME, style);
+        let outline = marks::union(&cells, &columns, &rows);
+        canvas.fill(outline.clone(), GAP, 1.0);
+        canvas.hatch(outline, FRAME, style);
     }
 }
 

@@ -101,6 +101,8 @@ impl Raster {
         encoder.set_trns((0..colours.len()).map(opacity).collect::<Vec<u8>>());
         // Rows that repeat the one above become rows of zeros.
         encoder.set_filter(png::FilterType::Up);
+        // The crate's own choice is faster and writes three times as much.
+        encoder.set_compression(png::Compression::Default);
         let mut writer = encoder.write_header()?;
         writer.write_image_data(&self.inks)?;
         writer.finish()?;
