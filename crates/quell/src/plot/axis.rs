@@ -206,7 +206,8 @@ impl Axis {
         match self.scale {
             Scale::Linear if value == 0.0 => sign,
             Scale::Linear => value + sign * 0.1 * value.abs(),
-            Scale::Log => value * 2f64.powf(sign),
+            // An end that is infinite, or zero, has no place on the axis.
+            Scale::Log => (value * 2f64.powf(sign)).clamp(f64::MIN_POSITIVE, f64::MAX),
         }
     }
 }

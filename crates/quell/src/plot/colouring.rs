@@ -12,7 +12,8 @@ pub enum Spread {
     Linear,
     /// Equal ratios; what is not positive has the lowest colour.
     Log,
-    /// Equal steps up to this size and equal ratios beyond it, on both sides of zero: asinh.
+    /// Equal steps up to this size and equal ratios beyond it, on both sides of zero: asinh. A size
+    /// that is not positive counts as a millionth of the range.
     SignedLog(f64),
 }
 
@@ -132,7 +133,11 @@ impl Paintbox {
             Spread::Linear => value,
             Spread::Log => value.max(f64::MIN_POSITIVE).ln(),
             // asinh of what lies beyond overflows.
-            Spread::SignedLog(size) => (value / size).clamp(-1e300, 1e300).asinh(),
+            Spread::SignedLog(size) => {
+                let whole = lower.abs().max(upper.abs());
+                let size = if size > 0.0 && size.is_finite() { size } else { 1e-6 * whole };
+                (value / size).clamp(-1e300, 1e300).asinh()
+            }
         };
         // Quarters, so that no difference leaves the range of numbers.
         let (low, high, at) =

@@ -7,7 +7,8 @@
 //! - [`Palette::Viridis`]: S. van der Walt, N. Smith, the default of Matplotlib 2 (2015, CC0).
 //! - [`Palette::Pale`]: the light half of `YlGnBu` of C. A. Brewer, M. Harrower, ColorBrewer
 //!   (The Cartographic Journal 40, 2003): black lines and numbers stay readable on it.
-//! - [`Palette::Diverging`]: `RdBu` of the same, red for positive numbers, paper at zero.
+//! - [`Palette::Diverging`]: `RdBu` of the same without its darkest ends, on which black lines would
+//!   drown; red for positive numbers, nearly paper at zero.
 
 use super::palette::Colour;
 
@@ -26,8 +27,8 @@ pub enum Palette {
 const VIRIDIS: &[u32] =
     &[0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x27ad81, 0x5cc863, 0xaadc32, 0xfde725];
 const PALE: &[u32] = &[0xffffd9, 0xedf8b1, 0xc7e9b4, 0x7fcdbb, 0x41b6c4];
-const BELOW_ZERO: &[u32] = &[0x053061, 0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7];
-const ABOVE_ZERO: &[u32] = &[0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b, 0x67001f];
+const BELOW_ZERO: &[u32] = &[0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7];
+const ABOVE_ZERO: &[u32] = &[0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b];
 
 impl Palette {
     /// `count` colours from the lower end to the upper.
@@ -173,7 +174,7 @@ mod tests {
         assert_eq!(ends(Palette::Viridis).2, (0xfd, 0xe7, 0x25));
         assert_eq!(ends(Palette::Pale).2, (0x41, 0xb6, 0xc4));
         let diverging = ends(Palette::Diverging);
-        assert_eq!(diverging, ((0x05, 0x30, 0x61), (0xf7, 0xf7, 0xf7), (0x67, 0x00, 0x1f)));
+        assert_eq!(diverging, ((0x21, 0x66, 0xac), (0xf7, 0xf7, 0xf7), (0xb2, 0x18, 0x2b)));
     }
 
     #[test]
