@@ -234,13 +234,22 @@ macro_rules! vector_lane {
 
             #[inline(always)]
             fn map(self, function: impl Fn(f64) -> f64) -> Self {
-                Self::of(self.lanes().map(function))
+                // A loop, for an iterator of the standard library may not be inlined, and then
+                // lacks the instructions of this lane.
+                let mut lanes = self.lanes();
+                for lane in &mut lanes {
+                    *lane = function(*lane);
+                }
+                Self::of(lanes)
             }
 
             #[inline(always)]
             fn zip(self, other: Self, function: impl Fn(f64, f64) -> f64) -> Self {
-                let (left, right) = (self.lanes(), other.lanes());
-                Self::of(std::array::from_fn(|lane| function(left[lane], right[lane])))
+                let (mut lanes, other) = (self.lanes(), other.lanes());
+                for lane in 0..$lanes {
+                    lanes[lane] = function(lanes[lane], other[lane]);
+                }
+                Self::of(lanes)
             }
 
             #[inline(always)]

@@ -34,6 +34,6 @@ impl Record {
         // UNWRAP: a record has at least two slow periods of 128 samples, the step is positive,
         // and a run whose state is not finite stops before it is sampled.
         let spectrum = Spectrum::of(&displacement, step).expect("a record of finite samples");
-        Self { spectrum, samples, step }
+        Self { samples, step, spectrum }
     }
 }

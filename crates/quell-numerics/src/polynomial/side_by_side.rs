@@ -14,9 +14,11 @@ use crate::lane::Lane;
 pub fn margin_of_no_root<V: Lane, const N: usize>(c: &[V; N], zeros: V, h: V) -> V {
     // Dividing tⁿ out of Σ cₖtᵏ divides every scaled coefficient by hⁿ: signs stay.
     let b = scaled(c, h);
-    let head = std::array::from_fn(|k| shifted(&b, zeros, k));
-    let sign = V::splat(1.0).zip(head[0], f64::copysign);
-    let head: [V; 4] = head.map(|coefficient| coefficient * sign);
+    let sign = V::splat(1.0).zip(shifted(&b, zeros, 0), f64::copysign);
+    let mut head = [sign; 4];
+    for k in 0..4 {
+        head[k] = shifted(&b, zeros, k) * sign;
+    }
     let beyond_second = absolute_sum(&b, 6);
     let beyond_first = b[5].abs() + beyond_second;
     let beyond = b[4].abs() + beyond_first;
