@@ -117,7 +117,7 @@ fn clipped(u: f64, h: f64) -> f64 {
 
 /// Σ aₖuᵏ as four interleaved sums in u⁴: a quarter of the waiting of Horner's rule.
 #[inline(always)]
-fn value<V: Lane, const N: usize>(a: &[V; N], u: V) -> V {
+pub fn value<V: Lane, const N: usize>(a: &[V; N], u: V) -> V {
     let square = u * u;
     let fourth = square * square;
     let mut parts = [V::splat(0.0); 4];
@@ -130,7 +130,7 @@ fn value<V: Lane, const N: usize>(a: &[V; N], u: V) -> V {
 
 /// Coefficients of the derivative of Σ aₖuᵏ.
 #[inline(always)]
-fn derivative<V: Lane, const N: usize>(a: &[V; N]) -> [V; N] {
+pub fn derivative<V: Lane, const N: usize>(a: &[V; N]) -> [V; N] {
     let mut d = [V::splat(0.0); N];
     for k in 1..N {
         d[k - 1] = a[k] * V::splat(k as f64);
