@@ -4,12 +4,11 @@
 use std::f64::consts::TAU;
 
 use quell_model::{Belt, Direction};
-use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::elementary::sin_cos_of_phase;
 use quell_numerics::spectrum::low_band::{LargestLines, LowBand};
 
 use super::{BAND_END, Solver};
-use crate::simulation::{Observer, Segment};
+use crate::simulation::Segment;
 
 /// Samples per period of the fastest dither, at least: its seventh harmonic stays below
 /// the Nyquist frequency.
@@ -21,6 +20,9 @@ const SAMPLES_PER_SLOW_PERIOD: f64 = 128.0;
 /// Cells per slow period in which the low band is heard: the band ends below a quarter of
 /// their Nyquist frequency, 4.
 const CELLS_PER_SLOW_PERIOD: usize = 8;
+
+/// Samples whose displacements are evaluated side by side.
+const ABREAST: usize = 4;
 
 /// Where the samples of a record lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,6 +122,31 @@ impl Listener {
         }
     }
 
+    /// Hears the samples of one segment. To be called with the machine's best instructions.
+    #[inline(always)]
+    pub(super) fn hear_segment(&mut self, segment: &Segment<'_>) {
+        let Sampling { from, step, count, .. } = self.sampling;
+        loop {
+            let next = count - self.band.missing();
+            let mut since = [0.0; ABREAST];
+            let mut inside = 0;
+            for (place, since) in since.iter_mut().enumerate() {
+                // A sample at the very start of a run may round to just before it.
+                *since =
+                    segment.clock().until(((next + place) as f64).mul_add(step, from)).max(0.0);
+                if next + place < count && *since <= segment.duration() {
+                    inside = place + 1;
+                }
+            }
+            for &displacement in &segment.displacements_at(&since)[..inside] {
+                self.hear(displacement);
+            }
+            if inside < ABREAST {
+                return;
+            }
+        }
+    }
+
     #[inline(always)]
     fn hear(&mut self, displacement: f64) {
         let number = (self.sampling.count - self.band.missing()) as f64;
@@ -151,36 +178,5 @@ impl Tone {
         let cosine = self.sample[1] - mean * self.window[0];
         let sine = self.sample[2] - mean * self.window[1];
         2.0 * libm::hypot(cosine, sine) / self.weight
-    }
-}
-
-impl Observer for Listener {
-    fn segment(&mut self, segment: &Segment<'_>) {
-        with_fused_multiply_add(Hearing { listener: self, segment });
-    }
-}
-
-/// The samples of one segment.
-struct Hearing<'a, 'b> {
-    listener: &'a mut Listener,
-    segment: &'a Segment<'b>,
-}
-
-impl Work for Hearing<'_, '_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let Self { listener, segment } = self;
-        let Sampling { from, step, count, .. } = listener.sampling;
-        while listener.band.missing() > 0 {
-            let number = (count - listener.band.missing()) as f64;
-            let since = segment.clock().until(number.mul_add(step, from));
-            if since > segment.duration() {
-                break;
-            }
-            // A sample at the very start of a run may round to just before it.
-            listener.hear(segment.displacement_at(since.max(0.0)));
-        }
     }
 }

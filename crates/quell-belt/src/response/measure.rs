@@ -2,6 +2,7 @@
 //! trajectory is kept: memory does not grow with the length of a run.
 
 use quell_model::{Belt, Direction};
+use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::spectrum::low_band::LargestLines;
 
 use super::cost::{self, Meter};
@@ -234,10 +235,27 @@ impl<O> Watch<O> {
     }
 }
 
+/// One segment, with the machine's best instructions.
+struct Watching<'a, 'b> {
+    meter: &'a mut Meter,
+    listener: &'a mut Listener,
+    segment: &'a Segment<'b>,
+}
+
+impl Work for Watching<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.meter.add_segment(self.segment);
+        self.listener.hear_segment(self.segment);
+    }
+}
+
 impl<O: Observer> Observer for Watch<O> {
     fn segment(&mut self, segment: &Segment<'_>) {
-        self.meter.segment(segment);
-        self.listener.segment(segment);
+        let Self { meter, listener, .. } = self;
+        with_fused_multiply_add(Watching { meter, listener, segment });
         if self.observer.watches() {
             self.observer.segment(segment);
         }

@@ -6,6 +6,7 @@ use quell_numerics::polynomial::first_crossing;
 
 use super::clock::Clock;
 use super::event::Event;
+use super::slip::INVERSE;
 
 /// One smooth piece of a trajectory: a Taylor step of slip, or a stretch of stick.
 #[derive(Clone, Copy, Debug)]
@@ -45,11 +46,20 @@ impl Segment<'_> {
         self.unit * value_of(self.displacement, since)
     }
 
-    /// [`Segment::displacement`] for observers that are compiled with the machine's best
-    /// instructions themselves.
+    /// [`Segment::displacement`] at N moments, side by side: for observers that are compiled with
+    /// the machine's best instructions themselves.
     #[inline(always)]
-    pub(crate) fn displacement_at(&self, since: f64) -> f64 {
-        self.unit * horner(self.displacement, since)
+    pub(crate) fn displacements_at<const N: usize>(&self, since: &[f64; N]) -> [f64; N] {
+        let mut values = [0.0_f64; N];
+        for &coefficient in self.displacement.iter().rev() {
+            for moment in 0..N {
+                values[moment] = values[moment].mul_add(since[moment], coefficient);
+            }
+        }
+        for value in &mut values {
+            *value *= self.unit;
+        }
+        values
     }
 
     /// Slip velocity v_r = v₀ − x′ at `since` after its start.
@@ -62,11 +72,12 @@ impl Segment<'_> {
         self.belt_velocity - self.slip_velocity(since)
     }
 
-    /// ∫x dτ over the whole segment.
-    pub fn displacement_integral(&self) -> f64 {
+    /// ∫x dτ over the whole segment, for observers as in [`Segment::displacements_at`].
+    #[inline(always)]
+    pub(crate) fn displacement_integral(&self) -> f64 {
         let mut sum = 0.0;
-        for (k, &coefficient) in self.displacement.iter().enumerate().rev() {
-            sum = f64::mul_add(sum, self.duration, coefficient / (k + 1) as f64);
+        for (&coefficient, inverse) in self.displacement.iter().zip(&INVERSE[1..]).rev() {
+            sum = f64::mul_add(sum, self.duration, coefficient * inverse);
         }
         self.unit * sum * self.duration
     }

@@ -20,11 +20,11 @@ use super::lanes::Row;
 
 const _: () = assert!(ORDER == 16, "the kernel is unrolled for order 16");
 
-/// 1/k for k = 1…ORDER (entry 0 unused).
-const INVERSE: [f64; ORDER + 1] = {
-    let mut table = [0.0; ORDER + 1];
+/// 1/k for k = 1…ORDER + 1 (entry 0 unused).
+pub(super) const INVERSE: [f64; ORDER + 2] = {
+    let mut table = [0.0; ORDER + 2];
     let mut k = 1;
-    while k <= ORDER {
+    while k < ORDER + 2 {
         table[k] = 1.0 / k as f64;
         k += 1;
     }

@@ -108,9 +108,9 @@ fn figure(source: &Source, cases: &[Case], columns: usize) -> Result<Product, Fa
     let figure = if columns == 1 {
         Figure::grid(1, panels).size(Size::Frame(400.0, 300.0))
     } else {
+        // Each panel has its own range of D, which grows with its boundary.
         Figure::grid(columns, panels)
             .sharing_x(Sharing::Aligned)
-            .sharing_y(Sharing::Aligned)
             .legend(SharedLegend::Below)
             .size(Size::Frame(if columns == 2 { 330.0 } else { 270.0 }, 230.0))
     };

@@ -113,9 +113,17 @@ impl Entry {
         (self.make)(&self.source())
     }
 
+    /// The same with at most so many points along each axis of its sweeps: a quick look.
+    ///
+    /// # Errors
+    /// As [`Entry::product`].
+    pub fn coarse_product(&self, most_points: usize) -> Result<Product, Failure> {
+        (self.make)(&Source { most_points: Some(most_points), ..self.source() })
+    }
+
     /// Its name and study file.
     pub fn source(&self) -> Source {
-        Source { name: self.name, about: self.about, text: self.study }
+        Source { name: self.name, about: self.about, text: self.study, most_points: None }
     }
 
     /// What its files are called, without extension.
