@@ -7,23 +7,23 @@ use quell_belt::simulation::{InstructionSet, Run, Start, simulate, simulate_many
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 
 /// Tolerance of the published speed figures.
-pub const TOLERANCE: f64 = 1e-10;
+pub(crate) const TOLERANCE: f64 = 1e-10;
 
 /// Passes of a measurement, the fastest of which counts.
 const PASSES: u32 = 12;
 
 /// Belts to be simulated from their starts to one end.
-pub struct Workload {
-    pub name: &'static str,
-    pub cases: Vec<(Belt, Start)>,
+pub(crate) struct Workload {
+    pub(crate) name: &'static str,
+    pub(crate) cases: Vec<(Belt, Start)>,
     /// End, dimensionless time τ.
-    pub until: f64,
+    pub(crate) until: f64,
 }
 
 impl Workload {
     /// Stribeck law, v₀ = 0.05, tangential sine dither with D = 0.1, 0.3, 0.5, 0.8 and
     /// R = 5, 10, from rest: about 1.7 events in a dither period.
-    pub fn stick_slip() -> Self {
+    pub(crate) fn stick_slip() -> Self {
         let mut cases = Vec::new();
         for amplitude in [0.1, 0.3, 0.5, 0.8] {
             for ratio in [5.0, 10.0] {
@@ -34,7 +34,7 @@ impl Workload {
     }
 
     /// Decreasing law, v₀ = 1, D = 2, R = 10, from x = 0.2: no event.
-    pub fn event_free() -> Self {
+    pub(crate) fn event_free() -> Self {
         let start = Start { displacement: 0.2, ..Start::REST };
         let cases = vec![(belt(LawKind::Decreasing, 1.0, 2.0, 10.0), start)];
         Self { name: "event-free", cases, until: 2000.0 }
@@ -42,7 +42,7 @@ impl Workload {
 
     /// Each case `copies` times, with dither amplitudes that differ by thousandths, so that
     /// runs side by side have steps and events of their own as points of a map have.
-    pub fn multiplied(&self, copies: u32) -> Self {
+    pub(crate) fn multiplied(&self, copies: u32) -> Self {
         let mut cases = Vec::new();
         for copy in 0..copies {
             for (belt, start) in &self.cases {
@@ -54,14 +54,14 @@ impl Workload {
     }
 
     /// The cases one after the other.
-    pub fn pass_alone(&self) {
+    pub(crate) fn pass_alone(&self) {
         for (belt, start) in &self.cases {
             simulate(belt, *start, self.until, TOLERANCE, &mut ()).expect("no stall");
         }
     }
 
     /// The cases side by side on an instruction set.
-    pub fn pass_together(&self, set: InstructionSet) {
+    pub(crate) fn pass_together(&self, set: InstructionSet) {
         let until = self.until;
         let mut observers = vec![(); self.cases.len()];
         let runs = (self.cases.iter().zip(&mut observers))
@@ -72,12 +72,12 @@ impl Workload {
     }
 
     /// Fastest pass alone, in µs per dither period.
-    pub fn time_alone(&self) -> f64 {
+    pub(crate) fn time_alone(&self) -> f64 {
         self.fastest(|| self.pass_alone())
     }
 
     /// Fastest pass side by side, in µs per dither period.
-    pub fn time_together(&self, set: InstructionSet) -> f64 {
+    pub(crate) fn time_together(&self, set: InstructionSet) -> f64 {
         self.fastest(|| self.pass_together(set))
     }
 
@@ -93,7 +93,7 @@ impl Workload {
     }
 
     /// Dither periods that all cases together simulate.
-    pub fn periods(&self) -> f64 {
+    pub(crate) fn periods(&self) -> f64 {
         self.cases.iter().map(|(belt, _)| belt.dithers()[0].frequency_ratio).sum::<f64>()
             * self.until
             / TAU

@@ -16,8 +16,8 @@ pub fn margin_of_no_root<V: Lane, const N: usize>(c: &[V; N], zeros: V, h: V) ->
     let b = scaled(c, h);
     let sign = V::splat(1.0).zip(shifted(&b, zeros, 0), f64::copysign);
     let mut head = [sign; 4];
-    for k in 0..4 {
-        head[k] = shifted(&b, zeros, k) * sign;
+    for (k, coefficient) in head.iter_mut().enumerate() {
+        *coefficient = shifted(&b, zeros, k) * sign;
     }
     let beyond_second = absolute_sum(&b, 6);
     let beyond_first = b[5].abs() + beyond_second;

@@ -71,8 +71,8 @@ impl<V: Lane> RootSearch<V> {
     #[inline(always)]
     fn roots(&self) -> (Row, Row) {
         let mut slip = [V::splat(0.0); ORDER + 1];
-        for k in 0..=ORDER {
-            slip[k] = V::load(&self.slip[k * V::LANES..]);
+        for (k, coefficient) in slip.iter_mut().enumerate() {
+            *coefficient = V::load(&self.slip[k * V::LANES..]);
         }
         let (zeros, length) = (self.zeros.load(), self.length.load());
         let crossings = first_crossings(&slip, zeros, length, self.wanted.load());
