@@ -2,10 +2,12 @@
 //! threads, clocks or printing.
 //!
 //! * [`averaging`]: effective friction under fast dither, stability of steady sliding, critical amplitudes;
+//! * [`orbit`]: periodic responses, their Floquet multipliers, exact thresholds;
 //! * [`simulation`]: event-exact trajectories by adaptive Taylor series;
 //! * [`start`], [`response`]: where a run starts; its steady response, spectrum, efficiency and costs.
 
 pub mod averaging;
+pub mod orbit;
 pub mod response;
 pub mod simulation;
 pub mod start;
