@@ -6,9 +6,11 @@
 pub mod check;
 pub mod friction;
 pub mod map;
+pub mod orbit;
 pub mod response;
 pub mod simulate;
 pub mod stability;
+pub mod thresholds;
 
 use quell_belt::simulation::{Stalled, Start};
 use quell_belt::start::NoSquealingStart;
