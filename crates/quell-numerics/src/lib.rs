@@ -5,8 +5,10 @@
 //! * [`quadrature`], [`roots`], [`special`], [`spectrum`]: integrals, scalar roots and minima, special functions, spectra.
 
 pub mod dispatch;
+pub mod eigen;
 pub mod elementary;
 pub mod lane;
+pub mod matrix;
 pub mod polynomial;
 pub mod quadrature;
 pub mod roots;

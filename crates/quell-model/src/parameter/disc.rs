@@ -1,0 +1,142 @@
+//! Parameters of a disc study: the disc, its modes, the loads that rotate over it.
+//!
+//! Mass-ratio form: M_p = ρhπ(a² − b²), m* = m/M_p, c* = c/(M_pω_ref), k* = k/(M_pω_ref²),
+//! f* = F_θ/(r₀M_pω_ref²); frequencies and speeds in ω_ref, time in 1/ω_ref.
+
+use super::{Bounds, Parameter};
+use crate::units::Quantity;
+
+const fn disc(
+    path: &'static str,
+    symbol: &'static str,
+    about: &'static str,
+    quantity: Quantity,
+    bounds: Bounds,
+) -> Parameter {
+    Parameter { path, symbol, about, quantity, bounds, si: &[] }
+}
+
+/// Modal damping of the disc.
+pub const MODAL_DAMPING: Parameter = disc(
+    "disc.modal_damping",
+    "ξ",
+    "damping ratio of every mode; the damper rests in the disc",
+    Quantity::Ratio,
+    Bounds::NOT_NEGATIVE,
+);
+
+/// Speed of the loads over the disc.
+pub const DISC_SPEED: Parameter = disc(
+    "disc.speed",
+    "Ω",
+    "angular speed of the loads over the disc, in ω_ref",
+    Quantity::FrequencyRatio,
+    Bounds { lower: -1e3, lower_included: true, upper: 1e3 },
+);
+
+/// Nodal diameters of a mode given by hand.
+pub const MODE_DIAMETERS: Parameter = disc(
+    "disc.mode.diameters",
+    "q",
+    "nodal diameters of the mode, a whole number",
+    Quantity::Count,
+    Bounds { lower: 0.0, lower_included: true, upper: 1000.0 },
+);
+
+/// Frequency of a mode given by hand.
+pub const MODE_RATIO: Parameter = disc(
+    "disc.mode.ratio",
+    "β",
+    "frequency of the mode over ω_ref",
+    Quantity::FrequencyRatio,
+    Bounds { lower: 0.0, lower_included: false, upper: 1e6 },
+);
+
+/// Shape of a mode at the load.
+pub const MODE_SHAPE_AT_LOAD: Parameter = disc(
+    "disc.mode.shape_at_load",
+    "φ(r₀)",
+    "radial shape at the load; φ cos qθ has unit mean square over the plate",
+    Quantity::Ratio,
+    Bounds { lower: -1e6, lower_included: true, upper: 1e6 },
+);
+
+/// Damping of a mode given by hand.
+pub const MODE_DAMPING: Parameter = disc(
+    "disc.mode.damping",
+    "ξ",
+    "damping ratio of the mode",
+    Quantity::Ratio,
+    Bounds::NOT_NEGATIVE,
+);
+
+/// Angle of a load.
+pub const LOAD_ANGLE: Parameter = disc(
+    "disc.load.angle_deg",
+    "θ",
+    "angle of the load in the frame that turns with the loads, degrees",
+    Quantity::Angle,
+    Bounds { lower: -1e6, lower_included: true, upper: 1e6 },
+);
+
+/// Mass of a load.
+pub const LOAD_MASS: Parameter = disc(
+    "disc.load.mass",
+    "m*",
+    "mass of the load over the mass of the plate",
+    Quantity::Ratio,
+    Bounds::NOT_NEGATIVE,
+);
+
+/// Damper of a load.
+pub const LOAD_DAMPING: Parameter = disc(
+    "disc.load.damping",
+    "c*",
+    "damper of the load, c/(M_p ω_ref)",
+    Quantity::Ratio,
+    Bounds::NOT_NEGATIVE,
+);
+
+/// Spring of a load.
+pub const LOAD_STIFFNESS: Parameter = disc(
+    "disc.load.stiffness",
+    "k*",
+    "spring of the load, k/(M_p ω_ref²)",
+    Quantity::Ratio,
+    Bounds::NOT_NEGATIVE,
+);
+
+/// Friction of a load; positive drags the disc along with the load.
+pub const LOAD_FRICTION: Parameter = disc(
+    "disc.load.friction",
+    "f*",
+    "follower force of friction, F_θ/(r₀ M_p ω_ref²)",
+    Quantity::Ratio,
+    Bounds::FINITE,
+);
+
+/// Dither of the friction force.
+pub const DISC_DITHER_AMPLITUDE: Parameter = disc(
+    "dither.amplitude",
+    "α",
+    "dither amplitude over the friction force; at most 1 for normal dither",
+    Quantity::Ratio,
+    Bounds::NOT_NEGATIVE,
+);
+
+/// Every parameter of the disc's dynamics, in the order of the study file.
+pub const DISC: &[Parameter] = &[
+    MODAL_DAMPING,
+    DISC_SPEED,
+    MODE_DIAMETERS,
+    MODE_RATIO,
+    MODE_SHAPE_AT_LOAD,
+    MODE_DAMPING,
+    LOAD_ANGLE,
+    LOAD_MASS,
+    LOAD_DAMPING,
+    LOAD_STIFFNESS,
+    LOAD_FRICTION,
+    DISC_DITHER_AMPLITUDE,
+    super::DITHER_FREQUENCY_RATIO,
+];
