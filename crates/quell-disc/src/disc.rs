@@ -164,6 +164,12 @@ impl Disc {
         Self::new(self.modes.clone(), loads, self.dither, self.speed)
     }
 
+    /// The same disc without dither: f(τ) = f.
+    #[must_use]
+    pub fn undithered(&self) -> Self {
+        Self { dither: Dither::None, ..self.clone() }
+    }
+
     /// The same disc with another dither.
     ///
     /// # Errors

@@ -12,6 +12,7 @@
 mod balance;
 mod francis;
 mod hessenberg;
+mod rightmost;
 mod shifted;
 
 use num_complex::Complex64;
@@ -20,6 +21,7 @@ use crate::dispatch::{Work, with_fused_multiply_add};
 use crate::matrix::Matrix;
 pub(crate) use hessenberg::LANES;
 use hessenberg::{Reflectors, stride_of};
+pub use rightmost::Rightmost;
 pub(crate) use shifted::{Shifted, Split};
 
 /// Why there are no eigenvalues.
@@ -161,8 +163,13 @@ impl Decomposition {
 
     /// Eigenvalue `index` with its right and left vector, by inverse iteration.
     pub fn pair(&self, index: usize) -> Pair {
+        self.pair_from(index, 0)
+    }
+
+    /// As [`Decomposition::pair`] from another start: another vector where the eigenvalue is multiple.
+    pub(crate) fn pair_from(&self, index: usize, variant: usize) -> Pair {
         let value = self.values[index];
-        let (right, left) = with_fused_multiply_add(Vectors { of: self, value });
+        let (right, left) = with_fused_multiply_add(Vectors { of: self, value, variant });
         let product = product_without_conjugation(&right, &left);
         let size = modulus(product);
         let condition = if size > 0.0 { 1.0 / size } else { f64::INFINITY };
@@ -206,6 +213,7 @@ impl Decomposition {
 struct Vectors<'a> {
     of: &'a Decomposition,
     value: Complex64,
+    variant: usize,
 }
 
 impl Work for Vectors<'_> {
@@ -213,7 +221,7 @@ impl Work for Vectors<'_> {
 
     #[inline(always)]
     fn run(self) -> Self::Output {
-        self.of.shifted(self.value).vectors()
+        self.of.shifted(self.value).vectors(self.variant)
     }
 }
 

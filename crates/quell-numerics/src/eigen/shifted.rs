@@ -218,13 +218,15 @@ impl Shifted {
         b
     }
 
-    /// Right and left eigenvector of the eigenvalue next to σ, each of length one.
+    /// Right and left eigenvector of the eigenvalue next to σ, each of length one. Where the eigenvalue is multiple, other
+    /// values of `variant` give other vectors of its space.
     #[inline(always)]
-    pub(crate) fn vectors(&self) -> (Split, Split) {
+    pub(crate) fn vectors(&self, variant: usize) -> (Split, Split) {
         let mut start = Split::zeros(self.stride);
         for i in 0..self.n {
             // Not symmetric, so that no symmetry of the matrix makes it orthogonal to the vector sought.
-            start.re[i] = 1.0 + 0.01 * i as f64;
+            let turned = variant > 0 && (i / variant) % 2 == 1;
+            start.re[i] = if turned { -1.0 } else { 1.0 } + 0.01 * i as f64;
         }
         let mut left = self.solve_transposed(start.clone());
         left.normalise();
