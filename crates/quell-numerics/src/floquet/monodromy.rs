@@ -94,36 +94,60 @@ impl Work for Panels<'_> {
     }
 }
 
+/// Four columns of a row: one vector register. Loops over eight were not vectorized.
+type Group = [f64; 4];
+
+/// a·x + y, element by element.
+#[inline(always)]
+fn multiply_add(a: f64, x: Group, y: Group) -> Group {
+    [a.mul_add(x[0], y[0]), a.mul_add(x[1], y[1]), a.mul_add(x[2], y[2]), a.mul_add(x[3], y[3])]
+}
+
+/// The two groups of a row.
+#[inline(always)]
+fn groups(row: &Row) -> [Group; 2] {
+    [[row[0], row[1], row[2], row[3]], [row[4], row[5], row[6], row[7]]]
+}
+
+/// kick·(even + odd).
+#[inline(always)]
+fn force(kick: f64, even: Group, odd: Group) -> Group {
+    let mut force = [0.0; 4];
+    for j in 0..4 {
+        force[j] = kick * (even[j] + odd[j]);
+    }
+    force
+}
+
 /// All kicks of a chunk, rank one.
 #[inline(always)]
 fn rank_one(x: &mut [Row], u: &[f64], v: &[f64], kicks: &[f64]) {
     let rows = x.len();
-    let (mut even, mut odd) = ([0.0; WIDTH], [0.0; WIDTH]);
+    let zero = [0.0; 4];
+    let (mut even, mut odd) = ([zero; 2], [zero; 2]);
     for (x, v) in x.chunks_exact(2).zip(v[..rows].chunks_exact(2)) {
-        for j in 0..WIDTH {
-            even[j] = v[0].mul_add(x[0][j], even[j]);
-            odd[j] = v[1].mul_add(x[1][j], odd[j]);
-        }
+        let (a, b) = (groups(&x[0]), groups(&x[1]));
+        even = [multiply_add(v[0], a[0], even[0]), multiply_add(v[0], a[1], even[1])];
+        odd = [multiply_add(v[1], b[0], odd[0]), multiply_add(v[1], b[1], odd[1])];
     }
     for (k, &kick) in kicks.iter().enumerate() {
-        let mut force = [0.0; WIDTH];
-        for j in 0..WIDTH {
-            force[j] = kick * (even[j] + odd[j]);
-        }
-        (even, odd) = ([0.0; WIDTH], [0.0; WIDTH]);
+        let (low, high) = (force(kick, even[0], odd[0]), force(kick, even[1], odd[1]));
+        (even, odd) = ([zero; 2], [zero; 2]);
         let u = u[k * rows..(k + 1) * rows].chunks_exact(2);
         // After the last kick there is no next: its own row is summed again and not used.
         let next = if k + 1 < kicks.len() { k + 1 } else { k };
         let v = v[next * rows..(next + 1) * rows].chunks_exact(2);
         for ((x, u), v) in x.chunks_exact_mut(2).zip(u).zip(v) {
-            for j in 0..WIDTH {
-                x[0][j] = u[0].mul_add(force[j], x[0][j]);
-                even[j] = v[0].mul_add(x[0][j], even[j]);
-            }
-            for j in 0..WIDTH {
-                x[1][j] = u[1].mul_add(force[j], x[1][j]);
-                odd[j] = v[1].mul_add(x[1][j], odd[j]);
-            }
+            let a = groups(&x[0]);
+            let a = [multiply_add(u[0], low, a[0]), multiply_add(u[0], high, a[1])];
+            x[0][..4].copy_from_slice(&a[0]);
+            x[0][4..].copy_from_slice(&a[1]);
+            even = [multiply_add(v[0], a[0], even[0]), multiply_add(v[0], a[1], even[1])];
+            let b = groups(&x[1]);
+            let b = [multiply_add(u[1], low, b[0]), multiply_add(u[1], high, b[1])];
+            x[1][..4].copy_from_slice(&b[0]);
+            x[1][4..].copy_from_slice(&b[1]);
+            odd = [multiply_add(v[1], b[0], odd[0]), multiply_add(v[1], b[1], odd[1])];
         }
     }
 }
