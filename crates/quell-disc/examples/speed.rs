@@ -74,8 +74,13 @@ fn fastest(mut pass: impl FnMut()) -> f64 {
 }
 
 fn main() {
+    // `speed 1_2` or `speed 2_5` runs one of the two.
+    let only = std::env::args().nth(1);
     let mut fields = Vec::new();
     for (name, modes) in [("1_2", &SMALL[..]), ("2_5", &LARGE[..])] {
+        if only.as_deref().is_some_and(|only| only != name) {
+            continue;
+        }
         let systems: Vec<System> =
             (0..SPEEDS).map(|speed| System::new(&disc(modes, Dither::None, speed))).collect();
         let matrices: Vec<_> = systems

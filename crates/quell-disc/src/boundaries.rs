@@ -8,8 +8,8 @@
 //! f = c · iω w / w_φ        for each mode y of the conservative loaded disc
 //! ```
 //!
-//! exactly, linear in c, without a grid. A mode with w = w_φ = 0 is marginal for every f: such are the modes at
-//! the speeds of table 5.1 and at Ω = 0, vertical lines of the map.
+//! exactly, linear in c, without a grid. A mode with w = 0 is out of the force's reach: iω stays an eigenvalue for every f. Such
+//! are the modes at the speeds of table 5.1 and at Ω = 0, vertical lines of the map.
 
 use quell_numerics::eigen::{Decomposition, EigenError};
 
@@ -88,9 +88,9 @@ pub fn boundaries(disc: &Disc) -> Result<Vec<Boundary>, NoBoundary> {
         let reached = w.norm_sqr().sqrt() > OUT_OF_REACH * length * contact_size;
         let turns = turning.norm_sqr().sqrt() > OUT_OF_REACH * length * slope_size;
         let friction = match (reached, turns) {
-            (false, false) => Marginal::Always,
+            (false, _) => Marginal::Always,
             (true, false) => Marginal::Never,
-            (_, true) => {
+            (true, true) => {
                 let ratio = w / turning;
                 Marginal::At(-disc.loads()[0].damping * value.im * ratio.im)
             }

@@ -17,8 +17,8 @@ use crate::undithered;
 #[derive(Clone, Debug)]
 pub struct DitheredDisc {
     engine: Floquet,
-    mean: Vec<f64>,
-    amplitude: Vec<f64>,
+    friction: Vec<f64>,
+    modulation: (f64, f64),
 }
 
 impl DitheredDisc {
@@ -45,8 +45,8 @@ impl DitheredDisc {
         let flow = ConstantFlow::new(&system.state_matrix(&none), &u, &v)?;
         Ok(Some(Self {
             engine: Floquet::new(flow, core::f64::consts::TAU / ratio),
-            mean: system.mean_friction().to_vec(),
-            amplitude: system.friction_amplitude().to_vec(),
+            friction: system.friction().to_vec(),
+            modulation: system.modulation(),
         }))
     }
 
@@ -65,8 +65,10 @@ impl DitheredDisc {
     /// As [`DitheredDisc::new`].
     pub fn exponent(&self, factor: f64, effort: Effort) -> Result<Exponent, EigenError> {
         let phi = |phase: Phase, to: &mut Matrix| {
-            for (l, (mean, amplitude)) in self.mean.iter().zip(&self.amplitude).enumerate() {
-                to[(l, l)] = factor * amplitude.mul_add(phase.cosine, *mean);
+            let (mean, amplitude) = self.modulation;
+            let modulation = amplitude.mul_add(phase.cosine, mean);
+            for (l, friction) in self.friction.iter().enumerate() {
+                to[(l, l)] = factor * friction * modulation;
             }
         };
         self.engine.growth(&phi, effort)

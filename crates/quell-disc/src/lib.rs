@@ -12,6 +12,7 @@ pub mod disc;
 pub mod dithered;
 pub mod growth;
 pub mod mode;
+pub mod partition;
 pub mod system;
 pub mod undithered;
 

@@ -41,10 +41,12 @@ pub struct System {
     response: Matrix,
     /// M⁻¹C and M⁻¹K, without friction.
     over_mass: [Matrix; 2],
+    /// Friction f_l of each load.
+    friction: Vec<f64>,
+    /// Mean of f(τ)/f and amplitude of its cosine.
+    modulation: (f64, f64),
     /// Mean follower force f_l of each load.
     mean_friction: Vec<f64>,
-    /// Amplitude of the follower force's cosine for each load.
-    friction_amplitude: Vec<f64>,
     frequency_ratio: Option<f64>,
 }
 
@@ -97,8 +99,9 @@ impl System {
             slope,
             response,
             over_mass,
+            friction: disc.loads().iter().map(|load| load.friction).collect(),
+            modulation: (mean, amplitude),
             mean_friction: disc.loads().iter().map(|load| mean * load.friction).collect(),
-            friction_amplitude: disc.loads().iter().map(|load| amplitude * load.friction).collect(),
             frequency_ratio: disc.dither().frequency_ratio(),
         }
     }
@@ -138,9 +141,14 @@ impl System {
         &self.mean_friction
     }
 
-    /// Amplitude of the follower force's cosine for each load.
-    pub fn friction_amplitude(&self) -> &[f64] {
-        &self.friction_amplitude
+    /// Friction f_l of each load.
+    pub fn friction(&self) -> &[f64] {
+        &self.friction
+    }
+
+    /// Mean of f(τ)/f and amplitude of its cosine, without what is switched off.
+    pub fn modulation(&self) -> (f64, f64) {
+        self.modulation
     }
 
     /// Dither frequency ratio R, where there is dither.

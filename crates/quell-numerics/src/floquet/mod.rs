@@ -42,14 +42,17 @@ const BRANCHES: usize = 6;
 pub struct Effort {
     /// Steps are doubled while the sign of the growth rate is open and the bound is above this.
     pub enough: f64,
+    /// Steps are doubled while the bound is above this, whether the sign is open or not. The extrapolated rate is
+    /// some hundred times better than its bound, so that 10⁻⁷ keeps rates to 10⁻⁹.
+    pub at_least: f64,
     /// Largest number of steps a period.
     pub finest: usize,
 }
 
 impl Default for Effort {
-    /// Bound 10⁻¹¹, at most 8192 steps.
+    /// Bound 10⁻¹¹ where the sign is open, 10⁻⁷ where it is sure, at most 8192 steps.
     fn default() -> Self {
-        Self { enough: 1e-11, finest: 8192 }
+        Self { enough: 1e-11, at_least: 1e-7, finest: 8192 }
     }
 }
 
@@ -154,7 +157,8 @@ impl Floquet {
             } else {
                 self.in_full(&coarse, &fine, count)?
             };
-            let decided = found.growth_rate.abs() > found.error;
+            let sure = found.growth_rate.abs() > found.error;
+            let decided = sure && found.error <= effort.at_least;
             // What is left is rounding: more steps would not help.
             let rounded = difference <= FLOOR;
             if decided || rounded || found.error <= effort.enough || 2 * count > effort.finest {
