@@ -2,3 +2,4 @@
 //! and a spring that rotate over it, and the follower force of friction; with and without dither.
 
 pub mod plate;
+pub mod resonance;
