@@ -90,7 +90,7 @@ mod tests {
     /// P₅(x) = (63x⁵ − 70x³ + 15x)/8.
     #[test]
     fn legendre_polynomial() {
-        let x = 0.37;
+        let x = 0.37_f64;
         let exact = (63.0 * x.powi(5) - 70.0 * x.powi(3) + 15.0 * x) / 8.0;
         assert!((legendre(5, x)[5] - exact).abs() < 1e-15);
     }

@@ -95,6 +95,10 @@ pub(super) fn eliminate(
     Some(Elimination { determinant, coefficients })
 }
 
+#[expect(
+    clippy::needless_range_loop,
+    reason = "elimination reads and writes two rows of one matrix"
+)]
 /// Determinant, and the vector that the first three pivots' equations map to zero.
 fn complete_pivoting(mut matrix: [[f64; 4]; 4]) -> (f64, [f64; 4]) {
     let mut order = [0, 1, 2, 3];

@@ -55,12 +55,12 @@ impl TrialSpace {
         let mut left: Option<(usize, usize)> = None;
         let mut from = inner_radius;
         let phase = core::f64::consts::PI * radial as f64 / (1.0 - inner_radius);
-        let elements = count as usize;
+        let elements = whole(count);
         for e in 0..elements {
             let to = if e + 1 == elements { 1.0 } else { edge((e + 1) as f64) };
             let waves =
                 0.7 * phase * (to - from) + 0.5 * f64::from(diameters) * libm::log(to / from);
-            let degree = SPARE_DEGREE + libm::ceil(waves) as usize;
+            let degree = SPARE_DEGREE + whole(libm::ceil(waves));
             let first = space.unknowns;
             let bubbles = degree - 3;
             let right = (first + bubbles, first + bubbles + 1);
@@ -163,6 +163,16 @@ impl Element {
     }
 }
 
+/// A small whole number as a count.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "at most 7 elements, degrees of a few hundred, never negative: b/a, modes and diameters are bounded"
+)]
+fn whole(value: f64) -> usize {
+    value as usize
+}
+
 /// Value and derivatives in x turned into derivatives in r = … + half·x.
 fn scaled([value, slope, bend]: [f64; 3], half: f64) -> [f64; 3] {
     [value, slope / half, bend / (half * half)]
@@ -172,7 +182,7 @@ fn scaled([value, slope, bend]: [f64; 3], half: f64) -> [f64; 3] {
 fn hermite_cubic(kind: usize, x: f64, half: f64) -> [f64; 3] {
     let side = if kind < 2 { -1.0 } else { 1.0 };
     let y = side * x;
-    if kind % 2 == 0 {
+    if kind.is_multiple_of(2) {
         // ¼ (1 + y)² (2 − y)
         [0.25 * (1.0 + y) * (1.0 + y) * (2.0 - y), side * 0.75 * (1.0 - y * y), -1.5 * y]
     } else {

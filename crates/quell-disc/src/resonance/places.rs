@@ -53,8 +53,8 @@ impl Waves {
     pub(super) fn families(&self, h: i32) -> Vec<Family> {
         let mut families = Vec::new();
         let harmonics: &[i32] = if h == 0 { &[0] } else { &[h, -h] };
-        for (i, first) in self.waves.iter().enumerate() {
-            for second in &self.waves[i..] {
+        for (i, first) in self.list.iter().enumerate() {
+            for second in &self.list[i..] {
                 for conjugate in [false, true] {
                     if first == second && !conjugate {
                         continue;

@@ -65,7 +65,7 @@ pub enum Order {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Waves {
     pub(super) modes: Vec<WaveMode>,
-    pub(super) waves: Vec<Wave>,
+    pub(super) list: Vec<Wave>,
     pub(super) load: ContactLoad,
     pub(super) dither: Dither,
     pub(super) order: Order,
@@ -144,7 +144,7 @@ impl Waves {
         if !allowed {
             return Err(WaveError::Dither);
         }
-        Ok(Self { modes: modes.to_vec(), waves: list(modes), load, dither, order: Order::First })
+        Ok(Self { modes: modes.to_vec(), list: list(modes), load, dither, order: Order::First })
     }
 
     /// The same with another order of the expansion.
@@ -178,7 +178,7 @@ impl Waves {
     /// All waves, conjugates not counted.
     #[must_use]
     pub fn waves(&self) -> &[Wave] {
-        &self.waves
+        &self.list
     }
 
     /// Growth rate of one wave away from every resonance, −(g²/2β)[c(β + sΩ) − s f₀] − ξβ at first order.
@@ -274,7 +274,7 @@ impl Waves {
     /// H(y) = −i Σ l ρ/(y − w): slope at the load for a unit friction moment of frequency y.
     fn slope_response(&self, y: f64, speed: f64, resonant: &[SignedWave]) -> Complex64 {
         let mut sum = 0.0;
-        for wave in &self.waves {
+        for wave in &self.list {
             for conjugate in [false, true] {
                 let wave = SignedWave::new(wave, conjugate);
                 let distance = y - self.signed_frequency(&wave, speed);
