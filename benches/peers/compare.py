@@ -1,4 +1,8 @@
-"""Quell, SciPy and heyoka on the same work, one after the other on one core: ratios of one run."""
+"""Quell, SciPy and heyoka on the same work, in turns on one core: ratios of one run.
+
+`python3 benches/peers/compare.py [rounds]`; the fastest round of each counts, for other work on
+the machine only slows. SciPy, by far the slowest, runs once.
+"""
 
 import json
 import subprocess
@@ -9,6 +13,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 ENVIRONMENT = ROOT / "target" / "peers"
 PYTHON = ENVIRONMENT / "bin" / "python"
+PEERS = ROOT / "benches" / "peers"
+SPEED = ["cargo", "run", "--quiet", "--release", "--package", "quell-belt", "--example", "speed"]
 
 
 def last_line(command):
@@ -16,28 +22,50 @@ def last_line(command):
     return json.loads(done.stdout.strip().splitlines()[-1])
 
 
-if not PYTHON.exists():
-    venv.create(ENVIRONMENT, with_pip=True)
-    subprocess.run([PYTHON, "-m", "pip", "install", "--quiet", "scipy", "heyoka"], check=True)
-speed = ["cargo", "run", "--quiet", "--release", "--package", "quell-belt", "--example", "speed"]
-ours = last_line(speed)
-rows = [("Quell", ours)]
-for name in ("heyoka", "scipy"):
-    try:
-        rows.append((name, last_line([PYTHON, ROOT / "benches" / "peers" / f"{name}_belt.py"])))
-    except subprocess.CalledProcessError as failed:
-        print(f"{name} did not run:\n{failed.stderr}", file=sys.stderr)
-# Once more: a machine that changed its speed meanwhile shows here.
-rows.append(("Quell again", last_line(speed)))
-print(f"{'CPU µs per dither period':26}{'stick-slip':>12}{'ratio':>8}{'event-free':>12}{'ratio':>8}")
-for name, row in rows:
-    line = f"{name:26}"
-    for key in ("stick_slip", "event_free"):
-        if key in row:
-            line += f"{row[key]:12.2f}{row[key] / ours[key]:8.1f}"
-        else:
-            line += f"{'–':>12}{'':8}"
-    print(line)
-    if "event_free_batch_of_8" in row:
-        batch = row["event_free_batch_of_8"]
-        print(f"{name + ', batch of 8':26}{'–':>12}{'':8}{batch:12.2f}{batch / ours['event_free']:8.1f}")
+def ours():
+    """{(tool, workload): µs per dither period}, a row for each way of running."""
+    found = last_line(SPEED)
+    return {
+        ("Quell, " + (way if way == "alone" else "side by side, " + way), workload): time
+        for workload, times in found.items()
+        for way, time in times.items()
+    }
+
+
+def peer(name):
+    found = last_line([PYTHON, PEERS / f"{name}_belt.py"])
+    times = {(f"{name}, alone", "stick-slip"): found["stick_slip"]}
+    if "event_free" in found:
+        times[f"{name}, alone", "event-free"] = found["event_free"]
+    if "event_free_batch_of_8" in found:
+        times[f"{name}, batch of 8", "event-free"] = found["event_free_batch_of_8"]
+    return times
+
+
+def main():
+    rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 5
+    if not PYTHON.exists():
+        venv.create(ENVIRONMENT, with_pip=True)
+        subprocess.run([PYTHON, "-m", "pip", "install", "--quiet", "scipy", "heyoka"], check=True)
+    times = {}
+    for measure in ([ours, lambda: peer("heyoka")] * rounds) + [lambda: peer("scipy")]:
+        try:
+            for key, time in measure().items():
+                times[key] = min(time, times.get(key, time))
+        except subprocess.CalledProcessError as failed:
+            print(f"a peer did not run:\n{failed.stderr}", file=sys.stderr)
+    best = {
+        workload: min(time for (tool, of), time in times.items() if of == workload and tool[0] == "Q")
+        for workload in ("stick-slip", "event-free")
+    }
+    print(f"{'CPU µs per dither period':32}" + "".join(f"{w:>12}{'ratio':>8}" for w in best))
+    for tool in dict.fromkeys(tool for tool, _ in times):
+        line = f"{tool:32}"
+        for workload, fastest in best.items():
+            time = times.get((tool, workload))
+            line += f"{'–':>12}{'':8}" if time is None else f"{time:12.3f}{time / fastest:8.1f}"
+        print(line)
+
+
+if __name__ == "__main__":
+    main()

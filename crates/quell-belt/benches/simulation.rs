@@ -1,67 +1,61 @@
 //! Speed of the event-exact engine on the workloads that the peers run too
-//! (`benches/peers/`): time per simulated dither period.
+//! (`benches/peers/`): time per simulated dither period, alone and side by side.
+//!
+//! Before criterion measures, the gains of running side by side are held to the limits below:
+//! ratios of one process, since absolute times say more about the machine than about the code.
 
-use std::f64::consts::TAU;
+#[path = "workloads/mod.rs"]
+mod workloads;
+
 use std::hint::black_box;
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use quell_belt::simulation::{Start, simulate};
-use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use criterion::{Criterion, Throughput, criterion_group};
+use quell_belt::simulation::InstructionSet;
+use workloads::Workload;
 
-/// Tolerance of the published speed figures.
-const TOLERANCE: f64 = 1e-10;
+/// How many times faster than alone a workload must be, side by side on an instruction set.
+const GAINS: [(InstructionSet, [f64; 2]); 2] =
+    [(InstructionSet::Avx512, [1.6, 5.0]), (InstructionSet::Avx2, [1.5, 3.2])];
 
-fn belt(law: LawKind, belt_velocity: f64, amplitude: f64, frequency_ratio: f64) -> Belt {
-    let friction = law.build(&[0.4, 0.2857, 0.2]).expect("valid law");
-    let dither = Dither {
-        direction: Direction::Tangential,
-        waveform: Waveform::Sine,
-        amplitude,
-        frequency_ratio,
-        phase: 0.0,
-    };
-    Belt::new(0.005, 1.0, belt_velocity, friction, vec![dither]).expect("valid belt")
-}
-
-/// Stribeck, v₀ = 0.05, D × R as below, from rest to τ = 200: about 1.7 events per period.
-fn stick_slip(criterion: &mut Criterion) {
-    let mut cases = Vec::new();
-    let mut periods = 0.0;
-    for amplitude in [0.1, 0.3, 0.5, 0.8] {
-        for ratio in [5.0, 10.0] {
-            cases.push(belt(LawKind::Stribeck, 0.05, amplitude, ratio));
-            periods += ratio * 200.0 / TAU;
+/// Panics when a gain is below its limit in each of five attempts.
+fn hold_gains() {
+    for (set, limits) in GAINS.into_iter().filter(|(set, _)| set.is_available()) {
+        for (workload, limit) in
+            [Workload::stick_slip(), Workload::event_free()].into_iter().zip(limits)
+        {
+            let many = workload.multiplied(32);
+            let gain =
+                (0..5).map(|_| workload.time_alone() / many.time_together(set)).fold(0.0, f64::max);
+            println!("{}, {}: {gain:.2} × alone, at least {limit}", workload.name, set.name());
+            assert!(gain >= limit, "{} on {}: too slow side by side", workload.name, set.name());
         }
     }
+}
+
+fn dither_periods(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("belt");
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
-    group.throughput(Throughput::Elements(periods as u64));
-    group.bench_function("stick-slip, per dither period", |bencher| {
-        bencher.iter(|| {
-            for case in &cases {
-                let end = simulate(black_box(case), Start::REST, 200.0, TOLERANCE, &mut ());
-                black_box(end).expect("no stall");
-            }
+    for workload in [Workload::stick_slip(), Workload::event_free()] {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        let periods = |workload: &Workload| Throughput::Elements(workload.periods() as u64);
+        group.throughput(periods(&workload));
+        group.bench_function(format!("{}, alone", workload.name), |bencher| {
+            bencher.iter(|| black_box(&workload).pass_alone());
         });
-    });
+        let many = workload.multiplied(32);
+        group.throughput(periods(&many));
+        for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+            group.bench_function(format!("{}, {}", workload.name, set.name()), |bencher| {
+                bencher.iter(|| black_box(&many).pass_together(set));
+            });
+        }
+    }
     group.finish();
 }
 
-/// Decreasing law, v₀ = 1, D = 2, R = 10, from x = 0.2 to τ = 2000: no event.
-fn event_free(criterion: &mut Criterion) {
-    let case = belt(LawKind::Decreasing, 1.0, 2.0, 10.0);
-    let start = Start { displacement: 0.2, ..Start::REST };
-    let mut group = criterion.benchmark_group("belt");
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
-    group.throughput(Throughput::Elements((2000.0 * 10.0 / TAU) as u64));
-    group.bench_function("event-free, per dither period", |bencher| {
-        bencher.iter(|| {
-            let end = simulate(black_box(&case), start, 2000.0, TOLERANCE, &mut ());
-            black_box(end).expect("no stall");
-        });
-    });
-    group.finish();
-}
+criterion_group!(benches, dither_periods);
 
-criterion_group!(benches, stick_slip, event_free);
-criterion_main!(benches);
+fn main() {
+    hold_gains();
+    benches();
+    Criterion::default().configure_from_args().final_summary();
+}

@@ -52,10 +52,14 @@ pub(crate) fn refuse(failure: &Failure, json: bool) -> ExitCode {
     ExitCode::from(failure.exit_status())
 }
 
-/// One line a complaint.
+/// One line a complaint; what follows on further lines, such as an example, is indented.
 fn lines(failure: &Failure) -> String {
-    let text = failure.to_string();
-    let mut lines: Vec<String> = text.lines().map(|line| format!("error: {line}\n")).collect();
+    let told: Vec<String> = match failure {
+        Failure::Wrong(complaints) => complaints.iter().map(ToString::to_string).collect(),
+        Failure::Failed { .. } => vec![failure.to_string()],
+    };
+    let mut lines: Vec<String> =
+        told.iter().map(|text| format!("error: {}\n", text.replace('\n', "\n    "))).collect();
     if lines.len() > 1 {
         lines.push(format!("{} complaints; nothing was computed\n", lines.len()));
     }

@@ -74,16 +74,25 @@ impl Plot {
         self.output.is_some()
     }
 
+    /// Draws what can fail to be drawn, and adds its path to the object.
+    pub(crate) fn try_write(
+        self,
+        figure: impl FnOnce() -> Result<Figure, Failure>,
+        object: &mut Json,
+    ) -> Result<(), Failure> {
+        if let Some(output) = self.output {
+            object["plotted"] = picture::write(&figure()?, output)?.into();
+        }
+        Ok(())
+    }
+
     /// Draws it and adds its path to the object.
     pub(crate) fn write(
         self,
         figure: impl FnOnce() -> Figure,
         object: &mut Json,
     ) -> Result<(), Failure> {
-        if let Some(output) = self.output {
-            object["plotted"] = picture::write(&figure(), output)?.into();
-        }
-        Ok(())
+        self.try_write(|| Ok(figure()), object)
     }
 }
 

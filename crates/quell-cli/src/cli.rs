@@ -12,7 +12,7 @@ use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
 use crate::answer;
-use crate::verbs::{check, cite, friction, reproduce, response, schema, simulate, stability};
+use crate::verbs::{check, cite, friction, map, reproduce, response, schema, simulate, stability};
 
 /// Finds the dither that silences friction-induced vibration, and tells how sure it is.
 #[derive(Debug, Parser)]
@@ -32,6 +32,7 @@ enum Verb {
     Stability(stability::Arguments),
     Simulate(simulate::Arguments),
     Response(response::Arguments),
+    Map(map::Arguments),
     Reproduce(reproduce::Arguments),
 }
 
@@ -54,6 +55,7 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Stability(arguments) => stability::run(arguments),
         Verb::Simulate(arguments) => simulate::run(arguments),
         Verb::Response(arguments) => response::run(arguments),
+        Verb::Map(arguments) => map::run(arguments),
         Verb::Reproduce(arguments) => reproduce::run(arguments),
     };
     match outcome {

@@ -5,6 +5,8 @@ use std::process::ExitCode;
 mod answer;
 mod arguments;
 mod cli;
+mod interrupt;
+mod progress;
 mod table;
 mod verbs;
 

@@ -1,9 +1,19 @@
-//! Fused multiply-add where the machine has it, chosen at run time.
+//! The best instructions of the machine, chosen at run time, with the same bits on all of them.
 //!
-//! The baseline build calls a library routine for each `mul_add`. Work handed to
-//! [`with_fused_multiply_add`] is compiled a second time with AVX2 and FMA and runs that
-//! copy where the processor allows. Bits are the same either way: every operation is
-//! correctly rounded in both copies.
+//! The baseline build calls a library routine for each fused multiply-add and has no wide
+//! vectors. Work handed to this module is compiled once more per instruction set and runs in
+//! the best copy that the processor allows. Every operation of a [`Lane`] is correctly rounded
+//! in each copy, so that bits do not depend on the choice.
+//!
+//! The lane types of AVX2 and AVX-512 are private to this file: code is generic over
+//! [`Lane`] and meets them only inside a copy compiled for their instructions.
+
+#[cfg(target_arch = "x86_64")]
+use std::ops::{Add, Mul, Neg, Sub};
+
+use crate::lane::Lane;
+#[cfg(target_arch = "x86_64")]
+use crate::lane::Pair;
 
 /// Work compiled per instruction set. `run` and all it calls in a hot loop must be
 /// `#[inline(always)]`, or they stay in the baseline copy.
@@ -12,6 +22,60 @@ pub trait Work {
     type Output;
     /// Does the work.
     fn run(self) -> Self::Output;
+}
+
+/// Work on as many lanes as the machine has, compiled per instruction set like [`Work`].
+pub trait LaneWork {
+    /// Result of the work.
+    type Output;
+    /// Does the work in lanes of type `V`.
+    fn run<V: Lane>(self) -> Self::Output;
+}
+
+/// Instructions that lanes are made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum InstructionSet {
+    /// One number at a time, without fused multiply-add in hardware: runs everywhere.
+    Baseline,
+    /// One number at a time, with fused multiply-add (x86-64-v3): the best for a single run.
+    Fma,
+    /// AVX2 with FMA (x86-64-v3): 2 × 4 lanes.
+    Avx2,
+    /// AVX-512 (x86-64-v4): 2 × 8 lanes.
+    Avx512,
+}
+
+impl InstructionSet {
+    /// Every one that there is, the widest first.
+    pub const ALL: [Self; 4] = [Self::Avx512, Self::Avx2, Self::Fma, Self::Baseline];
+
+    /// The widest of this machine.
+    pub fn widest() -> Self {
+        Self::ALL.into_iter().find(|set| set.is_available()).unwrap_or(Self::Baseline)
+    }
+
+    /// Whether this machine has it.
+    pub fn is_available(self) -> bool {
+        match self {
+            Self::Baseline => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 | Self::Fma => pulp::x86::V3::try_new().is_some(),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => pulp::x86::V4::try_new().is_some(),
+            #[cfg(not(target_arch = "x86_64"))]
+            Self::Fma | Self::Avx2 | Self::Avx512 => false,
+        }
+    }
+
+    /// Name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Baseline => "baseline",
+            Self::Fma => "FMA",
+            Self::Avx2 => "AVX2",
+            Self::Avx512 => "AVX-512",
+        }
+    }
 }
 
 struct Vectorized<W>(W);
@@ -28,9 +92,304 @@ impl<W: Work> pulp::NullaryFnOnce for Vectorized<W> {
 /// Runs `work` with the best instructions for scalar code.
 #[inline]
 pub fn with_fused_multiply_add<W: Work>(work: W) -> W::Output {
+    with_scalar_of(InstructionSet::Fma, work)
+}
+
+/// Runs `work` with the scalar instructions that go with the lanes of `set`: those of the baseline, or
+/// fused multiply-add where the machine has it.
+#[inline]
+pub fn with_scalar_of<W: Work>(set: InstructionSet, work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
-    if let Some(simd) = pulp::x86::V3::try_new() {
+    if set != InstructionSet::Baseline
+        && let Some(simd) = pulp::x86::V3::try_new()
+    {
         return simd.vectorize(Vectorized(work));
     }
+    let _ = set;
     pulp::NullaryFnOnce::call(Vectorized(work))
+}
+
+/// [`LaneWork`] in lanes of `V`, as [`Work`].
+#[cfg(target_arch = "x86_64")]
+struct InLanes<W, V>(W, std::marker::PhantomData<V>);
+
+#[cfg(target_arch = "x86_64")]
+impl<W: LaneWork, V: Lane> pulp::NullaryFnOnce for InLanes<W, V> {
+    type Output = W::Output;
+
+    #[inline(always)]
+    fn call(self) -> W::Output {
+        self.0.run::<V>()
+    }
+}
+
+/// Runs `work` in lanes of `set`, or of the widest set there is where the machine lacks it.
+pub fn with_lanes<W: LaneWork>(set: InstructionSet, work: W) -> W::Output {
+    #[cfg(target_arch = "x86_64")]
+    {
+        if set == InstructionSet::Avx512
+            && let Some(simd) = pulp::x86::V4::try_new()
+        {
+            return simd.vectorize(InLanes::<W, Pair<Eight>>(work, std::marker::PhantomData));
+        }
+        if set != InstructionSet::Baseline
+            && let Some(simd) = pulp::x86::V3::try_new()
+        {
+            return if set == InstructionSet::Fma {
+                simd.vectorize(InLanes::<W, f64>(work, std::marker::PhantomData))
+            } else {
+                simd.vectorize(InLanes::<W, Pair<Four>>(work, std::marker::PhantomData))
+            };
+        }
+    }
+    let _ = set;
+    work.run::<f64>()
+}
+
+/// Implements [`Lane`] for a vector of pulp.
+#[cfg(target_arch = "x86_64")]
+macro_rules! vector_lane {
+    ($(#[$about:meta])* $name:ident, $vector:ident, $lanes:literal, $token:ident) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug)]
+        struct $name(pulp::$vector);
+
+        impl $name {
+            /// Proof that the instructions are there.
+            #[inline(always)]
+            #[expect(unsafe_code, reason = "the type is private and met only inside `vectorize`")]
+            fn token() -> pulp::x86::$token {
+                // SAFETY: the type cannot be named outside this file, and in this file
+                // `with_lanes` alone hands it to work, inside `vectorize` of a token that
+                // `try_new` has checked.
+                unsafe { pulp::x86::$token::new_unchecked() }
+            }
+
+            #[inline(always)]
+            fn lanes(self) -> [f64; $lanes] {
+                pulp::cast(self.0)
+            }
+
+            #[inline(always)]
+            fn of(lanes: [f64; $lanes]) -> Self {
+                Self(pulp::cast(lanes))
+            }
+        }
+
+        impl Add for $name {
+            type Output = Self;
+
+            #[inline(always)]
+            fn add(self, other: Self) -> Self {
+                Self(pulp::Simd::add_f64s(Self::token(), self.0, other.0))
+            }
+        }
+
+        impl Sub for $name {
+            type Output = Self;
+
+            #[inline(always)]
+            fn sub(self, other: Self) -> Self {
+                Self(pulp::Simd::sub_f64s(Self::token(), self.0, other.0))
+            }
+        }
+
+        impl Mul for $name {
+            type Output = Self;
+
+            #[inline(always)]
+            fn mul(self, other: Self) -> Self {
+                Self(pulp::Simd::mul_f64s(Self::token(), self.0, other.0))
+            }
+        }
+
+        impl Neg for $name {
+            type Output = Self;
+
+            #[inline(always)]
+            fn neg(self) -> Self {
+                Self(pulp::Simd::neg_f64s(Self::token(), self.0))
+            }
+        }
+
+        impl Lane for $name {
+            const LANES: usize = $lanes;
+
+            #[inline(always)]
+            fn splat(value: f64) -> Self {
+                Self(pulp::Simd::splat_f64s(Self::token(), value))
+            }
+
+            #[inline(always)]
+            fn load(from: &[f64]) -> Self {
+                let mut lanes = [0.0; $lanes];
+                lanes.copy_from_slice(&from[..$lanes]);
+                Self::of(lanes)
+            }
+
+            #[inline(always)]
+            fn store(self, to: &mut [f64]) {
+                to[..$lanes].copy_from_slice(&self.lanes());
+            }
+
+            #[inline(always)]
+            fn map(self, function: impl Fn(f64) -> f64) -> Self {
+                // A loop, for an iterator of the standard library may not be inlined, and then
+                // lacks the instructions of this lane.
+                let mut lanes = self.lanes();
+                for lane in &mut lanes {
+                    *lane = function(*lane);
+                }
+                Self::of(lanes)
+            }
+
+            #[inline(always)]
+            fn zip(self, other: Self, function: impl Fn(f64, f64) -> f64) -> Self {
+                let (mut lanes, other) = (self.lanes(), other.lanes());
+                for lane in 0..$lanes {
+                    lanes[lane] = function(lanes[lane], other[lane]);
+                }
+                Self::of(lanes)
+            }
+
+            #[inline(always)]
+            fn mul_add(self, factor: Self, addend: Self) -> Self {
+                Self(pulp::Simd::mul_add_e_f64s(Self::token(), self.0, factor.0, addend.0))
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                Self(pulp::Simd::abs_f64s(Self::token(), self.0))
+            }
+
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                Self(pulp::Simd::max_f64s(Self::token(), self.0, other.0))
+            }
+
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                Self(pulp::Simd::min_f64s(Self::token(), self.0, other.0))
+            }
+
+            #[inline(always)]
+            fn where_positive(self, yes: Self, no: Self) -> Self {
+                let zero = pulp::Simd::splat_f64s(Self::token(), 0.0);
+                let mask = pulp::Simd::greater_than_f64s(Self::token(), self.0, zero);
+                Self(pulp::Simd::select_f64s(Self::token(), mask, yes.0, no.0))
+            }
+
+            #[inline(always)]
+            fn any_positive(self) -> bool {
+                let zero = pulp::Simd::splat_f64s(Self::token(), 0.0);
+                let mask = pulp::Simd::greater_than_f64s(Self::token(), self.0, zero);
+                pulp::Simd::first_true_m64s(Self::token(), mask) < $lanes
+            }
+        }
+    };
+}
+
+#[cfg(target_arch = "x86_64")]
+vector_lane!(
+    /// Four lanes of AVX2.
+    Four, f64x4, 4, V3
+);
+#[cfg(target_arch = "x86_64")]
+vector_lane!(
+    /// Eight lanes of AVX-512.
+    Eight, f64x8, 8, V4
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LANES: usize = 16;
+
+    /// Every operation on the same numbers, lane by lane.
+    struct Operations<'a>(&'a [f64; LANES], &'a [f64; LANES]);
+
+    impl LaneWork for Operations<'_> {
+        type Output = Vec<u64>;
+
+        #[inline(always)]
+        fn run<V: Lane>(self) -> Vec<u64> {
+            let mut bits = vec![0; 17 * LANES];
+            let mut first = 0;
+            while first < LANES {
+                let (a, b) = (V::load(&self.0[first..]), V::load(&self.1[first..]));
+                let results = [
+                    a + b,
+                    a - b,
+                    a * b,
+                    -a,
+                    a.mul_add(b, V::splat(0.3)),
+                    a.abs(),
+                    a.max(b),
+                    a.min(b),
+                    b.max(a),
+                    b.min(a),
+                    a.where_positive(b, V::splat(7.0)),
+                    a.round(),
+                    a.round().power_of_two(),
+                    a.abs().map(f64::sqrt),
+                    a.zip(b, |a, b| a / b),
+                    crate::elementary::exp(a),
+                    crate::elementary::sin_cos_of_phase(a, b, V::splat(1e-17), V::splat(0.2)).0,
+                ];
+                for (row, result) in results.into_iter().enumerate() {
+                    let mut lanes = [0.0; LANES];
+                    result.store(&mut lanes);
+                    for (lane, value) in lanes.into_iter().enumerate().take(V::LANES) {
+                        bits[row * LANES + first + lane] = value.to_bits();
+                    }
+                }
+                first += V::LANES;
+            }
+            bits
+        }
+    }
+
+    /// Whether any of sixteen numbers is positive, in groups of lanes.
+    struct Any<'a>(&'a [f64; LANES]);
+
+    impl LaneWork for Any<'_> {
+        type Output = bool;
+
+        #[inline(always)]
+        fn run<V: Lane>(self) -> bool {
+            (0..LANES / V::LANES).any(|group| V::load(&self.0[group * V::LANES..]).any_positive())
+        }
+    }
+
+    #[test]
+    fn a_positive_number_is_seen_in_every_lane() {
+        for set in InstructionSet::ALL {
+            let mut numbers = [-1.0, 0.0, -0.0, f64::NAN].repeat(4);
+            for lane in 0..LANES {
+                let kept = numbers[lane];
+                numbers[lane] = f64::MIN_POSITIVE;
+                let lanes: [f64; LANES] = std::array::from_fn(|lane| numbers[lane]);
+                assert!(with_lanes(set, Any(&lanes)), "{}, lane {lane}", set.name());
+                numbers[lane] = kept;
+            }
+            let lanes: [f64; LANES] = std::array::from_fn(|lane| numbers[lane]);
+            assert!(!with_lanes(set, Any(&lanes)), "{}", set.name());
+        }
+    }
+
+    #[test]
+    fn every_operation_has_the_same_bits_on_every_instruction_set() {
+        let a = std::array::from_fn(|lane| (lane as f64 - 7.3) * 1.37);
+        let mut b: [f64; LANES] = std::array::from_fn(|lane| 40.0 / (lane as f64 + 0.7));
+        // Equal numbers and zeros of both signs: which operand max and min return.
+        (b[3], b[4], b[5]) = (a[3], 0.0, -0.0);
+        let alone = Operations(&a, &b).run::<f64>();
+        let zeros = ([0.0; LANES], [-0.0; LANES]);
+        let zeros_alone = Operations(&zeros.0, &zeros.1).run::<f64>();
+        for set in InstructionSet::ALL {
+            assert_eq!(with_lanes(set, Operations(&a, &b)), alone, "{}", set.name());
+            assert_eq!(with_lanes(set, Operations(&zeros.0, &zeros.1)), zeros_alone);
+        }
+    }
 }

@@ -3,12 +3,15 @@
 //! Every kernel of the engine is written once over [`Lane`] and uses only the
 //! operations below, in a declared order. Addition, multiplication and the fused
 //! [`Lane::mul_add`] are correctly rounded everywhere, so a kernel gives the same bits
-//! alone (`f64`), in any SIMD lane and on any instruction set.
+//! alone (`f64`), in any SIMD lane and on any instruction set ([`crate::dispatch`]).
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// 1.5·2⁵²: adding and subtracting it rounds to the nearest integer, ties to even.
 const ROUNDING_SHIFT: f64 = 6_755_399_441_055_744.0;
+
+/// The most lanes that any type of this crate has.
+pub const MOST_LANES: usize = 16;
 
 /// One real number per lane.
 pub trait Lane:
@@ -20,8 +23,26 @@ pub trait Lane:
     + Mul<Output = Self>
     + Neg<Output = Self>
 {
+    /// Number of lanes.
+    const LANES: usize;
+
     /// The same value in every lane.
     fn splat(value: f64) -> Self;
+
+    /// The first [`Lane::LANES`] numbers of `from`, which holds at least as many.
+    fn load(from: &[f64]) -> Self;
+
+    /// Writes the lanes to the first [`Lane::LANES`] places of `to`, which has at least as many.
+    fn store(self, to: &mut [f64]);
+
+    /// `function` of every lane. For what needs bits, divisions or roots: without a branch
+    /// inside, the compiler makes vector instructions of it.
+    #[must_use]
+    fn map(self, function: impl Fn(f64) -> f64) -> Self;
+
+    /// `function` of every pair of lanes.
+    #[must_use]
+    fn zip(self, other: Self, function: impl Fn(f64, f64) -> f64) -> Self;
 
     /// `self * factor + addend`, rounded once.
     #[must_use]
@@ -31,13 +52,29 @@ pub trait Lane:
     #[must_use]
     fn abs(self) -> Self;
 
-    /// The larger of two numbers.
+    /// The larger of two numbers; the second where they are equal.
     #[must_use]
     fn max(self, other: Self) -> Self;
 
-    /// 2ⁿ for integral `self` = n in −1022…1023.
+    /// The smaller of two numbers; the second where they are equal.
     #[must_use]
-    fn power_of_two(self) -> Self;
+    fn min(self, other: Self) -> Self;
+
+    /// `yes` in the lanes where `self` > 0, else `no`.
+    #[must_use]
+    fn where_positive(self, yes: Self, no: Self) -> Self;
+
+    /// Whether any lane is > 0.
+    fn any_positive(self) -> bool;
+
+    /// 2ⁿ for integral `self` = n in −1022…1023.
+    #[inline(always)]
+    #[must_use]
+    fn power_of_two(self) -> Self {
+        // The low bits of n + 1.5·2⁵² hold n in two's complement; the shift moves the
+        // biased exponent into place.
+        self.map(|n| f64::from_bits((n + (ROUNDING_SHIFT + 1023.0)).to_bits() << 52))
+    }
 
     /// Nearest integer, ties to even, for magnitudes below 2⁵¹.
     #[inline(always)]
@@ -49,9 +86,31 @@ pub trait Lane:
 }
 
 impl Lane for f64 {
+    const LANES: usize = 1;
+
     #[inline(always)]
     fn splat(value: f64) -> Self {
         value
+    }
+
+    #[inline(always)]
+    fn load(from: &[f64]) -> Self {
+        from[0]
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [f64]) {
+        to[0] = self;
+    }
+
+    #[inline(always)]
+    fn map(self, function: impl Fn(f64) -> f64) -> Self {
+        function(self)
+    }
+
+    #[inline(always)]
+    fn zip(self, other: Self, function: impl Fn(f64, f64) -> f64) -> Self {
+        function(self, other)
     }
 
     #[inline(always)]
@@ -70,11 +129,119 @@ impl Lane for f64 {
     }
 
     #[inline(always)]
-    fn power_of_two(self) -> Self {
-        // The low bits of n + 1.5·2⁵² hold n in two's complement; the shift moves the
-        // biased exponent into place.
-        let shifted = (self + (ROUNDING_SHIFT + 1023.0)).to_bits();
-        f64::from_bits(shifted << 52)
+    fn min(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
+
+    #[inline(always)]
+    fn where_positive(self, yes: Self, no: Self) -> Self {
+        if self > 0.0 { yes } else { no }
+    }
+
+    #[inline(always)]
+    fn any_positive(self) -> bool {
+        self > 0.0
+    }
+}
+
+/// Two groups of lanes worked on in turn: while one waits for the result of an operation, the
+/// other one is computed.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair<V>(V, V);
+
+impl<V: Lane> Add for Pair<V> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(self.0 + other.0, self.1 + other.1)
+    }
+}
+
+impl<V: Lane> Sub for Pair<V> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(self.0 - other.0, self.1 - other.1)
+    }
+}
+
+impl<V: Lane> Mul for Pair<V> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self(self.0 * other.0, self.1 * other.1)
+    }
+}
+
+impl<V: Lane> Neg for Pair<V> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0, -self.1)
+    }
+}
+
+impl<V: Lane> Lane for Pair<V> {
+    const LANES: usize = 2 * V::LANES;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self(V::splat(value), V::splat(value))
+    }
+
+    #[inline(always)]
+    fn load(from: &[f64]) -> Self {
+        Self(V::load(from), V::load(&from[V::LANES..]))
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [f64]) {
+        self.0.store(to);
+        self.1.store(&mut to[V::LANES..]);
+    }
+
+    #[inline(always)]
+    fn map(self, function: impl Fn(f64) -> f64) -> Self {
+        Self(self.0.map(&function), self.1.map(&function))
+    }
+
+    #[inline(always)]
+    fn zip(self, other: Self, function: impl Fn(f64, f64) -> f64) -> Self {
+        Self(self.0.zip(other.0, &function), self.1.zip(other.1, &function))
+    }
+
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        Self(self.0.mul_add(factor.0, addend.0), self.1.mul_add(factor.1, addend.1))
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.abs(), self.1.abs())
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(self.0.max(other.0), self.1.max(other.1))
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(self.0.min(other.0), self.1.min(other.1))
+    }
+
+    #[inline(always)]
+    fn where_positive(self, yes: Self, no: Self) -> Self {
+        Self(self.0.where_positive(yes.0, no.0), self.1.where_positive(yes.1, no.1))
+    }
+
+    #[inline(always)]
+    fn any_positive(self) -> bool {
+        self.0.any_positive() | self.1.any_positive()
     }
 }
 

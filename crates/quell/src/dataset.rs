@@ -19,6 +19,32 @@ pub struct Array {
     pub unit: String,
     /// Values; NaN only where there is none.
     pub values: Vec<f64>,
+    /// Words that the values are codes of; empty where they are numbers.
+    pub words: Vec<(u8, &'static str)>,
+}
+
+impl Array {
+    /// Numbers.
+    pub fn new(name: impl Into<String>, unit: impl Into<String>, values: Vec<f64>) -> Self {
+        Self { name: name.into(), unit: unit.into(), values, words: Vec::new() }
+    }
+
+    /// Codes of words.
+    pub fn of_words(name: impl Into<String>, words: Vec<(u8, &'static str)>, codes: &[u8]) -> Self {
+        let values = codes.iter().copied().map(f64::from).collect();
+        Self { name: name.into(), unit: "word".to_owned(), values, words }
+    }
+
+    /// A value as it stands in CSV; empty where there is none.
+    fn write(&self, value: f64, text: &mut String) {
+        if !self.words.is_empty() {
+            let word = self.words.iter().find(|(code, _)| f64::from(*code) == value);
+            text.push_str(word.map_or("", |(_, word)| word));
+        } else if value.is_finite() {
+            // Shortest digits that read back as the same number.
+            let _ = write!(text, "{value:?}");
+        }
+    }
 }
 
 /// Where a dataset comes from.
@@ -93,14 +119,25 @@ impl Dataset {
         let (unit, si_unit, suffix) = PER_VELOCITY;
         let twin = self.scales.map(|scales| {
             let omega = scales.si_per_unit(Quantity::Velocity);
-            Array {
-                name: format!("{name}_{suffix}"),
-                unit: si_unit.to_owned(),
-                values: values.iter().map(|value| value / omega).collect(),
-            }
+            let values = values.iter().map(|value| value / omega).collect();
+            Array::new(format!("{name}_{suffix}"), si_unit, values)
         });
-        self.arrays.push(Array { name: name.to_owned(), unit: unit.to_owned(), values });
+        self.arrays.push(Array::new(name, unit, values));
         self.arrays.extend(twin);
+        self
+    }
+
+    /// Adds an axis as it is.
+    #[must_use]
+    pub fn with_axis(mut self, axis: Array) -> Self {
+        self.axes.push(axis);
+        self
+    }
+
+    /// Adds an array as it is.
+    #[must_use]
+    pub fn with(mut self, array: Array) -> Self {
+        self.arrays.push(array);
         self
     }
 
@@ -122,11 +159,8 @@ impl Dataset {
     fn twin(&self, name: &str, quantity: Quantity, values: &[f64]) -> Option<Array> {
         let (unit, suffix) = quantity.si_unit()?;
         let factor = self.scales?.si_per_unit(quantity);
-        Some(Array {
-            name: format!("{name}_{suffix}"),
-            unit: unit.to_owned(),
-            values: values.iter().map(|value| value * factor).collect(),
-        })
+        let values = values.iter().map(|value| value * factor).collect();
+        Some(Array::new(format!("{name}_{suffix}"), unit, values))
     }
 
     /// As CSV.
@@ -141,19 +175,15 @@ impl Dataset {
             let mut after = rows;
             let axes = self.axes.iter().map(|axis| {
                 after /= axis.values.len();
-                axis.values[row / after % axis.values.len()]
+                (axis, axis.values[row / after % axis.values.len()])
             });
-            let cells: Vec<f64> = axes.collect();
-            let arrays =
-                self.arrays.iter().map(|array| array.values.get(row).copied().unwrap_or(f64::NAN));
-            for (index, cell) in cells.into_iter().chain(arrays).enumerate() {
+            let value = |array: &Array| array.values.get(row).copied().unwrap_or(f64::NAN);
+            let arrays = self.arrays.iter().map(|array| (array, value(array)));
+            for (index, (array, value)) in axes.chain(arrays).enumerate() {
                 if index > 0 {
                     text.push(',');
                 }
-                if cell.is_finite() {
-                    // Shortest digits that read back as the same number.
-                    let _ = write!(text, "{cell:?}");
-                }
+                array.write(value, &mut text);
             }
             text.push('\n');
         }
@@ -187,7 +217,7 @@ impl Dataset {
 }
 
 fn array(name: &str, quantity: Quantity, values: Vec<f64>) -> Array {
-    Array { name: name.to_owned(), unit: quantity.scaled_unit().to_owned(), values }
+    Array::new(name, quantity.scaled_unit(), values)
 }
 
 #[cfg(test)]

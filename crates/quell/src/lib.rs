@@ -11,7 +11,9 @@ pub mod quantity;
 pub mod reproduce;
 pub mod run;
 pub mod schema;
+pub mod store;
 pub mod study;
+pub mod sweep;
 
 pub use complaint::{Complaint, Failure, Fault, Origin};
 pub use study::{Change, Study};

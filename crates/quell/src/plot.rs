@@ -1,7 +1,8 @@
 //! Pictures: the one door through which every figure of Quell is made.
 //!
 //! A [`Figure`] is a grid of [`Panel`]s; a panel has two [`Axis`] and layers, which speak of the
-//! field and never of the drawing library: [`Line`], [`Points`], [`Region`], [`Rule`], [`Note`].
+//! field and never of the drawing library: [`Line`], [`Points`], [`Region`], [`Rule`], [`Note`], and
+//! for maps [`Grid`] (a field as colours) and [`Contours`] (its isolines).
 //! What a curve *means* is its [`Role`]; the role decides colour, width and dashes, so that
 //! "dithered" looks the same in every picture of the project.
 //!
@@ -27,27 +28,41 @@
 
 mod arrange;
 mod axis;
+mod bar;
 mod canvas;
+mod colouring;
 mod draw;
 mod error;
+mod field;
 mod figure;
 mod fonts;
+mod isoline;
 mod layer;
 mod legend;
+mod line_labels;
+mod map_layers;
+mod maps;
 mod marks;
 mod obstacles;
 mod output;
 mod palette;
+mod raster;
 mod rules;
+mod shades;
 mod stretches;
 mod thin;
 mod ticks;
 mod typeset;
 
 pub use axis::{Axis, Range, Scale};
+pub use colouring::{Colouring, Shading, Spread, Tint};
 pub use error::PlotError;
+pub use field::Field;
 pub use figure::{Figure, Legend, Panel, Place, SharedLegend, Sharing, Size};
+pub use isoline::{Isoline, isolines};
 pub use layer::{
     Direction, Fill, Layer, Line, Marker, Note, NoteAnchor, Points, Region, Rule, Shape,
 };
+pub use map_layers::{Contours, Gap, Grid};
 pub use palette::{LineStyle, Role};
+pub use shades::Palette;

@@ -3,8 +3,9 @@
 use std::fs;
 
 use quell::plot::{
-    Axis, Figure, Fill, Legend, Line, LineStyle, Marker, Note, Panel, PlotError, Points, Region,
-    Role, Rule, SharedLegend, Sharing, Size,
+    Axis, Colouring, Contours, Field, Figure, Fill, Grid, Legend, Line, LineStyle, Marker, Note,
+    Palette, Panel, PlotError, Points, Region, Role, Rule, Shading, SharedLegend, Sharing, Size,
+    Spread, Tint,
 };
 
 fn axes() -> Panel {
@@ -266,4 +267,157 @@ fn the_whole_size_is_kept() {
     };
     assert!((number("width") - 700.0).abs() <= 2.0, "{}", number("width"));
     assert!((number("height") - 600.0).abs() <= 2.0, "{}", number("height"));
+}
+
+fn even(from: f64, to: f64, count: u32) -> Vec<f64> {
+    (0..count).map(|k| from + (to - from) * f64::from(k) / f64::from(count - 1)).collect()
+}
+
+fn hill(count: u32) -> Field {
+    let axis = even(-1.0, 1.0, count);
+    let height = |column: usize, row: usize| {
+        Some(100.0 * (-2.0 * (axis[column].powi(2) + axis[row].powi(2))).exp())
+    };
+    Field::from_fn(axis.clone(), axis.clone(), height).expect("a field")
+}
+
+fn shaded(palette: Palette) -> Colouring {
+    Colouring::Shaded(Shading::new(palette))
+}
+
+#[test]
+fn a_map_is_one_image_with_one_bar() {
+    let grid = Grid::new(hill(400), shaded(Palette::Viridis)).bar(Axis::new("height").unit("m"));
+    let svg = Figure::single(axes().with(grid.clone())).to_svg();
+    assert_eq!(svg.matches("<image ").count(), 2);
+    assert!(svg.contains(">height (m)<") && svg.len() < 300_000, "{}", svg.len());
+    let svg = Figure::single(axes().with(Grid { bar: None, ..grid })).to_svg();
+    assert_eq!(svg.matches("<image ").count(), 1);
+}
+
+#[test]
+fn pixels_of_a_map_have_the_colour_of_the_nearest_point() {
+    // On the logarithmic axis the border between 1 and 100 lies at 10.
+    let outcomes = [Role::Stable, Role::Unstable, Role::Undecided, Role::Exact]
+        .map(|role| Tint::new(role, ""))
+        .to_vec();
+    let values = (0..4).map(|value| Some(f64::from(value))).collect();
+    let field = Field::new(vec![1.0, 100.0], vec![0.0, 1.0], values).expect("a field");
+    let panel = Panel::new(Axis::new("").log(), Axis::new(""))
+        .with(Grid::new(field, Colouring::Outcomes(outcomes)));
+    let picture = Figure::single(panel).size(Size::Frame(200.0, 100.0)).to_png().expect("a PNG");
+    let mut reader = png::Decoder::new(picture.as_slice()).read_info().expect("a header");
+    let mut pixels = vec![0; reader.output_buffer_size()];
+    let width = reader.next_frame(&mut pixels).expect("pixels").width as usize;
+    let mut counts = std::collections::BTreeMap::new();
+    for pixel in pixels.chunks(4) {
+        *counts.entry([pixel[0], pixel[1], pixel[2]]).or_insert(0_usize) += 1;
+    }
+    // Blue, vermillion, grey and black at 34 %: a quarter of 400 by 200 pixels each, less frame
+    // and ticks.
+    for tint in [[168, 207, 229], [241, 200, 168], [212, 212, 212], [168, 168, 168]] {
+        let count = counts.get(&tint).copied().unwrap_or(0);
+        assert!((18_500..=20_000).contains(&count), "{tint:?} {count} of {width} {counts:?}");
+    }
+}
+
+#[test]
+fn isolines_carry_their_numbers_and_are_open_under_them() {
+    let lines = Contours::new(hill(80), [20.0, 40.0, 60.0, 80.0]);
+    let labelled = Figure::single(axes().with(lines.clone().unit("%"))).to_svg();
+    let plain = Figure::single(axes().with(lines.plain())).to_svg();
+    for level in ["20\u{202f}%", "40\u{202f}%", "60\u{202f}%", "80\u{202f}%"] {
+        assert!(labelled.contains(&format!(">{level}<")), "{level}");
+        assert!(!plain.contains(level));
+    }
+    // A closed line is one piece; under each number it opens.
+    let pieces = |svg: &str| strokes(svg, "#000000").iter().map(|d| d.matches('M').count()).sum();
+    let (open, closed): (usize, usize) = (pieces(&labelled), pieces(&plain));
+    // The circle of 20 % leaves no gap in the frame: four closed lines.
+    assert_eq!(closed, 4);
+    assert!(open >= 8, "{open}");
+}
+
+#[test]
+fn isolines_lie_where_the_field_has_their_value_also_on_a_log_axis() {
+    // x y = 10 is straight on two logarithmic axes.
+    let axis: Vec<f64> = even(0.0, 1.0, 9).into_iter().map(|power| 10_f64.powf(power)).collect();
+    let product = |column: usize, row: usize| Some((axis[column] * axis[row]).ln());
+    let field = Field::from_fn(axis.clone(), axis.clone(), product).expect("a field");
+    let panel = Panel::new(Axis::new("x").log(), Axis::new("y").log())
+        .with(Contours::new(field, [10_f64.ln()]).plain());
+    let svg = Figure::single(panel).size(Size::Frame(200.0, 100.0)).to_svg();
+    let path = strokes(&svg, "#000000")[0];
+    let steps: Vec<(f64, f64)> = path
+        .trim_start_matches('M')
+        .split('l')
+        .skip(1)
+        .filter_map(|step| {
+            let split = step.rfind(['-', ' ']).filter(|at| *at > 0)?;
+            Some((step[..split].parse().ok()?, step[split..].trim().parse().ok()?))
+        })
+        .collect();
+    assert!(!steps.is_empty());
+    for (right, down) in steps {
+        assert!((right.abs() - 2.0 * down.abs()).abs() < 0.05 && right * down > 0.0, "{path}");
+    }
+}
+
+#[test]
+fn gaps_are_hatched_and_named() {
+    let axis = even(0.0, 1.0, 10);
+    let value = |column: usize, row: usize| (column > 2 && row > 4).then_some(1.0);
+    let field = Field::from_fn(axis.clone(), axis, value).expect("a field");
+    let grid = Grid::new(field, shaded(Palette::Pale))
+        .gap("undecided", |column, _| column <= 2)
+        .gap("met nowhere", |_, _| false)
+        .gap("no vibration", |_, _| true);
+    let svg = Figure::single(axes().with(grid)).to_svg();
+    assert!(svg.contains(">undecided<") && svg.contains(">no vibration<"));
+    assert!(!svg.contains("met nowhere") && !svg.contains("no value"));
+    assert_eq!(svg.matches("<pattern ").count(), 2);
+}
+
+#[test]
+fn odd_maps_are_pictures_too() {
+    let field = |x: Vec<f64>, y: Vec<f64>, value: Option<f64>| {
+        let values = vec![value; x.len() * y.len()];
+        Field::new(x, y, values).expect("a field")
+    };
+    let spreads = [Spread::Linear, Spread::Log, Spread::SignedLog(0.0)];
+    let fields = [
+        field(vec![1.0], vec![2.0], Some(3.0)),
+        field(vec![0.0, 1.0], vec![-1.0, 0.0, 5.0], Some(0.0)),
+        field(vec![1.0, 2.0], vec![1.0, 2.0], None),
+        field(vec![-1e308, 1e308], vec![1e-300, 1.0], Some(-1e308)),
+    ];
+    for field in fields {
+        for spread in spreads {
+            for palette in [Palette::Viridis, Palette::Diverging] {
+                let shading = Colouring::Shaded(Shading::new(palette).spread(spread));
+                let grid = Grid::new(field.clone(), shading).bar(Axis::new("a"));
+                let panel = Panel::new(Axis::new("x").log(), Axis::new("y"))
+                    .with(grid)
+                    .with(Contours::about(field.clone(), 5));
+                let figure = Figure::single(panel);
+                let svg = figure.to_svg();
+                assert!(!svg.contains("NaN") && !svg.contains("inf"), "{field:?} {spread:?}");
+                assert!(figure.to_png().is_ok());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_map_of_noise_stays_small() {
+    let axis = even(0.0, 1.0, 200);
+    let mut state = 1_u64;
+    let noise = |_: usize, _: usize| {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        Some((state >> 40) as f64)
+    };
+    let field = Field::from_fn(axis.clone(), axis, noise).expect("a field");
+    let svg = Figure::single(axes().with(Grid::new(field, shaded(Palette::Viridis)))).to_svg();
+    assert!(svg.len() < 250_000, "{}", svg.len());
 }

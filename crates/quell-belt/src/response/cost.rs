@@ -9,8 +9,7 @@ use std::f64::consts::TAU;
 use quell_model::{Belt, Direction, Dither};
 use quell_numerics::roots::{Closeness, minimise};
 
-use super::Record;
-use crate::simulation::{FinalState, Observer, Segment};
+use crate::simulation::{FinalState, Segment};
 
 /// Nodes and weights of the 8-point Gauss–Legendre rule on [−1, 1] (positive half).
 const GAUSS: [(f64, f64); 4] = [
@@ -35,11 +34,12 @@ pub(super) struct Meter {
     dither_work: f64,
     length: f64,
     friction_impulse: f64,
+    with_power: bool,
 }
 
 impl Meter {
-    /// Set to the state at the start of the record.
-    pub(super) fn new(belt: &Belt, start: &FinalState) -> Self {
+    /// Set to the state at the start of the record; the dither's power only if `with_power`.
+    pub(super) fn new(belt: &Belt, start: &FinalState, with_power: bool) -> Self {
         let tangential: Vec<_> = belt
             .dithers_along(Direction::Tangential)
             .filter(|dither| dither.amplitude > 0.0)
@@ -55,6 +55,7 @@ impl Meter {
             dither_work: 0.0,
             length: 0.0,
             friction_impulse: 0.0,
+            with_power,
         }
     }
 
@@ -119,13 +120,15 @@ impl Meter {
     }
 }
 
-impl Observer for Meter {
-    fn segment(&mut self, segment: &Segment<'_>) {
+impl Meter {
+    /// Adds one segment. To be called with the machine's best instructions.
+    #[inline(always)]
+    pub(super) fn add_segment(&mut self, segment: &Segment<'_>) {
         self.displacement_integral += segment.displacement_integral();
         if segment.slip_sign() == 0 {
             self.stuck += segment.duration();
         }
-        if self.tangential.is_empty() {
+        if self.tangential.is_empty() || !self.with_power {
             return;
         }
         self.dither_work += if segment.slip_sign() == 0 {
@@ -145,42 +148,6 @@ fn force_of(dithers: &[Dither], time: f64) -> f64 {
             dither.amplitude * dither.waveform.value(phase)
         })
         .sum()
-}
-
-/// Peak-to-peak displacement at the frequencies of the tangential dithers: twice the spectral
-/// amplitude at each different one, summed.
-pub(super) fn stroke(belt: &Belt, record: &Record) -> f64 {
-    let mut frequencies: Vec<f64> = belt
-        .dithers_along(Direction::Tangential)
-        .filter(|dither| dither.amplitude > 0.0)
-        .map(|dither| dither.frequency_ratio)
-        .collect();
-    frequencies.sort_by(f64::total_cmp);
-    frequencies.dedup();
-    frequencies.iter().map(|&frequency| 2.0 * line_amplitude(record, frequency)).sum()
-}
-
-/// Amplitude of the displacement at one frequency, under the Hann window.
-fn line_amplitude(record: &Record, frequency: f64) -> f64 {
-    let n = record.samples.len() as f64;
-    let window = |k: f64| {
-        let sine = libm::sin(0.5 * TAU * k / n);
-        sine * sine
-    };
-    let (mut weight, mut mean) = (0.0, 0.0);
-    for (k, sample) in record.samples.iter().enumerate() {
-        weight += window(k as f64);
-        mean += window(k as f64) * sample.displacement;
-    }
-    mean /= weight;
-    let (mut cosine, mut sine) = (0.0, 0.0);
-    for (k, sample) in record.samples.iter().enumerate() {
-        let phase = frequency * record.step * k as f64;
-        let value = window(k as f64) * (sample.displacement - mean);
-        cosine += value * libm::cos(phase);
-        sine += value * libm::sin(phase);
-    }
-    2.0 * libm::hypot(cosine, sine) / weight
 }
 
 /// Smallest normal load F + Σ D_N g_N between τ = `from` and `from + length`.

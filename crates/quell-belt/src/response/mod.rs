@@ -6,18 +6,27 @@
 //! largest spectral amplitude of x at 0 < ω ≤ 1.9, and E = M₁/M₀ (2.27) compares the runs with
 //! and without dither from the same state and phase. Keeping the mean makes E > 1; keeping
 //! the start-up under a rectangular window puts a floor of about 0.3 under E.
+//!
+//! Everything is measured while integrating ([`compare_many`]), alone or for many cases side by
+//! side, with the same bits; only [`respond`] keeps the samples too, for spectra and pictures.
 
 mod cost;
 mod effective;
+mod isocline;
+mod listener;
+mod measure;
 mod record;
 
 use std::fmt;
 
-use quell_model::{Belt, Direction};
+use quell_model::Belt;
 pub use quell_numerics::spectrum::{Peak, Spectrum};
 
-use crate::simulation::{DEFAULT_TOLERANCE, Stalled, Start};
+use crate::simulation::{DEFAULT_TOLERANCE, Sampler, Stalled, Start};
 pub use effective::{WindowMean, measured_effective_friction};
+pub use isocline::amplitude_at_efficiency;
+use listener::Sampling;
+pub use measure::{Case, Compared, Measured, Wanted, compare_many, measure_many};
 pub use record::Record;
 
 /// Upper end of the band in which M is taken, in ω₀ (2.27).
@@ -112,42 +121,36 @@ pub struct Response {
 /// # Errors
 /// [`Stalled`] if a run stops.
 pub fn respond(belt: &Belt, start: Start, solver: &Solver) -> Result<Response, Stalled> {
-    let (record, meter) = record::take(belt, start, solver)?;
-    let undithered = belt.undithered();
-    let (undithered_record, _) = record::take_like(&undithered, start, solver, &record)?;
-    let reference = undithered_record.amplitude();
-    let has_dither = belt.total_amplitude(Direction::Tangential) > 0.0;
-    let only_normal = !has_dither && belt.total_amplitude(Direction::Normal) > 0.0;
-    let efficiency = match why_undefined(&undithered_record) {
-        Some(why) => Err(why),
-        None => Ok(record.amplitude() / reference),
+    let one = |belt: &Belt, wanted, like: Option<&Record>| {
+        let case = Case { belt: belt.clone(), start };
+        // The undithered run is sampled as the dithered one, to be shown beside it.
+        let sampler = |_: &Case, sampling: &Sampling| match like {
+            Some(like) => Sampler::new(sampling.from, like.step, like.samples.len()),
+            None => Sampler::new(sampling.from, sampling.step, sampling.count),
+        };
+        let outcome = measure::record_many(&[case], solver, wanted, sampler).pop();
+        let (measured, sampler) = outcome.unwrap_or(Err(Stalled::NEVER_STARTED))?;
+        let step = sampler.step();
+        Ok((measured, Record::of(sampler.samples, step)))
     };
+    let (dithered, record) = one(belt, Wanted { dither_cost: true }, None)?;
+    let (undithered, undithered_record) =
+        one(&belt.undithered(), Wanted::default(), Some(&record))?;
+    let compared = Compared { dithered, undithered };
     Ok(Response {
-        amplitude: record.amplitude(),
+        amplitude: dithered.lines.whole,
         peaks: record.spectrum.peaks(PEAK_FLOOR),
-        stick_fraction: meter.stick_fraction(),
-        efficiency,
-        undithered_amplitude: reference,
-        settled: record.is_settled(reference),
-        undithered_settled: undithered_record.is_settled(reference),
-        mean_friction: meter.mean_friction(),
+        stick_fraction: dithered.stick_fraction,
+        efficiency: compared.efficiency(),
+        undithered_amplitude: undithered.lines.whole,
+        settled: compared.settled(),
+        undithered_settled: compared.undithered_settled(),
+        mean_friction: dithered.mean_friction,
         mean_friction_undithered: belt.steady_sliding(),
-        dither_power: (!only_normal).then(|| meter.dither_power()),
-        dither_stroke: (!only_normal).then(|| cost::stroke(belt, &record)),
-        minimum_normal_load: cost::minimum_normal_load(belt, record.first_time(), record.length()),
+        dither_power: dithered.dither_power,
+        dither_stroke: dithered.dither_stroke,
+        minimum_normal_load: dithered.minimum_normal_load,
         record,
         undithered_record,
     })
-}
-
-/// Whether the undithered record shows no vibration to compare with: no stick, no reversal,
-/// and an amplitude that is nothing or still falls.
-fn why_undefined(record: &Record) -> Option<Undefined> {
-    let (first, second) = record.half_amplitudes();
-    if first == 0.0 && second == 0.0 {
-        return Some(Undefined::UnditheredAtRest);
-    }
-    let falls = second < (1.0 - HALVES_AGREE) * first;
-    let nothing = second < 1e-9 * record.load;
-    (record.events == 0 && (falls || nothing)).then_some(Undefined::UnditheredSettles)
 }

@@ -3,6 +3,8 @@
 //! A long run adds many short steps; the low part keeps what each addition rounds off, so
 //! that phases and event times do not drift (a plain sum is off by 10⁻¹¹ at τ = 10⁵).
 
+use quell_numerics::lane::Lane;
+
 /// A moment τ = `time` + `low`, with |`low`| at most half a unit in the last place of `time`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clock {
@@ -23,6 +25,12 @@ impl Clock {
         self.time
     }
 
+    /// The moment `time` + `low`, as another clock gave them.
+    #[inline(always)]
+    pub(super) fn of(time: f64, low: f64) -> Self {
+        Self { time, low }
+    }
+
     /// What the nearest double leaves out.
     #[inline(always)]
     pub fn low(self) -> f64 {
@@ -33,18 +41,31 @@ impl Clock {
     #[inline(always)]
     #[must_use]
     pub fn after(self, step: f64) -> Self {
-        let sum = self.time + step;
-        let back = sum - self.time;
-        let rest = (self.time - (sum - back)) + (step - back) + self.low;
-        let time = sum + rest;
-        Self { time, low: rest - (time - sum) }
+        let (time, low) = after(self.time, self.low, step);
+        Self { time, low }
     }
 
     /// How long until `target`; negative if it has passed.
     #[inline(always)]
     pub fn until(self, target: f64) -> f64 {
-        (target - self.time) - self.low
+        until(self.time, self.low, target)
     }
+}
+
+/// [`Clock::after`] in every lane: the sum is rounded once, what it rounds off goes to the low part.
+#[inline(always)]
+pub(super) fn after<V: Lane>(time: V, low: V, step: V) -> (V, V) {
+    let sum = time + step;
+    let back = sum - time;
+    let rest = (time - (sum - back)) + (step - back) + low;
+    let later = sum + rest;
+    (later, rest - (later - sum))
+}
+
+/// [`Clock::until`] in every lane.
+#[inline(always)]
+pub(super) fn until<V: Lane>(time: V, low: V, target: V) -> V {
+    (target - time) - low
 }
 
 #[cfg(test)]

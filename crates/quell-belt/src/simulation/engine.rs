@@ -1,4 +1,7 @@
-//! The loop of a run: slip steps, stick stretches, and what is decided at v_r = 0.
+//! One run: what happens between its slip steps, and what is decided at v_r = 0.
+//!
+//! The slip steps themselves are taken by [`super::lanes`], for one run or for many side by
+//! side; an [`Engine`] says from where and how far, and takes the end of the step back.
 //!
 //! Progress is guaranteed: every turn of the loop advances time, or changes the contact at
 //! the same moment, and after [`PATIENCE`] changes without advance the bond is held for
@@ -7,17 +10,17 @@
 
 use quell_model::friction::SlidingLaw;
 use quell_model::{Belt, Direction};
+use quell_numerics::dispatch::{InstructionSet, Work, with_scalar_of};
 use quell_numerics::lane::horner;
-use quell_numerics::polynomial::{first_crossing_after, step_length};
+use quell_numerics::polynomial::first_crossing_after;
 
 use super::clock::Clock;
 use super::event::EventKind;
 use super::forcing::{Forcing, Series};
 use super::observer::{Observer, Segment};
-use super::slip::{Load, SlipEquation, SlipStart};
 use super::stick::{Bond, Search};
 use super::transitions::{Contact, PATIENCE};
-use super::{FinalState, ORDER, Stalled, Start};
+use super::{FinalState, ORDER, Run, Stalled};
 
 /// Time for which a bond is held after a touch, in units of 1/max(1, R).
 const HOLD: f64 = 1e-8;
@@ -25,9 +28,10 @@ const HOLD: f64 = 1e-8;
 /// Sure stick shorter than this is left to the search.
 const WORTH_SKIPPING: f64 = 1e-3;
 
-pub(super) struct Engine<'a, L> {
-    pub(super) law: L,
-    pub(super) equation: SlipEquation<f64>,
+/// State of one run. Lengths are in units of the law's velocity scale.
+pub(super) struct Engine<'a> {
+    /// 2ζ.
+    pub(super) damping: f64,
     pub(super) bond: Bond,
     pub(super) tangential: Forcing,
     pub(super) normal: Forcing,
@@ -52,30 +56,96 @@ pub(super) struct Engine<'a, L> {
     pub(super) steps: u64,
     pub(super) near_tangential_releases: u64,
     pub(super) observer: &'a mut dyn Observer,
+    /// Whether the observer sees segments.
+    pub(super) watched: bool,
 }
 
-impl<'a, L: SlidingLaw> Engine<'a, L> {
+/// A slip step that is to be taken.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SlipDue {
+    /// Branch of the law.
+    pub(super) sign: f64,
+    /// Multiplicity of the zero of v_r at the start.
+    pub(super) zeros: usize,
+    /// The next moment that the step may not pass.
+    pub(super) stop: f64,
+}
+
+/// What a run does next.
+pub(super) enum Next {
+    /// A slip step.
+    Slip(SlipDue),
+    /// Nothing: it is over.
+    Over(Result<FinalState, Stalled>),
+}
+
+/// A slip step as the kernel took it.
+pub(super) struct SlipTaken<'s> {
+    /// Length of the step if v_r has no root inside.
+    pub(super) length: f64,
+    /// First root of v_r inside, divided by the known ones at the start.
+    pub(super) root: Root,
+    /// y and w at the end of the step, y at the root where one was found.
+    pub(super) end: (f64, f64),
+    /// Coefficients of y.
+    pub(super) displacement: Column<'s>,
+    /// Coefficients of w.
+    pub(super) slip: Column<'s>,
+}
+
+/// The first root of v_r on a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Root {
+    /// Proven absent.
+    None,
+    /// After this long.
+    At(f64),
+    /// Left to the scalar search.
+    Unsure,
+}
+
+/// Coefficients of one lane among those of its neighbours.
+#[derive(Clone, Copy)]
+pub(super) struct Column<'s> {
+    /// Coefficient by coefficient, the lanes side by side.
+    pub(super) rows: &'s [f64],
+    /// Number of lanes.
+    pub(super) lanes: usize,
+    /// Which.
+    pub(super) lane: usize,
+}
+
+impl Column<'_> {
+    /// Coefficient k.
     #[inline(always)]
-    pub(super) fn new(
-        belt: &Belt,
-        law: L,
-        start: Start,
-        until: f64,
-        tolerance: f64,
-        observer: &'a mut dyn Observer,
-    ) -> Self {
+    pub(super) fn coefficient(&self, k: usize) -> f64 {
+        self.rows[k * self.lanes + self.lane]
+    }
+
+    /// The coefficients alone.
+    #[inline(always)]
+    fn gathered(&self) -> Series {
+        let mut series = [0.0; ORDER + 1];
+        for (k, coefficient) in series.iter_mut().enumerate() {
+            *coefficient = self.coefficient(k);
+        }
+        series
+    }
+}
+
+impl<'a> Engine<'a> {
+    pub(super) fn new<L: SlidingLaw>(run: Run<'a>, law: &L, tolerance: f64) -> Self {
+        let Run { belt, start, until, observer } = run;
         let unit = law.velocity_scale();
         let clock = Clock::at(start.time);
         let load = belt.normal_load() / unit;
         let belt_velocity = belt.belt_velocity() / unit;
         let damping = 2.0 * belt.damping_ratio();
         let slip = (belt.belt_velocity() - start.velocity) / unit;
-        let forcing = |direction, mean| Forcing::new(belt.dithers(), direction, mean, unit, clock);
-        let tangential = forcing(Direction::Tangential, 0.0);
-        let normal = forcing(Direction::Normal, load);
+        let (tangential, normal) = forcings(belt, unit, clock);
         let fastest = tangential.highest_rate().max(normal.highest_rate()).max(1.0);
-        Self {
-            equation: SlipEquation { damping, belt_velocity },
+        let mut engine = Self {
+            damping,
             bond: Bond {
                 damper: damping * belt_velocity,
                 belt_velocity,
@@ -98,35 +168,53 @@ impl<'a, L: SlidingLaw> Engine<'a, L> {
             events: 0,
             steps: 0,
             near_tangential_releases: 0,
-            law,
+            watched: observer.watches(),
             observer,
+        };
+        if slip == 0.0 {
+            engine.contact = engine.decided();
         }
+        engine
+    }
+
+    /// Goes on through stick until a slip step is due or the run is over.
+    ///
+    /// This and [`Engine::take`] are compiled once per scalar instruction set and called, not
+    /// once more into the loop of every law and lane type.
+    pub(super) fn next(&mut self, set: InstructionSet) -> Next {
+        with_scalar_of(set, GoOn(self))
     }
 
     #[inline(always)]
-    pub(super) fn run(mut self) -> Result<FinalState, Stalled> {
-        if self.slip == 0.0 {
-            self.contact = self.decided();
-        }
+    fn go_on(&mut self) -> Next {
         while self.clock.until(self.until) > 0.0 {
-            let before = self.clock;
             match self.contact {
-                Contact::Slip { sign, zeros } => self.slip_step(sign, zeros),
-                Contact::Stick { held } => self.stick_stretch(held),
-            }
-            if self.clock == before {
-                self.idle += 1;
-            } else {
-                self.idle = 0;
-            }
-            if self.idle > 4 * PATIENCE {
-                return Err(self.stalled("no step advanced time"));
-            }
-            if !(self.displacement.is_finite() && self.slip.is_finite()) {
-                return Err(self.stalled("the state left the finite numbers"));
+                Contact::Slip { sign, zeros } => {
+                    return Next::Slip(SlipDue { sign, zeros, stop: self.next_stop() });
+                }
+                Contact::Stick { held } => {
+                    let before = self.clock;
+                    self.stick_stretch(held);
+                    if let Err(stalled) = self.check_progress(before) {
+                        return Next::Over(Err(stalled));
+                    }
+                }
             }
         }
-        Ok(self.final_state())
+        Next::Over(Ok(self.final_state()))
+    }
+
+    /// Counts turns without advance.
+    #[inline(always)]
+    fn check_progress(&mut self, before: Clock) -> Result<(), Stalled> {
+        self.idle = if self.clock == before { self.idle + 1 } else { 0 };
+        if self.idle > 4 * PATIENCE {
+            return Err(self.stalled("no step advanced time"));
+        }
+        if !(self.displacement.is_finite() && self.slip.is_finite()) {
+            return Err(self.stalled("the state left the finite numbers"));
+        }
+        Ok(())
     }
 
     fn stalled(&self, why: &'static str) -> Stalled {
@@ -162,77 +250,76 @@ impl<'a, L: SlidingLaw> Engine<'a, L> {
         self.at_break = true;
     }
 
-    /// One Taylor step of slip, cut at the first root of v_r and at the next stop.
+    /// Slip steps were taken without it: no root, no stop, nobody watching. The last of them ended
+    /// at `clock` with y and w as in `state`.
     #[inline(always)]
-    fn slip_step(&mut self, sign: f64, zeros: usize) {
-        let stop = self.next_stop();
+    pub(super) fn catch_up(&mut self, steps: u64, clock: Clock, state: (f64, f64), sign: f64) {
+        if steps > 0 {
+            self.steps += steps;
+            self.idle = 0;
+            self.clock = clock;
+            (self.displacement, self.slip) = state;
+            self.contact = Contact::Slip { sign, zeros: 0 };
+        }
+    }
+
+    /// Takes a slip step back from the kernel and goes on as [`Engine::next`].
+    pub(super) fn take(
+        &mut self,
+        set: InstructionSet,
+        due: SlipDue,
+        taken: &SlipTaken<'_>,
+    ) -> Next {
+        with_scalar_of(set, Take { engine: self, due, taken })
+    }
+
+    /// A slip step back from the kernel, cut at the first root of v_r.
+    ///
+    /// # Errors
+    /// [`Stalled`] where time does not advance or the state is not finite.
+    #[inline(always)]
+    fn take_back(&mut self, due: SlipDue, taken: &SlipTaken<'_>) -> Result<(), Stalled> {
+        let before = self.clock;
+        let SlipDue { sign, zeros, stop } = due;
         let room = self.clock.until(stop);
-        let dither = self.tangential.series(self.clock);
-        let start = SlipStart {
-            sign,
-            displacement: self.displacement,
-            slip: self.slip,
-            first_slope: if zeros == 2 { 0.0 } else { 1.0 },
-        };
-        let load_series;
-        let load = if self.normal.is_constant() {
-            Load::Steady(self.normal.mean())
-        } else {
-            load_series = self.normal.series(self.clock);
-            Load::Series(&load_series)
-        };
-        let series = self.equation.series(&self.law, start, &dither, load);
-        let w = &series.slip;
-        let length = self.slip_length(w, room);
-        if zeros > 0 && w[zeros] * sign <= 0.0 {
-            // The zero is of higher order than its cause allows: rounding at a touch. The slip
-            // that was announced has no length.
+        if zeros > 0 && taken.slip.coefficient(zeros) * sign <= 0.0 {
+            // The zero is of higher order than its cause allows: rounding at a touch. The
+            // slip that was announced has no length.
             self.contact = Contact::Stick { held: true };
             self.report(EventKind::Stick);
-            return;
+            return self.check_progress(before);
         }
-        let root = first_crossing_after(w, zeros, length);
-        let duration = root.unwrap_or(length);
+        let (root, displacement) = match taken.root {
+            Root::None => (None, taken.end.0),
+            Root::At(root) => (Some(root), taken.end.0),
+            Root::Unsure => {
+                let root = first_crossing_after(&taken.slip.gathered(), zeros, taken.length);
+                let end = root.map(|root| horner(&taken.displacement.gathered(), root));
+                (root, end.unwrap_or(taken.end.0))
+            }
+        };
+        let duration = root.unwrap_or(taken.length);
         let reaches_stop = duration >= room || self.clock.after(duration).time() == stop;
         self.steps += 1;
-        self.observer.segment(&Segment {
-            clock: self.clock,
-            duration,
-            slip_sign: if sign > 0.0 { 1 } else { -1 },
-            unit: self.unit,
-            belt_velocity: self.belt_velocity,
-            displacement: &series.displacement,
-            slip: w,
-        });
-        self.displacement = horner(&series.displacement, duration);
-        self.slip = if root.is_some() { 0.0 } else { horner(w, duration) };
+        if self.watched {
+            self.observer.segment(&Segment {
+                clock: self.clock,
+                duration,
+                slip_sign: if sign > 0.0 { 1 } else { -1 },
+                unit: self.unit,
+                belt_velocity: self.belt_velocity,
+                displacement: &taken.displacement.gathered(),
+                slip: &taken.slip.gathered(),
+            });
+        }
+        self.displacement = displacement;
+        self.slip = if root.is_some() { 0.0 } else { taken.end.1 };
         self.contact = Contact::Slip { sign, zeros: 0 };
         self.advance(duration, reaches_stop, stop);
         if root.is_some() {
             self.arrive(sign);
         }
-    }
-
-    /// Length of a slip step: the last two retained terms within the tolerance, and no rate
-    /// of the problem so far that they could be small by chance.
-    #[inline(always)]
-    fn slip_length(&self, w: &Series, room: f64) -> f64 {
-        let mut length = step_length(self.tolerance, w[ORDER], w[ORDER - 1], ORDER)
-            .min(self.longest_step)
-            .min(room);
-        let allowed = self.law.longest_change(ORDER);
-        if allowed < f64::INFINITY {
-            let mut change = 0.0;
-            for k in (1..=ORDER).rev() {
-                change = f64::mul_add(change, length, w[k].abs());
-            }
-            change *= length;
-            if change > allowed {
-                // Every term shrinks at least as the step does.
-                length *= allowed / change;
-            }
-        }
-        length
+        self.check_progress(before)
     }
 
     /// Moves the clock, exactly onto the stop where that is reached.
@@ -293,16 +380,57 @@ impl<'a, L: SlidingLaw> Engine<'a, L> {
         }
         let reaches_stop = duration >= room || self.clock.after(duration).time() == stop;
         self.steps += 1;
-        self.observer.segment(&Segment {
-            clock: self.clock,
-            duration,
-            slip_sign: 0,
-            unit: self.unit,
-            belt_velocity: self.belt_velocity,
-            displacement: &[self.displacement, self.equation.belt_velocity],
-            slip: &[0.0],
-        });
+        if self.watched {
+            self.observer.segment(&Segment {
+                clock: self.clock,
+                duration,
+                slip_sign: 0,
+                unit: self.unit,
+                belt_velocity: self.belt_velocity,
+                displacement: &[self.displacement, self.bond.belt_velocity],
+                slip: &[0.0],
+            });
+        }
         self.displacement = f64::mul_add(self.bond.belt_velocity, duration, self.displacement);
         self.advance(duration, reaches_stop, stop);
     }
+}
+
+/// [`Engine::next`] as work.
+struct GoOn<'e, 'a>(&'e mut Engine<'a>);
+
+impl Work for GoOn<'_, '_> {
+    type Output = Next;
+
+    #[inline(always)]
+    fn run(self) -> Next {
+        self.0.go_on()
+    }
+}
+
+/// [`Engine::take`] as work.
+struct Take<'e, 'a, 's> {
+    engine: &'e mut Engine<'a>,
+    due: SlipDue,
+    taken: &'e SlipTaken<'s>,
+}
+
+impl Work for Take<'_, '_, '_> {
+    type Output = Next;
+
+    #[inline(always)]
+    fn run(self) -> Next {
+        match self.engine.take_back(self.due, self.taken) {
+            Ok(()) => self.engine.go_on(),
+            Err(stalled) => Next::Over(Err(stalled)),
+        }
+    }
+}
+
+/// The dithers of a belt in units of `unit`, tangential and normal, at the moment `clock`.
+#[inline(always)]
+fn forcings(belt: &Belt, unit: f64, clock: Clock) -> (Forcing, Forcing) {
+    let load = belt.normal_load() / unit;
+    let forcing = |direction, mean| Forcing::new(belt.dithers(), direction, mean, unit, clock);
+    (forcing(Direction::Tangential, 0.0), forcing(Direction::Normal, load))
 }

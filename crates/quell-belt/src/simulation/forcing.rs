@@ -10,12 +10,49 @@ use std::f64::consts::TAU;
 use quell_model::waveform::Piece;
 use quell_model::{Direction, Dither, Waveform};
 use quell_numerics::elementary::sin_cos_of_phase;
+use quell_numerics::lane::Lane;
 
 use super::ORDER;
-use super::clock::Clock;
+use super::clock::{Clock, until};
 
 /// Coefficients of a Taylor series of the engine's order.
 pub(super) type Series = [f64; ORDER + 1];
+
+/// What the series of a forcing is made of, which lanes side by side must share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Shape {
+    /// No dither.
+    Constant,
+    /// One dither, a sine throughout.
+    Harmonic,
+    /// One dither, straight between its breaks.
+    Straight,
+    /// Anything else.
+    Several,
+}
+
+impl Shape {
+    /// Shape of the dithers of one direction.
+    pub(super) fn of(dithers: &[Dither], direction: Direction) -> Self {
+        let mut acting = dithers.iter().filter(|dither| acts(dither, direction));
+        let (Some(only), None) = (acting.next(), acting.next()) else {
+            let none = !dithers.iter().any(|dither| acts(dither, direction));
+            return if none { Self::Constant } else { Self::Several };
+        };
+        if only.waveform.breaks().is_empty() {
+            Self::Harmonic
+        } else if only.waveform.pieces().iter().any(|piece| matches!(piece, Piece::Harmonic)) {
+            Self::Several
+        } else {
+            Self::Straight
+        }
+    }
+}
+
+/// Whether a dither does anything in a direction.
+fn acts(dither: &Dither, direction: Direction) -> bool {
+    dither.direction == direction && dither.amplitude > 0.0
+}
 
 /// All dithers of one direction, in units of the law's velocity scale.
 #[derive(Clone, Debug)]
@@ -26,6 +63,25 @@ pub(super) struct Forcing {
     /// Σ|D|, a bound of the dither part.
     amplitude: f64,
     next_break: f64,
+}
+
+/// A straight piece of a dither, in one lane or in many.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Line<V = f64> {
+    /// When it began.
+    pub(super) began: V,
+    /// Value there.
+    pub(super) value: V,
+    /// Change per unit of time.
+    pub(super) slope: V,
+}
+
+impl<V: Lane> Line<V> {
+    /// Value at the moment `time` + `low`.
+    #[inline(always)]
+    pub(super) fn at(&self, time: V, low: V) -> V {
+        self.slope.mul_add(-until(time, low, self.began), self.value)
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -53,7 +109,7 @@ impl Forcing {
     ) -> Self {
         let components: Vec<_> = dithers
             .iter()
-            .filter(|dither| dither.direction == direction && dither.amplitude > 0.0)
+            .filter(|dither| acts(dither, direction))
             .map(|dither| Component::new(dither, unit, clock))
             .collect();
         let mut forcing = Self {
@@ -64,6 +120,21 @@ impl Forcing {
         };
         forcing.pass_breaks(clock);
         forcing
+    }
+
+    /// Rate, phase and D Rᵏ/k! of the first dither; zeros without one.
+    pub(super) fn wave(&self) -> (f64, f64, Series) {
+        match self.components.first() {
+            Some(component) => (component.rate, component.phase, component.table),
+            None => (0.0, 0.0, [0.0; ORDER + 1]),
+        }
+    }
+
+    /// The first dither's straight piece: when it began, its value there and its slope, without the
+    /// constant part.
+    #[inline(always)]
+    pub(super) fn line(&self) -> Line {
+        self.components.first().and_then(Component::line).unwrap_or_default()
     }
 
     /// Whether there is no dither in this direction.
@@ -205,14 +276,14 @@ impl Component {
         (cycle.mul_add(TAU, phase) - self.phase) / self.rate
     }
 
-    /// Value and slope (per unit time) of a straight piece at `clock`, or `None` if harmonic.
+    /// The current straight piece, or `None` if harmonic.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_possible_wrap,
         reason = "a remainder by the number of pieces, which are few"
     )]
     #[inline(always)]
-    fn straight(&self, clock: Clock) -> Option<(f64, f64)> {
+    fn line(&self) -> Option<Line> {
         if self.ends == f64::INFINITY {
             return None;
         }
@@ -220,12 +291,19 @@ impl Component {
         let index = (self.ending - 1).rem_euclid(pieces.len() as i64) as usize;
         match pieces[index] {
             Piece::Harmonic => None,
-            Piece::Affine { value, slope } => {
-                let slope = self.table[0] * slope * self.rate;
-                let since = -clock.until(self.began);
-                Some((slope.mul_add(since, self.table[0] * value), slope))
-            }
+            Piece::Affine { value, slope } => Some(Line {
+                began: self.began,
+                value: self.table[0] * value,
+                slope: self.table[0] * slope * self.rate,
+            }),
         }
+    }
+
+    /// Value and slope (per unit time) of a straight piece at `clock`, or `None` if harmonic.
+    #[inline(always)]
+    fn straight(&self, clock: Clock) -> Option<(f64, f64)> {
+        let line = self.line()?;
+        Some((line.at(clock.time(), clock.low()), line.slope))
     }
 
     #[inline(always)]

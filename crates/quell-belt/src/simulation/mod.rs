@@ -21,6 +21,7 @@ mod clock;
 mod engine;
 mod event;
 mod forcing;
+mod lanes;
 mod observer;
 mod slip;
 mod stick;
@@ -29,8 +30,7 @@ mod transitions;
 use std::fmt;
 
 use quell_model::Belt;
-use quell_model::friction::{LawVisitor, SlidingLaw};
-use quell_numerics::dispatch::{Work, with_fused_multiply_add};
+pub use quell_numerics::dispatch::InstructionSet;
 
 pub use clock::Clock;
 pub use event::{Event, EventKind};
@@ -97,6 +97,11 @@ pub struct Stalled {
     pub why: &'static str,
 }
 
+impl Stalled {
+    /// What is known of a run before it is run.
+    pub(crate) const NEVER_STARTED: Self = Self { time: 0.0, why: "it was never started" };
+}
+
 impl fmt::Display for Stalled {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "the integration stopped at τ = {}: {}", self.time, self.why)
@@ -105,12 +110,23 @@ impl fmt::Display for Stalled {
 
 impl std::error::Error for Stalled {}
 
+/// One run: a belt from a state to a time, and who watches.
+pub struct Run<'a> {
+    /// The belt.
+    pub belt: &'a Belt,
+    /// Where it starts. A start with x′ = v₀ is decided by f_s alone and gives no event.
+    pub start: Start,
+    /// τ at which it ends.
+    pub until: f64,
+    /// Sees every segment and event.
+    pub observer: &'a mut dyn Observer,
+}
+
 /// Integrates `belt` from `start` to τ = `until`, showing every segment and event to `observer`.
 ///
 /// `tolerance` bounds the last two retained Taylor terms of a step relative to F
-/// ([`DEFAULT_TOLERANCE`]). Nothing is allocated per step. The engine is compiled once per law and
-/// instruction set, whatever watches: an observer costs one indirect call a segment. A start with x′ = v₀ is decided by
-/// f_s alone and gives no event.
+/// ([`DEFAULT_TOLERANCE`]). Nothing is allocated per step. The engine is compiled once per law
+/// and instruction set, whatever watches: an observer costs one indirect call a segment.
 ///
 /// # Errors
 /// [`Stalled`] if a state leaves the finite numbers or no step advances time.
@@ -121,40 +137,27 @@ pub fn simulate(
     tolerance: f64,
     observer: &mut dyn Observer,
 ) -> Result<FinalState, Stalled> {
-    belt.friction().visit(Run { belt, start, until, tolerance, observer })
+    let run = Run { belt, start, until, observer };
+    let outcomes = simulate_many_with(InstructionSet::Fma, vec![run], tolerance);
+    outcomes.into_iter().next().unwrap_or(Err(Stalled::NEVER_STARTED))
 }
 
-/// One run, before the law is known.
-struct Run<'a> {
-    belt: &'a Belt,
-    start: Start,
-    until: f64,
+/// Integrates many runs side by side in the lanes of the machine's widest instruction set.
+///
+/// Each lane has its own time, step, phase and events; a lane that has finished takes the next
+/// run. Every run has the same bits as in [`simulate`], beside whatever neighbours and on any
+/// instruction set. Outcomes are in the order of the runs.
+pub fn simulate_many(runs: Vec<Run<'_>>, tolerance: f64) -> Vec<Result<FinalState, Stalled>> {
+    simulate_many_with(InstructionSet::widest(), runs, tolerance)
+}
+
+/// [`simulate_many`] with a given instruction set (or the widest there is, where it is missing).
+pub fn simulate_many_with(
+    set: InstructionSet,
+    runs: Vec<Run<'_>>,
     tolerance: f64,
-    observer: &'a mut dyn Observer,
-}
-
-/// One run with its law.
-struct RunOf<'a, L> {
-    run: Run<'a>,
-    law: L,
-}
-
-impl LawVisitor for Run<'_> {
-    type Output = Result<FinalState, Stalled>;
-
-    fn visit<L: SlidingLaw>(self, law: &L) -> Self::Output {
-        with_fused_multiply_add(RunOf { run: self, law: *law })
-    }
-}
-
-impl<L: SlidingLaw> Work for RunOf<'_, L> {
-    type Output = Result<FinalState, Stalled>;
-
-    #[inline(always)]
-    fn run(self) -> Self::Output {
-        let Run { belt, start, until, tolerance, observer } = self.run;
-        engine::Engine::new(belt, self.law, start, until, tolerance, observer).run()
-    }
+) -> Vec<Result<FinalState, Stalled>> {
+    lanes::side_by_side(set, runs, tolerance)
 }
 
 #[cfg(test)]
@@ -162,17 +165,6 @@ mod tests {
     use quell_model::{Direction, Dither, LawKind, Waveform};
 
     use super::*;
-
-    /// A run in the baseline copy of the engine.
-    struct Baseline<'a>(Run<'a>);
-
-    impl LawVisitor for Baseline<'_> {
-        type Output = Result<FinalState, Stalled>;
-
-        fn visit<L: SlidingLaw>(self, law: &L) -> Self::Output {
-            RunOf { run: self.0, law: *law }.run()
-        }
-    }
 
     #[test]
     fn machines_without_fused_multiply_add_give_the_same_bits() {
@@ -193,15 +185,10 @@ mod tests {
             let mut fast = EventRecorder::default();
             let ahead = simulate(&belt, Start::REST, 300.0, DEFAULT_TOLERANCE, &mut fast);
             let mut slow = EventRecorder::default();
-            let behind = belt.friction().visit(Baseline(Run {
-                belt: &belt,
-                start: Start::REST,
-                until: 300.0,
-                tolerance: DEFAULT_TOLERANCE,
-                observer: &mut slow,
-            }));
+            let run = Run { belt: &belt, start: Start::REST, until: 300.0, observer: &mut slow };
+            let behind = simulate_many_with(InstructionSet::Baseline, vec![run], DEFAULT_TOLERANCE);
             assert!(fast.events.len() > 100);
-            assert_eq!(ahead, behind, "{}", law.name());
+            assert_eq!(vec![ahead], behind, "{}", law.name());
             assert_eq!(fast.events, slow.events, "{}", law.name());
         }
     }

@@ -6,6 +6,7 @@ use quell_numerics::polynomial::first_crossing;
 
 use super::clock::Clock;
 use super::event::Event;
+use super::slip::INVERSE;
 
 /// One smooth piece of a trajectory: a Taylor step of slip, or a stretch of stick.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +46,22 @@ impl Segment<'_> {
         self.unit * value_of(self.displacement, since)
     }
 
+    /// [`Segment::displacement`] at N moments, side by side: for observers that are compiled with
+    /// the machine's best instructions themselves.
+    #[inline(always)]
+    pub(crate) fn displacements_at<const N: usize>(&self, since: &[f64; N]) -> [f64; N] {
+        let mut values = [0.0_f64; N];
+        for &coefficient in self.displacement.iter().rev() {
+            for moment in 0..N {
+                values[moment] = values[moment].mul_add(since[moment], coefficient);
+            }
+        }
+        for value in &mut values {
+            *value *= self.unit;
+        }
+        values
+    }
+
     /// Slip velocity v_r = v₀ − x′ at `since` after its start.
     pub fn slip_velocity(&self, since: f64) -> f64 {
         self.unit * value_of(self.slip, since)
@@ -55,11 +72,12 @@ impl Segment<'_> {
         self.belt_velocity - self.slip_velocity(since)
     }
 
-    /// ∫x dτ over the whole segment.
-    pub fn displacement_integral(&self) -> f64 {
+    /// ∫x dτ over the whole segment, for observers as in [`Segment::displacements_at`].
+    #[inline(always)]
+    pub(crate) fn displacement_integral(&self) -> f64 {
         let mut sum = 0.0;
-        for (k, &coefficient) in self.displacement.iter().enumerate().rev() {
-            sum = f64::mul_add(sum, self.duration, coefficient / (k + 1) as f64);
+        for (&coefficient, inverse) in self.displacement.iter().zip(&INVERSE[1..]).rev() {
+            sum = f64::mul_add(sum, self.duration, coefficient * inverse);
         }
         self.unit * sum * self.duration
     }
@@ -96,9 +114,18 @@ pub trait Observer {
     fn event(&mut self, event: &Event) {
         let _ = event;
     }
+
+    /// Whether [`Observer::segment`] wants to be called. Asked once, when a run begins.
+    fn watches(&self) -> bool {
+        true
+    }
 }
 
-impl Observer for () {}
+impl Observer for () {
+    fn watches(&self) -> bool {
+        false
+    }
+}
 
 impl<A: Observer, B: Observer> Observer for (A, B) {
     fn segment(&mut self, segment: &Segment<'_>) {
@@ -110,6 +137,10 @@ impl<A: Observer, B: Observer> Observer for (A, B) {
         self.0.event(event);
         self.1.event(event);
     }
+
+    fn watches(&self) -> bool {
+        self.0.watches() || self.1.watches()
+    }
 }
 
 impl<A: Observer> Observer for &mut A {
@@ -119,6 +150,10 @@ impl<A: Observer> Observer for &mut A {
 
     fn event(&mut self, event: &Event) {
         (**self).event(event);
+    }
+
+    fn watches(&self) -> bool {
+        (**self).watches()
     }
 }
 
@@ -130,6 +165,10 @@ pub struct EventRecorder {
 }
 
 impl Observer for EventRecorder {
+    fn watches(&self) -> bool {
+        false
+    }
+
     fn event(&mut self, event: &Event) {
         self.events.push(*event);
     }
@@ -163,6 +202,11 @@ impl Sampler {
     /// `count` samples from `first`, `step` apart.
     pub fn new(first: f64, step: f64, count: usize) -> Self {
         Self { first, step, count, samples: Vec::with_capacity(count) }
+    }
+
+    /// Time between two samples.
+    pub fn step(&self) -> f64 {
+        self.step
     }
 
     /// The stroboscopic section Rτ = 2πn − φ of a dither, for the periods inside `from`…`to`.

@@ -11,17 +11,20 @@
 //! that the same code runs one trajectory or several side by side.
 
 use quell_model::friction::{BranchSeries, SlidingLaw};
-use quell_numerics::lane::{Lane, partial_product};
+use quell_numerics::lane::{Lane, horner, partial_product};
+use quell_numerics::polynomial::side_by_side::margin_of_no_root;
+use quell_numerics::polynomial::step_length;
 
 use super::ORDER;
+use super::lanes::Row;
 
 const _: () = assert!(ORDER == 16, "the kernel is unrolled for order 16");
 
-/// 1/k for k = 1…ORDER (entry 0 unused).
-const INVERSE: [f64; ORDER + 1] = {
-    let mut table = [0.0; ORDER + 1];
+/// 1/k for k = 1…ORDER + 1 (entry 0 unused).
+pub(super) const INVERSE: [f64; ORDER + 2] = {
+    let mut table = [0.0; ORDER + 2];
     let mut k = 1;
-    while k <= ORDER {
+    while k < ORDER + 2 {
         table[k] = 1.0 / k as f64;
         k += 1;
     }
@@ -35,6 +38,17 @@ pub(super) struct SlipEquation<V> {
     pub(super) damping: V,
     /// ν = v₀/v_m.
     pub(super) belt_velocity: V,
+}
+
+/// How far a step may go.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StepLimits<V> {
+    /// Tolerance in units of the velocity scale.
+    pub(super) tolerance: V,
+    /// ORDER/2 radians of the fastest oscillation.
+    pub(super) longest: V,
+    /// Time to the next moment that no step may pass.
+    pub(super) room: V,
 }
 
 /// The normal load along a step.
@@ -66,9 +80,36 @@ pub(super) struct SlipSeries<V> {
     pub(super) slip: [V; ORDER + 1],
 }
 
+/// Taylor coefficients of a dither at the start of a step: a table times a phasor, and a line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct DitherSeries<'a, V> {
+    /// D Rᵏ/k! of a harmonic dither, or what replaces it; the lanes side by side.
+    pub(super) table: &'a [Row; ORDER + 1],
+    /// sin, cos, −sin, −cos of the phase.
+    pub(super) turn: [V; 4],
+    /// Value and slope of what is straight.
+    pub(super) line: [V; 2],
+}
+
+impl<V: Lane> DitherSeries<'_, V> {
+    /// Coefficient k.
+    #[inline(always)]
+    pub(super) fn coefficient(&self, k: usize) -> V {
+        let (table, turn) = (self.table[k].load::<V>(), self.turn[k % 4]);
+        if k < 2 { table.mul_add(turn, self.line[k]) } else { table * turn }
+    }
+
+    /// `from` minus coefficient k.
+    #[inline(always)]
+    fn subtracted(&self, k: usize, from: V) -> V {
+        let (table, turn) = (self.table[k].load::<V>(), self.turn[k % 4]);
+        let rest = if k < 2 { from - self.line[k] } else { from };
+        (-table).mul_add(turn, rest)
+    }
+}
+
 impl<V: Lane> SlipEquation<V> {
-    /// Series of y and w to order [`ORDER`] from `start`, under the tangential dither's
-    /// coefficients and the load.
+    /// Series of y and w to order [`ORDER`] from `start`, under the tangential dither and the load.
     #[expect(
         clippy::out_of_bounds_indexing,
         reason = "the last turn of the unrolled loop is empty, K < ORDER is false there"
@@ -76,17 +117,17 @@ impl<V: Lane> SlipEquation<V> {
     #[inline(always)]
     pub(super) fn series<L: SlidingLaw>(
         &self,
-        law: &L,
+        law: &L::Constants<V>,
         start: SlipStart<V>,
-        dither: &[V; ORDER + 1],
+        dither: &DitherSeries<'_, V>,
         load: Load<'_, V>,
-    ) -> SlipSeries<V> {
-        let mut y = [V::splat(0.0); ORDER + 1];
-        let mut w = [V::splat(0.0); ORDER + 1];
+        out: &mut SlipSeries<V>,
+    ) {
+        let SlipSeries { displacement: y, slip: w } = out;
         let mut mu = [V::splat(0.0); ORDER + 1];
         y[0] = start.displacement;
         w[0] = start.slip;
-        let mut branch = law.series::<V, { ORDER + 1 }>(start.sign, start.slip);
+        let mut branch = L::series::<V, { ORDER + 1 }>(law, start.sign, start.slip);
         let slope = branch.slope();
         let load_now = match load {
             Load::Steady(load) => load,
@@ -97,14 +138,14 @@ impl<V: Lane> SlipEquation<V> {
         let velocity = self.belt_velocity - w[0];
         mu[0] = branch.first();
         y[1] = velocity;
-        let elastic = self.damping.mul_add(velocity, y[0] - dither[0]);
+        let elastic = self.damping.mul_add(velocity, dither.subtracted(0, y[0]));
         w[1] = (-load_now).mul_add(mu[0], elastic) * start.first_slope;
         quell_numerics::for_each_order_below_16!(J, {
             const K: usize = J + 1;
             if K < ORDER {
                 let inverse = V::splat(INVERSE[K + 1]);
-                let lower = branch.lower(K, &w);
-                let known = (-load_now).mul_add(lower, y[K] - dither[K]);
+                let lower = branch.lower(K, w);
+                let known = (-load_now).mul_add(lower, dither.subtracted(K, y[K]));
                 let known = match load {
                     Load::Steady(_) => known,
                     Load::Series(load) => {
@@ -117,6 +158,48 @@ impl<V: Lane> SlipEquation<V> {
                 y[K + 1] = -(w[K] * inverse);
             }
         });
-        SlipSeries { displacement: y, slip: w }
+    }
+}
+
+impl<V: Lane> SlipSeries<V> {
+    /// Length of the step: the last two retained terms within the tolerance, and no rate of the
+    /// problem so far that they could be small by chance. `change` is the law's longest change.
+    #[inline(always)]
+    pub(super) fn step(&self, limits: StepLimits<V>, change: f64) -> V {
+        let w = &self.slip;
+        let length = step_length(limits.tolerance, w[ORDER], w[ORDER - 1], ORDER)
+            .min(limits.longest)
+            .min(limits.room);
+        if change == f64::INFINITY {
+            return length;
+        }
+        let mut largest = V::splat(0.0);
+        for k in (1..=ORDER).rev() {
+            largest = largest.mul_add(length, w[k].abs());
+        }
+        // Every term shrinks at least as the step does.
+        let share = (largest * length).map(|it| if it > change { change / it } else { 1.0 });
+        length * share
+    }
+
+    /// Positive where it is proven that v_r has the branch's sign on the whole of a step of this
+    /// length, after a zero of multiplicity `zeros` at its start.
+    #[inline(always)]
+    pub(super) fn margin(&self, zeros: V, length: V) -> V {
+        margin_of_no_root(&self.slip, zeros, length)
+    }
+
+    /// Positive where v_r goes to the branch's side from a zero of multiplicity `zeros`.
+    #[inline(always)]
+    pub(super) fn leaves(&self, sign: V, zeros: V) -> V {
+        let twice = zeros.map(|n| if n == 2.0 { 1.0 } else { 0.0 });
+        let first = (V::splat(1.0) - twice) * (self.slip[0] + zeros * self.slip[1]);
+        twice.mul_add(self.slip[2], first) * sign
+    }
+
+    /// y and w at the end of a step.
+    #[inline(always)]
+    pub(super) fn end(&self, length: V) -> (V, V) {
+        (horner(&self.displacement, length), horner(&self.slip, length))
     }
 }

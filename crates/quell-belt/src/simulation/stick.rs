@@ -3,7 +3,9 @@
 //! The bond force needed is f_s = 2ζv₀ + x − Σ D_T g_T; it holds while |f_s| ≤ μ_s N(τ).
 //! The two margins ±f_s − μ_s N are analytic between breaks of the dither.
 
-use quell_numerics::polynomial::{first_crossing, first_crossing_after, step_length};
+use quell_numerics::polynomial::{
+    derivative, first_crossing, first_crossing_after, step_length, value,
+};
 
 use super::ORDER;
 use super::clock::Clock;
@@ -93,9 +95,12 @@ impl Bond {
         let last = force[ORDER].abs() + limit[ORDER].abs();
         let previous = force[ORDER - 1].abs() + limit[ORDER - 1].abs();
         let length = step_length(tolerance, last, previous, ORDER).min(room);
-        if surely_within(&force, &limit, length) {
+        // |f_s| < μ_s N on all of the stretch, or at least −f_s, by the sizes of the coefficients.
+        let change = largest_change(&force, &limit, length);
+        if force[0].abs() + change < limit[0] {
             return Search::Holds(length);
         }
+        let falls = -force[0] + change >= limit[0];
         let margin = |sign: f64| {
             let mut margin = [0.0; ORDER + 1];
             for k in 0..=ORDER {
@@ -104,7 +109,8 @@ impl Bond {
             margin
         };
         let (rise, fall) = (margin(1.0), margin(-1.0));
-        let (sign, margin, after) = match (break_on(&rise, length), break_on(&fall, length)) {
+        let down = if falls { break_on(&fall, length) } else { None };
+        let (sign, margin, after) = match (break_on(&rise, length), down) {
             (None, None) => return Search::Holds(length),
             (Some(up), None) => (1.0, &rise, up),
             (Some(up), Some(down)) if up <= down => (1.0, &rise, up),
@@ -168,22 +174,18 @@ fn break_on(margin: &Series, length: f64) -> Option<f64> {
     first_crossing(margin, length)
 }
 
-/// Whether |f_s| < μ_s N on all of [0, h], by the sizes of the coefficients alone.
+/// Most by which μ_s N ∓ f_s can fall on [0, h], by the sizes of the coefficients alone.
 #[inline(always)]
-fn surely_within(force: &Series, limit: &Series, h: f64) -> bool {
-    let mut tail = 0.0;
-    for k in (1..=ORDER).rev() {
-        tail = f64::mul_add(tail, h, force[k].abs() + limit[k].abs());
+fn largest_change(force: &Series, limit: &Series, h: f64) -> f64 {
+    let mut sizes = [0.0; ORDER + 1];
+    for k in 1..=ORDER {
+        sizes[k] = force[k].abs() + limit[k].abs();
     }
-    f64::mul_add(tail, h, force[0].abs()) < limit[0]
+    value(&sizes, h)
 }
 
 /// Derivative of Σ cₖtᵏ.
 #[inline(always)]
 fn slope(c: &Series, t: f64) -> f64 {
-    let mut value = 0.0;
-    for k in (1..=ORDER).rev() {
-        value = f64::mul_add(value, t, c[k] * k as f64);
-    }
-    value
+    value(&derivative(c), t)
 }

@@ -1,7 +1,5 @@
 //! Transitions of the contact: what is decided at v_r = 0 and when a bond breaks.
 
-use quell_model::friction::SlidingLaw;
-
 use super::engine::Engine;
 use super::event::{Event, EventKind};
 
@@ -24,7 +22,7 @@ pub(super) enum Contact {
     Slip { sign: f64, zeros: usize },
 }
 
-impl<L: SlidingLaw> Engine<'_, L> {
+impl Engine<'_> {
     #[inline(always)]
     pub(super) fn slip_sign(&self) -> i8 {
         match self.contact {

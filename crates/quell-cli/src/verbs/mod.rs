@@ -3,6 +3,7 @@
 pub(crate) mod check;
 pub(crate) mod cite;
 pub(crate) mod friction;
+pub(crate) mod map;
 pub(crate) mod reproduce;
 pub(crate) mod response;
 pub(crate) mod schema;

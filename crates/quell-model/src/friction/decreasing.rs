@@ -5,7 +5,7 @@
 use quell_numerics::elementary;
 use quell_numerics::lane::{Lane, partial_product};
 
-use super::{BranchSeries, SlidingLaw, checked, minimum_at_most_static};
+use super::{BranchSeries, Friction, SlidingLaw, checked, minimum_at_most_static, side_by_side};
 use crate::Invalid;
 use crate::parameter::{MINIMUM_COEFFICIENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT};
 
@@ -78,25 +78,49 @@ impl SlidingLaw for Decreasing {
     /// Half the order: with c = |Δw| the terms of e^c fall from the c-th on, and from k = 2c on
     /// each is less than half of the one before.
     #[inline(always)]
-    fn longest_change(&self, order: usize) -> f64 {
+    fn longest_change(order: usize) -> f64 {
         0.5 * order as f64
+    }
+
+    type Constants<V: Lane> = DecreasingConstants<V>;
+
+    #[inline(always)]
+    fn constants<V: Lane>(laws: &[Self]) -> DecreasingConstants<V> {
+        DecreasingConstants {
+            minimum: side_by_side(laws, |law| law.minimum_coefficient),
+            excess: side_by_side(laws, |law| law.static_coefficient - law.minimum_coefficient),
+        }
     }
 
     type Series<V: Lane, const N: usize> = DecreasingSeries<V, N>;
 
     #[inline(always)]
-    fn series<V: Lane, const N: usize>(&self, sign: V, w0: V) -> DecreasingSeries<V, N> {
-        let excess = V::splat(self.static_coefficient - self.minimum_coefficient);
+    fn series<V: Lane, const N: usize>(
+        constants: &DecreasingConstants<V>,
+        sign: V,
+        w0: V,
+    ) -> DecreasingSeries<V, N> {
         let mut decay = [V::splat(0.0); N];
-        decay[0] = excess * elementary::exp(-(sign * w0));
+        decay[0] = constants.excess * elementary::exp(-(sign * w0));
         DecreasingSeries {
             sign,
-            minimum: V::splat(self.minimum_coefficient),
+            minimum: constants.minimum,
             decay,
             rate: [V::splat(0.0); N],
             partial: V::splat(0.0),
         }
     }
+
+    fn of(friction: &Friction) -> Option<Self> {
+        if let Friction::Decreasing(law) = friction { Some(*law) } else { None }
+    }
+}
+
+/// μ_m and μ_s − μ_m in each lane.
+#[derive(Clone, Copy, Debug)]
+pub struct DecreasingConstants<V> {
+    minimum: V,
+    excess: V,
 }
 
 /// Recurrence of [`Decreasing`]: the excess e = (μ_s − μ_m) e^{−s w} obeys e′ = −s w′e, so that

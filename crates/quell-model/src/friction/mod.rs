@@ -6,7 +6,7 @@
 //! μ is odd; at v_r = 0 it is set-valued in [−μ_s, μ_s] (the static level is apart from
 //! the sliding branch).
 
-use quell_numerics::lane::Lane;
+use quell_numerics::lane::{Lane, MOST_LANES};
 
 use crate::Invalid;
 use crate::parameter::Parameter;
@@ -14,8 +14,8 @@ use crate::parameter::Parameter;
 mod decreasing;
 mod stribeck;
 
-pub use decreasing::{Decreasing, DecreasingSeries};
-pub use stribeck::{Stribeck, StribeckSeries};
+pub use decreasing::{Decreasing, DecreasingConstants, DecreasingSeries};
+pub use stribeck::{Stribeck, StribeckConstants, StribeckSeries};
 
 /// A friction law in steady sliding, analytic on each side of v_r = 0.
 pub trait SlidingLaw: Copy + Send + Sync + 'static {
@@ -45,16 +45,29 @@ pub trait SlidingLaw: Copy + Send + Sync + 'static {
     /// retained terms bound the remainder. An exponential that grows from almost nothing
     /// shows no last term however far the step goes: its law must say how far it may.
     #[inline(always)]
-    fn longest_change(&self, order: usize) -> f64 {
+    fn longest_change(order: usize) -> f64 {
         let _ = order;
         f64::INFINITY
     }
+
+    /// What the recurrence needs to know of the law in each lane.
+    type Constants<V: Lane>: Copy + Send + Sync;
+
+    /// Constants of laws side by side, one law per lane: [`Lane::LANES`] of them.
+    fn constants<V: Lane>(laws: &[Self]) -> Self::Constants<V>;
 
     /// Taylor recurrence of the sliding branch.
     type Series<V: Lane, const N: usize>: BranchSeries<V>;
 
     /// Starts the recurrence on the branch of `sign` (±1) at scaled slip `w0`.
-    fn series<V: Lane, const N: usize>(&self, sign: V, w0: V) -> Self::Series<V, N>;
+    fn series<V: Lane, const N: usize>(
+        constants: &Self::Constants<V>,
+        sign: V,
+        w0: V,
+    ) -> Self::Series<V, N>;
+
+    /// The concrete law in `friction`, if it is of this kind.
+    fn of(friction: &Friction) -> Option<Self>;
 
     /// Whether the sliding branch starts from the static level, μ(0⁺) = μ_s. A release then
     /// leaves v_r = 0 with zero slope.
@@ -66,14 +79,20 @@ pub trait SlidingLaw: Copy + Send + Sync + 'static {
     /// Sliding coefficient at slip speed |v_r|, ≥ 0.
     #[inline(always)]
     fn coefficient(&self, speed: f64) -> f64 {
-        self.series::<f64, 1>(1.0, speed / self.velocity_scale()).first()
+        self.alone(speed).first()
     }
 
     /// Slope dμ/d|v_r| of the sliding branch at slip speed |v_r|, per unit velocity.
     #[inline(always)]
     fn slope(&self, speed: f64) -> f64 {
-        let series = self.series::<f64, 1>(1.0, speed / self.velocity_scale());
-        series.slope() / self.velocity_scale()
+        self.alone(speed).slope() / self.velocity_scale()
+    }
+
+    /// The branch at one slip speed |v_r|, without any term of a series.
+    #[inline(always)]
+    fn alone(&self, speed: f64) -> Self::Series<f64, 1> {
+        let constants = Self::constants::<f64>(std::slice::from_ref(self));
+        Self::series(&constants, 1.0, speed / self.velocity_scale())
     }
 }
 
@@ -191,6 +210,16 @@ impl LawKind {
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|kind| kind.name() == name)
     }
+}
+
+/// One number of each of [`Lane::LANES`] laws, side by side.
+#[inline(always)]
+fn side_by_side<V: Lane, L>(laws: &[L], number: impl Fn(&L) -> f64) -> V {
+    let mut lanes = [0.0; MOST_LANES];
+    for (lane, law) in lanes.iter_mut().zip(laws) {
+        *lane = number(law);
+    }
+    V::load(&lanes)
 }
 
 /// Values checked against their parameters and against `relation`, which speaks only where

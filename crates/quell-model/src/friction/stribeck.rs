@@ -4,7 +4,7 @@
 
 use quell_numerics::lane::{Lane, half_inner_square, partial_product};
 
-use super::{BranchSeries, SlidingLaw, checked, minimum_at_most_static};
+use super::{BranchSeries, Friction, SlidingLaw, checked, minimum_at_most_static, side_by_side};
 use crate::Invalid;
 use crate::parameter::{MINIMUM_COEFFICIENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT};
 
@@ -69,25 +69,51 @@ impl SlidingLaw for Stribeck {
         self.static_coefficient
     }
 
+    type Constants<V: Lane> = StribeckConstants<V>;
+
+    #[inline(always)]
+    fn constants<V: Lane>(laws: &[Self]) -> StribeckConstants<V> {
+        let fall = |law: &Self| 1.5 * (law.static_coefficient - law.minimum_coefficient);
+        StribeckConstants {
+            static_coefficient: side_by_side(laws, |law| law.static_coefficient),
+            fall: side_by_side(laws, fall),
+            cubic: side_by_side(laws, |law| fall(law) / 3.0),
+        }
+    }
+
     type Series<V: Lane, const N: usize> = StribeckSeries<V, N>;
 
     #[inline(always)]
-    fn series<V: Lane, const N: usize>(&self, sign: V, w0: V) -> StribeckSeries<V, N> {
-        let fall = 1.5 * (self.static_coefficient - self.minimum_coefficient);
-        let linear = V::splat(-fall);
-        let cubic = V::splat(fall / 3.0);
+    fn series<V: Lane, const N: usize>(
+        constants: &StribeckConstants<V>,
+        sign: V,
+        w0: V,
+    ) -> StribeckSeries<V, N> {
+        let StribeckConstants { static_coefficient, fall, cubic } = *constants;
+        let linear = -fall;
         let square = w0 * w0;
-        let first = (square * w0)
-            .mul_add(cubic, w0.mul_add(linear, sign * V::splat(self.static_coefficient)));
+        let first = (square * w0).mul_add(cubic, w0.mul_add(linear, sign * static_coefficient));
         StribeckSeries {
             first,
-            slope: square.mul_add(V::splat(fall), linear),
+            slope: square.mul_add(fall, linear),
             twice_cubic: cubic + cubic,
-            thrice_w0: V::splat(fall) * w0,
+            thrice_w0: fall * w0,
             inner: V::splat(0.0),
             factor: [V::splat(0.0); N],
         }
     }
+
+    fn of(friction: &Friction) -> Option<Self> {
+        if let Friction::Stribeck(law) = friction { Some(*law) } else { None }
+    }
+}
+
+/// μ = μ_s sgn(w) − f w + c w³ with f = (3/2)(μ_s − μ_m) and c = f/3, in each lane.
+#[derive(Clone, Copy, Debug)]
+pub struct StribeckConstants<V> {
+    static_coefficient: V,
+    fall: V,
+    cubic: V,
 }
 
 /// Recurrence of [`Stribeck`], w³ by Cauchy products.

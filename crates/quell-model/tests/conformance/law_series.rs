@@ -2,10 +2,9 @@
 
 use quell_model::Friction;
 use quell_model::friction::{BranchSeries, LawVisitor, SlidingLaw};
-use quell_numerics::lane::{Lane, horner};
+use quell_numerics::lane::{Lane, Pair, horner};
 
 use crate::law_samples::all_samples;
-use crate::pair::Pair;
 
 /// Coefficients kept: enough that the remainder at |t| ≤ 1/4 is below rounding.
 const TERMS: usize = 28;
@@ -21,7 +20,8 @@ impl<V: Lane> LawVisitor for Along<'_, V> {
 
     fn visit<L: SlidingLaw>(self, law: &L) -> [V; TERMS] {
         let w = self.slip;
-        let mut series = law.series::<V, TERMS>(V::splat(self.sign), w[0]);
+        let constants = L::constants::<V>(&vec![*law; V::LANES]);
+        let mut series = L::series::<V, TERMS>(&constants, V::splat(self.sign), w[0]);
         let slope = series.slope();
         let mut friction = [series.first(); TERMS];
         for k in 1..TERMS {
@@ -131,16 +131,16 @@ fn a_lane_gives_the_bits_of_the_number_alone() {
     let slips = slips();
     for law in all_samples() {
         for (first, second) in slips.iter().zip(slips.iter().rev()) {
-            let mut both = [Pair::splat(0.0); TERMS];
-            for k in 0..TERMS {
-                both[k] = Pair(first[k], second[k]);
-            }
+            let both: [Pair<f64>; TERMS] =
+                std::array::from_fn(|k| Pair::load(&[first[k], second[k]]));
             let together = law.visit(Along { sign: 1.0, slip: &both });
             let one = law.visit(Along { sign: 1.0, slip: first });
             let other = law.visit(Along { sign: 1.0, slip: second });
             for k in 0..TERMS {
-                assert_eq!(together[k].0.to_bits(), one[k].to_bits(), "{law:?}, k = {k}");
-                assert_eq!(together[k].1.to_bits(), other[k].to_bits(), "{law:?}, k = {k}");
+                let mut lanes = [0.0; 2];
+                together[k].store(&mut lanes);
+                let alone = [one[k], other[k]];
+                assert_eq!(lanes.map(f64::to_bits), alone.map(f64::to_bits), "{law:?}, k = {k}");
             }
         }
     }
@@ -154,8 +154,8 @@ struct LongestChange;
 impl LawVisitor for LongestChange {
     type Output = f64;
 
-    fn visit<L: SlidingLaw>(self, law: &L) -> f64 {
-        law.longest_change(ORDER)
+    fn visit<L: SlidingLaw>(self, _: &L) -> f64 {
+        L::longest_change(ORDER)
     }
 }
 

@@ -8,6 +8,5 @@ mod law_samples;
 mod law_scaling;
 mod law_series;
 mod law_validity;
-mod pair;
 mod waveform;
 mod waveform_integral;

@@ -24,7 +24,7 @@ pub(crate) struct Reflectors {
 
 impl Reflectors {
     /// x ← Qᵀ x.
-    pub(crate) fn into_reduced(&self, x: &mut [f64]) {
+    pub(crate) fn reduce_vector(&self, x: &mut [f64]) {
         for k in 0..self.factors.len() {
             self.apply(k, x);
         }

@@ -201,7 +201,7 @@ impl Decomposition {
 
     /// Qᵀ x in place, for a matrix that was not balanced.
     pub(crate) fn column_inside(&self, x: &mut [f64]) {
-        self.reflectors.into_reduced(x);
+        self.reflectors.reduce_vector(x);
     }
 
     /// Q x in place, for a matrix that was not balanced.

@@ -96,7 +96,7 @@ impl ConstantFlow {
         let worst = pairs.iter().fold(1.0, |worst: f64, pair| worst.max(pair.condition));
         flow.rounding *= worst;
         if worst <= CONDITION {
-            flow.to_modal(&pairs);
+            flow.make_modal(&pairs);
         } else {
             flow.coordinates = Coordinates::Dense(a.clone());
         }
@@ -118,7 +118,7 @@ impl ConstantFlow {
         self.nilpotent
     }
 
-    fn to_modal(&mut self, pairs: &[Pair]) {
+    fn make_modal(&mut self, pairs: &[Pair]) {
         let (n, r) = (self.size, self.rank);
         let (mut u, mut v) = (Matrix::zeros(n, r), Matrix::zeros(r, n));
         let (mut au, mut va) = (Matrix::zeros(n, r), Matrix::zeros(r, n));

@@ -136,7 +136,7 @@ impl Floquet {
         let mut fine = map(&self.levels[1]);
         let mut count = 2 * self.first_steps();
         let decomposition = Decomposition::of_balanced(&fine)?;
-        let branches = self.candidates(&decomposition, &coarse, &fine);
+        let branches = candidates(&decomposition, &coarse, &fine);
         let mut known: Option<Vec<Complex64>> = None;
         loop {
             let followed = branches.as_ref().and_then(|branches| {
@@ -168,27 +168,6 @@ impl Floquet {
             coarse = fine;
             fine = map(&Steps::new(&self.flow, self.period, count));
         }
-    }
-
-    /// Branches that may hold the largest multiplier of the true map; `None` where vectors do not serve.
-    fn candidates(
-        &self,
-        decomposition: &Decomposition,
-        coarse: &Matrix,
-        fine: &Matrix,
-    ) -> Option<Vec<Branch>> {
-        let mut difference = coarse.clone();
-        difference.add_scaled(-1.0, fine);
-        let values = decomposition.values();
-        let largest = values.iter().fold(0.0, |largest: f64, z| largest.max(modulus(*z)));
-        let margin = 4.0 * difference.frobenius_norm() + decomposition.backward_error();
-        let chosen: Vec<usize> = (0..values.len())
-            .filter(|&i| values[i].im >= 0.0 && modulus(values[i]) >= largest - margin)
-            .collect();
-        if chosen.len() > BRANCHES {
-            return None;
-        }
-        chosen.into_iter().map(|i| Branch::new(decomposition, i)).collect()
     }
 
     /// Weight of the difference between two levels in the extrapolation.
@@ -265,6 +244,26 @@ impl Floquet {
             .collect();
         Ok(self.extrapolate(&old, decomposition.values(), &conditions, &decomposition, steps))
     }
+}
+
+/// Branches that may hold the largest multiplier of the true map; `None` where vectors do not serve.
+fn candidates(
+    decomposition: &Decomposition,
+    coarse: &Matrix,
+    fine: &Matrix,
+) -> Option<Vec<Branch>> {
+    let mut difference = coarse.clone();
+    difference.add_scaled(-1.0, fine);
+    let values = decomposition.values();
+    let largest = values.iter().fold(0.0, |largest: f64, z| largest.max(modulus(*z)));
+    let margin = 4.0 * difference.frobenius_norm() + decomposition.backward_error();
+    let chosen: Vec<usize> = (0..values.len())
+        .filter(|&i| values[i].im >= 0.0 && modulus(values[i]) >= largest - margin)
+        .collect();
+    if chosen.len() > BRANCHES {
+        return None;
+    }
+    chosen.into_iter().map(|i| Branch::new(decomposition, i)).collect()
 }
 
 /// Every branch in another map.

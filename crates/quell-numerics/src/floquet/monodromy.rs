@@ -85,8 +85,8 @@ impl Work for Panels<'_> {
                 }
                 carry(&mut x, self.end);
             }
-            for i in 0..n {
-                map.row_mut(i)[first..first + width].copy_from_slice(&x[i][..width]);
+            for (i, row) in x.iter().enumerate().take(n) {
+                map.row_mut(i)[first..first + width].copy_from_slice(&row[..width]);
             }
             first += width;
         }
@@ -203,8 +203,8 @@ fn carry(x: &mut [Row], end: &[(f64, f64, bool)]) {
             }
             at += 2;
         } else {
-            for j in 0..WIDTH {
-                x[at][j] *= re;
+            for value in &mut x[at] {
+                *value *= re;
             }
             at += 1;
         }

@@ -5,15 +5,19 @@
 
 mod caption;
 mod friction;
+mod map;
 mod response;
 mod ruler;
 mod simulate;
 mod stability;
+mod sweep;
 
 pub use friction::friction;
+pub use map::{MOST_PANELS, Map, MapAxis, MapKind, map, map_panel};
 pub use response::response;
 pub use simulate::simulate;
 pub use stability::stability;
+pub use sweep::sweep;
 
 use crate::complaint::Failure;
 use crate::output::Output;

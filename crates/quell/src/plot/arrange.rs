@@ -3,9 +3,11 @@
 //! All frames of a figure are equally large. A column's left margin is as wide as its widest
 //! numbers ask, a row's upper margin as high as its highest title and legend ask.
 
+use super::bar::BarPlan;
 use super::canvas::Rectangle;
 use super::draw::Sizes;
 use super::figure::{Figure, Legend, Panel, SharedLegend, Sharing, Size};
+use super::layer::Layer;
 use super::legend::{self, Entry};
 use super::obstacles::Obstacles;
 use super::stretches::{Stretches, stretches};
@@ -44,6 +46,7 @@ pub(super) struct PanelPlan {
     pub(super) y_label_distance: f64,
     pub(super) entries: Vec<Entry>,
     pub(super) legend: LegendPlan,
+    pub(super) bar: Option<BarPlan>,
 }
 
 /// A figure with all places.
@@ -284,6 +287,7 @@ fn plan_panel(
         y_label_distance: NUMBER_GAP + widest + LABEL_GAP + 0.2 * f64::from(sizes.label),
         entries,
         legend: LegendPlan::None,
+        bar: BarPlan::of(panel, frame.1, sizes),
     };
     if !plan.entries.is_empty() {
         plan.legend = match panel.legend {
@@ -291,11 +295,17 @@ fn plan_panel(
                 let size = legend::box_size(&plan.entries, sizes);
                 LegendPlan::Box(legend::box_at(place, plan.frame, size))
             }
+            // A map fills the frame.
+            Legend::Auto if has_grid(panel) => LegendPlan::Above,
             Legend::Auto => free_place(panel, &plan, sizes),
             Legend::None | Legend::Above => LegendPlan::Above,
         };
     }
     plan
+}
+
+fn has_grid(panel: &Panel) -> bool {
+    panel.layers.iter().any(|layer| matches!(layer, Layer::Grid(_)))
 }
 
 /// The first place where the legend covers nothing.
@@ -338,11 +348,15 @@ fn grow(
         widen(&mut margins.right[column], overhang(&plan.x_ticks, false) + 4.0);
         widen(&mut margins.left[column], overhang(&plan.x_ticks, true) + 4.0);
     }
+    if let Some(bar) = &plan.bar {
+        widen(&mut margins.right[column], bar.room(sizes) + EDGE);
+    }
     let mut top = 6.0 + 1.3 * f64::from(sizes.title) * plan.title.len() as f64;
     if plan.legend == LegendPlan::Above {
         top += legend::lines_height(&plan.entries, frame_width, sizes) + 2.0;
     }
-    if plan.y_ticks.exponent != 0 && plan.y_numbers {
+    let exponent = plan.bar.as_ref().is_some_and(BarPlan::has_exponent);
+    if (plan.y_ticks.exponent != 0 && plan.y_numbers) || exponent {
         top = top.max(number + 8.0);
     }
     widen(&mut margins.top[row], top);

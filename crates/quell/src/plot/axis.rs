@@ -206,7 +206,8 @@ impl Axis {
         match self.scale {
             Scale::Linear if value == 0.0 => sign,
             Scale::Linear => value + sign * 0.1 * value.abs(),
-            Scale::Log => value * 2f64.powf(sign),
+            // An end that is infinite, or zero, has no place on the axis.
+            Scale::Log => (value * 2f64.powf(sign)).clamp(f64::MIN_POSITIVE, f64::MAX),
         }
     }
 }
@@ -227,6 +228,16 @@ impl Mapping {
         let origin = axis.along(stretch.0);
         let slope = (pixels.1 - pixels.0) / (axis.along(stretch.1) - origin);
         Self { scale: axis.scale, origin, slope, first_pixel: pixels.0, stretch }
+    }
+
+    /// Position on the axis, before scaling, of a pixel.
+    pub(super) fn along(&self, pixel: f64) -> f64 {
+        self.origin + (pixel - self.first_pixel) / self.slope
+    }
+
+    /// Pixel of a position on the axis that is not yet scaled; what lies far out stays outside.
+    pub(super) fn place(&self, along: f64) -> f64 {
+        (self.first_pixel + (along - self.origin) * self.slope).clamp(-1e5, 1e5)
     }
 
     /// Pixel of a value; nothing for a value without a place on this axis.

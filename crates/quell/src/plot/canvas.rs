@@ -62,13 +62,18 @@ pub(super) struct Setting {
     pub(super) anchor: TextAnchor,
     pub(super) bold: bool,
     pub(super) colour: Colour,
-    /// Turned to read upwards.
-    pub(super) upwards: bool,
+    /// Turn about its place, clockwise in degrees.
+    pub(super) turn: f64,
 }
 
 impl Setting {
     pub(super) fn new(size: u32, anchor: TextAnchor) -> Self {
-        Self { size, anchor, bold: false, colour: FRAME, upwards: false }
+        Self { size, anchor, bold: false, colour: FRAME, turn: 0.0 }
+    }
+
+    /// Turned clockwise by so many degrees.
+    pub(super) fn turned(self, turn: f64) -> Self {
+        Self { turn, ..self }
     }
 }
 
@@ -76,14 +81,15 @@ pub(super) struct Canvas {
     scene: Scene,
     tags: Tags,
     clips: usize,
-    hatches: Vec<Colour>,
+    hatches: Vec<(Colour, usize)>,
+    images: Vec<String>,
 }
 
 impl Canvas {
     pub(super) fn new(width: f64, height: f64) -> Self {
         let mut scene = Scene::new(width.ceil(), height.ceil()).with_background(Some("#ffffff"));
         scene.font_family = Some(FAMILY.to_string());
-        Self { scene, tags: Tags::default(), clips: 0, hatches: Vec::new() }
+        Self { scene, tags: Tags::default(), clips: 0, hatches: Vec::new(), images: Vec::new() }
     }
 
     pub(super) fn text(&mut self, label: &Label, (x, y): (f64, f64), setting: Setting) {
@@ -96,7 +102,7 @@ impl Canvas {
             content: label.encode(&mut self.tags),
             size: setting.size,
             anchor: setting.anchor,
-            rotate: setting.upwards.then_some(-90.0),
+            rotate: (setting.turn != 0.0).then_some(setting.turn),
             bold: setting.bold,
             color: Some(paint(setting.colour)),
         });
@@ -122,15 +128,18 @@ impl Canvas {
         self.fill_with(path, paint(colour), Some(opacity));
     }
 
-    /// Fills an SVG path with thin diagonal strokes.
-    pub(super) fn hatch(&mut self, path: String, colour: Colour) {
-        let known = self.hatches.iter().position(|hatch| *hatch == colour);
+    /// Fills an SVG path with thin strokes: falling, rising or crossed, by the style.
+    pub(super) fn hatch(&mut self, path: String, colour: Colour, style: usize) {
+        let style = style % 3;
+        let known = self.hatches.iter().position(|hatch| *hatch == (colour, style));
         let number = known.unwrap_or_else(|| {
-            self.hatches.push(colour);
+            self.hatches.push((colour, style));
             let number = self.hatches.len() - 1;
+            let turn = if style == 1 { -45 } else { 45 };
+            let strokes = if style == 2 { "M3.5 -1V8M-1 3.5H8" } else { "M3.5 -1V8" };
             self.scene.defs.push(format!(
                 "<pattern id=\"{PICTURE_NAME}-hatch{number}\" patternUnits=\"userSpaceOnUse\" \
-                 width=\"7\" height=\"7\" patternTransform=\"rotate(45)\"><path d=\"M3.5 -1V8\" \
+                 width=\"7\" height=\"7\" patternTransform=\"rotate({turn})\"><path d=\"{strokes}\" \
                  stroke=\"{}\" stroke-width=\"0.8\" stroke-opacity=\"0.6\" /></pattern>",
                 paint(colour).to_svg_string()
             ));
@@ -170,6 +179,23 @@ impl Canvas {
             stroke_width: edge.map(|(_, width)| width),
             opacity: fill.map(|(_, opacity)| opacity),
         });
+    }
+
+    /// Puts an image (a `data:` address) into a rectangle; its pixels stay sharp.
+    pub(super) fn image(&mut self, area: Rectangle, address: Option<String>) {
+        let Some(address) = address else {
+            return;
+        };
+        self.begin_group(&image_name(self.images.len()));
+        self.end_group();
+        self.images.push(format!(
+            "<image x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" \
+             preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" href=\"{address}\" />",
+            area.left,
+            area.top,
+            area.width().max(0.0),
+            area.height().max(0.0)
+        ));
     }
 
     /// Everything until [`Canvas::end_clip`] is cut at this rectangle.
@@ -214,7 +240,12 @@ impl Canvas {
     /// Identifiers get a name made from the contents, so that several pictures can stand in one page.
     pub(super) fn into_svg(self) -> String {
         let drawn = SvgBackend::new().render_scene(&self.scene);
-        let svg = self.tags.resolve(&drawn);
+        let mut svg = self.tags.resolve(&drawn);
+        // kuva knows no images: they are put into the groups that keep their places.
+        for (number, image) in self.images.iter().enumerate() {
+            let name = format!("{}>", image_name(number));
+            svg = svg.replacen(&name, &format!("{name}{image}"), 1);
+        }
         let svg = svg.replace(PICTURE_NAME, &format!("q{:016x}", fingerprint(svg.as_bytes())));
         // kuva writes no view box, without which a picture does not scale in a page.
         let view_box =
@@ -228,6 +259,11 @@ fn fingerprint(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
     })
+}
+
+/// Attribute of the group that keeps the place of an image.
+fn image_name(number: usize) -> String {
+    format!("id=\"{PICTURE_NAME}-image{number}\"")
 }
 
 fn paint((red, green, blue): Colour) -> Color {

@@ -10,7 +10,7 @@ use super::layer::{Layer, Note, NoteAnchor, Region, Rule, Shape};
 use super::obstacles::{Obstacles, rule_ends};
 use super::palette::{Colour, FAINT, FRAME, Role};
 use super::typeset::Label;
-use super::{legend, marks, rules, thin};
+use super::{legend, maps, marks, rules, thin};
 
 const FRAME_WIDTH: f64 = 0.8;
 const MAJOR_TICK: f64 = 4.5;
@@ -91,6 +91,11 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, plan: &PanelPlan, sizes: Sizes
     canvas.begin_clip(plan.frame);
     canvas.begin_group("stroke-linejoin=\"round\"");
     for layer in &panel.layers {
+        if let Layer::Grid(grid) = layer {
+            maps::draw_grid(canvas, grid, panel, (&x, &y), plan.frame);
+        }
+    }
+    for layer in &panel.layers {
         if let Layer::Region(region) = layer {
             draw_region(canvas, region, &x, &y, plan.frame);
         }
@@ -104,6 +109,8 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, plan: &PanelPlan, sizes: Sizes
             canvas.stroke(path(ends.as_slice(), false), &stroke);
         }
     }
+    let isolines = maps::Isolines::of(panel, plan, sizes);
+    isolines.draw(canvas);
     for layer in &panel.layers {
         if let Layer::Line(line) = layer {
             let pieces = pixels(&line.pieces, &x, &y, plan.frame);
@@ -120,7 +127,11 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, plan: &PanelPlan, sizes: Sizes
             marks::markers(canvas, &drawn, points.role, points.marker, points.size);
         }
     }
-    draw_texts(canvas, panel, plan, sizes);
+    if let Some(bar) = &plan.bar {
+        bar.draw(canvas, plan.frame, sizes);
+    }
+    isolines.print(canvas, sizes);
+    draw_texts(canvas, panel, plan, &isolines, sizes);
     match &plan.legend {
         LegendPlan::None => {}
         LegendPlan::Box(area) => legend::draw_box(canvas, &plan.entries, *area, sizes),
@@ -299,7 +310,7 @@ fn draw_labels(canvas: &mut Canvas, plan: &PanelPlan, sizes: Sizes) {
     for (number, line) in plan.x_label.iter().enumerate() {
         canvas.text(line, (middle.0, first + 1.25 * size * number as f64), setting);
     }
-    let upwards = Setting { upwards: true, ..setting };
+    let upwards = setting.turned(-90.0);
     for (number, line) in plan.y_label.iter().rev().enumerate() {
         let at = frame.left - plan.y_label_distance - 1.25 * size * number as f64;
         canvas.text(line, (at, middle.1), upwards);
@@ -338,12 +349,19 @@ pub(super) fn note_area(
     Some(Rectangle { left, top, right: left + width, bottom: top + height })
 }
 
-fn draw_texts(canvas: &mut Canvas, panel: &Panel, plan: &PanelPlan, sizes: Sizes) {
+fn draw_texts(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    plan: &PanelPlan,
+    isolines: &maps::Isolines,
+    sizes: Sizes,
+) {
     let (x, y) = mappings(panel, plan);
     let mut obstacles = Obstacles::of(panel, plan, sizes);
     if let LegendPlan::Box(area) = &plan.legend {
         obstacles.add(*area);
     }
+    isolines.texts().for_each(|area| obstacles.add(area));
     for layer in &panel.layers {
         match layer {
             Layer::Note(note) => {

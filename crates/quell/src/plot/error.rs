@@ -30,6 +30,11 @@ pub enum PlotError {
         /// Height asked for (pixels).
         height: u32,
     },
+    /// Values do not lie on a rectangular grid.
+    Field {
+        /// What is wrong with them.
+        why: String,
+    },
     /// The drawn scene could not be turned into pixels.
     Raster {
         /// What the rasteriser said.
@@ -56,6 +61,7 @@ impl fmt::Display for PlotError {
             Self::PixelSize { width, height } => {
                 write!(out, "a picture of {width} by {height} pixels cannot be made")
             }
+            Self::Field { why } => write!(out, "the values of a map lie on no grid: {why}"),
             Self::Raster { source } => write!(out, "cannot turn the picture into pixels: {source}"),
         }
     }
@@ -66,7 +72,7 @@ impl Error for PlotError {
         match self {
             Self::Write { source, .. } => Some(source),
             Self::Raster { source } => Some(source.as_ref()),
-            Self::UnknownExtension { .. } | Self::PixelSize { .. } => None,
+            Self::UnknownExtension { .. } | Self::PixelSize { .. } | Self::Field { .. } => None,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Layers of a panel: curves, points, regions, rules and notes.
 
+use super::map_layers::{Contours, Grid};
 use super::palette::{LineStyle, Role};
 
 /// A curve, perhaps in several pieces, under one entry of the legend.
@@ -351,7 +352,7 @@ impl Note {
     }
 }
 
-/// Anything that can lie on a panel. Maps and contours are to join.
+/// Anything that can lie on a panel.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Layer {
@@ -365,6 +366,10 @@ pub enum Layer {
     Rule(Rule),
     /// A text.
     Note(Note),
+    /// A field as colours.
+    Grid(Grid),
+    /// Isolines of a field.
+    Contours(Contours),
 }
 
 macro_rules! layer_from {
@@ -376,7 +381,7 @@ macro_rules! layer_from {
         }
     )*};
 }
-layer_from!(Line, Points, Region, Rule, Note);
+layer_from!(Line, Points, Region, Rule, Note, Grid, Contours);
 
 impl Layer {
     /// Hands every (x, y) that asks for room on the axes to `visit`; a strip or a rule asks in one coordinate only.
@@ -412,6 +417,11 @@ impl Layer {
                 Direction::Horizontal => visit(None, Some(rule.value)),
             },
             Self::Note(note) => visit(Some(note.at.0), Some(note.at.1)),
+            Self::Grid(Grid { field, .. }) | Self::Contours(Contours { field, .. }) => {
+                for (x, y) in field.corners() {
+                    visit(Some(x), Some(y));
+                }
+            }
         }
     }
 }

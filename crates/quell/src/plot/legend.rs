@@ -3,16 +3,20 @@
 use kuva::render::render::TextAnchor;
 
 use super::canvas::{Canvas, Rectangle, Setting, Stroke, path};
+use super::colouring::{Colouring, Shading, Tint};
 use super::draw::Sizes;
 use super::figure::{Panel, Place};
 use super::layer::{Fill, Layer, Line, Marker};
+use super::map_layers::Grid;
 use super::marks;
-use super::palette::{LEGEND_EDGE, PAPER, Role};
+use super::palette::{Colour, FRAME, GAP, LEGEND_EDGE, PAPER, Role};
 use super::typeset::Label;
 
 const SAMPLE: f64 = 26.0;
 const SAMPLE_GAP: f64 = 6.0;
 const ENTRY_GAP: f64 = 18.0;
+/// Edge of a tinted sample.
+const GREY_EDGE: Colour = (0x80, 0x80, 0x80);
 const PADDING: f64 = 6.0;
 const LINE_GAP: f64 = 5.0;
 
@@ -22,6 +26,8 @@ enum Sample {
     Stroke(Stroke),
     Point(Role, Marker, f64),
     Patch(Role, Fill),
+    Tint(Colour),
+    Hatch(usize),
 }
 
 /// One label with its samples.
@@ -36,32 +42,58 @@ pub(super) struct Entry {
 pub(super) fn entries<'a>(panels: impl IntoIterator<Item = &'a Panel>) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     for layer in panels.into_iter().flat_map(|panel| &panel.layers) {
-        let Some((text, sample)) = sample(layer) else {
-            continue;
-        };
-        match entries.iter_mut().find(|entry| entry.text == text) {
-            Some(entry) if entry.samples.contains(&sample) => {}
-            Some(entry) => entry.samples.push(sample),
-            None => entries.push(Entry {
-                text: text.to_string(),
-                label: Label::parse(text),
-                samples: vec![sample],
-            }),
+        for (text, sample) in samples(layer).into_iter().filter(|(text, _)| !text.is_empty()) {
+            match entries.iter_mut().find(|entry| entry.text == text) {
+                Some(entry) if entry.samples.contains(&sample) => {}
+                Some(entry) => entry.samples.push(sample),
+                None => entries.push(Entry {
+                    text: text.to_string(),
+                    label: Label::parse(text),
+                    samples: vec![sample],
+                }),
+            }
         }
     }
     entries
 }
 
-fn sample(layer: &Layer) -> Option<(&str, Sample)> {
+fn samples(layer: &Layer) -> Vec<(&str, Sample)> {
     let (label, sample) = match layer {
         Layer::Line(line) => (&line.label, Sample::Stroke(stroke_of(line))),
         Layer::Points(points) => {
             (&points.label, Sample::Point(points.role, points.marker, points.size))
         }
         Layer::Region(region) => (&region.label, Sample::Patch(region.role, region.fill)),
-        Layer::Rule(_) | Layer::Note(_) => return None,
+        Layer::Contours(lines) => {
+            (&lines.label, Sample::Stroke(Stroke::solid(lines.role.colour(), lines.width)))
+        }
+        Layer::Grid(grid) => return samples_of_grid(grid),
+        Layer::Rule(_) | Layer::Note(_) => return Vec::new(),
     };
-    (!label.is_empty()).then_some((label.as_str(), sample))
+    vec![(label.as_str(), sample)]
+}
+
+/// Outcomes that occur, what lies below the scale, and why points have no value.
+fn samples_of_grid(grid: &Grid) -> Vec<(&str, Sample)> {
+    let has = |test: &dyn Fn(f64) -> bool| {
+        grid.field.values().iter().any(|value| value.is_some_and(test))
+    };
+    let tint = |tint| (Tint::label(tint), Sample::Tint(Tint::colour(tint)));
+    let mut samples: Vec<(&str, Sample)> = match &grid.colouring {
+        Colouring::Outcomes(outcomes) => outcomes
+            .iter()
+            .enumerate()
+            .filter(|(number, _)| has(&|value| value.round() == *number as f64))
+            .map(|(_, outcome)| tint(outcome))
+            .collect(),
+        Colouring::Shaded(Shading { below: Some((limit, below)), .. }) => {
+            if has(&|value| value < *limit) { vec![tint(below)] } else { Vec::new() }
+        }
+        Colouring::Shaded(_) => Vec::new(),
+    };
+    samples
+        .extend(grid.all_gaps().into_iter().map(|(style, label, _)| (label, Sample::Hatch(style))));
+    samples
 }
 
 /// The stroke of a line, from its role and its own wishes.
@@ -158,6 +190,13 @@ pub(super) fn draw_lines(
 fn draw_entry(canvas: &mut Canvas, entry: &Entry, (left, top): (f64, f64), sizes: Sizes) {
     let size = f64::from(sizes.legend);
     let middle = top + 0.5 * size;
+    let half = 0.42 * size;
+    let patch = Rectangle {
+        left: left + 3.0,
+        top: middle - half,
+        right: left + SAMPLE - 3.0,
+        bottom: middle + half,
+    };
     for sample in &entry.samples {
         match sample {
             Sample::Stroke(stroke) => {
@@ -168,14 +207,15 @@ fn draw_entry(canvas: &mut Canvas, entry: &Entry, (left, top): (f64, f64), sizes
                 let at = [(left + 0.5 * SAMPLE, middle)];
                 marks::markers(canvas, &at, *role, *marker, diameter.max(3.0));
             }
+            Sample::Tint(colour) => {
+                canvas.rectangle(patch, Some((*colour, 1.0)), Some((GREY_EDGE, 0.6)));
+            }
+            Sample::Hatch(style) => {
+                canvas.fill(marks::outline(patch), GAP, 1.0);
+                canvas.hatch(marks::outline(patch), FRAME, *style);
+                canvas.rectangle(patch, None, Some((FRAME, 0.6)));
+            }
             Sample::Patch(role, fill) => {
-                let half = 0.42 * size;
-                let patch = Rectangle {
-                    left: left + 3.0,
-                    top: middle - half,
-                    right: left + SAMPLE - 3.0,
-                    bottom: middle + half,
-                };
                 marks::fill(canvas, marks::outline(patch), *role, *fill);
                 canvas.rectangle(patch, None, Some((role.colour(), 0.6)));
             }

@@ -73,11 +73,43 @@ pub(super) fn outline(area: Rectangle) -> String {
     path(&[corners], true)
 }
 
+/// The outline of all marked cells as one path; `columns` and `rows` give the ends of each in pixels.
+///
+/// Neighbours in a row are joined, and equal runs of neighbouring rows.
+pub(super) fn union(cells: &[bool], columns: &[(f64, f64)], rows: &[(f64, f64)]) -> String {
+    let mut outlines = Vec::new();
+    // Runs that may still grow: columns and the pixels of their rows.
+    let mut open: Vec<((usize, usize), (f64, f64))> = Vec::new();
+    let close = |((first, last), (from, to)): ((usize, usize), (f64, f64))| {
+        let (left, right) = (columns[first].0, columns[last].1);
+        vec![(left, from), (right, from), (right, to), (left, to)]
+    };
+    for (row, ends) in cells.chunks(columns.len().max(1)).zip(rows) {
+        let mut runs: Vec<(usize, usize)> = Vec::new();
+        for (column, _) in row.iter().enumerate().filter(|(_, marked)| **marked) {
+            match runs.last_mut() {
+                Some(run) if run.1 + 1 == column => run.1 = column,
+                _ => runs.push((column, column)),
+            }
+        }
+        let mut next = Vec::with_capacity(runs.len());
+        for run in runs {
+            let below = open.iter().position(|(known, _)| *known == run);
+            let from = below.map_or(ends.0, |at| open.swap_remove(at).1.0);
+            next.push((run, (from, ends.1)));
+        }
+        outlines.extend(open.drain(..).map(close));
+        open = next;
+    }
+    outlines.extend(open.into_iter().map(close));
+    path(&outlines, true)
+}
+
 /// Fills an outline as a role's region.
 pub(super) fn fill(canvas: &mut Canvas, outline: String, role: Role, fill: Fill) {
     match fill {
         Fill::Shade => canvas.fill(outline, role.colour(), 0.16),
         Fill::Solid => canvas.fill(outline, role.colour(), 0.38),
-        Fill::Hatched => canvas.hatch(outline, role.colour()),
+        Fill::Hatched => canvas.hatch(outline, role.colour(), 0),
     }
 }

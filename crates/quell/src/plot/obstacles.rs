@@ -40,7 +40,12 @@ impl Obstacles {
                 Layer::Note(note) => {
                     obstacles.texts.extend(draw::note_area(note, (&x, &y), plan.frame, sizes));
                 }
-                Layer::Region(_) => {}
+                Layer::Contours(lines) => {
+                    for level in lines.lines(&panel.x, &panel.y) {
+                        obstacles.strokes.extend(draw::pixels(&level, &x, &y, plan.frame));
+                    }
+                }
+                Layer::Region(_) | Layer::Grid(_) => {}
             }
         }
         obstacles

@@ -22,6 +22,8 @@ pub(super) const FRAME: Colour = (0x22, 0x22, 0x22);
 pub(super) const PAPER: Colour = (0xFF, 0xFF, 0xFF);
 /// Footnotes.
 pub(super) const FAINT: Colour = (0x55, 0x55, 0x55);
+/// Under the hatch of what has no value: cells too small for a stroke show too.
+pub(super) const GAP: Colour = (0xD6, 0xD6, 0xD6);
 /// Box of a legend.
 pub(super) const LEGEND_EDGE: Colour = (0xC8, 0xC8, 0xC8);
 

@@ -2,7 +2,7 @@
 //!
 //! Panels that share a coordinate show what all of them need, by the axis of the first of them.
 
-use super::axis::Scale;
+use super::axis::{Axis, Range, Scale};
 use super::figure::{Figure, Panel, Sharing};
 use super::layer::Layer;
 
@@ -23,11 +23,14 @@ pub(super) fn stretches(figure: &Figure, columns: usize) -> Vec<Stretches> {
 
     let x_extents: Vec<Extent> = panels.iter().map(|panel| extent(panel, None)).collect();
     let x = shared(panels, &x_extents, x_group, |panel, extent| {
-        panel.x.stretch(extent, if has_curves(panel) { 0.0 } else { 0.04 })
+        let air = if has_curves(panel) { 0.0 } else { 0.04 };
+        exact(panel, &panel.x, extent).unwrap_or_else(|| panel.x.stretch(extent, air))
     });
     let y_extents: Vec<Extent> =
         panels.iter().zip(&x).map(|(panel, x)| extent(panel, Some(*x))).collect();
-    let y = shared(panels, &y_extents, y_group, |panel, extent| panel.y.stretch(extent, 0.06));
+    let y = shared(panels, &y_extents, y_group, |panel, extent| {
+        exact(panel, &panel.y, extent).unwrap_or_else(|| panel.y.stretch(extent, 0.06))
+    });
     x.into_iter().zip(y).collect()
 }
 
@@ -50,6 +53,17 @@ fn shared(
         .collect()
 }
 
+/// A map fills its frame: no air, no rounding, unless its axis says what to show.
+fn exact(panel: &Panel, axis: &Axis, extent: Extent) -> Option<(f64, f64)> {
+    extent.filter(|(lower, upper)| {
+        panel.layers.iter().any(is_map) && axis.range == Range::Auto && lower < upper
+    })
+}
+
+fn is_map(layer: &Layer) -> bool {
+    matches!(layer, Layer::Grid(_) | Layer::Contours(_))
+}
+
 /// True when a curve or a region spans the x axis, so that it needs no air at its ends.
 fn has_curves(panel: &Panel) -> bool {
     panel.layers.iter().any(|layer| matches!(layer, Layer::Line(_) | Layer::Region(_)))
@@ -59,7 +73,9 @@ fn has_curves(panel: &Panel) -> bool {
 fn extent(panel: &Panel, within: Option<(f64, f64)>) -> Extent {
     let axis = if within.is_some() { &panel.y } else { &panel.x };
     let mut whole: Extent = None;
-    for layer in &panel.layers {
+    // Where there is a map, its grid decides what is shown.
+    let has_map = panel.layers.iter().any(is_map);
+    for layer in panel.layers.iter().filter(|layer| !has_map || is_map(layer)) {
         layer.each_extent(|x, y| {
             let hidden = within.zip(x).is_some_and(|((lower, upper), x)| x < lower || x > upper);
             let value = if within.is_some() { y } else { x };

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `source` | study files of the entries, their cases |
 //! | `product`, `write` | pictures, tables of data, and their files |
-//! | `laws`, `waveforms`, `effective_friction`, `stability_map`, `responses`, `measured_friction` | the kinds of figures |
+//! | `laws`, `waveforms`, `effective_friction`, `stability_map`, `responses`, `efficiency_map`, `measured_friction` | the kinds of figures |
 //! | `print` | formulas as the dissertation prints them, right or wrong |
 //! | `claims` | claim, printed, measured, verdict |
 
@@ -25,6 +25,7 @@ use crate::study::suggest;
 
 pub mod claims;
 mod effective_friction;
+mod efficiency_map;
 mod laws;
 mod measured_friction;
 mod print;
@@ -70,6 +71,8 @@ pub const ENTRIES: &[Entry] = &[
     figure!("2.5", "effective friction, decreasing law", effective_friction::figure),
     figure!("2.6", "stability map, Stribeck law", stability_map::single),
     figure!("2.7", "stability map, decreasing law", stability_map::single),
+    figure!("2.8", "efficiency, Stribeck law, four belt velocities", efficiency_map::velocities),
+    figure!("2.9", "efficiency, decreasing law, four belt velocities", efficiency_map::velocities),
     figure!("3.2", "dither waveforms and their integrals", waveforms::figure),
     figure!("3.3", "effective friction, Stribeck law, three waveforms", effective_friction::three),
     figure!(
@@ -82,6 +85,8 @@ pub const ENTRIES: &[Entry] = &[
     figure!("3.7", "responses, Stribeck law, sinusoidal tangential dither", responses::figure),
     figure!("3.8", "responses, Stribeck law, triangular tangential dither", responses::figure),
     figure!("3.9", "responses, Stribeck law, square tangential dither", responses::figure),
+    figure!("3.10", "efficiency, Stribeck law, three waveforms", efficiency_map::waveforms),
+    figure!("3.11", "efficiency, decreasing law, three waveforms", efficiency_map::waveforms),
     figure!("4.2", "Stribeck and decreasing friction law", laws::figure),
     figure!("4.3", "responses, Stribeck law, sinusoidal normal dither", responses::figure),
     figure!("4.4", "responses, decreasing law, sinusoidal normal dither", responses::figure),
@@ -89,6 +94,8 @@ pub const ENTRIES: &[Entry] = &[
     figure!("4.6", "effective friction from simulation, decreasing law", measured_friction::figure),
     figure!("4.7", "stability maps, Stribeck law, normal dither", stability_map::three),
     figure!("4.8", "stability maps, decreasing law, normal dither", stability_map::three),
+    figure!("4.9", "efficiency, Stribeck law, normal dither", efficiency_map::single),
+    figure!("4.10", "efficiency, decreasing law, normal dither", efficiency_map::single),
     Entry {
         name: "claims",
         about: "numerical claims and formulas: printed, measured, verdict",
@@ -106,9 +113,17 @@ impl Entry {
         (self.make)(&self.source())
     }
 
+    /// The same with at most so many points along each axis of its sweeps: a quick look.
+    ///
+    /// # Errors
+    /// As [`Entry::product`].
+    pub fn coarse_product(&self, most_points: usize) -> Result<Product, Failure> {
+        (self.make)(&Source { most_points: Some(most_points), ..self.source() })
+    }
+
     /// Its name and study file.
     pub fn source(&self) -> Source {
-        Source { name: self.name, about: self.about, text: self.study }
+        Source { name: self.name, about: self.about, text: self.study, most_points: None }
     }
 
     /// What its files are called, without extension.

@@ -16,6 +16,8 @@ pub struct Source {
     pub about: &'static str,
     /// Text of the study file.
     pub text: &'static str,
+    /// Most points along an axis of its sweeps, where they shall be fewer than the file says.
+    pub most_points: Option<usize>,
 }
 
 impl Source {
@@ -34,7 +36,13 @@ impl Source {
     pub fn changed(&self, changes: &[&str]) -> Result<Study, Failure> {
         let changes: Result<Vec<Change>, _> =
             changes.iter().map(|change| Change::parse(change, "reproduce")).collect();
-        Ok(Study::parse(self.text, &changes?)?)
+        let mut changes = changes?;
+        let Some(most) = self.most_points else { return Ok(Study::parse(self.text, &changes)?) };
+        for (number, sweep) in Study::parse(self.text, &changes)?.sweeps().iter().enumerate() {
+            let points = sweep.axis.len().min(most);
+            changes.push(Change::parse(&format!("sweep[{number}].points={points}"), "reproduce")?);
+        }
+        Ok(Study::parse(self.text, &changes)?)
     }
 
     /// The study with each waveform.

@@ -5,6 +5,7 @@
 
 pub mod check;
 pub mod friction;
+pub mod map;
 pub mod response;
 pub mod simulate;
 pub mod stability;

@@ -44,11 +44,14 @@ pub struct Stability {
     pub sharper: Result<Averaged, String>,
 }
 
+/// The sharper averaging: the oscillator's own response to the dither and, under normal dither,
+/// one more term of the fast motion.
+pub(crate) const SHARPER: AveragingOptions =
+    AveragingOptions { response: Response::Oscillator, normal_order: NormalOrder::Second };
+
 /// Averaged stability of a study.
 pub fn run(study: &Study) -> Stability {
     let belt = study.belt();
-    let sharper =
-        AveragingOptions { response: Response::Oscillator, normal_order: NormalOrder::Second };
     let slow = belt
         .dithers()
         .iter()
@@ -59,7 +62,7 @@ pub fn run(study: &Study) -> Stability {
         sharper: match slow {
             _ if belt.dithers().is_empty() => Err("there is no dither".to_owned()),
             Some(why) => Err(why.to_string()),
-            None => Ok(averaged(belt, sharper)),
+            None => Ok(averaged(belt, SHARPER)),
         },
     }
 }
@@ -124,7 +127,7 @@ fn word(criterion: &Result<Criterion, AveragingError>) -> &'static str {
 }
 
 /// Growth rate of small slow motions, Re ρ of ρ² + cρ + 1 = 0.
-fn growth_rate(criterion: f64) -> f64 {
+pub(crate) fn growth_rate(criterion: f64) -> f64 {
     let half = 0.5 * criterion;
     let overdamped = (half.abs() - 1.0).max(0.0) * (half.abs() + 1.0);
     overdamped.sqrt() - half

@@ -165,6 +165,25 @@ impl Node {
         }
     }
 
+    /// Adds every value below this node with its path; numbers with the digits that read back
+    /// as the same number.
+    pub(super) fn leaves(&self, path: &str, leaves: &mut Vec<(String, String)>) {
+        match &self.value {
+            Value::Number(number) => leaves.push((path.to_owned(), format!("{number:?}"))),
+            Value::Table(table) => {
+                for (name, node) in table.iter() {
+                    node.leaves(&format!("{path}.{name}"), leaves);
+                }
+            }
+            Value::List(list) => {
+                for (index, node) in list.iter().enumerate() {
+                    node.leaves(&format!("{path}[{index}]"), leaves);
+                }
+            }
+            _ => leaves.push((path.to_owned(), self.given().to_string())),
+        }
+    }
+
     /// The table, where it is one.
     pub fn table(&self) -> Option<&Table> {
         match &self.value {

@@ -97,6 +97,41 @@ impl Study {
         Ok(study)
     }
 
+    /// Every value of the study after its changes as `path = value`, in the order of paths;
+    /// neither title nor axes. Two studies with equal settings compute the same.
+    pub fn settings(&self) -> Vec<(String, String)> {
+        let mut settings = Vec::new();
+        for (name, node) in
+            self.mirror.iter().filter(|(name, _)| !matches!(*name, "title" | "sweep"))
+        {
+            node.leaves(name, &mut settings);
+        }
+        settings.sort();
+        settings
+    }
+
+    /// The study at one point of a map: its numbers set through the same path as `--set`, in
+    /// order, and no axes. It is the study that the file would give with these changes.
+    ///
+    /// # Errors
+    /// Every complaint about the changed study.
+    pub fn at<'a>(
+        &self,
+        numbers: impl IntoIterator<Item = (&'a str, f64)>,
+    ) -> Result<Self, Vec<Complaint>> {
+        let mut mirror = self.mirror.clone();
+        mirror.remove("sweep");
+        let mut changes = self.changes.clone();
+        for (path, value) in numbers {
+            let change = Change::number(path, value, "[[sweep]]");
+            change.apply(&mut mirror).map_err(|complaint| vec![*complaint])?;
+            changes.push(change.to_string());
+        }
+        let mut study = Self::check(mirror, &self.text)?;
+        study.changes = changes;
+        Ok(study)
+    }
+
     fn check(mirror: Table, text: &str) -> Result<Self, Vec<Complaint>> {
         let mut reader = Reader::new(&mirror);
         let title = root(&mut reader, &mirror);

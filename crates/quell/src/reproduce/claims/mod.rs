@@ -1,6 +1,6 @@
 //! The table of claims: what the dissertation says, what independent numerics measure, and the verdict.
 //!
-//! A claim is made by a function that measures (`chapter2`, `chapter3`, `chapter4`); the verdict follows from printed and
+//! A claim is made by a function that measures (`chapter2` to `chapter4`, `isocline`); the verdict follows from printed and
 //! measured values by the rules of [`Verdict`], never from words.
 
 use serde_json::{Value as Json, json};
@@ -13,6 +13,7 @@ mod chapter2;
 mod chapter3;
 mod chapter3_formulas;
 mod chapter4;
+mod isocline;
 mod sheet;
 
 pub use sheet::{Claim, Verdict};
@@ -35,9 +36,11 @@ const SECTIONS: &[Section] = &[
     chapter3::everywhere_stable,
     chapter3::thresholds,
     chapter3::responses,
+    isocline::tangential,
     chapter4::responses,
     chapter4::effective_friction,
     chapter4::stability_maps,
+    isocline::normal,
     chapter4::formulas,
 ];
 

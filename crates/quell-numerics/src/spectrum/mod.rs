@@ -16,6 +16,8 @@
 //!
 //! Reference: F. J. Harris, *Proc. IEEE* 66 (1978) 51–83; T. Grandke, *IEEE Trans. Instrum. Meas.* 32 (1983) 350.
 
+pub mod low_band;
+
 use core::f64::consts::PI;
 use realfft::RealFftPlanner;
 

@@ -10,8 +10,14 @@
 //! inside one step (a grazing dip) are therefore found, which tests of the end points alone
 //! miss. See Rouillier and Zimmermann (2004).
 //!
+//! [`side_by_side`] does the same for many polynomials at once.
+//!
 //! Limits: a double root (a touch without crossing) separated by less than 2⁻⁴⁸ of the
 //! step counts as absent.
+
+use crate::lane::Lane;
+
+pub mod side_by_side;
 
 /// Halvings before two roots count as a touch.
 const MAX_DEPTH: u32 = 48;
@@ -38,8 +44,7 @@ pub fn first_crossing_after<const N: usize>(c: &[f64; N], zeros: usize, h: f64) 
             scaled::<N, 0>(&quotient, h)
         }
     };
-    let tail = absolute_sum(&a, 4);
-    if keeps_sign_by_cubic(&a, tail) {
+    if margin_by_cubic(&[a[0], a[1], a[2], a[3]], absolute_sum(&a, 4)) > 0.0 {
         return None;
     }
     let mut slope_tail = 0.0;
@@ -47,7 +52,7 @@ pub fn first_crossing_after<const N: usize>(c: &[f64; N], zeros: usize, h: f64) 
     for k in 2..N {
         slope_tail = f64::mul_add(k as f64, a[k].abs(), slope_tail);
     }
-    // The end value by Horner's rule is what the next step starts from: it decides.
+    // The value at the end is what the next step starts from: it decides.
     let end = value(&a, 1.0);
     if a[1].abs() > slope_tail {
         if end > 0.0 {
@@ -82,25 +87,23 @@ fn scaled<const N: usize, const ZEROS: usize>(c: &[f64; N], h: f64) -> [f64; N] 
     a
 }
 
-/// Whether the Bernstein coefficients of the cubic part exceed what the rest can take away.
-/// Needs N ≥ 4.
-#[expect(clippy::needless_bitwise_bool, reason = "no branch between the comparisons")]
+/// By how much the Bernstein coefficients of the cubic part exceed what the rest can take away.
 #[inline(always)]
-fn keeps_sign_by_cubic<const N: usize>(a: &[f64; N], tail: f64) -> bool {
-    const THIRD: f64 = 1.0 / 3.0;
-    let b1 = f64::mul_add(a[1], THIRD, a[0]);
-    let b2 = f64::mul_add(f64::mul_add(2.0, a[1], a[2]), THIRD, a[0]);
+fn margin_by_cubic<V: Lane>(a: &[V; 4], tail: V) -> V {
+    let third = V::splat(1.0 / 3.0);
+    let b1 = a[1].mul_add(third, a[0]);
+    let b2 = V::splat(2.0).mul_add(a[1], a[2]).mul_add(third, a[0]);
     let b3 = (a[0] + a[1]) + (a[2] + a[3]);
-    // One comparison each, no branch between them: they are all true far from an event.
-    (a[0] > tail) & (b1 > tail) & (b2 > tail) & (b3 > tail)
+    // b3 last: it is not a number where any of the four is none, and then so is the result.
+    (a[0] - tail).min(b1 - tail).min(b2 - tail).min(b3 - tail)
 }
 
 /// Σ |aₖ| over k ≥ `from`, in four accumulators.
 #[inline(always)]
-fn absolute_sum<const N: usize>(a: &[f64; N], from: usize) -> f64 {
-    let mut sums = [0.0; 4];
+fn absolute_sum<V: Lane, const N: usize>(a: &[V; N], from: usize) -> V {
+    let mut sums = [V::splat(0.0); 4];
     for k in from..N {
-        sums[k % 4] += a[k].abs();
+        sums[k % 4] = sums[k % 4] + a[k].abs();
     }
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
@@ -112,13 +115,27 @@ fn clipped(u: f64, h: f64) -> f64 {
     if t < h { t } else { h }
 }
 
+/// Σ aₖuᵏ as four interleaved sums in u⁴: a quarter of the waiting of Horner's rule.
 #[inline(always)]
-fn value<const N: usize>(a: &[f64; N], u: f64) -> f64 {
-    let mut value = 0.0;
+pub fn value<V: Lane, const N: usize>(a: &[V; N], u: V) -> V {
+    let square = u * u;
+    let fourth = square * square;
+    let mut parts = [V::splat(0.0); 4];
     for k in (0..N).rev() {
-        value = f64::mul_add(value, u, a[k]);
+        parts[k % 4] = parts[k % 4].mul_add(fourth, a[k]);
     }
-    value
+    let odd = parts[3].mul_add(square, parts[1]);
+    odd.mul_add(u, parts[2].mul_add(square, parts[0]))
+}
+
+/// Coefficients of the derivative of Σ aₖuᵏ.
+#[inline(always)]
+pub fn derivative<V: Lane, const N: usize>(a: &[V; N]) -> [V; N] {
+    let mut d = [V::splat(0.0); N];
+    for k in 1..N {
+        d[k - 1] = a[k] * V::splat(k as f64);
+    }
+    d
 }
 
 /// Entry \[k\]\[j\] = C(j, k)/C(N−1, k): Bernstein coefficient j of uᵏ on [0, 1].
@@ -216,13 +233,9 @@ fn polygon_zero<const N: usize>(b: &[f64; N]) -> f64 {
 #[inline(always)]
 fn polish<const N: usize>(a: &[f64; N], mut low: f64, mut high: f64, guess: f64) -> f64 {
     let mut u = guess;
+    let derivative = derivative(a);
     for _ in 0..80 {
-        let mut value = 0.0;
-        let mut slope = 0.0;
-        for k in (0..N).rev() {
-            slope = f64::mul_add(slope, u, value);
-            value = f64::mul_add(value, u, a[k]);
-        }
+        let (value, slope) = (value(a, u), value(&derivative, u));
         if value > 0.0 {
             low = u;
         } else {
@@ -242,38 +255,38 @@ fn polish<const N: usize>(a: &[f64; N], mut low: f64, mut high: f64, guess: f64)
     u
 }
 
-/// 2⁵², the unit of the exponent in the bits of a double.
-const EXPONENT_UNIT: f64 = 4_503_599_627_370_496.0;
-
-/// log₂ x of a positive number in units of 2⁻⁵², from its bits alone: the chord between powers of
-/// two, low by up to 0.086. No logarithm is called, so that the bits are the same everywhere.
+/// log₂ x of a positive number from its bits alone: the chord between powers of two, low by up to
+/// 0.086. No logarithm is called, so that the bits are the same everywhere.
 #[inline(always)]
-fn chord_logarithm(x: f64) -> f64 {
-    // Clamped so that no bits overflow below: steps beyond 10^±17 are of no use at order 16.
-    let x = if x > 1e-280 { x } else { 1e-280 };
-    let x = if x < 1e280 { x } else { 1e280 };
-    x.to_bits() as f64
+fn chord_logarithm<V: Lane>(x: V) -> V {
+    /// 2⁵², and its bits: the lowest bits of the sum of it and a small integer are that integer.
+    const SHIFT: f64 = 4_503_599_627_370_496.0;
+    const SHIFT_BITS: u64 = SHIFT.to_bits();
+    const ONE_BITS: u64 = 1f64.to_bits();
+    const FRACTION: u64 = (1 << 52) - 1;
+    // Clamped so that no exponent overflows below: steps beyond 10^±17 are of no use at order 16.
+    let x = x.max(V::splat(1e-280)).min(V::splat(1e280));
+    let exponent = x.map(|x| f64::from_bits((x.to_bits() >> 52) | SHIFT_BITS));
+    let significand = x.map(|x| f64::from_bits((x.to_bits() & FRACTION) | ONE_BITS));
+    (exponent - V::splat(SHIFT + 1024.0)) + significand
 }
 
 /// Step for which |last|·hᵏ and |previous|·hᵏ⁻¹ both stay below `tolerance`, the last two
-/// retained terms of a Taylor series of degree k.
+/// retained terms of a Taylor series of degree k, in every lane.
 ///
 /// (tolerance/|last|)^(1/k) with chords for log₂ and 2^: the first errs by ±0.086/k in the
 /// exponent, the second is high by up to 6.2 %; the factor 0.93 takes both back for k ≥ 8, at
 /// the price of a step up to 8 % shorter than allowed.
 #[inline(always)]
-pub fn step_length(tolerance: f64, last: f64, previous: f64, k: usize) -> f64 {
+pub fn step_length<V: Lane>(tolerance: V, last: V, previous: V, k: usize) -> V {
     let tolerance = chord_logarithm(tolerance);
-    let by_last = (tolerance - chord_logarithm(last.abs())) * (1.0 / k as f64);
-    let by_previous = (tolerance - chord_logarithm(previous.abs())) * (1.0 / (k - 1) as f64);
-    let exponent = if by_last < by_previous { by_last } else { by_previous };
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a clamped exponent plus the bias is a positive integer below 2⁶³"
-    )]
-    let bits = (exponent + 1023.0 * EXPONENT_UNIT) as u64;
-    0.93 * f64::from_bits(bits)
+    let by_last = (tolerance - chord_logarithm(last.abs())) * V::splat(1.0 / k as f64);
+    let by_previous =
+        (tolerance - chord_logarithm(previous.abs())) * V::splat(1.0 / (k - 1) as f64);
+    let exponent = by_last.min(by_previous);
+    let whole = (exponent - V::splat(0.5)).round();
+    let fraction = exponent - whole;
+    (V::splat(0.93) + V::splat(0.93) * fraction) * whole.power_of_two()
 }
 
 #[cfg(test)]

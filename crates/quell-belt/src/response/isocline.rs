@@ -1,0 +1,51 @@
+//! The dither amplitude at which the efficiency falls through a level, along one frequency ratio.
+//!
+//! A row of amplitudes is measured side by side; the last interval of the row in which E falls through the level is
+//! divided into the next row. E is a measured number: a crossing is found to the accuracy with
+//! which records of the given solver define it, not better.
+
+use std::ops::RangeInclusive;
+
+use quell_model::Belt;
+
+use super::{Case, Solver, Wanted, compare_many};
+use crate::simulation::Start;
+
+/// Amplitudes of a row: as many as the widest lanes hold.
+const ROW: u32 = 16;
+
+/// Largest amplitude D in `amplitudes` of the first dither at which E falls through `level` with
+/// growing D, to `closeness` relative to D; `None` if it does not fall through there, or where E
+/// is undefined or a run stops.
+pub fn amplitude_at_efficiency(
+    belt: &Belt,
+    start: Start,
+    solver: &Solver,
+    level: f64,
+    amplitudes: RangeInclusive<f64>,
+    closeness: f64,
+) -> Option<f64> {
+    let (mut from, mut to) = amplitudes.into_inner();
+    while to - from > closeness * to {
+        let row: Vec<f64> =
+            (0..ROW).map(|k| from + (to - from) * f64::from(k) / f64::from(ROW - 1)).collect();
+        let cases: Option<Vec<Case>> = row
+            .iter()
+            .map(|&amplitude| {
+                let belt = belt.with("dither.amplitude", amplitude).ok()?;
+                Some(Case { belt, start })
+            })
+            .collect();
+        let efficiencies: Option<Vec<f64>> = compare_many(&cases?, solver, Wanted::default())
+            .into_iter()
+            .map(|compared| compared.ok()?.efficiency().ok())
+            .collect();
+        let efficiencies = efficiencies?;
+        let last = efficiencies.windows(2).rposition(|pair| pair[0] > level && pair[1] <= level)?;
+        (from, to) = (row[last], row[last + 1]);
+        if efficiencies[last] == efficiencies[last + 1] {
+            break;
+        }
+    }
+    Some(0.5 * (from + to))
+}

@@ -1,0 +1,182 @@
+//! What is heard on a record while integrating: its largest low line, and its tones at the dither's
+//! frequencies. Samples of x at equal steps are summed as they come; none is kept.
+
+use std::f64::consts::TAU;
+
+use quell_model::{Belt, Direction};
+use quell_numerics::elementary::sin_cos_of_phase;
+use quell_numerics::spectrum::low_band::{LargestLines, LowBand};
+
+use super::{BAND_END, Solver};
+use crate::simulation::Segment;
+
+/// Samples per period of the fastest dither, at least: its seventh harmonic stays below
+/// the Nyquist frequency.
+const SAMPLES_PER_DITHER_PERIOD: f64 = 16.0;
+
+/// Samples per slow period, at least.
+const SAMPLES_PER_SLOW_PERIOD: f64 = 128.0;
+
+/// Cells per slow period in which the low band is heard: the band ends below a quarter of
+/// their Nyquist frequency, 4.
+const CELLS_PER_SLOW_PERIOD: usize = 8;
+
+/// Samples whose displacements are evaluated side by side.
+const ABREAST: usize = 4;
+
+/// Where the samples of a record lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Sampling {
+    /// The first.
+    pub(super) from: f64,
+    /// Step between them.
+    pub(super) step: f64,
+    /// How many in a slow period; a multiple of 32 keeps the factors of a transform small.
+    pub(super) per_slow_period: usize,
+    /// How many in all.
+    pub(super) count: usize,
+}
+
+impl Sampling {
+    /// The samples of a record of `belt` that starts at `from`.
+    pub(super) fn of(belt: &Belt, from: f64, solver: &Solver) -> Self {
+        let fastest = belt
+            .dithers()
+            .iter()
+            .filter(|dither| dither.amplitude > 0.0)
+            .fold(0.0_f64, |rate, dither| rate.max(dither.frequency_ratio));
+        let wanted = SAMPLES_PER_SLOW_PERIOD.max(SAMPLES_PER_DITHER_PERIOD * fastest);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a count of samples"
+        )]
+        let per_slow_period = (wanted / 32.0).ceil() as usize * 32;
+        Self {
+            from,
+            step: TAU / per_slow_period as f64,
+            per_slow_period,
+            count: per_slow_period * solver.record_periods as usize,
+        }
+    }
+
+    /// When the record ends.
+    pub(super) fn end(&self) -> f64 {
+        self.from + self.count as f64 * self.step
+    }
+}
+
+/// Hears a record.
+#[derive(Clone, Debug)]
+pub(super) struct Listener {
+    sampling: Sampling,
+    band: LowBand,
+    tones: Vec<Tone>,
+}
+
+/// Sums of a record under the Hann window at one frequency.
+#[derive(Clone, Copy, Debug, Default)]
+struct Tone {
+    frequency: f64,
+    weight: f64,
+    /// Σ w x, Σ w x cos, Σ w x sin.
+    sample: [f64; 3],
+    /// Σ w cos, Σ w sin.
+    window: [f64; 2],
+}
+
+impl Listener {
+    /// For a record of `belt`; its tones only if `with_tones`.
+    pub(super) fn new(belt: &Belt, sampling: Sampling, with_tones: bool) -> Self {
+        let mut frequencies: Vec<f64> = belt
+            .dithers_along(Direction::Tangential)
+            .filter(|dither| with_tones && dither.amplitude > 0.0)
+            .map(|dither| dither.frequency_ratio)
+            .collect();
+        frequencies.sort_by(f64::total_cmp);
+        frequencies.dedup();
+        let tone = |frequency| Tone { frequency, ..Tone::default() };
+        let decimation = sampling.per_slow_period / CELLS_PER_SLOW_PERIOD;
+        Self {
+            sampling,
+            band: LowBand::new(sampling.count, sampling.step, decimation),
+            tones: frequencies.into_iter().map(tone).collect(),
+        }
+    }
+
+    /// M of the record and of its halves.
+    pub(super) fn largest_lines(&self) -> LargestLines {
+        self.band.largest_lines(BAND_END)
+    }
+
+    /// Peak-to-peak displacement at the frequencies of the tangential dithers: twice the
+    /// spectral amplitude at each different one, summed.
+    pub(super) fn stroke(&self) -> f64 {
+        self.tones.iter().map(|tone| 2.0 * tone.amplitude()).sum()
+    }
+
+    /// Hears what is missing at the end: the last sample may round to just after it.
+    pub(super) fn finish(&mut self, displacement: f64) {
+        while self.band.missing() > 0 {
+            self.hear(displacement);
+        }
+    }
+
+    /// Hears the samples of one segment. To be called with the machine's best instructions.
+    #[inline(always)]
+    pub(super) fn hear_segment(&mut self, segment: &Segment<'_>) {
+        let Sampling { from, step, count, .. } = self.sampling;
+        loop {
+            let next = count - self.band.missing();
+            let mut since = [0.0; ABREAST];
+            let mut inside = 0;
+            for (place, since) in since.iter_mut().enumerate() {
+                // A sample at the very start of a run may round to just before it.
+                *since =
+                    segment.clock().until(((next + place) as f64).mul_add(step, from)).max(0.0);
+                if next + place < count && *since <= segment.duration() {
+                    inside = place + 1;
+                }
+            }
+            for &displacement in &segment.displacements_at(&since)[..inside] {
+                self.hear(displacement);
+            }
+            if inside < ABREAST {
+                return;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn hear(&mut self, displacement: f64) {
+        let number = (self.sampling.count - self.band.missing()) as f64;
+        self.band.push(displacement);
+        for tone in &mut self.tones {
+            tone.hear(displacement, number, &self.sampling);
+        }
+    }
+}
+
+impl Tone {
+    #[inline(always)]
+    fn hear(&mut self, displacement: f64, number: f64, sampling: &Sampling) {
+        let (sine, _) = sin_cos_of_phase(0.5 * TAU / sampling.count as f64, number, 0.0, 0.0);
+        let weight = sine * sine;
+        let (sine, cosine) = sin_cos_of_phase(self.frequency * sampling.step, number, 0.0, 0.0);
+        let value = weight * displacement;
+        self.weight += weight;
+        self.sample[0] += value;
+        self.sample[1] = value.mul_add(cosine, self.sample[1]);
+        self.sample[2] = value.mul_add(sine, self.sample[2]);
+        self.window[0] = weight.mul_add(cosine, self.window[0]);
+        self.window[1] = weight.mul_add(sine, self.window[1]);
+    }
+
+    /// Spectral amplitude, the weighted mean removed.
+    fn amplitude(&self) -> f64 {
+        let mean = self.sample[0] / self.weight;
+        let cosine = self.sample[1] - mean * self.window[0];
+        let sine = self.sample[2] - mean * self.window[1];
+        2.0 * libm::hypot(cosine, sine) / self.weight
+    }
+}

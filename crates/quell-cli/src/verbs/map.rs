@@ -1,0 +1,199 @@
+//! `quell map`: quantities over the axes of a study.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use clap::Args;
+use quell::output::Output;
+use quell::picture;
+use quell::run::map::{Extreme, Map, run as map};
+use quell::store::Store;
+use quell::sweep::{Entry, Grid, MOST_THREADS, Plan, QUANTITIES, Quantity, Running, Status};
+use quell::{Complaint, Failure, Fault, Origin};
+
+use crate::answer::Answer;
+use crate::arguments::{Complaints, PlotArguments, StudyArguments};
+use crate::interrupt;
+use crate::progress::Bar;
+use crate::table::figure;
+
+/// Computes quantities over the axes ([[sweep]]) of a study, on all cores
+#[derive(Debug, Args)]
+#[command(after_help = quantities())]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// What is shown; several times, or separated by commas, for several
+    #[arg(long = "quantity", value_name = "NAME", required = true, value_delimiter = ',')]
+    quantities: Vec<String>,
+    /// Keeps the map: a Zarr store, chunk by chunk as they are done; or a table at the end
+    #[arg(long, value_name = "FILE.zarr|.csv")]
+    save: Option<PathBuf>,
+    /// Goes on with the store that --save names, if there is one
+    #[arg(long)]
+    resume: bool,
+    /// Number of threads; all there are by default
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    threads: Option<String>,
+    #[command(flatten)]
+    plot: PlotArguments,
+}
+
+/// The list of quantities in the help.
+fn quantities() -> String {
+    let mut text = "Quantities:\n".to_owned();
+    for quantity in QUANTITIES {
+        let _ = writeln!(text, "  {:<20}  {}", quantity.name, quantity.about);
+    }
+    text + "\nExit status: 0 done, 2 the input is wrong, 1 it failed or was stopped."
+}
+
+/// Where the map is kept.
+enum Keep {
+    Nowhere,
+    Csv(Output),
+    Zarr(PathBuf),
+}
+
+/// Answers.
+pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
+    let mut complaints = Complaints::default();
+    let study = complaints.take(arguments.study.read());
+    let asked: Vec<&'static Quantity> = arguments
+        .quantities
+        .iter()
+        .filter_map(|name| complaints.take(Quantity::named(name.trim(), "--quantity")))
+        .collect();
+    let threads = complaints.take(threads(arguments.threads.as_deref()));
+    let keep = complaints.take(keep(arguments));
+    let plot = complaints.take(arguments.plot.prepare());
+    let plan = study.and_then(|study| complaints.take(Plan::new(&study, &asked)));
+    if let (Some(plan), Some(plot)) = (&plan, &plot)
+        && plot.wanted()
+    {
+        complaints.take(drawable(plan.grid()));
+    }
+    let ((plan, keep), (threads, plot)) =
+        complaints.finish(plan.zip(keep).zip(threads.zip(plot)))?;
+
+    let store = match &keep {
+        Keep::Zarr(path) => Some(Store::open(path, &plan, arguments.resume)?),
+        Keep::Csv(_) | Keep::Nowhere => None,
+    };
+    let bar = Bar::new();
+    let running = Running { threads, stop: interrupt::flag(), progress: &bar };
+    let done = map(plan, store.as_ref(), running)?;
+    let mut object = done.json();
+    match keep {
+        Keep::Csv(output) => {
+            let path = output.write(done.dataset().csv().as_bytes())?;
+            object["saved"] = vec![path.display().to_string()].into();
+        }
+        Keep::Zarr(path) => object["saved"] = vec![path.display().to_string()].into(),
+        Keep::Nowhere => {}
+    }
+    plot.try_write(|| picture::sweep(&done), &mut object)?;
+    let answer = Answer::new(arguments.study.json, || object, || text(&done));
+    Ok(answer.warning(done.warnings()))
+}
+
+fn threads(text: Option<&str>) -> Result<Option<usize>, Box<Complaint>> {
+    let Some(text) = text else {
+        return Ok(None);
+    };
+    match text.parse() {
+        Ok(threads) if (1..=MOST_THREADS).contains(&threads) => Ok(Some(threads)),
+        _ => {
+            let allowed = format!("a whole number from 1 to {MOST_THREADS}");
+            Err(Box::new(Complaint::option("--threads", text, allowed)))
+        }
+    }
+}
+
+fn keep(arguments: &Arguments) -> Result<Keep, Box<Complaint>> {
+    let zarr = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "zarr");
+    match &arguments.save {
+        Some(path) if zarr(path) => Ok(Keep::Zarr(path.clone())),
+        _ if arguments.resume => {
+            let allowed = "--resume goes on with a store: name it by --save FILE.zarr";
+            let option = "--resume";
+            Err(Box::new(Complaint::new(Fault::Usage, option, Origin::Whole, option, allowed)))
+        }
+        Some(path) => Output::prepare(path, "--save", &["csv", "zarr"]).map(Keep::Csv),
+        None => Ok(Keep::Nowhere),
+    }
+}
+
+/// Whether there is a picture of so many panels: one for each point of the axes before the last two.
+fn drawable(grid: &Grid) -> Result<(), Box<Complaint>> {
+    let shape = grid.shape();
+    let panels: usize = shape[..shape.len().saturating_sub(2)].iter().product();
+    if panels <= picture::MOST_PANELS {
+        return Ok(());
+    }
+    let allowed = format!(
+        "--plot draws one panel for each point of the axes before the last two, at most {}; this study          has {panels}: save the map and draw it from there",
+        picture::MOST_PANELS
+    );
+    let origin = Origin::Argument("--plot");
+    Err(Box::new(Complaint::new(Fault::Value, "--plot", origin, panels, allowed)))
+}
+
+fn text(done: &Map) -> String {
+    let grid = done.plan().grid();
+    let mut text = String::new();
+    if let Some(title) = grid.study().title() {
+        let _ = writeln!(text, "{title}");
+    }
+    for axis in grid.axes() {
+        let (first, last) = (axis.values.first(), axis.values.last());
+        let ends: Vec<String> = first.into_iter().chain(last).map(|value| figure(*value)).collect();
+        let spacing = if axis.logarithmic { ", equal ratios" } else { "" };
+        let unit = if axis.unit == "1" { String::new() } else { format!(" {}", axis.unit) };
+        let count = axis.values.len();
+        let _ =
+            writeln!(text, "  {}  {}{unit}, {count} values{spacing}", axis.path, ends.join(" to "));
+    }
+    let seconds = done.elapsed.as_secs_f64();
+    let _ = write!(text, "  {} points in {seconds:.2} s", grid.len());
+    if done.resumed > 0 {
+        let _ = write!(text, ", {} of them from the store", done.resumed);
+    }
+    text.push('\n');
+    for (entry, summary) in done.plan().sheet().entries().iter().zip(done.summaries()) {
+        let _ = writeln!(text, "\n{}", heading(entry, done));
+        for (word, found) in [("least", &summary.least), ("most", &summary.most)] {
+            if let Some(extreme) = found {
+                let _ = writeln!(text, "  {word}  {}", place(extreme, grid));
+            }
+        }
+        for (word, count) in &summary.words {
+            let _ = writeln!(text, "  {word}  {count} points");
+        }
+        for (status, count) in &summary.states {
+            if *status != Status::Known {
+                let _ = writeln!(text, "  {}  {count} points: {}", status.name(), status.about());
+            }
+        }
+    }
+    text
+}
+
+fn heading(entry: &Entry, done: &Map) -> String {
+    let field = &done.plan().sheet().fields()[entry.value];
+    let unit = match field.unit.as_str() {
+        "" | "1" => String::new(),
+        unit => format!(" [{unit}]"),
+    };
+    format!("{}{unit}: {}", field.name, entry.variable.about)
+}
+
+fn place(extreme: &Extreme, grid: &Grid) -> String {
+    let places: Vec<String> = grid
+        .axes()
+        .iter()
+        .zip(&extreme.place)
+        .map(|(axis, value)| format!("{} = {}", axis.path, figure(*value)))
+        .collect();
+    format!("{}  at {}", figure(extreme.value), places.join(", "))
+}

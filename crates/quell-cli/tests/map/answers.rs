@@ -1,0 +1,263 @@
+//! What `quell map` answers.
+
+use std::fs;
+
+use serde_json::Value as Json;
+
+use crate::place::{Place, SMALL, STUDY, same};
+
+#[test]
+fn a_point_of_a_map_has_the_bits_it_has_alone() {
+    let place = Place::new("alone");
+    let quantities = "efficiency,amplitude,stick-fraction,mean-friction,dither-power,criterion,\
+                      growth,critical-amplitude,verdict";
+    let map = place.good(&["map", "small.toml", "--quantity", quantities]);
+    let (first, second) = (&map["axes"][0]["values"], &map["axes"][1]["values"]);
+    assert_eq!(map["axes"][0]["parameter"], "dither.amplitude");
+    assert_eq!(map["shape"], serde_json::json!([3, 4]));
+    for (i, amplitude) in first.as_array().expect("values").iter().enumerate() {
+        for (j, velocity) in second.as_array().expect("values").iter().enumerate() {
+            let set =
+                [format!("dither.amplitude={amplitude}"), format!("belt.belt_velocity={velocity}")];
+            let alone =
+                |verb: &str| place.good(&[verb, "study.toml", "--set", &set[0], "--set", &set[1]]);
+            let (steady, averaged) = (alone("response"), alone("stability"));
+            for name in
+                ["efficiency", "amplitude", "stick_fraction", "mean_friction", "dither_power"]
+            {
+                assert_eq!(map[name][i][j], steady[name], "{name} {set:?}");
+            }
+            assert_eq!(map["criterion"][i][j], averaged["criterion"]);
+            assert_eq!(map["growth"][i][j], averaged["growth_rate"]);
+            assert_eq!(map["verdict"][i][j], averaged["verdict"]);
+            let critical = averaged["critical_amplitudes"].as_array().expect("a list");
+            let lowest = critical.first().map_or(&Json::Null, |first| &first["amplitude_ratio"]);
+            assert_eq!(&map["critical_amplitude"][i][j], lowest);
+            // The undithered belt at v₀ = 0.5 settles to sliding: E is unknown and says so.
+            let known = map["efficiency_status"][i][j] == "known";
+            assert_eq!(known, map["efficiency"][i][j].is_number());
+        }
+    }
+    assert_eq!(map["efficiency_status"][0][3], "undithered_settles");
+    assert!(map["why"]["efficiency"].as_str().is_some_and(|why| why.contains("without dither")));
+}
+
+#[test]
+fn any_number_of_threads_writes_the_same_bytes() {
+    let place = Place::new("threads");
+    for threads in ["1", "3"] {
+        let save = format!("{threads}.zarr");
+        place.good(&[
+            "map",
+            "small.toml",
+            "--quantity",
+            "efficiency",
+            "--threads",
+            threads,
+            "--save",
+            &save,
+        ]);
+    }
+    same(&place.store("1.zarr"), &place.store("3.zarr"));
+}
+
+#[test]
+fn a_store_describes_itself() {
+    let place = Place::new("described");
+    let set = "belt.damping_ratio=0.006";
+    place.good(&[
+        "map",
+        "small.toml",
+        "--set",
+        set,
+        "--quantity",
+        "efficiency,verdict",
+        "--save",
+        "m.zarr",
+    ]);
+    let read = |name: &str| -> Json {
+        let text = fs::read_to_string(place.folder.join("m.zarr").join(name)).expect("metadata");
+        serde_json::from_str(&text).expect("JSON")
+    };
+    let group = read("zarr.json");
+    let attributes = &group["attributes"];
+    assert_eq!(attributes["study"], format!("{STUDY}{SMALL}"));
+    assert_eq!(attributes["changes"], set);
+    assert_eq!(attributes["quell_version"], env!("CARGO_PKG_VERSION"));
+    assert!(attributes["references"].as_str().is_some_and(|text| text.contains("Michaux")));
+    let arrays = group["consolidated_metadata"]["metadata"].as_object().expect("arrays");
+    let expected = [
+        "dither_amplitude",
+        "belt_velocity",
+        "efficiency",
+        "efficiency_status",
+        "verdict",
+        "verdict_status",
+        "settled",
+        "settled_status",
+    ];
+    assert_eq!(arrays.keys().map(String::as_str).collect::<Vec<_>>(), expected);
+    for (name, described) in arrays {
+        // What is consolidated is what stands beside the array.
+        assert_eq!(described, &read(&format!("{name}/zarr.json")));
+    }
+    let efficiency = &arrays["efficiency"];
+    assert_eq!(
+        efficiency["dimension_names"],
+        serde_json::json!(["dither_amplitude", "belt_velocity"])
+    );
+    assert_eq!(efficiency["attributes"]["ancillary_variables"], "efficiency_status");
+    assert_eq!(efficiency["attributes"]["units"], "1");
+    assert_eq!(efficiency["fill_value"], "NaN");
+    let status = &arrays["efficiency_status"];
+    assert_eq!(status["fill_value"], 255);
+    let values = status["attributes"]["flag_values"].as_array().expect("codes");
+    let meanings = status["attributes"]["flag_meanings"].as_str().expect("words");
+    assert_eq!(values.len(), meanings.split(' ').count());
+    assert!(meanings.starts_with("known ") && meanings.ends_with(" missing"));
+}
+
+#[test]
+fn a_table_has_a_row_a_point() {
+    let place = Place::new("table");
+    let map =
+        place.good(&["map", "small.toml", "--quantity", "efficiency,verdict", "--save", "m.csv"]);
+    assert_eq!(map["saved"][0], "m.csv");
+    let text = fs::read_to_string(place.folder.join("m.csv")).expect("a table");
+    let rows: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
+    assert_eq!(
+        rows[0],
+        "dither_amplitude,belt_velocity,efficiency,efficiency_status,verdict,verdict_status,settled,settled_status"
+    );
+    assert_eq!(rows.len(), 13);
+    let efficiency = &map["efficiency"][1][2];
+    assert!(rows[7].starts_with(&format!("0.5,0.15,{efficiency},known,")), "{}", rows[7]);
+    assert!(rows[4].starts_with("0.1,0.5,,undithered_settles,"), "{}", rows[4]);
+    assert!(text.contains("# units: dither_amplitude [length (force/k)], "));
+}
+
+#[test]
+fn axes_may_be_in_si() {
+    let place = Place::new("si");
+    let study = r#"schema = 1
+[belt]
+mass_kg = 2.5
+stiffness_n_per_m = 1.0e6
+damping_n_s_per_m = 15.8
+normal_force_n = 350.0
+belt_velocity_m_per_s = 0.02
+[friction]
+law = "decreasing"
+static_coefficient = 0.4
+minimum_coefficient = 0.2857
+reference_velocity_m_per_s = 0.03
+[dither]
+direction = "tangential"
+waveform = "triangle"
+amplitude_n_rms = 60.0
+frequency_hz = 2000.0
+[solver]
+settle_s = 0.01
+record_periods = 4
+[[sweep]]
+parameter = "dither.frequency_hz"
+from = 1000
+to = 4000
+points = 3
+spacing = "log"
+[[sweep]]
+parameter = "belt.mass_kg"
+values = [1, 2.5]
+"#;
+    place.write("si.toml", study);
+    let map = place.good(&["map", "si.toml", "--quantity", "mean-friction,growth"]);
+    assert_eq!(map["axes"][0]["unit"], "Hz");
+    assert_eq!(map["units"]["mean_friction_n"], "N");
+    for (i, frequency) in [1000.0, 2000.0, 4000.0].into_iter().enumerate() {
+        let written = map["axes"][0]["values"][i].as_f64().expect("a frequency");
+        assert!((written / frequency - 1.0).abs() < 1e-14);
+        for (j, mass) in [1.0, 2.5].into_iter().enumerate() {
+            let set = [format!("dither.frequency_hz={written:?}"), format!("belt.mass_kg={mass}")];
+            let alone = |verb| place.good(&[verb, "si.toml", "--set", &set[0], "--set", &set[1]]);
+            assert_eq!(map["mean_friction_n"][i][j], alone("response")["mean_friction_n"]);
+            assert_eq!(map["growth_per_s"][i][j], alone("stability")["growth_rate_per_s"]);
+        }
+    }
+}
+
+#[test]
+fn a_point_that_is_no_study_is_not_the_end_of_the_map() {
+    let place = Place::new("invalid");
+    // Each axis alone is allowed, but together they pull the contact apart at one corner.
+    let text = STUDY
+        .replace("\"tangential\"", "\"normal\"")
+        .replace("normal_load = 1.0", "normal_load = 0.5");
+    place.write(
+        "study.toml",
+        &format!(
+            "{text}[[sweep]]\nparameter = \"dither.amplitude\"\nvalues = [0.1, 0.45]\n\
+             [[sweep]]\nparameter = \"belt.normal_load\"\nvalues = [0.42, 0.5]\n"
+        ),
+    );
+    let map = place.good(&["map", "study.toml", "--quantity", "verdict,dither-power"]);
+    assert_eq!(map["verdict_status"][1][0], "invalid_study");
+    assert_eq!(map["verdict"][1][0], "undecided");
+    assert_eq!(map["counts"]["dither_power"]["only_normal_dither"], 3);
+    assert!(map["verdict"][0][0].is_string() && map["dither_power"][0][0].is_null());
+}
+
+#[test]
+fn one_axis_is_drawn_and_two_say_what_they_need() {
+    let place = Place::new("drawn");
+    let one: &[&str] =
+        &["--set", "sweep[0].parameter=dither.amplitude", "--set", "sweep[0].values=[0, 0.3, 0.6]"];
+    let mut arguments =
+        vec!["map", "study.toml", "--quantity", "efficiency,verdict", "--plot", "m.svg"];
+    arguments.extend(one);
+    assert_eq!(place.good(&arguments)["plotted"], "m.svg");
+    let svg = fs::read_to_string(place.folder.join("m.svg")).expect("a picture");
+    assert!(svg.starts_with("<svg"));
+}
+
+#[test]
+fn what_cannot_be_asked_is_refused_at_once() {
+    let place = Place::new("refused");
+    let cases: &[(&[&str], &str)] = &[
+        (&["map", "study.toml", "--quantity", "efficiency"], "[[sweep]]"),
+        (&["map", "small.toml"], "--quantity"),
+        (&["map", "small.toml", "--quantity", "eficiency"], "--quantity"),
+        (&["map", "small.toml", "--quantity", "verdict", "--resume"], "--resume"),
+        (
+            &["map", "small.toml", "--quantity", "verdict", "--resume", "--save", "m.csv"],
+            "--resume",
+        ),
+        (&["map", "small.toml", "--quantity", "verdict", "--threads", "0"], "--threads"),
+        (&["map", "small.toml", "--quantity", "verdict", "--threads", "-1"], "--threads"),
+        (&["map", "small.toml", "--quantity", "verdict", "--save", "m.xlsx"], "--save"),
+        (&["map", "small.toml", "--quantity", "verdict", "--save", "nowhere/m.zarr"], "--save"),
+        (&["map", "small.toml", "--quantity", "verdict", "--save", "study.toml/m.zarr"], "--save"),
+        (
+            &["map", "small.toml", "--quantity", "verdict", "--set", "belt.damping_ratio=-1"],
+            "belt.damping_ratio",
+        ),
+    ];
+    for (arguments, key) in cases {
+        let told = place.quell(arguments);
+        assert_eq!((told.status, told.output.as_str()), (Some(2), ""), "{arguments:?}: {told:?}");
+        let mut with = arguments.to_vec();
+        with.push("--json");
+        let told = place.quell(&with);
+        let object: Json = serde_json::from_str(&told.output).expect("one JSON object");
+        let keys: Vec<&Json> = object["errors"]
+            .as_array()
+            .expect("errors")
+            .iter()
+            .map(|error| &error["key"])
+            .collect();
+        assert!(keys.iter().any(|found| found.as_str() == Some(*key)), "{arguments:?}: {keys:?}");
+    }
+    let left = fs::read_dir(&place.folder).expect("a folder").count();
+    assert_eq!(left, 2, "nothing is left behind");
+    let told = place.quell(&["map", "study.toml", "--quantity", "efficiency"]);
+    assert!(told.errors.contains("    parameter = \"dither.amplitude\""), "{}", told.errors);
+}

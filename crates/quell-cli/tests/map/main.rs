@@ -1,0 +1,5 @@
+//! `quell map` by the real binary: what it answers, and what its stores survive.
+
+mod answers;
+mod faults;
+mod place;

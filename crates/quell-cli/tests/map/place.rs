@@ -1,0 +1,132 @@
+//! A fresh folder with a study in it, and stores compared byte by byte.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value as Json;
+
+/// A study whose response is short.
+pub(crate) const STUDY: &str = r#"schema = 1
+title = "Stribeck belt"
+[belt]
+damping_ratio = 0.005
+normal_load = 1.0
+belt_velocity = 0.05
+[friction]
+law = "stribeck"
+static_coefficient = 0.4
+minimum_coefficient = 0.2857
+reference_velocity = 0.2
+[dither]
+direction = "tangential"
+waveform = "sine"
+amplitude = 0.4
+frequency_ratio = 10.0
+[solver]
+settle = 5
+record_periods = 4
+"#;
+
+/// Axes of a small map.
+pub(crate) const SMALL: &str = "[[sweep]]\nparameter = \"dither.amplitude\"\nfrom = 0.1\nto = 0.9\n\
+    points = 3\n[[sweep]]\nparameter = \"belt.belt_velocity\"\nvalues = [0.05, 0.1, 0.15, 0.5]\n";
+
+/// A fresh folder.
+pub(crate) struct Place {
+    pub(crate) folder: PathBuf,
+}
+
+impl Place {
+    pub(crate) fn new(name: &str) -> Self {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("map").join(name);
+        // A run before this one may have left it.
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).expect("a folder for tests");
+        let place = Self { folder };
+        place.write("study.toml", STUDY);
+        place.write("small.toml", &format!("{STUDY}{SMALL}"));
+        place
+    }
+
+    pub(crate) fn write(&self, name: &str, text: &str) {
+        fs::write(self.folder.join(name), text).expect("a file for tests");
+    }
+
+    pub(crate) fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_quell"));
+        command.current_dir(&self.folder).args(arguments).stdin(Stdio::null());
+        command
+    }
+
+    pub(crate) fn quell(&self, arguments: &[&str]) -> Told {
+        Told::of(&self.command(arguments).output().expect("quell runs"))
+    }
+
+    /// Runs a verb that must succeed, with `--json`.
+    pub(crate) fn good(&self, arguments: &[&str]) -> Json {
+        let mut with = arguments.to_vec();
+        with.push("--json");
+        let told = self.quell(&with);
+        assert_eq!(told.status, Some(0), "{arguments:?}: {told:?}");
+        let object: Json = serde_json::from_str(&told.output).expect("one JSON object");
+        assert_eq!(object["ok"], true);
+        object
+    }
+
+    /// Every file of a store but its lock.
+    pub(crate) fn store(&self, name: &str) -> BTreeMap<String, Vec<u8>> {
+        files(&self.folder.join(name))
+    }
+}
+
+/// Every file below a folder but the lock of a store.
+pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    fn walk(folder: &Path, top: &Path, files: &mut BTreeMap<String, Vec<u8>>) {
+        for entry in fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                walk(&path, top, files);
+            } else {
+                let name = path.strip_prefix(top).expect("below").display().to_string();
+                if name != ".quell/lock" {
+                    files.insert(name, fs::read(&path).expect("a file"));
+                }
+            }
+        }
+    }
+    let mut found = BTreeMap::new();
+    walk(folder, folder, &mut found);
+    found
+}
+
+/// Says which files differ, rather than showing their bytes.
+#[track_caller]
+pub(crate) fn same(one: &BTreeMap<String, Vec<u8>>, other: &BTreeMap<String, Vec<u8>>) {
+    let names = |files: &BTreeMap<String, Vec<u8>>| files.keys().cloned().collect::<Vec<_>>();
+    assert_eq!(names(one), names(other));
+    let differ: Vec<&String> = one.keys().filter(|name| one[*name] != other[*name]).collect();
+    assert!(differ.is_empty(), "{differ:?}");
+}
+
+/// What a process told.
+#[derive(Debug)]
+pub(crate) struct Told {
+    pub(crate) status: Option<i32>,
+    pub(crate) output: String,
+    pub(crate) errors: String,
+}
+
+impl Told {
+    pub(crate) fn of(output: &Output) -> Self {
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        let told = Self {
+            status: output.status.code(),
+            output: text(&output.stdout),
+            errors: text(&output.stderr),
+        };
+        assert!(!told.errors.contains("panicked"), "{told:?}");
+        told
+    }
+}

@@ -1,0 +1,275 @@
+//! First roots of many polynomials at once, one per lane, by the proofs of [`super`].
+//!
+//! What is rare stays with the scalar search: a polynomial whose Bernstein coefficients change
+//! their sign more than once is returned as [`unsure`](Crossings). Every lane stops its own Newton iteration
+//! by its own measure, so that a result does not depend on the neighbours.
+
+use super::{ToBernstein, absolute_sum, derivative, margin_by_cubic, value};
+use crate::lane::Lane;
+
+/// Positive where Σ cₖ₊ₙtᵏ has no root on (0, h], by the first proof of
+/// [`super::first_crossing_after`]. The lanes may have different n = `zeros`, 0, 1 or 2;
+/// coefficients below n must be zero. Needs N ≥ 6.
+#[inline(always)]
+pub fn margin_of_no_root<V: Lane, const N: usize>(c: &[V; N], zeros: V, h: V) -> V {
+    // Dividing tⁿ out of Σ cₖtᵏ divides every scaled coefficient by hⁿ: signs stay.
+    let b = scaled(c, h);
+    let sign = V::splat(1.0).zip(shifted(&b, zeros, 0), f64::copysign);
+    let mut head = [sign; 4];
+    for (k, coefficient) in head.iter_mut().enumerate() {
+        *coefficient = shifted(&b, zeros, k) * sign;
+    }
+    let beyond_second = absolute_sum(&b, 6);
+    let beyond_first = b[5].abs() + beyond_second;
+    let beyond = b[4].abs() + beyond_first;
+    margin_by_cubic(&head, pick(zeros, beyond, beyond_first, beyond_second))
+}
+
+/// What was found in each lane.
+#[derive(Clone, Copy, Debug)]
+pub struct Crossings<V> {
+    /// First root as a time, at most h; meaningless where none was found.
+    pub time: V,
+    /// 1 where it was found, −1 where there is none, 0 where the scalar search must decide.
+    pub found: V,
+}
+
+/// First roots of Σ cₖ₊ₙtᵏ on (0, h] in the lanes where `wanted` is positive; conditions as for
+/// [`margin_of_no_root`].
+#[inline(always)]
+pub fn first_crossings<V: Lane, const N: usize>(
+    c: &[V; N],
+    zeros: V,
+    h: V,
+    wanted: V,
+) -> Crossings<V> {
+    let b = scaled(c, h);
+    let mut a = [V::splat(0.0); N];
+    for k in 0..N {
+        a[k] = if k + 2 < N {
+            shifted(&b, zeros, k)
+        } else if k + 1 < N {
+            pick(zeros, b[k], b[k + 1], V::splat(0.0))
+        } else {
+            pick(zeros, b[k], V::splat(0.0), V::splat(0.0))
+        };
+    }
+    let sign = V::splat(1.0).zip(a[0], f64::copysign);
+    for coefficient in &mut a {
+        *coefficient = *coefficient * sign;
+    }
+    let (variations, guess) = control_polygon(&a);
+    let one = V::splat(1.0);
+    // Variations are whole: ½ and 1½ divide 0, 1 and more.
+    let several = variations - V::splat(1.5);
+    let found = several
+        .where_positive(V::splat(0.0), (variations - V::splat(0.5)).where_positive(one, -one));
+    let u = polished(&a, guess, wanted.min(found));
+    Crossings { time: (u * h).min(h), found }
+}
+
+/// cₖhᵏ.
+#[inline(always)]
+fn scaled<V: Lane, const N: usize>(c: &[V; N], h: V) -> [V; N] {
+    let square = h * h;
+    let (mut even, mut odd) = (V::splat(1.0), h);
+    let mut b = [V::splat(0.0); N];
+    for k in 0..N {
+        if k % 2 == 0 {
+            b[k] = c[k] * even;
+            even = even * square;
+        } else {
+            b[k] = c[k] * odd;
+            odd = odd * square;
+        }
+    }
+    b
+}
+
+/// The first, second or third by n = 0, 1 or 2.
+#[inline(always)]
+fn pick<V: Lane>(zeros: V, none: V, one: V, two: V) -> V {
+    (zeros - V::splat(1.5)).where_positive(two, zeros.where_positive(one, none))
+}
+
+/// Coefficient k after n roots at 0 are divided out.
+#[inline(always)]
+fn shifted<V: Lane, const N: usize>(b: &[V; N], zeros: V, k: usize) -> V {
+    pick(zeros, b[k], b[k + 1], b[k + 2])
+}
+
+/// Changes of sign in the Bernstein coefficients of Σ aₖuᵏ on [0, 1], zeros passed over, and where
+/// the control polygon first falls through zero.
+#[inline(always)]
+fn control_polygon<V: Lane, const N: usize>(a: &[V; N]) -> (V, V) {
+    let matrix = &ToBernstein::<N>::MATRIX;
+    let mut bernstein = [a[0]; N];
+    for k in 1..N {
+        for j in k..N {
+            bernstein[j] = V::splat(matrix[k][j]).mul_add(a[k], bernstein[j]);
+        }
+    }
+    // The value at the end is what the next step starts from: it decides.
+    bernstein[N - 1] = value(a, V::splat(1.0));
+    let one = V::splat(1.0);
+    let mut variations = V::splat(0.0);
+    let mut last = one;
+    // The pair of neighbours between which the polygon first falls through zero.
+    let (mut above, mut below, mut place) = (one, -one, one);
+    let mut fallen = -one;
+    for (j, &coefficient) in bernstein.iter().enumerate().skip(1) {
+        let changes = -(coefficient * last);
+        variations = variations + changes.where_positive(one, V::splat(0.0));
+        let falls_now = (-coefficient).min(-fallen);
+        above = falls_now.where_positive(bernstein[j - 1], above);
+        below = falls_now.where_positive(coefficient, below);
+        place = falls_now.where_positive(V::splat((j - 1) as f64), place);
+        fallen = falls_now.where_positive(one, fallen);
+        last = coefficient.abs().where_positive(one.zip(coefficient, f64::copysign), last);
+    }
+    let share = above.zip(above - below, |above, drop| above / drop);
+    let crossing = (place + share) * V::splat(1.0 / (N - 1) as f64);
+    let guess = fallen.where_positive(crossing, one);
+    // An exact zero at the end is a root there.
+    let ends_at_zero = fallen.where_positive(-one, -bernstein[N - 1].abs());
+    let touches = ends_at_zero.map(|it| if it == 0.0 { 1.0 } else { 0.0 });
+    (variations + touches, guess.max(V::splat(0.0)).min(one))
+}
+
+/// The root of Σ aₖuᵏ in [0, 1], where it falls from plus to minus, in the lanes where `wanted`
+/// is positive: Newton's method kept inside its bracket.
+#[inline(always)]
+fn polished<V: Lane, const N: usize>(a: &[V; N], guess: V, wanted: V) -> V {
+    let slopes = derivative(a);
+    let (mut low, mut high) = (V::splat(0.0), V::splat(1.0));
+    let mut u = guess;
+    let mut open = wanted;
+    for _ in 0..80 {
+        if !open.any_positive() {
+            break;
+        }
+        let (height, slope) = (value(a, u), value(&slopes, u));
+        low = height.where_positive(u, low);
+        high = height.where_positive(high, u);
+        let newton = u - height.zip(slope, |height, slope| height / slope);
+        // Newton doubles the digits: after a correction this small the error is below rounding.
+        let converged = V::splat(1e-9) * u - (newton - u).abs();
+        let inside = (newton - low).min(high - newton);
+        let middle = V::splat(0.5) * (low + high);
+        let next = inside.where_positive(newton, middle);
+        let last = converged.where_positive(newton.max(low).min(high), next);
+        u = open.where_positive(last, u);
+        let narrow = V::splat(2.0 * f64::EPSILON) * high - (high - low);
+        let done = converged.max(narrow);
+        open = done.where_positive(V::splat(-1.0), open);
+    }
+    u
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dispatch::{InstructionSet, LaneWork, with_lanes};
+    use crate::lane::MOST_LANES;
+    use crate::polynomial::first_crossing_after;
+
+    const N: usize = 17;
+
+    /// A row of polynomials, coefficient by coefficient.
+    struct Search<'a> {
+        rows: &'a [[f64; MOST_LANES]; N],
+        zeros: &'a [f64; MOST_LANES],
+        h: f64,
+    }
+
+    impl LaneWork for Search<'_> {
+        /// Margin, found, time.
+        type Output = Vec<[f64; 3]>;
+
+        #[inline(always)]
+        fn run<V: Lane>(self) -> Vec<[f64; 3]> {
+            let mut results = Vec::new();
+            for first in (0..MOST_LANES).step_by(V::LANES) {
+                let c: [V; N] = std::array::from_fn(|k| V::load(&self.rows[k][first..]));
+                let zeros = V::load(&self.zeros[first..]);
+                let h = V::splat(self.h);
+                let margin = margin_of_no_root(&c, zeros, h);
+                let crossings = first_crossings(&c, zeros, h, V::splat(1.0));
+                let mut lanes = [[0.0; MOST_LANES]; 3];
+                margin.store(&mut lanes[0]);
+                crossings.found.store(&mut lanes[1]);
+                crossings.time.store(&mut lanes[2]);
+                results.extend((0..V::LANES).map(|lane| lanes.map(|row| row[lane])));
+            }
+            results
+        }
+    }
+
+    /// Random polynomials with 0, 1 or 2 roots at the start, of few and of many wiggles.
+    fn rows(
+        random: &mut impl FnMut() -> f64,
+        growth: f64,
+    ) -> ([[f64; MOST_LANES]; N], [f64; MOST_LANES]) {
+        let mut rows = [[0.0; MOST_LANES]; N];
+        let mut zeros = [0.0; MOST_LANES];
+        for lane in 0..MOST_LANES {
+            zeros[lane] = (lane % 3) as f64;
+            let mut scale = 1.0;
+            for (k, row) in rows.iter_mut().enumerate() {
+                scale *= growth;
+                row[lane] = if k < lane % 3 { 0.0 } else { random() * scale };
+            }
+        }
+        (rows, zeros)
+    }
+
+    #[test]
+    fn lanes_agree_with_the_scalar_search_and_with_each_other() {
+        let mut state = 0x2545_f491_4f6c_dd1d_u64;
+        let mut random = move || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+        };
+        let mut counts = [0; 3];
+        for round in 0..600 {
+            let growth = [0.4, 0.9, 1.4][round % 3];
+            let (rows, zeros) = rows(&mut random, growth);
+            let h = 0.2 + 0.9 * (random() + 0.5);
+            let search = |set| with_lanes(set, Search { rows: &rows, zeros: &zeros, h });
+            let alone = search(InstructionSet::Baseline);
+            for set in InstructionSet::ALL {
+                let bits = |row: &[f64; 3]| row.map(f64::to_bits);
+                let lanes: Vec<_> = search(set).iter().map(bits).collect();
+                assert_eq!(lanes, alone.iter().map(bits).collect::<Vec<_>>(), "{}", set.name());
+            }
+            for (lane, &[margin, found, time]) in alone.iter().enumerate() {
+                let c: [f64; N] = std::array::from_fn(|k| rows[k][lane]);
+                let scalar = first_crossing_after(&c, lane % 3, h);
+                if margin > 0.0 {
+                    assert_eq!(scalar, None, "a proof of no root is wrong");
+                }
+                match (found, scalar) {
+                    (1.0, Some(root)) => {
+                        assert!((time - root).abs() < 1e-11 * h, "{time} against {root}");
+                        counts[0] += 1;
+                    }
+                    (-1.0, None) => counts[1] += 1,
+                    (0.0, _) => counts[2] += 1,
+                    other => panic!("lane {lane}: {other:?}"),
+                }
+            }
+        }
+        assert!(counts.iter().all(|&count| count > 300), "{counts:?}");
+    }
+
+    #[test]
+    fn a_root_at_the_very_end_is_in_the_step() {
+        let mut c = [0.0; N];
+        (c[0], c[1]) = (1.0, -2.0);
+        let crossings = first_crossings(&c, 0.0, 0.5, 1.0);
+        assert_eq!(crossings.found, 1.0);
+        assert!((crossings.time - 0.5).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,330 @@
+//! Pictures of maps: one quantity over one axis, over two, or over two for each value of others.
+//!
+//! Two axes give a map: an efficiency as labelled isolines over light colour, a growth rate as
+//! blue (decay) and red (growth) with the line of zero, an outcome as flat colours, any other
+//! number as colour with isolines at round values. One axis gives a curve, open where nothing is
+//! known. What has no value is hatched, and the legend says why. Curves of a theory lie over all.
+
+use std::ops::Range;
+
+use crate::plot::{
+    Axis, Colouring, Contours, Field, Figure, Fill, Grid, Layer, Legend, Line, Palette, Panel,
+    PlotError, Region, Role, Rule, Shading, SharedLegend, Sharing, Size, Spread, Tint,
+};
+
+/// Isolines of an efficiency (per cent).
+const EFFICIENCY_LEVELS: &[f64] = &[5.0, 20.0, 40.0, 60.0, 80.0, 95.0];
+/// Round levels of a number, about this many.
+const LEVELS: usize = 7;
+/// The line of zero growth is wider than an isoline (pixels).
+const ZERO_WIDTH: f64 = 1.5;
+/// Frame of a map of two axes (pixels).
+const PLANE: Size = Size::Frame(400.0, 310.0);
+/// Frame of outcomes over one axis: a strip (pixels).
+const STRIP: Size = Size::Frame(440.0, 70.0);
+/// More panels than this are no picture.
+pub const MOST_PANELS: usize = 24;
+
+/// An axis of a map with its values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapAxis {
+    /// Name, symbol, unit and scale. Its range is left to the values.
+    pub axis: Axis,
+    /// The values, each once, in any order.
+    pub values: Vec<f64>,
+}
+
+/// What the numbers of a map are, and so how they are drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub enum MapKind {
+    /// A share of one: isolines at 5, 20, 40, 60, 80 and 95 per cent.
+    Efficiency,
+    /// A rate whose sign decides: colours centred on zero, spread as told, the line of zero.
+    Growth(Spread),
+    /// The place (0, 1, …) of an outcome in this list of words.
+    Outcome(Vec<(Role, String)>),
+    /// Any number: colours spread as told, isolines at round values.
+    Number(Spread),
+}
+
+/// A quantity over one axis or more.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Map {
+    /// The axes, slowest first. Of the last two the former is drawn from left to right, the latter
+    /// upwards; each value of those before has a panel of its own. A lone axis is drawn from left
+    /// to right.
+    pub axes: Vec<MapAxis>,
+    /// Name, symbol and unit of the quantity (no unit for an efficiency: it prints per cent).
+    pub quantity: Axis,
+    /// What its numbers are.
+    pub kind: MapKind,
+    /// At each point, last axis fastest, the number, or the place in `reasons` of why there is none.
+    pub values: Vec<Result<f64, usize>>,
+    /// Why there may be no number, as the legend says it.
+    pub reasons: Vec<String>,
+    /// Curves and regions of a theory, drawn over each panel.
+    pub over: Vec<Layer>,
+}
+
+/// The picture of a map.
+///
+/// # Errors
+/// [`PlotError::Field`] where the axes are none, have doubled values or values that are not
+/// finite, have more than [two dozen panels](Map::axes), or do not fit the number of values.
+pub fn map(map: &Map) -> Result<Figure, PlotError> {
+    let count: usize = map.axes.iter().map(|axis| axis.values.len()).product();
+    if map.axes.is_empty() || count != map.values.len() {
+        let why = format!("{} values for {count} points", map.values.len());
+        return Err(PlotError::Field { why });
+    }
+    match map.axes.as_slice() {
+        [axis] => {
+            let figure = Figure::single(sweep(map, axis)?);
+            let strip = matches!(map.kind, MapKind::Outcome(_));
+            Ok(if strip { figure.size(STRIP) } else { figure })
+        }
+        [x, y] => {
+            let panel = plane(map, (x, y), 0..count, true)?.legend(Legend::Above);
+            Ok(Figure::single(panel).size(PLANE))
+        }
+        [others @ .., x, y] => panels(map, others, (x, y)),
+        [] => Err(PlotError::Field { why: "a map without axes".to_owned() }),
+    }
+}
+
+/// The picture of a map of two axes as one panel of a larger figure, with a bar of its colours or
+/// without.
+///
+/// # Errors
+/// As [`map`], and where the axes are not two.
+pub fn map_panel(map: &Map, bar: bool) -> Result<Panel, PlotError> {
+    let count: usize = map.axes.iter().map(|axis| axis.values.len()).product();
+    match map.axes.as_slice() {
+        [x, y] if count == map.values.len() => plane(map, (x, y), 0..count, bar),
+        axes => {
+            let why = format!("{} axes and {} values for a panel", axes.len(), map.values.len());
+            Err(PlotError::Field { why })
+        }
+    }
+}
+
+/// One panel for each point of the slower axes.
+fn panels(
+    map: &Map,
+    others: &[MapAxis],
+    (x, y): (&MapAxis, &MapAxis),
+) -> Result<Figure, PlotError> {
+    let count: usize = others.iter().map(|axis| axis.values.len()).product();
+    if count > MOST_PANELS {
+        return Err(PlotError::Field { why: format!("{count} panels are no picture") });
+    }
+    let columns = if count <= 4 { count.min(2) } else { 3 };
+    let size = x.values.len() * y.values.len();
+    let panels = (0..count).map(|number| {
+        // All panels have the same colours: one bar at the end of each row is enough.
+        let bar = number % columns == columns - 1 || number == count - 1;
+        let panel = plane(map, (x, y), number * size..(number + 1) * size, bar)?;
+        Ok(panel.title(heading(others, number)))
+    });
+    let panels: Vec<Panel> = panels.collect::<Result<_, PlotError>>()?;
+    Ok(Figure::grid(columns, panels)
+        .legend(SharedLegend::Below)
+        .sharing_x(Sharing::Aligned)
+        .sharing_y(Sharing::Aligned))
+}
+
+/// The values of the slower axes in one panel.
+fn heading(others: &[MapAxis], number: usize) -> String {
+    let mut rest = number;
+    let mut parts: Vec<String> = Vec::new();
+    for MapAxis { axis, values } in others.iter().rev() {
+        let value = values[rest % values.len()];
+        rest /= values.len();
+        let name =
+            if axis.symbol.is_empty() { axis.name.clone() } else { format!("${}$", axis.symbol) };
+        let unit = if axis.unit.is_empty() { String::new() } else { format!(" {}", axis.unit) };
+        parts.push(format!("{name} = {}{unit}", short(value)));
+    }
+    parts.reverse();
+    let letter = char::from(b'a' + u8::try_from(number % 26).unwrap_or(0));
+    format!("({letter}) {}", parts.join(", "))
+}
+
+/// A number with at most four digits.
+fn short(value: f64) -> String {
+    let text = format!("{value:.3e}");
+    text.parse::<f64>().map_or(text, |rounded| rounded.to_string())
+}
+
+/// Places of the values in rising order, and the values in that order.
+fn rising(axis: &MapAxis) -> (Vec<usize>, Vec<f64>) {
+    let mut order: Vec<usize> = (0..axis.values.len()).collect();
+    order.sort_by(|one, other| axis.values[*one].total_cmp(&axis.values[*other]));
+    let values = order.iter().map(|place| axis.values[*place]).collect();
+    (order, values)
+}
+
+/// The quantity over two axes.
+fn plane(
+    map: &Map,
+    (x, y): (&MapAxis, &MapAxis),
+    points: Range<usize>,
+    bar: bool,
+) -> Result<Panel, PlotError> {
+    let values = &map.values[points];
+    let ((columns, at_x), (rows, at_y)) = (rising(x), rising(y));
+    let height = rows.len();
+    let point = |column: usize, row: usize| values[columns[column] * height + rows[row]];
+    let scale = shown_scale(map);
+    let field = Field::from_fn(at_x, at_y, |column, row| {
+        point(column, row).ok().map(|value| scale * value)
+    })?;
+    let mut grid = Grid::new(field.clone(), colouring(map));
+    if bar && !matches!(map.kind, MapKind::Outcome(_)) {
+        grid = grid.bar(shown_quantity(map));
+    }
+    for (number, reason) in map.reasons.iter().enumerate() {
+        grid = grid.gap(reason.clone(), |column, row| point(column, row) == Err(number));
+    }
+    let panel = Panel::new(x.axis.clone(), y.axis.clone()).with(grid);
+    let panel = match &map.kind {
+        MapKind::Efficiency => {
+            panel.with(Contours::new(field, EFFICIENCY_LEVELS.iter().copied()).unit("%"))
+        }
+        MapKind::Growth(_) => {
+            let zero = Contours::new(field, [0.0]).plain().width(ZERO_WIDTH);
+            panel.with(zero.label(format!("zero {}", map.quantity.name)))
+        }
+        MapKind::Outcome(_) => panel,
+        MapKind::Number(Spread::Linear) => panel.with(Contours::about(field, LEVELS)),
+        MapKind::Number(_) => {
+            let levels = field.extremes().map_or_else(Vec::new, round_ratios);
+            panel.with(Contours::new(field, levels))
+        }
+    };
+    Ok(panel.with_all(map.over.iter().cloned()))
+}
+
+/// What a number is multiplied by before it is shown.
+fn shown_scale(map: &Map) -> f64 {
+    if map.kind == MapKind::Efficiency { 100.0 } else { 1.0 }
+}
+
+fn shown_quantity(map: &Map) -> Axis {
+    if map.kind == MapKind::Efficiency {
+        map.quantity.clone().unit("%")
+    } else {
+        map.quantity.clone()
+    }
+}
+
+/// The colours, the same in all panels.
+fn colouring(map: &Map) -> Colouring {
+    let known = || map.values.iter().filter_map(|value| value.ok());
+    let finite = known().filter(|value| value.is_finite());
+    let range = finite
+        .map(|value| (value, value))
+        .reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)));
+    let shading = match &map.kind {
+        MapKind::Efficiency => Shading::new(Palette::Pale).range(0.0, 100.0),
+        MapKind::Growth(spread) => {
+            let shading = Shading::new(Palette::Diverging).spread(*spread);
+            range.map_or(shading.clone(), |(least, most)| shading.range(least, most))
+        }
+        MapKind::Number(spread) => {
+            let shading = Shading::new(Palette::Pale).spread(*spread);
+            range.map_or(shading.clone(), |(least, most)| shading.range(least, most))
+        }
+        MapKind::Outcome(outcomes) => {
+            let tint = |(role, word): &(Role, String)| Tint::new(*role, word.clone());
+            return Colouring::Outcomes(outcomes.iter().map(tint).collect());
+        }
+    };
+    Colouring::Shaded(shading)
+}
+
+/// Powers of ten within a range, with twice and five times them where they are few.
+fn round_ratios((least, most): (f64, f64)) -> Vec<f64> {
+    let (least, most) = (least.max(1e-12 * most), most);
+    if most <= least {
+        return Vec::new();
+    }
+    let leading: &[f64] = if most / least < 300.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    let (mut levels, first) = (Vec::new(), least.log10().floor());
+    let mut decade = 10f64.powf(first);
+    while decade < most {
+        levels.extend(leading.iter().map(|digit| digit * decade));
+        decade *= 10.0;
+    }
+    levels.retain(|level| *level > least && *level < most);
+    levels
+}
+
+/// The quantity over one axis.
+fn sweep(map: &Map, x: &MapAxis) -> Result<Panel, PlotError> {
+    let (order, at) = rising(x);
+    // The field refuses what is no axis.
+    Field::from_fn(at.clone(), vec![0.0], |_, _| None)?;
+    let values: Vec<Result<f64, usize>> = order.iter().map(|place| map.values[*place]).collect();
+    let borders = borders(&at, &x.axis);
+    let runs = |same: &dyn Fn(Result<f64, usize>) -> Option<usize>| -> Vec<(usize, f64, f64)> {
+        let kinds: Vec<Option<usize>> = values.iter().map(|value| same(*value)).collect();
+        let mut runs = Vec::new();
+        let mut from = 0;
+        for run in kinds.chunk_by(|one, other| one == other) {
+            if let Some(kind) = run[0] {
+                runs.push((kind, borders[from], borders[from + run.len()]));
+            }
+            from += run.len();
+        }
+        runs
+    };
+    let mut panel;
+    if let MapKind::Outcome(outcomes) = &map.kind {
+        let blank = Axis { ticks: Some(Vec::new()), ..map.quantity.clone() };
+        panel = Panel::new(x.axis.clone(), blank.between(0.0, 1.0)).legend(Legend::Above);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "the cast saturates; an unknown place has no word"
+        )]
+        let place = |value: Result<f64, usize>| value.ok().map(|value| value.round() as usize);
+        for (number, from, to) in runs(&place) {
+            if let Some((role, word)) = outcomes.get(number) {
+                let region = Region::across_x(*role, from, to).fill(Fill::Solid);
+                panel = panel.with(region.label(word.clone()));
+            }
+        }
+    } else {
+        panel = Panel::new(x.axis.clone(), shown_quantity(map));
+        if matches!(map.kind, MapKind::Growth(_)) {
+            panel = panel.with(Rule::horizontal(0.0));
+        }
+        if matches!(map.kind, MapKind::Number(Spread::Log)) {
+            panel.y = panel.y.clone().log();
+        }
+        let scale = shown_scale(map);
+        let number = |value: &Result<f64, usize>| value.map_or(f64::NAN, |value| scale * value);
+        // A point that is not finite opens the curve.
+        let points = at.iter().copied().zip(values.iter().map(number));
+        panel = panel.with(Line::new(Role::Exact, points));
+    }
+    for (number, from, to) in runs(&|value: Result<f64, usize>| value.err()) {
+        let reason = map.reasons.get(number).map_or("no value", String::as_str);
+        let gap = Region::across_x(Role::Undecided, from, to).fill(Fill::Hatched);
+        panel = panel.with(gap.label(reason));
+    }
+    let (Some(first), Some(last)) = (at.first(), at.last()) else { return Ok(panel) };
+    panel.x = panel.x.clone().between(*first, *last);
+    Ok(panel.with_all(map.over.iter().cloned()))
+}
+
+/// Borders halfway between neighbours along the axis, the first and the last value outermost.
+fn borders(values: &[f64], axis: &Axis) -> Vec<f64> {
+    let halfway = |pair: &[f64]| match axis.scale {
+        crate::plot::Scale::Log if pair[0] > 0.0 => (pair[0] * pair[1]).sqrt(),
+        _ => 0.5 * (pair[0] + pair[1]),
+    };
+    let ends = (values.first().copied(), values.last().copied());
+    ends.0.into_iter().chain(values.windows(2).map(halfway)).chain(ends.1).collect()
+}

@@ -1,0 +1,179 @@
+//! The picture of a computed map: a curve for each variable over one axis, a map over two, a map for each
+//! value of the slower axes over more.
+//!
+//! The boundaries of averaging are drawn over where the plane has them. Curves are broken and maps
+//! hatched where a number is not known; the legend says why.
+
+use quell_belt::averaging::{Becomes, Response};
+
+use super::map::{self, Map as Picture, MapAxis, MapKind};
+use crate::complaint::Failure;
+use crate::plot::{
+    Axis, Figure, Layer, Legend, Line, LineStyle, Panel, PlotError, Role, Size, Spread,
+};
+use crate::run::map::{Map, boundaries};
+use crate::sweep::{Entry, GridAxis, Kind, Status};
+
+/// Variables that are drawn only where nothing else was asked for.
+const BESIDE: &str = "settled";
+
+/// The picture of a computed map.
+///
+/// # Errors
+/// [`Failure::Failed`] where it cannot be drawn: more panels than fit.
+pub fn sweep(done: &Map) -> Result<Figure, Failure> {
+    let plan = done.plan();
+    let axes = plan.grid().axes().len();
+    let entries = plan.sheet().entries();
+    let mut shown: Vec<&Entry> =
+        entries.iter().filter(|entry| entry.variable.name != BESIDE).collect();
+    if shown.is_empty() {
+        shown = entries.iter().collect();
+    }
+    let columns = shown.len().min(2);
+    let figure = match axes {
+        1 => Ok(Figure::grid(columns, shown.iter().map(|entry| panel(done, entry)))),
+        2 => {
+            let panels: Result<Vec<Panel>, PlotError> = shown
+                .iter()
+                .map(|entry| Ok(map::map_panel(&picture(done, entry), true)?.legend(Legend::Above)))
+                .collect();
+            panels.map(|panels| Figure::grid(columns, panels).size(Size::Frame(400.0, 310.0)))
+        }
+        _ => map::map(&picture(done, shown[0])),
+    };
+    let figure =
+        figure.map_err(|why| Failure::Failed { key: "--plot".to_owned(), why: why.to_string() })?;
+    let title = plan.grid().study().title().unwrap_or_default();
+    Ok(figure.title(title).caption(super::caption::caption_of_run(plan.grid().study())))
+}
+
+/// A variable of a computed map as plain data.
+fn picture(done: &Map, entry: &Entry) -> Picture {
+    let plan = done.plan();
+    let grid = plan.grid();
+    let states: Vec<Status> = (0..grid.len()).map(|point| done.status(entry, point)).collect();
+    let mut unknown: Vec<Status> =
+        states.iter().copied().filter(|status| *status != Status::Known).collect();
+    unknown.sort_unstable();
+    unknown.dedup();
+    let value = |point: usize| {
+        number(done, entry, point)
+            .ok_or_else(|| unknown.iter().position(|it| *it == states[point]).unwrap_or(0))
+    };
+    let variable = &entry.variable;
+    let array = entry.twin.unwrap_or(entry.value);
+    let unit = &plan.sheet().fields()[array].unit;
+    let kind = match variable.kind {
+        Kind::Word { words, .. } => {
+            MapKind::Outcome(words.iter().map(|&word| (role_of(word), word.to_owned())).collect())
+        }
+        Kind::Rate => MapKind::Growth(Spread::Linear),
+        Kind::Number(_) if variable.name == "efficiency" => MapKind::Efficiency,
+        Kind::Number(_) => MapKind::Number(Spread::Linear),
+    };
+    let name = match kind {
+        MapKind::Efficiency => "efficiency",
+        _ => variable.about,
+    };
+    Picture {
+        axes: grid
+            .axes()
+            .iter()
+            .map(|axis| MapAxis { axis: across(axis), values: axis.values.clone() })
+            .collect(),
+        quantity: labelled(Axis::new(name), variable.symbol, unit),
+        kind,
+        values: (0..grid.len()).map(value).collect(),
+        reasons: unknown.iter().map(|status| status.about().to_owned()).collect(),
+        over: over(done),
+    }
+}
+
+/// The boundaries of averaging as lines, in the plane as it is drawn: the first axis to the right.
+fn over(done: &Map) -> Vec<Layer> {
+    let grid = done.plan().grid();
+    let upwards = grid.axes().last().is_some_and(|axis| axis.path == "dither.amplitude");
+    let furthest = grid
+        .axes()
+        .iter()
+        .filter(|axis| axis.path == "dither.amplitude")
+        .flat_map(|axis| axis.values.iter().copied())
+        .fold(0.0, f64::max);
+    let line = |response, becomes, label: &str| {
+        let points: Vec<Vec<(f64, f64)>> = boundaries(grid)
+            .into_iter()
+            .filter(|boundary| boundary.response == response && boundary.becomes == becomes)
+            .map(|boundary| {
+                let inside = boundary.points.into_iter().filter(|point| point.1 <= 1.2 * furthest);
+                inside.map(|(at, d)| if upwards { (at, d) } else { (d, at) }).collect()
+            })
+            .collect();
+        let (role, style) = match response {
+            Response::Limit => (Role::Boundary, LineStyle::Solid),
+            Response::Oscillator => (Role::Exact, LineStyle::Dashed),
+        };
+        let any = points.iter().any(|piece: &Vec<_>| piece.len() > 1);
+        any.then(|| Layer::from(Line::pieces(role, points).style(style).label(label)))
+    };
+    [
+        line(Response::Limit, Becomes::Stable, "quenches, by averaging"),
+        line(Response::Oscillator, Becomes::Stable, "quenches, with the exact fast motion"),
+        line(Response::Limit, Becomes::Unstable, "destabilises, by averaging"),
+        line(Response::Oscillator, Becomes::Unstable, "destabilises, with the exact fast motion"),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+fn role_of(word: &str) -> Role {
+    match word {
+        "stable" | "yes" => Role::Stable,
+        _ => Role::Unstable,
+    }
+}
+
+fn number(done: &Map, entry: &Entry, point: usize) -> Option<f64> {
+    match entry.twin {
+        Some(_) => done.number_in_si(entry, point),
+        None => done.number(entry, point),
+    }
+}
+
+fn across(swept: &GridAxis) -> Axis {
+    let axis = labelled(Axis::new(swept.about), swept.symbol.unwrap_or(""), swept.unit);
+    if swept.logarithmic { axis.log() } else { axis }
+}
+
+fn panel(map: &Map, entry: &Entry) -> Panel {
+    let plan = map.plan();
+    let Some(swept) = plan.grid().axes().first() else {
+        return Panel::new(Axis::new(""), Axis::new(""));
+    };
+    let across = across(swept);
+    let variable = &entry.variable;
+    let array = entry.twin.unwrap_or(entry.value);
+    let unit = &plan.sheet().fields()[array].unit;
+    let mut up = labelled(Axis::new(variable.about), variable.symbol, unit);
+    if let Kind::Word { words, .. } = variable.kind {
+        up = Axis::new(format!("{} (0 {})", variable.about, words.join(", 1 ")));
+        up = up.between(-0.1, 1.1).ticks([0.0, 1.0]);
+    }
+    let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
+    for (point, place) in swept.values.iter().enumerate() {
+        match (number(map, entry, point), pieces.last_mut()) {
+            (Some(value), Some(piece)) => piece.push((*place, value)),
+            (None, Some(piece)) if !piece.is_empty() => pieces.push(Vec::new()),
+            _ => {}
+        }
+    }
+    Panel::new(across, up).with(Line::pieces(Role::Dithered, pieces))
+}
+
+/// An axis with symbol and unit; numbers of the equations carry none.
+fn labelled(axis: Axis, symbol: &str, unit: &str) -> Axis {
+    let axis = if symbol.is_empty() { axis } else { axis.symbol(symbol) };
+    let scaled = unit.is_empty() || unit == "1" || unit.contains(['ω', '(']) || unit == "length";
+    if scaled { axis } else { axis.unit(unit) }
+}

@@ -1,0 +1,423 @@
+//! Numbers on isolines: at a straight stretch, upright, clear of other strokes and texts.
+//!
+//! What is drawn is kept in a map of the frame's pixels. Along each line places are tried in the
+//! order of their cost (bend, slope, distance from the middle); the first one that covers nothing
+//! else gets the number, and the line is opened there.
+
+use super::canvas::Rectangle;
+use super::typeset::Label;
+
+/// The lines of one level in pixels.
+#[derive(Debug, Clone)]
+pub(super) struct LevelLines {
+    pub(super) text: Label,
+    pub(super) pieces: Vec<Vec<(f64, f64)>>,
+}
+
+/// A number on a line.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Placed {
+    pub(super) level: usize,
+    /// Middle of the text.
+    pub(super) centre: (f64, f64),
+    /// Turn, clockwise in degrees, from −90 to 90.
+    pub(super) turn: f64,
+    piece: usize,
+    /// Stretch of the line under the text (pixels along it).
+    from: f64,
+    to: f64,
+}
+
+/// Space before and behind a number (pixels).
+const MARGIN: f64 = 3.0;
+/// Steps along a line (pixels).
+const STEP: f64 = 3.0;
+/// Numbers of one level at most.
+const MOST: usize = 5;
+/// A line gets one number for each such length (pixels).
+const ONE_EACH: f64 = 520.0;
+
+/// Which stroke passes a pixel: nothing, one line, or what no text may cover.
+#[derive(Debug, Clone)]
+pub(super) struct Occupied {
+    frame: Rectangle,
+    width: usize,
+    height: usize,
+    owners: Vec<u32>,
+}
+
+const FREE: u32 = 0;
+const TAKEN: u32 = u32::MAX;
+
+impl Occupied {
+    pub(super) fn new(frame: Rectangle) -> Self {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a frame has 60 to some thousand pixels"
+        )]
+        let side = |length: f64| length.clamp(1.0, 2e4).ceil() as usize;
+        let (width, height) = (side(frame.width()), side(frame.height()));
+        Self { frame, width, height, owners: vec![FREE; width * height] }
+    }
+
+    fn index(&self, (x, y): (f64, f64)) -> Option<usize> {
+        let (x, y) = (x - self.frame.left, y - self.frame.top);
+        if !(x >= 0.0 && y >= 0.0) {
+            return None;
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "not negative; the cast saturates"
+        )]
+        let (column, row) = (x as usize, y as usize);
+        (column < self.width && row < self.height).then_some(row * self.width + column)
+    }
+
+    fn mark(&mut self, point: (f64, f64), owner: u32) {
+        if let Some(index) = self.index(point) {
+            let before = self.owners[index];
+            self.owners[index] = if before == FREE || before == owner { owner } else { TAKEN };
+        }
+    }
+
+    /// Marks a stroke that no number may cover.
+    pub(super) fn stroke(&mut self, points: &[(f64, f64)]) {
+        self.stroke_of(points, TAKEN);
+    }
+
+    fn stroke_of(&mut self, points: &[(f64, f64)], owner: u32) {
+        for pair in points.windows(2) {
+            let (dx, dy) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
+            // Strokes far outside the frame are long and mark nothing.
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "pixels are clamped to 1e5"
+            )]
+            let steps = (dx.hypot(dy) / 0.7).ceil().min(1e5) as usize;
+            for step in 0..=steps {
+                let share = step as f64 / steps.max(1) as f64;
+                self.mark((pair[0].0 + share * dx, pair[0].1 + share * dy), owner);
+            }
+        }
+    }
+
+    /// Marks a rectangle.
+    pub(super) fn area(&mut self, area: Rectangle) {
+        let mut y = area.top.max(self.frame.top);
+        while y < area.bottom.min(self.frame.bottom) {
+            let mut x = area.left.max(self.frame.left);
+            while x < area.right.min(self.frame.right) {
+                self.mark((x, y), TAKEN);
+                x += 1.0;
+            }
+            y += 1.0;
+        }
+    }
+
+    /// Whether a turned rectangle lies in the frame and covers nothing but this line.
+    fn is_free(&self, stand: &Stand, half: (f64, f64), owner: u32) -> bool {
+        let mut free = true;
+        stand.each_pixel(half, |point| {
+            free &= self
+                .index(point)
+                .is_some_and(|index| self.owners[index] == FREE || self.owners[index] == owner);
+        });
+        free
+    }
+
+    fn take(&mut self, stand: &Stand, half: (f64, f64)) {
+        stand.each_pixel(half, |point| self.mark(point, TAKEN));
+    }
+}
+
+/// A place for a text: its middle and the direction in which it reads.
+#[derive(Debug, Clone, Copy)]
+struct Stand {
+    centre: (f64, f64),
+    direction: (f64, f64),
+    at: f64,
+    cost: f64,
+}
+
+impl Stand {
+    fn each_pixel(&self, half: (f64, f64), mut visit: impl FnMut((f64, f64))) {
+        #[expect(clippy::cast_possible_truncation, reason = "half the size of a text")]
+        let (across, up) = (half.0.ceil() as i32, half.1.ceil() as i32);
+        let (dx, dy) = self.direction;
+        for v in -up..=up {
+            for u in -across..=across {
+                let (u, v) = (f64::from(u), f64::from(v));
+                visit((self.centre.0 + u * dx - v * dy, self.centre.1 + u * dy + v * dx));
+            }
+        }
+    }
+}
+
+/// A line with the way along it.
+struct Way<'a> {
+    points: &'a [(f64, f64)],
+    reached: Vec<f64>,
+}
+
+impl<'a> Way<'a> {
+    fn new(points: &'a [(f64, f64)]) -> Self {
+        let mut reached = vec![0.0];
+        for pair in points.windows(2) {
+            let leg = (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
+            reached.push(reached[reached.len() - 1] + leg);
+        }
+        Self { points, reached }
+    }
+
+    fn length(&self) -> f64 {
+        self.reached.last().copied().unwrap_or(0.0)
+    }
+
+    fn at(&self, way: f64) -> (f64, f64) {
+        let last = self.points.len() - 1;
+        let leg = self.reached.partition_point(|reached| *reached <= way).clamp(1, last.max(1));
+        let (Some(from), Some(to)) = (self.points.get(leg - 1), self.points.get(leg)) else {
+            return self.points[last];
+        };
+        let long = self.reached[leg] - self.reached[leg - 1];
+        let share = if long > 0.0 { (way - self.reached[leg - 1]) / long } else { 0.0 };
+        (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1))
+    }
+
+    /// The stand of a text of this half width around a place on the line; nothing where the line
+    /// bends too much.
+    fn stand(&self, at: f64, half: f64, most_bend: f64) -> Option<Stand> {
+        const SAMPLES: i32 = 8;
+        let (from, to) = (self.at(at - half), self.at(at + half));
+        let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+        let long = dx.hypot(dy);
+        if long < 1.8 * half {
+            return None;
+        }
+        let mut direction = (dx / long, dy / long);
+        let (mut bend, mut shift) = (0.0_f64, 0.0);
+        for sample in 1..SAMPLES {
+            let point = self.at(at - half + 2.0 * half * f64::from(sample) / f64::from(SAMPLES));
+            let off = (point.1 - from.1) * direction.0 - (point.0 - from.0) * direction.1;
+            bend = bend.max(off.abs());
+            shift += off / f64::from(SAMPLES);
+        }
+        if bend > most_bend {
+            return None;
+        }
+        let middle = (0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1));
+        let centre = (middle.0 - shift * direction.1, middle.1 + shift * direction.0);
+        // Upright: from left to right, and straight up rather than down.
+        if direction.0 < -1e-9 || (direction.0.abs() <= 1e-9 && direction.1 > 0.0) {
+            direction = (-direction.0, -direction.1);
+        }
+        let off_middle = (at / self.length() - 0.5).abs();
+        let cost = bend / most_bend + 0.6 * direction.1.abs() + 0.8 * off_middle;
+        Some(Stand { centre, direction, at, cost })
+    }
+}
+
+/// Numbers on these lines.
+pub(super) fn place(levels: &[LevelLines], occupied: &mut Occupied, size: f64) -> Vec<Placed> {
+    let mut owner = FREE;
+    let mut owners: Vec<Vec<u32>> = Vec::new();
+    for level in levels {
+        let mut mine = Vec::new();
+        for piece in &level.pieces {
+            owner = owner.saturating_add(1).min(TAKEN - 1);
+            occupied.stroke_of(piece, owner);
+            mine.push(owner);
+        }
+        owners.push(mine);
+    }
+    let mut placed = Vec::new();
+    for (number, level) in levels.iter().enumerate() {
+        if level.text.is_empty() {
+            continue;
+        }
+        let half = (0.5 * level.text.width(size, false) + MARGIN, 0.58 * size);
+        let mut ways: Vec<(usize, Way<'_>)> = level
+            .pieces
+            .iter()
+            .enumerate()
+            .filter(|(_, piece)| piece.len() > 1)
+            .map(|(piece, points)| (piece, Way::new(points)))
+            .filter(|(_, way)| way.length() > 4.0 * half.0 + 8.0)
+            .collect();
+        ways.sort_by(|one, other| other.1.length().total_cmp(&one.1.length()));
+        let mut count = 0;
+        for (piece, way) in &ways {
+            for (from, to) in parts(way.length()) {
+                if count == MOST {
+                    break;
+                }
+                let owner = owners[number][*piece];
+                if let Some(stand) = best(way, (from, to), half, owner, occupied, size) {
+                    occupied.take(&stand, (half.0 + 2.0, half.1 + 1.0));
+                    count += 1;
+                    placed.push(Placed {
+                        level: number,
+                        centre: stand.centre,
+                        turn: stand.direction.1.atan2(stand.direction.0).to_degrees(),
+                        piece: *piece,
+                        from: stand.at - half.0,
+                        to: stand.at + half.0,
+                    });
+                }
+            }
+        }
+    }
+    placed
+}
+
+/// Equal parts of a long line, each for one number.
+fn parts(length: f64) -> Vec<(f64, f64)> {
+    let count = (length / ONE_EACH).round().clamp(1.0, MOST as f64);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to a few")]
+    let parts = (0..count as usize)
+        .map(|part| (length * part as f64 / count, length * (part as f64 + 1.0) / count))
+        .collect();
+    parts
+}
+
+/// The cheapest free place on a part of a line, first where it is straight, then where it bends.
+fn best(
+    way: &Way<'_>,
+    (from, to): (f64, f64),
+    half: (f64, f64),
+    owner: u32,
+    occupied: &Occupied,
+    size: f64,
+) -> Option<Stand> {
+    let (first, last) = (from.max(half.0 + 2.0), to.min(way.length() - half.0 - 2.0));
+    for most_bend in [0.12 * size, 0.3 * size] {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "lines in a frame are some thousand pixels long"
+        )]
+        let count = ((last - first) / STEP).clamp(0.0, 1e4) as usize;
+        let mut stands: Vec<Stand> = (0..=count)
+            .filter_map(|step| way.stand(first + STEP * step as f64, half.0, most_bend))
+            .collect();
+        stands.sort_by(|one, other| one.cost.total_cmp(&other.cost));
+        let free = |stand: &&Stand| occupied.is_free(stand, half, owner);
+        if let Some(stand) = stands.iter().find(free) {
+            return Some(*stand);
+        }
+    }
+    None
+}
+
+/// The lines of a level with openings under its numbers.
+pub(super) fn opened(
+    level: usize,
+    pieces: &[Vec<(f64, f64)>],
+    placed: &[Placed],
+) -> Vec<Vec<(f64, f64)>> {
+    let mut drawn = Vec::new();
+    for (number, piece) in pieces.iter().enumerate() {
+        let mut openings: Vec<(f64, f64)> = placed
+            .iter()
+            .filter(|text| text.level == level && text.piece == number)
+            .map(|text| (text.from, text.to))
+            .collect();
+        if openings.is_empty() {
+            drawn.push(piece.clone());
+            continue;
+        }
+        openings.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let way = Way::new(piece);
+        let mut from = 0.0;
+        for (start, end) in openings.into_iter().chain([(way.length(), 0.0)]) {
+            let within = way.reached.iter().zip(piece);
+            let inner =
+                within.filter(|(at, _)| **at > from && **at < start).map(|(_, point)| *point);
+            let mut part = vec![way.at(from)];
+            part.extend(inner);
+            part.push(way.at(start));
+            drawn.push(part);
+            from = end;
+        }
+    }
+    drawn
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FRAME: Rectangle = Rectangle { left: 0.0, top: 0.0, right: 400.0, bottom: 300.0 };
+
+    fn level(text: &str, pieces: Vec<Vec<(f64, f64)>>) -> LevelLines {
+        LevelLines { text: Label::parse(text), pieces }
+    }
+
+    fn circle(radius: f64) -> Vec<(f64, f64)> {
+        (0..=360)
+            .map(|degree| {
+                let angle = f64::from(degree).to_radians();
+                (200.0 + radius * angle.cos(), 150.0 + radius * angle.sin())
+            })
+            .collect()
+    }
+
+    #[test]
+    fn every_level_with_room_has_a_number_and_none_collide() {
+        let levels: Vec<LevelLines> =
+            (1..=6).map(|n| level("20", vec![circle(22.0 * f64::from(n))])).collect();
+        let placed = place(&levels, &mut Occupied::new(FRAME), 10.0);
+        for number in 1..levels.len() {
+            assert!(placed.iter().any(|text| text.level == number), "level {number}");
+        }
+        for text in &placed {
+            assert!(text.turn.abs() <= 90.0);
+        }
+        for (at, one) in placed.iter().enumerate() {
+            for other in &placed[at + 1..] {
+                let apart = (one.centre.0 - other.centre.0).hypot(one.centre.1 - other.centre.1);
+                assert!(apart > 12.0, "{one:?} {other:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_number_prefers_the_straight_stretch() {
+        // A zigzag, then a straight run.
+        let mut line: Vec<(f64, f64)> =
+            (0..40).map(|k| (5.0 * f64::from(k), 100.0 + 15.0 * f64::from(k % 2))).collect();
+        line.push((390.0, 100.0));
+        let placed = place(&[level("40", vec![line])], &mut Occupied::new(FRAME), 10.0);
+        assert!(
+            !placed.is_empty() && placed.iter().all(|text| text.centre.0 > 200.0),
+            "{placed:?}"
+        );
+    }
+
+    #[test]
+    fn nothing_is_covered() {
+        let line = vec![(10.0, 150.0), (390.0, 150.0)];
+        let mut occupied = Occupied::new(FRAME);
+        occupied.area(Rectangle { left: 0.0, top: 100.0, right: 300.0, bottom: 200.0 });
+        let placed = place(&[level("40", vec![line.clone()])], &mut occupied, 10.0);
+        assert!(placed.len() == 1 && placed[0].centre.0 > 305.0, "{placed:?}");
+        occupied.area(FRAME);
+        assert!(place(&[level("40", vec![line])], &mut occupied, 10.0).is_empty());
+    }
+
+    #[test]
+    fn a_line_is_open_under_its_number_only() {
+        let line = vec![(10.0, 150.0), (390.0, 150.0)];
+        let levels = [level("40", vec![line.clone()])];
+        let placed = place(&levels, &mut Occupied::new(FRAME), 10.0);
+        let drawn = opened(0, &levels[0].pieces, &placed);
+        let length: f64 =
+            drawn.iter().flat_map(|part| part.windows(2)).map(|pair| pair[1].0 - pair[0].0).sum();
+        assert_eq!(drawn.len(), placed.len() + 1);
+        let opening: f64 = placed.iter().map(|text| text.to - text.from).sum();
+        assert!((length + opening - 380.0).abs() < 1e-9);
+    }
+}

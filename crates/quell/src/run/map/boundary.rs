@@ -1,0 +1,72 @@
+//! Where averaging says that a map's dither begins to quench, or to destabilise.
+//!
+//! Along a map with an axis `dither.amplitude`, the critical amplitudes of averaging at each value of the other
+//! axis, exact, not traced on the grid: D = αR with α from [`critical_amplitudes`].
+
+use quell_belt::averaging::{
+    AveragingOptions, Becomes, CriticalAmplitude, Response, critical_amplitudes,
+};
+
+use crate::study::Study;
+use crate::sweep::Grid;
+
+/// The axis along which averaging gives an amplitude.
+const AMPLITUDE: &str = "dither.amplitude";
+
+/// One boundary of averaging in the plane of a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Boundary {
+    /// αG, or the oscillator's own response ("sharper").
+    pub response: Response,
+    /// What sliding becomes when the amplitude grows through it.
+    pub becomes: Becomes,
+    /// (value of the other axis, amplitude), in the order of that axis.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// The boundaries of averaging in a plane of two axes, the amplitude of the first dither one of
+/// them; empty for other planes. For each way of averaging the smallest positive amplitude that quenches,
+/// and the smallest that destabilises. Places where averaging says nothing are left out.
+pub fn boundaries(grid: &Grid) -> Vec<Boundary> {
+    let [first, second] = grid.axes() else {
+        return Vec::new();
+    };
+    let across = match (first.path == AMPLITUDE, second.path == AMPLITUDE) {
+        (true, false) => second,
+        (false, true) => first,
+        _ => return Vec::new(),
+    };
+    let at: Vec<(f64, Study)> = across
+        .values
+        .iter()
+        .filter_map(|&value| Some((value, grid.study().with(&across.path, value).ok()?)))
+        .collect();
+    let mut boundaries = Vec::new();
+    for response in [Response::Limit, Response::Oscillator] {
+        let options = AveragingOptions { response, ..AveragingOptions::default() };
+        let critical: Vec<(f64, f64, Vec<CriticalAmplitude>)> = at
+            .iter()
+            .filter_map(|(value, study)| {
+                let ratio = study.belt().dithers().first()?.frequency_ratio;
+                Some((*value, ratio, critical_amplitudes(study.belt(), options).ok()?))
+            })
+            .collect();
+        for becomes in [Becomes::Stable, Becomes::Unstable] {
+            let points: Vec<(f64, f64)> = critical
+                .iter()
+                .filter_map(|(value, ratio, critical)| {
+                    let alpha = critical
+                        .iter()
+                        .map(|it| (it.amplitude_ratio, it.becomes))
+                        .find(|(alpha, it)| *alpha > 0.0 && *it == becomes)?
+                        .0;
+                    Some((*value, alpha * ratio))
+                })
+                .collect();
+            if !points.is_empty() {
+                boundaries.push(Boundary { response, becomes, points });
+            }
+        }
+    }
+    boundaries
+}

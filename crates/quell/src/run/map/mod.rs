@@ -1,0 +1,136 @@
+//! `map`: quantities over the axes of a study, computed, kept in a store, resumed.
+
+mod boundary;
+mod outcome;
+
+use std::sync::Mutex;
+use std::time::Instant;
+
+use crate::complaint::Failure;
+use crate::store::{Found, Store};
+use crate::sweep::{self, Data, Plan, Running};
+
+pub use boundary::{Boundary, boundaries};
+pub use outcome::{Extreme, Map, Summary};
+
+/// Computes a map. With a store every finished chunk is kept there, and what it has already is
+/// not computed again.
+///
+/// # Errors
+/// [`Failure::Failed`] where it was stopped, where the store could not be written, or where the
+/// store holds other bits than this program gives; the message says what is left.
+pub fn run(plan: Plan, store: Option<&Store>, running: Running<'_>) -> Result<Map, Failure> {
+    let begun = Instant::now();
+    let points = plan.grid().len();
+    let mut arrays = plan.sheet().missing(points);
+    let Earlier { todo, resumed, damaged } = earlier(&plan, store, &mut arrays)?;
+    running.progress.begin(points, resumed);
+    let arrays = Mutex::new((arrays, 0_usize));
+    let outcome = sweep::run(&plan, &todo, running, |number, values| {
+        if let Some(store) = store {
+            store.write(&plan, number, &values)?;
+        }
+        // A thread that panicked here ends the program; what it left is not used.
+        let mut shared = arrays.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        put(&plan, number, &values, &mut shared.0);
+        shared.1 += 1;
+        Ok(())
+    });
+    running.progress.end();
+    let (arrays, done) = arrays.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let left = todo.len() - done;
+    let chunks = plan.chunks().len();
+    match outcome {
+        Ok(()) if left == 0 => Ok(Map { plan, arrays, resumed, damaged, elapsed: begun.elapsed() }),
+        Ok(()) => Err(stopped(store, left, chunks)),
+        Err(failure) => Err(interrupted(failure, store, left, chunks)),
+    }
+}
+
+/// What a store has of a map.
+struct Earlier {
+    /// Chunks that are still to be computed.
+    todo: Vec<usize>,
+    /// Points that are there.
+    resumed: usize,
+    /// Chunks that were there and are not what they were.
+    damaged: usize,
+}
+
+/// Reads what the store has.
+fn earlier(plan: &Plan, store: Option<&Store>, arrays: &mut [Data]) -> Result<Earlier, Failure> {
+    let mut earlier = Earlier { todo: Vec::new(), resumed: 0, damaged: 0 };
+    for number in 0..plan.chunks().len() {
+        match store.map_or(Found::Nothing, |store| store.read(plan, number)) {
+            Found::Whole(values) => {
+                if let Some(store) = store.filter(|_| earlier.resumed == 0) {
+                    same_program(plan, store, number, &values)?;
+                }
+                put(plan, number, &values, arrays);
+                earlier.resumed += plan.chunks().points(number).len();
+            }
+            Found::Damaged => {
+                earlier.damaged += 1;
+                earlier.todo.push(number);
+            }
+            Found::Nothing => earlier.todo.push(number),
+        }
+    }
+    Ok(earlier)
+}
+
+/// Whether this program gives the bits that the store holds: one point of it is computed
+/// again. Versions are compared when a store is opened; this finds what has no version.
+fn same_program(plan: &Plan, store: &Store, number: usize, values: &[Data]) -> Result<(), Failure> {
+    let first = plan.chunks().points(number).into_iter().take(1).map(|(_, index)| index);
+    let again = plan.compute_points(first);
+    if values.iter().zip(&again).all(|(old, new)| old.same_bits(0, new, 0)) {
+        return Ok(());
+    }
+    Err(Failure::Failed {
+        key: store.path().display().to_string(),
+        why: "this program gives other bits at a point than the store holds (another build of \
+              Quell made it): choose another name"
+            .to_owned(),
+    })
+}
+
+fn put(plan: &Plan, number: usize, values: &[Data], arrays: &mut [Data]) {
+    for (from, (_, to)) in plan.chunks().points(number).into_iter().enumerate() {
+        for (array, values) in arrays.iter_mut().zip(values) {
+            array.take(to, values, from);
+        }
+    }
+}
+
+fn stopped(store: Option<&Store>, left: usize, chunks: usize) -> Failure {
+    let done = chunks - left;
+    match store {
+        Some(store) => Failure::Failed {
+            key: store.path().display().to_string(),
+            why: format!(
+                "stopped; {done} of {chunks} chunks are kept, {left} are left: the same command with \
+                 --resume goes on"
+            ),
+        },
+        None => Failure::Failed {
+            key: "map".to_owned(),
+            why: "stopped; nothing is kept: --save FILE.zarr keeps what is done, and --resume goes on"
+                .to_owned(),
+        },
+    }
+}
+
+fn interrupted(failure: Failure, store: Option<&Store>, left: usize, chunks: usize) -> Failure {
+    match (failure, store) {
+        (Failure::Failed { key, why }, Some(_)) => Failure::Failed {
+            key,
+            why: format!(
+                "{why}; {} of {chunks} chunks are kept, {left} are left: once that is mended, the same \
+                 command with --resume goes on",
+                chunks - left
+            ),
+        },
+        (failure, _) => failure,
+    }
+}

@@ -1,0 +1,279 @@
+//! A finished map: its numbers, what they come to, as JSON and as a dataset.
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use serde_json::{Map as Object, Value as Json, json};
+
+use crate::dataset::{Array, Dataset};
+use crate::sweep::{Content, Data, Entry, Plan, Status};
+
+/// A finished map.
+#[derive(Clone, Debug)]
+pub struct Map {
+    pub(super) plan: Plan,
+    pub(super) arrays: Vec<Data>,
+    /// Points that were in the store already.
+    pub resumed: usize,
+    /// Chunks of the store that were damaged and done again.
+    pub damaged: usize,
+    /// How long it took.
+    pub elapsed: Duration,
+}
+
+/// A value and the point where it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Extreme {
+    /// The value, in the numbers of the equations.
+    pub value: f64,
+    /// Values of the axes there.
+    pub place: Vec<f64>,
+}
+
+/// What a variable comes to over the map.
+#[derive(Clone, Debug)]
+pub struct Summary {
+    /// Smallest value; of equal ones the first. None of words, or where none is known.
+    pub least: Option<Extreme>,
+    /// Largest value.
+    pub most: Option<Extreme>,
+    /// Points of each word, in the order of their codes; empty of numbers.
+    pub words: Vec<(&'static str, usize)>,
+    /// Points of each state.
+    pub states: BTreeMap<Status, usize>,
+}
+
+impl Map {
+    /// What was computed.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// State of a variable at a point.
+    pub fn status(&self, entry: &Entry, point: usize) -> Status {
+        match &self.arrays[entry.status] {
+            Data::Codes(codes) => Status::of_code(codes[point]).unwrap_or(Status::Missing),
+            Data::Numbers(_) => Status::Missing,
+        }
+    }
+
+    /// Number of a variable at a point, in the numbers of the equations; of a word its code.
+    pub fn number(&self, entry: &Entry, point: usize) -> Option<f64> {
+        self.value(entry.value, entry, point)
+    }
+
+    /// The same in SI, where the variable has a twin.
+    pub fn number_in_si(&self, entry: &Entry, point: usize) -> Option<f64> {
+        self.value(entry.twin?, entry, point)
+    }
+
+    fn value(&self, array: usize, entry: &Entry, point: usize) -> Option<f64> {
+        let known = self.status(entry, point) == Status::Known;
+        known.then(|| match &self.arrays[array] {
+            Data::Numbers(values) => values[point],
+            Data::Codes(codes) => f64::from(codes[point]),
+        })
+    }
+
+    /// What each variable comes to, in the order of the sheet's entries.
+    pub fn summaries(&self) -> Vec<Summary> {
+        self.plan.sheet().entries().iter().map(|entry| self.summary(entry)).collect()
+    }
+
+    fn summary(&self, entry: &Entry) -> Summary {
+        let grid = self.plan.grid();
+        let mut states: BTreeMap<Status, usize> = BTreeMap::new();
+        let mut least: Option<(f64, usize)> = None;
+        let mut most = least;
+        let numbers = self.plan.sheet().fields()[entry.value].content == Content::Numbers;
+        for point in 0..grid.len() {
+            *states.entry(self.status(entry, point)).or_default() += 1;
+            let Some(value) = self.number(entry, point).filter(|_| numbers) else {
+                continue;
+            };
+            if least.is_none_or(|(lowest, _)| value < lowest) {
+                least = Some((value, point));
+            }
+            if most.is_none_or(|(highest, _)| value > highest) {
+                most = Some((value, point));
+            }
+        }
+        let content = &self.plan.sheet().fields()[entry.value].content;
+        let words = match (content, &self.arrays[entry.value]) {
+            (Content::Codes(meanings), Data::Codes(codes)) => {
+                let mut counts = [0_usize; 256];
+                for code in codes {
+                    counts[usize::from(*code)] += 1;
+                }
+                let counted =
+                    meanings.iter().map(|(code, word)| (*word, counts[usize::from(*code)]));
+                counted.filter(|(_, count)| *count > 0).collect()
+            }
+            _ => Vec::new(),
+        };
+        let extreme = |found: Option<(f64, usize)>| {
+            found.map(|(value, point)| Extreme { value, place: grid.values_at(point) })
+        };
+        Summary { least: extreme(least), most: extreme(most), words, states }
+    }
+
+    /// What a reader of the numbers should know.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let entries = self.plan.sheet().entries();
+        if let Some(settled) = entries.iter().find(|entry| entry.variable.name == "settled") {
+            let points = 0..self.plan.grid().len();
+            let not = points.filter(|point| self.number(settled, *point) == Some(0.0)).count();
+            if not > 0 {
+                warnings.push(format!(
+                    "{not} of {} points have not settled (see `settled`): raise solver.settle or \
+                     solver.record_periods",
+                    self.plan.grid().len()
+                ));
+            }
+        }
+        if self.damaged > 0 {
+            warnings.push(format!(
+                "{} chunks of the store were cut short or changed since they were written; they were \
+                 computed again",
+                self.damaged
+            ));
+        }
+        warnings
+    }
+
+    /// As JSON: arrays nested like the axes.
+    pub fn json(&self) -> Json {
+        let grid = self.plan.grid();
+        let shape = grid.shape();
+        let mut object = Object::new();
+        object.insert("ok".into(), true.into());
+        let axes: Vec<Json> = grid
+            .axes()
+            .iter()
+            .map(|axis| {
+                json!({
+                    "parameter": axis.path,
+                    "name": axis.name,
+                    "unit": axis.unit,
+                    "values": axis.values,
+                })
+            })
+            .collect();
+        object.insert("axes".into(), axes.into());
+        object.insert("shape".into(), shape.clone().into());
+        object.insert("points".into(), grid.len().into());
+        let (mut units, mut why, mut counts) = (Object::new(), Object::new(), Object::new());
+        let summaries = self.summaries();
+        for (entry, summary) in self.plan.sheet().entries().iter().zip(&summaries) {
+            let fields = self.plan.sheet().fields();
+            for array in [Some(entry.value), entry.twin, Some(entry.status)].into_iter().flatten() {
+                let field = &fields[array];
+                let states = array == entry.status;
+                let values = (0..grid.len()).map(|point| self.cell(entry, array, point, states));
+                object.insert(field.name.clone(), nested(&shape, values.collect()));
+                if !field.unit.is_empty() {
+                    units.insert(field.name.clone(), field.unit.clone().into());
+                }
+            }
+            let states: Object<String, Json> = summary
+                .states
+                .iter()
+                .map(|(status, count)| (status.name().to_owned(), (*count).into()))
+                .collect();
+            counts.insert(entry.variable.name.to_owned(), states.into());
+            let reasons = reasons(summary);
+            if !reasons.is_empty() {
+                why.insert(entry.variable.name.to_owned(), reasons.into());
+            }
+        }
+        object.insert("counts".into(), counts.into());
+        object.insert("units".into(), units.into());
+        object.insert("why".into(), why.into());
+        object.insert("resumed_points".into(), self.resumed.into());
+        object.insert("warnings".into(), self.warnings().into());
+        object.into()
+    }
+
+    /// One value in JSON: a number, a word, or null where it is not known.
+    fn cell(&self, entry: &Entry, array: usize, point: usize, states: bool) -> Json {
+        if states {
+            return self.status(entry, point).name().into();
+        }
+        match (&self.plan.sheet().fields()[array].content, &self.arrays[array]) {
+            (Content::Codes(meanings), Data::Codes(codes)) => {
+                let found = meanings.iter().find(|(code, _)| *code == codes[point]);
+                found.map_or(Json::Null, |(_, word)| (*word).into())
+            }
+            _ => self.value(array, entry, point).map_or(Json::Null, Json::from),
+        }
+    }
+
+    /// As a dataset: one row a point.
+    pub fn dataset(&self) -> Dataset {
+        let mut dataset = Dataset::new(self.plan.grid().study(), "map");
+        for axis in self.plan.grid().axes() {
+            let values = axis.values.clone();
+            dataset = dataset.with_axis(Array::new(axis.name.clone(), axis.unit, values));
+        }
+        for (entry, summary) in self.plan.sheet().entries().iter().zip(self.summaries()) {
+            for (status, _) in summary.states.iter().filter(|(status, _)| **status != Status::Known)
+            {
+                dataset = dataset.fact(format!(
+                    "{}: {} means {}",
+                    entry.variable.name,
+                    status.name(),
+                    status.about()
+                ));
+            }
+        }
+        for (field, data) in self.plan.sheet().fields().iter().zip(&self.arrays) {
+            let array = match (data, &field.content) {
+                (Data::Codes(codes), Content::Codes(words)) => {
+                    Array::of_words(field.name.clone(), words.clone(), codes)
+                }
+                (Data::Numbers(values), _) => {
+                    Array::new(field.name.clone(), field.unit.clone(), values.clone())
+                }
+                (Data::Codes(_), Content::Numbers) => continue,
+            };
+            dataset = dataset.with(array);
+        }
+        dataset
+    }
+}
+
+/// Why numbers of a variable are null, one sentence for all of them.
+fn reasons(summary: &Summary) -> String {
+    let unknown = summary.states.iter().filter(|(status, _)| **status != Status::Known);
+    let reasons: Vec<String> = unknown
+        .map(|(status, count)| format!("{} ({count} points): {}", status.name(), status.about()))
+        .collect();
+    reasons.join("; ")
+}
+
+/// A list in row-major order as lists of lists.
+fn nested(shape: &[usize], mut values: Vec<Json>) -> Json {
+    for length in shape.iter().skip(1).rev() {
+        let mut rows = Vec::with_capacity(values.len() / length.max(&1));
+        let mut rest = values.into_iter().peekable();
+        while rest.peek().is_some() {
+            rows.push(Json::Array(rest.by_ref().take(*length).collect()));
+        }
+        values = rows;
+    }
+    values.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_are_nested_like_the_axes() {
+        let flat: Vec<Json> = (0..12).map(Json::from).collect();
+        let json = nested(&[2, 3, 2], flat.clone());
+        assert_eq!(json, json!([[[0, 1], [2, 3], [4, 5]], [[6, 7], [8, 9], [10, 11]]]));
+        assert_eq!(nested(&[12], flat.clone()), Json::Array(flat));
+    }
+}

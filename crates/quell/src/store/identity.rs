@@ -1,0 +1,132 @@
+//! What a store holds, to tell whether a study is the one it was begun with.
+//!
+//! Compared are the values of the study after its changes (not the text: comments and order do
+//! not matter), the axes, the quantities, the chunks, and the version of Quell, for another one
+//! may give other bits. Numbers are compared as the digits that read back as the same number.
+
+use serde_json::{Map, Value as Json, json};
+
+use crate::sweep::Plan;
+
+/// Version of the layout of a store.
+const FORMAT: u32 = 1;
+
+/// Most differences that are named.
+const NAMED: usize = 6;
+
+/// What a store of this plan holds.
+pub(super) fn identity(plan: &Plan) -> Json {
+    let grid = plan.grid();
+    // The values of the first point stand for the numbers that the axes replace.
+    let settings =
+        grid.study_at(0).map_or_else(|_| grid.study().settings(), |study| study.settings());
+    let settings: Map<String, Json> =
+        settings.into_iter().map(|(path, value)| (path, value.into())).collect();
+    let axes: Map<String, Json> = grid
+        .axes()
+        .iter()
+        .map(|axis| {
+            let values: Vec<String> =
+                axis.values.iter().map(|value| format!("{value:?}")).collect();
+            (axis.path.clone(), values.into())
+        })
+        .collect();
+    let names: Vec<&str> = plan.quantities().iter().map(|quantity| quantity.name).collect();
+    json!({
+        "format": FORMAT,
+        "quell": env!("CARGO_PKG_VERSION"),
+        "study": settings,
+        "axes": axes,
+        "quantities": names,
+        "chunk": plan.chunks().chunk_shape(),
+    })
+}
+
+/// Names what differs between the store and the plan; empty where nothing does.
+pub(super) fn differences(store: &Json, plan: &Json) -> Vec<String> {
+    let mut found = Vec::new();
+    for (field, name) in [("format", "the layout of stores"), ("quell", "Quell")] {
+        if store[field] != plan[field] {
+            found.push(format!(
+                "{name} is {} here and was {} there: bits may differ",
+                plain(&plan[field]),
+                plain(&store[field])
+            ));
+        }
+    }
+    settings(&store["study"], &plan["study"], &mut found);
+    axes(&store["axes"], &plan["axes"], &mut found);
+    if store["quantities"] != plan["quantities"] {
+        found.push(format!(
+            "the quantities are {} here and {} there",
+            list(&plan["quantities"]),
+            list(&store["quantities"])
+        ));
+    }
+    if found.is_empty() && store["chunk"] != plan["chunk"] {
+        found.push(format!("chunks are {} here and {} there", plan["chunk"], store["chunk"]));
+    }
+    if found.len() > NAMED {
+        let more = found.len() - NAMED;
+        found.truncate(NAMED);
+        found.push(format!("and {more} more"));
+    }
+    found
+}
+
+fn settings(store: &Json, plan: &Json, found: &mut Vec<String>) {
+    let empty = Map::new();
+    let (there, here) = (store.as_object().unwrap_or(&empty), plan.as_object().unwrap_or(&empty));
+    for (path, value) in here {
+        match there.get(path) {
+            Some(other) if other == value => {}
+            Some(other) => {
+                found.push(format!("{path} is {} here and {} there", plain(value), plain(other)));
+            }
+            None => found.push(format!("{path} = {} is here only", plain(value))),
+        }
+    }
+    for (path, value) in there.iter().filter(|(path, _)| !here.contains_key(*path)) {
+        found.push(format!("{path} = {} is there only", plain(value)));
+    }
+}
+
+fn axes(store: &Json, plan: &Json, found: &mut Vec<String>) {
+    let empty = Map::new();
+    let (there, here) = (store.as_object().unwrap_or(&empty), plan.as_object().unwrap_or(&empty));
+    if !here.keys().eq(there.keys()) {
+        let names = |axes: &Map<String, Json>| axes.keys().cloned().collect::<Vec<_>>().join(", ");
+        found.push(format!("the axes are {} here and {} there", names(here), names(there)));
+        return;
+    }
+    for (path, values) in here {
+        if there.get(path) != Some(values) {
+            let other = there.get(path).unwrap_or(&Json::Null);
+            found.push(format!(
+                "{path} runs over {} here and {} there",
+                range(values),
+                range(other)
+            ));
+        }
+    }
+}
+
+fn range(values: &Json) -> String {
+    match values.as_array().map(Vec::as_slice) {
+        Some([only]) => plain(only),
+        Some([first, .., last]) => {
+            let count = values.as_array().map_or(0, Vec::len);
+            format!("{} … {} ({count} values)", plain(first), plain(last))
+        }
+        _ => "nothing".to_owned(),
+    }
+}
+
+fn list(names: &Json) -> String {
+    let names = names.as_array().map(Vec::as_slice).unwrap_or_default();
+    names.iter().map(plain).collect::<Vec<_>>().join(", ")
+}
+
+fn plain(value: &Json) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}

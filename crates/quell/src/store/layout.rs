@@ -1,0 +1,157 @@
+//! The arrays of a store as Zarr v3 describes them: names, shapes, fill values, attributes.
+//!
+//! A group with one coordinate array an axis and the arrays of the map, all chunked alike.
+//! `dimension_names` tie arrays to axes; consolidated metadata in the group lets a reader open it
+//! at once. Attributes follow the habits of CF: `long_name`, `units`, `flag_values`,
+//! `flag_meanings`, `ancillary_variables`. Nothing that depends on the run (time, threads,
+//! machine) is written: a map has the same bytes however it was made.
+
+use std::sync::Arc;
+
+use serde_json::{Map, Value as Json, json};
+use zarrs::array::codec::{BytesCodec, Crc32cCodec};
+use zarrs::array::{Array, ArrayBuilder, ArrayCreateError, DataType, FillValue, data_type};
+use zarrs::metadata::v3::GroupMetadataV3;
+
+use crate::cite::{Task, sources};
+use crate::sweep::{Computation, Content, Field, GridAxis, MISSING, Plan, Status};
+
+/// An array that is described and encoded here, and written by the store.
+pub(super) type Described = Array<()>;
+
+/// The arrays of a plan.
+#[derive(Debug)]
+pub(super) struct Layout {
+    /// One an axis.
+    pub(super) coordinates: Vec<Described>,
+    /// One a field of the sheet, in its order.
+    pub(super) fields: Vec<Described>,
+    /// The group, as JSON.
+    pub(super) group: Json,
+}
+
+impl Layout {
+    pub(super) fn new(plan: &Plan) -> Result<Self, ArrayCreateError> {
+        let axes = plan.grid().axes();
+        let coordinates: Vec<Described> = axes.iter().map(coordinate).collect::<Result<_, _>>()?;
+        let fields = plan.sheet().fields().iter().map(|described| field(plan, described));
+        let fields: Vec<Described> = fields.collect::<Result<_, _>>()?;
+        let arrays = coordinates.iter().chain(&fields);
+        let described: Map<String, Json> =
+            arrays.map(|array| (name(array).to_owned(), metadata(array))).collect();
+        let group = group(plan, &described);
+        Ok(Self { coordinates, fields, group })
+    }
+
+    /// Every array.
+    pub(super) fn arrays(&self) -> impl Iterator<Item = &Described> {
+        self.coordinates.iter().chain(&self.fields)
+    }
+}
+
+/// Name of an array inside the group.
+pub(super) fn name(array: &Described) -> &str {
+    array.path().as_str().trim_start_matches('/')
+}
+
+/// Metadata of an array as JSON.
+pub(super) fn metadata(array: &Described) -> Json {
+    serde_json::to_value(array.metadata()).unwrap_or_default()
+}
+
+fn lengths(shape: &[usize]) -> Vec<u64> {
+    shape.iter().map(|&length| length as u64).collect()
+}
+
+fn describe(
+    name: &str,
+    (shape, chunk): (&[usize], &[usize]),
+    (data_type, fill): (DataType, FillValue),
+    dimensions: Vec<String>,
+    attributes: Json,
+) -> Result<Described, ArrayCreateError> {
+    let attributes = match attributes {
+        Json::Object(attributes) => attributes,
+        _ => Map::new(),
+    };
+    ArrayBuilder::new(lengths(shape), lengths(chunk), data_type, fill)
+        .array_to_bytes_codec(Arc::new(BytesCodec::little()))
+        .bytes_to_bytes_codecs(vec![Arc::new(Crc32cCodec::new())])
+        .dimension_names(Some(dimensions))
+        .attributes(attributes)
+        .build(Arc::new(()), &format!("/{name}"))
+}
+
+fn coordinate(axis: &GridAxis) -> Result<Described, ArrayCreateError> {
+    let length = [axis.values.len()];
+    let attributes = json!({ "long_name": axis.about, "units": axis.unit, "parameter": axis.path });
+    let kind = (data_type::float64(), FillValue::from(f64::NAN));
+    describe(&axis.name, (&length, &length), kind, vec![axis.name.clone()], attributes)
+}
+
+fn field(plan: &Plan, field: &Field) -> Result<Described, ArrayCreateError> {
+    let mut attributes = json!({ "long_name": field.about });
+    if !field.unit.is_empty() {
+        attributes["units"] = field.unit.as_str().into();
+    }
+    if let Some(status) = &field.status {
+        attributes["ancillary_variables"] = status.as_str().into();
+    }
+    let kind = match &field.content {
+        Content::Numbers => (data_type::float64(), FillValue::from(f64::NAN)),
+        Content::Codes(meanings) => {
+            let codes: Vec<u8> = meanings.iter().map(|(code, _)| *code).collect();
+            let names: Vec<&str> = meanings.iter().map(|(_, name)| *name).collect();
+            attributes["flag_values"] = codes.into();
+            attributes["flag_meanings"] = names.join(" ").into();
+            if field.status.is_none() {
+                attributes["comment"] = reasons(meanings).into();
+            }
+            (data_type::uint8(), FillValue::from(MISSING))
+        }
+    };
+    let chunks = plan.chunks();
+    let dimensions = plan.grid().axes().iter().map(|axis| axis.name.clone()).collect();
+    let shapes = (chunks.shape(), chunks.chunk_shape());
+    describe(&field.name, shapes, kind, dimensions, attributes)
+}
+
+/// What each state means, one line each.
+fn reasons(meanings: &[(u8, &str)]) -> String {
+    let states = meanings.iter().filter_map(|(code, _)| Status::of_code(*code));
+    let lines: Vec<String> =
+        states.map(|status| format!("{}: {}", status.name(), status.about())).collect();
+    lines.join("\n")
+}
+
+fn group(plan: &Plan, described: &Map<String, Json>) -> Json {
+    let study = plan.grid().study();
+    let used = |task: Task| {
+        plan.computations().iter().any(|computation| match computation {
+            Computation::Response | Computation::ResponseWithCost => task == Task::Response,
+            Computation::Criterion
+            | Computation::CriterionSharper
+            | Computation::CriticalAmplitudes => task == Task::Stability,
+        })
+    };
+    let citations = sources(study).citations;
+    let cited: Vec<String> = citations
+        .iter()
+        .filter(|citation| used(citation.task))
+        .map(|citation| format!("{}: {}", citation.source.reference, citation.used))
+        .collect();
+    let mut attributes = Map::new();
+    if let Some(title) = study.title() {
+        attributes.insert("title".into(), title.into());
+    }
+    attributes.insert("source".into(), concat!("quell ", env!("CARGO_PKG_VERSION"), " map").into());
+    attributes.insert("quell_version".into(), env!("CARGO_PKG_VERSION").into());
+    attributes.insert("study".into(), study.text().into());
+    attributes.insert("changes".into(), study.changes().join("\n").into());
+    attributes.insert("references".into(), cited.join("\n").into());
+    let group = GroupMetadataV3::new().with_attributes(attributes);
+    let mut group = serde_json::to_value(group).unwrap_or_default();
+    group["consolidated_metadata"] =
+        json!({ "kind": "inline", "must_understand": false, "metadata": described });
+    group
+}

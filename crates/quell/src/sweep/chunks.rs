@@ -1,0 +1,123 @@
+//! Chunks of a grid: the boxes in which a map is computed and stored.
+//!
+//! Chunks lie as Zarr's regular grid has them: all of one shape, the last of an axis cut off
+//! by the end of the axis. Their shape depends on the study alone, never on the number of
+//! threads, so that a map may be resumed on another machine.
+
+/// How a grid is cut into chunks.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Chunks {
+    shape: Vec<usize>,
+    chunk: Vec<usize>,
+}
+
+impl Chunks {
+    /// Chunks of at most `most` points (at least one), nearly as many along every axis:
+    /// neighbours of a plane are alike, which serves readers and lanes.
+    pub fn new(shape: &[usize], most: usize) -> Self {
+        let mut chunk = shape.to_vec();
+        while chunk.iter().product::<usize>() > most.max(1) {
+            let Some(longest) = chunk.iter_mut().rev().max() else {
+                break;
+            };
+            *longest = longest.div_ceil(2);
+        }
+        Self { shape: shape.to_vec(), chunk }
+    }
+
+    /// Number of points of the grid along each axis.
+    pub fn shape(&self) -> &[usize] {
+        &self.shape
+    }
+
+    /// Number of points of a whole chunk along each axis.
+    pub fn chunk_shape(&self) -> &[usize] {
+        &self.chunk
+    }
+
+    /// Number of points of a whole chunk.
+    pub fn chunk_points(&self) -> usize {
+        self.chunk.iter().product()
+    }
+
+    /// Number of chunks.
+    pub fn len(&self) -> usize {
+        self.counts().product()
+    }
+
+    /// Whether there is none; never so.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Where chunk `number` lies among the chunks, axis by axis.
+    pub fn place(&self, number: usize) -> Vec<usize> {
+        let mut after = self.len();
+        self.counts()
+            .map(|count| {
+                after /= count;
+                number / after % count
+            })
+            .collect()
+    }
+
+    /// The points of chunk `number`: position in a whole chunk and index in the grid, both in
+    /// row-major order. Positions beyond the end of an axis are left out.
+    pub fn points(&self, number: usize) -> Vec<(usize, usize)> {
+        let mut points = vec![(0, 0)];
+        let axes = self.place(number).into_iter().zip(self.shape.iter().zip(&self.chunk));
+        for (place, (shape, chunk)) in axes {
+            let first = place * chunk;
+            let last = (first + chunk).min(*shape);
+            let inside = |&(position, index): &(usize, usize)| {
+                (first..last).map(move |at| (position * chunk + at - first, index * shape + at))
+            };
+            points = points.iter().flat_map(inside).collect();
+        }
+        points
+    }
+
+    fn counts(&self) -> impl Iterator<Item = usize> + '_ {
+        self.shape.iter().zip(&self.chunk).map(|(shape, chunk)| shape.div_ceil(*chunk))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_point_lies_in_one_chunk() {
+        for (shape, most) in [
+            (vec![7], 3),
+            (vec![1], 5),
+            (vec![5, 8], 6),
+            (vec![3, 4, 5], 7),
+            (vec![100, 1, 3], 1),
+            (vec![4, 4], 1000),
+        ] {
+            let chunks = Chunks::new(&shape, most);
+            assert!(chunks.chunk_points() <= most);
+            let total: usize = shape.iter().product();
+            let mut seen = vec![0; total];
+            for number in 0..chunks.len() {
+                let points = chunks.points(number);
+                assert!(!points.is_empty());
+                for (position, index) in points {
+                    assert!(position < chunks.chunk_points());
+                    seen[index] += 1;
+                }
+            }
+            assert!(seen.iter().all(|count| *count == 1), "{shape:?} {most}");
+        }
+    }
+
+    #[test]
+    fn positions_are_those_of_a_whole_chunk() {
+        let chunks = Chunks { shape: vec![3, 5], chunk: vec![2, 4] };
+        assert_eq!(chunks.len(), 4);
+        assert_eq!(chunks.place(3), [1, 1]);
+        assert_eq!(chunks.points(1), [(0, 4), (4, 9)]);
+        assert_eq!(chunks.points(2), [(0, 10), (1, 11), (2, 12), (3, 13)]);
+    }
+}

@@ -1,0 +1,112 @@
+//! What a point of a map costs, roughly, to choose the size of a chunk.
+//!
+//! An estimate from the study alone: times measured on one core of a common machine, scaled by
+//! what the work grows with. It need not be right, only the same for everyone.
+
+use quell_model::Direction;
+
+use super::evaluate::Computation;
+use crate::study::Study;
+
+/// Seconds of one dither period with events.
+const PERIOD: f64 = 1e-6;
+
+/// Seconds of one slow period without dither.
+const SLOW_PERIOD: f64 = 3e-6;
+
+/// Seconds of one sample of a record, heard and forgotten.
+const SAMPLE: f64 = 5e-8;
+
+/// Seconds of one averaged criterion in closed form.
+const CLOSED_FORM: f64 = 1e-6;
+
+/// Seconds of one by quadrature.
+const QUADRATURE: f64 = 4e-4;
+
+/// Evaluations of the criterion in a search for critical amplitudes.
+const SEARCH: f64 = 100.0;
+
+/// Seconds that a point takes to be made and stored at least.
+const POINT: f64 = 2e-5;
+
+/// Chunks that a map should have at least: four for each of 32 threads.
+const CHUNKS: f64 = 128.0;
+
+/// Seconds of a chunk, at most: what an interruption may lose.
+const LONGEST: f64 = 2.0;
+
+/// Seconds of a chunk, at least: below them files cost more than points.
+const SHORTEST: f64 = 0.05;
+
+/// Points of a chunk that fill the lanes of the engine; fewer where they take longer than a
+/// chunk should.
+const LANES_FULL: f64 = 64.0;
+
+/// Points of a chunk, at most.
+const MOST: f64 = 65_536.0;
+
+/// Seconds of one point.
+pub(super) fn seconds(study: &Study, wanted: &[Computation]) -> f64 {
+    let each = wanted.iter().map(|computation| match computation {
+        Computation::Response | Computation::ResponseWithCost => response(study),
+        Computation::Criterion => criterion(study, false),
+        Computation::CriterionSharper => criterion(study, true),
+        Computation::CriticalAmplitudes => SEARCH * criterion(study, false),
+    });
+    POINT + each.sum::<f64>()
+}
+
+fn response(study: &Study) -> f64 {
+    let fastest = study
+        .belt()
+        .dithers()
+        .iter()
+        .filter(|dither| dither.amplitude > 0.0)
+        .fold(0.0_f64, |rate, dither| rate.max(dither.frequency_ratio));
+    let solver = study.solver();
+    let record = f64::from(solver.record_periods);
+    let periods = solver.settle / std::f64::consts::TAU + record;
+    let samples = record * (16.0 * fastest).max(128.0);
+    periods * (fastest * PERIOD + 2.0 * SLOW_PERIOD) + 2.0 * samples * SAMPLE
+}
+
+fn criterion(study: &Study, sharper: bool) -> f64 {
+    let belt = study.belt();
+    let normal = belt.dithers().iter().any(|dither| dither.direction == Direction::Normal);
+    match belt.dithers().len() {
+        0 => CLOSED_FORM,
+        1 if !(normal && sharper) => CLOSED_FORM,
+        dithers => QUADRATURE * 30_f64.powi(i32::try_from(dithers).unwrap_or(4).min(4) - 1),
+    }
+}
+
+/// Points of a chunk of a map of `points` points that take `seconds` each.
+pub(super) fn points_per_chunk(points: usize, seconds: f64) -> usize {
+    let chunk = (points as f64 * seconds / CHUNKS).clamp(SHORTEST, LONGEST);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between 1 and MOST"
+    )]
+    let most = (chunk / seconds).max(LANES_FULL.min(LONGEST / seconds)).clamp(1.0, MOST) as usize;
+    most
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chunks_are_many_where_points_are_dear_and_few_where_they_are_cheap() {
+        // 40 000 points of 10 ms: 200 points take two seconds.
+        assert_eq!(points_per_chunk(40_000, 0.01), 200);
+        // 1000 points of 10 ms: as many as fill the lanes, although that makes few chunks.
+        assert_eq!(points_per_chunk(1000, 0.01), 64);
+        // 1000 points of 0.1 s: two seconds.
+        assert_eq!(points_per_chunk(1000, 0.1), 20);
+        // Points that take longer than a chunk should.
+        assert_eq!(points_per_chunk(10, 100.0), 1);
+        // 1000 points of 20 µs: one chunk.
+        assert!(points_per_chunk(1000, 2e-5) >= 1000);
+    }
+}

@@ -1,0 +1,258 @@
+//! The points of a map: the product of the axes of a study, the last axis fastest.
+
+use std::fmt::Write as _;
+
+use serde_json::Value as Json;
+
+use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::vocabulary::Address;
+use crate::study::{Axis, Study};
+
+/// Most points a map may have: their values are kept in memory until the map is done.
+pub const MOST_POINTS: usize = 100_000_000;
+
+/// What a study without axes is told.
+const EXAMPLE: &str = "at least one axis in the study, such as\n\
+     \n\
+     [[sweep]]\n\
+     parameter = \"dither.amplitude\"\n\
+     from = 0.05\n\
+     to = 1.0\n\
+     points = 20              # or values = [...]; spacing = \"log\"\n\
+     \n\
+     or on the command line: --set sweep[0].parameter=dither.amplitude --set 'sweep[0].values=[0.1, 0.2]'";
+
+/// One axis of a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GridAxis {
+    /// Name in datasets: the path with its dots as underscores, such as `dither_amplitude`,
+    /// and without a table that the key repeats (`belt_velocity`).
+    pub name: String,
+    /// Path of the number that is varied, such as `dither.amplitude`.
+    pub path: String,
+    /// What is varied, in one line.
+    pub about: &'static str,
+    /// Symbol of the number in the equations, where it has one.
+    pub symbol: Option<&'static str>,
+    /// Unit of the values.
+    pub unit: &'static str,
+    /// The values in order.
+    pub values: Vec<f64>,
+    /// Whether they lie in equal ratios.
+    pub logarithmic: bool,
+}
+
+/// The points of a map.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    study: Study,
+    axes: Vec<GridAxis>,
+}
+
+impl Grid {
+    /// The grid of a study.
+    ///
+    /// # Errors
+    /// A complaint where the study has no axis, two axes that set the same number, or more
+    /// than [`MOST_POINTS`] points.
+    pub fn of(study: &Study) -> Result<Self, Box<Complaint>> {
+        let sweeps = study.sweeps();
+        if sweeps.is_empty() {
+            let complaint =
+                Complaint::new(Fault::Missing, "[[sweep]]", Origin::Whole, Json::Null, EXAMPLE);
+            return Err(Box::new(complaint));
+        }
+        for (index, sweep) in sweeps.iter().enumerate() {
+            let earlier = &sweeps[..index];
+            if let Some(other) = earlier.iter().find(|other| same(&other.address, &sweep.address)) {
+                let key = format!("sweep[{index}].parameter");
+                let allowed = format!("{} sets the same number as {}", sweep.path, other.path);
+                let path = sweep.path.clone();
+                let complaint = Complaint::new(Fault::Conflict, key, Origin::Whole, path, allowed);
+                return Err(Box::new(complaint));
+            }
+        }
+        let points = sweeps
+            .iter()
+            .try_fold(1_usize, |points, sweep| points.checked_mul(sweep.axis.len()))
+            .filter(|points| *points <= MOST_POINTS);
+        if points.is_none() {
+            let allowed = format!("axes whose product is at most {MOST_POINTS} points");
+            let lengths: Vec<String> =
+                sweeps.iter().map(|sweep| sweep.axis.len().to_string()).collect();
+            let lengths = lengths.join(" × ");
+            let complaint =
+                Complaint::new(Fault::Value, "[[sweep]]", Origin::Whole, lengths, allowed);
+            return Err(Box::new(complaint));
+        }
+        let axes = sweeps.iter().map(|sweep| GridAxis {
+            name: name_of(&sweep.path),
+            path: sweep.path.clone(),
+            about: sweep.address.key.about,
+            symbol: sweep.address.key.parameter().map(|parameter| parameter.symbol),
+            unit: sweep.address.key.unit(),
+            values: sweep.axis.values().collect(),
+            logarithmic: matches!(sweep.axis, Axis::Logarithmic { .. }),
+        });
+        Ok(Self { axes: axes.collect(), study: study.clone() })
+    }
+
+    /// The study whose axes these are.
+    pub fn study(&self) -> &Study {
+        &self.study
+    }
+
+    /// The axes in order.
+    pub fn axes(&self) -> &[GridAxis] {
+        &self.axes
+    }
+
+    /// Number of values of each axis.
+    pub fn shape(&self) -> Vec<usize> {
+        self.axes.iter().map(|axis| axis.values.len()).collect()
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.axes.iter().map(|axis| axis.values.len()).product()
+    }
+
+    /// Whether there is none; never so.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Values of the axes at point `index` in row-major order.
+    pub fn values_at(&self, index: usize) -> Vec<f64> {
+        let mut after = self.len();
+        let values = self.axes.iter().map(|axis| {
+            after /= axis.values.len();
+            axis.values[index / after % axis.values.len()]
+        });
+        values.collect()
+    }
+
+    /// The study at point `index`.
+    ///
+    /// # Errors
+    /// Every complaint, where these values together make no valid study.
+    pub fn study_at(&self, index: usize) -> Result<Study, Vec<Complaint>> {
+        self.study_with(&self.values_at(index))
+    }
+
+    /// The study at the points whose values are the first or the last of every axis.
+    pub(super) fn corner_studies(&self) -> Vec<Study> {
+        // More than six axes: the lowest and the highest corner stand for all.
+        let all = 1_usize << self.axes.len().min(6);
+        let corners = (0..all).map(|corner| {
+            let values: Vec<f64> = self
+                .axes
+                .iter()
+                .enumerate()
+                .map(|(index, axis)| {
+                    let bit = if self.axes.len() > 6 { 0 } else { index };
+                    let last = axis.values.len() - 1;
+                    axis.values[if corner >> bit & 1 == 1 { last } else { 0 }]
+                })
+                .collect();
+            self.study_with(&values).ok()
+        });
+        corners.flatten().collect()
+    }
+
+    fn study_with(&self, values: &[f64]) -> Result<Study, Vec<Complaint>> {
+        self.study.at(self.axes.iter().map(|axis| axis.path.as_str()).zip(values.iter().copied()))
+    }
+}
+
+/// Whether two axes set the same number: a parameter and its SI twin do.
+fn same(one: &Address, other: &Address) -> bool {
+    let parameter = |address: &Address| address.key.parameter().map(|parameter| parameter.path);
+    one.key.section == other.key.section
+        && one.index.unwrap_or(0) == other.index.unwrap_or(0)
+        && (one.key.name == other.key.name
+            || (parameter(one).is_some() && parameter(one) == parameter(other)))
+}
+
+/// `dither[1].amplitude` → `dither_1_amplitude`; `belt.belt_velocity` → `belt_velocity`.
+fn name_of(path: &str) -> String {
+    let (table, key) = path.rsplit_once('.').unwrap_or(("", path));
+    let mut name = String::new();
+    if table.is_empty() || key.starts_with(&format!("{table}_")) {
+        return key.to_owned();
+    }
+    for letter in table.chars() {
+        match letter {
+            '.' | '[' => name.push('_'),
+            ']' => {}
+            letter => name.push(letter),
+        }
+    }
+    let _ = write!(name, "_{key}");
+    name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::Change;
+
+    const TEXT: &str = "schema = 1\n[belt]\ndamping_ratio = 0.01\nnormal_load = 1\n\
+        belt_velocity = 0.1\n[friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\n\
+        minimum_coefficient = 0.2\nreference_velocity = 0.2\n[[dither]]\ndirection = \"normal\"\n\
+        waveform = \"sine\"\namplitude = 0.1\nfrequency_ratio = 10\n[[dither]]\n\
+        direction = \"tangential\"\nwaveform = \"square\"\namplitude = 0.1\nfrequency_ratio = 7\n";
+
+    fn grid(axes: &str) -> Result<Grid, Box<Complaint>> {
+        Grid::of(&Study::parse(&format!("{TEXT}{axes}"), &[]).expect("valid"))
+    }
+
+    #[test]
+    fn a_point_is_the_study_with_its_changes() {
+        let grid = grid(
+            "[[sweep]]\nparameter = \"dither[1].amplitude\"\nvalues = [0.1, 0.3, 0.7]\n\
+             [[sweep]]\nparameter = \"belt.belt_velocity\"\nfrom = 0.01\nto = 1\npoints = 4\n\
+             spacing = \"log\"\n[[sweep]]\nparameter = \"belt.initial.displacement\"\nvalues = [0, 1]",
+        )
+        .expect("three axes");
+        assert_eq!((grid.shape(), grid.len()), (vec![3, 4, 2], 24));
+        let names: Vec<&str> = grid.axes().iter().map(|axis| axis.name.as_str()).collect();
+        assert_eq!(names, ["dither_1_amplitude", "belt_velocity", "belt_initial_displacement"]);
+        for index in 0..grid.len() {
+            let values = grid.values_at(index);
+            let changes: Vec<Change> = grid
+                .axes()
+                .iter()
+                .zip(&values)
+                .map(|(axis, value)| Change::parse(&format!("{}={value:?}", axis.path), "--set"))
+                .collect::<Result<_, _>>()
+                .expect("changes");
+            let alone = Study::parse(TEXT, &changes).expect("valid");
+            let point = grid.study_at(index).expect("valid");
+            assert_eq!(
+                (point.belt(), point.initial(), point.solver(), point.changes()),
+                (alone.belt(), alone.initial(), alone.solver(), alone.changes())
+            );
+            assert!(point.sweeps().is_empty());
+        }
+        // Row-major: the last axis fastest.
+        assert_eq!(grid.values_at(1)[2], 1.0);
+        assert_eq!(grid.values_at(8)[0], 0.3);
+    }
+
+    #[test]
+    fn what_makes_no_grid_is_told() {
+        let told = grid("").expect_err("no axis");
+        assert!(told.allowed.contains("[[sweep]]\nparameter = "), "{told}");
+        let told = grid(
+            "[[sweep]]\nparameter = \"dither[0].amplitude\"\nvalues = [0.1]\n\
+             [[sweep]]\nparameter = \"dither[1].amplitude\"\nvalues = [0.1]\n",
+        );
+        assert!(told.is_ok());
+        let axis = |path| {
+            format!("[[sweep]]\nparameter = \"{path}\"\nfrom = 0.1\nto = 0.2\npoints = 100000\n")
+        };
+        let told = grid(&(axis("belt.damping_ratio") + &axis("belt.belt_velocity")));
+        assert!(told.expect_err("too many").allowed.contains("at most"));
+    }
+}

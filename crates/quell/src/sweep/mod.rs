@@ -1,0 +1,29 @@
+//! Maps: quantities over the product of axes.
+//!
+//! ```text
+//! study with [[sweep]] → Grid (points) ┐
+//! names of quantities  → Sheet (arrays) ┴→ Plan (chunks) → runner → arrays, store
+//! ```
+//!
+//! A point is the study with its numbers set as `--set` sets them, and its result depends on
+//! nothing else: it has the same bits alone, in any chunk, with any number of threads.
+
+mod chunks;
+mod cost;
+mod evaluate;
+mod grid;
+mod plan;
+mod quantity;
+mod runner;
+mod sheet;
+mod status;
+
+pub use chunks::Chunks;
+pub use evaluate::{Computation, Results, Steady};
+pub use grid::{Grid, GridAxis, MOST_POINTS};
+pub use plan::Plan;
+pub use quantity::{Kind, QUANTITIES, Quantity, System, Variable};
+pub(crate) use runner::run;
+pub use runner::{MOST_THREADS, Progress, Running};
+pub use sheet::{Content, Data, Entry, Field, MISSING, Sheet};
+pub use status::Status;

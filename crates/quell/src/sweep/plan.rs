@@ -1,0 +1,140 @@
+//! What is to be computed: the grid, the quantities, the arrays, the chunks.
+
+use super::chunks::Chunks;
+use super::cost;
+use super::evaluate::{Computation, evaluate};
+use super::grid::Grid;
+use super::quantity::{Quantity, SETTLED_NAME};
+use super::sheet::{Data, Sheet};
+use crate::complaint::Complaint;
+use crate::study::Study;
+
+/// A map that is to be computed.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    grid: Grid,
+    quantities: Vec<&'static Quantity>,
+    computations: Vec<Computation>,
+    sheet: Sheet,
+    chunks: Chunks,
+}
+
+impl Plan {
+    /// A plan for the axes of a study. With any number of a steady response comes whether it
+    /// has settled.
+    ///
+    /// # Errors
+    /// The complaint of [`Grid::of`].
+    pub fn new(study: &Study, asked: &[&'static Quantity]) -> Result<Self, Box<Complaint>> {
+        let grid = Grid::of(study)?;
+        let mut quantities: Vec<&'static Quantity> = Vec::new();
+        let steady = asked.iter().any(|quantity| quantity.computation.is_response());
+        let settled = Quantity::named(SETTLED_NAME, "--quantity").ok().filter(|_| steady);
+        for quantity in asked.iter().copied().chain(settled) {
+            if !quantities.contains(&quantity) {
+                quantities.push(quantity);
+            }
+        }
+        let mut computations = Vec::new();
+        for quantity in &quantities {
+            if !computations.contains(&quantity.computation) {
+                computations.push(quantity.computation);
+            }
+        }
+        let seconds = grid
+            .corner_studies()
+            .iter()
+            .map(|study| cost::seconds(study, &computations))
+            .fold(cost::seconds(study, &computations), f64::max);
+        let chunks = Chunks::new(&grid.shape(), cost::points_per_chunk(grid.len(), seconds));
+        let sheet = Sheet::new(study, &quantities);
+        Ok(Self { grid, quantities, computations, sheet, chunks })
+    }
+
+    /// The points.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// What is shown.
+    pub fn quantities(&self) -> &[&'static Quantity] {
+        &self.quantities
+    }
+
+    /// What is computed for it.
+    pub fn computations(&self) -> &[Computation] {
+        &self.computations
+    }
+
+    /// The arrays.
+    pub fn sheet(&self) -> &Sheet {
+        &self.sheet
+    }
+
+    /// The chunks.
+    pub fn chunks(&self) -> &Chunks {
+        &self.chunks
+    }
+
+    /// Computes chunk `number`: its arrays, over its points in order.
+    pub fn compute(&self, number: usize) -> Vec<Data> {
+        let points = self.chunks.points(number);
+        self.compute_points(points.iter().map(|(_, index)| *index))
+    }
+
+    /// Computes some points, by their index in the grid.
+    pub fn compute_points(&self, indices: impl Iterator<Item = usize>) -> Vec<Data> {
+        let studies: Vec<Option<Study>> =
+            indices.map(|index| self.grid.study_at(index).ok()).collect();
+        let scales: Vec<_> =
+            studies.iter().map(|study| study.as_ref().map(Study::scales)).collect();
+        let valid: Vec<Study> = studies.into_iter().flatten().collect();
+        let mut results = evaluate(&valid, &self.computations).into_iter();
+        let points: Vec<_> = scales
+            .into_iter()
+            .map(|scales| scales.and_then(|scales| results.next().map(|found| (scales, found))))
+            .collect();
+        self.sheet.fill(&points)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sweep::Status;
+
+    const TEXT: &str = "schema = 1\n[belt]\ndamping_ratio = 0.01\nnormal_load = 0.5\n\
+        belt_velocity = 0.1\n[friction]\nlaw = \"decreasing\"\nstatic_coefficient = 0.4\n\
+        minimum_coefficient = 0.2\nreference_velocity = 0.2\n[dither]\ndirection = \"normal\"\n\
+        waveform = \"sine\"\namplitude = 0.1\nfrequency_ratio = 10\n[solver]\nsettle = 5\n\
+        record_periods = 2\n[[sweep]]\nparameter = \"dither.amplitude\"\nvalues = [0.1, 0.45, 0.3]\n\
+        [[sweep]]\nparameter = \"belt.normal_load\"\nvalues = [0.48, 0.42, 0.5]\n";
+
+    #[test]
+    fn a_point_has_the_same_bits_beside_any_others() {
+        let study = Study::parse(TEXT, &[]).expect("valid");
+        let asked: Vec<&Quantity> =
+            ["efficiency", "growth", "critical-amplitude", "dither-stroke", "verdict-sharper"]
+                .iter()
+                .map(|name| Quantity::named(name, "--quantity").expect("a quantity"))
+                .collect();
+        let plan = Plan::new(&study, &asked).expect("two axes");
+        assert_eq!(plan.quantities().last().map(|last| last.name), Some(SETTLED_NAME));
+        let all = plan.compute_points(0..plan.grid().len());
+        let backwards = plan.compute_points((0..plan.grid().len()).rev());
+        let status = plan.sheet().entries()[0].status;
+        for point in 0..plan.grid().len() {
+            let alone = plan.compute_points(std::iter::once(point));
+            for ((array, alone), backwards) in all.iter().zip(&alone).zip(&backwards) {
+                assert!(array.same_bits(point, alone, 0));
+                assert!(array.same_bits(point, backwards, plan.grid().len() - 1 - point));
+            }
+        }
+        // 0.45 of dither on 0.42 of load pulls the contact apart; its neighbours know nothing of it.
+        let Data::Codes(states) = &all[status] else {
+            panic!("states are codes");
+        };
+        let invalid = states.iter().map(|code| *code == Status::InvalidStudy.code());
+        assert_eq!(invalid.collect::<Vec<_>>(), (0..9).map(|at| at == 4).collect::<Vec<_>>());
+    }
+}

@@ -1,0 +1,263 @@
+//! The arrays of a map: what each holds, and its values.
+//!
+//! Every variable gives an array of values, in a study in SI its twin in SI, and an array of
+//! states. Where a number is not known its state says why; the value is then a NaN that carries
+//! the code of the state, or the word for "unknown". The fill values (the plain NaN, 255) mean
+//! "missing" and nothing else.
+
+use quell_model::units::{self, Scales};
+
+use super::evaluate::Results;
+use super::quantity::{Kind, Quantity, Variable};
+use super::status::Status;
+use crate::study::Study;
+
+/// Bits of the NaN that stands for an unknown number; the code of its state is added.
+const UNKNOWN: u64 = 0x7ff8_0000_0000_0000;
+
+/// Code that stands for a word or state that is not computed yet.
+pub const MISSING: u8 = Status::Missing.code();
+
+/// One array of a map.
+#[derive(Clone, Debug)]
+pub struct Field {
+    /// Its name.
+    pub name: String,
+    /// What it is, in one line.
+    pub about: String,
+    /// Unit; empty for words and states.
+    pub unit: String,
+    /// What it holds.
+    pub content: Content,
+    /// The array that holds the states of its values; none of an array of states.
+    pub status: Option<String>,
+}
+
+/// What an array holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// Numbers.
+    Numbers,
+    /// Codes, each with its meaning.
+    Codes(Vec<(u8, &'static str)>),
+}
+
+/// Values of one array.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Data {
+    /// Numbers.
+    Numbers(Vec<f64>),
+    /// Codes of words or states.
+    Codes(Vec<u8>),
+}
+
+impl Data {
+    /// `points` values that are all missing.
+    pub fn missing(content: &Content, points: usize) -> Self {
+        match content {
+            Content::Numbers => Self::Numbers(vec![f64::NAN; points]),
+            Content::Codes(_) => Self::Codes(vec![MISSING; points]),
+        }
+    }
+
+    /// Takes over value `from` of another array of the same kind as value `to`.
+    pub fn take(&mut self, to: usize, other: &Self, from: usize) {
+        match (self, other) {
+            (Self::Numbers(values), Self::Numbers(others)) => values[to] = others[from],
+            (Self::Codes(values), Self::Codes(others)) => values[to] = others[from],
+            _ => {}
+        }
+    }
+
+    /// Whether value `at` has the bits of value `other_at` of another array of the same kind.
+    pub fn same_bits(&self, at: usize, other: &Self, other_at: usize) -> bool {
+        match (self, other) {
+            (Self::Numbers(values), Self::Numbers(others)) => {
+                values[at].to_bits() == others[other_at].to_bits()
+            }
+            (Self::Codes(values), Self::Codes(others)) => values[at] == others[other_at],
+            _ => false,
+        }
+    }
+
+    fn push(&mut self, number: f64, code: u8) {
+        match self {
+            Self::Numbers(values) => values.push(number),
+            Self::Codes(values) => values.push(code),
+        }
+    }
+}
+
+/// A variable with the places of its arrays.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// The variable.
+    pub variable: Variable,
+    /// Its values.
+    pub value: usize,
+    /// Its values in SI.
+    pub twin: Option<usize>,
+    /// Its states.
+    pub status: usize,
+}
+
+/// The arrays of a map.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    entries: Vec<Entry>,
+    fields: Vec<Field>,
+}
+
+impl Sheet {
+    /// The arrays of `quantities` for a study.
+    pub fn new(study: &Study, quantities: &[&Quantity]) -> Self {
+        let si = study.scales().is_some();
+        let mut sheet = Self { entries: Vec::new(), fields: Vec::new() };
+        for variable in quantities.iter().flat_map(|quantity| quantity.variables) {
+            let name = variable.name;
+            let content = match variable.kind {
+                Kind::Number(_) | Kind::Rate => Content::Numbers,
+                Kind::Word { words, unknown } => {
+                    let words = words.iter().chain([&unknown]).zip(0..);
+                    let words = words.map(|(word, code)| (code, *word));
+                    Content::Codes(words.chain([(MISSING, Status::Missing.name())]).collect())
+                }
+            };
+            let state = Some(format!("{name}_status"));
+            let unit = unit(variable.kind, si);
+            let value = sheet.add(name.to_owned(), variable.about, unit, content, state.clone());
+            let twin = twin(variable.kind).filter(|_| si).map(|(unit, suffix)| {
+                let name = format!("{name}_{suffix}");
+                let unit = unit.to_owned();
+                sheet.add(name, variable.about, unit, Content::Numbers, state.clone())
+            });
+            let states = variable.all_statuses();
+            let states = states.iter().map(|status| (status.code(), status.name())).collect();
+            let about = format!("state of {name}: known, or why it is not");
+            let content = Content::Codes(states);
+            let name = format!("{name}_status");
+            let status = sheet.add(name, &about, String::new(), content, None);
+            sheet.entries.push(Entry { variable: *variable, value, twin, status });
+        }
+        sheet
+    }
+
+    fn add(
+        &mut self,
+        name: String,
+        about: &str,
+        unit: String,
+        content: Content,
+        status: Option<String>,
+    ) -> usize {
+        self.fields.push(Field { name, about: about.to_owned(), unit, content, status });
+        self.fields.len() - 1
+    }
+
+    /// The variables in order.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// The arrays in order.
+    pub fn fields(&self) -> &[Field] {
+        &self.fields
+    }
+
+    /// Arrays of `points` values that are all missing.
+    pub fn missing(&self, points: usize) -> Vec<Data> {
+        self.fields.iter().map(|field| Data::missing(&field.content, points)).collect()
+    }
+
+    /// The arrays of some points; `None` where the values of the axes make no valid study.
+    pub(super) fn fill(&self, points: &[Option<(Option<Scales>, Results)>]) -> Vec<Data> {
+        let mut arrays = self.missing(0);
+        for point in points {
+            for entry in &self.entries {
+                let (value, scales) = match point {
+                    Some((scales, results)) => (entry.variable.read(results), *scales),
+                    None => (Err(Status::InvalidStudy), None),
+                };
+                let (number, code, status) = match value {
+                    Ok(value) => (value, whole(value), Status::Known),
+                    Err(status) => (unknown(status), unknown_word(entry.variable.kind), status),
+                };
+                arrays[entry.value].push(number, code);
+                arrays[entry.status].push(0.0, status.code());
+                if let Some(twin) = entry.twin {
+                    let factor = scales.map_or(1.0, |scales| factor(entry.variable.kind, scales));
+                    // A NaN times a factor need not keep its code.
+                    let number = if status == Status::Known { number * factor } else { number };
+                    arrays[twin].push(number, 0);
+                }
+            }
+        }
+        arrays
+    }
+}
+
+/// The number that stands for an unknown one.
+fn unknown(status: Status) -> f64 {
+    f64::from_bits(UNKNOWN | u64::from(status.code()))
+}
+
+/// The code that stands for an unknown word.
+fn unknown_word(kind: Kind) -> u8 {
+    match kind {
+        Kind::Word { words, .. } => u8::try_from(words.len()).unwrap_or(MISSING),
+        Kind::Number(_) | Kind::Rate => MISSING,
+    }
+}
+
+/// The code of a word, given as a number.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "words are few; of a number that is no word this code is not used"
+)]
+fn whole(value: f64) -> u8 {
+    value as u8
+}
+
+/// Unit of a variable in the numbers of the equations; the lengths of a study in SI are metres.
+fn unit(kind: Kind, si: bool) -> String {
+    match kind {
+        Kind::Number(quantity) if si => quantity.scaled_unit().replacen("length", "m", 1),
+        Kind::Number(quantity) => quantity.scaled_unit().to_owned(),
+        Kind::Rate => "ω₀".to_owned(),
+        Kind::Word { .. } => String::new(),
+    }
+}
+
+/// SI unit of a variable and the suffix for it.
+fn twin(kind: Kind) -> Option<(&'static str, &'static str)> {
+    match kind {
+        // A displacement is in metres already.
+        Kind::Number(units::Quantity::Displacement) | Kind::Word { .. } => None,
+        Kind::Number(quantity) => quantity.si_unit(),
+        Kind::Rate => Some(("1/s", "per_s")),
+    }
+}
+
+/// SI value of one unit of a variable.
+fn factor(kind: Kind, scales: Scales) -> f64 {
+    match kind {
+        Kind::Number(quantity) => scales.si_per_unit(quantity),
+        Kind::Rate => scales.angular_frequency(),
+        Kind::Word { .. } => 1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_unknown_is_not_what_is_missing() {
+        for status in Status::ALL.iter().filter(|status| **status != Status::Known) {
+            let number = unknown(*status);
+            assert!(number.is_nan() && number.to_bits() != f64::NAN.to_bits());
+        }
+        assert_eq!(f64::NAN.to_bits(), UNKNOWN);
+    }
+}

@@ -1,0 +1,191 @@
+//! Why a number of a map is there or not: the codes of `<quantity>_status`.
+//!
+//! Codes are fixed once published: stores keep them.
+
+use quell_belt::averaging::AveragingError;
+use quell_belt::response::Undefined;
+use quell_belt::start::NoSquealingStart;
+
+/// State of one number of a map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u8)]
+pub enum Status {
+    /// The number is there.
+    Known = 0,
+    /// The values of the axes make no valid study together.
+    InvalidStudy = 1,
+    /// The engine stopped.
+    Stalled = 2,
+    /// A squealing start is asked for and there is no limit cycle.
+    NoSquealingStart = 3,
+    /// The number came out infinite or not at all.
+    NotFinite = 4,
+    /// E: the undithered run settles to steady sliding.
+    UnditheredSettles = 10,
+    /// E: the undithered run does not move.
+    UnditheredAtRest = 11,
+    /// Power and stroke: all dither is normal.
+    OnlyNormalDither = 12,
+    /// A criterion of zero within its error.
+    WithinError = 20,
+    /// The belt is exactly as fast as the fast motion.
+    AtCorner = 21,
+    /// Friction is set-valued: no slip and no fast motion.
+    SetValued = 22,
+    /// Too many incommensurate dithers for averaging.
+    TooManyGroups = 23,
+    /// The dither is not above resonance.
+    NotFast = 24,
+    /// A quadrature did not converge.
+    NotConverged = 25,
+    /// There is no dither.
+    NoDither = 26,
+    /// No amplitude changes averaged stability.
+    NeverChanges = 27,
+    /// Averaged stability changes at one amplitude only.
+    ChangesOnce = 28,
+    /// Not computed yet, or lost: the fill value of a store.
+    Missing = 255,
+}
+
+impl Status {
+    /// Every state, in the order of their codes.
+    pub const ALL: &'static [Self] = &[
+        Self::Known,
+        Self::InvalidStudy,
+        Self::Stalled,
+        Self::NoSquealingStart,
+        Self::NotFinite,
+        Self::UnditheredSettles,
+        Self::UnditheredAtRest,
+        Self::OnlyNormalDither,
+        Self::WithinError,
+        Self::AtCorner,
+        Self::SetValued,
+        Self::TooManyGroups,
+        Self::NotFast,
+        Self::NotConverged,
+        Self::NoDither,
+        Self::NeverChanges,
+        Self::ChangesOnce,
+        Self::Missing,
+    ];
+
+    /// Its code in a store.
+    pub const fn code(self) -> u8 {
+        self as u8
+    }
+
+    /// The state with a code.
+    pub fn of_code(code: u8) -> Option<Self> {
+        Self::ALL.iter().copied().find(|status| status.code() == code)
+    }
+
+    /// Its name in JSON, CSV and `flag_meanings`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Known => "known",
+            Self::InvalidStudy => "invalid_study",
+            Self::Stalled => "stalled",
+            Self::NoSquealingStart => "no_squealing_start",
+            Self::NotFinite => "not_finite",
+            Self::UnditheredSettles => "undithered_settles",
+            Self::UnditheredAtRest => "undithered_at_rest",
+            Self::OnlyNormalDither => "only_normal_dither",
+            Self::WithinError => "within_error",
+            Self::AtCorner => "at_corner",
+            Self::SetValued => "set_valued_friction",
+            Self::TooManyGroups => "too_many_groups",
+            Self::NotFast => "not_fast",
+            Self::NotConverged => "not_converged",
+            Self::NoDither => "no_dither",
+            Self::NeverChanges => "never_changes",
+            Self::ChangesOnce => "changes_once",
+            Self::Missing => "missing",
+        }
+    }
+
+    /// What it means, in one sentence without its end.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Known => "the value is there",
+            Self::InvalidStudy => "the values of the axes make no valid study together",
+            Self::Stalled => "the engine stopped: its steps became too small to go on",
+            Self::NoSquealingStart => {
+                "the start is to be squealing, and the undithered belt has no limit cycle here"
+            }
+            Self::NotFinite => "the value is not finite",
+            Self::UnditheredSettles => {
+                "without dither the belt settles to steady sliding from this start, so there is no \
+                 vibration to compare with"
+            }
+            Self::UnditheredAtRest => "without dither nothing moves from this start",
+            Self::OnlyNormalDither => {
+                "all dither is normal: the model has no normal motion on which it could work"
+            }
+            Self::WithinError => "the criterion is zero within its error",
+            Self::AtCorner => {
+                "the belt is exactly as fast as the fast motion: stable for slower belts, unstable for \
+                 faster ones"
+            }
+            Self::SetValued => {
+                "without slip and without fast motion friction takes any value up to the static level"
+            }
+            Self::TooManyGroups => "too many incommensurate dithers for averaging",
+            Self::NotFast => {
+                "the dither is not above resonance (R ≤ 1), as this averaging presumes"
+            }
+            Self::NotConverged => "an integral of the averaging did not reach its tolerance",
+            Self::NoDither => "there is no dither",
+            Self::NeverChanges => "no amplitude of the first dither changes averaged stability",
+            Self::ChangesOnce => "averaged stability changes at one amplitude only, the lower one",
+            Self::Missing => "not computed yet",
+        }
+    }
+}
+
+impl From<Undefined> for Status {
+    fn from(why: Undefined) -> Self {
+        match why {
+            Undefined::UnditheredSettles => Self::UnditheredSettles,
+            Undefined::UnditheredAtRest => Self::UnditheredAtRest,
+        }
+    }
+}
+
+impl From<NoSquealingStart> for Status {
+    fn from(why: NoSquealingStart) -> Self {
+        match why {
+            NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest => {
+                Self::NoSquealingStart
+            }
+            NoSquealingStart::Stalled(_) => Self::Stalled,
+        }
+    }
+}
+
+impl From<&AveragingError> for Status {
+    fn from(why: &AveragingError) -> Self {
+        match why {
+            AveragingError::SetValued { .. } => Self::SetValued,
+            AveragingError::TooManyGroups { .. } => Self::TooManyGroups,
+            AveragingError::NotFast { .. } => Self::NotFast,
+            AveragingError::Quadrature(_) => Self::NotConverged,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_and_names_are_unique() {
+        for (index, status) in Status::ALL.iter().enumerate() {
+            assert_eq!(Status::of_code(status.code()), Some(*status));
+            for other in &Status::ALL[..index] {
+                assert!(status.code() > other.code() && status.name() != other.name());
+            }
+        }
+    }
+}
