@@ -178,7 +178,7 @@ impl Disc {
         Self::new(self.modes.clone(), self.loads.clone(), dither, self.speed)
     }
 
-    /// Value of a parameter by its path: `disc.speed`, `disc.modal_damping` (where all modes
+    /// Value of a parameter by its path: `disc.load.speed`, `disc.modal_damping` (where all modes
     /// agree), `disc.load.mass`, `disc.load[1].friction`, `dither.amplitude`,
     /// `dither.frequency_ratio`; `None` if there is no such number here.
     pub fn get(&self, path: &str) -> Option<f64> {
@@ -236,6 +236,9 @@ impl Disc {
             }
             None => (0, rest.strip_prefix('.')?),
         };
+        if key == DISC_SPEED.key() {
+            return Some(&mut self.speed);
+        }
         let load = self.loads.get_mut(index)?;
         if key == LOAD_MASS.key() {
             Some(&mut load.mass)
@@ -277,7 +280,7 @@ mod tests {
                 "disc.load[0].shapes",
                 "dither.frequency_ratio",
                 "dither.amplitude",
-                "disc.speed",
+                "disc.load.speed",
             ]
         );
         assert!(Disc::new(Vec::new(), Vec::new(), Dither::None, 0.0).is_err());
@@ -291,7 +294,7 @@ mod tests {
         let dither = Dither::Normal { amplitude: 0.5, frequency_ratio: 2.7 };
         let disc = Disc::new(vec![mode(), mode()], loads, dither, 0.3).expect("valid");
         for (path, value) in [
-            ("disc.speed", 0.3),
+            ("disc.load.speed", 0.3),
             ("disc.modal_damping", 0.0),
             ("disc.load.damping", 0.2),
             ("disc.load[1].stiffness", 0.7),

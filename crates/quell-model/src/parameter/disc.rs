@@ -16,6 +16,63 @@ const fn disc(
     Parameter { path, symbol, about, quantity, bounds, si: &[] }
 }
 
+/// Ratio of the radii of the plate.
+pub const INNER_RADIUS_RATIO: Parameter = disc(
+    "disc.inner_radius_ratio",
+    "b/a",
+    "radius of the clamp over the outer radius",
+    Quantity::Ratio,
+    Bounds { lower: 0.01, lower_included: true, upper: 0.95 },
+);
+
+/// Poisson's ratio of the plate.
+pub const POISSON_RATIO: Parameter = disc(
+    "disc.poisson_ratio",
+    "ν",
+    "Poisson's ratio of the plate, below 0.5",
+    Quantity::Ratio,
+    Bounds { lower: 0.0, lower_included: true, upper: 0.4999 },
+);
+
+/// Radial modes per number of nodal diameters.
+pub const RADIAL_MODES: Parameter = disc(
+    "disc.radial_modes",
+    "N_r",
+    "modes for each number of nodal diameters",
+    Quantity::Count,
+    Bounds { lower: 1.0, lower_included: true, upper: 40.0 },
+);
+
+/// Largest number of nodal diameters.
+pub const NODAL_DIAMETERS: Parameter = disc(
+    "disc.nodal_diameters",
+    "N_θ",
+    "largest number of nodal diameters; 0 to this",
+    Quantity::Count,
+    Bounds { lower: 0.0, lower_included: true, upper: 40.0 },
+);
+
+/// Young's modulus of the plate.
+pub const YOUNGS_MODULUS: Parameter =
+    disc("disc.youngs_modulus_pa", "E", "Young's modulus", Quantity::Ratio, Bounds::POSITIVE);
+
+/// Density of the plate.
+pub const DENSITY: Parameter =
+    disc("disc.density_kg_per_m3", "ρ", "density", Quantity::Ratio, Bounds::POSITIVE);
+
+/// Thickness of the plate.
+pub const THICKNESS: Parameter = disc(
+    "disc.thickness_m",
+    "h",
+    "thickness, below the outer radius",
+    Quantity::Ratio,
+    Bounds::POSITIVE,
+);
+
+/// Outer radius of the plate.
+pub const OUTER_RADIUS: Parameter =
+    disc("disc.outer_radius_m", "a", "outer radius", Quantity::Ratio, Bounds::POSITIVE);
+
 /// Modal damping of the disc.
 pub const MODAL_DAMPING: Parameter = disc(
     "disc.modal_damping",
@@ -27,7 +84,7 @@ pub const MODAL_DAMPING: Parameter = disc(
 
 /// Speed of the loads over the disc.
 pub const DISC_SPEED: Parameter = disc(
-    "disc.speed",
+    "disc.load.speed",
     "Ω",
     "angular speed of the loads over the disc, in ω_ref",
     Quantity::FrequencyRatio,
@@ -52,6 +109,15 @@ pub const MODE_RATIO: Parameter = disc(
     Bounds { lower: 0.0, lower_included: false, upper: 1e6 },
 );
 
+/// Frequency of a mode in hertz.
+pub const MODE_FREQUENCY: Parameter = disc(
+    "disc.mode.frequency_hz",
+    "f",
+    "frequency of the mode, instead of its ratio; for all modes or none",
+    Quantity::Ratio,
+    Bounds::POSITIVE,
+);
+
 /// Shape of a mode at the load.
 pub const MODE_SHAPE_AT_LOAD: Parameter = disc(
     "disc.mode.shape_at_load",
@@ -68,6 +134,15 @@ pub const MODE_DAMPING: Parameter = disc(
     "damping ratio of the mode",
     Quantity::Ratio,
     Bounds::NOT_NEGATIVE,
+);
+
+/// Radius of a load.
+pub const LOAD_RADIUS: Parameter = disc(
+    "disc.load.radius_ratio",
+    "r₀/a",
+    "radius of the load over the outer radius; needed where modes are computed",
+    Quantity::Ratio,
+    Bounds { lower: 0.01, lower_included: true, upper: 1.0 },
 );
 
 /// Angle of a load.
@@ -124,19 +199,29 @@ pub const DISC_DITHER_AMPLITUDE: Parameter = disc(
     Bounds::NOT_NEGATIVE,
 );
 
-/// Every parameter of the disc's dynamics, in the order of the study file.
+/// Every parameter of a disc study, in the order of the file.
 pub const DISC: &[Parameter] = &[
+    INNER_RADIUS_RATIO,
+    POISSON_RATIO,
     MODAL_DAMPING,
-    DISC_SPEED,
+    RADIAL_MODES,
+    NODAL_DIAMETERS,
+    YOUNGS_MODULUS,
+    DENSITY,
+    THICKNESS,
+    OUTER_RADIUS,
     MODE_DIAMETERS,
     MODE_RATIO,
+    MODE_FREQUENCY,
     MODE_SHAPE_AT_LOAD,
     MODE_DAMPING,
+    LOAD_RADIUS,
     LOAD_ANGLE,
     LOAD_MASS,
     LOAD_DAMPING,
     LOAD_STIFFNESS,
     LOAD_FRICTION,
+    DISC_SPEED,
     DISC_DITHER_AMPLITUDE,
     super::DITHER_FREQUENCY_RATIO,
 ];
