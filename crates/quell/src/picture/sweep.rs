@@ -12,6 +12,7 @@ use crate::plot::{
     Axis, Figure, Layer, Legend, Line, LineStyle, Panel, PlotError, Role, Size, Spread,
 };
 use crate::run::map::{Map, boundaries};
+use crate::study::Subject;
 use crate::sweep::{Entry, GridAxis, Kind, Status};
 
 /// Variables that are drawn only where nothing else was asked for.
@@ -45,7 +46,11 @@ pub fn sweep(done: &Map) -> Result<Figure, Failure> {
     let figure =
         figure.map_err(|why| Failure::Failed { key: "--plot".to_owned(), why: why.to_string() })?;
     let title = plan.grid().study().title().unwrap_or_default();
-    Ok(figure.title(title).caption(super::caption::caption_of_run(plan.grid().study())))
+    let caption = match plan.grid().study() {
+        Subject::Belt(study) => super::caption::caption_of_run(study),
+        Subject::Disc(study) => super::caption::caption_of_disc(study),
+    };
+    Ok(figure.title(title).caption(caption))
 }
 
 /// A variable of a computed map as plain data.
@@ -69,6 +74,11 @@ fn picture(done: &Map, entry: &Entry) -> Picture {
             MapKind::Outcome(words.iter().map(|&word| (role_of(word), word.to_owned())).collect())
         }
         Kind::Rate => MapKind::Growth(Spread::Linear),
+        // Tongues grow with 10⁻⁹ to 10⁻², beside decay with 10⁻².
+        Kind::DiscRate if variable.symbol.starts_with("Re") => {
+            MapKind::Growth(Spread::SignedLog(1e-5))
+        }
+        Kind::DiscRate => MapKind::Number(Spread::Linear),
         Kind::Number(_) if variable.name == "efficiency" => MapKind::Efficiency,
         Kind::Number(_) => MapKind::Number(Spread::Linear),
     };

@@ -273,7 +273,8 @@ fn root(reader: &mut Reader, mirror: &Table, names: &[&str]) -> Option<String> {
                 allowed,
             ));
         } else if vocabulary::key(Section::Root, name).is_none() && !tables.contains(&name) {
-            let nearest = suggest::word(name, names.iter().copied()).or_else(|| suggest::path("", name, None));
+            let nearest = suggest::word(name, names.iter().copied())
+                .or_else(|| suggest::path("", name, None));
             let complaint =
                 Complaint::new(Fault::Unknown, name, node.origin, node.given(), names.join(", "));
             reader.complain(complaint.suggesting(nearest));

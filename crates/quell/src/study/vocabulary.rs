@@ -14,16 +14,8 @@ use super::suggest;
 pub const SCHEMA_VERSION: u32 = 1;
 
 /// Tables of the design that are not built yet.
-pub const NOT_BUILT: &[&str] = &[
-    "system",
-    "contact",
-    "input",
-    "actuator",
-    "design",
-    "uncertainty",
-    "sample",
-    "profile",
-];
+pub const NOT_BUILT: &[&str] =
+    &["system", "contact", "input", "actuator", "design", "uncertainty", "sample", "profile"];
 
 /// Most points an axis of a map may have.
 pub const MOST_POINTS: u32 = 10_000_000;
@@ -222,8 +214,7 @@ impl Key {
             ("_deg", "degrees"),
             ("_m", "m"),
         ];
-        let disc =
-            matches!(self.section, Section::Disc | Section::DiscMode | Section::DiscLoad);
+        let disc = matches!(self.section, Section::Disc | Section::DiscMode | Section::DiscLoad);
         let found = units.iter().find(|(suffix, _)| disc && self.name.ends_with(suffix));
         match found {
             Some((_, unit)) => unit,
@@ -313,8 +304,16 @@ fn disc() -> Vec<Key> {
             "what frequencies and speeds are measured in: \"critical\", the lowest critical speed of these modes, \
              or a frequency parameter k²",
         ),
-        key("modes_file", Role::Text, "CSV file of modes, beside the study, instead of computed ones"),
-        key("without", Role::Choices(Choice::Contribution), "parts of the equations that are left out"),
+        key(
+            "modes_file",
+            Role::Text,
+            "CSV file of modes, beside the study, instead of computed ones",
+        ),
+        key(
+            "without",
+            Role::Choices(Choice::Contribution),
+            "parts of the equations that are left out",
+        ),
     ]
 }
 

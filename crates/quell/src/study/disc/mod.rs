@@ -142,7 +142,8 @@ impl DiscStudy {
         let title = root(&mut reader, &mirror, ROOT);
         for name in ["belt", "friction", "solver"] {
             if let Some(node) = mirror.get(name) {
-                let allowed = format!("a study is of a belt or of a disc; [{name}] is about a belt");
+                let allowed =
+                    format!("a study is of a belt or of a disc; [{name}] is about a belt");
                 let complaint =
                     Complaint::new(Fault::Conflict, name, node.origin, Json::Null, allowed);
                 reader.complain(complaint);

@@ -243,8 +243,9 @@ pub(super) fn at_loads(
     let mut right = true;
     for pad in pads {
         let key = format!("{}.radius_ratio", pad.path);
-        let allowed =
-            format!("a number in [{inner}, 1]: from the clamp (disc.inner_radius_ratio) to the edge");
+        let allowed = format!(
+            "a number in [{inner}, 1]: from the clamp (disc.inner_radius_ratio) to the edge"
+        );
         match pad.radius {
             None => {
                 let complaint =

@@ -21,7 +21,8 @@ const LARGEST: u64 = 16 << 20;
 /// # Errors
 /// What is wrong, with its line.
 pub(super) fn read(path: &Path) -> Result<Vec<Line>, String> {
-    let unreadable = |error: std::io::Error| format!("a CSV file of modes; it cannot be read: {error}");
+    let unreadable =
+        |error: std::io::Error| format!("a CSV file of modes; it cannot be read: {error}");
     let size = fs::metadata(path).map_err(unreadable)?;
     if !size.is_file() || size.len() > LARGEST {
         return Err("a CSV file of modes of at most 16 MiB".to_owned());
@@ -53,12 +54,15 @@ fn parse(text: &str) -> Result<Vec<Line>, String> {
         let value = |at: usize, parameter: Parameter| -> Result<f64, String> {
             let cell = cells.get(at).copied().unwrap_or_default();
             let whole = parameter == MODE_DIAMETERS;
-            let right = |value: &f64| {
-                parameter.bounds.contains(*value) && !(whole && value.fract() != 0.0)
-            };
+            let right =
+                |value: &f64| parameter.bounds.contains(*value) && !(whole && value.fract() != 0.0);
             cell.parse::<f64>().ok().filter(right).ok_or_else(|| {
                 let kind = if whole { " (whole)" } else { "" };
-                format!("line {number}, {}: {cell:?} must be {}{kind}", parameter.key(), parameter.bounds)
+                format!(
+                    "line {number}, {}: {cell:?} must be {}{kind}",
+                    parameter.key(),
+                    parameter.bounds
+                )
             })
         };
         let ratio = ratio.map(|at| value(at, MODE_RATIO)).transpose()?;

@@ -78,7 +78,8 @@ pub(super) fn reference(reader: &mut Reader, table: &Table) -> Option<Reference>
             reader.within(key, node, Bounds::POSITIVE, "", false).map(Reference::FrequencyParameter)
         }
         _ => {
-            let allowed = "\"critical\", or a frequency parameter k² > 0 that fixes ω_ref for the disc";
+            let allowed =
+                "\"critical\", or a frequency parameter k² > 0 that fixes ω_ref for the disc";
             reader.wrong(key, node, allowed);
             None
         }
@@ -97,8 +98,8 @@ pub(super) fn material(
         return Some(None);
     };
     let origin = first.origin;
-    let [modulus, density, thickness, radius] = parameters.map(|parameter| {
-        match reader.optional(table, "disc", parameter, None) {
+    let [modulus, density, thickness, radius] =
+        parameters.map(|parameter| match reader.optional(table, "disc", parameter, None) {
             Found::Value(value) => Some(value),
             Found::Wrong => None,
             Found::Absent => {
@@ -115,8 +116,7 @@ pub(super) fn material(
                 ));
                 None
             }
-        }
-    });
+        });
     match PlateMaterial::new(modulus?, density?, thickness?, radius?) {
         Ok(material) => Some(Some((material, origin))),
         Err(why) => {
