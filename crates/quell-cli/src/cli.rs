@@ -12,7 +12,9 @@ use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
 use crate::answer;
-use crate::verbs::{check, cite, friction, map, reproduce, response, schema, simulate, stability};
+use crate::verbs::{
+    check, cite, friction, map, modes, reproduce, resonances, response, schema, simulate, stability,
+};
 
 /// Finds the dither that silences friction-induced vibration, and tells how sure it is.
 #[derive(Debug, Parser)]
@@ -33,6 +35,8 @@ enum Verb {
     Simulate(simulate::Arguments),
     Response(response::Arguments),
     Map(map::Arguments),
+    Modes(modes::Arguments),
+    Resonances(resonances::Arguments),
     Reproduce(reproduce::Arguments),
 }
 
@@ -56,6 +60,8 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Simulate(arguments) => simulate::run(arguments),
         Verb::Response(arguments) => response::run(arguments),
         Verb::Map(arguments) => map::run(arguments),
+        Verb::Modes(arguments) => modes::run(arguments),
+        Verb::Resonances(arguments) => resonances::run(arguments),
         Verb::Reproduce(arguments) => reproduce::run(arguments),
     };
     match outcome {

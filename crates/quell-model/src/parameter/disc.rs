@@ -86,7 +86,7 @@ pub const MODAL_DAMPING: Parameter = disc(
 pub const DISC_SPEED: Parameter = disc(
     "disc.load.speed",
     "Ω",
-    "angular speed of the loads over the disc, in ω_ref",
+    "speed of the loads over the disc",
     Quantity::FrequencyRatio,
     Bounds { lower: -1e3, lower_included: true, upper: 1e3 },
 );
@@ -164,31 +164,16 @@ pub const LOAD_MASS: Parameter = disc(
 );
 
 /// Damper of a load.
-pub const LOAD_DAMPING: Parameter = disc(
-    "disc.load.damping",
-    "c*",
-    "damper of the load, c/(M_p ω_ref)",
-    Quantity::Ratio,
-    Bounds::NOT_NEGATIVE,
-);
+pub const LOAD_DAMPING: Parameter =
+    disc("disc.load.damping", "c*", "damper of the load", Quantity::Ratio, Bounds::NOT_NEGATIVE);
 
 /// Spring of a load.
-pub const LOAD_STIFFNESS: Parameter = disc(
-    "disc.load.stiffness",
-    "k*",
-    "spring of the load, k/(M_p ω_ref²)",
-    Quantity::Ratio,
-    Bounds::NOT_NEGATIVE,
-);
+pub const LOAD_STIFFNESS: Parameter =
+    disc("disc.load.stiffness", "k*", "spring of the load", Quantity::Ratio, Bounds::NOT_NEGATIVE);
 
 /// Friction of a load; positive drags the disc along with the load.
-pub const LOAD_FRICTION: Parameter = disc(
-    "disc.load.friction",
-    "f*",
-    "follower force of friction, F_θ/(r₀ M_p ω_ref²)",
-    Quantity::Ratio,
-    Bounds::FINITE,
-);
+pub const LOAD_FRICTION: Parameter =
+    disc("disc.load.friction", "f*", "follower force of friction", Quantity::Ratio, Bounds::FINITE);
 
 /// Dither of the friction force.
 pub const DISC_DITHER_AMPLITUDE: Parameter = disc(

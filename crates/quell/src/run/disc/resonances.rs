@@ -3,14 +3,16 @@
 
 use std::ops::RangeInclusive;
 
+pub use quell_disc::resonance::Order;
 use quell_disc::resonance::{
-    Blocked, Clearance, ClearanceError, Nearby, Order, Resonance, Tongue, Waves, clear_frequencies,
-    within,
+    Blocked, Clearance, ClearanceError, Nearby, Resonance, Tongue, Waves, clear_frequencies, within,
 };
 use quell_disc::system::Contributions;
+use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::dataset::{Array, Dataset};
 use crate::study::DiscStudy;
 
 /// What is asked of the resonances.
@@ -158,6 +160,39 @@ fn blocked(block: &Blocked) -> Json {
 }
 
 impl Resonances {
+    /// As a dataset: one row a meeting; one that is induced by dither has a harmonic that is not 0.
+    pub fn dataset(&self, study: &DiscStudy) -> Dataset {
+        let all: Vec<&Resonance> = self.undithered.iter().chain(&self.dithered).collect();
+        let column =
+            |of: &dyn Fn(&Resonance) -> f64| all.iter().map(|it| of(it)).collect::<Vec<_>>();
+        let edge = |side: usize| {
+            column(&move |it| it.tongue.edges().map_or(f64::NAN, |edges| edges[side]))
+        };
+        let none = f64::NAN;
+        let number = (1..=all.len()).map(|index| index as f64).collect();
+        let mut dataset = Dataset::of(&study.into(), "resonances");
+        for (index, resonance) in all.iter().enumerate() {
+            dataset = dataset.fact(format!("meeting {}: {}", index + 1, resonance.label()));
+        }
+        dataset
+            .axis("meeting", Quantity::Count, number)
+            .with(Array::new("speed", "ω_ref", column(&|it| it.speed)))
+            .with(Array::new("harmonic", "1", column(&|it| f64::from(it.harmonic))))
+            .with(Array::new(
+                "can_be_unstable",
+                "1",
+                column(&|it| f64::from(u8::from(it.can_be_unstable()))),
+            ))
+            .with(Array::new("threshold", "1", column(&|it| it.threshold.unwrap_or(none))))
+            .with(Array::new("lower_edge", "ω_ref", edge(0)))
+            .with(Array::new("upper_edge", "ω_ref", edge(1)))
+            .with(Array::new(
+                "peak_growth",
+                "ω_ref",
+                column(&|it| it.tongue.peak_growth().unwrap_or(none)),
+            ))
+    }
+
     /// As JSON.
     pub fn json(&self) -> Json {
         let (start, end) = (self.question.speeds.start(), self.question.speeds.end());
