@@ -13,7 +13,8 @@ use serde_json::Value as Json;
 
 use crate::answer;
 use crate::verbs::{
-    check, cite, friction, map, orbit, reproduce, response, schema, simulate, stability, thresholds,
+    check, cite, friction, map, modes, orbit, reproduce, resonances, response, schema, simulate,
+    stability, thresholds,
 };
 
 /// Finds the dither that silences friction-induced vibration, and tells how sure it is.
@@ -37,6 +38,8 @@ enum Verb {
     Orbit(orbit::Arguments),
     Thresholds(thresholds::Arguments),
     Map(map::Arguments),
+    Modes(modes::Arguments),
+    Resonances(resonances::Arguments),
     Reproduce(reproduce::Arguments),
 }
 
@@ -62,6 +65,8 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Orbit(arguments) => orbit::run(arguments),
         Verb::Thresholds(arguments) => thresholds::run(arguments),
         Verb::Map(arguments) => map::run(arguments),
+        Verb::Modes(arguments) => modes::run(arguments),
+        Verb::Resonances(arguments) => resonances::run(arguments),
         Verb::Reproduce(arguments) => reproduce::run(arguments),
     };
     match outcome {

@@ -211,7 +211,6 @@ fn bad_studies_are_refused_by_every_verb() {
         ("zeros", vec![0; 64], "study file"),
         ("broken", b"schema = \n[belt\n".to_vec(), "study"),
         ("comment", b"# nothing\n".to_vec(), "schema"),
-        ("disc", b"schema = 1\n[disc]\n".to_vec(), "disc"),
     ];
     for (name, bytes, key) in &cases {
         let bytes = match *name {

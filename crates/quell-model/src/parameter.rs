@@ -3,6 +3,8 @@
 //! Constructors check against it, study files are read by it, `--set` and sweeps reach
 //! values through its paths, and the published JSON Schema is made of it.
 
+pub mod disc;
+
 use std::fmt;
 
 use crate::Invalid;

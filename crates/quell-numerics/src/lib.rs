@@ -1,14 +1,23 @@
 //! Mathematics of Quell; no physics.
 //!
 //! * [`lane`], [`elementary`], [`dispatch`]: the arithmetic of the hot kernels, the same bits everywhere;
+//! * [`matrix`], [`eigen`], [`floquet`]: small dense matrices, eigenvalues, exponents of periodic systems with error bounds;
 //! * [`polynomial`]: first root of a Taylor step, isolated or proven absent; step length;
-//! * [`quadrature`], [`roots`], [`special`], [`spectrum`]: integrals, scalar roots and minima, special functions, spectra.
+//! * [`quadrature`], [`gauss_legendre`], [`roots`], [`special`], [`bessel`], [`spectrum`]: integrals, scalar roots and minima,
+//!   special functions, spectra;
+//! * [`symmetric`]: eigenvalues of symmetric pencils.
 
+pub mod bessel;
 pub mod dispatch;
+pub mod eigen;
 pub mod elementary;
+pub mod floquet;
+pub mod gauss_legendre;
 pub mod lane;
+pub mod matrix;
 pub mod polynomial;
 pub mod quadrature;
 pub mod roots;
 pub mod special;
 pub mod spectrum;
+pub mod symmetric;

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use quell_model::units::{Quantity, Scales};
 
 use crate::fields::PER_VELOCITY;
-use crate::study::Study;
+use crate::study::{Study, Subject};
 
 /// One array with its name and unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,6 +74,11 @@ pub struct Dataset {
 impl Dataset {
     /// An empty dataset of a study.
     pub fn new(study: &Study, verb: &'static str) -> Self {
+        Self::of(&Subject::from(study), verb)
+    }
+
+    /// An empty dataset of a study of whatever it is about.
+    pub fn of(study: &Subject, verb: &'static str) -> Self {
         Self {
             provenance: Provenance {
                 verb,

@@ -16,4 +16,4 @@ pub mod study;
 pub mod sweep;
 
 pub use complaint::{Complaint, Failure, Fault, Origin};
-pub use study::{Change, Study};
+pub use study::{Change, DiscStudy, Study, Subject};

@@ -5,7 +5,8 @@
 //! judges them.
 
 use quell_model::LawKind;
-use quell_model::parameter::{Bounds, Parameter};
+use quell_model::parameter::disc::DISC_DITHER_AMPLITUDE;
+use quell_model::parameter::{Bounds, DITHER_FREQUENCY_RATIO, Parameter};
 use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
 
@@ -40,15 +41,17 @@ pub fn schema() -> Json {
         definitions.insert(name(Section::Friction, system), friction(system));
         definitions.insert(name(Section::Root, system), root(system));
     }
+    disc(&mut definitions);
     definitions.insert("sweep".to_owned(), sweep());
     json!({
         "$schema": DIALECT,
         "title": "Quell study file",
-        "description": "A mass on a moving belt with dither. A study is either in the numbers of \
-                        the equations or in SI.",
+        "description": "A mass on a moving belt with dither, in the numbers of the equations or in SI; or \
+                        an annular disc under rotating loads.",
         "oneOf": [
             { "$ref": reference(Section::Root, System::Scaled) },
             { "$ref": reference(Section::Root, System::Si) },
+            { "$ref": "#/$defs/study_disc" },
         ],
         "$defs": definitions,
     })
@@ -94,6 +97,66 @@ fn root(system: System) -> Json {
         "required": ["schema", "belt", "friction"],
         "additionalProperties": false,
     })
+}
+
+/// A study of a disc. Which keys exclude one another where modes are listed is left to `quell check`.
+fn disc(definitions: &mut Map<String, Json>) {
+    let table = |section: Section, required: &[&str]| {
+        let keys = vocabulary::keys_of(section);
+        let properties: Map<String, Json> =
+            keys.map(|key| (key.name.to_owned(), property(key))).collect();
+        object(section, &properties, required)
+    };
+    let mode = table(Section::DiscMode, &["diameters", "shape_at_load"]);
+    let load = table(Section::DiscLoad, &[]);
+    let mut whole = table(Section::Disc, &[]);
+    whole["properties"]["mode"] =
+        json!({ "type": "array", "items": { "$ref": "#/$defs/disc_mode" }, "minItems": 1 });
+    let one = json!({ "$ref": "#/$defs/disc_load" });
+    whole["properties"]["load"] = json!({
+        "description": Section::DiscLoad.about(),
+        "oneOf": [one.clone(), { "type": "array", "items": one }],
+    });
+    let dither = json!({
+        "type": "object",
+        "description": "modulation of the friction of every load",
+        "properties": {
+            "direction": { "enum": Choice::Direction.names() },
+            "waveform": { "const": "sine" },
+            "amplitude": property_of(DISC_DITHER_AMPLITUDE),
+            "frequency_ratio": property_of(DITHER_FREQUENCY_RATIO),
+        },
+        "required": ["direction", "frequency_ratio"],
+        "additionalProperties": false,
+    });
+    let root = json!({
+        "type": "object",
+        "description": "a study of a disc",
+        "properties": {
+            "schema": { "const": SCHEMA_VERSION, "description": "version of the study file" },
+            "title": { "type": "string", "description": "what the study is about" },
+            "disc": { "$ref": "#/$defs/disc" },
+            "dither": { "$ref": "#/$defs/disc_dither" },
+            "sweep": { "type": "array", "items": { "$ref": "#/$defs/sweep" } },
+        },
+        "required": ["schema", "disc"],
+        "additionalProperties": false,
+    });
+    for (name, definition) in [
+        ("disc_mode", mode),
+        ("disc_load", load),
+        ("disc", whole),
+        ("disc_dither", dither),
+        ("study_disc", root),
+    ] {
+        definitions.insert(name.to_owned(), definition);
+    }
+}
+
+fn property_of(parameter: Parameter) -> Json {
+    let mut schema = bounded(parameter.bounds, parameter.quantity);
+    schema["description"] = format!("{}: {}", parameter.symbol, parameter.about).into();
+    schema
 }
 
 /// A table with the keys of one system.
@@ -219,6 +282,12 @@ fn property(key: &Key) -> Json {
         Role::Choice(choice) => json!({ "enum": choice.names() }),
         Role::Text => json!({ "type": "string" }),
         Role::Schema => json!({ "const": SCHEMA_VERSION }),
+        Role::Choices(choice) => {
+            json!({ "type": "array", "items": { "enum": choice.names() } })
+        }
+        Role::Reference => {
+            json!({ "oneOf": [{ "const": "critical" }, { "type": "number", "exclusiveMinimum": 0.0 }] })
+        }
         Role::AxisNumber => json!({ "type": "number" }),
         Role::AxisPoints => json!({ "type": "integer", "minimum": 2, "maximum": MOST_POINTS }),
         Role::AxisValues => {
@@ -235,7 +304,7 @@ fn about(key: &Key) -> String {
             format!("{}: {}, as root mean square, in N", parameter.symbol, key.about)
         }
         Role::Number(parameter) | Role::Twin(parameter, _) => {
-            format!("{}: {}, in {}", parameter.symbol, key.about, key.unit())
+            format!("{}: {}, in {}", parameter.symbol, key.about, key.unit_in_words())
         }
         Role::Scale(scale) => format!("{}: {}, in {}", scale.symbol, key.about, key.unit()),
         _ => key.about.to_owned(),

@@ -294,10 +294,10 @@ phse = 1
 }
 
 #[test]
-fn a_disc_answers_that_it_is_not_built_yet() {
+fn a_disc_is_no_study_of_a_belt() {
     check(
         "schema = 1\n[disc]\ninner_radius_ratio = 0.5\n[disc.load]\nmass = 0.1\n",
-        &[(Fault::NotBuilt, "disc", Some(2), "not built yet", None)],
+        &[(Fault::Conflict, "disc", Some(2), "about a belt", None)],
     );
 }
 
@@ -425,7 +425,7 @@ fn set_complains_about_what_it_cannot_reach() {
     );
     assert_eq!(unknown.origin.line(), None);
     assert_eq!(one(&["dither[1].amplitude=1"]).fault, Fault::Conflict);
-    assert_eq!(one(&["disc.inner_radius_ratio=1"]).fault, Fault::NotBuilt);
+    assert_eq!(one(&["disc.inner_radius_ratio=1"]).fault, Fault::Conflict);
     assert_eq!(one(&["belt.normal_load=-1"]).key, "belt.normal_load");
     assert_eq!(one(&["belt.normal_force_n=3"]).fault, Fault::Mixed);
     let told = complaints(SI, &["dither.phase=1", "belt.belt_velocity=1"]);

@@ -3,6 +3,8 @@
 use clap::Args;
 use quell::Failure;
 use quell::run::check::Check;
+use quell::run::disc::check as disc;
+use quell::{DiscStudy, Subject};
 use quell_model::units::Quantity;
 
 use crate::answer::Answer;
@@ -18,7 +20,14 @@ pub(crate) struct Arguments {
 
 /// Answers.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let study = arguments.study.read()?;
+    let study = match arguments.study.read_any()? {
+        Subject::Belt(study) => *study,
+        Subject::Disc(study) => {
+            let answer =
+                Answer::new(arguments.study.json, || disc::json(&study), || of_disc(&study));
+            return Ok(answer.warning(study.warnings().to_vec()));
+        }
+    };
     let text = || {
         let belt = study.belt();
         let mut table = Table::new(study.scales());
@@ -48,4 +57,46 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         format!("{title}the study is valid.\n{}", table.text())
     };
     Ok(Answer::new(arguments.study.json, || Check { study: &study }.json(), text))
+}
+
+fn of_disc(study: &DiscStudy) -> String {
+    let object = disc::json(study);
+    let mut table = Table::new(None);
+    let word =
+        |value: &serde_json::Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+    table.word(
+        "modes",
+        &format!("{}, from the {}", object["disc"]["modes"], word(&object["disc"]["modes_from"])),
+    );
+    table.word("speed Ω", &object["disc"]["speed"].to_string());
+    for (index, load) in object["disc"]["loads"].as_array().into_iter().flatten().enumerate() {
+        let words: Vec<String> = load
+            .as_object()
+            .into_iter()
+            .flatten()
+            .map(|(name, value)| format!("{} {value}", name.replace('_', " ")))
+            .collect();
+        table.word(&format!("load {index}"), &words.join(", "));
+    }
+    if object["dither"].is_object() {
+        let dither = &object["dither"];
+        let words = format!(
+            "{}, amplitude {}, frequency ratio {}",
+            word(&dither["direction"]),
+            dither["amplitude"],
+            dither["frequency_ratio"]
+        );
+        table.word("dither", &words);
+    }
+    let without = study.without();
+    if !without.is_empty() {
+        table.word("without", &without.join(", "));
+    }
+    for sweep in study.sweeps() {
+        let (first, last) = (sweep.axis.value(0), sweep.axis.value(usize::MAX));
+        let points = sweep.axis.len();
+        table.word("axis", &format!("{} from {first} to {last}, {points} points", sweep.path));
+    }
+    let title = study.title().map(|title| format!("{title}: ")).unwrap_or_default();
+    format!("{title}the study is valid.\n{}", table.text())
 }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use clap::Args;
 use quell::Failure;
-use quell::cite::sources;
+use quell::cite::sources_of;
 
 use crate::answer::Answer;
 use crate::arguments::StudyArguments;
@@ -18,8 +18,8 @@ pub(crate) struct Arguments {
 
 /// Answers.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let study = arguments.study.read()?;
-    let found = sources(&study);
+    let study = arguments.study.read_any()?;
+    let found = sources_of(&study);
     let text = || {
         let mut text = String::new();
         for source in found.unique() {

@@ -8,7 +8,9 @@ use quell::output::Output;
 use quell::picture;
 use quell::run::map::{Extreme, Map, run as map};
 use quell::store::Store;
-use quell::sweep::{Entry, Grid, MOST_THREADS, Plan, QUANTITIES, Quantity, Running, Status};
+use quell::sweep::{
+    Entry, Grid, MOST_THREADS, Plan, QUANTITIES, Quantity, Running, Status, System,
+};
 use quell::{Complaint, Failure, Fault, Origin};
 
 use crate::answer::Answer;
@@ -41,9 +43,12 @@ pub(crate) struct Arguments {
 
 /// The list of quantities in the help.
 fn quantities() -> String {
-    let mut text = "Quantities:\n".to_owned();
-    for quantity in QUANTITIES {
-        let _ = writeln!(text, "  {:<20}  {}", quantity.name, quantity.about);
+    let mut text = String::new();
+    for (system, name) in [(System::Belt, "a belt"), (System::Disc, "a disc")] {
+        let _ = writeln!(text, "Quantities of {name}:");
+        for quantity in QUANTITIES.iter().filter(|quantity| quantity.system == system) {
+            let _ = writeln!(text, "  {:<20}  {}", quantity.name, quantity.about);
+        }
     }
     text + "\nExit status: 0 done, 2 the input is wrong, 1 it failed or was stopped."
 }
@@ -58,11 +63,13 @@ enum Keep {
 /// Answers.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
-    let study = complaints.take(arguments.study.read());
-    let asked: Vec<&'static Quantity> = arguments
-        .quantities
+    let study = complaints.take(arguments.study.read_any());
+    // What there is depends on what the study is about.
+    let system = study.as_ref().map_or(System::Belt, System::of);
+    let names = if study.is_some() { arguments.quantities.as_slice() } else { &[] };
+    let asked: Vec<&'static Quantity> = names
         .iter()
-        .filter_map(|name| complaints.take(Quantity::named(name.trim(), "--quantity")))
+        .filter_map(|name| complaints.take(Quantity::named_for(system, name.trim(), "--quantity")))
         .collect();
     let threads = complaints.take(threads(arguments.threads.as_deref()));
     let keep = complaints.take(keep(arguments));

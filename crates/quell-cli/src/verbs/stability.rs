@@ -1,18 +1,24 @@
-//! `quell stability`: averaged stability of steady sliding.
+//! `quell stability`: averaged stability of steady sliding; eigenvalues or Floquet exponents of a disc.
 
 use std::fmt::Write as _;
 
 use clap::Args;
 use quell::picture;
+use quell::run::disc;
 use quell::run::stability::{Averaged, Stability, becomes, kind, run as stability};
-use quell::{Failure, Study};
+use quell::{DiscStudy, Failure, Study, Subject};
 use quell_model::units::Quantity;
 
 use crate::answer::Answer;
-use crate::arguments::{Complaints, PlotArguments, StudyArguments};
+use crate::arguments::{Complaints, Plot, PlotArguments, StudyArguments};
 use crate::table::{Table, figure};
 
-/// Says whether steady sliding is stable by averaging, and which dither changes that
+/// Speeds of a Campbell diagram go at least so far.
+const CAMPBELL_END: f64 = 1.0;
+/// Most marginal frictions that are told in words.
+const MOST_CHANGES: usize = 6;
+
+/// Says whether steady sliding (by averaging) or a disc (eigenvalues, Floquet exponents) is stable, and what changes that
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -24,15 +30,65 @@ pub(crate) struct Arguments {
 /// Answers.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
-    let study = complaints.take(arguments.study.read());
+    let study = complaints.take(arguments.study.read_any());
     let plot = complaints.take(arguments.plot.prepare());
     let (study, plot) = complaints.finish(study.zip(plot))?;
+    let study = match study {
+        Subject::Belt(study) => *study,
+        Subject::Disc(study) => return of_disc(&study, plot, arguments.study.json),
+    };
 
     let done = stability(&study);
     let mut object = done.json(&study);
     plot.write(|| picture::stability(&study, &done), &mut object)?;
     let answer = Answer::new(arguments.study.json, || object, || text(&study, &done));
     Ok(answer.warning(done.warnings(&study)))
+}
+
+fn of_disc(study: &DiscStudy, plot: Plot, json: bool) -> Result<Answer, Failure> {
+    let done = disc::stability::run(study)?;
+    let mut object = done.json(study);
+    let last = CAMPBELL_END.max(1.25 * study.disc().speed().abs());
+    let figure = || {
+        let campbell = disc::campbell::run(study, last)?;
+        Ok(picture::disc::stability(study, &done, &campbell))
+    };
+    plot.try_write(figure, &mut object)?;
+    let answer = Answer::new(json, || object, || text_of_disc(study, &done));
+    Ok(answer.warning(study.warnings().to_vec()))
+}
+
+fn text_of_disc(study: &DiscStudy, done: &disc::stability::Stability) -> String {
+    let mut table = Table::new(None);
+    table.word("verdict", done.growth.verdict().name());
+    table.word("growth rate", &format!("{} ω_ref", figure(done.growth.rate)));
+    table.word("  error at most", &format!("{} ω_ref", figure(done.growth.error)));
+    table.word("frequency", &format!("{} ω_ref", figure(done.growth.frequency)));
+    table.word("growth rate without dither", &format!("{} ω_ref", figure(done.undithered.rate)));
+    match &done.changes {
+        Ok(changes) => {
+            for change in changes.iter().take(MOST_CHANGES) {
+                let words = format!(
+                    "{} at frequency {}",
+                    figure(change.friction),
+                    figure(change.frequency)
+                );
+                table.word("marginal at friction f*", &words);
+            }
+        }
+        Err(why) => table.word("marginal frictions", &format!("unknown: {why}")),
+    }
+    if done.out_of_reach {
+        table.word(
+            "out of reach",
+            "a motion that the load does not reach is marginal at any friction",
+        );
+    }
+    let without = study.without();
+    if !without.is_empty() {
+        table.word("without", &without.join(", "));
+    }
+    format!("{}\n{}", done.sentence(study), table.text())
 }
 
 fn text(study: &Study, done: &Stability) -> String {

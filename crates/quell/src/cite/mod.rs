@@ -6,9 +6,10 @@
 use quell_model::{Belt, Direction, LawKind, Waveform};
 use serde_json::{Value as Json, json};
 
-use crate::study::Study;
+use crate::study::{Study, Subject};
 
 mod corrections;
+mod disc;
 mod references;
 
 pub use corrections::Correction;
@@ -29,10 +30,14 @@ pub enum Task {
     Simulate,
     /// The steady response.
     Response,
+    /// Modes of a disc.
+    Modes,
+    /// Resonances of a disc.
+    Resonances,
 }
 
 impl Task {
-    /// Every task.
+    /// Every task of a belt.
     pub const ALL: &'static [Self] =
         &[Self::Friction, Self::Stability, Self::Simulate, Self::Response];
 
@@ -43,6 +48,8 @@ impl Task {
             Self::Stability => "stability",
             Self::Simulate => "simulate",
             Self::Response => "response",
+            Self::Modes => "modes",
+            Self::Resonances => "resonances",
         }
     }
 }
@@ -77,9 +84,18 @@ pub fn sources(study: &Study) -> Sources {
         match task {
             Task::Friction | Task::Stability => averaging(belt, task, &mut cite),
             Task::Simulate | Task::Response => simulation(task, &mut cite),
+            Task::Modes | Task::Resonances => {}
         }
     }
     Sources { citations, corrections: corrections(belt) }
+}
+
+/// What the computations of a study of whatever it is about rest on.
+pub fn sources_of(study: &Subject) -> Sources {
+    match study {
+        Subject::Belt(study) => sources(study),
+        Subject::Disc(study) => disc::sources(study),
+    }
 }
 
 /// Equations of motion and law.

@@ -5,7 +5,8 @@ use quell_model::units::Quantity;
 
 use super::ruler::words;
 use crate::run::start_in_words;
-use crate::study::Study;
+use crate::study::disc::ModeSource;
+use crate::study::{DiscStudy, Study};
 
 /// The study in one line.
 pub(super) fn caption(study: &Study) -> String {
@@ -50,6 +51,49 @@ pub(super) fn caption(study: &Study) -> String {
 /// The study and its start in one line.
 pub(super) fn caption_of_run(study: &Study) -> String {
     format!("{}; {}.", caption(study), start_in_words(study))
+}
+
+/// A disc study in one line.
+pub(super) fn caption_of_disc(study: &DiscStudy) -> String {
+    let disc = study.disc();
+    let mut parts = Vec::new();
+    match study.source() {
+        ModeSource::Plate(plate) => parts.push(format!(
+            "plate $b$/$a$ = {}, $ν$ = {}, $N$ = ({}, {})",
+            plate.plate.inner_radius_ratio(),
+            plate.plate.poisson_ratio(),
+            plate.radial_modes,
+            plate.nodal_diameters
+        )),
+        _ => parts.push(format!("{} given modes", disc.modes().len())),
+    }
+    if let Some(damping) = disc.get("disc.modal_damping") {
+        parts.push(format!("$ξ$ = {}", words_of_ratio(damping)));
+    }
+    for (load, radius) in disc.loads().iter().zip(study.radii()) {
+        let place = radius.map_or_else(String::new, |radius| format!(" at $r_0$/$a$ = {radius}"));
+        parts.push(format!(
+            "load $m$ = {}, $c$ = {}, $k$ = {}, $f$ = {}{place}",
+            words_of_ratio(load.mass),
+            words_of_ratio(load.damping),
+            words_of_ratio(load.stiffness),
+            words_of_ratio(load.friction)
+        ));
+    }
+    match disc.dither() {
+        quell_disc::Dither::None => parts.push("no dither".to_owned()),
+        quell_disc::Dither::Normal { amplitude, frequency_ratio } => {
+            parts.push(format!("normal dither, $α$ = {amplitude}, $R$ = {frequency_ratio}"));
+        }
+        quell_disc::Dither::Tangential { amplitude, frequency_ratio } => {
+            parts.push(format!("tangential dither, $α$ = {amplitude}, $R$ = {frequency_ratio}"));
+        }
+    }
+    let without = study.without();
+    if !without.is_empty() {
+        parts.push(format!("without {}", without.join(", ")));
+    }
+    format!("{}.", parts.join(", "))
 }
 
 fn words_of_ratio(value: f64) -> String {

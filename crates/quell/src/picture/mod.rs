@@ -4,6 +4,7 @@
 //! numbers of the equations. The caption says what the picture cannot.
 
 mod caption;
+pub mod disc;
 mod friction;
 mod map;
 mod response;

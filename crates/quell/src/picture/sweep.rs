@@ -12,10 +12,13 @@ use crate::plot::{
     Axis, Figure, Layer, Legend, Line, LineStyle, Panel, PlotError, Role, Size, Spread,
 };
 use crate::run::map::{Map, boundaries};
-use crate::sweep::{Entry, GridAxis, Kind, Status};
+use crate::study::{DiscStudy, Subject};
+use crate::sweep::{Entry, Grid, GridAxis, Kind, Status};
 
-/// Variables that are drawn only where nothing else was asked for.
-const BESIDE: &str = "settled";
+/// Whether a variable is drawn only where nothing else was asked for.
+fn is_beside(name: &str) -> bool {
+    ["settled", "growth_error", "growth_verdict", "growth_undithered_error"].contains(&name)
+}
 
 /// The picture of a computed map.
 ///
@@ -26,7 +29,7 @@ pub fn sweep(done: &Map) -> Result<Figure, Failure> {
     let axes = plan.grid().axes().len();
     let entries = plan.sheet().entries();
     let mut shown: Vec<&Entry> =
-        entries.iter().filter(|entry| entry.variable.name != BESIDE).collect();
+        entries.iter().filter(|entry| !is_beside(entry.variable.name)).collect();
     if shown.is_empty() {
         shown = entries.iter().collect();
     }
@@ -45,7 +48,11 @@ pub fn sweep(done: &Map) -> Result<Figure, Failure> {
     let figure =
         figure.map_err(|why| Failure::Failed { key: "--plot".to_owned(), why: why.to_string() })?;
     let title = plan.grid().study().title().unwrap_or_default();
-    Ok(figure.title(title).caption(super::caption::caption_of_run(plan.grid().study())))
+    let caption = match plan.grid().study() {
+        Subject::Belt(study) => super::caption::caption_of_run(study),
+        Subject::Disc(study) => super::caption::caption_of_disc(study),
+    };
+    Ok(figure.title(title).caption(caption))
 }
 
 /// A variable of a computed map as plain data.
@@ -69,6 +76,11 @@ fn picture(done: &Map, entry: &Entry) -> Picture {
             MapKind::Outcome(words.iter().map(|&word| (role_of(word), word.to_owned())).collect())
         }
         Kind::Rate => MapKind::Growth(Spread::Linear),
+        // Tongues grow with 10⁻⁹ to 10⁻², beside decay with 10⁻².
+        Kind::DiscRate if variable.symbol.starts_with("Re") => {
+            MapKind::Growth(Spread::SignedLog(1e-5))
+        }
+        Kind::DiscRate => MapKind::Number(Spread::Linear),
         Kind::Number(_) if variable.name == "efficiency" => MapKind::Efficiency,
         Kind::Number(_) => MapKind::Number(Spread::Linear),
     };
@@ -93,6 +105,9 @@ fn picture(done: &Map, entry: &Entry) -> Picture {
 /// The boundaries of averaging as lines, in the plane as it is drawn: the first axis to the right.
 fn over(done: &Map) -> Vec<Layer> {
     let grid = done.plan().grid();
+    if let Subject::Disc(study) = grid.study() {
+        return over_disc(grid, study);
+    }
     let upwards = grid.axes().last().is_some_and(|axis| axis.path == "dither.amplitude");
     let furthest = grid
         .axes()
@@ -125,6 +140,18 @@ fn over(done: &Map) -> Vec<Layer> {
     .into_iter()
     .flatten()
     .collect()
+}
+
+/// The predicted tongues, where the plane is of speed and friction, speed to the right.
+fn over_disc(grid: &Grid, study: &DiscStudy) -> Vec<Layer> {
+    let [speed, friction] = grid.axes() else { return Vec::new() };
+    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
+    if (last(&speed.path).as_str(), last(&friction.path).as_str()) != ("speed", "friction") {
+        return Vec::new();
+    }
+    let least = speed.values.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = speed.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    super::disc::tongues(study.disc(), (least, most), &friction.values, |friction| friction)
 }
 
 fn role_of(word: &str) -> Role {

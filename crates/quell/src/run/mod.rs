@@ -4,6 +4,7 @@
 //! SI beside them ([`crate::fields`]).
 
 pub mod check;
+pub mod disc;
 pub mod friction;
 pub mod map;
 pub mod orbit;

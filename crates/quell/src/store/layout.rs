@@ -13,7 +13,7 @@ use zarrs::array::codec::{BytesCodec, Crc32cCodec};
 use zarrs::array::{Array, ArrayBuilder, ArrayCreateError, DataType, FillValue, data_type};
 use zarrs::metadata::v3::GroupMetadataV3;
 
-use crate::cite::{Task, sources};
+use crate::cite::{Task, sources_of};
 use crate::sweep::{Computation, Content, Field, GridAxis, MISSING, Plan, Status};
 
 /// An array that is described and encoded here, and written by the store.
@@ -131,10 +131,12 @@ fn group(plan: &Plan, described: &Map<String, Json>) -> Json {
             Computation::Response | Computation::ResponseWithCost => task == Task::Response,
             Computation::Criterion
             | Computation::CriterionSharper
-            | Computation::CriticalAmplitudes => task == Task::Stability,
+            | Computation::CriticalAmplitudes
+            | Computation::DiscGrowth
+            | Computation::DiscGrowthUndithered => task == Task::Stability,
         })
     };
-    let citations = sources(study).citations;
+    let citations = sources_of(study).citations;
     let cited: Vec<String> = citations
         .iter()
         .filter(|citation| used(citation.task))

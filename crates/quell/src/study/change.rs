@@ -88,6 +88,13 @@ impl Change {
                 Ok(self.table(belt, "initial"))
             }
             Section::Dither | Section::Sweep => self.entry(root, section.path(), index),
+            Section::DiscMode | Section::DiscLoad => {
+                let Some(disc) = self.table(root, "disc") else {
+                    return Ok(None);
+                };
+                let name = section.path().trim_start_matches("disc.");
+                self.entry(disc, name, index)
+            }
             _ => Ok(self.table(root, section.path())),
         }
     }

@@ -19,19 +19,23 @@ use vocabulary::{NOT_BUILT, SCHEMA_VERSION, Section};
 
 mod belt;
 mod change;
+pub mod disc;
 mod dither;
 mod file;
 mod friction;
 pub mod mirror;
 mod reader;
 mod solver;
+mod subject;
 pub mod suggest;
 mod sweep;
 pub mod vocabulary;
 
 pub use change::Change;
+pub use disc::DiscStudy;
 pub use quell_belt::response::Solver;
 pub use quell_belt::start::InitialState;
+pub use subject::Subject;
 pub use sweep::{Axis, Sweep};
 
 /// A checked study of a belt.
@@ -134,8 +138,13 @@ impl Study {
 
     fn check(mirror: Table, text: &str) -> Result<Self, Vec<Complaint>> {
         let mut reader = Reader::new(&mirror);
-        let title = root(&mut reader, &mirror);
-        if mirror.has("disc") {
+        let title = root(&mut reader, &mirror, ROOT);
+        if let Some(node) = mirror.get("disc") {
+            let allowed = "this verb is about a belt ([belt], [friction]); a disc study has the verbs check, modes, \
+                           stability, resonances and map";
+            let complaint =
+                Complaint::new(Fault::Conflict, "disc", node.origin, Json::Null, allowed);
+            reader.complain(complaint);
             return Err(reader.into_complaints());
         }
         let belt = belt::read(&mut reader, &mirror);
@@ -246,12 +255,16 @@ impl Study {
     }
 }
 
+/// Tables and keys of a belt study outside any table.
+const ROOT: &[&str] = &["schema", "title", "belt", "friction", "dither", "solver", "sweep"];
+
 /// Reads what stands outside the tables; the title.
-fn root(reader: &mut Reader, mirror: &Table) -> Option<String> {
+fn root(reader: &mut Reader, mirror: &Table, names: &[&str]) -> Option<String> {
     let tables: Vec<&str> = Section::ALL.iter().map(|section| section.path()).collect();
     for (name, node) in mirror.iter() {
         if NOT_BUILT.contains(&name) {
-            let allowed = format!("[{name}] is not built yet; this version computes belts");
+            let allowed =
+                format!("[{name}] is not built yet; this version computes belts and discs");
             reader.complain(Complaint::new(
                 Fault::NotBuilt,
                 name,
@@ -260,8 +273,8 @@ fn root(reader: &mut Reader, mirror: &Table) -> Option<String> {
                 allowed,
             ));
         } else if vocabulary::key(Section::Root, name).is_none() && !tables.contains(&name) {
-            let names = ["schema", "title", "belt", "friction", "dither", "solver", "sweep"];
-            let nearest = suggest::word(name, names).or_else(|| suggest::path("", name, None));
+            let nearest = suggest::word(name, names.iter().copied())
+                .or_else(|| suggest::path("", name, None));
             let complaint =
                 Complaint::new(Fault::Unknown, name, node.origin, node.given(), names.join(", "));
             reader.complain(complaint.suggesting(nearest));

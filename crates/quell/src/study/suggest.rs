@@ -49,6 +49,7 @@ pub fn path(table: &str, name: &str, index: Option<usize>) -> Option<String> {
     let key = vocabulary::keys()
         .iter()
         .filter(|key| key.section != Section::Sweep || table == Section::Sweep.path())
+        .filter(|key| !other_system(table, key.section))
         .map(|key| (score(key), key))
         .filter(|(score, _)| *score >= NEAR)
         // The first of equals: dimensionless before SI, in the order of the file.
@@ -60,6 +61,17 @@ pub fn path(table: &str, name: &str, index: Option<usize>) -> Option<String> {
         Some(index) if same_list => join(&format!("{table}[{index}]"), key.name),
         _ => key.path(),
     })
+}
+
+/// Whether a section is about a disc and the table about a belt, or the other way round.
+fn other_system(table: &str, section: Section) -> bool {
+    let disc = matches!(section, Section::Disc | Section::DiscMode | Section::DiscLoad);
+    let belt = matches!(section, Section::Belt | Section::Initial | Section::Friction);
+    match table.split('.').next().unwrap_or_default() {
+        "disc" => belt,
+        "belt" | "friction" => disc,
+        _ => false,
+    }
 }
 
 /// Whether a key was called by its symbol, as `zeta` for ζ or `mu_s` for μ_s.
@@ -84,6 +96,13 @@ fn spelled(symbol: &str) -> String {
             'φ' => plain.push_str("phi"),
             'ε' => plain.push_str("epsilon"),
             'τ' => plain.push_str("tau"),
+            'ξ' => plain.push_str("xi"),
+            'ν' => plain.push_str("nu"),
+            'ρ' => plain.push_str("rho"),
+            'Ω' => plain.push_str("omega"),
+            'β' => plain.push_str("beta"),
+            'θ' => plain.push_str("theta"),
+            '*' => {}
             'ω' => plain.push_str("omega"),
             '₀' => plain.push('0'),
             '_' => {}

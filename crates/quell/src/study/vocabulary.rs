@@ -4,6 +4,7 @@
 
 use std::sync::LazyLock;
 
+use quell_disc::system::Contribution;
 use quell_model::parameter::{self, Parameter, ScaleKey, SiTwin};
 use quell_model::{Direction, LawKind, Waveform};
 
@@ -13,17 +14,8 @@ use super::suggest;
 pub const SCHEMA_VERSION: u32 = 1;
 
 /// Tables of the design that are not built yet.
-pub const NOT_BUILT: &[&str] = &[
-    "disc",
-    "system",
-    "contact",
-    "input",
-    "actuator",
-    "design",
-    "uncertainty",
-    "sample",
-    "profile",
-];
+pub const NOT_BUILT: &[&str] =
+    &["system", "contact", "input", "actuator", "design", "uncertainty", "sample", "profile"];
 
 /// Most points an axis of a map may have.
 pub const MOST_POINTS: u32 = 10_000_000;
@@ -39,6 +31,12 @@ pub enum Section {
     Initial,
     /// `[friction]`.
     Friction,
+    /// `[disc]`.
+    Disc,
+    /// `[[disc.mode]]`.
+    DiscMode,
+    /// `[disc.load]` or `[[disc.load]]`.
+    DiscLoad,
     /// `[dither]` or `[[dither]]`.
     Dither,
     /// `[solver]`.
@@ -54,6 +52,9 @@ impl Section {
         Self::Belt,
         Self::Initial,
         Self::Friction,
+        Self::Disc,
+        Self::DiscMode,
+        Self::DiscLoad,
         Self::Dither,
         Self::Solver,
         Self::Sweep,
@@ -66,6 +67,9 @@ impl Section {
             Self::Belt => "belt",
             Self::Initial => "belt.initial",
             Self::Friction => "friction",
+            Self::Disc => "disc",
+            Self::DiscMode => "disc.mode",
+            Self::DiscLoad => "disc.load",
             Self::Dither => "dither",
             Self::Solver => "solver",
             Self::Sweep => "sweep",
@@ -75,7 +79,12 @@ impl Section {
     /// What the table holds.
     pub fn about(self) -> &'static str {
         match self {
-            Self::Root => "a study: one belt, its friction law, its dither",
+            Self::Root => "a study: a belt with its friction law or a disc, and dither",
+            Self::Disc => "annular disc under loads that rotate over it",
+            Self::DiscMode => "a mode of the disc, where modes are listed instead of computed",
+            Self::DiscLoad => {
+                "mass, damper, spring and friction at a point; several as [[disc.load]]"
+            }
             Self::Belt => "mass, spring and damper on a moving belt",
             Self::Initial => "where a run starts; at rest by default",
             Self::Friction => "the friction law",
@@ -99,6 +108,8 @@ pub enum Choice {
     Waveform,
     /// Spacings of an axis.
     Spacing,
+    /// Parts of the disc's equations.
+    Contribution,
 }
 
 impl Choice {
@@ -110,6 +121,7 @@ impl Choice {
             Self::Direction => Direction::ALL.iter().map(|direction| direction.name()).collect(),
             Self::Waveform => Waveform::ALL.iter().map(|waveform| waveform.name()).collect(),
             Self::Spacing => vec!["linear", "log"],
+            Self::Contribution => Contribution::ALL.iter().map(|part| part.name()).collect(),
         }
     }
 
@@ -123,7 +135,7 @@ impl Choice {
             ],
             Self::Law => LawKind::ALL.iter().map(|law| law.about()).collect(),
             Self::Direction => vec!["along the belt, on the mass", "on the normal load"],
-            Self::Waveform => Vec::new(),
+            Self::Waveform | Self::Contribution => Vec::new(),
             Self::Spacing => vec!["equal steps", "equal ratios"],
         }
     }
@@ -144,6 +156,10 @@ pub enum Role {
     Text,
     /// The version of the file.
     Schema,
+    /// Words out of a list, as an array.
+    Choices(Choice),
+    /// The reference frequency of a disc: "critical", or a frequency parameter k².
+    Reference,
     /// A bare number of an axis, in the unit of the parameter it names.
     AxisNumber,
     /// The number of points of an axis.
@@ -188,6 +204,24 @@ impl Key {
             _ => "1",
         }
     }
+
+    /// Unit in words, also of the disc's keys, which carry it in their names.
+    pub fn unit_in_words(&self) -> &'static str {
+        let units = [
+            ("_kg_per_m3", "kg/m³"),
+            ("_pa", "Pa"),
+            ("_hz", "Hz"),
+            ("_deg", "degrees"),
+            ("_m", "m"),
+        ];
+        let disc = matches!(self.section, Section::Disc | Section::DiscMode | Section::DiscLoad);
+        let found = units.iter().find(|(suffix, _)| disc && self.name.ends_with(suffix));
+        match found {
+            Some((_, unit)) => unit,
+            None if disc && self.unit() == "ω₀" => "ω_ref",
+            None => self.unit(),
+        }
+    }
 }
 
 /// `table.key`, or `key` alone at the root.
@@ -204,6 +238,7 @@ pub fn keys() -> &'static [Key] {
 fn build() -> Vec<Key> {
     let mut keys = words();
     keys.extend(numbers());
+    keys.extend(disc());
     keys.extend(axis());
     keys.sort_by_key(|key| Section::ALL.iter().position(|section| *section == key.section));
     keys
@@ -235,6 +270,9 @@ fn numbers() -> Vec<Key> {
     });
     let mut keys: Vec<Key> = scales.collect();
     let mut parameters = parameter::BELT.to_vec();
+    // The disc's dither has the keys of the belt's.
+    let own = |parameter: &&Parameter| parameter.table() == "disc";
+    parameters.extend(parameter::disc::DISC.iter().filter(own));
     for parameter in LawKind::ALL.iter().flat_map(|law| law.parameters()) {
         if !parameters.iter().any(|known| known.path == parameter.path) {
             parameters.push(*parameter);
@@ -254,6 +292,29 @@ fn numbers() -> Vec<Key> {
         }));
     }
     keys
+}
+
+/// Keys of a disc that take no number of the registry.
+fn disc() -> Vec<Key> {
+    let key = |name, role, about| Key { section: Section::Disc, name, role, about };
+    vec![
+        key(
+            "reference_frequency",
+            Role::Reference,
+            "what frequencies and speeds are measured in: \"critical\", the lowest critical speed of these modes, \
+             or a frequency parameter k²",
+        ),
+        key(
+            "modes_file",
+            Role::Text,
+            "CSV file of modes, beside the study, instead of computed ones",
+        ),
+        key(
+            "without",
+            Role::Choices(Choice::Contribution),
+            "parts of the equations that are left out",
+        ),
+    ]
 }
 
 /// Keys of an axis.
@@ -303,7 +364,10 @@ pub fn resolve(path: &str) -> Result<Address, Option<String>> {
         None => (table, None),
     };
     let section = Section::ALL.iter().copied().find(|section| section.path() == table);
-    let listed = matches!(section, Some(Section::Dither | Section::Sweep));
+    let listed = matches!(
+        section,
+        Some(Section::Dither | Section::Sweep | Section::DiscMode | Section::DiscLoad)
+    );
     let found = section.and_then(|section| key(section, name));
     match found {
         Some(key) if listed || index.is_none() => Ok(Address { key, index }),

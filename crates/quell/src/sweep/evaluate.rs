@@ -8,6 +8,7 @@ use quell_belt::averaging::{
 };
 use quell_belt::response::{Case, Compared, Undefined, Wanted, compare_many};
 use quell_belt::simulation::Start;
+use quell_disc::Growth;
 
 use super::status::Status;
 use crate::run::stability::SHARPER;
@@ -26,6 +27,10 @@ pub enum Computation {
     CriterionSharper,
     /// Every critical amplitude of the first dither.
     CriticalAmplitudes,
+    /// The largest growth rate of a disc.
+    DiscGrowth,
+    /// The same without dither.
+    DiscGrowthUndithered,
 }
 
 impl Computation {
@@ -87,6 +92,10 @@ pub struct Results {
     pub criterion_sharper: Option<Result<Criterion, Status>>,
     /// Every critical amplitude of the first dither, in order.
     pub critical_amplitudes: Option<Result<Vec<CriticalAmplitude>, Status>>,
+    /// The largest growth rate of a disc.
+    pub disc: Option<Result<Growth, Status>>,
+    /// The same without dither.
+    pub disc_undithered: Option<Result<Growth, Status>>,
 }
 
 /// Computes at every point of a chunk.
@@ -135,7 +144,10 @@ fn averages(study: &Study, wanted: &[Computation]) -> Results {
     let told = |why: AveragingError| Status::from(&why);
     for computation in wanted {
         match computation {
-            Computation::Response | Computation::ResponseWithCost => {}
+            Computation::Response
+            | Computation::ResponseWithCost
+            | Computation::DiscGrowth
+            | Computation::DiscGrowthUndithered => {}
             Computation::Criterion => {
                 let found = criterion(belt, AveragingOptions::default());
                 results.criterion = Some(found.map_err(told));

@@ -2,11 +2,13 @@
 
 use std::fmt::Write as _;
 
+use quell_disc::Disc;
 use serde_json::Value as Json;
 
+use super::refine;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::vocabulary::Address;
-use crate::study::{Axis, Study};
+use crate::study::{Axis, DiscStudy, Subject};
 
 /// Most points a map may have: their values are kept in memory until the map is done.
 pub const MOST_POINTS: usize = 100_000_000;
@@ -45,7 +47,7 @@ pub struct GridAxis {
 /// The points of a map.
 #[derive(Clone, Debug)]
 pub struct Grid {
-    study: Study,
+    study: Subject,
     axes: Vec<GridAxis>,
 }
 
@@ -55,7 +57,8 @@ impl Grid {
     /// # Errors
     /// A complaint where the study has no axis, two axes that set the same number, or more
     /// than [`MOST_POINTS`] points.
-    pub fn of(study: &Study) -> Result<Self, Box<Complaint>> {
+    pub fn of(study: impl Into<Subject>) -> Result<Self, Box<Complaint>> {
+        let study = study.into();
         let sweeps = study.sweeps();
         if sweeps.is_empty() {
             let complaint =
@@ -90,15 +93,16 @@ impl Grid {
             path: sweep.path.clone(),
             about: sweep.address.key.about,
             symbol: sweep.address.key.parameter().map(|parameter| parameter.symbol),
-            unit: sweep.address.key.unit(),
-            values: sweep.axis.values().collect(),
+            unit: sweep.address.key.unit_in_words(),
+            values: refine::values(&study, sweep),
             logarithmic: matches!(sweep.axis, Axis::Logarithmic { .. }),
         });
-        Ok(Self { axes: axes.collect(), study: study.clone() })
+        let axes = axes.collect();
+        Ok(Self { axes, study })
     }
 
     /// The study whose axes these are.
-    pub fn study(&self) -> &Study {
+    pub fn study(&self) -> &Subject {
         &self.study
     }
 
@@ -136,12 +140,12 @@ impl Grid {
     ///
     /// # Errors
     /// Every complaint, where these values together make no valid study.
-    pub fn study_at(&self, index: usize) -> Result<Study, Vec<Complaint>> {
+    pub fn study_at(&self, index: usize) -> Result<Subject, Vec<Complaint>> {
         self.study_with(&self.values_at(index))
     }
 
     /// The study at the points whose values are the first or the last of every axis.
-    pub(super) fn corner_studies(&self) -> Vec<Study> {
+    pub(super) fn corner_studies(&self) -> Vec<Subject> {
         // More than six axes: the lowest and the highest corner stand for all.
         let all = 1_usize << self.axes.len().min(6);
         let corners = (0..all).map(|corner| {
@@ -160,7 +164,15 @@ impl Grid {
         corners.flatten().collect()
     }
 
-    fn study_with(&self, values: &[f64]) -> Result<Study, Vec<Complaint>> {
+    /// The disc at point `index` of a study of one; `None` where the values together make no valid study.
+    pub(super) fn disc_at(&self, study: &DiscStudy, index: usize) -> Option<Disc> {
+        let values = self.values_at(index);
+        let numbers: Vec<(&str, f64)> =
+            self.axes.iter().map(|axis| axis.path.as_str()).zip(values).collect();
+        study.disc_at(&numbers)
+    }
+
+    fn study_with(&self, values: &[f64]) -> Result<Subject, Vec<Complaint>> {
         self.study.at(self.axes.iter().map(|axis| axis.path.as_str()).zip(values.iter().copied()))
     }
 }
@@ -195,7 +207,7 @@ fn name_of(path: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::Change;
+    use crate::study::{Change, Study};
 
     const TEXT: &str = "schema = 1\n[belt]\ndamping_ratio = 0.01\nnormal_load = 1\n\
         belt_velocity = 0.1\n[friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\n\
@@ -229,6 +241,7 @@ mod tests {
                 .expect("changes");
             let alone = Study::parse(TEXT, &changes).expect("valid");
             let point = grid.study_at(index).expect("valid");
+            let point = point.belt().expect("of a belt");
             assert_eq!(
                 (point.belt(), point.initial(), point.solver(), point.changes()),
                 (alone.belt(), alone.initial(), alone.solver(), alone.changes())

@@ -5,15 +5,19 @@
 //! names of quantities  → Sheet (arrays) ┴→ Plan (chunks) → runner → arrays, store
 //! ```
 //!
+//! An axis of a disc's speed has more points than it asks for: `refine` says why.
+//!
 //! A point is the study with its numbers set as `--set` sets them, and its result depends on
 //! nothing else: it has the same bits alone, in any chunk, with any number of threads.
 
 mod chunks;
 mod cost;
+mod disc;
 mod evaluate;
 mod grid;
 mod plan;
 mod quantity;
+mod refine;
 mod runner;
 mod sheet;
 mod status;

@@ -2,12 +2,15 @@
 
 use super::chunks::Chunks;
 use super::cost;
+use super::disc;
 use super::evaluate::{Computation, evaluate};
 use super::grid::Grid;
 use super::quantity::{Quantity, SETTLED_NAME};
 use super::sheet::{Data, Sheet};
+use quell_disc::Disc;
+
 use crate::complaint::Complaint;
-use crate::study::Study;
+use crate::study::{Study, Subject};
 
 /// A map that is to be computed.
 #[derive(Clone, Debug)]
@@ -25,8 +28,15 @@ impl Plan {
     ///
     /// # Errors
     /// The complaint of [`Grid::of`].
-    pub fn new(study: &Study, asked: &[&'static Quantity]) -> Result<Self, Box<Complaint>> {
-        let grid = Grid::of(study)?;
+    pub fn new(
+        study: impl Into<Subject>,
+        asked: &[&'static Quantity],
+    ) -> Result<Self, Box<Complaint>> {
+        let study = study.into();
+        for quantity in asked {
+            quantity.fits(&study)?;
+        }
+        let grid = Grid::of(&study)?;
         let mut quantities: Vec<&'static Quantity> = Vec::new();
         let steady = asked.iter().any(|quantity| quantity.computation.is_response());
         let settled = Quantity::named(SETTLED_NAME, "--quantity").ok().filter(|_| steady);
@@ -45,9 +55,9 @@ impl Plan {
             .corner_studies()
             .iter()
             .map(|study| cost::seconds(study, &computations))
-            .fold(cost::seconds(study, &computations), f64::max);
+            .fold(cost::seconds(&study, &computations), f64::max);
         let chunks = Chunks::new(&grid.shape(), cost::points_per_chunk(grid.len(), seconds));
-        let sheet = Sheet::new(study, &quantities);
+        let sheet = Sheet::new(&study, &quantities);
         Ok(Self { grid, quantities, computations, sheet, chunks })
     }
 
@@ -84,8 +94,19 @@ impl Plan {
 
     /// Computes some points, by their index in the grid.
     pub fn compute_points(&self, indices: impl Iterator<Item = usize>) -> Vec<Data> {
-        let studies: Vec<Option<Study>> =
-            indices.map(|index| self.grid.study_at(index).ok()).collect();
+        if let Subject::Disc(study) = self.grid.study() {
+            let discs: Vec<Option<Disc>> =
+                indices.map(|index| self.grid.disc_at(study, index)).collect();
+            let found = disc::evaluate(&discs, study.parts(), &self.computations);
+            let points: Vec<_> =
+                found.into_iter().map(|found| found.map(|found| (None, found))).collect();
+            return self.sheet.fill(&points);
+        }
+        let belt = |index| match self.grid.study_at(index) {
+            Ok(Subject::Belt(study)) => Some(*study),
+            _ => None,
+        };
+        let studies: Vec<Option<Study>> = indices.map(belt).collect();
         let scales: Vec<_> =
             studies.iter().map(|study| study.as_ref().map(Study::scales)).collect();
         let valid: Vec<Study> = studies.into_iter().flatten().collect();

@@ -5,19 +5,22 @@
 //! share it.
 
 use quell_belt::averaging::{Criterion, UndecidedBecause, Verdict};
+use quell_disc::Growth;
 use quell_model::units;
 
 use super::evaluate::{Computation, Results, Steady};
 use super::status::Status;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::run::stability::growth_rate;
-use crate::study::suggest;
+use crate::study::{Subject, suggest};
 
 /// A kind of study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum System {
     /// A mass on a moving belt.
     Belt,
+    /// An annular disc under rotating loads.
+    Disc,
 }
 
 /// What the numbers of a variable are.
@@ -27,6 +30,8 @@ pub enum Kind {
     Number(units::Quantity),
     /// Rates per unit τ, in SI per second.
     Rate,
+    /// Rates of a disc per unit τ = ω_ref t.
+    DiscRate,
     /// One of these words, stored as its place in the list.
     Word {
         /// The words.
@@ -88,7 +93,7 @@ pub struct Quantity {
 
 impl PartialEq for Quantity {
     fn eq(&self, other: &Self) -> bool {
-        self.name == other.name
+        self.name == other.name && self.system == other.system
     }
 }
 
@@ -98,15 +103,47 @@ impl Quantity {
     /// # Errors
     /// A complaint about `option` with the nearest name.
     pub fn named(name: &str, option: &'static str) -> Result<&'static Self, Box<Complaint>> {
-        if let Some(found) = QUANTITIES.iter().find(|quantity| quantity.name == name) {
+        Self::named_for(System::Belt, name, option)
+    }
+
+    /// The quantity of a name for a kind of study.
+    ///
+    /// # Errors
+    /// A complaint about `option` with the nearest name.
+    pub fn named_for(
+        system: System,
+        name: &str,
+        option: &'static str,
+    ) -> Result<&'static Self, Box<Complaint>> {
+        let there = || QUANTITIES.iter().filter(|quantity| quantity.system == system);
+        if let Some(found) = there().find(|quantity| quantity.name == name) {
             return Ok(found);
         }
-        let names: Vec<&str> = QUANTITIES.iter().map(|quantity| quantity.name).collect();
+        let names: Vec<&str> = there().map(|quantity| quantity.name).collect();
         let allowed = format!("one of {}", names.join(", "));
         let complaint =
             Complaint::new(Fault::Value, option, Origin::Argument(option), name, allowed);
         let nearest = suggest::word(&name.replace('_', "-"), names);
         Err(Box::new(complaint.suggesting(nearest)))
+    }
+
+    /// Whether it is for a study of this kind.
+    pub(super) fn fits(&self, study: &Subject) -> Result<(), Box<Complaint>> {
+        let system = System::of(study);
+        if self.system == system {
+            return Ok(());
+        }
+        Self::named_for(system, self.name, "--quantity").map(|_| ())
+    }
+}
+
+impl System {
+    /// The kind of a study.
+    pub fn of(study: &Subject) -> Self {
+        match study {
+            Subject::Belt(_) => Self::Belt,
+            Subject::Disc(_) => Self::Disc,
+        }
     }
 }
 
@@ -244,10 +281,53 @@ pub const QUANTITIES: &[Quantity] = &[
         variable(("critical_amplitude", "α_c"), "smallest critical amplitude ratio of the first dither", VELOCITY, OF_CRITICAL, |r| critical(r, false)),
         variable(("critical_amplitude_upper", "α_c"), "largest critical amplitude ratio of the first dither, where there are several", VELOCITY, OF_CRITICAL, |r| critical(r, true)),
     ]),
+    disc("growth", "largest growth rate of the disc, its verdict and the bound on its error", Computation::DiscGrowth, &[
+        variable(("growth", "Re ρ"), "largest growth rate", Kind::DiscRate, &[], |r| Ok(grown(r)?.rate)),
+        variable(("growth_error", ""), "bound on the error of the growth rate", Kind::DiscRate, &[], |r| Ok(grown(r)?.error)),
+        variable(("growth_verdict", ""), "whether the growth rate has a sign within its error", VERDICTS, OF_DISC, |r| decided(grown(r)?)),
+    ]),
+    disc("frequency", "frequency of the fastest growing motion; under dither up to multiples of R", Computation::DiscGrowth, &[
+        variable(("frequency", "Im ρ"), "frequency of the fastest growing motion", Kind::DiscRate, &[], |r| Ok(grown(r)?.frequency)),
+    ]),
+    disc("verdict", "verdict on the disc: stable or unstable, undecided within its error", Computation::DiscGrowth, &[
+        variable(("verdict", ""), "verdict on the disc", VERDICTS, OF_DISC, |r| decided(grown(r)?)),
+    ]),
+    disc("growth-undithered", "the growth rate without dither", Computation::DiscGrowthUndithered, &[
+        variable(("growth_undithered", "Re ρ_0"), "largest growth rate without dither", Kind::DiscRate, &[], |r| Ok(grown_undithered(r)?.rate)),
+        variable(("growth_undithered_error", ""), "bound on the error of that", Kind::DiscRate, &[], |r| Ok(grown_undithered(r)?.error)),
+    ]),
 ];
+
+/// What a disc's verdict can be instead of known.
+const OF_DISC: &[Status] = &[Status::WithinError];
+
+const fn disc(
+    name: &'static str,
+    about: &'static str,
+    computation: Computation,
+    variables: &'static [Variable],
+) -> Quantity {
+    Quantity { name, about, system: System::Disc, computation, variables }
+}
 
 fn steady(results: &Results) -> Result<Steady, Status> {
     results.steady.unwrap_or(Err(Status::Missing))
+}
+
+fn grown(results: &Results) -> Result<Growth, Status> {
+    results.disc.unwrap_or(Err(Status::Missing))
+}
+
+fn grown_undithered(results: &Results) -> Result<Growth, Status> {
+    results.disc_undithered.unwrap_or(Err(Status::Missing))
+}
+
+fn decided(growth: Growth) -> Result<f64, Status> {
+    match growth.verdict() {
+        quell_disc::Verdict::Unstable => Ok(0.0),
+        quell_disc::Verdict::Stable => Ok(1.0),
+        quell_disc::Verdict::Undecided => Err(Status::WithinError),
+    }
 }
 
 fn limit(results: &Results) -> Result<&Criterion, Status> {
@@ -284,15 +364,19 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_variables_follow_them() {
-        let mut names: Vec<&str> = QUANTITIES.iter().map(|quantity| quantity.name).collect();
-        let count = names.len();
-        names.sort_unstable();
-        names.dedup();
-        assert_eq!(names.len(), count);
+        for system in [System::Belt, System::Disc] {
+            let there = QUANTITIES.iter().filter(|quantity| quantity.system == system);
+            let mut names: Vec<&str> = there.map(|quantity| quantity.name).collect();
+            let count = names.len();
+            names.sort_unstable();
+            names.dedup();
+            assert_eq!(names.len(), count);
+        }
         for quantity in QUANTITIES {
             let first = quantity.variables.first().expect("a variable");
             assert_eq!(first.name, quantity.name.replace('-', "_"));
-            assert_eq!(Quantity::named(quantity.name, "--quantity"), Ok(quantity));
+            let found = Quantity::named_for(quantity.system, quantity.name, "--quantity");
+            assert_eq!(found, Ok(quantity));
         }
         let told = Quantity::named("stick_fraction", "--quantity").expect_err("an underscore");
         assert_eq!(told.suggestion.as_deref(), Some("stick-fraction"));

@@ -10,7 +10,7 @@ use quell_model::units::{self, Scales};
 use super::evaluate::Results;
 use super::quantity::{Kind, Quantity, Variable};
 use super::status::Status;
-use crate::study::Study;
+use crate::study::Subject;
 
 /// Bits of the NaN that stands for an unknown number; the code of its state is added.
 const UNKNOWN: u64 = 0x7ff8_0000_0000_0000;
@@ -110,13 +110,13 @@ pub struct Sheet {
 
 impl Sheet {
     /// The arrays of `quantities` for a study.
-    pub fn new(study: &Study, quantities: &[&Quantity]) -> Self {
+    pub fn new(study: &Subject, quantities: &[&Quantity]) -> Self {
         let si = study.scales().is_some();
         let mut sheet = Self { entries: Vec::new(), fields: Vec::new() };
         for variable in quantities.iter().flat_map(|quantity| quantity.variables) {
             let name = variable.name;
             let content = match variable.kind {
-                Kind::Number(_) | Kind::Rate => Content::Numbers,
+                Kind::Number(_) | Kind::Rate | Kind::DiscRate => Content::Numbers,
                 Kind::Word { words, unknown } => {
                     let words = words.iter().chain([&unknown]).zip(0..);
                     let words = words.map(|(word, code)| (code, *word));
@@ -205,7 +205,7 @@ fn unknown(status: Status) -> f64 {
 fn unknown_word(kind: Kind) -> u8 {
     match kind {
         Kind::Word { words, .. } => u8::try_from(words.len()).unwrap_or(MISSING),
-        Kind::Number(_) | Kind::Rate => MISSING,
+        Kind::Number(_) | Kind::Rate | Kind::DiscRate => MISSING,
     }
 }
 
@@ -225,6 +225,7 @@ fn unit(kind: Kind, si: bool) -> String {
         Kind::Number(quantity) if si => quantity.scaled_unit().replacen("length", "m", 1),
         Kind::Number(quantity) => quantity.scaled_unit().to_owned(),
         Kind::Rate => "ω₀".to_owned(),
+        Kind::DiscRate => "ω_ref".to_owned(),
         Kind::Word { .. } => String::new(),
     }
 }
@@ -233,7 +234,7 @@ fn unit(kind: Kind, si: bool) -> String {
 fn twin(kind: Kind) -> Option<(&'static str, &'static str)> {
     match kind {
         // A displacement is in metres already.
-        Kind::Number(units::Quantity::Displacement) | Kind::Word { .. } => None,
+        Kind::Number(units::Quantity::Displacement) | Kind::DiscRate | Kind::Word { .. } => None,
         Kind::Number(quantity) => quantity.si_unit(),
         Kind::Rate => Some(("1/s", "per_s")),
     }
@@ -244,7 +245,7 @@ fn factor(kind: Kind, scales: Scales) -> f64 {
     match kind {
         Kind::Number(quantity) => scales.si_per_unit(quantity),
         Kind::Rate => scales.angular_frequency(),
-        Kind::Word { .. } => 1.0,
+        Kind::DiscRate | Kind::Word { .. } => 1.0,
     }
 }
 

@@ -31,6 +31,7 @@ pub fn boundaries(grid: &Grid) -> Vec<Boundary> {
     let [first, second] = grid.axes() else {
         return Vec::new();
     };
+    let Some(study) = grid.study().belt() else { return Vec::new() };
     let across = match (first.path == AMPLITUDE, second.path == AMPLITUDE) {
         (true, false) => second,
         (false, true) => first,
@@ -39,7 +40,7 @@ pub fn boundaries(grid: &Grid) -> Vec<Boundary> {
     let at: Vec<(f64, Study)> = across
         .values
         .iter()
-        .filter_map(|&value| Some((value, grid.study().with(&across.path, value).ok()?)))
+        .filter_map(|&value| Some((value, study.with(&across.path, value).ok()?)))
         .collect();
     let mut boundaries = Vec::new();
     for response in [Response::Limit, Response::Oscillator] {

@@ -211,7 +211,7 @@ impl Map {
 
     /// As a dataset: one row a point.
     pub fn dataset(&self) -> Dataset {
-        let mut dataset = Dataset::new(self.plan.grid().study(), "map");
+        let mut dataset = Dataset::of(self.plan.grid().study(), "map");
         for axis in self.plan.grid().axes() {
             let values = axis.values.clone();
             dataset = dataset.with_axis(Array::new(axis.name.clone(), axis.unit, values));

@@ -61,6 +61,11 @@ impl Reader {
         reader
     }
 
+    /// For a study that knows no SI twins.
+    pub(super) fn scaled() -> Self {
+        Self { units: Units::Scaled, complaints: Vec::new(), written: Vec::new() }
+    }
+
     /// The scales, in a study in SI whose mass and stiffness are right.
     pub(super) fn known_scales(&self) -> Option<Scales> {
         match self.units {
@@ -72,6 +77,11 @@ impl Reader {
     /// Adds a complaint.
     pub(super) fn complain(&mut self, complaint: Complaint) {
         self.complaints.push(complaint);
+    }
+
+    /// How many complaints there are so far.
+    pub(super) fn complaints_so_far(&self) -> usize {
+        self.complaints.len()
     }
 
     /// All complaints, in the order of the text.

@@ -1,0 +1,180 @@
+//! `quell resonances`: where waves of a disc meet, and which dither frequency keeps speeds clear.
+
+use std::fmt::Write as _;
+use std::ops::RangeInclusive;
+
+use clap::{Args, ValueEnum};
+use quell::picture;
+use quell::run::disc::resonances::{Order, Question, Resonances, run as resonances};
+use quell::{Complaint, DiscStudy, Failure, Fault, Origin};
+
+use crate::answer::Answer;
+use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
+use crate::table::figure;
+
+/// Shows where waves of a disc meet, which meetings can be unstable, and which dither frequencies keep speeds clear
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// Speeds between which meetings are shown
+    #[arg(long, value_name = "FROM:TO", default_value = "0:1", allow_hyphen_values = true)]
+    speeds: String,
+    /// How far the theory goes: second counts friction twice (f of the order of the root of m, c, k)
+    #[arg(long, value_name = "ORDER", default_value = "first")]
+    order: Expansion,
+    /// Speeds that the dither shall keep clear; needs --frequency
+    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, requires = "frequency")]
+    clear: Option<String>,
+    /// Dither frequencies R that may do it
+    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, requires = "clear")]
+    frequency: Option<String>,
+    #[command(flatten)]
+    output: OutputArguments,
+    #[command(flatten)]
+    plot: PlotArguments,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Expansion {
+    First,
+    Second,
+}
+
+/// Answers.
+pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
+    let mut complaints = Complaints::default();
+    let study = complaints.take(arguments.study.read_disc());
+    let output = complaints.take(arguments.output.prepare(&[]));
+    let plot = complaints.take(arguments.plot.prepare());
+    let question = complaints.take(question(arguments));
+    let ((study, question), (output, plot)) =
+        complaints.finish(study.zip(question).zip(output.zip(plot)))?;
+
+    let done = resonances(&study, question)?;
+    let mut object = done.json();
+    output.write(&[done.dataset(&study)], &mut object)?;
+    plot.write(|| picture::disc::resonances(&study, &done), &mut object)?;
+    let answer = Answer::new(arguments.study.json, || object, || text(&study, &done));
+    Ok(answer.warning(study.warnings().to_vec()))
+}
+
+fn question(arguments: &Arguments) -> Result<Question, Vec<Complaint>> {
+    let mut wrong = Vec::new();
+    let mut range = |text: &str, option| match parse(text, option) {
+        Ok(range) => Some(range),
+        Err(complaint) => {
+            wrong.push(complaint);
+            None
+        }
+    };
+    let speeds = range(&arguments.speeds, "--speeds");
+    let clear = arguments.clear.as_deref().map(|text| range(text, "--clear"));
+    let frequency = arguments.frequency.as_deref().map(|text| range(text, "--frequency"));
+    if let Some(Some(frequency)) = &frequency
+        && *frequency.start() <= 0.0
+    {
+        let allowed = "frequencies above 0";
+        let text = arguments.frequency.clone().unwrap_or_default();
+        wrong.push(Complaint::option("--frequency", text, allowed));
+    }
+    let order = match arguments.order {
+        Expansion::First => Order::First,
+        Expansion::Second => Order::Second,
+    };
+    match speeds {
+        Some(speeds) if wrong.is_empty() => {
+            Ok(Question { speeds, order, clear: clear.flatten().zip(frequency.flatten()) })
+        }
+        _ => Err(wrong),
+    }
+}
+
+/// `0.2:0.9`.
+fn parse(text: &str, option: &'static str) -> Result<RangeInclusive<f64>, Complaint> {
+    let ends = text.split_once(':').and_then(|(from, to)| {
+        Some((from.trim().parse::<f64>().ok()?, to.trim().parse::<f64>().ok()?))
+    });
+    match ends {
+        Some((from, to)) if from.is_finite() && to.is_finite() && from <= to => Ok(from..=to),
+        _ => {
+            let allowed = "FROM:TO, two numbers of which the first is not larger, such as 0.2:0.9";
+            let origin = Origin::Argument(option);
+            Err(Complaint::new(Fault::Value, option, origin, text, allowed))
+        }
+    }
+}
+
+fn text(study: &DiscStudy, done: &Resonances) -> String {
+    let mut text = String::new();
+    if let Some(title) = study.title() {
+        let _ = writeln!(text, "{title}");
+    }
+    for (name, list) in
+        [("without dither", &done.undithered), ("induced by dither", &done.dithered)]
+    {
+        let _ = writeln!(text, "Meetings of waves {name}:");
+        if list.is_empty() {
+            text.push_str("  none\n");
+        }
+        for resonance in list {
+            let tongue = match (resonance.tongue.edges(), resonance.tongue.peak_growth()) {
+                (Some([from, to]), Some(growth)) => {
+                    format!(
+                        "tongue {} to {}, growth up to {}",
+                        figure(from),
+                        figure(to),
+                        figure(growth)
+                    )
+                }
+                (None, Some(growth)) => {
+                    format!("a wave of it grows by itself with {}", figure(growth))
+                }
+                _ if resonance.can_be_unstable() => match resonance.threshold {
+                    Some(threshold) => format!("a tongue from f* = {}", figure(threshold)),
+                    None => "no tongue".to_owned(),
+                },
+                _ => "cannot be unstable".to_owned(),
+            };
+            let _ = writeln!(
+                text,
+                "  Ω = {:<9}  {}: {tongue}",
+                figure(resonance.speed),
+                resonance.label()
+            );
+        }
+    }
+    if let Some(clear) = &done.clear {
+        let (from, to) = (figure(*clear.speeds.start()), figure(*clear.speeds.end()));
+        let _ = writeln!(
+            text,
+            "Dither frequencies R that keep {from} to {to} clear of tongues that dither makes:"
+        );
+        for [from, to] in &clear.clearance.clear {
+            let _ = writeln!(text, "  {} to {}", figure(*from), figure(*to));
+        }
+        match &clear.suggestion {
+            None => text.push_str("  none\n"),
+            Some((ratio, nearby)) => {
+                let _ = writeln!(text, "  best away from the others: R = {}", figure(*ratio));
+                for nearby in nearby.iter().filter(|nearby| nearby.reaches_in) {
+                    let resonance = &nearby.resonance;
+                    let growth =
+                        resonance.tongue.peak_growth().map_or_else(String::new, |growth| {
+                            format!(", growth up to {}", figure(growth))
+                        });
+                    let place = figure(resonance.speed);
+                    let _ =
+                        writeln!(text, "  left there: Ω = {place}, {}{growth}", resonance.label());
+                }
+            }
+        }
+        let words = if clear.clearance.original_suppressed {
+            "Tangential dither takes the tongues without dither away at first order."
+        } else {
+            "Normal dither leaves the tongues without dither as they are."
+        };
+        let _ = writeln!(text, "{words}");
+    }
+    text
+}

@@ -1,0 +1,102 @@
+//! Exact stability boundaries f(Ω) of an undithered disc without damping of its own.
+//!
+//! At ξ = 0 and under one load the equations with ρ = iω read (K_c + iωG − ω²M_c) y = −u (c iω w − f w_φ), w = uᵀy, w_φ = sᵀy, with
+//! the conservative system K_c, G, M_c of plate, mass and spring on the left. A motion on the boundary that is in reach of the
+//! force (w ≠ 0) needs a force in quadrature; real ω make the left side real, so the bracket vanishes:
+//!
+//! ```text
+//! f = c · iω w / w_φ        for each mode y of the conservative loaded disc
+//! ```
+//!
+//! exactly, linear in c, without a grid. A mode with w = 0 is out of the force's reach: iω stays an eigenvalue for every f. Such
+//! are the modes at the speeds of table 5.1 and at Ω = 0, vertical lines of the map.
+
+use quell_numerics::eigen::{Decomposition, EigenError};
+
+use crate::disc::Disc;
+use crate::system::{Contribution, Contributions, System};
+
+/// Below this fraction of |y||u| a displacement counts as zero.
+const OUT_OF_REACH: f64 = 1e-10;
+
+/// Friction at which a mode of the conservative loaded disc is marginal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Marginal {
+    /// At this friction f alone.
+    At(f64),
+    /// At every friction: the force does not reach the mode.
+    Always,
+    /// At none: the mode has no slope at the load (no nodal diameters).
+    Never,
+}
+
+/// A mode of the conservative loaded disc and where it is marginal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Boundary {
+    /// Frequency ω in the frame of the loads.
+    pub frequency: f64,
+    /// The friction.
+    pub friction: Marginal,
+}
+
+/// Why there is no exact boundary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoBoundary {
+    /// More or fewer loads than one: the bracket no longer vanishes as a whole.
+    Loads(usize),
+    /// Modes have damping.
+    DampedModes,
+    /// The conservative system has a growing motion of its own (Ω beyond β/q).
+    Unstable,
+    /// Eigenvalues cannot be computed.
+    Eigenvalues(EigenError),
+}
+
+/// Boundaries at the disc's speed, sorted by frequency. The disc's own friction and dither play no part.
+///
+/// # Errors
+/// [`NoBoundary`] where the condition above does not apply.
+pub fn boundaries(disc: &Disc) -> Result<Vec<Boundary>, NoBoundary> {
+    if disc.loads().len() != 1 {
+        return Err(NoBoundary::Loads(disc.loads().len()));
+    }
+    if disc.modes().iter().any(|mode| mode.damping != 0.0) {
+        return Err(NoBoundary::DampedModes);
+    }
+    let parts = Contributions::ALL.without(Contribution::Damper);
+    let system = System::assemble(disc, parts);
+    let decomposition =
+        Decomposition::new(&system.state_matrix(&[0.0])).map_err(NoBoundary::Eigenvalues)?;
+    let n = system.coordinates();
+    let (contact, slope) = (system.contact().row(0), system.slope().row(0));
+    let size = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let (contact_size, slope_size) = (size(contact), size(slope));
+    let mut found = Vec::new();
+    for (index, value) in decomposition.values().iter().enumerate() {
+        if value.re.abs() > 1e-6 * decomposition.norm() {
+            return Err(NoBoundary::Unstable);
+        }
+        if value.im <= 0.0 {
+            continue;
+        }
+        let pair = decomposition.pair(index);
+        let y = &pair.right[..n];
+        let along =
+            |row: &[f64]| y.iter().zip(row).map(|(y, r)| y * r).sum::<num_complex::Complex64>();
+        let (w, turning) = (along(contact), along(slope));
+        let length = y.iter().map(num_complex::Complex64::norm_sqr).sum::<f64>().sqrt();
+        let reached = w.norm_sqr().sqrt() > OUT_OF_REACH * length * contact_size;
+        let turns = turning.norm_sqr().sqrt() > OUT_OF_REACH * length * slope_size;
+        let friction = match (reached, turns) {
+            (false, _) => Marginal::Always,
+            (true, false) => Marginal::Never,
+            (true, true) => {
+                let ratio = w / turning;
+                Marginal::At(-disc.loads()[0].damping * value.im * ratio.im)
+            }
+        };
+        found.push(Boundary { frequency: value.im, friction });
+    }
+    found.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
+    Ok(found)
+}

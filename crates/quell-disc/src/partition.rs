@@ -1,0 +1,200 @@
+//! Stability boundaries under dither by D-partition: friction at which a Floquet exponent is imaginary, without a grid in f.
+//!
+//! Under one load a motion e^{ρτ} Σ y_h e^{ihRτ} has the slope θ_h = T(ρ + ihR) [f(τ) θ]_h at the load, T the receptance from
+//! follower force to slope of the disc with mass, damper and spring attached. With H₁ = uᵀG u, H₂ = sᵀG u of the free disc's G(λ),
+//!
+//! ```text
+//! T = H₂/(1 + Z H₁),  Z = mλ² + cλ + k,     θ/f = 𝒯 F θ,  F = mean on the diagonal, α/2 beside it
+//! ```
+//!
+//! so that at ρ = iω every positive real eigenvalue of the tridiagonal 𝒯F over the harmonics is a 1/f with an exponent iω: a scalar
+//! Hill determinant det(1 − f𝒯F), whatever the number of modes. ω runs over [0, R/2]; where an eigenvalue crosses the real axis
+//! the crossing is closed in by bisection. H puts the highest harmonic above twice the fastest wave; there T falls like λ⁻³, and what is
+//! cut off counts with the product of such factors.
+//!
+//! Every crossing is listed, also those at which an already unstable disc gains one more unstable pair. At ξ = 0 and on the lines of
+//! table 5.1 an exponent is imaginary for every f; that one is out of the load's reach and does not appear.
+//! At ω = 0 and ω = R/2 eigenvalues are real or in pairs by symmetry, and real ones count as boundaries
+//! (divergence, and doubling of the dither's period).
+//! Limits: crossings that come and go within one step of ω are missed ([`POINTS_PER_WAVE`]); near poles of T, at ξ = 0 close to a
+//! coincidence, they can be that close.
+
+use num_complex::Complex64;
+use quell_numerics::eigen::complex_eigenvalues;
+
+use crate::disc::Disc;
+
+/// Points over [0, R/2] for each free wave.
+const POINTS_PER_WAVE: usize = 40;
+
+/// Bisections of a crossing: the interval shrinks below the last digit of ω.
+const BISECTIONS: usize = 60;
+
+/// A resonant wave is detuned by this fraction of its stiffness: far below what a map shows, far above rounding.
+const BESIDE_POLE: f64 = 1e-14;
+
+/// A friction at which an exponent is imaginary.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Factor on the load's friction.
+    pub factor: f64,
+    /// Frequency ω of the exponent, 0 ≤ ω ≤ R/2.
+    pub frequency: f64,
+}
+
+/// Why there is no partition.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoPartition {
+    /// More or fewer loads than one.
+    Loads(usize),
+    /// No dither.
+    Undithered,
+}
+
+/// The tridiagonal operator of a disc.
+struct Operator<'a> {
+    disc: &'a Disc,
+    mean: f64,
+    half_amplitude: f64,
+    ratio: f64,
+    harmonics: usize,
+}
+
+impl Operator<'_> {
+    /// f T(iw), f the load's friction.
+    fn receptance(&self, w: f64) -> Complex64 {
+        let speed = self.disc.speed();
+        let load = &self.disc.loads()[0];
+        let lambda = Complex64::new(0.0, w);
+        let (mut h1, mut h2) = (Complex64::new(0.0, 0.0), Complex64::new(0.0, 0.0));
+        for (index, mode) in self.disc.modes().iter().enumerate() {
+            let q = mode.diameters as f64;
+            let square = self.disc.shape(index, 0) * self.disc.shape(index, 0);
+            let loss = 2.0 * mode.damping * mode.ratio;
+            // The wave e^{ilφ}: its oscillator rests in the disc and sees λ − ilΩ.
+            let wave = |l: f64| {
+                let seen = lambda - Complex64::new(0.0, l * speed);
+                let stiffness = seen * seen + seen * loss + mode.ratio * mode.ratio;
+                // On a pole H₁ and H₂ are infinite and their quotient is not: a step beside it.
+                let beside = Complex64::new(BESIDE_POLE * mode.ratio * mode.ratio, 0.0);
+                if stiffness.norm_sqr() > 0.0 { stiffness.inv() } else { beside.inv() }
+            };
+            if mode.diameters == 0 {
+                h1 += wave(0.0) * square;
+            } else {
+                let (ahead, back) = (wave(q), wave(-q));
+                h1 += (ahead + back) * (0.5 * square);
+                h2 += (ahead - back) * Complex64::new(0.0, 0.5 * q * square);
+            }
+        }
+        let z = lambda * lambda * load.mass + lambda * load.damping + load.stiffness;
+        h2 / (z * h1 + 1.0) * load.friction
+    }
+
+    /// Eigenvalues 1/factor at ρ = iω. Harmonics are −H…H at ω = 0 and −H−1…H elsewhere: at either end of the range the set is
+    /// symmetric, so that what is real by symmetry is real to the last digits.
+    fn inverse_factors(&self, omega: f64) -> Vec<Complex64> {
+        let below = if omega == 0.0 { self.harmonics } else { self.harmonics + 1 };
+        let n = self.harmonics + 1 + below;
+        let mut matrix = vec![Complex64::new(0.0, 0.0); n * n];
+        for row in 0..n {
+            let w = (row as f64 - below as f64).mul_add(self.ratio, omega);
+            let receptance = self.receptance(w);
+            matrix[row * n + row] = receptance * self.mean;
+            if row > 0 {
+                matrix[row * n + row - 1] = receptance * self.half_amplitude;
+            }
+            if row + 1 < n {
+                matrix[row * n + row + 1] = receptance * self.half_amplitude;
+            }
+        }
+        // Not finite on a pole: no crossing is seen there.
+        complex_eigenvalues(&matrix, n).unwrap_or_default()
+    }
+
+    /// Bisects the crossing of one eigenvalue through the real axis; `None` where the eigenvalue jumps (two
+    /// were mistaken for one, or a pole lies between).
+    fn close_in(
+        &self,
+        mut low: f64,
+        mut value: Complex64,
+        mut high: f64,
+        mut beyond: Complex64,
+    ) -> Option<Crossing> {
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            let next = nearest(&self.inverse_factors(middle), 0.5 * (value + beyond))?;
+            if (value.im < 0.0) == (next.im < 0.0) {
+                (low, value) = (middle, next);
+            } else {
+                (high, beyond) = (middle, next);
+            }
+        }
+        let jump = (value - beyond).norm_sqr().sqrt();
+        let crossed = value.re > 0.0 && jump <= 1e-8 * value.re;
+        crossed.then(|| Crossing { factor: value.re.recip(), frequency: low })
+    }
+}
+
+/// The eigenvalue nearest to a number.
+fn nearest(values: &[Complex64], to: Complex64) -> Option<Complex64> {
+    values.iter().copied().min_by(|a, b| (a - to).norm_sqr().total_cmp(&(b - to).norm_sqr()))
+}
+
+/// Eigenvalues that are real by symmetry, at the ends of the range of ω.
+fn real_ones(values: &[Complex64], frequency: f64, found: &mut Vec<Crossing>) {
+    let largest = values.iter().map(|value| value.norm_sqr().sqrt()).fold(0.0, f64::max);
+    for value in values {
+        // Tiny ones are frictions without bound, whose sign is rounding.
+        if value.re > 1e-9 * largest && value.im.abs() <= 1e-10 * value.re {
+            found.push(Crossing { factor: value.re.recip(), frequency });
+        }
+    }
+}
+
+/// Every positive factor on the load's friction at which an exponent is imaginary, in rising order.
+///
+/// # Errors
+/// [`NoPartition`] for other than one load, and without dither.
+pub fn crossings(disc: &Disc) -> Result<Vec<Crossing>, NoPartition> {
+    if disc.loads().len() != 1 {
+        return Err(NoPartition::Loads(disc.loads().len()));
+    }
+    let Some(ratio) = disc.dither().frequency_ratio() else { return Err(NoPartition::Undithered) };
+    let (mean, amplitude) = disc.dither().mean_and_amplitude();
+    let fastest = disc
+        .modes()
+        .iter()
+        .map(|mode| (mode.diameters as f64).mul_add(disc.speed().abs(), mode.ratio))
+        .fold(0.0, f64::max);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
+    let harmonics = (2.0 * fastest / ratio).ceil() as usize + 6;
+    let operator = Operator { disc, mean, half_amplitude: 0.5 * amplitude, ratio, harmonics };
+    let waves: usize =
+        disc.modes().iter().map(|mode| if mode.diameters == 0 { 2 } else { 4 }).sum();
+    let points = POINTS_PER_WAVE * waves;
+    let at = |k: usize| 0.5 * ratio * (k as f64 / points as f64);
+    let mut found = Vec::new();
+    let mut before = operator.inverse_factors(at(0));
+    real_ones(&before, at(0), &mut found);
+    for k in 0..points {
+        let after = operator.inverse_factors(at(k + 1));
+        for &value in &before {
+            let Some(next) = nearest(&after, value) else { continue };
+            if (value.im < 0.0) != (next.im < 0.0) && value.re.max(next.re) > 0.0 {
+                found.extend(operator.close_in(at(k), value, at(k + 1), next));
+            }
+        }
+        before = after;
+    }
+    real_ones(&before, at(points), &mut found);
+    found.sort_by(|a, b| a.factor.total_cmp(&b.factor));
+    found.dedup_by(|a, b| {
+        (a.factor - b.factor).abs() <= 1e-9 * b.factor
+            && (a.frequency - b.frequency).abs() <= 1e-9 * ratio
+    });
+    Ok(found)
+}

@@ -1,0 +1,101 @@
+//! From frequency parameters to hertz and revolutions per minute.
+//!
+//! D = E h³/(12(1 − ν²)),  ω = (k²/a²) √(D/(ρh)); Kirchhoff's plate: h/a and the wavelength in h are not checked beyond h < a.
+
+use super::Plate;
+
+/// What turns a plate in units of its radius into one of metal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlateMaterial {
+    youngs_modulus: f64,
+    density: f64,
+    thickness: f64,
+    outer_radius: f64,
+}
+
+/// A value of the material or of the size that is not possible.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlateMaterialError {
+    /// Which value, in words.
+    pub quantity: &'static str,
+    /// The value given.
+    pub value: f64,
+}
+
+impl core::fmt::Display for PlateMaterialError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "the {} is {}, it must be a positive number", self.quantity, self.value)?;
+        if self.quantity == "thickness" { f.write_str(" below the outer radius") } else { Ok(()) }
+    }
+}
+
+impl core::error::Error for PlateMaterialError {}
+
+impl PlateMaterial {
+    /// Young's modulus E (Pa), density ρ (kg/m³), thickness h (m), outer radius a (m).
+    ///
+    /// # Errors
+    /// [`PlateMaterialError`] where a value is not a positive number, or h ≥ a.
+    pub fn new(
+        youngs_modulus: f64,
+        density: f64,
+        thickness: f64,
+        outer_radius: f64,
+    ) -> Result<Self, PlateMaterialError> {
+        let values = [
+            ("Young's modulus", youngs_modulus),
+            ("density", density),
+            ("outer radius", outer_radius),
+            ("thickness", thickness),
+        ];
+        for (quantity, value) in values {
+            let possible = value > 0.0
+                && value.is_finite()
+                && (quantity != "thickness" || value < outer_radius);
+            if !possible {
+                return Err(PlateMaterialError { quantity, value });
+            }
+        }
+        Ok(Self { youngs_modulus, density, thickness, outer_radius })
+    }
+
+    /// Angular frequency (rad/s) that belongs to a frequency parameter k² of 1 on the given plate.
+    #[must_use]
+    pub fn angular_frequency_unit(&self, plate: &Plate) -> f64 {
+        let nu = plate.poisson_ratio();
+        let rigidity =
+            self.youngs_modulus * libm::pow(self.thickness, 3.0) / (12.0 * (1.0 - nu * nu));
+        libm::sqrt(rigidity / (self.density * self.thickness))
+            / (self.outer_radius * self.outer_radius)
+    }
+
+    /// Frequency in hertz of the frequency parameter k².
+    #[must_use]
+    pub fn hertz(&self, plate: &Plate, frequency_parameter: f64) -> f64 {
+        frequency_parameter * self.angular_frequency_unit(plate) / core::f64::consts::TAU
+    }
+
+    /// Critical speed ω/q in revolutions per minute of a mode of `diameters` nodal diameters; `None` for 0.
+    #[must_use]
+    pub fn critical_speed_rpm(
+        &self,
+        plate: &Plate,
+        frequency_parameter: f64,
+        diameters: u32,
+    ) -> Option<f64> {
+        (diameters > 0)
+            .then(|| 60.0 * self.hertz(plate, frequency_parameter) / f64::from(diameters))
+    }
+
+    /// Mass of the plate M_p = ρhπ(a² − b²) in kg: the unit of m* (and, with ω_ref, of c*, k*, f*).
+    #[must_use]
+    pub fn plate_mass(&self, plate: &Plate) -> f64 {
+        let ratio = plate.inner_radius_ratio();
+        let area = core::f64::consts::PI
+            * self.outer_radius
+            * self.outer_radius
+            * (1.0 - ratio)
+            * (1.0 + ratio);
+        self.density * self.thickness * area
+    }
+}

@@ -1,0 +1,98 @@
+//! Two slow amplitudes: where they grow, how fast, between which detunings; in closed form.
+//!
+//! ```text
+//! [ D₁     c₁₂    ]
+//! [ c₂₁    D₂ − iδ ]      D = −η + is,   C = c₁₂c₂₁,   δ: detuning
+//! ```
+//!
+//! The characteristic polynomial λ² + (a + ib)λ + (c + id) has both roots in the left half plane iff a > 0 and
+//! a²c + abd − d² > 0 (Hurwitz for complex coefficients). a does not depend on δ; b, c, d are linear in it: the second condition is
+//! a quadratic in δ with the leading coefficient η₁η₂. So, with both waves damped, instability lies between two roots.
+//!
+//! λ = (D₁ + D₂ − iδ)/2 ± √(y² + C), y = (D₁ − D₂ + iδ)/2: Re √ is stationary where y² is a real multiple of C, a quadratic
+//! in Im y.
+
+use num_complex::Complex64;
+
+/// The slow system of a pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Pair {
+    pub(super) first: Complex64,
+    pub(super) second: Complex64,
+    pub(super) product: Complex64,
+}
+
+/// For which detunings a pair grows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Band {
+    /// For none.
+    Nowhere,
+    /// Between the two.
+    Between(f64, f64),
+    /// Far from the resonance too: a wave by itself is unstable or undamped.
+    Outside,
+}
+
+/// Relative size of a discriminant that is rounding: the tongues of an undamped disc end in a point there.
+const ROUNDING: f64 = 1e-13;
+
+impl Pair {
+    /// Larger real part of the two exponents at the detuning δ.
+    pub(super) fn growth(&self, detuning: f64) -> f64 {
+        let shift = Complex64::new(0.0, detuning);
+        let half = 0.5 * (self.first - self.second + shift);
+        let root = (half * half + self.product).sqrt();
+        0.5 * (self.first.re + self.second.re) + root.re.abs()
+    }
+
+    /// Coefficients of the quadratic in δ that is positive where the pair is stable.
+    fn hurwitz(&self) -> [f64; 3] {
+        let (first, second) = (self.first, self.second);
+        let a = -(first.re + second.re);
+        let b = first.im + second.im;
+        let still = first * second - self.product;
+        let (c, d) = (still.re, still.im);
+        let (slope_c, slope_d) = (first.im, -first.re);
+        [
+            a * a * c - a * b * d - d * d,
+            a * a * slope_c + a * (d - b * slope_d) - 2.0 * d * slope_d,
+            slope_d * (a - slope_d),
+        ]
+    }
+
+    /// Detunings of growth.
+    pub(super) fn band(&self) -> Band {
+        if !(self.first.re < 0.0 && self.second.re < 0.0) {
+            return Band::Outside;
+        }
+        let [q0, q1, q2] = self.hurwitz();
+        let discriminant = q1 * q1 - 4.0 * q2 * q0;
+        if discriminant <= ROUNDING * (q1 * q1 + (4.0 * q2 * q0).abs()) {
+            return Band::Nowhere;
+        }
+        // The root without cancellation, and the other from the product of the two.
+        let large = -0.5 * (q1 + libm::copysign(libm::sqrt(discriminant), q1));
+        let (x, y) = (large / q2, q0 / large);
+        if x <= y { Band::Between(x, y) } else { Band::Between(y, x) }
+    }
+
+    /// Detuning of the largest growth, and that growth.
+    pub(super) fn peak(&self) -> (f64, f64) {
+        let real = 0.5 * (self.first.re - self.second.re);
+        let turn = self.first.im - self.second.im;
+        let (re, im) = (self.product.re, self.product.im);
+        let size = libm::hypot(re, im);
+        let candidates = if im == 0.0 {
+            [0.0, 0.0]
+        } else {
+            // The pair of roots of t² + 2x(Re C/Im C)t − x², whose product is −x².
+            let large = real * (-re - libm::copysign(size, re)) / im;
+            [large, if large == 0.0 { 0.0 } else { -real * real / large }]
+        };
+        candidates
+            .map(|t| 2.0 * t - turn)
+            .map(|detuning| (detuning, self.growth(detuning)))
+            .into_iter()
+            .fold((0.0, f64::NEG_INFINITY), |best, next| if next.1 > best.1 { next } else { best })
+    }
+}

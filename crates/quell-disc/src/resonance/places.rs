@@ -1,0 +1,104 @@
+//! Where two waves meet: (5.55), (5.56).
+//!
+//! β₁ + s₁Ω = σ(β₂ + s₂Ω) + hR with s = ∓q, over all pairs of waves, σ = ±1 (the second wave or its conjugate) and h: one speed
+//! each unless the slopes are equal. Sums and differences of (5.55), (5.56) are σ = ∓1; several sign choices of the print never
+//! give a speed in (0, 1].
+
+use core::ops::RangeInclusive;
+
+use super::wave::{SignedWave, Wave};
+use super::waves::{COINCIDENCE, Waves};
+
+/// A place where two waves meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    pub(super) waves: [Wave; 2],
+    pub(super) conjugate: bool,
+    pub(super) h: i32,
+    pub(super) speed: f64,
+}
+
+/// A pair of waves and a harmonic, with its meeting speed as a function of R: Ω = (offset + hR)/slope.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Family {
+    pub(super) waves: [Wave; 2],
+    pub(super) conjugate: bool,
+    pub(super) h: i32,
+    /// σβ₂ − β₁.
+    pub(super) offset: f64,
+    /// l₁ − l₂ in the complex form.
+    pub(super) slope: f64,
+}
+
+impl Family {
+    /// The two waves in the complex form.
+    pub(super) fn signed(&self) -> [SignedWave; 2] {
+        signed(&self.waves, self.conjugate)
+    }
+}
+
+impl Place {
+    /// The two waves in the complex form.
+    pub(super) fn signed(&self) -> [SignedWave; 2] {
+        signed(&self.waves, self.conjugate)
+    }
+}
+
+fn signed(waves: &[Wave; 2], conjugate: bool) -> [SignedWave; 2] {
+    [SignedWave::new(&waves[0], false), SignedWave::new(&waves[1], conjugate)]
+}
+
+impl Waves {
+    /// All pairs of waves for the harmonics ±h.
+    pub(super) fn families(&self, h: i32) -> Vec<Family> {
+        let mut families = Vec::new();
+        let harmonics: &[i32] = if h == 0 { &[0] } else { &[h, -h] };
+        for (i, first) in self.list.iter().enumerate() {
+            for second in &self.list[i..] {
+                for conjugate in [false, true] {
+                    if first == second && !conjugate {
+                        continue;
+                    }
+                    let [one, two] = signed(&[*first, *second], conjugate);
+                    let offset =
+                        two.sigma * self.modes[two.mode].ratio - self.modes[one.mode].ratio;
+                    for h in harmonics {
+                        families.push(Family {
+                            waves: [*first, *second],
+                            conjugate,
+                            h: *h,
+                            offset,
+                            slope: one.l - two.l,
+                        });
+                    }
+                }
+            }
+        }
+        families
+    }
+
+    /// Places of the harmonics ±h with a speed in the range, ascending.
+    pub(super) fn places(&self, h: i32, speeds: &RangeInclusive<f64>) -> Vec<Place> {
+        let dither = match (h, self.dither_frequency()) {
+            (0, _) => 0.0,
+            (_, Some(frequency)) => frequency,
+            (_, None) => return Vec::new(),
+        };
+        let mut places: Vec<Place> = self
+            .families(h)
+            .into_iter()
+            .filter(|family| family.slope != 0.0)
+            .map(|Family { waves, conjugate, h, offset, slope }| {
+                let speed = (offset + f64::from(h) * dither) / slope;
+                Place { waves, conjugate, h, speed }
+            })
+            // A meeting at the very end of the range is in it, whatever the last bit.
+            .filter(|place| {
+                place.speed >= speeds.start() - COINCIDENCE
+                    && place.speed <= speeds.end() + COINCIDENCE
+            })
+            .collect();
+        places.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        places
+    }
+}

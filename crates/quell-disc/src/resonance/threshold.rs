@@ -1,0 +1,91 @@
+//! Friction at the tip of a tongue.
+//!
+//! With f₀ = μf, f₁ = αf/2 a wave's damping is η = A − Bf, A = (g²/2β)c(β + sΩ) + ξβ, B = μ(g²/2β)s, and a dither-induced pair
+//! of equal direction has p = b₁b₂α²f²/4, b = (g²/2β)s. The tip is p = η₁η₂, a quadratic in f:
+//!
+//! * tangential (μ = 0): f = (2/α)√(A₁A₂/(b₁b₂)); with ξ = 0 it is 2c/α √((β₁/l₁ ∓ Ω)(β₂/l₂ ∓ Ω)), − forward;
+//! * normal (μ = 1): forward waves gain damping faster than coupling and have no tip for α < 2; backward waves do.
+//!
+//! An undithered pair of an undamped plate has its tip at f = 0. With ξ > 0 the tip is where the discriminant of the pair's
+//! quadratic vanishes; it is bracketed on a logarithmic grid of friction (no closed form for unequal waves) and located to rounding.
+
+use quell_numerics::roots::{Closeness, find_root};
+
+use super::pair::Band;
+use super::places::Place;
+use super::tongue::Coupling;
+use super::waves::{Order, Waves};
+
+/// Steps of the logarithmic grid per decade, and decades on either side of the waves' own scale of friction.
+const STEPS_PER_DECADE: i32 = 24;
+const DECADES: i32 = 6;
+
+impl Waves {
+    pub(super) fn threshold(&self, place: &Place, coupling: Coupling) -> Option<f64> {
+        if coupling != Coupling::Destabilising {
+            return None;
+        }
+        if place.h == 0 || self.order == Order::Second {
+            self.first_tongue(place)
+        } else {
+            self.dithered_tip(place)
+        }
+    }
+
+    /// A and b of a wave: damping without friction, and what friction of zero mean couples with.
+    fn damping_parts(&self, place: &Place) -> [[f64; 2]; 2] {
+        place.signed().map(|wave| {
+            let still = self.with_friction(0.0).self_term(&wave, place.speed, &[]);
+            [-still.re, self.rho(&wave) * wave.l]
+        })
+    }
+
+    fn dithered_tip(&self, place: &Place) -> Option<f64> {
+        let [[a1, b1], [a2, b2]] = self.damping_parts(place);
+        if !(a1 > 0.0 && a2 > 0.0) {
+            return Some(0.0);
+        }
+        let (mean, half) = self.friction_parts(1.0);
+        // half² b₁b₂ f² = (A₁ − μb₁f)(A₂ − μb₂f)
+        let square = b1 * b2 * (mean * mean - half * half);
+        let linear = -mean * (a1 * b2 + a2 * b1);
+        let constant = a1 * a2;
+        let discriminant = linear * linear - 4.0 * square * constant;
+        if discriminant < 0.0 {
+            return None;
+        }
+        let large = -0.5 * (linear + libm::copysign(libm::sqrt(discriminant), linear));
+        let roots = [large / square, constant / large];
+        roots.into_iter().filter(|root| *root > 0.0 && root.is_finite()).reduce(f64::min)
+    }
+
+    /// Smallest friction at which a pair without closed form has a tongue.
+    fn first_tongue(&self, place: &Place) -> Option<f64> {
+        let waves = place.waves;
+        if place.h == 0 && waves.iter().all(|wave| self.modes[wave.mode].damping == 0.0) {
+            return Some(0.0);
+        }
+        let [[a1, b1], [a2, b2]] = self.damping_parts(place);
+        let scale = (a1 + a2).abs() / (b1.abs() + b2.abs());
+        if !(scale > 0.0 && scale.is_finite()) {
+            return None;
+        }
+        let excess = |friction: f64| self.with_friction(friction).pair(place).peak().1;
+        let steps = STEPS_PER_DECADE * DECADES;
+        let mut last = 0.0;
+        for step in -steps..=steps {
+            let friction = scale * libm::pow(10.0, f64::from(step) / f64::from(STEPS_PER_DECADE));
+            match self.with_friction(friction).pair(place).band() {
+                Band::Outside => return None,
+                Band::Between(..) => {
+                    let closeness = Closeness { absolute: 0.0, relative: 1e-14 };
+                    return find_root(excess, last, friction, closeness)
+                        .ok()
+                        .map(|root| root.location);
+                }
+                Band::Nowhere => last = friction,
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,66 @@
+//! Waves of a mode, as the load meets them.
+
+/// Where a wave runs, seen from the disc.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Direction {
+    /// With the load: frequency β − qΩ in the load's frame.
+    Forward,
+    /// Against the load: frequency β + qΩ.
+    Backward,
+    /// No nodal diameter: it does not run; frequency β.
+    Axisymmetric,
+}
+
+/// One wave of a mode.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Wave {
+    /// Index of the mode in the list given.
+    pub mode: usize,
+    /// Radial number of the mode among those with the same nodal diameters, by frequency, from 1.
+    pub radial: usize,
+    /// Nodal diameters.
+    pub diameters: usize,
+    /// Direction.
+    pub direction: Direction,
+}
+
+impl core::fmt::Display for Wave {
+    /// "forward (1,2)": direction, radial number, nodal diameters.
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let direction = match self.direction {
+            Direction::Forward => "forward",
+            Direction::Backward => "backward",
+            Direction::Axisymmetric => "axisymmetric",
+        };
+        write!(f, "{direction} ({},{})", self.radial, self.diameters)
+    }
+}
+
+impl Wave {
+    /// Signed number of diameters: −q forward, q backward; frequency β + sΩ in the load's frame.
+    #[must_use]
+    pub fn signed_diameters(&self) -> f64 {
+        match self.direction {
+            Direction::Forward => -(self.diameters as f64),
+            Direction::Backward => self.diameters as f64,
+            Direction::Axisymmetric => 0.0,
+        }
+    }
+}
+
+/// A wave or its conjugate in the complex form: frequency w = lΩ + σβ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct SignedWave {
+    pub(super) mode: usize,
+    /// l, with σl < 0 forward.
+    pub(super) l: f64,
+    /// σ = ±1.
+    pub(super) sigma: f64,
+}
+
+impl SignedWave {
+    pub(super) fn new(wave: &Wave, conjugate: bool) -> Self {
+        let sigma = if conjugate { -1.0 } else { 1.0 };
+        Self { mode: wave.mode, l: sigma * wave.signed_diameters(), sigma }
+    }
+}

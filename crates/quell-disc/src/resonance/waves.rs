@@ -1,0 +1,295 @@
+//! The slow equations of the waves' amplitudes: self terms and couplings.
+//!
+//! g² = φ(r₀)²/2 (l ≠ 0) or φ(r₀)² (l = 0), ρ = σg²/(2β), friction f(τ) = f₀ + f₁(e^{iRτ} + e^{−iRτ}):
+//!
+//! ```text
+//! a₁' = D₁a₁ + c₁₂ a₂ e^{i(w₂ + hR − w₁)τ}
+//! D = iρ (k − m w² + i c w − i l F₀) − ξβ
+//! c₁₂ = i ρ₁ (g₂/g₁) [ (k − m w₂² + i c w₂) δ_h0 − i l₂ F_h ]
+//! F_h = f_h                                           first order (5.43)–(5.54)
+//! F_h = f_h + Σ_{a+b=h} f_a f_b H(w₂ + bR)            high friction (5.57)–(5.66)
+//! H(y) = −i Σ l ρ/(y − w)     over all waves but those in resonance with y
+//! ```
+//!
+//! No dither: f₀ = f. Normal, f(1 + α cos Rτ): f₀ = f, f₁ = αf/2. Tangential, fα cos Rτ: f₀ = 0, f₁ = αf/2.
+//! ξ is the damping of a disc at rest: every wave decays with ξβ.
+
+use num_complex::Complex64;
+
+use super::wave::{Direction, SignedWave, Wave};
+use crate::disc::{Disc, Dither};
+use crate::mode::{Load, Mode};
+
+/// How far the expansion goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Order {
+    /// m, c, k, f, ξ of order ε.
+    First,
+    /// High friction: f of order √ε, friction counted twice.
+    Second,
+}
+
+/// Waves of a disc's modes under its load.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Waves {
+    pub(super) modes: Vec<Mode>,
+    pub(super) list: Vec<Wave>,
+    pub(super) load: Load,
+    pub(super) dither: Dither,
+    pub(super) order: Order,
+}
+
+/// Why there is no resonance theory of a disc.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum WaveError {
+    /// More or fewer loads than one: the couplings of several interfere, which the expansion leaves out.
+    Loads(usize),
+    /// Friction is negative: look at the disc from the other side (−Ω, −f).
+    NegativeFriction {
+        /// The friction given.
+        friction: f64,
+    },
+    /// The dither's frequency is not a positive number.
+    Frequency {
+        /// The frequency given.
+        frequency_ratio: f64,
+    },
+}
+
+impl core::fmt::Display for WaveError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Loads(count) => {
+                write!(f, "resonance theory is about one load, and this disc has {count}")
+            }
+            Self::NegativeFriction { friction } => write!(
+                f,
+                "the friction is {friction}; resonance theory takes it as positive: change the signs of speed and friction"
+            ),
+            Self::Frequency { frequency_ratio } => {
+                write!(
+                    f,
+                    "the dither's frequency is {frequency_ratio}, it must be a positive number"
+                )
+            }
+        }
+    }
+}
+
+impl core::error::Error for WaveError {}
+
+/// Two frequencies nearer than this are one resonance: rounding of β + sΩ is a thousand times smaller.
+pub(super) const COINCIDENCE: f64 = 1e-9;
+
+impl Waves {
+    /// Waves of a disc under its one load, first order. The disc's speed plays no part.
+    ///
+    /// # Errors
+    /// [`WaveError::Loads`], [`WaveError::NegativeFriction`].
+    pub fn new(disc: &Disc) -> Result<Self, WaveError> {
+        let [load] = disc.loads() else { return Err(WaveError::Loads(disc.loads().len())) };
+        if load.friction < 0.0 {
+            return Err(WaveError::NegativeFriction { friction: load.friction });
+        }
+        let modes: Vec<Mode> = disc
+            .modes()
+            .iter()
+            .enumerate()
+            .map(|(index, mode)| Mode { shape_at_load: disc.shape(index, 0), ..*mode })
+            .collect();
+        let list = list(&modes);
+        Ok(Self { modes, list, load: load.clone(), dither: disc.dither(), order: Order::First })
+    }
+
+    /// The same with another order of the expansion.
+    #[must_use]
+    pub fn with_order(self, order: Order) -> Self {
+        Self { order, ..self }
+    }
+
+    /// The same with another friction f; a negative one counts as 0.
+    #[must_use]
+    pub fn with_friction(&self, friction: f64) -> Self {
+        let load = Load { friction: friction.max(0.0), ..self.load.clone() };
+        Self { load, ..self.clone() }
+    }
+
+    /// The same with another frequency of the dither, if there is a dither.
+    ///
+    /// # Errors
+    /// [`WaveError::Frequency`] where the frequency is not a positive number.
+    pub fn with_dither_frequency(&self, frequency_ratio: f64) -> Result<Self, WaveError> {
+        if !(frequency_ratio > 0.0 && frequency_ratio.is_finite()) {
+            return Err(WaveError::Frequency { frequency_ratio });
+        }
+        let dither = match self.dither {
+            Dither::None => Dither::None,
+            Dither::Normal { amplitude, .. } => Dither::Normal { amplitude, frequency_ratio },
+            Dither::Tangential { amplitude, .. } => {
+                Dither::Tangential { amplitude, frequency_ratio }
+            }
+        };
+        Ok(Self { dither, ..self.clone() })
+    }
+
+    /// All waves, conjugates not counted.
+    #[must_use]
+    pub fn waves(&self) -> &[Wave] {
+        &self.list
+    }
+
+    /// Growth rate of one wave away from every resonance, −(g²/2β)[c(β + sΩ) − s f₀] − ξβ at first order.
+    #[must_use]
+    pub fn growth_rate(&self, wave: &Wave, speed: f64) -> f64 {
+        self.self_term(&SignedWave::new(wave, false), speed, &[]).re
+    }
+
+    /// Friction f at which a backward wave by itself becomes unstable, c(β/l + Ω) + 2ξβ²/(l g²); `None` where it does
+    /// not: forward and axisymmetric waves, waves with a node at the load, and under tangential dither, whose mean is zero.
+    #[must_use]
+    pub fn friction_limit(&self, wave: &Wave, speed: f64) -> Option<f64> {
+        let mode = &self.modes[wave.mode];
+        let (mean, _) = self.friction_parts(1.0);
+        let l = wave.signed_diameters();
+        let g2 = self.coupling_squared(wave.mode);
+        (l > 0.0 && g2 > 0.0 && mean > 0.0).then(|| {
+            self.load.damping * (mode.ratio / l + speed)
+                + 2.0 * mode.damping * mode.ratio * mode.ratio / (l * g2)
+        })
+    }
+
+    /// Frequency R of the dither, where there is one.
+    pub(super) fn dither_frequency(&self) -> Option<f64> {
+        self.dither.frequency_ratio()
+    }
+
+    /// f₀ and f₁ for a friction f.
+    pub(super) fn friction_parts(&self, friction: f64) -> (f64, f64) {
+        let (mean, amplitude) = self.dither.mean_and_amplitude();
+        (mean * friction, 0.5 * amplitude * friction)
+    }
+
+    /// g² of a mode.
+    pub(super) fn coupling_squared(&self, mode: usize) -> f64 {
+        let mode = &self.modes[mode];
+        let square = mode.shape_at_load * mode.shape_at_load;
+        if mode.diameters == 0 { square } else { 0.5 * square }
+    }
+
+    /// ρ = σg²/(2β).
+    pub(super) fn rho(&self, wave: &SignedWave) -> f64 {
+        wave.sigma * self.coupling_squared(wave.mode) / (2.0 * self.modes[wave.mode].ratio)
+    }
+
+    /// w = lΩ + σβ.
+    pub(super) fn signed_frequency(&self, wave: &SignedWave, speed: f64) -> f64 {
+        wave.l * speed + wave.sigma * self.modes[wave.mode].ratio
+    }
+
+    /// k − m w² + i c w.
+    pub(super) fn impedance(&self, frequency: f64) -> Complex64 {
+        let load = &self.load;
+        Complex64::new(load.stiffness - load.mass * frequency * frequency, load.damping * frequency)
+    }
+
+    /// F_h for a slope of frequency w; `resonant` waves take no part in the second order.
+    fn effective_friction(
+        &self,
+        h: i32,
+        frequency: f64,
+        speed: f64,
+        resonant: &[SignedWave],
+    ) -> Complex64 {
+        let (mean, half) = self.friction_parts(self.load.friction);
+        let part = |a: i32| match a {
+            0 => mean,
+            1 | -1 => half,
+            _ => 0.0,
+        };
+        let mut sum = Complex64::new(part(h), 0.0);
+        if self.order == Order::Second {
+            let dither = self.dither_frequency().unwrap_or(0.0);
+            for b in -1..=1 {
+                let product = part(h - b) * part(b);
+                if product != 0.0 {
+                    let place = frequency + f64::from(b) * dither;
+                    sum += product * self.slope_response(place, speed, resonant);
+                }
+            }
+        }
+        sum
+    }
+
+    /// H(y) = −i Σ l ρ/(y − w): slope at the load for a unit friction moment of frequency y.
+    fn slope_response(&self, y: f64, speed: f64, resonant: &[SignedWave]) -> Complex64 {
+        let mut sum = 0.0;
+        for wave in &self.list {
+            for conjugate in [false, true] {
+                let wave = SignedWave::new(wave, conjugate);
+                let distance = y - self.signed_frequency(&wave, speed);
+                if resonant.contains(&wave) && distance.abs() < COINCIDENCE {
+                    continue;
+                }
+                sum += wave.l * self.rho(&wave) / distance;
+            }
+        }
+        Complex64::new(0.0, -sum)
+    }
+
+    /// D of a wave.
+    pub(super) fn self_term(
+        &self,
+        wave: &SignedWave,
+        speed: f64,
+        resonant: &[SignedWave],
+    ) -> Complex64 {
+        let mode = &self.modes[wave.mode];
+        let w = self.signed_frequency(wave, speed);
+        let both: &[SignedWave] =
+            if resonant.is_empty() { core::slice::from_ref(wave) } else { resonant };
+        let i = Complex64::i();
+        let friction = self.effective_friction(0, w, speed, both);
+        i * self.rho(wave) * (self.impedance(w) - i * wave.l * friction) - mode.damping * mode.ratio
+    }
+
+    /// c₁₂c₂₁ of a pair with w₁ = w₂ + hR.
+    pub(super) fn coupling_product(
+        &self,
+        first: &SignedWave,
+        second: &SignedWave,
+        h: i32,
+        speed: f64,
+    ) -> Complex64 {
+        let i = Complex64::i();
+        let resonant = [*first, *second];
+        let factor = |wave: &SignedWave, shift: i32| {
+            let w = self.signed_frequency(wave, speed);
+            let friction = self.effective_friction(shift, w, speed, &resonant);
+            let plain = if h == 0 { self.impedance(w) } else { Complex64::new(0.0, 0.0) };
+            plain - i * wave.l * friction
+        };
+        -self.rho(first) * self.rho(second) * factor(second, h) * factor(first, -h)
+    }
+}
+
+/// Waves of the modes, in the order of the list.
+fn list(modes: &[Mode]) -> Vec<Wave> {
+    let mut waves = Vec::with_capacity(2 * modes.len());
+    for (index, mode) in modes.iter().enumerate() {
+        let lower = |other: &(usize, &Mode)| {
+            other.1.diameters == mode.diameters
+                && (other.1.ratio < mode.ratio || (other.1.ratio == mode.ratio && other.0 < index))
+        };
+        let radial = 1 + modes.iter().enumerate().filter(lower).count();
+        let directions: &[Direction] = if mode.diameters == 0 {
+            &[Direction::Axisymmetric]
+        } else {
+            &[Direction::Forward, Direction::Backward]
+        };
+        for direction in directions {
+            let diameters = mode.diameters;
+            waves.push(Wave { mode: index, radial, diameters, direction: *direction });
+        }
+    }
+    waves
+}

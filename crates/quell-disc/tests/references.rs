@@ -1,0 +1,98 @@
+//! Growth rates against numbers computed by other programs (`reference/README.md`).
+
+use std::path::Path;
+
+use quell_disc::system::{Contribution, Contributions};
+use quell_disc::{Disc, Dither, Load, Mode, Verdict, dithered, undithered};
+use quell_numerics::floquet::Effort;
+use serde_json::Value;
+
+fn reference(name: &str) -> Value {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference").join(name);
+    serde_json::from_str(&std::fs::read_to_string(path).expect("there")).expect("valid")
+}
+
+/// Numbers stand as numbers or as strings of more digits.
+fn number(value: &Value) -> f64 {
+    match value {
+        Value::String(text) => text.parse().expect("a number"),
+        value => value.as_f64().expect("a number"),
+    }
+}
+
+fn modes(of: &Value, damping: f64) -> Vec<Mode> {
+    let list =
+        |key: &str| of[key].as_array().expect("a list").iter().map(number).collect::<Vec<_>>();
+    let (ratios, diameters, shapes) = (list("beta"), list("q"), list("phi_r0"));
+    (0..ratios.len())
+        .map(|i| Mode {
+            diameters: format!("{}", diameters[i]).parse().expect("whole"),
+            ratio: ratios[i],
+            shape_at_load: shapes[i],
+            damping,
+        })
+        .collect()
+}
+
+#[test]
+fn growth_rates_without_dither() {
+    let reference = reference("disc_eigenvalues.json");
+    let mut marginal = 0;
+    for point in reference["points"].as_array().expect("a list") {
+        let model = &reference["models"][point["model"].as_str().expect("a name")];
+        let [m, c, k, f] = ["m", "c", "k", "f"].map(|key| number(&point[key]));
+        let modes = modes(model, number(&point["xi"]));
+        let disc =
+            Disc::new(modes, vec![Load::new(m, c, k, f)], Dither::None, number(&point["Omega"]))
+                .expect("valid");
+        let parts = match point["damp"].as_str() {
+            Some("diag") => Contributions::ALL.without(Contribution::CirculatoryDamping),
+            _ => Contributions::ALL,
+        };
+        let found = undithered::growth_with(&disc, parts).expect("finite");
+        let wanted = number(&point["max_re"]);
+        let gap = (found.rate - wanted).abs();
+        assert!(gap <= 1e-12 && gap <= found.error, "{point}: {gap:e} {found:?}");
+        assert!(found.error < 1e-11, "{point}: {found:?}");
+        if wanted == 0.0 {
+            assert_eq!(found.verdict(), Verdict::Undecided, "{point}");
+            marginal += 1;
+        } else {
+            assert_eq!(found.verdict() == Verdict::Unstable, wanted > 0.0, "{point}");
+            let gap = (found.frequency - number(&point["im_at_max"])).abs();
+            assert!(gap < 1e-9, "{point}: frequency off by {gap:e}");
+        }
+    }
+    assert_eq!(marginal, 2);
+}
+
+#[test]
+fn growth_rates_with_dither() {
+    let models = reference("disc_eigenvalues.json");
+    let points = reference("disc_floquet.json");
+    for point in points["points"].as_array().expect("a list") {
+        let model = &models["models"][point["model"].as_str().expect("a name")];
+        let [strength, friction] = [number(&point["m=c=k"]), number(&point["f"])];
+        let (amplitude, frequency_ratio) = (number(&point["alpha"]), number(&point["R"]));
+        let dither = match point["dither"].as_str() {
+            Some("normal") => Dither::Normal { amplitude, frequency_ratio },
+            _ => Dither::Tangential { amplitude, frequency_ratio },
+        };
+        let load = Load::new(strength, strength, strength, friction);
+        let disc = Disc::new(
+            modes(model, number(&point["xi"])),
+            vec![load],
+            dither,
+            number(&point["Omega"]),
+        )
+        .expect("valid");
+        let found = dithered::growth(&disc, Effort::default()).expect("finite");
+        let wanted = number(&point["max_re_exponent"]);
+        let gap = (found.rate - wanted).abs();
+        println!("{gap:.1e} within {:.1e} {}", found.error, found.rate);
+        assert!(gap <= 1e-9 && gap <= found.error, "{point}: {gap:e} {found:?}");
+        assert_eq!(found.verdict() == Verdict::Unstable, wanted > 0.0, "{point}");
+        let gap = (found.frequency - number(&point["im_mod_R"])).abs();
+        assert!(gap < 1e-5, "{point}: frequency off by {gap:e}");
+    }
+}

@@ -1,0 +1,121 @@
+//! Reduction to Hessenberg form by Householder reflectors: QᵀAQ = H, H zero below the first subdiagonal.
+//!
+//! Reflector k acts on rows and columns k+1…n−1 and sends column k onto its first entry. From the left it is
+//! wᵀ = vᵀA, A ← A − β v wᵀ; from the right A ← A − β (Av) vᵀ. Rows are padded to whole groups of [`LANES`]: every loop
+//! runs over whole groups, and a sum over a row has one accumulator per lane, added in a declared order.
+//! Backward stable: the eigenvalues are those of A + E with ‖E‖ of the order of n ε ‖A‖.
+
+/// Numbers in a group of a row.
+pub(crate) const LANES: usize = 4;
+
+/// Length of a padded row.
+pub(crate) const fn stride_of(n: usize) -> usize {
+    n.div_ceil(LANES) * LANES
+}
+
+/// The reflectors of a reduction: row k holds v of reflector k (zero up to k) and β.
+#[derive(Clone, Debug)]
+pub(crate) struct Reflectors {
+    n: usize,
+    stride: usize,
+    vectors: Vec<f64>,
+    factors: Vec<f64>,
+}
+
+impl Reflectors {
+    /// x ← Qᵀ x.
+    pub(crate) fn reduce_vector(&self, x: &mut [f64]) {
+        for k in 0..self.factors.len() {
+            self.apply(k, x);
+        }
+    }
+
+    /// x ← Q x.
+    pub(crate) fn out_of_reduced(&self, x: &mut [f64]) {
+        for k in (0..self.factors.len()).rev() {
+            self.apply(k, x);
+        }
+    }
+
+    fn apply(&self, k: usize, x: &mut [f64]) {
+        let v = &self.vectors[k * self.stride..k * self.stride + self.n];
+        let along: f64 = v[k + 1..].iter().zip(&x[k + 1..]).map(|(v, x)| v * x).sum();
+        let factor = self.factors[k] * along;
+        for (x, v) in x[k + 1..].iter_mut().zip(&v[k + 1..]) {
+            *x -= factor * v;
+        }
+    }
+}
+
+/// Σ aⱼ bⱼ over whole groups: one accumulator per lane, then (0+1)+(2+3).
+#[inline(always)]
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0f64; LANES];
+    for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
+        for lane in 0..LANES {
+            sums[lane] = a[lane].mul_add(b[lane], sums[lane]);
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
+
+/// a ← a + f b over whole groups.
+#[inline(always)]
+fn add_scaled(a: &mut [f64], f: f64, b: &[f64]) {
+    for (a, b) in a.chunks_exact_mut(LANES).zip(b.chunks_exact(LANES)) {
+        for lane in 0..LANES {
+            a[lane] = f.mul_add(b[lane], a[lane]);
+        }
+    }
+}
+
+/// Reduces the n × n matrix in rows of length `stride` (padding zero) to Hessenberg form; zeros are
+/// written below the subdiagonal.
+#[inline(always)]
+pub(crate) fn reduce(a: &mut [f64], n: usize, stride: usize) -> Reflectors {
+    let count = n.saturating_sub(2);
+    let mut reflectors =
+        Reflectors { n, stride, vectors: vec![0.0; count * stride], factors: vec![0.0; count] };
+    let mut along = vec![0.0; stride];
+    for k in 0..count {
+        let v = &mut reflectors.vectors[k * stride..(k + 1) * stride];
+        for i in k + 1..n {
+            v[i] = a[i * stride + k];
+        }
+        let largest = v.iter().fold(0.0f64, |largest, value| largest.max(value.abs()));
+        if v[k + 2..].iter().all(|&value| value == 0.0) || !largest.is_finite() {
+            v.fill(0.0);
+            continue;
+        }
+        // Scaled by the largest entry: no square overflows or vanishes.
+        for value in v.iter_mut() {
+            *value /= largest;
+        }
+        let norm = dot(v, v).sqrt();
+        let first = v[k + 1];
+        let signed = if first < 0.0 { -norm } else { norm };
+        v[k + 1] = first + signed;
+        let beta = 1.0 / (signed * v[k + 1]);
+        reflectors.factors[k] = beta;
+        // Whole groups that hold every column from k on.
+        let from = k / LANES * LANES;
+        let along = &mut along[from..];
+        along.fill(0.0);
+        for i in k + 1..n {
+            add_scaled(along, v[i], &a[i * stride + from..(i + 1) * stride]);
+        }
+        for i in k + 1..n {
+            add_scaled(&mut a[i * stride + from..(i + 1) * stride], -beta * v[i], along);
+        }
+        let from = (k + 1) / LANES * LANES;
+        for row in a.chunks_exact_mut(stride).take(n) {
+            let factor = -beta * dot(&row[from..], &v[from..]);
+            add_scaled(&mut row[from..], factor, &v[from..]);
+        }
+        a[(k + 1) * stride + k] = -signed * largest;
+        for i in k + 2..n {
+            a[i * stride + k] = 0.0;
+        }
+    }
+    reflectors
+}

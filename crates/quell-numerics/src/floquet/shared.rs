@@ -1,0 +1,165 @@
+//! Exponents of several maps that nearly agree, from the eigenvalues of one of them.
+//!
+//! One QR iteration on a map S gives all multipliers. Those that may be the largest get their right and left vectors x, y by
+//! inverse iteration; the multiplier of another map M follows from x ← x − (S − μ)⁻¹(Mx − θx), θ = yᵀMx/yᵀx, the part along x taken
+//! out. Each turn costs O(n²) and gains a factor ‖M − S‖κ/gap, 10⁻⁴ or less after processing. What does not converge is
+//! left to a full solve.
+
+use num_complex::Complex64;
+
+use crate::dispatch::{Work, with_fused_multiply_add};
+use crate::eigen::{Decomposition, LANES, Shifted, Split, modulus, product_without_conjugation};
+use crate::matrix::Matrix;
+
+/// Turns before giving up; two or three are usual.
+const TURNS: usize = 12;
+
+/// Changes of a multiplier below this fraction of it are rounding.
+const CONVERGED: f64 = 4e-16;
+
+/// A multiplier of the map S with what is needed to find it in others.
+pub(super) struct Branch {
+    /// Its condition κ.
+    pub(super) condition: f64,
+    shifted: Shifted,
+    right: Split,
+    left: Split,
+    /// x and y in the coordinates of the maps.
+    right_outside: Split,
+    left_outside: Split,
+}
+
+struct NewBranch<'a> {
+    of: &'a Decomposition,
+    value: Complex64,
+}
+
+impl Work for NewBranch<'_> {
+    type Output = (Shifted, Split, Split);
+
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        let shifted = self.of.shifted(self.value);
+        let (right, left) = shifted.vectors(0);
+        (shifted, right, left)
+    }
+}
+
+struct Solve<'a>(&'a Shifted, Split);
+
+impl Work for Solve<'_> {
+    type Output = Split;
+
+    #[inline(always)]
+    fn run(self) -> Split {
+        self.0.solve(self.1)
+    }
+}
+
+/// M x of a complex vector.
+struct Apply<'a>(&'a Matrix, &'a Split);
+
+impl Work for Apply<'_> {
+    type Output = Split;
+
+    #[inline(always)]
+    fn run(self) -> Split {
+        let Self(map, x) = self;
+        let n = map.rows();
+        let mut product = Split::zeros(x.re.len());
+        for i in 0..n {
+            let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
+            let row = map.row(i).chunks_exact(LANES);
+            let rest = row.remainder();
+            let done = n - rest.len();
+            for ((m, a), b) in row.zip(x.re.chunks_exact(LANES)).zip(x.im.chunks_exact(LANES)) {
+                for lane in 0..LANES {
+                    re[lane] = m[lane].mul_add(a[lane], re[lane]);
+                    im[lane] = m[lane].mul_add(b[lane], im[lane]);
+                }
+            }
+            for (lane, &m) in rest.iter().enumerate() {
+                re[lane] = m.mul_add(x.re[done + lane], re[lane]);
+                im[lane] = m.mul_add(x.im[done + lane], im[lane]);
+            }
+            product.re[i] = (re[0] + re[1]) + (re[2] + re[3]);
+            product.im[i] = (im[0] + im[1]) + (im[2] + im[3]);
+        }
+        product
+    }
+}
+
+/// a − f b.
+fn subtract(a: &mut Split, f: Complex64, b: &Split) {
+    for i in 0..a.re.len() {
+        a.re[i] -= f.re * b.re[i] - f.im * b.im[i];
+        a.im[i] -= f.re * b.im[i] + f.im * b.re[i];
+    }
+}
+
+impl Branch {
+    /// Branch `index` of the map S; `None` where its vectors say nothing (a defective multiplier).
+    pub(super) fn new(of: &Decomposition, index: usize) -> Option<Self> {
+        let multiplier = of.values()[index];
+        let (shifted, mut right, left) =
+            with_fused_multiply_add(NewBranch { of, value: multiplier });
+        let product = product_without_conjugation(&left, &right);
+        let size = modulus(product);
+        if size.is_nan() || size < 1e-10 {
+            return None;
+        }
+        // yᵀx = 1.
+        let mut scaled = Split::zeros(right.re.len());
+        subtract(&mut scaled, -product.inv(), &right);
+        right = scaled;
+        let outside = |x: &Split| {
+            let mut x = x.clone();
+            of.column_outside(&mut x.re);
+            of.column_outside(&mut x.im);
+            x
+        };
+        let (right_outside, left_outside) = (outside(&right), outside(&left));
+        Some(Self { condition: 1.0 / size, shifted, right, left, right_outside, left_outside })
+    }
+
+    /// The multiplier of another map on this branch; `None` where the iteration does not converge.
+    pub(super) fn follow(&self, of: &Decomposition, map: &Matrix) -> Option<Complex64> {
+        let mut x = self.right_outside.clone();
+        let mut last: Option<(Complex64, f64)> = None;
+        for _ in 0..TURNS {
+            let mut image = with_fused_multiply_add(Apply(map, &x));
+            let theta = product_without_conjugation(&self.left_outside, &image);
+            if !(theta.re.is_finite() && theta.im.is_finite()) {
+                return None;
+            }
+            let size = modulus(theta);
+            if let Some((before, change)) = last {
+                let now = modulus(theta - before);
+                if now <= CONVERGED * size {
+                    return Some(theta);
+                }
+                // A change that no longer falls: rounding if it is small, no convergence if not.
+                if now >= 0.5 * change {
+                    return (now <= 1e-14 * self.condition * size).then_some(theta);
+                }
+                last = Some((theta, now));
+                // The next change will be smaller by as much again.
+                if now * (now / change) <= CONVERGED * size && change < f64::INFINITY {
+                    return Some(theta);
+                }
+            } else {
+                last = Some((theta, f64::INFINITY));
+            }
+            subtract(&mut image, theta, &x);
+            of.column_inside(&mut image.re);
+            of.column_inside(&mut image.im);
+            let mut correction = with_fused_multiply_add(Solve(&self.shifted, image));
+            let along = product_without_conjugation(&self.left, &correction);
+            subtract(&mut correction, along, &self.right);
+            of.column_outside(&mut correction.re);
+            of.column_outside(&mut correction.im);
+            subtract(&mut x, Complex64::new(1.0, 0.0), &correction);
+        }
+        None
+    }
+}

@@ -1,0 +1,212 @@
+//! Pictures of a disc: shapes of its modes, its Campbell diagram, tongues over speed and friction.
+
+use quell_disc::plate::PlateMode;
+use quell_disc::resonance::{Order, Waves};
+use quell_disc::{Disc, Dither};
+
+use super::caption::caption_of_disc;
+use crate::complaint::Failure;
+use crate::plot::{
+    Axis, Colouring, Contours, Field, Figure, Grid, Layer, Legend, Line, LineStyle, Marker,
+    Palette, Panel, PlotError, Points, Role, Rule, Shading, SharedLegend, Sharing, Size,
+};
+use crate::run::disc::campbell::Campbell;
+use crate::run::disc::modes::Modes;
+use crate::run::disc::resonances::Resonances;
+use crate::run::disc::stability::Stability;
+use crate::study::DiscStudy;
+use crate::study::disc::ModeSource;
+
+/// Points across the plate.
+const ACROSS: usize = 161;
+/// Most shapes in one picture.
+const MOST_SHAPES: usize = 12;
+/// Frictions at which edges of tongues are told.
+const EDGES: usize = 120;
+/// A predicted tongue further than this part of its speed from its place is none.
+const FAR: f64 = 0.15;
+
+/// Shapes of the first modes; frequencies over nodal diameters where modes are given, not computed.
+///
+/// # Errors
+/// [`Failure::Failed`] where it cannot be drawn.
+pub fn modes(study: &DiscStudy, done: &Modes) -> Result<Figure, Failure> {
+    let figure = match study.source() {
+        ModeSource::Plate(plate) => {
+            let shown = plate.set.modes().iter().zip(&done.rows).take(MOST_SHAPES);
+            let panels: Result<Vec<Panel>, PlotError> = shown
+                .map(|(mode, row)| {
+                    let title =
+                        format!("({}, {}): $β$ = {:.4}", row.radial, row.diameters, row.ratio);
+                    Ok(shape(mode, plate.plate.inner_radius_ratio())?.title(title))
+                })
+                .collect();
+            let panels = panels.map_err(|why| Failure::Failed {
+                key: "--plot".to_owned(),
+                why: why.to_string(),
+            })?;
+            let columns = panels.len().min(4);
+            Figure::grid(columns, panels)
+                .sharing_x(Sharing::All)
+                .sharing_y(Sharing::All)
+                .size(Size::Frame(190.0, 190.0))
+        }
+        ModeSource::List(_) | ModeSource::File { .. } => {
+            let points = done.rows.iter().map(|row| (row.diameters as f64, row.ratio));
+            let panel = Panel::new(
+                Axis::new("nodal diameters").symbol("q"),
+                Axis::new("frequency").symbol("β").from(0.0),
+            );
+            Figure::single(panel.with(Points::new(Role::Exact, points).marker(Marker::Disc)))
+        }
+    };
+    let left = done.rows.len().saturating_sub(MOST_SHAPES);
+    let more = match study.source() {
+        ModeSource::Plate(_) if left > 0 => {
+            format!(" The first {MOST_SHAPES} of {} modes.", done.rows.len())
+        }
+        _ => String::new(),
+    };
+    let caption = format!("{}{more}", caption_of_disc(study));
+    Ok(figure.title(study.title().unwrap_or_default()).caption(caption))
+}
+
+/// The deflection φ(r) cos jθ of a mode over the plate: red up, blue down, lines at rest.
+///
+/// # Errors
+/// [`PlotError`] where there is no field.
+pub fn shape(mode: &PlateMode, inner: f64) -> Result<Panel, PlotError> {
+    let places: Vec<f64> =
+        (0..ACROSS).map(|k| 1.02 * (2.0 * (k as f64) / (ACROSS - 1) as f64 - 1.0)).collect();
+    let field = Field::from_fn(places.clone(), places.clone(), |column, row| {
+        let (x, y) = (places[column], places[row]);
+        mode.shape.deflection(libm::hypot(x, y), libm::atan2(y, x))
+    })?;
+    let most = field.extremes().map_or(1.0, |(low, high)| high.max(-low));
+    let shading = Shading::new(Palette::Diverging).range(-most, most);
+    let circle = |radius: f64| {
+        (0..=180).map(move |k| {
+            let angle = std::f64::consts::TAU * f64::from(k) / 180.0;
+            (radius * libm::cos(angle), radius * libm::sin(angle))
+        })
+    };
+    let axis = |symbol: &str| {
+        let axis = Axis::new("").symbol(format!("{symbol}/a")).between(-1.02, 1.02);
+        axis.ticks([-1.0, -0.5, 0.0, 0.5, 1.0])
+    };
+    // Outside the plate nothing moves: the colour of rest, not hatched as unknown.
+    let values = field.values().iter().map(|value| Some(value.unwrap_or(0.0))).collect();
+    let shown = Field::new(places.clone(), places.clone(), values)?;
+    let grid = Grid::new(shown, Colouring::Shaded(shading));
+    Ok(Panel::new(axis("x"), axis("y"))
+        .with(grid)
+        .with(Contours::new(field, [0.0]).plain())
+        .with(Line::pieces(Role::Boundary, [circle(inner), circle(1.0)]))
+        .legend(Legend::None))
+}
+
+/// Frequency and growth of every motion over speed, the study's own speed marked.
+pub fn stability(study: &DiscStudy, done: &Stability, campbell: &Campbell) -> Figure {
+    let last = campbell.speeds.last().copied().unwrap_or(1.0);
+    let across = || Axis::new("speed").symbol("Ω").between(0.0, last);
+    let every = |pick: fn(&(f64, f64)) -> f64| {
+        let columns = campbell.speeds.iter().zip(&campbell.motions);
+        columns
+            .flat_map(|(speed, motions)| motions.iter().map(|it| (*speed, pick(it))))
+            .collect::<Vec<_>>()
+    };
+    let dots = |points: Vec<(f64, f64)>, label: &str| {
+        Points::new(Role::Undithered, points).marker(Marker::Disc).size(1.6).label(label)
+    };
+    let speed = study.disc().speed();
+    let own =
+        |value: f64| Points::new(Role::Exact, [(speed, value)]).marker(Marker::Disc).size(7.0);
+    let frequency = Panel::new(across(), Axis::new("frequency").symbol("|Im ρ|").from(0.0))
+        .with(dots(every(|motion| motion.0), "motions without dither"))
+        .with(own(done.undithered.frequency).label("least stable at this speed"))
+        .title("(a) frequency in the frame of the load")
+        .legend(Legend::None);
+    let mut growth = Panel::new(across(), Axis::new("growth rate").symbol("Re ρ"))
+        .with(Rule::horizontal(0.0))
+        .with(dots(every(|motion| motion.1), "motions without dither"));
+    if let Some(dithered) = &campbell.dithered {
+        let points = campbell.speeds.iter().copied().zip(dithered.iter().copied());
+        growth = growth.with(Line::new(Role::Dithered, points).label("largest, with dither"));
+    }
+    let growth = growth
+        .with(own(done.growth.rate).label("this study"))
+        .title("(b) growth")
+        .legend(Legend::None);
+    Figure::grid(2, [frequency, growth])
+        .legend(SharedLegend::Below)
+        .size(Size::Frame(390.0, 300.0))
+        .title(study.title().unwrap_or_default())
+        .caption(caption_of_disc(study))
+}
+
+/// Tongues over speed and friction, places of meetings that cannot be unstable as thin lines.
+pub fn resonances(study: &DiscStudy, done: &Resonances) -> Figure {
+    let (from, to) = (*done.question.speeds.start(), *done.question.speeds.end());
+    let load = study.disc().loads().first();
+    let scale =
+        load.map_or(1.0, |load| 2.0 * load.friction.abs().max(2.0 * load.damping)).max(1e-6);
+    let mut panel = Panel::new(
+        Axis::new("speed").symbol("Ω").between(from, to),
+        Axis::new("friction").symbol("f*").between(0.0, scale),
+    );
+    let all = done.undithered.iter().chain(&done.dithered);
+    for resonance in all.filter(|resonance| !resonance.can_be_unstable()) {
+        panel =
+            panel.with(Rule::vertical(resonance.speed).role(Role::Guide).style(LineStyle::Dotted));
+    }
+    let frictions: Vec<f64> = (1..=EDGES).map(|k| scale * (k as f64 / EDGES as f64)).collect();
+    panel = panel.with_all(tongues(study.disc(), (from, to), &frictions, |f| f));
+    if let Some(load) = load {
+        panel = panel.with(Rule::horizontal(load.friction).role(Role::Guide).label("this study"));
+    }
+    Figure::single(panel.legend(Legend::Above))
+        .size(Size::Frame(520.0, 320.0))
+        .title(study.title().unwrap_or_default())
+        .caption(format!(
+            "{} Dotted: meetings of waves that cannot be unstable at this order.",
+            caption_of_disc(study)
+        ))
+}
+
+/// Edges of the predicted tongues at these frictions, as lines; `up` turns a friction into a place on the axis. Under tangential dither the
+/// tongues that need no dither are those revived at second order.
+pub fn tongues(
+    disc: &Disc,
+    (from, to): (f64, f64),
+    frictions: &[f64],
+    up: impl Fn(f64) -> f64,
+) -> Vec<Layer> {
+    let Ok(waves) = Waves::new(disc) else { return Vec::new() };
+    let order = match disc.dither() {
+        Dither::Tangential { .. } => Order::Second,
+        Dither::None | Dither::Normal { .. } => Order::First,
+    };
+    let count = waves.undithered(from..=to).len() + waves.dithered(from..=to).len();
+    let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new(); 2 * count];
+    for &friction in frictions {
+        let at = waves.with_friction(friction);
+        let still = at.clone().with_order(order).undithered(from..=to);
+        for (index, resonance) in still.iter().chain(&at.dithered(from..=to)).enumerate() {
+            let Some(edges) = resonance.tongue.edges() else { continue };
+            let near = |edge: &f64| (edge - resonance.speed).abs() < FAR * resonance.speed;
+            if edges.iter().all(near) {
+                for (side, edge) in edges.into_iter().enumerate() {
+                    if let Some(piece) = pieces.get_mut(2 * index + side) {
+                        piece.push((edge, up(friction)));
+                    }
+                }
+            }
+        }
+    }
+    pieces.retain(|piece| piece.len() > 1);
+    if pieces.is_empty() {
+        return Vec::new();
+    }
+    let line = Line::pieces(Role::Boundary, pieces).style(LineStyle::Dashed).width(0.8);
+    vec![line.label("tongues, predicted").into()]
+}

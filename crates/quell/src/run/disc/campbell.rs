@@ -1,0 +1,50 @@
+//! The Campbell diagram: frequency and growth of every motion of the undithered disc against speed, and the largest growth
+//! under dither.
+
+use quell_disc::dithered::DitheredDisc;
+use quell_disc::undithered::campbell;
+use quell_numerics::floquet::Effort;
+
+use super::overflowed;
+use crate::complaint::Failure;
+use crate::study::DiscStudy;
+
+/// Speeds of the diagram.
+const SPEEDS: usize = 401;
+
+/// Frequency and growth against speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Campbell {
+    /// Speeds Ω.
+    pub speeds: Vec<f64>,
+    /// For each speed, (|Im ρ|, Re ρ) of every motion, no conjugates.
+    pub motions: Vec<Vec<(f64, f64)>>,
+    /// Largest growth rate under dither, where there is dither.
+    pub dithered: Option<Vec<f64>>,
+}
+
+/// The diagram over 0 ≤ Ω ≤ `last`. Contributions that are switched off are on here.
+///
+/// # Errors
+/// [`Failure::Failed`] where numbers are so large that a matrix overflows.
+pub fn run(study: &DiscStudy, last: f64) -> Result<Campbell, Failure> {
+    let failed = |why| overflowed("campbell", why);
+    let speeds: Vec<f64> = (0..SPEEDS).map(|k| last * (k as f64 / (SPEEDS - 1) as f64)).collect();
+    let columns = campbell(study.disc(), &speeds).map_err(failed)?;
+    let motions = columns
+        .iter()
+        .map(|values| {
+            let upper = values.iter().filter(|value| value.im >= 0.0);
+            upper.map(|value| (value.im, value.re)).collect()
+        })
+        .collect();
+    let mut dithered = Vec::new();
+    for &speed in &speeds {
+        let Ok(disc) = study.disc().at_speed(speed) else { continue };
+        if let Some(prepared) = DitheredDisc::new(&disc).map_err(failed)? {
+            dithered.push(prepared.growth(1.0, Effort::default()).map_err(failed)?.rate);
+        }
+    }
+    let dithered = (dithered.len() == speeds.len()).then_some(dithered);
+    Ok(Campbell { speeds, motions, dithered })
+}

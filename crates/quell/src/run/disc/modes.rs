@@ -1,0 +1,193 @@
+//! `modes`: natural frequencies and shapes of the disc, and what critical speeds they make.
+
+use quell_model::units::Quantity;
+use serde_json::{Map, Value as Json, json};
+
+use crate::dataset::{Array, Dataset};
+use crate::study::DiscStudy;
+use crate::study::disc::ModeSource;
+
+/// One mode.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModeRow {
+    /// Radial number, from 1.
+    pub radial: usize,
+    /// Nodal diameters q.
+    pub diameters: usize,
+    /// k², where it is computed.
+    pub frequency_parameter: Option<f64>,
+    /// β = ω/ω_ref.
+    pub ratio: f64,
+    /// φ at the first load; where there is no load, at the edge.
+    pub shape_at_load: f64,
+    /// ξ.
+    pub damping: f64,
+    /// Frequency in hertz, where the study tells it.
+    pub frequency_hz: Option<f64>,
+}
+
+impl ModeRow {
+    /// Critical speed β/q in ω_ref; none without nodal diameters.
+    pub fn critical_speed(&self) -> Option<f64> {
+        (self.diameters > 0).then(|| self.ratio / self.diameters as f64)
+    }
+
+    /// The same in revolutions per minute.
+    pub fn critical_speed_rpm(&self) -> Option<f64> {
+        let hertz = self.frequency_hz?;
+        (self.diameters > 0).then(|| 60.0 * hertz / self.diameters as f64)
+    }
+}
+
+/// The modes of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Modes {
+    /// In the order of the study; computed ones by diameters, then radial number.
+    pub rows: Vec<ModeRow>,
+    /// The mode with the lowest critical speed β/q.
+    pub critical: Option<usize>,
+    /// k² of ω_ref, where modes are computed.
+    pub reference: Option<f64>,
+    /// ω_ref in hertz, where the study tells it.
+    pub reference_hz: Option<f64>,
+    /// M_p in kg, where the study gives material and size.
+    pub plate_mass: Option<f64>,
+}
+
+/// The modes of a study.
+pub fn run(study: &DiscStudy) -> Modes {
+    let reference_hz = study.reference_hz();
+    let modes = study.disc().modes();
+    let plate = match study.source() {
+        ModeSource::Plate(plate) => Some(plate),
+        _ => None,
+    };
+    let rows: Vec<ModeRow> = modes
+        .iter()
+        .enumerate()
+        .map(|(index, mode)| {
+            let computed = plate.and_then(|plate| plate.set.modes().get(index));
+            let lower = |other: &(usize, &quell_disc::Mode)| {
+                other.1.diameters == mode.diameters
+                    && (other.1.ratio, other.0) < (mode.ratio, index)
+            };
+            ModeRow {
+                radial: computed.map_or_else(
+                    || 1 + modes.iter().enumerate().filter(lower).count(),
+                    |computed| computed.radial,
+                ),
+                diameters: mode.diameters,
+                frequency_parameter: computed.map(|computed| computed.frequency_parameter),
+                ratio: mode.ratio,
+                shape_at_load: mode.shape_at_load,
+                damping: mode.damping,
+                frequency_hz: reference_hz.map(|hertz| mode.ratio * hertz),
+            }
+        })
+        .collect();
+    let speeds =
+        rows.iter().enumerate().filter_map(|(index, row)| Some((index, row.critical_speed()?)));
+    let critical = speeds.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index);
+    Modes {
+        critical,
+        reference: plate.map(|plate| plate.set.reference()),
+        reference_hz,
+        plate_mass: plate
+            .and_then(|plate| study.material().map(|material| material.plate_mass(&plate.plate))),
+        rows,
+    }
+}
+
+impl Modes {
+    /// As JSON.
+    pub fn json(&self, study: &DiscStudy) -> Json {
+        let modes: Vec<Json> = self
+            .rows
+            .iter()
+            .map(|row| {
+                json!({
+                    "radial": row.radial,
+                    "diameters": row.diameters,
+                    "frequency_parameter": row.frequency_parameter,
+                    "ratio": row.ratio,
+                    "shape_at_load": row.shape_at_load,
+                    "damping": row.damping,
+                    "critical_speed": row.critical_speed(),
+                    "frequency_hz": row.frequency_hz,
+                    "critical_speed_rpm": row.critical_speed_rpm(),
+                })
+            })
+            .collect();
+        let critical = self.critical.map(|index| {
+            let row = &self.rows[index];
+            json!({ "radial": row.radial, "diameters": row.diameters })
+        });
+        let mut why = Map::new();
+        let mut told = |null: bool, key: &str, reason: &str| {
+            if null {
+                why.insert(key.to_owned(), reason.into());
+            }
+        };
+        let unlisted = "modes are given, not computed: no plate is known";
+        told(self.reference.is_none(), "modes[].frequency_parameter", unlisted);
+        told(self.reference.is_none(), "reference_frequency", unlisted);
+        let metal =
+            "the study gives no youngs_modulus_pa, density_kg_per_m3, thickness_m, outer_radius_m";
+        told(self.reference_hz.is_none(), "modes[].frequency_hz", metal);
+        told(self.reference_hz.is_none(), "modes[].critical_speed_rpm", metal);
+        told(self.reference_hz.is_none(), "reference_hz", metal);
+        told(self.plate_mass.is_none(), "plate_mass_kg", metal);
+        told(
+            self.rows.iter().any(|row| row.diameters == 0),
+            "modes[].critical_speed",
+            "without nodal diameters there is no critical speed",
+        );
+        told(critical.is_none(), "critical_mode", "no mode has a nodal diameter");
+        let mut object = json!({
+            "ok": true,
+            "modes": modes,
+            "critical_mode": critical,
+            "reference_frequency": self.reference,
+            "reference_hz": self.reference_hz,
+            "plate_mass_kg": self.plate_mass,
+            "units": {
+                "frequency_parameter": "1 (k² = ω a² √(ρh/D))",
+                "ratio": "ω_ref",
+                "shape_at_load": "1 (unit mean square of φ cos qθ over the plate)",
+                "critical_speed": "ω_ref",
+                "frequency_hz": "Hz",
+                "critical_speed_rpm": "1/min",
+                "plate_mass_kg": "kg",
+            },
+            "why": why,
+        });
+        if study.disc().loads().is_empty() {
+            object["why"]["modes[].shape_at_load"] =
+                "without a load: shapes at the outer edge".into();
+        }
+        object
+    }
+
+    /// As a dataset, one row a mode; as CSV it can be read back as a study's `modes_file`.
+    pub fn dataset(&self, study: &DiscStudy) -> Dataset {
+        let column = |of: &dyn Fn(&ModeRow) -> f64| self.rows.iter().map(of).collect::<Vec<f64>>();
+        let number = (1..=self.rows.len()).map(|index| index as f64).collect();
+        let mut dataset = Dataset::of(&study.into(), "modes")
+            .axis("mode", Quantity::Count, number)
+            .with(Array::new("radial", "1", column(&|row| row.radial as f64)))
+            .with(Array::new("diameters", "1", column(&|row| row.diameters as f64)));
+        if self.reference.is_some() {
+            let values = column(&|row| row.frequency_parameter.unwrap_or(f64::NAN));
+            dataset = dataset.with(Array::new("frequency_parameter", "1", values));
+        }
+        dataset = dataset
+            .with(Array::new("ratio", "ω_ref", column(&|row| row.ratio)))
+            .with(Array::new("shape_at_load", "1", column(&|row| row.shape_at_load)))
+            .with(Array::new("damping", "1", column(&|row| row.damping)));
+        if self.reference_hz.is_some() {
+            let values = column(&|row| row.frequency_hz.unwrap_or(f64::NAN));
+            dataset = dataset.with(Array::new("frequency_hz", "Hz", values));
+        }
+        dataset
+    }
+}

@@ -1,0 +1,238 @@
+//! `resonances`: where waves of the disc meet, which meetings can be unstable, and which dither frequencies keep a range of
+//! speeds clear.
+
+use std::ops::RangeInclusive;
+
+pub use quell_disc::resonance::Order;
+use quell_disc::resonance::{
+    Blocked, Clearance, ClearanceError, Nearby, Resonance, Tongue, Waves, clear_frequencies, within,
+};
+use quell_disc::system::Contributions;
+use quell_model::units::Quantity;
+use serde_json::{Map, Value as Json, json};
+
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::dataset::{Array, Dataset};
+use crate::study::DiscStudy;
+
+/// What is asked of the resonances.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// Speeds between which meetings are listed.
+    pub speeds: RangeInclusive<f64>,
+    /// How far the expansion goes.
+    pub order: Order,
+    /// A range of speeds to be kept clear, and the dither frequencies that may do it.
+    pub clear: Option<(RangeInclusive<f64>, RangeInclusive<f64>)>,
+}
+
+impl Default for Question {
+    fn default() -> Self {
+        Self { speeds: 0.0..=1.0, order: Order::First, clear: None }
+    }
+}
+
+/// Dither frequencies that keep a range of speeds clear.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clear {
+    /// The range of speeds.
+    pub speeds: RangeInclusive<f64>,
+    /// The frequencies searched.
+    pub frequencies: RangeInclusive<f64>,
+    /// Intervals, and what blocks the rest.
+    pub clearance: Clearance,
+    /// The middle of the widest interval, and what lies in the range of speeds there, original tongues as the second order
+    /// has them.
+    pub suggestion: Option<(f64, Vec<Nearby>)>,
+}
+
+/// Resonances of a study's disc.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Resonances {
+    /// What was asked.
+    pub question: Question,
+    /// Meetings that need no dither.
+    pub undithered: Vec<Resonance>,
+    /// Meetings that the dither makes.
+    pub dithered: Vec<Resonance>,
+    /// The answer about clear frequencies.
+    pub clear: Option<Clear>,
+}
+
+/// Resonances of a study's disc.
+///
+/// # Errors
+/// A complaint where the theory does not apply (other than one load, negative friction, parts left out), where there is no dither
+/// whose frequency could be chosen, or where a wave grows by itself whatever the frequency.
+pub fn run(study: &DiscStudy, question: Question) -> Result<Resonances, Failure> {
+    let refuse = |key: &str, allowed: String| {
+        Failure::from(Complaint::new(Fault::Value, key, Origin::Whole, Json::Null, allowed))
+    };
+    if study.parts() != Contributions::ALL {
+        let told = study.without();
+        let allowed = "nothing: resonance theory is about the whole disc";
+        let complaint = Complaint::new(Fault::Value, "disc.without", Origin::Whole, told, allowed);
+        return Err(complaint.into());
+    }
+    let waves = Waves::new(study.disc()).map_err(|why| refuse("disc.load", why.to_string()))?;
+    let waves = waves.with_order(question.order);
+    let clear = match &question.clear {
+        None => None,
+        Some((speeds, frequencies)) => {
+            let clearance = clear_frequencies(&waves, speeds.clone(), frequencies.clone())
+                .map_err(|why| match why {
+                    ClearanceError::NoDither => refuse("dither", why.to_string()),
+                    ClearanceError::Range => refuse("--clear", why.to_string()),
+                    ClearanceError::WaveUnstable { .. } => {
+                        Failure::Failed { key: "--clear".to_owned(), why: why.to_string() }
+                    }
+                })?;
+            let widest =
+                clearance.clear.iter().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
+            let suggestion = widest.and_then(|[from, to]| {
+                let ratio = 0.5 * (from + to);
+                let there = waves.with_dither_frequency(ratio).ok()?;
+                Some((ratio, within(&there, speeds.clone())))
+            });
+            let (speeds, frequencies) = (speeds.clone(), frequencies.clone());
+            Some(Clear { speeds, frequencies, clearance, suggestion })
+        }
+    };
+    let speeds = question.speeds.clone();
+    Ok(Resonances {
+        undithered: waves.undithered(speeds.clone()),
+        dithered: waves.dithered(speeds),
+        question,
+        clear,
+    })
+}
+
+/// A meeting as JSON.
+fn meeting(resonance: &Resonance) -> Json {
+    let [first, second] = &resonance.waves;
+    let mut why = Map::new();
+    let edges = resonance.tongue.edges();
+    if edges.is_none() {
+        let reason = match resonance.tongue {
+            Tongue::WaveUnstable { .. } => "a wave of the pair grows, or is undamped, by itself",
+            _ => "there is no tongue at this friction",
+        };
+        why.insert("edges".to_owned(), reason.into());
+    }
+    if resonance.tongue.peak_growth().is_none() {
+        let reason = "there is no tongue at this friction";
+        why.insert("peak_growth".to_owned(), reason.into());
+    }
+    if resonance.threshold.is_none() {
+        let reason = if resonance.can_be_unstable() {
+            "no friction gives a tongue before a wave grows by itself"
+        } else {
+            "this meeting cannot be unstable at this order"
+        };
+        why.insert("threshold".to_owned(), reason.into());
+    }
+    let mut object = json!({
+        "speed": resonance.speed,
+        "waves": [first.to_string(), second.to_string()],
+        "pair": resonance.label(),
+        "conjugate": resonance.sum,
+        "harmonic": resonance.harmonic,
+        "can_be_unstable": resonance.can_be_unstable(),
+        "threshold": resonance.threshold,
+        "edges": edges,
+        "width": resonance.tongue.width(),
+        "peak_growth": resonance.tongue.peak_growth(),
+    });
+    if !why.is_empty() {
+        object["why"] = Json::Object(why);
+    }
+    object
+}
+
+fn blocked(block: &Blocked) -> Json {
+    let [first, second] = &block.waves;
+    json!({
+        "from": block.from,
+        "to": block.to,
+        "waves": [first.to_string(), second.to_string()],
+        "conjugate": block.sum,
+    })
+}
+
+impl Resonances {
+    /// As a dataset: one row a meeting; one that is induced by dither has a harmonic that is not 0.
+    pub fn dataset(&self, study: &DiscStudy) -> Dataset {
+        let all: Vec<&Resonance> = self.undithered.iter().chain(&self.dithered).collect();
+        let column =
+            |of: &dyn Fn(&Resonance) -> f64| all.iter().map(|it| of(it)).collect::<Vec<_>>();
+        let edge = |side: usize| {
+            column(&move |it| it.tongue.edges().map_or(f64::NAN, |edges| edges[side]))
+        };
+        let none = f64::NAN;
+        let number = (1..=all.len()).map(|index| index as f64).collect();
+        let mut dataset = Dataset::of(&study.into(), "resonances");
+        for (index, resonance) in all.iter().enumerate() {
+            dataset = dataset.fact(format!("meeting {}: {}", index + 1, resonance.label()));
+        }
+        dataset
+            .axis("meeting", Quantity::Count, number)
+            .with(Array::new("speed", "ω_ref", column(&|it| it.speed)))
+            .with(Array::new("harmonic", "1", column(&|it| f64::from(it.harmonic))))
+            .with(Array::new(
+                "can_be_unstable",
+                "1",
+                column(&|it| f64::from(u8::from(it.can_be_unstable()))),
+            ))
+            .with(Array::new("threshold", "1", column(&|it| it.threshold.unwrap_or(none))))
+            .with(Array::new("lower_edge", "ω_ref", edge(0)))
+            .with(Array::new("upper_edge", "ω_ref", edge(1)))
+            .with(Array::new(
+                "peak_growth",
+                "ω_ref",
+                column(&|it| it.tongue.peak_growth().unwrap_or(none)),
+            ))
+    }
+
+    /// As JSON.
+    pub fn json(&self) -> Json {
+        let (start, end) = (self.question.speeds.start(), self.question.speeds.end());
+        let mut object = json!({
+            "ok": true,
+            "speeds": [start, end],
+            "order": if self.question.order == Order::First { "first" } else { "second" },
+            "undithered": self.undithered.iter().map(meeting).collect::<Vec<_>>(),
+            "dithered": self.dithered.iter().map(meeting).collect::<Vec<_>>(),
+            "units": {
+                "speed": "ω_ref", "edges": "ω_ref", "width": "ω_ref", "peak_growth": "ω_ref", "threshold": "1 (f*)",
+            },
+        });
+        if let Some(clear) = &self.clear {
+            let mut inner = json!({
+                "speeds": [clear.speeds.start(), clear.speeds.end()],
+                "frequencies": [clear.frequencies.start(), clear.frequencies.end()],
+                "clear": clear.clearance.clear,
+                "blocked": clear.clearance.blocked.iter().map(blocked).collect::<Vec<_>>(),
+                "original_suppressed": clear.clearance.original_suppressed,
+                "suggestion": clear.suggestion.as_ref().map(|(ratio, _)| *ratio),
+            });
+            match &clear.suggestion {
+                Some((_, nearby)) => {
+                    let nearby: Vec<Json> = nearby
+                        .iter()
+                        .map(|nearby| {
+                            let mut object = meeting(&nearby.resonance);
+                            object["reaches_in"] = nearby.reaches_in.into();
+                            object
+                        })
+                        .collect();
+                    inner["there"] = nearby.into();
+                }
+                None => {
+                    inner["why"] = json!({ "suggestion": "no frequency of the range is clear" })
+                }
+            }
+            object["clear"] = inner;
+        }
+        object
+    }
+}

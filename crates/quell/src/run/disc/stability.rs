@@ -1,0 +1,186 @@
+//! `stability` of a disc: the largest growth rate with its error, the verdict they allow, and the frictions at which it changes.
+
+use quell_disc::boundaries::{Marginal, NoBoundary, boundaries};
+use quell_disc::dithered::DitheredDisc;
+use quell_disc::partition::{NoPartition, crossings};
+use quell_disc::system::Contributions;
+use quell_disc::{Dither, Growth, Verdict, undithered};
+use quell_numerics::floquet::Effort;
+use serde_json::{Map, Value as Json, json};
+
+use super::overflowed;
+use crate::complaint::Failure;
+use crate::study::DiscStudy;
+
+/// A friction at which some motion is marginal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Change {
+    /// Friction f* of the load.
+    pub friction: f64,
+    /// Frequency of the marginal motion in ω_ref.
+    pub frequency: f64,
+}
+
+/// Stability of a disc.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stability {
+    /// Of the disc as it is.
+    pub growth: Growth,
+    /// Of the same without dither.
+    pub undithered: Growth,
+    /// Frictions ≥ 0 at which a motion is marginal, the rest as given, ascending; or why they are not known.
+    pub changes: Result<Vec<Change>, String>,
+    /// Whether a motion is out of the load's reach, and marginal at any friction.
+    pub out_of_reach: bool,
+}
+
+/// Stability of a study's disc.
+///
+/// # Errors
+/// [`Failure::Failed`] where numbers are so large that a matrix overflows.
+pub fn run(study: &DiscStudy) -> Result<Stability, Failure> {
+    let (disc, parts) = (study.disc(), study.parts());
+    let failed = |why| overflowed("stability", why);
+    let undithered = undithered::growth_with(disc, parts).map_err(failed)?;
+    let growth = match DitheredDisc::with_contributions(disc, parts).map_err(failed)? {
+        Some(dithered) => dithered.growth(1.0, Effort::default()).map_err(failed)?,
+        None => undithered,
+    };
+    let (changes, out_of_reach) = match disc.dither() {
+        _ if parts != Contributions::ALL => (
+            Err("they are told of the whole disc, and parts of this one are left out".to_owned()),
+            false,
+        ),
+        Dither::None => still(study),
+        Dither::Normal { .. } | Dither::Tangential { .. } => (shaken(study), false),
+    };
+    Ok(Stability { growth, undithered, changes, out_of_reach })
+}
+
+/// Boundaries without dither.
+fn still(study: &DiscStudy) -> (Result<Vec<Change>, String>, bool) {
+    match boundaries(study.disc()) {
+        Ok(found) => {
+            let out_of_reach = found.iter().any(|boundary| boundary.friction == Marginal::Always);
+            let mut changes: Vec<Change> = found
+                .iter()
+                .filter_map(|boundary| match boundary.friction {
+                    Marginal::At(friction) if friction >= 0.0 => {
+                        Some(Change { friction, frequency: boundary.frequency })
+                    }
+                    _ => None,
+                })
+                .collect();
+            changes.sort_by(|a, b| a.friction.total_cmp(&b.friction));
+            (Ok(changes), out_of_reach)
+        }
+        Err(why) => {
+            let why = match why {
+                NoBoundary::Loads(count) => {
+                    format!("exact boundaries are known for one load, and there are {count}")
+                }
+                NoBoundary::DampedModes => {
+                    "exact boundaries are known for a disc without modal damping; `quell map` over \
+                     disc.load.friction shows them for any"
+                        .to_owned()
+                }
+                NoBoundary::Unstable => {
+                    "the disc grows even without damper and friction at this speed".to_owned()
+                }
+                NoBoundary::Eigenvalues(why) => why.to_string(),
+            };
+            (Err(why), false)
+        }
+    }
+}
+
+/// Boundaries under dither.
+fn shaken(study: &DiscStudy) -> Result<Vec<Change>, String> {
+    let disc = study.disc();
+    let friction = disc.loads().first().map_or(0.0, |load| load.friction);
+    // The partition tells factors on the friction: of one, not of none.
+    let unit = disc.with("disc.load.friction", 1.0).map_err(|_| "there is no load".to_owned())?;
+    let sign = if friction < 0.0 { -1.0 } else { 1.0 };
+    let unit = if sign < 0.0 { unit.with_friction_times(-1.0).unwrap_or(unit) } else { unit };
+    let found = crossings(&unit).map_err(|why| match why {
+        NoPartition::Loads(count) => {
+            format!("boundaries by D-partition are known for one load, and there are {count}")
+        }
+        NoPartition::Undithered => "there is no dither".to_owned(),
+    })?;
+    let change = |crossing: &quell_disc::partition::Crossing| Change {
+        friction: sign * crossing.factor,
+        frequency: crossing.frequency,
+    };
+    Ok(found.iter().map(change).collect())
+}
+
+impl Stability {
+    /// What was found, in one sentence.
+    pub fn sentence(&self, study: &DiscStudy) -> String {
+        let speed = study.disc().speed();
+        let under = match study.disc().dither() {
+            Dither::None => "without dither",
+            Dither::Normal { .. } => "under this normal dither",
+            Dither::Tangential { .. } => "under this tangential dither",
+        };
+        let Growth { rate, error, .. } = self.growth;
+        match self.growth.verdict() {
+            Verdict::Stable => {
+                format!("at Ω = {speed} the disc is stable {under}: every motion decays")
+            }
+            Verdict::Unstable => {
+                format!("at Ω = {speed} the disc is unstable {under}: some motion grows")
+            }
+            Verdict::Undecided => format!(
+                "at Ω = {speed} nothing can be decided {under}: the growth rate {rate:.1e} is zero within its error {error:.1e}; \
+                 such are whole lines of the map where the disc has no damping of its own"
+            ),
+        }
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &DiscStudy) -> Json {
+        let growth = |growth: &Growth| {
+            json!({
+                "verdict": growth.verdict().name(),
+                "growth_rate": growth.rate,
+                "growth_rate_error": growth.error,
+                "frequency": growth.frequency,
+            })
+        };
+        let mut object = growth(&self.growth);
+        let mut why = Map::new();
+        object["ok"] = true.into();
+        object["sentence"] = self.sentence(study).into();
+        object["protocol"] = match study.disc().dither() {
+            Dither::None => "eigenvalues".into(),
+            _ => "floquet".into(),
+        };
+        object["speed"] = study.disc().speed().into();
+        object["undithered"] = growth(&self.undithered);
+        object["without"] = study.without().into();
+        object["changes"] = match &self.changes {
+            Ok(changes) => changes
+                .iter()
+                .map(|change| json!({ "friction": change.friction, "frequency": change.frequency }))
+                .collect(),
+            Err(reason) => {
+                why.insert("changes".to_owned(), reason.clone().into());
+                Json::Null
+            }
+        };
+        object["out_of_reach"] = self.out_of_reach.into();
+        object["units"] = json!({
+            "growth_rate": "ω_ref", "growth_rate_error": "ω_ref", "frequency": "ω_ref", "speed": "ω_ref", "friction": "1",
+        });
+        if let Some(hertz) = study.reference_hz() {
+            object["growth_rate_per_s"] = (std::f64::consts::TAU * hertz * self.growth.rate).into();
+            object["frequency_hz"] = (hertz * self.growth.frequency).into();
+        }
+        if !why.is_empty() {
+            object["why"] = Json::Object(why);
+        }
+        object
+    }
+}

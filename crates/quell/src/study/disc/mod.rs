@@ -1,0 +1,427 @@
+//! `[disc]`: the study of an annular disc under rotating loads.
+//!
+//! Modes are computed from the plate, listed as `[[disc.mode]]`, or read from a CSV file; loads are one `[disc.load]` or
+//! several `[[disc.load]]`; `without` switches contributions off; `[dither]` modulates every load's friction.
+
+mod loads;
+mod modes;
+mod modes_file;
+mod plate;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use quell_disc::plate::PlateMaterial;
+use quell_disc::system::{Contribution, Contributions};
+use quell_disc::{Disc, Dither, Load, Mode};
+use quell_model::Direction;
+use quell_model::parameter::DITHER_FREQUENCY_RATIO;
+use quell_model::parameter::disc::{DISC_DITHER_AMPLITUDE, MODAL_DAMPING};
+use serde_json::Value as Json;
+
+use super::change::Change;
+use super::mirror::{Node, Table, Value};
+use super::reader::{Found, Reader};
+use super::sweep::{self, Sweep};
+use super::vocabulary::{Choice, Section, join};
+use super::{file, root};
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+
+pub use modes::{Listed, ModeSource};
+pub use plate::PlateModes;
+
+use loads::Pad;
+
+/// Tables and keys of a disc study outside any table.
+const ROOT: &[&str] = &["schema", "title", "disc", "dither", "sweep"];
+
+/// A checked study of a disc.
+#[derive(Clone, Debug)]
+pub struct DiscStudy {
+    disc: Disc,
+    parts: Contributions,
+    common: Arc<Common>,
+}
+
+/// What does not change along the axes of a map that set numbers of the equations.
+#[derive(Clone, Debug)]
+struct Common {
+    title: Option<String>,
+    source: ModeSource,
+    material: Option<PlateMaterial>,
+    radii: Vec<Option<f64>>,
+    warnings: Vec<String>,
+    sweeps: Vec<Sweep>,
+    mirror: Table,
+    text: String,
+    folder: PathBuf,
+    changes: Vec<String>,
+}
+
+impl DiscStudy {
+    /// Reads and checks a study file (`-` is standard input) after changing it.
+    ///
+    /// # Errors
+    /// Every complaint at once.
+    pub fn read(path: &Path, changes: &[Change]) -> Result<Self, Failure> {
+        let text = file::text(path)?;
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        Self::parse(&text, changes, &folder).map_err(Failure::Wrong)
+    }
+
+    /// Checks the text of a study after changing it; a file of modes is looked for in `folder`.
+    ///
+    /// # Errors
+    /// Every complaint at once.
+    pub fn parse(text: &str, changes: &[Change], folder: &Path) -> Result<Self, Vec<Complaint>> {
+        let mut mirror = Table::parse(text)?;
+        let refused: Vec<Complaint> = changes
+            .iter()
+            .filter_map(|change| change.apply(&mut mirror).err())
+            .map(|complaint| *complaint)
+            .collect();
+        let told = changes.iter().map(Change::to_string).collect();
+        match Self::check(mirror, text, folder, told, None) {
+            Ok(study) if refused.is_empty() => Ok(study),
+            Ok(_) => Err(refused),
+            Err(mut complaints) => {
+                complaints.extend(refused);
+                Err(complaints)
+            }
+        }
+    }
+
+    /// The study at one point of a map: its numbers set through the same path as `--set`, in order, and no axes.
+    ///
+    /// # Errors
+    /// Every complaint about the changed study.
+    pub fn at<'a>(
+        &self,
+        numbers: impl IntoIterator<Item = (&'a str, f64)>,
+    ) -> Result<Self, Vec<Complaint>> {
+        let mut mirror = self.common.mirror.clone();
+        mirror.remove("sweep");
+        let mut changes = self.common.changes.clone();
+        for (path, value) in numbers {
+            let change = Change::number(path, value, "[[sweep]]");
+            change.apply(&mut mirror).map_err(|complaint| vec![*complaint])?;
+            changes.push(change.to_string());
+        }
+        let common = &self.common;
+        Self::check(mirror, &common.text, &common.folder, changes, Some(&common.source))
+    }
+
+    /// The disc at one point of a map, the same as that of [`DiscStudy::at`]: without reading the study again where
+    /// the numbers are ones of the equations. `None` where they make no valid study.
+    pub fn disc_at(&self, numbers: &[(&str, f64)]) -> Option<Disc> {
+        let direct = |path: &str| {
+            let key = path.rsplit('.').next().unwrap_or_default();
+            let load = path.starts_with("disc.load")
+                && ["mass", "damping", "stiffness", "friction", "speed"].contains(&key);
+            load && (path.contains('[') || self.disc.loads().len() == 1)
+                || (path.starts_with("dither") && !path.contains('['))
+        };
+        if numbers.iter().all(|(path, _)| direct(path) && self.disc.get(path).is_some()) {
+            let mut disc = self.disc.clone();
+            for (path, value) in numbers {
+                disc = disc.with(path, *value).ok()?;
+            }
+            return Some(disc);
+        }
+        self.at(numbers.iter().copied()).ok().map(|study| study.disc)
+    }
+
+    fn check(
+        mirror: Table,
+        text: &str,
+        folder: &Path,
+        changes: Vec<String>,
+        known: Option<&ModeSource>,
+    ) -> Result<Self, Vec<Complaint>> {
+        let mut reader = Reader::scaled();
+        let title = root(&mut reader, &mirror, ROOT);
+        for name in ["belt", "friction", "solver"] {
+            if let Some(node) = mirror.get(name) {
+                let allowed =
+                    format!("a study is of a belt or of a disc; [{name}] is about a belt");
+                let complaint =
+                    Complaint::new(Fault::Conflict, name, node.origin, Json::Null, allowed);
+                reader.complain(complaint);
+            }
+        }
+        let table = mirror.get("disc").and_then(|node| reader.table("disc", node));
+        let read = table.map(|table| {
+            let origin = mirror.get("disc").map_or(Origin::Whole, |node| node.origin);
+            Body::read(&mut reader, table, origin, folder, known)
+        });
+        let dither = dither(&mut reader, &mirror);
+        let sweeps = sweep::read(&mut reader, &mirror);
+        let complaints = reader.complaints_so_far();
+        let (Some(body), Some(dither), Some(sweeps)) = (read.flatten(), dither, sweeps) else {
+            return Err(reader.into_complaints());
+        };
+        if complaints > 0 {
+            return Err(reader.into_complaints());
+        }
+        let Body { source, material, modes, loads, radii, speed, parts, warnings } = body;
+        let disc = match Disc::new(modes, loads, dither, speed) {
+            Ok(disc) => disc,
+            Err(invalid) => {
+                // The reader knows where each number was written; what it does not know is told plainly.
+                let plain: Vec<Complaint> = invalid
+                    .iter()
+                    .map(|it| {
+                        let (key, value) = (it.key.clone(), it.value.clone());
+                        Complaint::new(Fault::Value, key, Origin::Whole, value, it.allowed.clone())
+                    })
+                    .collect();
+                reader.adopt(invalid);
+                let told = reader.into_complaints();
+                return Err(if told.is_empty() { plain } else { told });
+            }
+        };
+        let common = Common {
+            title,
+            source,
+            material,
+            radii,
+            warnings,
+            sweeps,
+            mirror,
+            text: text.to_owned(),
+            folder: folder.to_owned(),
+            changes,
+        };
+        let study = Self { disc, parts, common: Arc::new(common) };
+        study.check_sweeps()?;
+        Ok(study)
+    }
+
+    /// Whether the study is valid at the ends of every axis.
+    fn check_sweeps(&self) -> Result<(), Vec<Complaint>> {
+        let mut complaints = Vec::new();
+        for (index, sweep) in self.sweeps().iter().enumerate() {
+            for value in sweep.axis.extremes() {
+                let Err(wrong) = self.at([(sweep.path.as_str(), value)]) else { continue };
+                let entry = match self.common.mirror.get("sweep").map(|node| &node.value) {
+                    Some(Value::List(list)) => list.get(index),
+                    _ => None,
+                };
+                let origin = entry.map_or(Origin::Whole, |node| node.origin);
+                complaints.extend(wrong.into_iter().map(|complaint| {
+                    let allowed = format!(
+                        "a path and values that make valid studies; {} = {value} must be {}",
+                        complaint.key, complaint.allowed
+                    );
+                    Complaint {
+                        key: format!("sweep[{index}].parameter"),
+                        origin,
+                        value: sweep.path.clone().into(),
+                        allowed,
+                        ..complaint
+                    }
+                }));
+            }
+        }
+        complaints.dedup_by(|a, b| a.key == b.key && a.fault == b.fault && a.allowed == b.allowed);
+        if complaints.is_empty() { Ok(()) } else { Err(complaints) }
+    }
+
+    /// Title, if the file gives one.
+    pub fn title(&self) -> Option<&str> {
+        self.common.title.as_deref()
+    }
+
+    /// The disc in the numbers of the equations, whole.
+    pub fn disc(&self) -> &Disc {
+        &self.disc
+    }
+
+    /// The contributions that are left.
+    pub fn parts(&self) -> Contributions {
+        self.parts
+    }
+
+    /// Names of the contributions that are switched off.
+    pub fn without(&self) -> Vec<&'static str> {
+        let off = |part: &&Contribution| !self.parts.contains(**part);
+        Contribution::ALL.iter().filter(off).map(|part| part.name()).collect()
+    }
+
+    /// Where the modes come from.
+    pub fn source(&self) -> &ModeSource {
+        &self.common.source
+    }
+
+    /// Material and size of the plate, where the study gives them.
+    pub fn material(&self) -> Option<&PlateMaterial> {
+        self.common.material.as_ref()
+    }
+
+    /// Radius of each load over the outer radius, where the study gives it.
+    pub fn radii(&self) -> &[Option<f64>] {
+        &self.common.radii
+    }
+
+    /// What a reader of the results should know.
+    pub fn warnings(&self) -> &[String] {
+        &self.common.warnings
+    }
+
+    /// The axes of a map, in order.
+    pub fn sweeps(&self) -> &[Sweep] {
+        &self.common.sweeps
+    }
+
+    /// Changes made to the text, as `path=value`.
+    pub fn changes(&self) -> &[String] {
+        &self.common.changes
+    }
+
+    /// The text of the file as it was read, without changes.
+    pub fn text(&self) -> &str {
+        &self.common.text
+    }
+
+    /// Every value of the study after its changes as `path = value`, in the order of paths, and the modes of a file with it;
+    /// neither title nor axes.
+    pub fn settings(&self) -> Vec<(String, String)> {
+        let mut settings = Vec::new();
+        let nodes =
+            self.common.mirror.iter().filter(|(name, _)| !matches!(*name, "title" | "sweep"));
+        for (name, node) in nodes {
+            node.leaves(name, &mut settings);
+        }
+        if let ModeSource::File { .. } = self.common.source {
+            for (index, mode) in self.disc.modes().iter().enumerate() {
+                let numbers = format!(
+                    "{} {:?} {:?} {:?}",
+                    mode.diameters, mode.ratio, mode.shape_at_load, mode.damping
+                );
+                settings.push((format!("disc.modes_file[{index}]"), numbers));
+            }
+        }
+        settings.sort();
+        settings
+    }
+
+    /// Hertz of a frequency of one ω_ref, where material or listed frequencies tell it.
+    pub fn reference_hz(&self) -> Option<f64> {
+        match &self.common.source {
+            ModeSource::Plate(plate) => {
+                let material = self.common.material.as_ref()?;
+                Some(material.hertz(&plate.plate, plate.set.reference()))
+            }
+            ModeSource::List(listed) | ModeSource::File { listed, .. } => listed.reference_hz,
+        }
+    }
+}
+
+/// What `[disc]` says.
+struct Body {
+    source: ModeSource,
+    material: Option<PlateMaterial>,
+    modes: Vec<Mode>,
+    loads: Vec<Load>,
+    radii: Vec<Option<f64>>,
+    speed: f64,
+    parts: Contributions,
+    warnings: Vec<String>,
+}
+
+impl Body {
+    fn read(
+        reader: &mut Reader,
+        table: &Table,
+        header: Origin,
+        folder: &Path,
+        known: Option<&ModeSource>,
+    ) -> Option<Self> {
+        reader.unknown_keys(table, Section::Disc, "disc", &["mode", "load"]);
+        let damping = reader.optional(table, "disc", MODAL_DAMPING, None).or(0.0);
+        let parts = without(reader, table);
+        let pads = loads::read(reader, table);
+        let material = plate::material(reader, table, header);
+        let source = modes::read(reader, table, header, folder, known);
+        let (pads, source) = (pads?, source?);
+        let (damping, parts, material) = (damping?, parts?, material?);
+        let radii: Vec<Option<f64>> = pads.iter().map(|pad| pad.radius).collect();
+        let (modes, shapes, warnings) = modes::at_loads(reader, &source, &pads, damping)?;
+        let speed = pads.iter().find_map(|pad| pad.speed.map(|(speed, _)| speed)).unwrap_or(0.0);
+        let loads = pads
+            .into_iter()
+            .zip(shapes)
+            .map(|(Pad { load, .. }, shapes)| Load { shapes, ..load })
+            .collect();
+        let material = material.map(|(material, _)| material);
+        Some(Self { source, material, modes, loads, radii, speed, parts, warnings })
+    }
+}
+
+/// `without = ["damper", …]`.
+fn without(reader: &mut Reader, table: &Table) -> Option<Contributions> {
+    let mut parts = Contributions::ALL;
+    let Some(node) = table.get("without") else { return Some(parts) };
+    let one = [node.clone()];
+    let list: &[Node] = match &node.value {
+        Value::List(list) => list,
+        _ => &one,
+    };
+    let mut right = true;
+    for (index, node) in list.iter().enumerate() {
+        let key = format!("disc.without[{index}]");
+        match reader.choice(&key, node, Choice::Contribution).and_then(Contribution::from_name) {
+            Some(part) => parts = parts.without(part),
+            None => right = false,
+        }
+    }
+    right.then_some(parts)
+}
+
+/// `[dither]` of a disc.
+fn dither(reader: &mut Reader, mirror: &Table) -> Option<Dither> {
+    let Some(node) = mirror.get("dither") else { return Some(Dither::None) };
+    let node = match &node.value {
+        Value::List(list) if list.len() == 1 => &list[0],
+        _ => node,
+    };
+    let table = reader.table("dither", node)?;
+    let keys = ["direction", "waveform", "amplitude", "frequency_ratio"];
+    for (name, node) in table.iter().filter(|(name, _)| !keys.contains(name)) {
+        let nearest = super::suggest::word(name, keys).map(|word| join("dither", &word));
+        let complaint = Complaint::new(
+            Fault::Unknown,
+            join("dither", name),
+            node.origin,
+            node.given(),
+            keys.join(", "),
+        );
+        reader.complain(complaint.suggesting(nearest));
+    }
+    let direction = reader
+        .needed_choice(table, "dither", node.origin, "direction", Choice::Direction)
+        .and_then(Direction::from_name);
+    let waveform = match table.get("waveform") {
+        None => Some("sine"),
+        Some(node) => match reader.choice("dither.waveform", node, Choice::Waveform) {
+            Some("sine") => Some("sine"),
+            Some(_) => {
+                reader.wrong("dither.waveform", node, "\"sine\", the waveform of a disc's dither");
+                None
+            }
+            None => None,
+        },
+    };
+    let amplitude = match reader.optional(table, "dither", DISC_DITHER_AMPLITUDE, None) {
+        // The dissertation's tangential dither.
+        Found::Absent => Some(1.0),
+        found => found.or(1.0),
+    };
+    let frequency_ratio = reader.number(table, "dither", node.origin, DITHER_FREQUENCY_RATIO);
+    waveform?;
+    let (amplitude, frequency_ratio) = (amplitude?, frequency_ratio?);
+    Some(match direction? {
+        Direction::Normal => Dither::Normal { amplitude, frequency_ratio },
+        Direction::Tangential => Dither::Tangential { amplitude, frequency_ratio },
+    })
+}

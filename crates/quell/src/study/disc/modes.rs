@@ -1,0 +1,283 @@
+//! Modes of a disc: computed, listed, or read from a file; and how the loads meet them.
+
+use std::path::{Path, PathBuf};
+
+use quell_disc::Mode;
+use quell_model::parameter::disc::{
+    MODE_DAMPING, MODE_DIAMETERS, MODE_FREQUENCY, MODE_RATIO, MODE_SHAPE_AT_LOAD,
+};
+use serde_json::Value as Json;
+
+use super::loads::Pad;
+use super::modes_file;
+use super::plate::{self, PlateModes};
+use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::mirror::{Node, Table, Value};
+use crate::study::reader::{Found, Reader};
+use crate::study::vocabulary::Section;
+
+/// Where the modes of a study come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ModeSource {
+    /// Computed from the plate.
+    Plate(PlateModes),
+    /// Listed as `[[disc.mode]]`.
+    List(Listed),
+    /// Read from a CSV file.
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What stands in it.
+        listed: Listed,
+    },
+}
+
+/// Modes given by hand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Listed {
+    /// The modes, each with its own damping where it has one.
+    pub modes: Vec<ListedMode>,
+    /// ω_ref in hertz, where the modes were given in hertz.
+    pub reference_hz: Option<f64>,
+}
+
+/// A mode given by hand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ListedMode {
+    /// Nodal diameters.
+    pub diameters: usize,
+    /// Frequency over ω_ref.
+    pub ratio: f64,
+    /// Shape at the load.
+    pub shape_at_load: f64,
+    /// Damping ratio; the disc's where it is not given.
+    pub damping: Option<f64>,
+}
+
+/// One line of a list: frequency still as it was given.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    pub(super) diameters: f64,
+    pub(super) ratio: Option<f64>,
+    pub(super) hertz: Option<f64>,
+    pub(super) shape_at_load: f64,
+    pub(super) damping: Option<f64>,
+}
+
+/// Reads the modes from wherever the study has them.
+pub(super) fn read(
+    reader: &mut Reader,
+    table: &Table,
+    header: Origin,
+    folder: &Path,
+    known: Option<&ModeSource>,
+) -> Option<ModeSource> {
+    let (list, file) = (table.get("mode"), table.get("modes_file"));
+    let given = list.map(|node| ("disc.mode", node)).or(file.map(|node| ("disc.modes_file", node)));
+    let Some((key, node)) = given else {
+        let known = match known {
+            Some(ModeSource::Plate(plate)) => Some(plate),
+            _ => None,
+        };
+        return plate::read(reader, table, header, known).map(ModeSource::Plate);
+    };
+    let plate = ["inner_radius_ratio", "poisson_ratio", "radial_modes", "nodal_diameters"];
+    let others = plate.into_iter().chain(["reference_frequency"]);
+    let mut right = true;
+    for name in others.chain(list.and(file).map(|_| "modes_file")) {
+        // "critical" is what listed frequencies are measured in anyway.
+        let critical = |node: &Node| node.value == Value::Text("critical".to_owned());
+        if let Some(other) = table.get(name).filter(|node| !critical(node)) {
+            let allowed = format!("modes are given by {key} already; leave this out");
+            let key = format!("disc.{name}");
+            let given = other.given();
+            reader.complain(Complaint::new(Fault::Conflict, key, other.origin, given, allowed));
+            right = false;
+        }
+    }
+    if !right {
+        return None;
+    }
+    if list.is_some() {
+        return listed(reader, node).map(ModeSource::List);
+    }
+    let name = reader.text(key, node)?;
+    let path = folder.join(&name);
+    if let Some(ModeSource::File { path: same, listed }) = known
+        && *same == path
+    {
+        return Some(ModeSource::File { path, listed: listed.clone() });
+    }
+    let read = modes_file::read(&path).and_then(|lines| together(&lines));
+    match read {
+        Ok(listed) => Some(ModeSource::File { path, listed }),
+        Err(why) => {
+            reader.complain(Complaint::new(Fault::Path, key, node.origin, name, why));
+            None
+        }
+    }
+}
+
+/// `[[disc.mode]]`.
+fn listed(reader: &mut Reader, node: &Node) -> Option<Listed> {
+    let Value::List(list) = &node.value else {
+        reader.wrong("disc.mode", node, format!("tables [[disc.mode]]; this is {}", node.kind()));
+        return None;
+    };
+    if list.is_empty() {
+        reader.wrong("disc.mode", node, "at least one mode");
+        return None;
+    }
+    let lines: Vec<Option<Line>> = list
+        .iter()
+        .enumerate()
+        .map(|(index, node)| line(reader, node, &format!("disc.mode[{index}]")))
+        .collect();
+    let lines: Vec<Line> = lines.into_iter().collect::<Option<_>>()?;
+    match together(&lines) {
+        Ok(listed) => Some(listed),
+        Err(why) => {
+            let complaint = Complaint::new(Fault::Value, "disc.mode", node.origin, Json::Null, why);
+            reader.complain(complaint);
+            None
+        }
+    }
+}
+
+fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<Line> {
+    let table = reader.table(path, node)?;
+    reader.unknown_keys(table, Section::DiscMode, path, &[]);
+    let mut maybe = |parameter| match reader.optional(table, path, parameter, None) {
+        Found::Value(value) => Some(Some(value)),
+        Found::Absent => Some(None),
+        Found::Wrong => None,
+    };
+    let (hertz, damping) = (maybe(MODE_FREQUENCY), maybe(MODE_DAMPING));
+    let diameters = reader.number(table, path, node.origin, MODE_DIAMETERS);
+    let shape_at_load = reader.number(table, path, node.origin, MODE_SHAPE_AT_LOAD);
+    let hertz = hertz?;
+    let ratio = match hertz {
+        // Either of the two.
+        Some(_) => match reader.optional(table, path, MODE_RATIO, None) {
+            Found::Absent => None,
+            _ => {
+                let node = table.get("ratio")?;
+                let allowed = "say either ratio or frequency_hz, not both";
+                let key = format!("{path}.ratio");
+                let given = node.given();
+                reader.complain(Complaint::new(Fault::Conflict, key, node.origin, given, allowed));
+                return None;
+            }
+        },
+        None => Some(reader.number(table, path, node.origin, MODE_RATIO)?),
+    };
+    Some(Line {
+        diameters: diameters?,
+        ratio,
+        hertz,
+        shape_at_load: shape_at_load?,
+        damping: damping?,
+    })
+}
+
+/// Modes of the lines; frequencies in hertz are measured in the lowest critical speed of the list.
+fn together(lines: &[Line]) -> Result<Listed, String> {
+    let in_hertz = lines.iter().filter(|line| line.ratio.is_none()).count();
+    let reference_hz = match in_hertz {
+        0 => None,
+        count if count == lines.len() => {
+            let speeds = lines.iter().filter(|line| line.diameters > 0.0);
+            let lowest = speeds
+                .filter_map(|line| Some(line.hertz? / line.diameters))
+                .reduce(f64::min)
+                .ok_or("no mode has a nodal diameter, so none has a critical speed: give ratios")?;
+            Some(lowest)
+        }
+        _ => return Err("all modes have a ratio, or all have a frequency_hz".to_owned()),
+    };
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a whole number within the bounds of the registry"
+    )]
+    let modes = lines
+        .iter()
+        .map(|line| ListedMode {
+            diameters: line.diameters as usize,
+            ratio: match (line.ratio, line.hertz, reference_hz) {
+                (Some(ratio), _, _) => ratio,
+                (None, Some(hertz), Some(reference)) => hertz / reference,
+                (None, _, _) => f64::NAN,
+            },
+            shape_at_load: line.shape_at_load,
+            damping: line.damping,
+        })
+        .collect();
+    Ok(Listed { modes, reference_hz })
+}
+
+/// Modes as the first load meets them, the shapes at each load that sits at another radius, warnings.
+type AtLoads = (Vec<Mode>, Vec<Option<Vec<f64>>>, Vec<String>);
+
+/// How the loads meet the modes.
+pub(super) fn at_loads(
+    reader: &mut Reader,
+    source: &ModeSource,
+    pads: &[Pad],
+    damping: f64,
+) -> Option<AtLoads> {
+    let plate = match source {
+        ModeSource::List(listed) | ModeSource::File { listed, .. } => {
+            let modes = listed.modes.iter().map(|mode| Mode {
+                diameters: mode.diameters,
+                ratio: mode.ratio,
+                shape_at_load: mode.shape_at_load,
+                damping: mode.damping.unwrap_or(damping),
+            });
+            return Some((modes.collect(), vec![None; pads.len()], Vec::new()));
+        }
+        ModeSource::Plate(plate) => plate,
+    };
+    let inner = plate.plate.inner_radius_ratio();
+    let mut warnings = Vec::new();
+    let mut right = true;
+    for pad in pads {
+        let key = format!("{}.radius_ratio", pad.path);
+        let allowed = format!(
+            "a number in [{inner}, 1]: from the clamp (disc.inner_radius_ratio) to the edge"
+        );
+        match pad.radius {
+            None => {
+                let complaint =
+                    Complaint::new(Fault::Missing, key, pad.origin, Json::Null, allowed);
+                reader.complain(complaint);
+                right = false;
+            }
+            Some(radius) if radius < inner => {
+                reader.complain(Complaint::new(Fault::Value, key, pad.origin, radius, allowed));
+                right = false;
+            }
+            Some(radius) if radius == inner => warnings.push(format!(
+                "{} sits at the clamp (radius_ratio = inner_radius_ratio = {inner}), where the disc does not move: \
+                 nothing couples",
+                pad.path
+            )),
+            Some(_) => {}
+        }
+    }
+    if !right {
+        return None;
+    }
+    // Without a load shapes are told at the edge; nothing depends on them.
+    let first = pads.first().and_then(|pad| pad.radius).unwrap_or(1.0);
+    let modes = plate.set.at_radius(first, damping)?;
+    let shapes = pads
+        .iter()
+        .map(|pad| {
+            let radius = pad.radius.filter(|radius| *radius != first)?;
+            let met = plate.set.at_radius(radius, damping)?;
+            Some(met.iter().map(|mode| mode.shape_at_load).collect())
+        })
+        .collect();
+    Some((modes, shapes, warnings))
+}

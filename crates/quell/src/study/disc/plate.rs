@@ -1,0 +1,128 @@
+//! The plate of `[disc]`, its modes and its material.
+
+use quell_disc::plate::{ModeSet, Plate, PlateMaterial, Reference};
+use quell_model::parameter::Bounds;
+use quell_model::parameter::disc::{
+    DENSITY, INNER_RADIUS_RATIO, NODAL_DIAMETERS, OUTER_RADIUS, POISSON_RATIO, RADIAL_MODES,
+    THICKNESS, YOUNGS_MODULUS,
+};
+use serde_json::Value as Json;
+
+use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::mirror::{Table, Value};
+use crate::study::reader::{Found, Reader};
+
+/// A plate and the modes taken of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlateModes {
+    /// The plate.
+    pub plate: Plate,
+    /// Modes for each number of nodal diameters, N_r.
+    pub radial_modes: usize,
+    /// Largest number of nodal diameters, N_θ.
+    pub nodal_diameters: u32,
+    /// What frequencies are measured in.
+    pub reference: Reference,
+    /// The modes.
+    pub set: ModeSet,
+}
+
+/// Reads the plate and computes its modes, unless they are those `known` already.
+pub(super) fn read(
+    reader: &mut Reader,
+    table: &Table,
+    header: Origin,
+    known: Option<&PlateModes>,
+) -> Option<PlateModes> {
+    let inner = reader.number(table, "disc", header, INNER_RADIUS_RATIO);
+    let poisson = reader.optional(table, "disc", POISSON_RATIO, None).or(0.3);
+    let radial = reader.optional(table, "disc", RADIAL_MODES, None).or(1.0);
+    let diameters = reader.optional(table, "disc", NODAL_DIAMETERS, None).or(2.0);
+    let reference = reference(reader, table);
+    let plate = Plate::new(inner?, poisson?).ok()?;
+    let reference = reference?;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "whole numbers within the bounds of the registry"
+    )]
+    let (radial_modes, nodal_diameters) = (radial? as usize, diameters? as u32);
+    if let Some(known) = known
+        && known.plate == plate
+        && (known.radial_modes, known.nodal_diameters) == (radial_modes, nodal_diameters)
+        && known.reference == reference
+    {
+        return Some(known.clone());
+    }
+    match ModeSet::new(&plate, radial_modes, nodal_diameters, reference) {
+        Ok(set) => Some(PlateModes { plate, radial_modes, nodal_diameters, reference, set }),
+        Err(why) => {
+            let node = table.get("nodal_diameters");
+            let origin = node.map_or(header, |node| node.origin);
+            let given = node.map_or(Json::Null, |node| node.given());
+            let key = "disc.nodal_diameters";
+            let allowed = why.to_string();
+            reader.complain(Complaint::new(Fault::Value, key, origin, given, allowed));
+            None
+        }
+    }
+}
+
+/// `reference_frequency`: "critical" or k².
+pub(super) fn reference(reader: &mut Reader, table: &Table) -> Option<Reference> {
+    let key = "disc.reference_frequency";
+    let Some(node) = table.get("reference_frequency") else { return Some(Reference::Critical) };
+    match &node.value {
+        Value::Text(word) if word == "critical" => Some(Reference::Critical),
+        Value::Number(_) => {
+            reader.within(key, node, Bounds::POSITIVE, "", false).map(Reference::FrequencyParameter)
+        }
+        _ => {
+            let allowed =
+                "\"critical\", or a frequency parameter k² > 0 that fixes ω_ref for the disc";
+            reader.wrong(key, node, allowed);
+            None
+        }
+    }
+}
+
+/// Material and size of the plate, and where they begin: all four or none.
+#[expect(clippy::option_option, reason = "wrong, not given, given")]
+pub(super) fn material(
+    reader: &mut Reader,
+    table: &Table,
+    header: Origin,
+) -> Option<Option<(PlateMaterial, Origin)>> {
+    let parameters = [YOUNGS_MODULUS, DENSITY, THICKNESS, OUTER_RADIUS];
+    let Some(first) = parameters.iter().find_map(|parameter| table.get(parameter.key())) else {
+        return Some(None);
+    };
+    let origin = first.origin;
+    let [modulus, density, thickness, radius] =
+        parameters.map(|parameter| match reader.optional(table, "disc", parameter, None) {
+            Found::Value(value) => Some(value),
+            Found::Wrong => None,
+            Found::Absent => {
+                let allowed = format!(
+                    "{} ({}, {}); hertz and rpm need modulus, density, thickness and outer radius",
+                    parameter.bounds, parameter.symbol, parameter.about
+                );
+                reader.complain(Complaint::new(
+                    Fault::Missing,
+                    parameter.path,
+                    header,
+                    Json::Null,
+                    allowed,
+                ));
+                None
+            }
+        });
+    match PlateMaterial::new(modulus?, density?, thickness?, radius?) {
+        Ok(material) => Some(Some((material, origin))),
+        Err(why) => {
+            let node = table.get(THICKNESS.key())?;
+            reader.wrong(THICKNESS.path, node, why.to_string());
+            None
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Values of an axis, with further ones beside every predicted resonance of a disc.
+//!
+//! Tongues are as narrow as 10⁻⁵ in Ω, far below the steps of any map, and at ξ = 0 their edges are exactly marginal. An axis of
+//! the speed given by its ends gets, beside each place where waves meet, points on both sides at rising distances, and one at the peak
+//! of the predicted tongue. An axis given by its values is left as it is.
+
+use quell_disc::resonance::{Resonance, Tongue, Waves};
+
+use crate::study::{Axis, DiscStudy, Subject, Sweep};
+
+/// Distances from a meeting of waves, in Ω.
+const BESIDE: [f64; 4] = [1e-5, 1e-4, 1e-3, 4e-3];
+
+/// Points across a predicted tongue.
+const ACROSS: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// The values of an axis.
+pub(super) fn values(study: &Subject, sweep: &Sweep) -> Vec<f64> {
+    let mut values: Vec<f64> = sweep.axis.values().collect();
+    let range = match sweep.axis {
+        Axis::Linear { from, to, .. } | Axis::Logarithmic { from, to, .. } => (from, to),
+        Axis::Values(_) => return values,
+    };
+    if let Some(disc) = study.disc()
+        && sweep.address.key.path() == "disc.load.speed"
+    {
+        values.extend(beside(disc, range));
+        values.sort_by(f64::total_cmp);
+        values.dedup_by(|a, b| (*a - *b).abs() <= 1e-9);
+        if range.0 > range.1 {
+            values.reverse();
+        }
+    }
+    values
+}
+
+/// Points beside the resonances strictly between two speeds.
+fn beside(study: &DiscStudy, (from, to): (f64, f64)) -> Vec<f64> {
+    let (low, high) = (from.min(to), from.max(to));
+    let mut points = Vec::new();
+    for resonance in resonances(study, low, high) {
+        let distances = BESIDE.iter().flat_map(|distance| [-distance, *distance]);
+        points.extend(distances.map(|distance| resonance.speed + distance));
+        if let Tongue::Between { lower, upper, peak_speed, .. } = resonance.tongue {
+            points.push(peak_speed);
+            points.extend(ACROSS.iter().map(|share| lower + share * (upper - lower)));
+        }
+    }
+    points.retain(|speed| *speed > low && *speed < high);
+    points
+}
+
+/// Places where waves meet and something can come of it; none where the theory does not apply.
+fn resonances(study: &DiscStudy, low: f64, high: f64) -> Vec<Resonance> {
+    let Ok(waves) = Waves::new(study.disc()) else { return Vec::new() };
+    let mut found = waves.undithered(low..=high);
+    found.extend(waves.dithered(low..=high));
+    found
+}

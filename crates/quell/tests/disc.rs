@@ -1,0 +1,233 @@
+//! Disc studies: what is read, what is refused, modes that go through a file, maps of discs.
+
+use std::fs;
+use std::path::Path;
+
+use quell::run::disc::{modes, resonances, stability};
+use quell::run::map::run as map;
+use quell::study::DiscStudy;
+use quell::sweep::{Grid, Plan, Quantity, Running, System};
+use quell::{Change, Complaint, Subject};
+use serde_json::Value as Json;
+
+const PLATE: &str = "schema = 1\n[disc]\ninner_radius_ratio = 0.5\n[disc.load]\nradius_ratio = 0.75\n\
+    mass = 0.1\ndamping = 0.1\nstiffness = 0.1\nfriction = 0.05\nspeed = 0.3\n";
+const DITHER: &str = "[dither]\ndirection = \"normal\"\namplitude = 0.8\nfrequency_ratio = 2.7\n";
+
+fn parse(text: &str) -> Result<DiscStudy, Vec<Complaint>> {
+    DiscStudy::parse(text, &[], Path::new(""))
+}
+
+fn good(text: &str) -> DiscStudy {
+    parse(text).unwrap_or_else(|errors| panic!("{errors:#?}"))
+}
+
+fn computed(study: &DiscStudy, quantity: &str) -> quell::run::map::Map {
+    let quantity = Quantity::named_for(System::Disc, quantity, "--quantity").expect("a quantity");
+    let plan = Plan::new(study, &[quantity]).expect("axes");
+    let stop = std::sync::atomic::AtomicBool::new(false);
+    map(plan, None, Running { threads: Some(1), stop: &stop, progress: &() }).expect("computed")
+}
+
+#[test]
+fn what_is_wrong_is_told_with_its_place() {
+    let with = |from: &str, to: &str| PLATE.replace(from, to);
+    for (text, key, line, allowed) in [
+        (with("= 0.5\n", "= 1.0\n"), "disc.inner_radius_ratio", Some(3), "0.95"),
+        (with("ratio = 0.75", "ratio = 0.4"), "disc.load.radius_ratio", Some(5), "clamp"),
+        (with("ratio = 0.75", "ratio = 1.2"), "disc.load.radius_ratio", Some(5), "1]"),
+        (with("damping = 0.1", "damping = -0.1"), "disc.load.damping", Some(7), "≥ 0"),
+        (with("damping = 0.1", "dampng = 0.1"), "disc.load.dampng", Some(7), "mass"),
+        (
+            format!("{PLATE}{}", DITHER.replace("0.8", "1.5")),
+            "dither.amplitude",
+            Some(13),
+            "at most 1",
+        ),
+        (format!("{PLATE}{DITHER}phase = 1\n"), "dither.phase", Some(15), "direction"),
+        (
+            with("[disc.load]", "mode = []\n[disc.load]"),
+            "disc.inner_radius_ratio",
+            Some(3),
+            "already",
+        ),
+        (
+            with("[disc.load]", "radial_modes = 0\n[disc.load]"),
+            "disc.radial_modes",
+            Some(4),
+            "1, 40",
+        ),
+        (
+            with("[disc.load]", "without = [\"dampr\"]\n[disc.load]"),
+            "disc.without[0]",
+            Some(4),
+            "damper",
+        ),
+        (
+            with("[disc.load]", "modes_file = \"nowhere.csv\"\n[disc.load]")
+                .replace("inner_radius_ratio = 0.5\n", ""),
+            "disc.modes_file",
+            Some(3),
+            "cannot be read",
+        ),
+        ("schema = 1\n[disc]\nmode = []\n".to_owned(), "disc.mode", Some(3), "at least one"),
+        (format!("{PLATE}[belt]\nnormal_load = 1\n"), "belt", Some(11), "of a belt or of a disc"),
+    ] {
+        let told = parse(&text).expect_err(&text);
+        let found = told.iter().find(|complaint| complaint.key == key);
+        let found = found.unwrap_or_else(|| panic!("{key}: {told:#?}"));
+        assert_eq!(found.origin.line(), line, "{found}");
+        assert!(found.allowed.contains(allowed), "{found}");
+    }
+    let told = parse(&with("damping = 0.1", "dampng = 0.1")).expect_err("a slip");
+    assert_eq!(told[0].suggestion.as_deref(), Some("disc.load.damping"));
+}
+
+#[test]
+fn a_load_at_the_clamp_is_warned_of() {
+    assert!(good(PLATE).warnings().is_empty());
+    let study = good(&PLATE.replace("ratio = 0.75", "ratio = 0.5"));
+    assert!(study.warnings()[0].contains("nothing couples"), "{:?}", study.warnings());
+    assert!(study.disc().modes().iter().all(|mode| mode.shape_at_load == 0.0));
+}
+
+#[test]
+fn modes_go_through_a_file() {
+    let text = format!(
+        "{}{DITHER}",
+        PLATE.replace(
+            "= 0.5\n",
+            "= 0.5\nnodal_diameters = 5\nradial_modes = 2\nmodal_damping = 1e-4\n"
+        )
+    );
+    let study = good(&text);
+    let found = modes::run(&study);
+    assert_eq!(found.rows.len(), 12);
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("modes-file");
+    fs::create_dir_all(&folder).expect("a folder");
+    fs::write(folder.join("modes.csv"), found.dataset(&study).csv()).expect("written");
+    let through = text.replace(
+        "inner_radius_ratio = 0.5\nnodal_diameters = 5\nradial_modes = 2\nmodal_damping = 1e-4\n",
+        "modes_file = \"modes.csv\"\n",
+    );
+    let read =
+        DiscStudy::parse(&through, &[], &folder).unwrap_or_else(|errors| panic!("{errors:#?}"));
+    assert_eq!(read.disc().modes(), study.disc().modes());
+    let (one, other) =
+        (stability::run(&study).expect("finite"), stability::run(&read).expect("finite"));
+    assert!((one.growth.rate - other.growth.rate).abs() <= 1e-12);
+    // A mode that is changed by one digit is another study.
+    assert_ne!(read.settings(), study.settings());
+}
+
+#[test]
+fn listed_modes_in_hertz_are_measured_in_the_lowest_critical_speed() {
+    let text = "schema = 1\n[disc]\n[[disc.mode]]\ndiameters = 2\nfrequency_hz = 1000\nshape_at_load = 0.9\n\
+        [[disc.mode]]\ndiameters = 3\nfrequency_hz = 1800\nshape_at_load = 0.9\ndamping = 0.01\n";
+    let study = good(text);
+    assert_eq!(study.reference_hz(), Some(500.0));
+    let ratios: Vec<f64> = study.disc().modes().iter().map(|mode| mode.ratio).collect();
+    assert_eq!(ratios, [2.0, 3.6]);
+    assert_eq!(study.disc().modes()[1].damping, 0.01);
+    let mixed = text.replace("frequency_hz = 1800", "ratio = 3.6");
+    assert!(parse(&mixed).expect_err("mixed")[0].allowed.contains("all"));
+}
+
+#[test]
+fn two_half_pads_give_both_families_of_one() {
+    let halves = PLATE.replace("[disc.load]\nradius_ratio = 0.75\nmass = 0.1\ndamping = 0.1\nstiffness = 0.1\nfriction = 0.05\nspeed = 0.3\n",
+        "[[disc.load]]\nradius_ratio = 0.75\nmass = 0.05\ndamping = 0.05\nstiffness = 0.05\nfriction = 0.025\nspeed = 0.3\n\
+         [[disc.load]]\nangle_deg = 180\nradius_ratio = 0.75\nmass = 0.05\ndamping = 0.05\nstiffness = 0.05\nfriction = 0.025\n");
+    let study = good(&halves);
+    assert_eq!((study.disc().loads().len(), study.disc().speed()), (2, 0.3));
+    let told = parse(&format!("{halves}speed = 0.4\n")).expect_err("two speeds");
+    assert!(told[0].allowed.contains("turn together"), "{told:?}");
+    let refused = resonances::run(&study, resonances::Question::default());
+    assert!(
+        refused.expect_err("two loads").json()["errors"][0]["allowed"]
+            .as_str()
+            .expect("text")
+            .contains("one load")
+    );
+}
+
+#[test]
+fn tables_of_the_dissertation() {
+    let study =
+        good(&format!("{PLATE}{}", DITHER.replace("normal", "tangential").replace("0.8", "1")));
+    let found = resonances::run(&study, resonances::Question::default()).expect("one load");
+    let places = |list: &[quell_disc::resonance::Resonance]| -> Vec<String> {
+        list.iter().filter(|it| it.speed > 1e-9).map(|it| format!("{:.3}", it.speed)).collect()
+    };
+    assert_eq!(places(&found.undithered), ["0.036", "0.064", "0.114", "0.192", "1.000"]);
+    assert_eq!(
+        places(&found.dithered),
+        ["0.325", "0.369", "0.458", "0.536", "0.675", "0.836", "0.879", "0.964"]
+    );
+    let json = found.json();
+    for name in ["speed", "waves", "can_be_unstable", "threshold", "edges", "peak_growth"] {
+        assert!(json["dithered"][0].get(name).is_some(), "{name}");
+    }
+}
+
+#[test]
+fn a_map_has_the_numbers_of_its_points_and_points_beside_resonances() {
+    let axes = "[[sweep]]\nparameter = \"disc.load.speed\"\nfrom = 0.02\nto = 1\npoints = 12\nspacing = \"log\"\n\
+        [[sweep]]\nparameter = \"disc.load.friction\"\nfrom = 0\nto = 0.3\npoints = 4\n";
+    for dither in ["", DITHER] {
+        let study = good(&format!("{PLATE}{dither}{axes}"));
+        let grid = Grid::of(&study).expect("axes");
+        let speeds = &grid.axes()[0].values;
+        // Below and above the third meeting of waves, by no more than 10⁻⁵.
+        let place = resonances::run(&study, resonances::Question::default())
+            .expect("one load")
+            .undithered[2]
+            .speed;
+        for side in [-1e-5, 1e-5] {
+            assert!(speeds.iter().any(|speed| (speed - place - side).abs() < 1e-12), "{speeds:?}");
+        }
+        assert!(speeds.is_sorted() && speeds.len() > 12);
+        let done = computed(&study, "growth");
+        let entry = &done.plan().sheet().entries()[0];
+        for point in (0..grid.len()).step_by(7) {
+            let Ok(Subject::Disc(alone)) = grid.study_at(point) else { panic!("a disc") };
+            let one = stability::run(&alone).expect("finite").growth;
+            let number = done.number(entry, point).expect("known");
+            assert_eq!(number.to_bits(), one.rate.to_bits(), "{dither} {point}");
+        }
+    }
+}
+
+#[test]
+fn numbers_set_one_by_one_are_those_of_the_file() {
+    let study = good(&format!("{PLATE}{DITHER}"));
+    for (path, value) in [
+        ("disc.load.speed", 0.7),
+        ("disc.load.friction", 0.2),
+        ("dither.amplitude", 0.3),
+        ("disc.nodal_diameters", 3.0),
+        ("disc.modal_damping", 1e-3),
+    ] {
+        let change = Change::parse(&format!("{path}={value:?}"), "--set").expect("a change");
+        let read = DiscStudy::parse(study.text(), &[change], Path::new("")).expect("valid");
+        assert_eq!(study.disc_at(&[(path, value)]).as_ref(), Some(read.disc()), "{path}");
+    }
+    assert_eq!(study.disc_at(&[("dither.amplitude", 1.5)]), None);
+}
+
+#[test]
+fn the_answer_of_each_run_is_one_object_with_its_names() {
+    let study = good(&format!("{PLATE}{DITHER}"));
+    let modes: Json = modes::run(&study).json(&study);
+    for name in ["radial", "diameters", "frequency_parameter", "ratio", "shape_at_load"] {
+        assert!(modes["modes"][0][name].is_number(), "{name}");
+    }
+    assert_eq!(modes["critical_mode"]["diameters"], 2);
+    let stability = stability::run(&study).expect("finite").json(&study);
+    for name in ["verdict", "growth_rate", "growth_rate_error", "frequency"] {
+        assert!(!stability[name].is_null(), "{name}");
+    }
+    let without = PLATE.replace("[disc.load]", "without = [\"follower-force\"]\n[disc.load]");
+    let quiet = stability::run(&good(&without)).expect("finite");
+    assert!(quiet.changes.is_err() && quiet.growth.rate <= 0.0);
+}
