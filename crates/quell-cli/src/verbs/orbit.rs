@@ -2,11 +2,11 @@
 
 use clap::Args;
 use quell::run::orbit::{Wanted, json, run as orbit, sentence};
-use quell::{Complaint, Failure};
+use quell::{Complaint, Failure, picture};
 use quell_model::units::Quantity;
 
 use crate::answer::Answer;
-use crate::arguments::{Complaints, StudyArguments};
+use crate::arguments::{Complaints, PlotArguments, StudyArguments};
 use crate::table::Table;
 
 /// Computes the periodic response to dither and whether it is stable, exactly
@@ -20,6 +20,8 @@ pub(crate) struct Arguments {
     /// Common periods of the dithers in one period of the response
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     periods: u32,
+    #[command(flatten)]
+    plot: PlotArguments,
 }
 
 /// Answers.
@@ -27,8 +29,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read());
     let near = complaints.take(arguments.near.as_deref().map(|it| state("--near", it)).transpose());
-    let (study, near) = complaints.finish(study.zip(near))?;
+    let plot = complaints.take(arguments.plot.prepare());
+    let (study, (near, plot)) = complaints.finish(study.zip(near.zip(plot)))?;
     let found = orbit(&study, Wanted { near, periods: arguments.periods })?;
+    let mut object = json(&study, &found);
+    plot.write(|| picture::orbit(&study, &found), &mut object)?;
     let text = || {
         let mut table = Table::new(study.scales());
         table.word("verdict", found.verdict().name());
@@ -48,7 +53,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         table.number("residual", Quantity::Displacement, found.residual);
         format!("{}\n{}", sentence(&study, &found), table.text())
     };
-    Ok(Answer::new(arguments.study.json, || json(&study, &found), text))
+    Ok(Answer::new(arguments.study.json, || object, text))
 }
 
 /// Two numbers x,v.

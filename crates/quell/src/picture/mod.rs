@@ -7,6 +7,7 @@ mod caption;
 pub mod disc;
 mod friction;
 mod map;
+mod orbit;
 mod response;
 mod ruler;
 mod simulate;
@@ -15,6 +16,7 @@ mod sweep;
 
 pub use friction::friction;
 pub use map::{MOST_PANELS, Map, MapAxis, MapKind, map, map_panel};
+pub use orbit::orbit;
 pub use response::response;
 pub use simulate::simulate;
 pub use stability::stability;

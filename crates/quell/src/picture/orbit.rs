@@ -1,0 +1,54 @@
+//! A periodic response in the phase plane, and its multipliers beside the unit circle.
+
+use std::f64::consts::TAU;
+
+use quell_belt::orbit::Orbit;
+use quell_belt::simulation::{DEFAULT_TOLERANCE, Sampler, simulate};
+use quell_model::units::Quantity;
+
+use super::caption::caption;
+use super::ruler::Ruler;
+use crate::plot::{Axis, Figure, Line, Marker, Panel, Points, Role, Rule, Size};
+use crate::run::orbit::sentence;
+use crate::study::Study;
+
+/// Samples of a period.
+const SAMPLES: usize = 1200;
+
+/// Points of a circle.
+const CIRCLE: u32 = 180;
+
+/// The picture of a periodic response.
+pub fn orbit(study: &Study, found: &Orbit) -> Figure {
+    let belt = study.belt();
+    let step = found.period / SAMPLES as f64;
+    let mut sampler = Sampler::new(0.0, step, SAMPLES + 1);
+    // Where the engine stops the curve ends: the orbit itself was integrated before.
+    let _ = simulate(belt, found.start, found.period, DEFAULT_TOLERANCE, &mut sampler);
+    let largest = |of: fn(&quell_belt::simulation::Sample) -> f64| {
+        sampler.samples.iter().map(|sample| of(sample).abs()).fold(0.0, f64::max)
+    };
+    let x = Ruler::new(study, Quantity::Displacement, largest(|sample| sample.displacement));
+    let speed = largest(|sample| sample.velocity).max(belt.belt_velocity());
+    let v = Ruler::new(study, Quantity::Velocity, speed);
+    let curve = sampler
+        .samples
+        .iter()
+        .map(|sample| (x.place(sample.displacement), v.place(sample.velocity)));
+    let phase = Panel::new(x.axis("displacement", "x"), v.axis("velocity", "x′"))
+        .with(Line::new(Role::Dithered, curve))
+        .with(Rule::horizontal(v.place(belt.belt_velocity())).label("belt"));
+    let circle = (0..=CIRCLE).map(|k| {
+        let angle = TAU * f64::from(k) / f64::from(CIRCLE);
+        (libm::cos(angle), libm::sin(angle))
+    });
+    let reach = 1.1_f64.max(1.1 * found.radius());
+    let axis = |name: &str| Axis::new(name).symbol("λ").between(-reach, reach);
+    let multipliers = Panel::new(axis("Re"), axis("Im"))
+        .with(Line::new(Role::Guide, circle))
+        .with(Points::new(Role::Exact, found.multipliers).marker(Marker::Disc).size(7.0));
+    Figure::grid(2, [phase, multipliers])
+        .size(Size::Frame(280.0, 260.0))
+        .title(study.title().unwrap_or_default())
+        .caption(format!("{} {}.", sentence(study, found), caption(study)))
+}
