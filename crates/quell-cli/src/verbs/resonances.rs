@@ -64,7 +64,7 @@ fn question(arguments: &Arguments) -> Result<Question, Vec<Complaint>> {
     let mut range = |text: &str, option| match parse(text, option) {
         Ok(range) => Some(range),
         Err(complaint) => {
-            wrong.push(complaint);
+            wrong.push(*complaint);
             None
         }
     };
@@ -91,7 +91,7 @@ fn question(arguments: &Arguments) -> Result<Question, Vec<Complaint>> {
 }
 
 /// `0.2:0.9`.
-fn parse(text: &str, option: &'static str) -> Result<RangeInclusive<f64>, Complaint> {
+fn parse(text: &str, option: &'static str) -> Result<RangeInclusive<f64>, Box<Complaint>> {
     let ends = text.split_once(':').and_then(|(from, to)| {
         Some((from.trim().parse::<f64>().ok()?, to.trim().parse::<f64>().ok()?))
     });
@@ -100,7 +100,7 @@ fn parse(text: &str, option: &'static str) -> Result<RangeInclusive<f64>, Compla
         _ => {
             let allowed = "FROM:TO, two numbers of which the first is not larger, such as 0.2:0.9";
             let origin = Origin::Argument(option);
-            Err(Complaint::new(Fault::Value, option, origin, text, allowed))
+            Err(Box::new(Complaint::new(Fault::Value, option, origin, text, allowed)))
         }
     }
 }

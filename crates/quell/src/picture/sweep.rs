@@ -80,9 +80,8 @@ fn picture(done: &Map, entry: &Entry) -> Picture {
         Kind::DiscRate if variable.symbol.starts_with("Re") => {
             MapKind::Growth(Spread::SignedLog(1e-5))
         }
-        Kind::DiscRate => MapKind::Number(Spread::Linear),
         Kind::Number(_) if variable.name == "efficiency" => MapKind::Efficiency,
-        Kind::Number(_) => MapKind::Number(Spread::Linear),
+        Kind::DiscRate | Kind::Number(_) => MapKind::Number(Spread::Linear),
     };
     let name = match kind {
         MapKind::Efficiency => "efficiency",

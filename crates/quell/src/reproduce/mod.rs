@@ -8,6 +8,7 @@
 //! | `source` | study files of the entries, their cases |
 //! | `product`, `write` | pictures, tables of data, and their files |
 //! | `laws`, `waveforms`, `effective_friction`, `stability_map`, `responses`, `efficiency_map`, `measured_friction` | the kinds of figures |
+//! | `disc` | tables and figures of chapter 5 |
 //! | `print` | formulas as the dissertation prints them, right or wrong |
 //! | `claims` | claim, printed, measured, verdict |
 
@@ -24,6 +25,7 @@ use crate::complaint::{Complaint, Failure};
 use crate::study::suggest;
 
 pub mod claims;
+mod disc;
 mod effective_friction;
 mod efficiency_map;
 mod laws;
@@ -63,6 +65,18 @@ macro_rules! figure {
     };
 }
 
+/// A table whose parameters stand in `studies/NAME.toml`.
+macro_rules! table {
+    ($name:literal, $about:literal, $make:path) => {
+        Entry {
+            name: $name,
+            about: $about,
+            study: include_str!(concat!("../../../../studies/", $name, ".toml")),
+            make: $make,
+        }
+    };
+}
+
 /// Everything that can be reproduced, in the order of the dissertation.
 pub const ENTRIES: &[Entry] = &[
     figure!("2.2", "Stribeck and decreasing friction law", laws::figure),
@@ -96,6 +110,22 @@ pub const ENTRIES: &[Entry] = &[
     figure!("4.8", "stability maps, decreasing law, normal dither", stability_map::three),
     figure!("4.9", "efficiency, Stribeck law, normal dither", efficiency_map::single),
     figure!("4.10", "efficiency, decreasing law, normal dither", efficiency_map::single),
+    table!("table-5.1", "speeds at which waves of the disc meet", disc::undithered),
+    table!("table-5.2", "speeds at which dither makes waves of the disc meet", disc::induced),
+    figure!("5.2", "modes of the annular plate", disc::modes),
+    figure!("5.3", "growth of the disc, N = (1, 2), no dither", disc::sizes),
+    figure!("5.4", "growth of the disc, N = (1, 5), no dither", disc::sizes),
+    figure!("5.5", "growth of the disc, N = (2, 5), no dither", disc::sizes),
+    figure!("5.6", "responses that grow, stay, decay", disc::responses),
+    figure!("5.7", "growth of the disc, normal dither, ξ = 0", disc::maps),
+    figure!("5.8", "growth of the disc, normal dither, ξ = 10⁻³", disc::maps),
+    figure!("5.9", "growth of the disc, tangential dither, m = c = k = 0.1", disc::maps),
+    figure!("5.10", "growth of the disc, tangential dither, m = c = k = 0.2", disc::maps),
+    figure!("5.11", "growth of the disc, tangential dither, m = c = k = 0.3", disc::maps),
+    figure!("5.12", "growth of the disc, tangential dither, ξ = 0", disc::maps),
+    figure!("5.13", "growth of the disc, tangential dither, ξ = 10⁻⁵", disc::maps),
+    figure!("5.14", "growth of the disc, tangential dither, ξ = 10⁻⁴", disc::maps),
+    figure!("5.15", "growth of the disc, tangential dither, ξ = 10⁻³", disc::maps),
     Entry {
         name: "claims",
         about: "numerical claims and formulas: printed, measured, verdict",

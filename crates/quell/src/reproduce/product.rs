@@ -24,18 +24,29 @@ pub struct Product {
 impl Product {
     /// A figure with its data; the caption is put below the picture too.
     pub fn new(figure: Figure, caption: impl Into<String>, study: &Study) -> Self {
+        Self::of(figure, caption, study.text(), study.changes())
+    }
+
+    /// The same with the text and the changes of any study.
+    pub(super) fn of(
+        figure: Figure,
+        caption: impl Into<String>,
+        text: &str,
+        changes: &[String],
+    ) -> Self {
+        let product = Self::of_table(caption, text, changes);
+        Self { figure: Some(figure.caption(product.caption.clone())), ..product }
+    }
+
+    /// A table without a picture, with the text and the changes of its study.
+    pub(super) fn of_table(caption: impl Into<String>, text: &str, changes: &[String]) -> Self {
         // A symbol, its sign and its number stay on one line.
         let caption = caption.into().replace(" = ", "\u{a0}=\u{a0}");
         let mut provenance: Vec<String> =
-            study.changes().iter().map(|change| format!("changed: {change}")).collect();
+            changes.iter().map(|change| format!("changed: {change}")).collect();
         provenance.push("study:".to_owned());
-        provenance.extend(study.text().lines().map(|line| format!("  {line}")));
-        Self {
-            figure: Some(figure.caption(caption.clone())),
-            caption,
-            provenance,
-            ..Self::default()
-        }
+        provenance.extend(text.lines().map(|line| format!("  {line}")));
+        Self { caption, provenance, ..Self::default() }
     }
 
     /// Adds a table of data.

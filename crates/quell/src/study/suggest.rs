@@ -99,13 +99,11 @@ fn spelled(symbol: &str) -> String {
             'ξ' => plain.push_str("xi"),
             'ν' => plain.push_str("nu"),
             'ρ' => plain.push_str("rho"),
-            'Ω' => plain.push_str("omega"),
             'β' => plain.push_str("beta"),
             'θ' => plain.push_str("theta"),
-            '*' => {}
-            'ω' => plain.push_str("omega"),
+            'ω' | 'Ω' => plain.push_str("omega"),
             '₀' => plain.push('0'),
-            '_' => {}
+            '_' | '*' => {}
             other => plain.extend(other.to_lowercase()),
         }
     }

@@ -98,7 +98,7 @@ impl Grid {
             logarithmic: matches!(sweep.axis, Axis::Logarithmic { .. }),
         });
         let axes = axes.collect();
-        Ok(Self { axes, study })
+        Ok(Self { study, axes })
     }
 
     /// The study whose axes these are.

@@ -1,6 +1,6 @@
 //! The table of claims: what the dissertation says, what independent numerics measure, and the verdict.
 //!
-//! A claim is made by a function that measures (`chapter2` to `chapter4`, `isocline`); the verdict follows from printed and
+//! A claim is made by a function that measures (`chapter2` to `chapter5`, `isocline`); the verdict follows from printed and
 //! measured values by the rules of [`Verdict`], never from words.
 
 use serde_json::{Value as Json, json};
@@ -13,6 +13,7 @@ mod chapter2;
 mod chapter3;
 mod chapter3_formulas;
 mod chapter4;
+mod chapter5;
 mod isocline;
 mod sheet;
 
@@ -42,6 +43,12 @@ const SECTIONS: &[Section] = &[
     chapter4::stability_maps,
     isocline::normal,
     chapter4::formulas,
+    chapter5::tables,
+    chapter5::thresholds,
+    chapter5::normal,
+    chapter5::tangential,
+    chapter5::damping,
+    chapter5::revived,
 ];
 
 /// Measures every claim.

@@ -228,7 +228,7 @@ impl Resonances {
                     inner["there"] = nearby.into();
                 }
                 None => {
-                    inner["why"] = json!({ "suggestion": "no frequency of the range is clear" })
+                    inner["why"] = json!({ "suggestion": "no frequency of the range is clear" });
                 }
             }
             object["clear"] = inner;

@@ -158,17 +158,15 @@ fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<Line> {
     let hertz = hertz?;
     let ratio = match hertz {
         // Either of the two.
-        Some(_) => match reader.optional(table, path, MODE_RATIO, None) {
-            Found::Absent => None,
-            _ => {
-                let node = table.get("ratio")?;
+        Some(_) => {
+            if let Some(other) = table.get(MODE_RATIO.key()) {
                 let allowed = "say either ratio or frequency_hz, not both";
-                let key = format!("{path}.ratio");
-                let given = node.given();
-                reader.complain(Complaint::new(Fault::Conflict, key, node.origin, given, allowed));
+                let (key, given) = (format!("{path}.ratio"), other.given());
+                reader.complain(Complaint::new(Fault::Conflict, key, other.origin, given, allowed));
                 return None;
             }
-        },
+            None
+        }
         None => Some(reader.number(table, path, node.origin, MODE_RATIO)?),
     };
     Some(Line {

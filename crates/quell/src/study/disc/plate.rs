@@ -9,7 +9,7 @@ use quell_model::parameter::disc::{
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::mirror::{Table, Value};
+use crate::study::mirror::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
 
 /// A plate and the modes taken of it.
@@ -59,7 +59,7 @@ pub(super) fn read(
         Err(why) => {
             let node = table.get("nodal_diameters");
             let origin = node.map_or(header, |node| node.origin);
-            let given = node.map_or(Json::Null, |node| node.given());
+            let given = node.map_or(Json::Null, Node::given);
             let key = "disc.nodal_diameters";
             let allowed = why.to_string();
             reader.complain(Complaint::new(Fault::Value, key, origin, given, allowed));
