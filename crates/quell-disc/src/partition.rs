@@ -16,7 +16,7 @@
 //! table 5.1 an exponent is imaginary for every f; that one is out of the load's reach and does not appear.
 //! At ω = 0 and ω = R/2 eigenvalues are real or in pairs by symmetry, and real ones count as boundaries
 //! (divergence, and doubling of the dither's period).
-//! Limits: crossings that come and go within one step of ω are missed ([`POINTS_PER_WAVE`]); near poles of T, at ξ = 0 close to a
+//! Limits: crossings that come and go within one step of ω are missed (`POINTS_PER_WAVE`); near poles of T, at ξ = 0 close to a
 //! coincidence, they can be that close.
 
 use num_complex::Complex64;

@@ -1,6 +1,6 @@
 //! Stability without dither: eigenvalues of the state matrix, in the frame of the loads (section 5.3).
 //!
-//! Growth rates carry a bound on what rounding can have done (condition × backward error, at least [`FLOOR`]); at
+//! Growth rates carry a bound on what rounding can have done (condition × backward error, at least `FLOOR`); at
 //! ξ = 0 whole lines of the map are marginal, where a bare sign would be noise.
 
 use num_complex::Complex64;

@@ -1,7 +1,7 @@
 //! Periodic responses, exactly: Newton shooting on the period map, Floquet multipliers through stick and slip.
 //!
 //! The steady response to periodic dither is a fixed point of the map over one common period (or n of them). Its stability
-//! is decided by the multipliers of the map's derivative, which [`variation`] carries along the run with a jump at
+//! is decided by the multipliers of the map's derivative, which `variation` carries along the run with a jump at
 //! every event; neither averaging nor a long simulation is needed. In pure slip det M = exp(−∮(2ζ + μ′N)dτ); with a
 //! stick one multiplier is 0, because the mass leaves it at one state whatever came before.
 //!

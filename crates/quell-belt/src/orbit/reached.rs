@@ -3,7 +3,7 @@
 //! An answer for a protocol, beside the local one of the multipliers: attractors coexist, and from which start on the
 //! dither quenches is another question than whether its response is stable.
 //!
-//! Scheme: states once a period, compared with the orbit. Settled is what comes nearer than [`NEAR`]; away is
+//! Scheme: states once a period, compared with the orbit. Settled is what comes nearer than `NEAR`; away is
 //! what has not come nearer over a whole block. A run that still comes nearer goes on, for near a threshold a
 //! decay takes long and a small remnant says nothing. Limit: a run that dwells beside the
 //! boundary of the basin for two blocks counts as away; that is an exponentially narrow range of parameters.

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! and N is doubled until the sign of ρ is sure or the bound is small enough. The eigenvalues of one map serve all others
-//! ([`shared`]). Where multipliers are defective or the maps differ too much, all maps are solved in full.
+//! (`shared`). Where multipliers are defective or the maps differ too much, all maps are solved in full.
 //! The splitting has no damping of its own: a marginal exponent stays marginal, where an integrator of the ode45 kind reports
 //! −10⁻⁵ and hides what grows more slowly.
 
