@@ -51,21 +51,18 @@ impl Collocation {
             }
             *node = 0.5 * (1.0 + x);
         }
+        // The rule itself integrates the polynomials exactly.
+        let weights = nodes.map(|node| {
+            let x = 2.0 * node - 1.0;
+            let slope = legendre(x).1;
+            1.0 / ((1.0 - x * x) * slope * slope)
+        });
         let mut integrals = [[0.0; NODES]; NODES];
-        let mut weights = [0.0; NODES];
-        for j in 0..NODES {
-            let basis = lagrange(&nodes, j);
-            let integral = |end: f64| {
-                let mut value = 0.0;
-                for (k, coefficient) in basis.iter().enumerate().rev() {
-                    value = f64::mul_add(value, end, coefficient / (k + 1) as f64);
-                }
-                value * end
-            };
-            for i in 0..NODES {
-                integrals[i][j] = integral(nodes[i]);
+        for (row, &end) in integrals.iter_mut().zip(&nodes) {
+            for (j, entry) in row.iter_mut().enumerate() {
+                let values = nodes.map(|node| lagrange(&nodes, j, end * node));
+                *entry = end * values.iter().zip(weights).map(|(v, w)| v * w).sum::<f64>();
             }
-            weights[j] = integral(1.0);
         }
         Self { nodes, weights, integrals }
     }
@@ -81,20 +78,10 @@ fn legendre(x: f64) -> (f64, f64) {
     (value, NODES as f64 * (before - x * value) / (1.0 - x * x))
 }
 
-/// Coefficients of the j-th Lagrange polynomial.
-fn lagrange(nodes: &[f64; NODES], j: usize) -> [f64; NODES] {
-    let mut coefficients = [0.0; NODES];
-    coefficients[0] = 1.0;
+/// The j-th Lagrange polynomial at a place.
+fn lagrange(nodes: &[f64; NODES], j: usize, place: f64) -> f64 {
     let others = nodes.iter().enumerate().filter(|(k, _)| *k != j);
-    for (degree, (k, node)) in others.enumerate() {
-        let scale = 1.0 / (nodes[j] - nodes[k]);
-        for place in (0..=degree).rev() {
-            let coefficient = coefficients[place] * scale;
-            coefficients[place + 1] += coefficient;
-            coefficients[place] = -coefficient * node;
-        }
-    }
-    coefficients
+    others.map(|(_, node)| (place - node) / (nodes[j] - node)).product()
 }
 
 /// Carries a matrix of changes along a run.
