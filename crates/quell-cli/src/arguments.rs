@@ -81,6 +81,11 @@ pub(crate) struct PlotArguments {
 }
 
 impl PlotArguments {
+    /// Whether a picture is asked for.
+    pub(crate) fn asked(&self) -> bool {
+        self.plot.is_some()
+    }
+
     /// Tries whether the picture can be written.
     pub(crate) fn prepare(&self) -> Result<Plot, Failure> {
         let output = self.plot.as_ref().map(|path| Output::prepare(path, "--plot", EXTENSIONS));

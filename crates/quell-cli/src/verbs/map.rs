@@ -18,6 +18,7 @@ use crate::arguments::{Complaints, PlotArguments, StudyArguments};
 use crate::interrupt;
 use crate::progress::Bar;
 use crate::table::figure;
+use crate::verbs::shard;
 
 /// Computes quantities over the axes ([[sweep]]) of a study, on all cores
 #[derive(Debug, Args)]
@@ -34,6 +35,10 @@ pub(crate) struct Arguments {
     /// Goes on with the store that --save names, if there is one
     #[arg(long)]
     resume: bool,
+    /// Computes one of N equal parts of the map, K from 1 to N, into the store that --save names,
+    /// beside processes that compute the others, in any order, on any machines
+    #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
+    shard: Option<String>,
     /// Number of threads; all there are by default
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     threads: Option<String>,
@@ -73,6 +78,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         .collect();
     let threads = complaints.take(threads(arguments.threads.as_deref()));
     let keep = complaints.take(keep(arguments));
+    let shard = arguments.shard.as_deref().map(|text| shard::read(text, arguments.plot.asked()));
+    let shard = complaints.take(shard.transpose());
     let plot = complaints.take(arguments.plot.prepare());
     let plan = study.and_then(|study| complaints.take(Plan::new(&study, &asked)));
     if let (Some(plan), Some(plot)) = (&plan, &plot)
@@ -80,9 +87,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     {
         complaints.take(drawable(plan.grid()));
     }
-    let ((plan, keep), (threads, plot)) =
-        complaints.finish(plan.zip(keep).zip(threads.zip(plot)))?;
+    let (((plan, keep), shard), (threads, plot)) =
+        complaints.finish(plan.zip(keep).zip(shard).zip(threads.zip(plot)))?;
 
+    if let (Some(shard), Keep::Zarr(path)) = (shard, &keep) {
+        return shard::run(shard, path, plan, threads, arguments.study.json);
+    }
     let store = match &keep {
         Keep::Zarr(path) => Some(Store::open(path, &plan, arguments.resume)?),
         Keep::Csv(_) | Keep::Nowhere => None,
@@ -121,9 +131,12 @@ fn keep(arguments: &Arguments) -> Result<Keep, Box<Complaint>> {
     let zarr = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "zarr");
     match &arguments.save {
         Some(path) if zarr(path) => Ok(Keep::Zarr(path.clone())),
-        _ if arguments.resume => {
-            let allowed = "--resume goes on with a store: name it by --save FILE.zarr";
-            let option = "--resume";
+        _ if arguments.resume || arguments.shard.is_some() => {
+            let (option, allowed) = if arguments.resume {
+                ("--resume", "--resume goes on with a store: name it by --save FILE.zarr")
+            } else {
+                ("--shard", "--shard computes into a store: name it by --save FILE.zarr")
+            };
             Err(Box::new(Complaint::new(Fault::Usage, option, Origin::Whole, option, allowed)))
         }
         Some(path) => Output::prepare(path, "--save", &["csv", "zarr"]).map(Keep::Csv),

@@ -10,6 +10,7 @@ pub(crate) mod reproduce;
 pub(crate) mod resonances;
 pub(crate) mod response;
 pub(crate) mod schema;
+mod shard;
 pub(crate) mod simulate;
 pub(crate) mod stability;
 pub(crate) mod thresholds;

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use crate::place::{Place, STUDY, Told, files, same};
 
 /// The store of a run that nothing disturbed, and how long it took; made once for all tests.
-fn undisturbed() -> &'static (BTreeMap<String, Vec<u8>>, Duration) {
+pub(crate) fn undisturbed() -> &'static (BTreeMap<String, Vec<u8>>, Duration) {
     static STORE: OnceLock<(BTreeMap<String, Vec<u8>>, Duration)> = OnceLock::new();
     STORE.get_or_init(|| {
         let place = large("undisturbed");
@@ -29,14 +29,14 @@ const LARGE: &str = "[[sweep]]\nparameter = \"dither.amplitude\"\nfrom = 0.05\nt
 const ASK: &[&str] =
     &["map", "large.toml", "--quantity", "efficiency,verdict", "--threads", "1", "--save"];
 
-fn large(name: &str) -> Place {
+pub(crate) fn large(name: &str) -> Place {
     let place = Place::new(name);
     let study = STUDY.replace("settle = 5", "settle = 100").replace("periods = 4", "periods = 10");
     place.write("large.toml", &format!("{study}{LARGE}"));
     place
 }
 
-fn ask<'a>(save: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+pub(crate) fn ask<'a>(save: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     [ASK, &[save], more].concat()
 }
 
@@ -49,7 +49,7 @@ impl Place {
     }
 
     /// Completion records of a store.
-    fn records(&self, save: &str) -> usize {
+    pub(crate) fn records(&self, save: &str) -> usize {
         fs::read_dir(self.folder.join(save).join(".quell/done")).map_or(0, Iterator::count)
     }
 }
@@ -288,7 +288,7 @@ fn a_store_that_cannot_be_written_is_told_at_once() {
 }
 
 #[track_caller]
-fn wait_for(what: &str, there: impl Fn() -> bool) {
+pub(crate) fn wait_for(what: &str, there: impl Fn() -> bool) {
     let begun = Instant::now();
     while !there() {
         assert!(begun.elapsed() < Duration::from_mins(1), "{what} did not come");

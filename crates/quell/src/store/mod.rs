@@ -1,14 +1,14 @@
 //! Stores of maps: Zarr v3 folders that survive whatever happens to the process.
 //!
 //! ```text
-//! map.zarr/zarr.json                    group: study, sources, consolidated metadata
+//! map.zarr/zarr.json                    group: study, sources, consolidated metadata; written last of the frame
 //!          dither_amplitude/…           coordinates, one an axis
 //!          efficiency/c/0/1             values, chunk by chunk
 //!          efficiency_status/c/0/1      what is known about them
-//!          .quell/map.json              what the store was begun with; written last of the frame
+//!          .quell/map.json              what the store was begun with; written first
 //!          .quell/done/0.1.json         completion record of a chunk; written last of the chunk
 //!          .quell/unfinished/           files until they are whole
-//!          .quell/lock                  held while a process writes
+//!          .quell/lock                  held while a process writes, alone or with others
 //! ```
 //!
 //! What holds at every moment, whoever is killed: a file is whole or not there; a record is
@@ -16,26 +16,34 @@
 //! resumes with the chunks that are not proven, and ends with the same bytes as one that was
 //! never disturbed.
 //!
-//! One process writes at a time: it holds a lock of the operating system, which goes away with
-//! the process however that ends, so that no lock is ever stale. Should a file system have no
-//! locks, two processes waste work but do no harm: a chunk is renamed into place, whole, and
-//! either process would write the same bytes.
+//! One process writes alone ([`Store::open`]), or several on any number of machines share the
+//! store ([`Store::open_shared`]). Sharing needs no word between them: which map the store is of
+//! is decided by the one whose `map.json` comes first, whole, and every other compares; what they
+//! write besides is the same bytes whoever writes it, and is renamed into place, whole. A chunk
+//! that two of them compute is computed twice, no more. Locks of the operating system keep one
+//! that writes alone from those that share; nothing depends on them.
 
 mod codec;
 mod identity;
 mod layout;
+mod lock;
 mod record;
 mod whole;
 
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::collections::HashSet;
+use std::ffi::OsStr;
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::Duration;
 
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::sweep::{Content, Data, Field, MISSING, Plan};
 use layout::{Described, Layout};
+use lock::{Refused, Writers, lock};
 use record::{Record, Seal};
 use whole::Unfinished;
 
@@ -44,6 +52,13 @@ const OWN: &str = ".quell";
 
 /// Folder of completion records inside.
 const DONE: &str = "done";
+
+/// Metadata of the group.
+const GROUP: &str = "zarr.json";
+
+/// Times that an identity which is not whole is looked at, and the time between.
+const PATIENCE: u32 = 20;
+const MOMENT: Duration = Duration::from_millis(50);
 
 /// The option that names a store.
 const OPTION: &str = "--save";
@@ -54,7 +69,7 @@ pub struct Store {
     path: PathBuf,
     layout: Layout,
     unfinished: Unfinished,
-    /// Held while the store is open.
+    /// Held while the store is open, exclusively or with others.
     _lock: File,
 }
 
@@ -81,50 +96,91 @@ impl Store {
     pub fn open(path: &Path, plan: &Plan, resume: bool) -> Result<Self, Failure> {
         let layout = Layout::new(plan).map_err(|error| failed(path, error.to_string()))?;
         let made = prepare(path, resume)?;
-        let locked = Self::locked(path, layout);
-        let fresh = made && !matches!(locked, Err(Refused::Busy));
-        let opened = locked
-            .map_err(|refused| refused.told(path))
-            .and_then(|store| store.begin(plan, resume).map(|()| store));
-        if opened.is_err() && fresh {
-            // Nothing half-made stays; if it cannot be removed, the first error is still the one.
-            let _ = fs::remove_dir_all(path);
+        let (store, alone) = match Self::locked(path, layout, Writers::One) {
+            Ok(locked) => locked,
+            Err(refused) => {
+                if made && !matches!(refused, Refused::Busy) {
+                    discard(path);
+                }
+                return Err(refused.told(path));
+            }
+        };
+        let begun = store.begin(plan, resume);
+        if begun.is_err() && made && alone {
+            discard(path);
         }
-        opened
+        begun.map(|()| store)
     }
 
-    /// Takes the lock of the store, which is the first thing that is in it.
-    fn locked(path: &Path, layout: Layout) -> Result<Self, Refused> {
+    /// Opens the store of a plan at `path` to write it together with other processes, on this or
+    /// other machines: a new one, or the one that is there.
+    ///
+    /// # Errors
+    /// As [`Store::open`] with `resume`; [`Failure::Failed`] while a process writes it alone.
+    pub fn open_shared(path: &Path, plan: &Plan) -> Result<Self, Failure> {
+        let layout = Layout::new(plan).map_err(|error| failed(path, error.to_string()))?;
+        prepare(path, true)?;
+        let locked = Self::locked(path, layout, Writers::Several);
+        let (store, _) = locked.map_err(|refused| refused.told(path))?;
+        store.begin(plan, true)?;
+        Ok(store)
+    }
+
+    /// Takes the lock of the store, which is the first thing that is in it; and whether nobody
+    /// else writes.
+    fn locked(path: &Path, layout: Layout, writers: Writers) -> Result<(Self, bool), Refused> {
         let own = path.join(OWN);
         fs::create_dir_all(own.join(DONE))?;
-        let (lock, alone) = lock(&own.join("lock"))?;
+        let (lock, alone) = lock(&own.join("lock"), writers)?;
         let unfinished = Unfinished::new(own.join("unfinished"))?;
         if alone {
             unfinished.clear()?;
+        } else {
+            unfinished.clear_abandoned()?;
         }
-        Ok(Self { path: path.to_owned(), layout, unfinished, _lock: lock })
+        Ok((Self { path: path.to_owned(), layout, unfinished, _lock: lock }, alone))
     }
 
-    /// Compares what is there with the plan, or writes all but the chunks.
+    /// Compares what is there with the plan, and writes what is missing of all but the chunks.
     fn begin(&self, plan: &Plan, resume: bool) -> Result<(), Failure> {
         let map = self.path.join(OWN).join("map.json");
         let identity = identity::identity(plan);
-        match fs::read_to_string(&map) {
-            Ok(_) if !resume => Err(exists(&self.path)),
-            Ok(text) => {
-                let there: Json = serde_json::from_str(&text).unwrap_or_default();
-                let differences = identity::differences(&there, &identity);
-                if !differences.is_empty() {
-                    return Err(another(&self.path, &differences));
-                }
-                Ok(())
+        let text = format!("{identity:#}\n");
+        let first = match fs::read_to_string(&map) {
+            Ok(_) => false,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => self
+                .unfinished
+                .write_first(&map, text.as_bytes())
+                .map_err(|error| failed(&self.path, format!("cannot be written: {error}")))?,
+            Err(error) => return Err(unwritable(&self.path, &error)),
+        };
+        if !first {
+            if !resume {
+                return Err(exists(&self.path));
             }
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                self.frame(plan)?;
-                self.put(&map, format!("{identity:#}\n").as_bytes())
+            let there = self.identity(&map)?;
+            let differences = identity::differences(&there, &identity);
+            if !differences.is_empty() {
+                return Err(another(&self.path, &differences));
             }
-            Err(error) => Err(unwritable(&self.path, &error)),
         }
+        if first || !self.path.join(GROUP).exists() {
+            self.frame(plan)?;
+        }
+        Ok(())
+    }
+
+    /// What the store was begun with. Where it is not whole it is waited for a moment: on a file
+    /// system without second names, the process that was first may still be writing it.
+    fn identity(&self, map: &Path) -> Result<Json, Failure> {
+        for _ in 0..PATIENCE {
+            let text = fs::read_to_string(map).map_err(|error| unwritable(&self.path, &error))?;
+            if let Ok(there) = serde_json::from_str(&text) {
+                return Ok(there);
+            }
+            thread::sleep(MOMENT);
+        }
+        Ok(Json::Null)
     }
 
     /// Writes everything but chunks.
@@ -139,7 +195,7 @@ impl Store {
                 .map_err(|error| failed(&self.path, error.to_string()))?;
             self.put(&self.path.join(key(array, &[0])), &bytes)?;
         }
-        self.put(&self.path.join("zarr.json"), format!("{:#}\n", self.layout.group).as_bytes())
+        self.put(&self.path.join(GROUP), format!("{:#}\n", self.layout.group).as_bytes())
     }
 
     /// Writes a finished chunk: its files, then its record. Again is as good as once.
@@ -194,9 +250,23 @@ impl Store {
         self.layout.fields.iter().zip(plan.sheet().fields()).map(read).collect()
     }
 
+    /// Chunks that have no record: unfinished for certain. What is recorded is not read, so that
+    /// this is quick, and [`Store::read`] may still find a chunk damaged.
+    ///
+    /// # Errors
+    /// [`Failure::Wrong`] where the records cannot be listed.
+    pub fn unrecorded(&self, plan: &Plan) -> Result<Vec<usize>, Failure> {
+        let entries = fs::read_dir(self.path.join(OWN).join(DONE));
+        let names: Result<HashSet<_>, _> =
+            entries.and_then(|entries| entries.map(|entry| Ok(entry?.file_name())).collect());
+        let names = names.map_err(|error| unwritable(&self.path, &error))?;
+        let recorded =
+            |chunk| names.contains(OsStr::new(&record_name(&plan.chunks().place(chunk))));
+        Ok((0..plan.chunks().len()).filter(|&chunk| !recorded(chunk)).collect())
+    }
+
     fn record_path(&self, place: &[usize]) -> PathBuf {
-        let name: Vec<String> = place.iter().map(usize::to_string).collect();
-        self.path.join(OWN).join(DONE).join(format!("{}.json", name.join(".")))
+        self.path.join(OWN).join(DONE).join(record_name(place))
     }
 
     fn put(&self, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
@@ -208,6 +278,12 @@ impl Store {
     pub fn path(&self) -> &Path {
         &self.path
     }
+}
+
+/// Name of the completion record of a chunk.
+fn record_name(place: &[usize]) -> String {
+    let place: Vec<String> = place.iter().map(usize::to_string).collect();
+    format!("{}.json", place.join("."))
 }
 
 /// Key of a chunk of an array.
@@ -231,28 +307,23 @@ fn prepare(path: &Path, resume: bool) -> Result<bool, Failure> {
     if !path.is_dir() {
         return Err(complaint(path, "is a file; a store is a folder"));
     }
-    if path.join(OWN).is_dir() {
+    // One listing: another process may make its store meanwhile, and its folder comes first.
+    let entries = fs::read_dir(path).map_err(|error| unwritable(path, &error))?;
+    let names: Result<Vec<_>, _> = entries.map(|entry| Ok(entry?.file_name())).collect();
+    let names = names.map_err(|error| unwritable(path, &error))?;
+    if names.iter().any(|name| name == OWN) {
         return if resume { Ok(false) } else { Err(exists(path)) };
     }
-    let mut entries = fs::read_dir(path).map_err(|error| unwritable(path, &error))?;
-    if entries.next().is_some() {
-        return Err(complaint(path, "is a folder with other things in it; choose another name"));
+    if names.is_empty() {
+        return Ok(false);
     }
-    Ok(false)
+    Err(complaint(path, "is a folder with other things in it; choose another name"))
 }
 
-/// Why a store cannot be worked on.
-enum Refused {
-    /// Another process holds the lock.
-    Busy,
-    /// Something cannot be read or written.
-    Io(io::Error),
-}
-
-impl From<io::Error> for Refused {
-    fn from(error: io::Error) -> Self {
-        Self::Io(error)
-    }
+/// Takes away what was just made: nothing half-made stays. If it cannot be removed, the first error
+/// is still the one.
+fn discard(path: &Path) {
+    let _ = fs::remove_dir_all(path);
 }
 
 impl Refused {
@@ -265,18 +336,6 @@ impl Refused {
             ),
             Self::Io(error) => unwritable(path, &error),
         }
-    }
-}
-
-/// Takes the lock, which the operating system gives back when the process ends; and whether it
-/// holds.
-fn lock(file: &Path) -> Result<(File, bool), Refused> {
-    let lock = OpenOptions::new().create(true).truncate(false).write(true).open(file)?;
-    match lock.try_lock() {
-        Err(TryLockError::WouldBlock) => Err(Refused::Busy),
-        // A file system without locks: chunks are whole and the same whoever writes them.
-        Err(TryLockError::Error(_)) => Ok((lock, false)),
-        Ok(()) => Ok((lock, true)),
     }
 }
 

@@ -19,6 +19,7 @@ mod plan;
 mod quantity;
 mod refine;
 mod runner;
+mod shard;
 mod sheet;
 mod status;
 
@@ -29,5 +30,6 @@ pub use plan::Plan;
 pub use quantity::{Kind, QUANTITIES, Quantity, System, Variable};
 pub(crate) use runner::run;
 pub use runner::{MOST_THREADS, Progress, Running};
+pub use shard::Shard;
 pub use sheet::{Content, Data, Entry, Field, MISSING, Sheet};
 pub use status::Status;

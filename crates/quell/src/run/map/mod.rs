@@ -2,6 +2,7 @@
 
 mod boundary;
 mod outcome;
+mod shared;
 
 use std::sync::Mutex;
 use std::time::Instant;
@@ -12,6 +13,7 @@ use crate::sweep::{self, Data, Plan, Running};
 
 pub use boundary::{Boundary, boundaries};
 pub use outcome::{Extreme, Map, Summary};
+pub use shared::{Part, Shared};
 
 /// Computes a map. With a store every finished chunk is kept there, and what it has already is
 /// not computed again.

@@ -1,0 +1,143 @@
+//! Shards: parts of one map by several processes into one store.
+
+use std::fs;
+use std::process::{Child, Stdio};
+
+use serde_json::Value as Json;
+
+use crate::faults::{ask, large, undisturbed, wait_for};
+use crate::place::{Place, Told, same};
+
+impl Place {
+    /// Begins a shard of the large map.
+    fn shard(&self, save: &str, shard: &str) -> Child {
+        let arguments = ask(save, &["--json", "--shard", shard]);
+        let mut command = self.command(&arguments);
+        command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("quell runs")
+    }
+}
+
+fn ends(child: Child) -> Json {
+    let told = Told::of(&child.wait_with_output().expect("it ends"));
+    assert_eq!(told.status, Some(0), "{told:?}");
+    serde_json::from_str(&told.output).expect("one JSON object")
+}
+
+#[test]
+fn three_shards_at_once_from_nothing_make_the_map() {
+    let place = large("three");
+    let (reference, _) = undisturbed();
+    let shards = ["1/3", "2/3", "3/3"].map(|shard| place.shard("three.zarr", shard));
+    let told = shards.map(ends);
+    let count = |name: &str| told.iter().map(|told| told[name].as_u64().expect("a count")).sum();
+    let all = told[0]["map_chunks"].as_u64().expect("a count");
+    let (chunks, computed): (u64, u64) = (count("chunks"), count("computed_chunks"));
+    assert_eq!((chunks, computed), (all, all), "every chunk is in one shard");
+    assert!(told.iter().any(|told| told["left_chunks"] == 0), "who ends last sees the whole map");
+    // Nothing had to be put together: the store is that of one process.
+    same(&place.store("three.zarr"), reference);
+    let map = place.good(&ask("three.zarr", &["--resume"]));
+    assert_eq!(map["resumed_points"], map["points"]);
+    same(&place.store("three.zarr"), reference);
+}
+
+#[test]
+fn a_killed_shard_is_run_again_beside_another() {
+    let place = large("killed_shard");
+    let (reference, _) = undisturbed();
+    let (one, mut other) = (place.shard("k.zarr", "1/2"), place.shard("k.zarr", "2/2"));
+    wait_for("a chunk", || place.records("k.zarr") > 1);
+    other.kill().expect("it is ours");
+    other.wait().expect("it ends");
+    // What the kill left unfinished is somebody else's until nobody else writes.
+    fs::write(place.folder.join("k.zarr/.quell/unfinished/1.0.0"), "half").expect("a file");
+    let again = place.shard("k.zarr", "2/2");
+    // While shards write, nobody else may write alone.
+    let alone = place.quell(&ask("k.zarr", &["--resume"]));
+    assert!(
+        alone.status == Some(1) && alone.errors.contains("another process is writing"),
+        "{alone:?}"
+    );
+    let (one, again) = (ends(one), ends(again));
+    for told in [&one, &again] {
+        let own = |name: &str| told[name].as_u64().expect("a count");
+        assert_eq!(own("chunks"), own("computed_chunks") + own("there_chunks"));
+    }
+    assert!(place.folder.join("k.zarr/.quell/unfinished/1.0.0").exists());
+    let map = place.good(&ask("k.zarr", &["--resume"]));
+    assert_eq!(map["resumed_points"], map["points"]);
+    same(&place.store("k.zarr"), reference);
+}
+
+#[test]
+fn a_shard_says_what_is_left_and_a_later_run_computes_it() {
+    let place = large("left");
+    let (reference, _) = undisturbed();
+    let told = ends(place.shard("left.zarr", "2/4"));
+    assert_eq!(told["left_shards"], serde_json::json!([1, 3, 4]));
+    assert_eq!(told["saved"][0], "left.zarr");
+    let own = told["chunks"].as_u64().expect("a count");
+    let all = told["map_chunks"].as_u64().expect("a count");
+    assert_eq!(told["left_chunks"], all - own);
+    // The same shard again finds its chunks; one that was cut short is done again.
+    let path = place.folder.join("left.zarr/efficiency/c");
+    let first = fs::read_dir(&path).expect("chunks").next().expect("a chunk").expect("a chunk");
+    let chunk = fs::read_dir(first.path()).expect("chunks").next().expect("a chunk").expect("one");
+    fs::write(chunk.path(), "short").expect("cut short");
+    let told = place.quell(&ask("left.zarr", &["--shard", "2/4"]));
+    assert_eq!(told.status, Some(0), "{told:?}");
+    assert!(told.output.contains("Shard 2 of 4 of left.zarr"), "{told:?}");
+    assert!(told.output.contains("1 computed") && told.output.contains("shards 1,3,4"), "{told:?}");
+    assert!(told.errors.contains("1 chunks of the store were cut short"), "{told:?}");
+    let map = place.good(&ask("left.zarr", &["--resume"]));
+    assert!(map["resumed_points"].as_u64().is_some_and(|points| points > 0));
+    same(&place.store("left.zarr"), reference);
+}
+
+#[test]
+fn shards_of_another_map_are_refused_whoever_comes_first() {
+    let place = Place::new("strangers");
+    let small = fs::read_to_string(place.folder.join("small.toml")).expect("a study");
+    place.write("other.toml", &small.replace("= 0.005", "= 0.006"));
+    for round in 0..5 {
+        let save = format!("m{round}.zarr");
+        let begin = |study: &str, shard: &str| {
+            let arguments =
+                ["map", study, "--quantity", "verdict", "--save", &save, "--shard", shard];
+            let mut command = place.command(&arguments);
+            command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("quell runs")
+        };
+        let both = [begin("small.toml", "1/1"), begin("other.toml", "1/1")];
+        let told = both.map(|child| Told::of(&child.wait_with_output().expect("it ends")));
+        let (good, bad): (Vec<_>, Vec<_>) = told.iter().partition(|told| told.status == Some(0));
+        assert_eq!((good.len(), bad[0].status), (1, Some(2)), "{told:?}");
+        assert!(bad[0].errors.contains("belt.damping_ratio is"), "{told:?}");
+    }
+}
+
+#[test]
+fn a_shard_that_cannot_be_is_refused_at_once() {
+    let place = Place::new("no_shard");
+    let ask = |more: &[&'static str]| {
+        let mut arguments = vec!["map", "small.toml", "--quantity", "verdict"];
+        arguments.extend(more);
+        place.quell(&arguments)
+    };
+    let cases: &[(&[&str], &str)] = &[
+        (&["--shard", "1/2"], "name it by --save FILE.zarr"),
+        (&["--shard", "1/2", "--save", "m.csv"], "name it by --save FILE.zarr"),
+        (&["--shard", "3/2", "--save", "m.zarr"], "k from 1 to n"),
+        (&["--shard", "-1/2", "--save", "m.zarr"], "k from 1 to n"),
+        (&["--shard", "1/2", "--save", "m.zarr", "--plot", "m.svg"], "no whole map"),
+    ];
+    for (arguments, word) in cases {
+        let told = ask(arguments);
+        assert_eq!((told.status, told.output.as_str()), (Some(2), ""), "{arguments:?}: {told:?}");
+        assert!(told.errors.contains(word), "{arguments:?}: {told:?}");
+    }
+    assert_eq!(fs::read_dir(&place.folder).expect("a folder").count(), 2, "nothing is left behind");
+    // More shards than chunks: those without say so, and do no harm.
+    let told = ask(&["--shard", "9/9", "--save", "m.zarr"]);
+    assert_eq!(told.status, Some(0), "{told:?}");
+    assert!(told.output.contains("0 of the map's"), "{told:?}");
+}

@@ -1,0 +1,267 @@
+//! A map that several processes compute, on this or on other machines, into one store.
+//!
+//! ```text
+//! study, quantities → Plan ┐
+//! path of the store        ┴→ Shared: missing → compute some chunks → … → read the whole map
+//! ```
+//!
+//! The processes know of each other only by the store. Whoever hands out the chunks (shards of a
+//! Slurm array, a scheduler in Python) may hand out one twice, in any order, and lose workers: a
+//! chunk counts when its completion record is there, and has the same bytes whoever wrote it.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+use super::{Map, put, same_program};
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::store::{Found, Store};
+use crate::sweep::{self, Plan, Running};
+
+/// A map in a store that other processes may write at the same time.
+#[derive(Debug)]
+pub struct Shared {
+    plan: Plan,
+    store: Store,
+}
+
+/// What a call of [`Shared::compute`] did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// Chunks that it computed.
+    pub computed: usize,
+    /// Chunks that were in the store already, proven whole.
+    pub there: usize,
+    /// Of those computed, chunks that were in the store but damaged.
+    pub damaged: usize,
+    /// Points of the chunks that it computed.
+    pub points: usize,
+    /// How long it took.
+    pub elapsed: Duration,
+}
+
+impl Shared {
+    /// Opens the store at `path`, or makes it. Any number of processes may do so at once.
+    ///
+    /// # Errors
+    /// The failures of [`Store::open_shared`]; [`Failure::Failed`] where the store holds other bits
+    /// at a point than this program gives.
+    pub fn open(path: &Path, plan: Plan) -> Result<Self, Failure> {
+        let store = Store::open_shared(path, &plan)?;
+        let shared = Self { plan, store };
+        let unrecorded = shared.store.unrecorded(&shared.plan)?;
+        // The first chunk that is not in this list of ascending numbers.
+        let first = unrecorded.iter().enumerate().position(|(at, &chunk)| at != chunk);
+        let first = first.unwrap_or(unrecorded.len());
+        if first < shared.plan.chunks().len()
+            && let Found::Whole(values) = shared.store.read(&shared.plan, first)
+        {
+            same_program(&shared.plan, &shared.store, first, &values)?;
+        }
+        Ok(shared)
+    }
+
+    /// What is computed; its chunks have the numbers from 0 to `plan().chunks().len()` − 1.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// Chunks that the store does not have whole: every one that is recorded is read and proven.
+    /// On a network file system a chunk that another machine has just written may still be missing
+    /// here; to compute it again does no harm.
+    pub fn missing(&self) -> Vec<usize> {
+        let whole = |&chunk: &usize| matches!(self.store.read(&self.plan, chunk), Found::Whole(_));
+        (0..self.plan.chunks().len()).filter(|chunk| !whole(chunk)).collect()
+    }
+
+    /// Chunks that have no completion record yet. Quick, for nothing is read; a chunk that was
+    /// damaged later is not noticed.
+    ///
+    /// # Errors
+    /// [`Failure::Wrong`] where the records cannot be listed.
+    pub fn unrecorded(&self) -> Result<Vec<usize>, Failure> {
+        self.store.unrecorded(&self.plan)
+    }
+
+    /// Computes those of the given chunks that the store does not have whole, and keeps each as it
+    /// is done.
+    ///
+    /// # Errors
+    /// [`Failure::Wrong`] where there is no chunk of a number; [`Failure::Failed`] where it was
+    /// stopped or the store could not be written. Chunks that were done by then are kept.
+    pub fn compute(&self, chunks: &[usize], running: Running<'_>) -> Result<Part, Failure> {
+        self.known(chunks)?;
+        let begun = Instant::now();
+        let mut part =
+            Part { computed: 0, there: 0, damaged: 0, points: 0, elapsed: Duration::ZERO };
+        let mut todo = Vec::new();
+        let (mut points, mut points_there) = (0, 0);
+        for &chunk in chunks {
+            let size = self.plan.chunks().points(chunk).len();
+            points += size;
+            match self.store.read(&self.plan, chunk) {
+                Found::Whole(_) => {
+                    part.there += 1;
+                    points_there += size;
+                    continue;
+                }
+                Found::Damaged => part.damaged += 1,
+                Found::Nothing => {}
+            }
+            todo.push(chunk);
+        }
+        running.progress.begin(points, points_there);
+        let done = AtomicUsize::new(0);
+        let outcome = sweep::run(&self.plan, &todo, running, |chunk, values| {
+            self.store.write(&self.plan, chunk, &values)?;
+            done.fetch_add(1, Ordering::Relaxed);
+            Ok(())
+        });
+        running.progress.end();
+        let left = todo.len() - done.into_inner();
+        match outcome {
+            Ok(()) if left == 0 => {
+                part.computed = todo.len();
+                part.points = points - points_there;
+                part.elapsed = begun.elapsed();
+                Ok(part)
+            }
+            Ok(()) => Err(self.incomplete("stopped", left, chunks.len())),
+            Err(Failure::Failed { why, .. }) => Err(self.incomplete(&why, left, chunks.len())),
+            Err(wrong) => Err(wrong),
+        }
+    }
+
+    /// Reads the whole map back.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] where chunks are missing; the message says how many.
+    pub fn read(&self) -> Result<Map, Failure> {
+        let begun = Instant::now();
+        let points = self.plan.grid().len();
+        let mut arrays = self.plan.sheet().missing(points);
+        let (mut missing, mut damaged) = (0, 0);
+        for chunk in 0..self.plan.chunks().len() {
+            match self.store.read(&self.plan, chunk) {
+                Found::Whole(values) => put(&self.plan, chunk, &values, &mut arrays),
+                Found::Damaged => damaged += 1,
+                Found::Nothing => missing += 1,
+            }
+        }
+        if missing + damaged == 0 {
+            let plan = self.plan.clone();
+            return Ok(Map { plan, arrays, resumed: points, damaged: 0, elapsed: begun.elapsed() });
+        }
+        let chunks = self.plan.chunks().len();
+        let changed = match damaged {
+            0 => String::new(),
+            damaged => format!(", and {damaged} were cut short or changed"),
+        };
+        Err(self.failed(format!("{missing} of {chunks} chunks are not computed yet{changed}")))
+    }
+
+    /// Where the store is.
+    pub fn path(&self) -> &Path {
+        self.store.path()
+    }
+
+    fn known(&self, chunks: &[usize]) -> Result<(), Failure> {
+        let count = self.plan.chunks().len();
+        let unknown = chunks.iter().filter(|&&chunk| chunk >= count);
+        let complaints: Vec<Complaint> = unknown
+            .map(|&chunk| {
+                let allowed = format!("the number of a chunk, 0 to {}", count - 1);
+                Complaint::new(Fault::Value, "chunk", Origin::Whole, chunk, allowed)
+            })
+            .collect();
+        if complaints.is_empty() { Ok(()) } else { Err(Failure::Wrong(complaints)) }
+    }
+
+    fn incomplete(&self, why: &str, left: usize, chunks: usize) -> Failure {
+        let done = chunks - left;
+        self.failed(format!(
+            "{why}; {done} of the {chunks} chunks asked for are kept, {left} are left: the same \
+             command again goes on"
+        ))
+    }
+
+    fn failed(&self, why: String) -> Failure {
+        Failure::Failed { key: self.path().display().to_string(), why }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::sync::atomic::AtomicBool;
+
+    use super::*;
+    use crate::study::Study;
+    use crate::sweep::{Quantity, Status};
+
+    const TEXT: &str = "schema = 1\n[belt]\ndamping_ratio = 0.01\nnormal_load = 0.5\n\
+        belt_velocity = 0.1\n[friction]\nlaw = \"decreasing\"\nstatic_coefficient = 0.4\n\
+        minimum_coefficient = 0.2\nreference_velocity = 0.2\n[dither]\ndirection = \"normal\"\n\
+        waveform = \"sine\"\namplitude = 0.1\nfrequency_ratio = 10\n\
+        [[sweep]]\nparameter = \"dither.amplitude\"\nfrom = 0.1\nto = 0.4\npoints = 300\n\
+        [[sweep]]\nparameter = \"belt.belt_velocity\"\nfrom = 0.05\nto = 0.2\npoints = 300\n";
+
+    fn plan() -> Plan {
+        let study = Study::parse(TEXT, &[]).expect("valid");
+        Plan::new(&study, &[Quantity::named("growth", "--quantity").expect("a quantity")])
+            .expect("two axes")
+    }
+
+    fn running(stop: &AtomicBool) -> Running<'_> {
+        Running { threads: Some(1), stop, progress: &() }
+    }
+
+    #[test]
+    fn two_workers_make_a_map_chunk_by_chunk() {
+        let place = tempfile::tempdir().expect("a folder");
+        let path = place.path().join("m.zarr");
+        let go = AtomicBool::new(false);
+        let (one, other) = (Shared::open(&path, plan()), Shared::open(&path, plan()));
+        let (one, other) = (one.expect("made"), other.expect("opened"));
+        let all: Vec<usize> = (0..plan().chunks().len()).collect();
+        assert!(all.len() > 2, "one chunk is no test");
+        assert_eq!(one.missing(), all);
+        let mut last_first = all.clone();
+        last_first.reverse();
+        let part = one.compute(&last_first[..2], running(&go)).expect("computed");
+        assert_eq!((part.computed, part.there), (2, 0));
+        assert_eq!(other.missing(), all[..all.len() - 2]);
+        let early = other.read().expect_err("chunks are missing").to_string();
+        assert!(early.contains("chunks are not computed yet"), "{early}");
+        let part = other.compute(&all, running(&go)).expect("computed");
+        assert_eq!((part.computed, part.there), (all.len() - 2, 2));
+        assert!(one.missing().is_empty() && one.unrecorded().expect("a list").is_empty());
+        let map = one.read().expect("whole");
+        let here = plan().compute_points(0..plan().grid().len());
+        let entry = map.plan().sheet().entries()[0];
+        for point in 0..plan().grid().len() {
+            assert_eq!(map.status(&entry, point), Status::Known);
+            let value = map.number(&entry, point).expect("known");
+            let sweep::Data::Numbers(values) = &here[entry.value] else {
+                panic!("growth is a number");
+            };
+            assert_eq!(value.to_bits(), values[point].to_bits());
+        }
+    }
+
+    #[test]
+    fn a_damaged_chunk_is_missing_and_stopping_says_what_is_left() {
+        let place = tempfile::tempdir().expect("a folder");
+        let path = place.path().join("m.zarr");
+        let (go, stop) = (AtomicBool::new(false), AtomicBool::new(true));
+        let shared = Shared::open(&path, plan()).expect("made");
+        shared.compute(&[0, 1], running(&go)).expect("computed");
+        fs::write(path.join("growth/c/0/0"), "short").expect("damaged");
+        assert!(shared.missing().contains(&0) && !shared.missing().contains(&1));
+        let stopped = shared.compute(&[0, 1, 2], running(&stop)).expect_err("stopped").to_string();
+        assert!(stopped.contains("1 of the 3 chunks asked for are kept, 2 are left"), "{stopped}");
+        assert_eq!(shared.compute(&[0], running(&go)).expect("computed").damaged, 1);
+        let wrong = shared.compute(&[0, 1_000_000], running(&go)).expect_err("no such chunk");
+        assert!(wrong.to_string().contains("1000000"), "{wrong}");
+    }
+}

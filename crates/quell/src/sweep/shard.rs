@@ -1,0 +1,98 @@
+//! One of several equal parts of a map.
+//!
+//! Shard k of n is the chunks k − 1, k − 1 + n, k − 1 + 2n, …: neighbours of a plane take about
+//! as long, so that every shard has its share of the slow ones. The chunks depend on the study
+//! alone, and so does what a shard is.
+
+use std::fmt;
+
+use super::chunks::Chunks;
+use crate::complaint::Complaint;
+
+/// Most shards of a map.
+const MOST_SHARDS: usize = 1_000_000;
+
+/// Part `number` of `of` parts, counted from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    number: usize,
+    of: usize,
+}
+
+impl Shard {
+    /// Reads `3/16`, which the option `option` gave.
+    ///
+    /// # Errors
+    /// The complaint about anything else.
+    pub fn parse(text: &str, option: &'static str) -> Result<Self, Box<Complaint>> {
+        let parts = text.split_once('/').and_then(|(number, of)| {
+            Some((number.trim().parse::<usize>().ok()?, of.trim().parse::<usize>().ok()?))
+        });
+        match parts {
+            Some((number, of)) if (1..=of).contains(&number) && of <= MOST_SHARDS => {
+                Ok(Self { number, of })
+            }
+            _ => {
+                let allowed = format!(
+                    "k/n with whole numbers, k from 1 to n and n at most {MOST_SHARDS}, such as 3/16"
+                );
+                Err(Box::new(Complaint::option(option, text, allowed)))
+            }
+        }
+    }
+
+    /// Which one, from 1.
+    pub fn number(self) -> usize {
+        self.number
+    }
+
+    /// Of how many.
+    pub fn of(self) -> usize {
+        self.of
+    }
+
+    /// Its chunks, in order; none where there are more shards than chunks.
+    pub fn chunks(self, chunks: &Chunks) -> Vec<usize> {
+        (self.number - 1..chunks.len()).step_by(self.of).collect()
+    }
+
+    /// The number of the shard, of as many as this one is of, that has chunk `chunk`.
+    pub fn number_of(self, chunk: usize) -> usize {
+        chunk % self.of + 1
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.number, self.of)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_chunk_is_in_one_shard() {
+        let chunks = Chunks::new(&[7, 9], 6);
+        for of in [1, 2, 3, chunks.len(), chunks.len() + 5] {
+            let mut seen = vec![0; chunks.len()];
+            for number in 1..=of {
+                let shard = Shard::parse(&format!("{number}/{of}"), "--shard").expect("a shard");
+                for chunk in shard.chunks(&chunks) {
+                    assert_eq!(shard.number_of(chunk), number);
+                    seen[chunk] += 1;
+                }
+            }
+            assert!(seen.iter().all(|count| *count == 1), "{of}: {seen:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_shard_is_refused() {
+        for text in ["", "3", "0/4", "5/4", "1/0", "-1/4", "1.5/4", "a/b", "1/2/3", "1/1000001"] {
+            assert!(Shard::parse(text, "--shard").is_err(), "{text}");
+        }
+        assert_eq!(Shard::parse(" 3/16 ", "--shard").map(|it| it.to_string()), Ok("3/16".into()));
+    }
+}
