@@ -61,7 +61,7 @@ fn random_belt(random: &mut Random) -> (Belt, Start) {
     let static_coefficient = random.between(0.05, 1.2);
     let minimum = static_coefficient * random.pick(&[0.0, 0.3, 0.7, 0.95, 1.0]);
     let reference = scale * random.decades(0.02, 3.0);
-    let law = random.pick(LawKind::ALL);
+    let law = random.pick(LawKind::NUMERIC);
     let friction: Friction =
         law.build(&[static_coefficient, minimum, reference]).expect("valid law");
     let mut left = scale;

@@ -132,7 +132,7 @@ impl Belt {
             Place::DampingRatio => Some(self.damping_ratio),
             Place::NormalLoad => Some(self.normal_load),
             Place::BeltVelocity => Some(self.belt_velocity),
-            Place::Law(index) => self.friction.values().get(index).copied(),
+            Place::Law => self.friction.get(path),
             Place::Dither(index, parameter) => {
                 let dither = self.dithers.get(index)?;
                 Some(match parameter.path {
@@ -157,11 +157,7 @@ impl Belt {
             Place::DampingRatio => next.damping_ratio = value,
             Place::NormalLoad => next.normal_load = value,
             Place::BeltVelocity => next.belt_velocity = value,
-            Place::Law(index) => {
-                let mut values = self.friction.values();
-                values[index] = value;
-                next.friction = self.friction.kind().build(&values)?;
-            }
+            Place::Law => next.friction = self.friction.with(path, value)?,
             Place::Dither(index, parameter) => {
                 let dither = &mut next.dithers[index];
                 match parameter.path {
@@ -199,9 +195,8 @@ impl Belt {
         if path == BELT_VELOCITY.path {
             return Some(Place::BeltVelocity);
         }
-        let law = self.friction.kind().parameters();
-        if let Some(index) = law.iter().position(|parameter| parameter.path == path) {
-            return Some(Place::Law(index));
+        if self.friction.get(path).is_some() {
+            return Some(Place::Law);
         }
         let rest = path.strip_prefix("dither")?;
         let (index, key) = match rest.strip_prefix('[') {
@@ -223,7 +218,7 @@ enum Place {
     DampingRatio,
     NormalLoad,
     BeltVelocity,
-    Law(usize),
+    Law,
     Dither(usize, Parameter),
 }
 

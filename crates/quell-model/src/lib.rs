@@ -14,6 +14,6 @@ pub mod waveform;
 
 pub use belt::Belt;
 pub use dither::{Direction, Dither};
-pub use friction::{Friction, LawKind, SlidingLaw};
+pub use friction::{Expression, Friction, LawKind, Samples, SlidingLaw};
 pub use invalid::Invalid;
 pub use waveform::Waveform;

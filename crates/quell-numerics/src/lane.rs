@@ -18,6 +18,7 @@ pub trait Lane:
     Copy
     + Send
     + Sync
+    + 'static
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>

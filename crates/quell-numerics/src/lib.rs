@@ -14,6 +14,7 @@ pub mod elementary;
 pub mod floquet;
 pub mod gauss_legendre;
 pub mod lane;
+pub mod least_squares;
 pub mod matrix;
 pub mod polynomial;
 pub mod quadrature;

@@ -5,6 +5,7 @@
 //! judges them.
 
 use quell_model::LawKind;
+use quell_model::friction::samples::{FEWEST, MOST_TERMS};
 use quell_model::parameter::disc::DISC_DITHER_AMPLITUDE;
 use quell_model::parameter::{Bounds, DITHER_FREQUENCY_RATIO, Parameter};
 use quell_model::units::Quantity;
@@ -223,13 +224,56 @@ fn friction(system: System) -> Json {
                 };
                 if key.parameter().is_some_and(known) {
                     properties.insert(key.name.to_owned(), property(key));
-                    required.push(key.name);
+                    // Where a law carries data, its static level is that of the data.
+                    if LawKind::NUMERIC.contains(law) {
+                        required.push(key.name);
+                    }
+                } else if of_own_law(*law, key.role, key.name) {
+                    properties.insert(key.name.to_owned(), property(key));
                 }
             }
-            object(Section::Friction, &properties, &required)
+            match law {
+                LawKind::Expression => {
+                    required.push("coefficient");
+                    properties["coefficient"]["type"] = json!(["string", "number"]);
+                    properties.insert(
+                        "constants".into(),
+                        json!({
+                            "type": "object",
+                            "description": Section::Constants.about(),
+                            "additionalProperties": { "type": "number" },
+                        }),
+                    );
+                    object(Section::Friction, &properties, &required)
+                }
+                LawKind::Samples => {
+                    let speeds = match system {
+                        System::Scaled => "slip_velocity",
+                        System::Si => "slip_velocity_m_per_s",
+                    };
+                    properties["coefficient"]["type"] = "array".into();
+                    properties["coefficient"]["items"] = json!({ "type": "number", "minimum": 0 });
+                    let mut whole = object(Section::Friction, &properties, &required);
+                    whole["oneOf"] =
+                        json!([{ "required": ["file"] }, { "required": [speeds, "coefficient"] }]);
+                    whole
+                }
+                _ => object(Section::Friction, &properties, &required),
+            }
         })
         .collect();
     json!({ "description": Section::Friction.about(), "oneOf": laws })
+}
+
+/// Whether a key that is no number of the registry belongs to a law that carries data.
+fn of_own_law(law: LawKind, role: Role, name: &str) -> bool {
+    match law {
+        LawKind::Expression => role == Role::Coefficient,
+        LawKind::Samples => {
+            matches!(role, Role::Coefficient | Role::Speeds { .. } | Role::Terms) || name == "file"
+        }
+        _ => false,
+    }
 }
 
 fn sweep() -> Json {
@@ -257,6 +301,7 @@ fn belongs(key: &Key, system: System) -> bool {
     match key.role {
         Role::Number(parameter) => system == System::Scaled || parameter.si.is_empty(),
         Role::Twin(..) | Role::Scale(_) => system == System::Si,
+        Role::Speeds { si } => si == (system == System::Si),
         _ => true,
     }
 }
@@ -288,7 +333,12 @@ fn property(key: &Key) -> Json {
         Role::Reference => {
             json!({ "oneOf": [{ "const": "critical" }, { "type": "number", "exclusiveMinimum": 0.0 }] })
         }
-        Role::AxisNumber => json!({ "type": "number" }),
+        Role::Coefficient => json!({}),
+        Role::Speeds { .. } => {
+            json!({ "type": "array", "items": { "type": "number", "minimum": 0 }, "minItems": FEWEST })
+        }
+        Role::Terms => json!({ "type": "integer", "minimum": 1, "maximum": MOST_TERMS }),
+        Role::AxisNumber | Role::Constant => json!({ "type": "number" }),
         Role::AxisPoints => json!({ "type": "integer", "minimum": 2, "maximum": MOST_POINTS }),
         Role::AxisValues => {
             json!({ "type": "array", "items": { "type": "number" }, "minItems": 1 })
@@ -307,6 +357,7 @@ fn about(key: &Key) -> String {
             format!("{}: {}, in {}", parameter.symbol, key.about, key.unit_in_words())
         }
         Role::Scale(scale) => format!("{}: {}, in {}", scale.symbol, key.about, key.unit()),
+        Role::Speeds { .. } => format!("{}, in {}", key.about, key.unit()),
         _ => key.about.to_owned(),
     }
 }

@@ -8,7 +8,7 @@
 //!
 //! There is a band where the upper edge lies above the lower. For normal dither α = μ(v₀)α_N at the edge itself
 //! (4.33)–(4.42). [`unstable_bands`] finds the bands of any belt, with any dithers, from the criterion itself; the closed
-//! forms ([`closed_band`]) are its check and its fast form.
+//! forms ([`closed_band`]) are its check and its fast form. A law without closed forms has its edge searched for.
 
 use quell_model::friction::SlidingLaw;
 use quell_model::{Belt, Friction, Waveform};
@@ -16,9 +16,10 @@ use quell_numerics::special::ln;
 
 use super::criterion::Criterion;
 use super::decreasing::scaled_mean_exponential;
-use super::effective::{AveragingError, effective};
+use super::effective::{AveragingError, effective, single, undithered};
 use super::fast_motion::{AveragingOptions, FastMotion};
 use super::sign_changes::{Crossing, sign_changes};
+use super::wave::FastWave;
 
 /// Belt velocities above which undithered steady sliding is stable.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,6 +109,32 @@ fn outer_edge(
                 corner - vm * ln(2.0 * vm * damping_ratio / (normal_load * difference * scaled));
             Some(edge.max(0.0))
         }
+        law => searched_edge(law, damping_ratio, normal_load, waveform, alpha),
+    }
+}
+
+/// The same for a law without closed forms: the last place beyond the corner where the criterion becomes positive, on a
+/// grid up to 400 v_m beyond. None also where a quadrature fails: nothing is promised then.
+fn searched_edge(
+    law: &Friction,
+    damping_ratio: f64,
+    normal_load: f64,
+    waveform: Waveform,
+    alpha: f64,
+) -> Option<f64> {
+    let wave = FastWave::Integral(waveform);
+    let corner = alpha * waveform.peak_integral();
+    let value = |v: f64| -> Result<f64, AveragingError> {
+        let effective =
+            if alpha == 0.0 { undithered(law, v)? } else { single(law, wave, alpha, v)? };
+        Ok(Criterion::new(damping_ratio, normal_load, effective).value)
+    };
+    let beyond = (0..260).map(|k| libm::exp(-20.0 + 0.1 * f64::from(k)));
+    let points: Vec<f64> = beyond.map(|share| corner + law.velocity_scale() * share).collect();
+    let changes = sign_changes(value, &points, &[]).ok()?;
+    match changes.last() {
+        Some(last) => last.becomes_positive.then_some(last.place),
+        None => (value(points[0]).ok()? >= 0.0).then_some(0.0),
     }
 }
 

@@ -149,7 +149,7 @@ pub fn effective(law: &Friction, motion: &FastMotion, v: f64) -> Result<Effectiv
 }
 
 /// The law itself.
-fn undithered(law: &Friction, v: f64) -> Result<Effective, AveragingError> {
+pub(super) fn undithered(law: &Friction, v: f64) -> Result<Effective, AveragingError> {
     if v == 0.0 {
         return Err(AveragingError::SetValued { static_coefficient: law.static_coefficient() });
     }

@@ -177,6 +177,28 @@ impl Case<'_> {
         Ok(changes.last().filter(|c| c.becomes_positive).map(|c| (c.place, c.error)))
     }
 
+    /// Largest α/μ(v₀) between the tip and the velocity from which on sliding is stable without dither, for a law without
+    /// closed forms: on a grid of velocities, refined at the best one.
+    fn searched_normal(&self, tip: f64, end: f64) -> f64 {
+        const VELOCITIES: u32 = 24;
+        const AMPLITUDES: u32 = 32;
+        let peak = self.wave.peak();
+        // −α/μ(v₀), α the largest unstable one whose corner lies below v₀.
+        let ratio = |v: f64| {
+            let place = |k: u32| v / peak * (1.0 - 1e-12) * f64::from(k) / f64::from(AMPLITUDES);
+            let points: Vec<f64> = (1..=AMPLITUDES).map(place).collect();
+            let changes = sign_changes(|alpha| self.criterion(alpha, v), &points, &[]);
+            let last = changes.ok().and_then(|changes| changes.last().map(|last| last.place));
+            -last.unwrap_or(0.0) / self.law.coefficient(v)
+        };
+        let place = |k: u32| tip + (end - tip) * f64::from(k) / f64::from(VELOCITIES);
+        let best = (1..VELOCITIES).min_by(|&i, &j| ratio(place(i)).total_cmp(&ratio(place(j))));
+        let Some(best) = best else { return 0.0 };
+        let closeness = Closeness { absolute: 0.0, relative: 1e-6 };
+        minimise(ratio, place(best - 1), place(best + 1), closeness)
+            .map_or(0.0, |bottom| -bottom.value)
+    }
+
     /// Largest unstable α_N from the largest unstable α at each belt velocity.
     fn normal(&self, tangential: f64) -> f64 {
         let tip = tangential * self.wave.peak();
@@ -186,8 +208,11 @@ impl Case<'_> {
         else {
             return at_tip;
         };
-        let Friction::Stribeck(law) = self.law else {
-            return at_tip;
+        let law = match self.law {
+            // Its coefficient falls slower than its largest unstable α does.
+            Friction::Decreasing(_) => return at_tip,
+            Friction::Stribeck(law) => law,
+            _ => return self.searched_normal(tip, end).max(at_tip),
         };
         // Stribeck beyond the tip: the outer root α(v₀) falls; α/μ could still rise where μ falls steeply.
         let (wave, gain) = self.wave.canonical();

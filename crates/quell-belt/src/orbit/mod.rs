@@ -14,7 +14,7 @@ mod variation;
 use std::f64::consts::TAU;
 use std::fmt;
 
-use quell_model::{Belt, Friction};
+use quell_model::Belt;
 
 use crate::simulation::{EventKind, FinalState, Stalled, Start, simulate};
 pub use variation::Matrix;
@@ -117,8 +117,6 @@ pub enum NoOrbit {
     NoDither,
     /// Frequencies of the dithers have no common period.
     Incommensurate,
-    /// Friction jumps when the bond breaks, which the saltation at a release does not cover yet.
-    JumpAtRelease,
     /// Newton's method did not come to an end.
     NotConverged {
         /// Steps taken.
@@ -138,9 +136,6 @@ impl fmt::Display for NoOrbit {
             Self::NoDither => f.write_str("without dither the response has no period given to it"),
             Self::Incommensurate => {
                 f.write_str("the frequencies of the dithers have no common period")
-            }
-            Self::JumpAtRelease => {
-                f.write_str("the law's friction jumps at release, which orbits do not cover yet")
             }
             Self::NotConverged { steps, residual, at } => write!(
                 f,
@@ -187,9 +182,6 @@ fn shot(belt: &Belt, start: Start, period: f64) -> Result<(FinalState, Variation
 /// # Errors
 /// [`NoOrbit`].
 pub fn near(belt: &Belt, guess: Start, periods: u32) -> Result<Orbit, NoOrbit> {
-    if !starts_at_static_level(belt.friction()) {
-        return Err(NoOrbit::JumpAtRelease);
-    }
     let period = f64::from(periods.max(1)) * common_period(belt)?;
     let scale = belt.normal_load();
     let mut start = Start { time: 0.0, ..guess };
@@ -223,11 +215,6 @@ pub fn near(belt: &Belt, guess: Start, periods: u32) -> Result<Orbit, NoOrbit> {
     }
     let (residual, at) = best.unwrap_or((f64::INFINITY, start));
     Err(NoOrbit::NotConverged { steps: MOST_STEPS, residual, at })
-}
-
-fn starts_at_static_level(friction: &Friction) -> bool {
-    let level = friction.static_coefficient();
-    (friction.coefficient(1e-300) - level).abs() <= 1e-12 * level.abs().max(f64::MIN_POSITIVE)
 }
 
 fn orbit_of(start: Start, period: f64, residual: f64, variation: &Variation<'_>) -> Orbit {

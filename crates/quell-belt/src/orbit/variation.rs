@@ -7,11 +7,14 @@
 //! ```
 //!
 //! At v_r = 0 it is multiplied by the saltation matrix I + (f₊ − f₋)nᵀ/(nᵀf₋), n = (0, 1):
-//! a reversal gives diag(1, a₊/a₋) with the accelerations a on both sides, a stick diag(1, 0). A release changes
-//! nothing where friction starts at its static level, for then the acceleration has no jump.
+//! a reversal gives diag(1, a₊/a₋) with the accelerations a on both sides, a stick diag(1, 0).
+//!
+//! A release happens on h = σf_s − μ_sN = 0, n = (σ, 0): with f₋ = (v₀, 0) and f₊ = (v₀, a₊), a₊ = −σ(μ_s − μ(0⁺))N, it adds
+//! (a₊σ/ḣ)ξ to η, ḣ = σ(v₀ − Σ D_T g_T′) − μ_sN′ along the stick: where friction starts below its static level a
+//! later release starts as much later. Where it starts at that level, or where a jump of the dither breaks the bond at a
+//! time of its own, a release changes nothing.
 //!
 //! Scheme: Gauss–Legendre collocation with 8 nodes, of order 16 as the Taylor step whose series it reads μ′ from.
-//! Limits: laws whose sliding branch starts below the static level are refused ([`super::NoOrbit::JumpAtRelease`]).
 
 use std::sync::LazyLock;
 
@@ -164,12 +167,55 @@ impl<'a> Variation<'a> {
 
     /// x″ at v_r = 0 on the branch of a sign.
     fn acceleration(&self, event: &Event, sign: i8) -> f64 {
-        let friction = self.belt.friction().static_coefficient() * self.normal_load(event.time);
+        let friction = self.belt.friction().coefficient(0.0) * self.normal_load(event.time);
         f64::from(sign) * friction
             - 2.0 * self.belt.damping_ratio() * self.belt.belt_velocity()
             - event.displacement
             + dithers(self.belt, Direction::Tangential, event.time)
     }
+}
+
+/// A dither jumps at a break where its value just before differs by more than this share of its amplitude.
+const JUMP: f64 = 1e-3;
+
+impl Variation<'_> {
+    /// η after a release per ξ before it.
+    fn release(&self, event: &Event) -> f64 {
+        let belt = self.belt;
+        let law = belt.friction();
+        if law.starts_at_static_level() || broken_by_jump(belt, event.time) {
+            return 0.0;
+        }
+        let sign = f64::from(event.slip_sign);
+        let growth = sign
+            * (belt.belt_velocity() - dither_rates(belt, Direction::Tangential, event.time))
+            - law.static_coefficient() * dither_rates(belt, Direction::Normal, event.time);
+        let jump = (law.static_coefficient() - law.coefficient(0.0)) * self.normal_load(event.time);
+        // a₊σ/ḣ with a₊ = −σ jump.
+        -jump / growth
+    }
+}
+
+/// How long before a moment its dithers are looked at, in radians of each.
+const BEFORE: f64 = 1e-6;
+
+/// Whether a dither jumps at a moment.
+fn broken_by_jump(belt: &Belt, time: f64) -> bool {
+    belt.dithers().iter().any(|it| {
+        let phase = f64::mul_add(it.frequency_ratio, time, it.phase);
+        let change = it.waveform.value(phase + BEFORE) - it.waveform.value(phase - BEFORE);
+        it.amplitude > 0.0 && change.abs() > JUMP
+    })
+}
+
+/// Σ D R g′ of one direction.
+fn dither_rates(belt: &Belt, direction: Direction, time: f64) -> f64 {
+    belt.dithers_along(direction)
+        .map(|it| {
+            let phase = f64::mul_add(it.frequency_ratio, time, it.phase);
+            it.amplitude * it.frequency_ratio * it.waveform.slope(phase)
+        })
+        .sum()
 }
 
 /// Σ D g of one direction.
@@ -253,8 +299,11 @@ impl Observer for Variation<'_> {
                 self.acceleration(event, event.slip_sign) / self.acceleration(event, self.sign)
             }
         };
-        self.matrix[1][0] *= factor;
-        self.matrix[1][1] *= factor;
+        let gain = if event.kind == EventKind::Release { self.release(event) } else { 0.0 };
+        for column in 0..2 {
+            let change = self.matrix[0][column];
+            self.matrix[1][column] = factor * self.matrix[1][column] + gain * change;
+        }
         self.events.push((event.kind, event.slip_sign));
     }
 }

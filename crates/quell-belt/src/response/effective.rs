@@ -84,7 +84,7 @@ struct EdgeRecorder {
 impl EdgeRecorder {
     fn new(belt: &Belt, start: Start, frequency_ratio: f64, per_period: usize) -> Self {
         Self {
-            law: *belt.friction(),
+            law: belt.friction().clone(),
             belt_velocity: belt.belt_velocity(),
             start: start.time,
             per_period,

@@ -109,7 +109,8 @@ impl<V: Lane> DitherSeries<'_, V> {
 }
 
 impl<V: Lane> SlipEquation<V> {
-    /// Series of y and w to order [`ORDER`] from `start`, under the tangential dither and the load.
+    /// Series of y and w to order [`ORDER`] from `start`, under the tangential dither and the load;
+    /// the length of the step along it.
     #[expect(
         clippy::out_of_bounds_indexing,
         reason = "the last turn of the unrolled loop is empty, K < ORDER is false there"
@@ -117,12 +118,13 @@ impl<V: Lane> SlipEquation<V> {
     #[inline(always)]
     pub(super) fn series<L: SlidingLaw>(
         &self,
-        law: &L::Constants<V>,
+        law: &mut L::Constants<V>,
         start: SlipStart<V>,
         dither: &DitherSeries<'_, V>,
         load: Load<'_, V>,
+        limits: StepLimits<V>,
         out: &mut SlipSeries<V>,
-    ) {
+    ) -> V {
         let SlipSeries { displacement: y, slip: w } = out;
         let mut mu = [V::splat(0.0); ORDER + 1];
         y[0] = start.displacement;
@@ -158,30 +160,20 @@ impl<V: Lane> SlipEquation<V> {
                 y[K + 1] = -(w[K] * inverse);
             }
         });
+        branch.trusted(w, limits.step(w))
+    }
+}
+
+impl<V: Lane> StepLimits<V> {
+    /// Length of a step along w: the last two retained terms within the tolerance, and no rate of
+    /// the problem so far that they could be small by chance.
+    #[inline(always)]
+    fn step(&self, w: &[V; ORDER + 1]) -> V {
+        step_length(self.tolerance, w[ORDER], w[ORDER - 1], ORDER).min(self.longest).min(self.room)
     }
 }
 
 impl<V: Lane> SlipSeries<V> {
-    /// Length of the step: the last two retained terms within the tolerance, and no rate of the
-    /// problem so far that they could be small by chance. `change` is the law's longest change.
-    #[inline(always)]
-    pub(super) fn step(&self, limits: StepLimits<V>, change: f64) -> V {
-        let w = &self.slip;
-        let length = step_length(limits.tolerance, w[ORDER], w[ORDER - 1], ORDER)
-            .min(limits.longest)
-            .min(limits.room);
-        if change == f64::INFINITY {
-            return length;
-        }
-        let mut largest = V::splat(0.0);
-        for k in (1..=ORDER).rev() {
-            largest = largest.mul_add(length, w[k].abs());
-        }
-        // Every term shrinks at least as the step does.
-        let share = (largest * length).map(|it| if it > change { change / it } else { 1.0 });
-        length * share
-    }
-
     /// Positive where it is proven that v_r has the branch's sign on the whole of a step of this
     /// length, after a zero of multiplicity `zeros` at its start.
     #[inline(always)]

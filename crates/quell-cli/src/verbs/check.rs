@@ -4,6 +4,7 @@ use clap::Args;
 use quell::Failure;
 use quell::run::check::Check;
 use quell::run::disc::check as disc;
+use quell::run::law;
 use quell::{DiscStudy, Subject};
 use quell_model::units::Quantity;
 
@@ -40,6 +41,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             let label = format!("{} {}", parameter.key().replace('_', " "), parameter.symbol);
             table.number(&label, parameter.quantity, value);
         }
+        for (label, words) in law::words(&study) {
+            table.word(&label, &words);
+        }
         for dither in belt.dithers() {
             table
                 .word("dither", &format!("{} {}", dither.direction.name(), dither.waveform.name()));
@@ -56,7 +60,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         let title = study.title().map(|title| format!("{title}: ")).unwrap_or_default();
         format!("{title}the study is valid.\n{}", table.text())
     };
-    Ok(Answer::new(arguments.study.json, || Check { study: &study }.json(), text))
+    let answer = Answer::new(arguments.study.json, || Check { study: &study }.json(), text);
+    Ok(answer.warning(law::warnings(&study)))
 }
 
 fn of_disc(study: &DiscStudy) -> String {

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use clap::Args;
 use quell::picture;
 use quell::run::friction::{FrictionCurve, grid, run as friction};
+use quell::run::law;
 use quell::{Complaint, Failure, Study, quantity};
 use quell_model::units::{Quantity, Scales};
 
@@ -40,7 +41,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut object = curve.json(&study);
     outputs.write(&[curve.dataset(&study)], &mut object)?;
     plot.write(|| picture::friction(&study, &curve), &mut object)?;
-    Ok(Answer::new(arguments.study.json, || object, || text(&study, &curve)))
+    let answer = Answer::new(arguments.study.json, || object, || text(&study, &curve));
+    Ok(answer.warning(law::warnings(&study)))
 }
 
 fn velocities(texts: &[String], study: Option<&Study>, complaints: &mut Complaints) -> Vec<f64> {
@@ -58,7 +60,12 @@ fn velocities(texts: &[String], study: Option<&Study>, complaints: &mut Complain
 fn text(study: &Study, curve: &FrictionCurve) -> String {
     let unit =
         if study.scales().is_some() { "m (velocity/ω₀)" } else { "length (velocity/ω₀)" };
-    let mut text = format!(
+    let mut text = String::new();
+    for (label, words) in law::words(study) {
+        let _ = writeln!(text, "{}: {words}", label.trim());
+    }
+    let _ = write!(
+        text,
         "Friction over the slip velocity v_r, in {unit}: the law μ, the effective μ̄ under the dither, \
          its slope\n  {:>14}  {:>14}  {:>14}  {:>14}\n",
         "v_r", "μ", "μ̄", "μ̄′"

@@ -5,7 +5,10 @@
 use quell_numerics::elementary;
 use quell_numerics::lane::{Lane, partial_product};
 
-use super::{BranchSeries, Friction, SlidingLaw, checked, minimum_at_most_static, side_by_side};
+use super::{
+    BranchSeries, Friction, NumericLaw, SlidingLaw, checked, length_of_change, longest_change,
+    minimum_at_most_static, number_of, side_by_side, with_number,
+};
 use crate::Invalid;
 use crate::parameter::{MINIMUM_COEFFICIENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT};
 
@@ -47,17 +50,16 @@ impl SlidingLaw for Decreasing {
     const PARAMETERS: &'static [Parameter] =
         &[STATIC_COEFFICIENT, MINIMUM_COEFFICIENT, REFERENCE_VELOCITY];
 
-    fn from_values(values: &[f64]) -> Result<Self, Vec<Invalid>> {
-        checked(Self::PARAMETERS, values, || minimum_at_most_static(values[0], values[1]))?;
-        Ok(Self {
-            static_coefficient: values[0],
-            minimum_coefficient: values[1],
-            reference_velocity: values[2],
-        })
-    }
-
     fn values(&self) -> Vec<f64> {
         vec![self.static_coefficient, self.minimum_coefficient, self.reference_velocity]
+    }
+
+    fn get(&self, path: &str) -> Option<f64> {
+        number_of(self, path)
+    }
+
+    fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>> {
+        with_number(self, path, value)
     }
 
     #[inline(always)]
@@ -75,13 +77,6 @@ impl SlidingLaw for Decreasing {
         true
     }
 
-    /// Half the order: with c = |Δw| the terms of e^c fall from the c-th on, and from k = 2c on
-    /// each is less than half of the one before.
-    #[inline(always)]
-    fn longest_change(order: usize) -> f64 {
-        0.5 * order as f64
-    }
-
     type Constants<V: Lane> = DecreasingConstants<V>;
 
     #[inline(always)]
@@ -92,11 +87,11 @@ impl SlidingLaw for Decreasing {
         }
     }
 
-    type Series<V: Lane, const N: usize> = DecreasingSeries<V, N>;
+    type Series<'c, V: Lane, const N: usize> = DecreasingSeries<V, N>;
 
     #[inline(always)]
     fn series<V: Lane, const N: usize>(
-        constants: &DecreasingConstants<V>,
+        constants: &mut DecreasingConstants<V>,
         sign: V,
         w0: V,
     ) -> DecreasingSeries<V, N> {
@@ -113,6 +108,17 @@ impl SlidingLaw for Decreasing {
 
     fn of(friction: &Friction) -> Option<Self> {
         if let Friction::Decreasing(law) = friction { Some(*law) } else { None }
+    }
+}
+
+impl NumericLaw for Decreasing {
+    fn from_values(values: &[f64]) -> Result<Self, Vec<Invalid>> {
+        checked(Self::PARAMETERS, values, || minimum_at_most_static(values[0], values[1]))?;
+        Ok(Self {
+            static_coefficient: values[0],
+            minimum_coefficient: values[1],
+            reference_velocity: values[2],
+        })
     }
 }
 
@@ -158,5 +164,10 @@ impl<V: Lane, const N: usize> BranchSeries<V> for DecreasingSeries<V, N> {
         let sum = partial_product(&self.rate, &self.decay, k, 1, k - 1);
         self.partial = sum * V::splat(1.0 / k as f64);
         self.sign * self.partial
+    }
+
+    #[inline(always)]
+    fn trusted(&self, w: &[V], length: V) -> V {
+        length_of_change(w, length, longest_change(w.len() - 1))
     }
 }

@@ -5,6 +5,9 @@
 //! ([`BranchSeries`]): the engine, its SIMD lanes, values, slopes and plots all use it.
 //! μ is odd; at v_r = 0 it is set-valued in [−μ_s, μ_s] (the static level is apart from
 //! the sliding branch).
+//!
+//! Most laws are a few numbers ([`NumericLaw`]). A law may also carry data that its runs share:
+//! a formula ([`Expression`]) or the approximant of measured samples ([`Samples`]).
 
 use quell_numerics::lane::{Lane, MOST_LANES};
 
@@ -12,28 +15,36 @@ use crate::Invalid;
 use crate::parameter::Parameter;
 
 mod decreasing;
+pub mod expression;
+pub mod samples;
 mod stribeck;
 
 pub use decreasing::{Decreasing, DecreasingConstants, DecreasingSeries};
+pub use expression::Expression;
+pub use samples::Samples;
 pub use stribeck::{Stribeck, StribeckConstants, StribeckSeries};
 
 /// A friction law in steady sliding, analytic on each side of v_r = 0.
-pub trait SlidingLaw: Copy + Send + Sync + 'static {
+pub trait SlidingLaw: Clone + Send + Sync + 'static {
     /// Name in a study file.
     const NAME: &'static str;
     /// One line for people: the formula and its source.
     const ABOUT: &'static str;
-    /// The law's parameters, in the order of [`SlidingLaw::values`].
+    /// The law's parameters in the registry, in the order of [`SlidingLaw::values`].
     const PARAMETERS: &'static [Parameter];
-
-    /// From values in the order of `PARAMETERS`.
-    ///
-    /// # Errors
-    /// Every value out of its bounds, and every relation that does not hold.
-    fn from_values(values: &[f64]) -> Result<Self, Vec<Invalid>>;
 
     /// Values in the order of `PARAMETERS`.
     fn values(&self) -> Vec<f64>;
+
+    /// The number of a path such as `friction.static_coefficient`, if the law has it.
+    fn get(&self, path: &str) -> Option<f64>;
+
+    /// The law with one number changed.
+    ///
+    /// # Errors
+    /// A path that the law does not have; what [`SlidingLaw::get`] gives, out of its bounds or
+    /// against a relation.
+    fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>>;
 
     /// Velocity by which the law is naturally scaled (v_m); slip is counted in it, w = v_r/v_m.
     fn velocity_scale(&self) -> f64;
@@ -41,30 +52,28 @@ pub trait SlidingLaw: Copy + Send + Sync + 'static {
     /// Static level μ_s.
     fn static_coefficient(&self) -> f64;
 
-    /// Change of scaled slip w over a Taylor step of order `order` up to which the last
-    /// retained terms bound the remainder. An exponential that grows from almost nothing
-    /// shows no last term however far the step goes: its law must say how far it may.
-    #[inline(always)]
-    fn longest_change(order: usize) -> f64 {
-        let _ = order;
-        f64::INFINITY
-    }
-
     /// What the recurrence needs to know of the law in each lane.
-    type Constants<V: Lane>: Copy + Send + Sync;
+    /// A law with data keeps the memory of its recurrence here too: nothing is allocated per step.
+    type Constants<V: Lane>: Send + Sync;
 
-    /// Constants of laws side by side, one law per lane: [`Lane::LANES`] of them.
+    /// Constants of laws side by side, one law per lane: [`Lane::LANES`] of them, all alike.
     fn constants<V: Lane>(laws: &[Self]) -> Self::Constants<V>;
 
+    /// Whether two laws differ in numbers alone, so that they can run side by side.
+    fn is_alike(&self, other: &Self) -> bool {
+        let _ = other;
+        true
+    }
+
     /// Taylor recurrence of the sliding branch.
-    type Series<V: Lane, const N: usize>: BranchSeries<V>;
+    type Series<'c, V: Lane, const N: usize>: BranchSeries<V>;
 
     /// Starts the recurrence on the branch of `sign` (±1) at scaled slip `w0`.
     fn series<V: Lane, const N: usize>(
-        constants: &Self::Constants<V>,
+        constants: &mut Self::Constants<V>,
         sign: V,
         w0: V,
-    ) -> Self::Series<V, N>;
+    ) -> Self::Series<'_, V, N>;
 
     /// The concrete law in `friction`, if it is of this kind.
     fn of(friction: &Friction) -> Option<Self>;
@@ -79,21 +88,51 @@ pub trait SlidingLaw: Copy + Send + Sync + 'static {
     /// Sliding coefficient at slip speed |v_r|, ≥ 0.
     #[inline(always)]
     fn coefficient(&self, speed: f64) -> f64 {
-        self.alone(speed).first()
+        self.alone(speed).0
     }
 
     /// Slope dμ/d|v_r| of the sliding branch at slip speed |v_r|, per unit velocity.
     #[inline(always)]
     fn slope(&self, speed: f64) -> f64 {
-        self.alone(speed).slope() / self.velocity_scale()
+        self.alone(speed).1 / self.velocity_scale()
     }
 
-    /// The branch at one slip speed |v_r|, without any term of a series.
+    /// Coefficient and slope dμ/dw at one slip speed |v_r|, without any term of a series.
     #[inline(always)]
-    fn alone(&self, speed: f64) -> Self::Series<f64, 1> {
-        let constants = Self::constants::<f64>(std::slice::from_ref(self));
-        Self::series(&constants, 1.0, speed / self.velocity_scale())
+    fn alone(&self, speed: f64) -> (f64, f64) {
+        let mut constants = Self::constants::<f64>(std::slice::from_ref(self));
+        let branch = Self::series::<f64, 1>(&mut constants, 1.0, speed / self.velocity_scale());
+        (branch.first(), branch.slope())
     }
+}
+
+/// A law that is nothing but its numbers.
+pub trait NumericLaw: SlidingLaw {
+    /// From values in the order of `PARAMETERS`.
+    ///
+    /// # Errors
+    /// Every value out of its bounds, and every relation that does not hold.
+    fn from_values(values: &[f64]) -> Result<Self, Vec<Invalid>>;
+}
+
+/// [`SlidingLaw::get`] of a law of numbers.
+fn number_of<L: NumericLaw>(law: &L, path: &str) -> Option<f64> {
+    let index = L::PARAMETERS.iter().position(|parameter| parameter.path == path)?;
+    law.values().get(index).copied()
+}
+
+/// [`SlidingLaw::with`] of a law of numbers.
+fn with_number<L: NumericLaw>(law: &L, path: &str, value: f64) -> Result<L, Vec<Invalid>> {
+    let index = L::PARAMETERS.iter().position(|parameter| parameter.path == path);
+    let index = index.ok_or_else(|| not_a_number_of::<L>(path, value))?;
+    let mut values = law.values();
+    values[index] = value;
+    L::from_values(&values)
+}
+
+/// Complaint about a path that a law does not have.
+fn not_a_number_of<L: SlidingLaw>(path: &str, value: f64) -> Vec<Invalid> {
+    vec![Invalid::new(path, value, format!("a number of the law \"{}\"", L::NAME))]
 }
 
 /// Taylor coefficients μ₀, μ₁, … of the coefficient along a slip w(t) = Σ wₖtᵏ.
@@ -109,6 +148,34 @@ pub trait BranchSeries<V: Lane> {
 
     /// μₖ − μ′(w₀)wₖ, for k = 1, 2, … in ascending order, given w₀…wₖ₋₁.
     fn lower(&mut self, k: usize, w: &[V]) -> V;
+
+    /// The part of a step of `length` along w, of order `w.len() − 1`, over which the last retained
+    /// terms bound the remainder. An exponential that grows from almost nothing shows no last term
+    /// however far the step goes: its law must say how far it may.
+    #[inline(always)]
+    fn trusted(&self, w: &[V], length: V) -> V {
+        let _ = w;
+        length
+    }
+}
+
+/// Half the order of a step: with c the change of an exponent over it, the terms of eᶜ fall from
+/// the c-th on, and from k = 2c on each is less than half of the one before.
+#[inline(always)]
+fn longest_change(order: usize) -> f64 {
+    0.5 * order as f64
+}
+
+/// The part of `length` over which Σ aₖtᵏ without its first term changes by no more than `most`:
+/// every term shrinks at least as the step does.
+#[inline(always)]
+fn length_of_change<V: Lane>(series: &[V], length: V, most: f64) -> V {
+    let mut largest = V::splat(0.0);
+    for k in (1..series.len()).rev() {
+        largest = largest.mul_add(length, series[k].abs());
+    }
+    let share = (largest * length).map(|it| if it > most { most / it } else { 1.0 });
+    length * share
 }
 
 /// Work that wants the concrete law, for code that is compiled per law.
@@ -120,15 +187,38 @@ pub trait LawVisitor {
 }
 
 macro_rules! laws {
-    ($($kind:ident),+ $(,)?) => {
+    (numbers: $($numeric:ident),+; data: $($carrying:ident),+ $(,)?) => {
+        laws!(@ $($numeric),+, $($carrying),+);
+
+        impl LawKind {
+            /// Laws that are nothing but their numbers.
+            pub const NUMERIC: &'static [Self] = &[$(Self::$numeric),+];
+
+            /// A law of numbers from values in the order of its parameters.
+            ///
+            /// # Errors
+            /// Every value out of its bounds, and every relation that does not hold; a law that
+            /// is more than its numbers.
+            pub fn build(self, values: &[f64]) -> Result<Friction, Vec<Invalid>> {
+                match self {
+                    $(Self::$numeric => $numeric::from_values(values).map(Friction::$numeric),)+
+                    $(Self::$carrying => {
+                        let allowed = "made of its data; no law of numbers alone";
+                        Err(vec![Invalid::new("friction.law", $carrying::NAME, allowed)])
+                    })+
+                }
+            }
+        }
+    };
+    (@ $($kind:ident),+) => {
         /// The friction laws there are.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum LawKind {
             $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind,)+
         }
 
-        /// A friction law with valid parameters.
-        #[derive(Clone, Copy, Debug, PartialEq)]
+        /// A friction law with valid parameters; cheap to clone.
+        #[derive(Clone, Debug, PartialEq)]
         pub enum Friction {
             $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind($kind),)+
         }
@@ -151,16 +241,6 @@ macro_rules! laws {
             pub fn parameters(self) -> &'static [Parameter] {
                 match self { $(Self::$kind => <$kind as SlidingLaw>::PARAMETERS),+ }
             }
-
-            /// The law from values in the order of its parameters.
-            ///
-            /// # Errors
-            /// Every value out of its bounds, and every relation that does not hold.
-            pub fn build(self, values: &[f64]) -> Result<Friction, Vec<Invalid>> {
-                match self {
-                    $(Self::$kind => $kind::from_values(values).map(Friction::$kind)),+
-                }
-            }
         }
 
         impl Friction {
@@ -172,6 +252,33 @@ macro_rules! laws {
             /// Values in the order of the law's parameters.
             pub fn values(&self) -> Vec<f64> {
                 match self { $(Self::$kind(law) => law.values()),+ }
+            }
+
+            /// The number of a path such as `friction.static_coefficient`, if the law has it.
+            pub fn get(&self, path: &str) -> Option<f64> {
+                match self { $(Self::$kind(law) => law.get(path)),+ }
+            }
+
+            /// The law with one number changed.
+            ///
+            /// # Errors
+            /// A path that the law does not have; a value out of its bounds or against a relation.
+            pub fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>> {
+                match self { $(Self::$kind(law) => law.with(path, value).map(Self::$kind)),+ }
+            }
+
+            /// Whether runs with this law and with the other can go side by side: both are of one
+            /// kind and differ in numbers alone.
+            pub fn is_alike(&self, other: &Self) -> bool {
+                match (self, other) {
+                    $((Self::$kind(law), Self::$kind(other)) => law.is_alike(other),)+
+                    _ => false,
+                }
+            }
+
+            /// Whether the sliding branch starts from the static level, μ(0⁺) = μ_s.
+            pub fn starts_at_static_level(&self) -> bool {
+                match self { $(Self::$kind(law) => law.starts_at_static_level()),+ }
             }
 
             /// Hands the concrete law to `visitor`.
@@ -203,7 +310,7 @@ macro_rules! laws {
     };
 }
 
-laws!(Stribeck, Decreasing);
+laws!(numbers: Stribeck, Decreasing; data: Expression, Samples);
 
 impl LawKind {
     /// The law of a name.

@@ -4,7 +4,10 @@
 
 use quell_numerics::lane::{Lane, half_inner_square, partial_product};
 
-use super::{BranchSeries, Friction, SlidingLaw, checked, minimum_at_most_static, side_by_side};
+use super::{
+    BranchSeries, Friction, NumericLaw, SlidingLaw, checked, minimum_at_most_static, number_of,
+    side_by_side, with_number,
+};
 use crate::Invalid;
 use crate::parameter::{MINIMUM_COEFFICIENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT};
 
@@ -46,17 +49,16 @@ impl SlidingLaw for Stribeck {
     const PARAMETERS: &'static [Parameter] =
         &[STATIC_COEFFICIENT, MINIMUM_COEFFICIENT, REFERENCE_VELOCITY];
 
-    fn from_values(values: &[f64]) -> Result<Self, Vec<Invalid>> {
-        checked(Self::PARAMETERS, values, || minimum_at_most_static(values[0], values[1]))?;
-        Ok(Self {
-            static_coefficient: values[0],
-            minimum_coefficient: values[1],
-            reference_velocity: values[2],
-        })
-    }
-
     fn values(&self) -> Vec<f64> {
         vec![self.static_coefficient, self.minimum_coefficient, self.reference_velocity]
+    }
+
+    fn get(&self, path: &str) -> Option<f64> {
+        number_of(self, path)
+    }
+
+    fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>> {
+        with_number(self, path, value)
     }
 
     #[inline(always)]
@@ -81,11 +83,11 @@ impl SlidingLaw for Stribeck {
         }
     }
 
-    type Series<V: Lane, const N: usize> = StribeckSeries<V, N>;
+    type Series<'c, V: Lane, const N: usize> = StribeckSeries<V, N>;
 
     #[inline(always)]
     fn series<V: Lane, const N: usize>(
-        constants: &StribeckConstants<V>,
+        constants: &mut StribeckConstants<V>,
         sign: V,
         w0: V,
     ) -> StribeckSeries<V, N> {
@@ -105,6 +107,17 @@ impl SlidingLaw for Stribeck {
 
     fn of(friction: &Friction) -> Option<Self> {
         if let Friction::Stribeck(law) = friction { Some(*law) } else { None }
+    }
+}
+
+impl NumericLaw for Stribeck {
+    fn from_values(values: &[f64]) -> Result<Self, Vec<Invalid>> {
+        checked(Self::PARAMETERS, values, || minimum_at_most_static(values[0], values[1]))?;
+        Ok(Self {
+            static_coefficient: values[0],
+            minimum_coefficient: values[1],
+            reference_velocity: values[2],
+        })
     }
 }
 

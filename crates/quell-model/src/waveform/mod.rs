@@ -84,6 +84,15 @@ impl Waveform {
         }
     }
 
+    /// g′(θ), per radian. At a kink the slope after it; a jump has none.
+    pub fn slope(self, phase: f64) -> f64 {
+        let phase = wrapped(phase);
+        match self.piece_at(phase) {
+            (_, Piece::Harmonic) => libm::cos(phase),
+            (_, Piece::Affine { slope, .. }) => slope,
+        }
+    }
+
     /// G(θ), the zero-mean integral of g.
     pub fn integral(self, phase: f64) -> f64 {
         (self.shape().integral)(wrapped(phase))

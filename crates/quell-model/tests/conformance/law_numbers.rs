@@ -49,7 +49,12 @@ fn slopes_agree_with_differences_of_values() {
     for law in all_samples() {
         let scale = law.velocity_scale();
         let step = scale / 1024.0;
-        let mut size = law.static_coefficient() / scale;
+        // Sums are known to the rounding of their terms.
+        let terms: f64 = match &law {
+            Friction::Samples(law) => law.fit().terms.iter().map(|(size, _)| size.abs()).sum(),
+            _ => 0.0,
+        };
+        let mut size = law.static_coefficient().max(terms) / scale;
         for &scaled in SCALED_SPEEDS {
             let speed = scaled * scale;
             // Central where the five points stay on the branch, forward beside v_r = 0.
@@ -75,7 +80,9 @@ fn extreme_slip_gives_finite_numbers() {
         }
         // The branch starts without a jump.
         assert_eq!(law.coefficient(1e-300), law.coefficient(0.0), "{law:?}");
-        assert_eq!(law.slope(1e-300), law.slope(0.0), "{law:?}");
+        // A slope may begin at zero and grow.
+        let change = (law.slope(1e-300) - law.slope(0.0)).abs() * law.velocity_scale();
+        assert!(change <= 1e-280, "{law:?}: {change}");
     }
 }
 

@@ -8,6 +8,15 @@ use crate::law_samples::{SCALED_SPEEDS, all_samples};
 
 /// The law with every length and velocity multiplied by `factor`.
 fn scaled(law: &Friction, factor: f64) -> Friction {
+    match law {
+        Friction::Expression(law) => {
+            return Friction::Expression(law.in_unit(law.velocity_unit() * factor));
+        }
+        Friction::Samples(law) => {
+            return Friction::Samples(law.in_unit(law.curve().velocity_unit() * factor));
+        }
+        _ => {}
+    }
     let kind = law.kind();
     let values: Vec<f64> = kind
         .parameters()

@@ -108,6 +108,12 @@ fn model(belt: &Belt) -> &'static str {
         (LawKind::Decreasing, true) => {
             "equation of motion (2.1), (3.1), (4.1); decreasing law (2.8)"
         }
+        (LawKind::Expression | LawKind::Samples, false) => {
+            "equation of motion (2.1), (3.1); the law is the study's own"
+        }
+        (LawKind::Expression | LawKind::Samples, true) => {
+            "equation of motion (2.1), (3.1), (4.1); the law is the study's own"
+        }
     }
 }
 
@@ -119,7 +125,9 @@ fn averaging(belt: &Belt, task: Task, cite: &mut impl FnMut(Task, Source, &'stat
             MICHAUX_2005,
             "effective friction under tangential dither (2.21), (3.19)–(3.27)",
         );
-        cite(task, MICHAUX_2005, closed_form(belt.friction().kind()));
+        if let Some(used) = closed_form(belt.friction().kind()) {
+            cite(task, MICHAUX_2005, used);
+        }
     }
     if has(belt, Direction::Normal, None) {
         cite(
@@ -137,10 +145,12 @@ fn averaging(belt: &Belt, task: Task, cite: &mut impl FnMut(Task, Source, &'stat
     }
 }
 
-fn closed_form(law: LawKind) -> &'static str {
+fn closed_form(law: LawKind) -> Option<&'static str> {
     match law {
-        LawKind::Stribeck => "closed forms (3.29)–(3.31)",
-        LawKind::Decreasing => "closed forms (3.36)–(3.39), (B.10), (C.7)",
+        LawKind::Stribeck => Some("closed forms (3.29)–(3.31)"),
+        LawKind::Decreasing => Some("closed forms (3.36)–(3.39), (B.10), (C.7)"),
+        // Quadrature serves any other.
+        LawKind::Expression | LawKind::Samples => None,
     }
 }
 

@@ -51,7 +51,7 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
             " Dotted in (b): as printed (3.38a), whose error functions carry exp(−γ − |$v_r$|/$v_m$) in place of exp(γ − |$v_r$|/$v_m$); it does \
              not even meet (3.38b) at |$v_r$| = π$α$/4."
         }
-        LawKind::Stribeck => "",
+        _ => "",
     };
     let caption = format!(
         "Figure {}. Effective {} friction under tangential dither of three waveforms and five amplitudes. {}.{note}",

@@ -86,6 +86,8 @@ pub(super) fn law_name(kind: LawKind) -> &'static str {
     match kind {
         LawKind::Stribeck => "Stribeck",
         LawKind::Decreasing => "decreasing",
+        // No figure has another; its name says enough.
+        kind => kind.name(),
     }
 }
 

@@ -174,7 +174,7 @@ fn panel(
         (false, _) => last("dither.amplitude").unwrap_or(1.0) / dither.frequency_ratio,
         // The print goes beyond what a closed contact allows.
         (true, LawKind::Stribeck) => 0.8,
-        (true, LawKind::Decreasing) => 6.0,
+        (true, _) => 6.0,
     };
     let plane =
         Plane { source, belt, waveform, direction: dither.direction, reach: (alpha, velocity) };
@@ -299,7 +299,7 @@ impl Plane<'_> {
                 frequency_ratio: ratio,
                 phase: 0.0,
             };
-            let belt = Belt::new(damping_ratio, load, 1.0, *self.law(), vec![dither])
+            let belt = Belt::new(damping_ratio, load, 1.0, self.law().clone(), vec![dither])
                 .map_err(|_| failed(self.source.name, &"a belt of the map is not valid"))?;
             let bands =
                 unstable_bands(&belt, options).map_err(|error| failed(self.source.name, &error))?;

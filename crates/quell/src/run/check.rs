@@ -4,6 +4,7 @@ use quell_model::parameter::{BELT_VELOCITY, DAMPING_RATIO, NORMAL_LOAD};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::law;
 use crate::fields::Fields;
 use crate::study::Study;
 
@@ -37,13 +38,7 @@ impl Check<'_> {
             inner.number(parameter.key(), parameter.quantity, value);
         }
         fields.nested("belt", inner);
-        let mut inner = Fields::new(scales);
-        inner.plain("law", belt.friction().kind().name());
-        for (parameter, value) in
-            belt.friction().kind().parameters().iter().zip(belt.friction().values())
-        {
-            inner.number(parameter.key(), parameter.quantity, value);
-        }
+        let inner = law::fields(study);
         fields.nested("friction", inner);
         let dithers = belt.dithers().iter().map(|dither| {
             let mut inner = Fields::new(scales);

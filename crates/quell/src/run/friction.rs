@@ -113,6 +113,7 @@ impl FrictionCurve {
         let mut fields = Fields::new(study.scales());
         fields
             .plain("ok", true)
+            .nested("law", super::law::fields(study))
             .numbers("slip_velocity", Quantity::Velocity, &self.slip_velocities())
             .numbers("coefficient", Quantity::Ratio, &self.coefficients())
             .numbers("effective_coefficient", Quantity::Ratio, &self.effective_coefficients())

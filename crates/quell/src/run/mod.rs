@@ -6,6 +6,7 @@
 pub mod check;
 pub mod disc;
 pub mod friction;
+pub mod law;
 pub mod map;
 pub mod orbit;
 pub mod response;

@@ -46,7 +46,6 @@ pub(super) fn refused(why: NoOrbit) -> Failure {
     let key = match why {
         NoOrbit::NoDither => "dither",
         NoOrbit::Incommensurate => "dither.frequency_ratio",
-        NoOrbit::JumpAtRelease => "friction.law",
         NoOrbit::NotConverged { .. } => {
             return Failure::Failed { key: "orbit".to_owned(), why: why.to_string() };
         }

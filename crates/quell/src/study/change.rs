@@ -53,7 +53,12 @@ impl Change {
                 table.remove(sibling.name);
             }
         }
-        table.set(key.name, self.node.clone());
+        // Names of constants are the study's own.
+        let name = match key.role {
+            Role::Constant => self.path.trim().rsplit('.').next().unwrap_or_default(),
+            _ => key.name,
+        };
+        table.set(name, self.node.clone());
         Ok(())
     }
 
@@ -86,6 +91,12 @@ impl Change {
                     return Ok(None);
                 };
                 Ok(self.table(belt, "initial"))
+            }
+            Section::Constants => {
+                let Some(friction) = self.table(root, "friction") else {
+                    return Ok(None);
+                };
+                Ok(self.table(friction, "constants"))
             }
             Section::Dither | Section::Sweep => self.entry(root, section.path(), index),
             Section::DiscMode | Section::DiscLoad => {
@@ -170,6 +181,7 @@ fn replaces(key: &Key, sibling: &Key) -> bool {
     match (key.section, key.role, sibling.role) {
         (_, Role::Twin(parameter, _), Role::Twin(other, _)) => parameter.path == other.path,
         (Section::Initial, role, other) => is_word(role) || is_word(other),
+        (Section::Friction, Role::Speeds { .. }, Role::Speeds { .. }) => true,
         (Section::Sweep, role, other) => {
             (role == Role::AxisValues) != (other == Role::AxisValues)
                 && key.name != "parameter"

@@ -4,7 +4,8 @@
 //! complaint is told at once, with key, line, value, what is allowed, and the nearest
 //! right key.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use quell_model::parameter::NORMAL_LOAD;
 use quell_model::units::{Quantity, Scales};
@@ -33,6 +34,7 @@ pub mod vocabulary;
 
 pub use change::Change;
 pub use disc::DiscStudy;
+pub use friction::Measured;
 pub use quell_belt::response::Solver;
 pub use quell_belt::start::InitialState;
 pub use subject::Subject;
@@ -49,6 +51,10 @@ pub struct Study {
     sweeps: Vec<Sweep>,
     mirror: Table,
     text: String,
+    /// Where files that the study names are looked for.
+    folder: PathBuf,
+    /// The samples of a measured law.
+    measured: Option<Arc<Measured>>,
     changes: Vec<String>,
 }
 
@@ -59,21 +65,30 @@ impl Study {
     /// Every complaint at once.
     pub fn read(path: &Path, changes: &[Change]) -> Result<Self, Failure> {
         let text = file::text(path)?;
-        Self::parse(&text, changes).map_err(Failure::Wrong)
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::parse_in(&text, changes, folder).map_err(Failure::Wrong)
     }
 
-    /// Checks the text of a study after changing it.
+    /// Checks the text of a study after changing it; files that it names are looked for where the program runs.
     ///
     /// # Errors
     /// Every complaint at once.
     pub fn parse(text: &str, changes: &[Change]) -> Result<Self, Vec<Complaint>> {
+        Self::parse_in(text, changes, Path::new(""))
+    }
+
+    /// Checks the text of a study after changing it; files that it names are looked for in `folder`.
+    ///
+    /// # Errors
+    /// Every complaint at once.
+    pub fn parse_in(text: &str, changes: &[Change], folder: &Path) -> Result<Self, Vec<Complaint>> {
         let mut mirror = Table::parse(text)?;
         let refused: Vec<Complaint> = changes
             .iter()
             .filter_map(|change| change.apply(&mut mirror).err())
             .map(|complaint| *complaint)
             .collect();
-        match Self::check(mirror, text) {
+        match Self::check(mirror, text, folder, None) {
             Ok(mut study) if refused.is_empty() => {
                 study.changes = changes.iter().map(Change::to_string).collect();
                 Ok(study)
@@ -95,7 +110,7 @@ impl Study {
         Change::number(path, value, "change")
             .apply(&mut mirror)
             .map_err(|complaint| vec![*complaint])?;
-        let mut study = Self::check(mirror, &self.text)?;
+        let mut study = self.check_again(mirror)?;
         study.changes.clone_from(&self.changes);
         study.changes.push(format!("{path}={value:?}"));
         Ok(study)
@@ -110,8 +125,14 @@ impl Study {
         {
             node.leaves(name, &mut settings);
         }
+        settings.extend(self.measured.iter().map(|measured| measured.settings()));
         settings.sort();
         settings
+    }
+
+    /// The samples of a measured law.
+    pub fn measured(&self) -> Option<&Measured> {
+        self.measured.as_deref()
     }
 
     /// The study at one point of a map: its numbers set through the same path as `--set`, in
@@ -131,12 +152,22 @@ impl Study {
             change.apply(&mut mirror).map_err(|complaint| vec![*complaint])?;
             changes.push(change.to_string());
         }
-        let mut study = Self::check(mirror, &self.text)?;
+        let mut study = self.check_again(mirror)?;
         study.changes = changes;
         Ok(study)
     }
 
-    fn check(mirror: Table, text: &str) -> Result<Self, Vec<Complaint>> {
+    /// Checks the changed mirror of this study; files are not read again.
+    fn check_again(&self, mirror: Table) -> Result<Self, Vec<Complaint>> {
+        Self::check(mirror, &self.text, &self.folder, self.measured.as_deref())
+    }
+
+    fn check(
+        mirror: Table,
+        text: &str,
+        folder: &Path,
+        known: Option<&Measured>,
+    ) -> Result<Self, Vec<Complaint>> {
         let mut reader = Reader::new(&mirror);
         let title = root(&mut reader, &mirror, ROOT);
         if let Some(node) = mirror.get("disc") {
@@ -148,7 +179,8 @@ impl Study {
             return Err(reader.into_complaints());
         }
         let belt = belt::read(&mut reader, &mirror);
-        let friction = friction::read(&mut reader, &mirror);
+        let friction = friction::read(&mut reader, &mirror, folder, known);
+        let (friction, measured) = friction.map_or((None, None), |(law, from)| (Some(law), from));
         let dithers = dither::read(&mut reader, &mirror);
         let solver = solver::read(&mut reader, &mirror);
         let sweeps = sweep::read(&mut reader, &mirror);
@@ -171,6 +203,8 @@ impl Study {
             sweeps,
             mirror,
             text: text.to_owned(),
+            folder: folder.to_owned(),
+            measured: measured.map(Arc::new),
             changes: Vec::new(),
         };
         study.check_sweeps()?;
@@ -309,12 +343,13 @@ fn build(
 ) -> Option<Belt> {
     let dithers = dithers?;
     let stand_in = || LawKind::Stribeck.build(&[0.0, 0.0, 1.0]).ok();
+    let known = friction.is_some();
     let law = friction.or_else(stand_in)?;
     let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
     let (damping, load, velocity) =
         (number(table.damping_ratio), number(table.normal_load), number(table.belt_velocity));
     match Belt::new(damping, load, velocity, law, dithers) {
-        Ok(belt) => friction.map(|_| belt),
+        Ok(belt) => known.then_some(belt),
         Err(mut invalid) => {
             // In SI the normal load is told in newtons.
             if let Some(scales) = reader.known_scales() {

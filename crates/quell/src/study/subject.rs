@@ -37,7 +37,7 @@ impl Subject {
         if Table::parse(text)?.has("disc") {
             DiscStudy::parse(text, changes, folder).map(Self::Disc)
         } else {
-            Study::parse(text, changes).map(|study| Self::Belt(Box::new(study)))
+            Study::parse_in(text, changes, folder).map(|study| Self::Belt(Box::new(study)))
         }
     }
 

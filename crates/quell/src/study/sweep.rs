@@ -97,6 +97,14 @@ impl Axis {
     }
 }
 
+impl Sweep {
+    /// Whether both vary the same key; named constants share one, and differ by their paths.
+    fn sets_the_same_as(&self, other: &Self) -> bool {
+        self.address == other.address
+            && (self.address.key.role != Role::Constant || self.path.trim() == other.path.trim())
+    }
+}
+
 /// Reads every `[[sweep]]`; `None` where one of them is wrong.
 pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Sweep>> {
     let Some(node) = root.get("sweep") else {
@@ -112,7 +120,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Sweep>> {
         let sweep = one(reader, node, &prefix);
         if let Some(sweep) = &sweep
             && let Some(earlier) =
-                sweeps.iter().flatten().position(|earlier| earlier.address == sweep.address)
+                sweeps.iter().flatten().position(|earlier| earlier.sets_the_same_as(sweep))
         {
             let allowed = format!("sweep[{earlier}] varies {} already", sweep.path);
             let key = join(&prefix, "parameter");
@@ -156,7 +164,10 @@ fn parameter(
     let path = reader.text(&key, node)?;
     match vocabulary::resolve(&path) {
         Ok(address)
-            if matches!(address.key.role, Role::Number(_) | Role::Twin(..) | Role::Scale(_)) =>
+            if matches!(
+                address.key.role,
+                Role::Number(_) | Role::Twin(..) | Role::Scale(_) | Role::Constant
+            ) =>
         {
             Some((path, address))
         }

@@ -5,7 +5,9 @@
 use std::sync::LazyLock;
 
 use quell_disc::system::Contribution;
+use quell_model::friction::expression;
 use quell_model::parameter::{self, Parameter, ScaleKey, SiTwin};
+use quell_model::units::Quantity;
 use quell_model::{Direction, LawKind, Waveform};
 
 use super::suggest;
@@ -31,6 +33,8 @@ pub enum Section {
     Initial,
     /// `[friction]`.
     Friction,
+    /// `[friction.constants]`, whose names a study chooses.
+    Constants,
     /// `[disc]`.
     Disc,
     /// `[[disc.mode]]`.
@@ -52,6 +56,7 @@ impl Section {
         Self::Belt,
         Self::Initial,
         Self::Friction,
+        Self::Constants,
         Self::Disc,
         Self::DiscMode,
         Self::DiscLoad,
@@ -67,6 +72,7 @@ impl Section {
             Self::Belt => "belt",
             Self::Initial => "belt.initial",
             Self::Friction => "friction",
+            Self::Constants => expression::CONSTANTS,
             Self::Disc => "disc",
             Self::DiscMode => "disc.mode",
             Self::DiscLoad => "disc.load",
@@ -88,6 +94,7 @@ impl Section {
             Self::Belt => "mass, spring and damper on a moving belt",
             Self::Initial => "where a run starts; at rest by default",
             Self::Friction => "the friction law",
+            Self::Constants => "named numbers of a formula",
             Self::Dither => "one dither force; several as [[dither]]",
             Self::Solver => "accuracy and length of the computations",
             Self::Sweep => "one axis of a map; several in order",
@@ -160,6 +167,17 @@ pub enum Role {
     Choices(Choice),
     /// The reference frequency of a disc: "critical", or a frequency parameter k².
     Reference,
+    /// A formula of the friction coefficient, or measured coefficients.
+    Coefficient,
+    /// Measured slip speeds, in SI or not.
+    Speeds {
+        /// In metres per second.
+        si: bool,
+    },
+    /// The number of terms of a fit.
+    Terms,
+    /// A named number of a formula.
+    Constant,
     /// A bare number of an axis, in the unit of the parameter it names.
     AxisNumber,
     /// The number of points of an axis.
@@ -201,6 +219,8 @@ impl Key {
             Role::Number(parameter) => parameter.quantity.scaled_unit(),
             Role::Twin(_, twin) => twin.unit,
             Role::Scale(scale) => scale.unit,
+            Role::Speeds { si: true } => "m/s",
+            Role::Speeds { si: false } => Quantity::Velocity.scaled_unit(),
             _ => "1",
         }
     }
@@ -238,6 +258,7 @@ pub fn keys() -> &'static [Key] {
 fn build() -> Vec<Key> {
     let mut keys = words();
     keys.extend(numbers());
+    keys.extend(own_law());
     keys.extend(disc());
     keys.extend(axis());
     keys.sort_by_key(|key| Section::ALL.iter().position(|section| *section == key.section));
@@ -293,6 +314,38 @@ fn numbers() -> Vec<Key> {
     }
     keys
 }
+
+/// Keys of a friction law of one's own.
+fn own_law() -> Vec<Key> {
+    let key = |name, role, about| Key { section: Section::Friction, name, role, about };
+    vec![
+        key(
+            "coefficient",
+            Role::Coefficient,
+            "formula of the coefficient in the slip velocity v, or measured coefficients",
+        ),
+        key(
+            "file",
+            Role::Text,
+            "CSV file of measured slip speeds and coefficients, beside the study",
+        ),
+        key("slip_velocity", Role::Speeds { si: false }, "measured slip speeds"),
+        key("slip_velocity_m_per_s", Role::Speeds { si: true }, "measured slip speeds"),
+        key(
+            "terms",
+            Role::Terms,
+            "number of exponentials of the fit, the best where it is not given",
+        ),
+    ]
+}
+
+/// The key of any named number of a formula.
+static CONSTANT: Key = Key {
+    section: Section::Constants,
+    name: "NAME",
+    role: Role::Constant,
+    about: "a named number of the formula",
+};
 
 /// Keys of a disc that take no number of the registry.
 fn disc() -> Vec<Key> {
@@ -364,6 +417,9 @@ pub fn resolve(path: &str) -> Result<Address, Option<String>> {
         None => (table, None),
     };
     let section = Section::ALL.iter().copied().find(|section| section.path() == table);
+    if section == Some(Section::Constants) && index.is_none() && expression::is_name(name) {
+        return Ok(Address { key: &CONSTANT, index: None });
+    }
     let listed = matches!(
         section,
         Some(Section::Dither | Section::Sweep | Section::DiscMode | Section::DiscLoad)

@@ -72,7 +72,7 @@ impl<'a, V: Lane, L: SlidingLaw> Bench<'a, V, L> {
                     Next::Over(outcome) => over(number, outcome),
                     Next::Slip(due) => {
                         if self.laws.is_empty() {
-                            self.laws.resize(V::LANES, law);
+                            self.laws.resize(V::LANES, law.clone());
                         }
                         self.laws[lane] = law;
                         self.board.seat(lane, &engine);
@@ -95,7 +95,7 @@ impl<'a, V: Lane, L: SlidingLaw> Bench<'a, V, L> {
     #[inline(always)]
     pub(super) fn step(&mut self) {
         self.turn += 1;
-        if let Some(constants) = &self.constants {
+        if let Some(constants) = &mut self.constants {
             self.all_clear = self.board.step::<L>(constants);
         }
     }

@@ -139,7 +139,7 @@ impl<V: Lane> Board<V> {
 
     /// One slip step in every lane; whether all of them are clear.
     #[inline(always)]
-    pub(super) fn step<L: SlidingLaw>(&mut self, law: &L::Constants<V>) -> bool {
+    pub(super) fn step<L: SlidingLaw>(&mut self, law: &mut L::Constants<V>) -> bool {
         let equation =
             SlipEquation { damping: self.damping.load(), belt_velocity: self.belt_velocity.load() };
         let start = SlipStart {
@@ -162,12 +162,11 @@ impl<V: Lane> Board<V> {
             Load::Series(&load_series)
         };
         let series = &mut self.series;
-        equation.series::<L>(law, start, &dither, load, series);
         let stop: V = self.stop.load();
         let room = until(time, low, stop);
         let limits =
             StepLimits { tolerance: self.tolerance.load(), longest: self.longest.load(), room };
-        let length = series.step(limits, L::longest_change(ORDER));
+        let length = equation.series::<L>(law, start, &dither, load, limits, series);
         let (displacement, slip) = series.end(length);
         let (later, later_low) = after(time, low, length);
         let zeros: V = self.zeros.load();

@@ -6,7 +6,8 @@
 //! operations on its own numbers, so that a run has the same bits alone, in any lane and
 //! beside any neighbours; one run alone is the case of one lane.
 //!
-//! Lanes of one loop share the law and the shape of the forcing; runs are grouped by these.
+//! Lanes of one loop share the law but for its numbers, and the shape of the forcing; runs are
+//! grouped by these.
 
 mod bench;
 mod board;
@@ -36,9 +37,8 @@ pub(super) fn side_by_side(
     let mut outcomes = vec![Err(Stalled::NEVER_STARTED); runs.len()];
     let mut rest: Vec<(usize, Run<'_>)> = runs.into_iter().enumerate().collect();
     while let Some((_, first)) = rest.first() {
-        let (law, shapes) = (*first.belt.friction(), shapes_of(first));
-        let alike =
-            |run: &Run<'_>| run.belt.friction().kind() == law.kind() && shapes_of(run) == shapes;
+        let (law, shapes) = (first.belt.friction().clone(), shapes_of(first));
+        let alike = |run: &Run<'_>| run.belt.friction().is_alike(&law) && shapes_of(run) == shapes;
         let (group, others) = rest.into_iter().partition(|(_, run)| alike(run));
         rest = others;
         law.visit(Group { set, runs: group, shapes, tolerance, outcomes: &mut outcomes });

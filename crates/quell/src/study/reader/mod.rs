@@ -74,6 +74,11 @@ impl Reader {
         }
     }
 
+    /// Whether the study is in SI.
+    pub(super) fn is_si(&self) -> bool {
+        matches!(self.units, Units::Si(_))
+    }
+
     /// Adds a complaint.
     pub(super) fn complain(&mut self, complaint: Complaint) {
         self.complaints.push(complaint);
@@ -114,6 +119,7 @@ impl Reader {
             .filter(|key| match key.role {
                 Role::Number(parameter) => !si || parameter.si.is_empty(),
                 Role::Twin(..) | Role::Scale(_) => si,
+                Role::Speeds { si: in_si } => in_si == si,
                 _ => true,
             })
             .map(|key| key.name)
@@ -177,7 +183,8 @@ fn is_si(root: &Table) -> bool {
             for (name, _) in table.iter() {
                 match vocabulary::key(*section, name).map(|key| key.role) {
                     Some(Role::Scale(_)) => return true,
-                    Some(Role::Twin(..)) => twins = true,
+                    Some(Role::Twin(..) | Role::Speeds { si: true }) => twins = true,
+                    Some(Role::Speeds { si: false }) => plain = true,
                     Some(Role::Number(parameter)) if !parameter.si.is_empty() => plain = true,
                     _ => {}
                 }
@@ -191,6 +198,9 @@ fn is_si(root: &Table) -> bool {
 fn tables(root: &Table, section: Section) -> Vec<&Table> {
     let node = match section {
         Section::Root | Section::Sweep => None,
+        Section::Constants => {
+            root.get("friction").and_then(Node::table).and_then(|table| table.get("constants"))
+        }
         Section::Initial => {
             root.get("belt").and_then(Node::table).and_then(|belt| belt.get("initial"))
         }

@@ -1,15 +1,30 @@
-//! `[friction]`: a law and its parameters.
+//! `[friction]`: a law and its parameters, or a law of one's own.
+
+use std::path::Path;
 
 use quell_model::{Friction, LawKind};
 use serde_json::Value as Json;
 
-use super::mirror::Table;
+use super::mirror::{Node, Table};
 use super::reader::Reader;
 use super::vocabulary::{self, Choice, Role, Section};
 use crate::complaint::{Complaint, Fault, Origin};
+pub use samples::Measured;
 
-/// Reads `[friction]`.
-pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Friction> {
+mod expression;
+mod samples;
+
+/// A law, and the samples that it was fitted to.
+pub(super) type Read = (Friction, Option<Measured>);
+
+/// Reads `[friction]`. Files of samples are looked for in `folder`; those that are known already are
+/// neither read nor fitted again.
+pub(super) fn read(
+    reader: &mut Reader,
+    root: &Table,
+    folder: &Path,
+    known: Option<&Measured>,
+) -> Option<Read> {
     let Some(node) = root.get("friction") else {
         let allowed = "a table [friction] with law and its parameters";
         reader.complain(Complaint::new(
@@ -25,6 +40,22 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Friction> {
     let name = reader.needed_choice(table, "friction", node.origin, "law", Choice::Law);
     let kind = name.and_then(LawKind::from_name);
     unknown_keys(reader, table, kind);
+    match kind {
+        Some(LawKind::Expression) => {
+            expression::read(reader, table, node.origin).map(|law| (law, None))
+        }
+        Some(LawKind::Samples) => samples::read(reader, table, node.origin, folder, known),
+        kind => numeric(reader, table, node, kind).map(|law| (law, None)),
+    }
+}
+
+/// A law that is nothing but its numbers.
+fn numeric(
+    reader: &mut Reader,
+    table: &Table,
+    node: &Node,
+    kind: Option<LawKind>,
+) -> Option<Friction> {
     // Without a law its parameters are still judged, each by itself.
     let parameters = kind.map_or_else(|| LawKind::ALL[0].parameters(), LawKind::parameters);
     let values: Vec<Option<f64>> = parameters
@@ -46,13 +77,20 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Friction> {
 /// Complains about keys that no law, or not this law, has.
 fn unknown_keys(reader: &mut Reader, table: &Table, kind: Option<LawKind>) {
     for (name, node) in table.iter() {
+        let own = name == "constants" && kind.is_none_or(|kind| kind == LawKind::Expression);
         let known = vocabulary::key(Section::Friction, name).is_some_and(|key| match key.role {
             Role::Number(parameter) | Role::Twin(parameter, _) => kind.is_none_or(|kind| {
                 kind.parameters().iter().any(|known| known.path == parameter.path)
             }),
+            Role::Coefficient => {
+                kind.is_none_or(|kind| matches!(kind, LawKind::Expression | LawKind::Samples))
+            }
+            Role::Speeds { .. } | Role::Terms | Role::Text => {
+                kind.is_none_or(|kind| kind == LawKind::Samples)
+            }
             _ => true,
         });
-        if !known {
+        if !own && !known {
             reader.unknown_key(Section::Friction, "friction", name, node);
         }
     }

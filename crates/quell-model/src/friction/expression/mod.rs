@@ -1,0 +1,359 @@
+//! A law written as a formula, such as `0.3 + 0.1*exp(-abs(v)/0.2)`.
+//!
+//! The formula gives the coefficient in sliding; v is the slip velocity, and friction is odd in it. On
+//! each branch abs(v) and sign(v) are what they are there, so that the formula is analytic up to v = 0⁺.
+//! It must say the same on both branches: as an even function (the coefficient) or as an odd one (the
+//! coefficient with the sign of slip). The static level is apart: a number, or μ(0⁺).
+//!
+//! Scheme: the text becomes a tree (`syntax`), the tree a list of steps (`program`), each step one
+//! bilinear recurrence for Taylor coefficients (`series`): values, slopes and all derivatives are exact up
+//! to rounding. Named constants are numbers of the law, to be varied like any other.
+//!
+//! Limits: formulas must be smooth for v ≥ 0, finite and not negative for all slip speeds up to
+//! [`REACH`] times the speed over which they vary near v = 0; both are checked on [`PLACES`] speeds
+//! and at the extrema between them.
+
+use std::sync::Arc;
+
+use quell_numerics::lane::Lane;
+
+use super::{BranchSeries, Friction, SlidingLaw, not_a_number_of, side_by_side};
+use crate::Invalid;
+use crate::parameter::{Parameter, STATIC_COEFFICIENT};
+
+mod program;
+mod series;
+mod syntax;
+
+use program::Program;
+pub use series::{ExpressionConstants, ExpressionSeries};
+pub use syntax::{LONGEST, SyntaxError, is_name, is_taken};
+
+/// Path of the formula in a study file.
+pub const FORMULA: &str = "friction.coefficient";
+
+/// Table of the named constants in a study file.
+pub const CONSTANTS: &str = "friction.constants";
+
+/// Slip speed up to which a law is checked, in units of its velocity scale.
+pub const REACH: f64 = 1e6;
+
+/// Speeds at which a law is checked, in equal ratios from 1/[`REACH`] to [`REACH`].
+pub const PLACES: u32 = 960;
+
+/// Derivatives at v = 0⁺ of which the velocity scale is made.
+const DERIVATIVES: usize = 6;
+
+/// A law written as a formula.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expression {
+    text: Arc<str>,
+    names: Arc<[String]>,
+    /// Values of the named constants.
+    named: Vec<f64>,
+    program: Arc<Program>,
+    /// Constants of the program's steps.
+    constants: Vec<f64>,
+    given_static: Option<f64>,
+    static_coefficient: f64,
+    /// Velocity of the equations per unit of v.
+    velocity_unit: f64,
+    /// Velocity scale in units of v.
+    scale: f64,
+}
+
+impl Expression {
+    /// From the text of a formula, its named constants in order, the static level (μ(0⁺) where it is
+    /// not given), and the velocity of the equations that one unit of v means.
+    ///
+    /// # Errors
+    /// Under `friction.coefficient`: what is wrong with the text and at which character; a formula that is
+    /// not smooth, not finite or negative somewhere, with the place; one that differs between the
+    /// directions of slip. Under `friction.constants.…` and `friction.static_coefficient`: a value that
+    /// cannot be used.
+    pub fn new(
+        text: &str,
+        constants: &[(String, f64)],
+        static_coefficient: Option<f64>,
+        velocity_unit: f64,
+    ) -> Result<Self, Vec<Invalid>> {
+        let mut complaints = Vec::new();
+        for (index, (name, value)) in constants.iter().enumerate() {
+            let path = format!("{CONSTANTS}.{name}");
+            let twice = constants[..index].iter().any(|(known, _)| known == name);
+            if !is_name(name) || is_taken(name) || twice {
+                let allowed =
+                    "a name of letters, digits and _ that means nothing else in a formula";
+                complaints.push(Invalid::new(&path, value, allowed));
+            } else if !value.is_finite() {
+                complaints.push(Invalid::new(&path, value, "a finite number"));
+            }
+        }
+        if let Some(level) = static_coefficient {
+            complaints.extend(STATIC_COEFFICIENT.check(level).err());
+        }
+        let names: Vec<&str> = constants.iter().map(|(name, _)| name.as_str()).collect();
+        let refused = |why: String| Invalid::new(FORMULA, text, why);
+        let compiled = syntax::parse(text, &names)
+            .map_err(|error| format!("a formula; {error}"))
+            .and_then(|tree| Ok((Program::new(&tree, 1.0)?, Program::new(&tree, -1.0)?)));
+        let (program, mirrored) = match compiled {
+            Ok(programs) => programs,
+            Err(why) => {
+                complaints.push(refused(why));
+                return Err(complaints);
+            }
+        };
+        if !complaints.is_empty() {
+            return Err(complaints);
+        }
+        let law = Self {
+            text: text.into(),
+            names: names.iter().map(|&name| name.to_owned()).collect(),
+            named: constants.iter().map(|(_, value)| *value).collect(),
+            program: Arc::new(program),
+            constants: Vec::new(),
+            given_static: static_coefficient,
+            static_coefficient: 0.0,
+            velocity_unit,
+            scale: 1.0,
+        };
+        let law = law.settled()?;
+        law.same_in_both_directions(&mirrored).map_err(|why| vec![refused(why)])?;
+        Ok(law)
+    }
+
+    /// The law with all that follows from its numbers.
+    fn settled(mut self) -> Result<Self, Vec<Invalid>> {
+        let refused = |law: &Self, why: String| vec![Invalid::new(FORMULA, &law.text, why)];
+        self.constants = self.program.values(&self.named);
+        let (start, slope) = self.at(0.0);
+        if !start.is_finite() || !slope.is_finite() {
+            let why = "smooth up to v = 0⁺, with a finite value and slope there; of powers of v only whole \
+                       numbers written in the formula are"
+                .to_owned();
+            return Err(refused(&self, why));
+        }
+        self.scale = self.scale_of_variation();
+        self.check().map_err(|why| refused(&self, why))?;
+        let level = self.given_static.unwrap_or(start);
+        // A sum of decimals may miss the level by its rounding.
+        let rounding = 4.0 * f64::EPSILON * level;
+        if start > level + rounding {
+            let allowed = format!(
+                "at least μ(0⁺) = {start}, where sliding begins: below it stick could never begin"
+            );
+            return Err(vec![Invalid::new(STATIC_COEFFICIENT.path, level, allowed)]);
+        }
+        self.static_coefficient = if start >= level - rounding { start } else { level };
+        Ok(self)
+    }
+
+    /// The text of the formula.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Names and values of the constants, in order.
+    pub fn named(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.names.iter().map(String::as_str).zip(self.named.iter().copied())
+    }
+
+    /// The static level, where it was given.
+    pub fn given_static(&self) -> Option<f64> {
+        self.given_static
+    }
+
+    /// Velocity of the equations that one unit of v means.
+    pub fn velocity_unit(&self) -> f64 {
+        self.velocity_unit
+    }
+
+    /// The same formula with v counted in another unit.
+    #[must_use]
+    pub fn in_unit(&self, velocity_unit: f64) -> Self {
+        Self { velocity_unit, ..self.clone() }
+    }
+
+    /// Coefficient and slope at a slip speed in units of v.
+    fn at(&self, speed: f64) -> (f64, f64) {
+        series::at_speed(&self.program, &self.constants, speed)
+    }
+
+    /// The speed over which the formula varies near v = 0⁺: the least (|Dᵢ|/|Dⱼ|)^(1/(j−i)) of its
+    /// derivatives from the first that is not zero; v_m for e^(−v/v_m). 1 for a constant.
+    fn scale_of_variation(&self) -> f64 {
+        let mut along =
+            ExpressionConstants::new(Arc::clone(&self.program), self.constants.clone(), 1.0);
+        let mut w = [0.0; DERIVATIVES + 2];
+        w[1] = 1.0;
+        let mut branch = along.start::<{ DERIVATIVES + 2 }>(1.0, 0.0);
+        let mut derivatives = [branch.first(); DERIVATIVES + 1];
+        let slope = branch.slope();
+        let mut factorial = 1.0;
+        for k in 1..=DERIVATIVES {
+            factorial *= k as f64;
+            derivatives[k] = factorial * slope.mul_add(w[k], branch.lower(k, &w));
+        }
+        let size = |k: usize| derivatives[k].abs();
+        let Some(first) = (1..=DERIVATIVES).find(|&k| size(k) > 0.0) else { return 1.0 };
+        let ratio =
+            |from: usize, to: usize| libm::pow(size(from) / size(to), 1.0 / (to - from) as f64);
+        let higher = (first + 1..=DERIVATIVES).map(|k| ratio(first, k));
+        let scale = higher.chain([ratio(0, first)]).filter(|it| it.is_finite() && *it > 0.0);
+        scale.fold(f64::INFINITY, f64::min).min(f64::MAX.sqrt())
+    }
+
+    /// Whether the law is finite and not negative at all speeds.
+    fn check(&self) -> Result<(), String> {
+        let negative = |speed: f64, value: f64| {
+            format!("≥ 0 at every slip speed; at v = {speed:.6} it is {value:.6}")
+        };
+        let singular = |speed: f64| {
+            format!("finite and smooth at every slip speed; it is not at v = {speed:.6}")
+        };
+        let judged = |speed: f64| {
+            let (value, slope) = self.at(speed);
+            if !value.is_finite() || !slope.is_finite() {
+                return Err(singular(speed));
+            }
+            // Differences of equal terms leave their rounding.
+            if value < -1e-14 * self.at(0.0).0.abs() {
+                return Err(negative(speed, value));
+            }
+            Ok((value, slope))
+        };
+        let mut before = (0.0, judged(0.0)?);
+        for place in 0..=PLACES {
+            let power = 2.0 * f64::from(place) / f64::from(PLACES) - 1.0;
+            let speed = self.scale * libm::pow(REACH, power);
+            let here = judged(speed)?;
+            if before.1.1 * here.1 < 0.0 {
+                let (extremum, value) = self.extremum(before.0, speed, before.1.1);
+                judged(extremum)?;
+                // Between two speeds so close a finite maximum is no mountain.
+                let around = before.1.0.max(here.0).max(f64::MIN_POSITIVE);
+                if value > 1e6 * around {
+                    return Err(singular(extremum));
+                }
+            }
+            before = (speed, here);
+        }
+        Ok(())
+    }
+
+    /// Where the slope changes sign between two speeds, and the coefficient there.
+    fn extremum(&self, mut from: f64, mut to: f64, slope: f64) -> (f64, f64) {
+        for _ in 0..60 {
+            let middle = f64::midpoint(from, to);
+            if self.at(middle).1 * slope > 0.0 {
+                from = middle;
+            } else {
+                to = middle;
+            }
+        }
+        (to, self.at(to).0)
+    }
+
+    /// Whether the formula on the branch v < 0 is that on v > 0, or its negative.
+    fn same_in_both_directions(&self, mirrored: &Program) -> Result<(), String> {
+        let constants = mirrored.values(&self.named);
+        let (mut even, mut odd) = (true, true);
+        for place in 0..24 {
+            let speed = self.scale * libm::exp(0.5 * f64::from(place) - 6.0);
+            let (above, below) =
+                (self.at(speed).0, series::at_speed(mirrored, &constants, speed).0);
+            let close = 1e-9 * above.abs();
+            even &= (above - below).abs() <= close;
+            odd &= (above + below).abs() <= close;
+            if !even && !odd {
+                return Err(format!(
+                    "the same in both directions of slip; at v = ±{speed:.6} it is {above:.6} and {below:.6}. Where \
+                     the slip speed is meant, write abs(v)"
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl SlidingLaw for Expression {
+    const NAME: &'static str = "expression";
+    const ABOUT: &'static str =
+        "a formula for the coefficient, such as 0.3 + 0.1*exp(-abs(v)/0.2), v the slip velocity";
+    const PARAMETERS: &'static [Parameter] = &[STATIC_COEFFICIENT];
+
+    fn values(&self) -> Vec<f64> {
+        vec![self.static_coefficient]
+    }
+
+    fn get(&self, path: &str) -> Option<f64> {
+        if path == STATIC_COEFFICIENT.path {
+            return Some(self.static_coefficient);
+        }
+        let name = path.strip_prefix(CONSTANTS)?.strip_prefix('.')?;
+        self.named().find(|(known, _)| *known == name).map(|(_, value)| value)
+    }
+
+    fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>> {
+        if path == STATIC_COEFFICIENT.path {
+            STATIC_COEFFICIENT.check(value).map_err(|invalid| vec![invalid])?;
+            return Self { given_static: Some(value), ..self.clone() }.settled();
+        }
+        let name = path.strip_prefix(CONSTANTS).and_then(|rest| rest.strip_prefix('.'));
+        let index = self.names.iter().position(|known| Some(known.as_str()) == name);
+        let index = index.ok_or_else(|| not_a_number_of::<Self>(path, value))?;
+        if !value.is_finite() {
+            return Err(vec![Invalid::new(path, value, "a finite number")]);
+        }
+        let mut changed = self.clone();
+        changed.named[index] = value;
+        changed.settled()
+    }
+
+    #[inline(always)]
+    fn velocity_scale(&self) -> f64 {
+        self.scale * self.velocity_unit
+    }
+
+    #[inline(always)]
+    fn static_coefficient(&self) -> f64 {
+        self.static_coefficient
+    }
+
+    type Constants<V: Lane> = ExpressionConstants<V>;
+
+    fn constants<V: Lane>(laws: &[Self]) -> ExpressionConstants<V> {
+        // Laws side by side are alike: they have one program.
+        let first = &laws[0];
+        let constants = (0..first.constants.len())
+            .map(|place| side_by_side(laws, |law| law.constants[place]))
+            .collect();
+        let scale = side_by_side(laws, |law| law.scale);
+        ExpressionConstants::new(Arc::clone(&first.program), constants, scale)
+    }
+
+    fn is_alike(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.program, &other.program) || self.program == other.program
+    }
+
+    type Series<'c, V: Lane, const N: usize> = ExpressionSeries<'c, V, N>;
+
+    #[inline(always)]
+    fn series<V: Lane, const N: usize>(
+        constants: &mut ExpressionConstants<V>,
+        sign: V,
+        w0: V,
+    ) -> ExpressionSeries<'_, V, N> {
+        constants.start(sign, w0)
+    }
+
+    fn of(friction: &Friction) -> Option<Self> {
+        if let Friction::Expression(law) = friction { Some(law.clone()) } else { None }
+    }
+
+    fn alone(&self, speed: f64) -> (f64, f64) {
+        let (value, slope) = self.at(speed / self.velocity_unit);
+        (value, slope * self.scale)
+    }
+}

@@ -1,0 +1,418 @@
+//! The text of a formula and its tree.
+//!
+//! Grammar: numbers, names, `+ − * / ^` with their usual precedence (`^` from the right, before a sign:
+//! −v^2 = −(v²)), parentheses, and functions of one argument. Why a parser of our own: published
+//! ones give values, and the recurrence needs the tree; errors here name the character.
+
+use std::fmt;
+
+/// Most characters of a formula.
+pub const LONGEST: usize = 1000;
+
+/// Deepest nesting of parentheses, signs and powers.
+const DEEPEST: usize = 50;
+
+/// A function of one argument.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Function {
+    Abs,
+    Sign,
+    Exp,
+    Log,
+    Sqrt,
+    Sin,
+    Cos,
+    Tanh,
+    Sech,
+    Atan,
+}
+
+impl Function {
+    /// Names in a formula.
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("abs", Self::Abs),
+        ("sign", Self::Sign),
+        ("exp", Self::Exp),
+        ("log", Self::Log),
+        ("ln", Self::Log),
+        ("sqrt", Self::Sqrt),
+        ("sin", Self::Sin),
+        ("cos", Self::Cos),
+        ("tanh", Self::Tanh),
+        ("sech", Self::Sech),
+        ("atan", Self::Atan),
+    ];
+
+    fn named(name: &str) -> Option<Self> {
+        Self::NAMES.iter().find(|(known, _)| *known == name).map(|(_, function)| *function)
+    }
+
+    /// Its value at a number.
+    pub(super) fn value(self, x: f64) -> f64 {
+        match self {
+            Self::Abs => x.abs(),
+            Self::Sign if x == 0.0 => 0.0,
+            Self::Sign => 1f64.copysign(x),
+            Self::Exp => libm::exp(x),
+            Self::Log => libm::log(x),
+            Self::Sqrt => libm::sqrt(x),
+            Self::Sin => libm::sin(x),
+            Self::Cos => libm::cos(x),
+            Self::Tanh => libm::tanh(x),
+            Self::Sech => 1.0 / libm::cosh(x),
+            Self::Atan => libm::atan(x),
+        }
+    }
+}
+
+/// Functions that have a kink or a jump of their own.
+const NOT_SMOOTH: &[&str] =
+    &["min", "max", "floor", "ceil", "round", "mod", "if", "step", "heaviside", "clamp"];
+
+/// A formula as a tree.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Tree {
+    Number(f64),
+    /// The slip velocity.
+    Velocity,
+    /// A named constant, by its place in the list of names.
+    Constant(usize),
+    Negative(Box<Tree>),
+    Sum(Box<Tree>, Box<Tree>),
+    Difference(Box<Tree>, Box<Tree>),
+    Product(Box<Tree>, Box<Tree>),
+    Quotient(Box<Tree>, Box<Tree>),
+    Power(Box<Tree>, Box<Tree>),
+    Call(Function, Box<Tree>),
+}
+
+impl Tree {
+    /// Its value where it has no slip velocity in it.
+    pub(super) fn value(&self, constants: &[f64]) -> f64 {
+        let of = |tree: &Self| tree.value(constants);
+        match self {
+            Self::Number(number) => *number,
+            Self::Velocity => f64::NAN,
+            Self::Constant(index) => constants.get(*index).copied().unwrap_or(f64::NAN),
+            Self::Negative(x) => -of(x),
+            Self::Sum(x, y) => of(x) + of(y),
+            Self::Difference(x, y) => of(x) - of(y),
+            Self::Product(x, y) => of(x) * of(y),
+            Self::Quotient(x, y) => of(x) / of(y),
+            Self::Power(x, y) => libm::pow(of(x), of(y)),
+            Self::Call(function, x) => function.value(of(x)),
+        }
+    }
+}
+
+/// What is wrong with the text of a formula, and where.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SyntaxError {
+    /// Character, counted from 1.
+    pub character: usize,
+    /// What is wrong there.
+    pub what: String,
+}
+
+impl fmt::Display for SyntaxError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "at character {}: {}", self.character, self.what)
+    }
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Token {
+    Number(f64),
+    Name(String),
+    Mark(char),
+    End,
+}
+
+impl fmt::Display for Token {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => write!(f, "{number}"),
+            Self::Name(name) => write!(f, "{name}"),
+            Self::Mark(mark) => write!(f, "“{mark}”"),
+            Self::End => f.write_str("the end"),
+        }
+    }
+}
+
+/// Whether a name can be that of a constant.
+pub fn is_name(name: &str) -> bool {
+    let mut letters = name.chars();
+    let start = |letter: char| letter.is_ascii_alphabetic() || letter == '_';
+    letters.next().is_some_and(start)
+        && letters.all(|letter| start(letter) || letter.is_ascii_digit())
+}
+
+/// Whether a name already means something in a formula.
+pub fn is_taken(name: &str) -> bool {
+    name == "v" || name == "pi" || Function::named(name).is_some() || NOT_SMOOTH.contains(&name)
+}
+
+/// Reads a formula whose constants have these names.
+pub(super) fn parse(text: &str, names: &[&str]) -> Result<Tree, SyntaxError> {
+    if text.chars().count() > LONGEST {
+        let what = format!("the formula goes on beyond {LONGEST} characters");
+        return Err(SyntaxError { character: LONGEST, what });
+    }
+    let mut parser = Parser { tokens: tokens(text)?, at: 0, depth: 0, names };
+    let tree = parser.sum()?;
+    match parser.peek() {
+        Token::End => Ok(tree),
+        other => Err(parser.wrong(format!("an operator (+ - * / ^) was expected, not {other}"))),
+    }
+}
+
+fn tokens(text: &str) -> Result<Vec<(usize, Token)>, SyntaxError> {
+    let letters: Vec<char> = text.chars().collect();
+    let mut found = Vec::new();
+    let mut at = 0;
+    while at < letters.len() {
+        let first = at;
+        let letter = letters[at];
+        let run = |from: usize, of: &dyn Fn(char) -> bool| {
+            from + letters[from..].iter().take_while(|letter| of(**letter)).count()
+        };
+        let digit = |letter: char| letter.is_ascii_digit();
+        if letter.is_whitespace() {
+            at += 1;
+            continue;
+        }
+        let token = if digit(letter) || letter == '.' {
+            at = run(at, &|letter| digit(letter) || letter == '.');
+            if matches!(letters.get(at), Some('e' | 'E')) {
+                let sign = usize::from(matches!(letters.get(at + 1), Some('+' | '-')));
+                if letters.get(at + 1 + sign).copied().is_some_and(digit) {
+                    at = run(at + 1 + sign, &digit);
+                }
+            }
+            let written: String = letters[first..at].iter().collect();
+            let number = written.parse::<f64>().ok().filter(|number| number.is_finite());
+            Token::Number(number.ok_or_else(|| SyntaxError {
+                character: first + 1,
+                what: format!("{written} is no finite number"),
+            })?)
+        } else if letter.is_ascii_alphabetic() || letter == '_' {
+            at = run(at, &|letter| letter.is_ascii_alphanumeric() || letter == '_');
+            Token::Name(letters[first..at].iter().collect())
+        } else if "+-*/^()".contains(letter) {
+            at += 1;
+            Token::Mark(letter)
+        } else {
+            let hint = match letter {
+                '|' => "write abs(v) for |v|".to_owned(),
+                ',' => "functions here have one argument, and numbers a decimal point".to_owned(),
+                '−' | '–' => "the sign is written - (a plain hyphen)".to_owned(),
+                '·' | '×' => "a product is written *".to_owned(),
+                other => format!("“{other}” has no meaning in a formula"),
+            };
+            return Err(SyntaxError { character: first + 1, what: hint });
+        };
+        found.push((first + 1, token));
+    }
+    found.push((letters.len() + 1, Token::End));
+    Ok(found)
+}
+
+struct Parser<'n> {
+    tokens: Vec<(usize, Token)>,
+    at: usize,
+    depth: usize,
+    names: &'n [&'n str],
+}
+
+impl Parser<'_> {
+    fn peek(&self) -> Token {
+        self.tokens.get(self.at).map_or(Token::End, |(_, token)| token.clone())
+    }
+
+    fn wrong(&self, what: impl Into<String>) -> SyntaxError {
+        let last = self.tokens.len().saturating_sub(1);
+        let character = self.tokens.get(self.at.min(last)).map_or(1, |(at, _)| *at);
+        SyntaxError { character, what: what.into() }
+    }
+
+    fn take(&mut self, mark: char) -> bool {
+        let found = self.peek() == Token::Mark(mark);
+        self.at += usize::from(found);
+        found
+    }
+
+    fn sum(&mut self) -> Result<Tree, SyntaxError> {
+        let mut tree = self.product()?;
+        loop {
+            if self.take('+') {
+                tree = Tree::Sum(Box::new(tree), Box::new(self.product()?));
+            } else if self.take('-') {
+                tree = Tree::Difference(Box::new(tree), Box::new(self.product()?));
+            } else {
+                return Ok(tree);
+            }
+        }
+    }
+
+    fn product(&mut self) -> Result<Tree, SyntaxError> {
+        let mut tree = self.signed()?;
+        loop {
+            if self.take('*') {
+                if self.peek() == Token::Mark('*') {
+                    return Err(self.wrong("a power is written ^"));
+                }
+                tree = Tree::Product(Box::new(tree), Box::new(self.signed()?));
+            } else if self.take('/') {
+                tree = Tree::Quotient(Box::new(tree), Box::new(self.signed()?));
+            } else {
+                return Ok(tree);
+            }
+        }
+    }
+
+    fn signed(&mut self) -> Result<Tree, SyntaxError> {
+        self.depth += 1;
+        if self.depth > DEEPEST {
+            return Err(self.wrong(format!("nested more than {DEEPEST} times")));
+        }
+        let tree = if self.take('-') {
+            Tree::Negative(Box::new(self.signed()?))
+        } else if self.take('+') {
+            self.signed()?
+        } else {
+            self.power()?
+        };
+        self.depth -= 1;
+        Ok(tree)
+    }
+
+    fn power(&mut self) -> Result<Tree, SyntaxError> {
+        let base = self.primary()?;
+        if self.take('^') {
+            return Ok(Tree::Power(Box::new(base), Box::new(self.signed()?)));
+        }
+        Ok(base)
+    }
+
+    fn primary(&mut self) -> Result<Tree, SyntaxError> {
+        match self.peek() {
+            Token::Number(number) => {
+                self.at += 1;
+                Ok(Tree::Number(number))
+            }
+            Token::Name(name) => self.named(&name),
+            Token::Mark('(') => {
+                self.at += 1;
+                self.closed()
+            }
+            other => Err(self.wrong(format!(
+                "a number, v, a name, a function or “(” was expected, not {other}"
+            ))),
+        }
+    }
+
+    /// What stands between an opening parenthesis, already taken, and its end.
+    fn closed(&mut self) -> Result<Tree, SyntaxError> {
+        let tree = self.sum()?;
+        if self.take(')') {
+            return Ok(tree);
+        }
+        let other = self.peek();
+        Err(self.wrong(format!("“)” or an operator (+ - * / ^) was expected, not {other}")))
+    }
+
+    fn named(&mut self, name: &str) -> Result<Tree, SyntaxError> {
+        let called = matches!(self.tokens.get(self.at + 1), Some((_, Token::Mark('('))));
+        if let Some(function) = Function::named(name) {
+            if !called {
+                return Err(self.wrong(format!("{name} is a function: write {name}(…)")));
+            }
+            self.at += 2;
+            return Ok(Tree::Call(function, Box::new(self.closed()?)));
+        }
+        let tree = if NOT_SMOOTH.contains(&name) {
+            return Err(self.wrong(format!(
+                "{name} has kinks or jumps, each of which would be an event of its own: use smooth \
+                 functions (exp, tanh, sqrt, …)"
+            )));
+        } else if let Some(index) = self.names.iter().position(|known| *known == name) {
+            Tree::Constant(index)
+        } else if name == "v" {
+            Tree::Velocity
+        } else if name == "pi" {
+            Tree::Number(std::f64::consts::PI)
+        } else {
+            let functions: Vec<&str> = Function::NAMES.iter().map(|(name, _)| *name).collect();
+            let constants = match self.names {
+                [] => "no constant is given in [friction.constants]".to_owned(),
+                names => format!("constants are {}", names.join(", ")),
+            };
+            return Err(self.wrong(format!(
+                "{name} is unknown: the slip velocity is v, {constants}, functions are {}",
+                functions.join(", ")
+            )));
+        };
+        if called {
+            return Err(self.wrong(format!("{name} is no function; a product needs its *")));
+        }
+        self.at += 1;
+        Ok(tree)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(text: &str) -> f64 {
+        parse(text, &["a"]).map_err(|error| error.to_string()).expect(text).value(&[5.0])
+    }
+
+    #[test]
+    fn precedence_is_the_usual_one() {
+        for (text, expected) in [
+            ("1 + 2*3", 7.0),
+            ("(1 + 2)*3", 9.0),
+            ("10 - 4 - 3", 3.0),
+            ("16/4/2", 2.0),
+            ("2^3^2", 512.0),
+            ("-2^2", -4.0),
+            ("2^-1", 0.5),
+            ("1e-3*1E+3", 1.0),
+            (".5 + 1.", 1.5),
+            ("a*-a", -25.0),
+            ("sqrt(16) + abs(-3) - sign(-2)", 8.0),
+            ("cos(pi) + exp(0) + ln(1)", 0.0),
+        ] {
+            assert_eq!(value(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn errors_name_the_character() {
+        for (text, character, part) in [
+            ("0.3 + ", 7, "the end"),
+            ("0.3 + )", 7, "not “)”"),
+            ("0.3 0.1", 5, "an operator"),
+            ("(0.3", 5, "“)”"),
+            ("0.3*|v|", 5, "abs(v)"),
+            ("0,3", 2, "decimal point"),
+            ("max(v, 1)", 6, "one argument"),
+            ("max(v)", 1, "kinks"),
+            ("b*v", 1, "constants are a"),
+            ("exp v", 1, "exp(…)"),
+            ("2(v)", 2, "an operator"),
+            ("a(v)", 1, "no function"),
+            ("1e999", 1, "finite"),
+            ("v**2", 3, "written ^"),
+            ("", 1, "the end"),
+        ] {
+            let error = parse(text, &["a"]).expect_err(text);
+            assert_eq!(error.character, character, "{text}: {error}");
+            assert!(error.what.contains(part), "{text}: {error}");
+        }
+        let deep = "(".repeat(400) + "v" + &")".repeat(400);
+        assert!(parse(&deep, &[]).is_err());
+        assert!(parse(&"v+".repeat(900), &[]).is_err());
+    }
+}

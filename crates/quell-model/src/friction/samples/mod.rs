@@ -1,0 +1,195 @@
+//! A law from measured samples of slip speed and coefficient, the static level apart.
+//!
+//! The samples are replaced by one smooth approximant ([`Fit`]), never by a spline: each of its knots
+//! would be an event. The approximant is a formula, and the law is that formula ([`Expression`]): it
+//! has the same values, derivatives and lanes, and its text can be used as one.
+//!
+//! Limits: friction is odd here, both directions of slip share one curve; samples at negative
+//! slip are refused.
+
+use std::sync::Arc;
+
+use quell_numerics::lane::Lane;
+
+use super::expression::{ExpressionConstants, ExpressionSeries};
+use super::{Expression, Friction, SlidingLaw, not_a_number_of};
+use crate::Invalid;
+use crate::parameter::{Parameter, STATIC_COEFFICIENT};
+
+mod fit;
+
+pub use fit::{FEWEST, Fit, MOST_TERMS};
+
+/// Path of the measured speeds in a study file.
+pub const SPEEDS: &str = "friction.slip_velocity";
+
+/// Path of the measured coefficients in a study file.
+pub const COEFFICIENTS: &str = "friction.coefficient";
+
+/// Path of the number of terms in a study file.
+pub const TERMS: &str = "friction.terms";
+
+/// A law from measured samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Samples {
+    curve: Expression,
+    fit: Arc<Fit>,
+}
+
+impl Samples {
+    /// From samples (slip speed, coefficient) in any order, the static level (μ(0⁺) of the fit where it
+    /// is not given), the number of terms (the best of 1…[`MOST_TERMS`] where it is not given), and the
+    /// velocity of the equations that one unit of the speeds means.
+    ///
+    /// # Errors
+    /// Samples that are not finite or negative, by their places; fewer than [`FEWEST`] different speeds;
+    /// samples that no fit is determined by, or whose fit is negative somewhere.
+    pub fn new(
+        samples: &[(f64, f64)],
+        static_coefficient: Option<f64>,
+        terms: Option<usize>,
+        velocity_unit: f64,
+    ) -> Result<Self, Vec<Invalid>> {
+        let mut complaints: Vec<Invalid> = Vec::new();
+        for (index, (speed, coefficient)) in samples.iter().enumerate() {
+            if !(speed.is_finite() && *speed >= 0.0) {
+                let allowed = "a slip speed, finite and ≥ 0: friction is the same in both directions of slip here; \
+                               samples of one direction make one law";
+                complaints.push(Invalid::new(format!("{SPEEDS}[{index}]"), speed, allowed));
+            }
+            if !(coefficient.is_finite() && *coefficient >= 0.0) {
+                let key = format!("{COEFFICIENTS}[{index}]");
+                complaints.push(Invalid::new(key, coefficient, "a finite number ≥ 0"));
+            }
+        }
+        if let Some(level) = static_coefficient {
+            complaints.extend(STATIC_COEFFICIENT.check(level).err());
+        }
+        if let Some(count) = terms.filter(|count| !(1..=MOST_TERMS).contains(count)) {
+            let allowed = format!("a whole number from 1 to {MOST_TERMS}");
+            complaints.push(Invalid::new(TERMS, count, allowed));
+        }
+        if !complaints.is_empty() {
+            return Err(complaints);
+        }
+        let mut speeds: Vec<f64> = samples.iter().map(|(speed, _)| *speed).collect();
+        speeds.sort_by(f64::total_cmp);
+        speeds.dedup();
+        if speeds.len() < FEWEST {
+            let allowed = format!("samples at {FEWEST} different speeds or more");
+            return Err(vec![Invalid::new(SPEEDS, speeds.len(), allowed)]);
+        }
+        let fit = fit::fit(samples, static_coefficient, terms).ok_or_else(|| {
+            let allowed = "fewer, or more samples: these do not determine the fit";
+            vec![Invalid::new(TERMS, terms.unwrap_or(1), allowed)]
+        })?;
+        Self::of_fit(fit, static_coefficient, velocity_unit)
+    }
+
+    /// From a fit that was made before.
+    ///
+    /// # Errors
+    /// A fit that is negative somewhere, or starts above the static level.
+    pub fn of_fit(
+        fit: Fit,
+        static_coefficient: Option<f64>,
+        velocity_unit: f64,
+    ) -> Result<Self, Vec<Invalid>> {
+        // A pinned fit starts at the level but for rounding.
+        let level =
+            static_coefficient.map(|level| if fit.pinned { level.max(fit.start()) } else { level });
+        let curve =
+            Expression::new(&fit.formula(), &[], level, velocity_unit).map_err(|wrong| {
+                let told = |invalid: Invalid| {
+                    if invalid.key == STATIC_COEFFICIENT.path {
+                        return invalid;
+                    }
+                    let allowed = format!(
+                        "samples whose fit is {}; give more samples, or another number of terms",
+                        invalid.allowed
+                    );
+                    Invalid::new(COEFFICIENTS, invalid.value, allowed)
+                };
+                wrong.into_iter().map(told).collect::<Vec<_>>()
+            })?;
+        Ok(Self { curve, fit: Arc::new(fit) })
+    }
+
+    /// The approximant and its error.
+    pub fn fit(&self) -> &Fit {
+        &self.fit
+    }
+
+    /// The approximant as a law of its own.
+    pub fn curve(&self) -> &Expression {
+        &self.curve
+    }
+
+    /// The same law with speeds counted in another unit.
+    #[must_use]
+    pub fn in_unit(&self, velocity_unit: f64) -> Self {
+        Self { curve: self.curve.in_unit(velocity_unit), fit: Arc::clone(&self.fit) }
+    }
+}
+
+impl SlidingLaw for Samples {
+    const NAME: &'static str = "samples";
+    const ABOUT: &'static str =
+        "measured slip speeds and coefficients, fitted by one sum of exponentials";
+    const PARAMETERS: &'static [Parameter] = &[STATIC_COEFFICIENT];
+
+    fn values(&self) -> Vec<f64> {
+        self.curve.values()
+    }
+
+    fn get(&self, path: &str) -> Option<f64> {
+        (path == STATIC_COEFFICIENT.path).then(|| self.curve.static_coefficient())
+    }
+
+    fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>> {
+        if path != STATIC_COEFFICIENT.path {
+            return Err(not_a_number_of::<Self>(path, value));
+        }
+        Ok(Self { curve: self.curve.with(path, value)?, fit: Arc::clone(&self.fit) })
+    }
+
+    #[inline(always)]
+    fn velocity_scale(&self) -> f64 {
+        self.curve.velocity_scale()
+    }
+
+    #[inline(always)]
+    fn static_coefficient(&self) -> f64 {
+        self.curve.static_coefficient()
+    }
+
+    type Constants<V: Lane> = ExpressionConstants<V>;
+
+    fn constants<V: Lane>(laws: &[Self]) -> ExpressionConstants<V> {
+        let curves: Vec<Expression> = laws.iter().map(|law| law.curve.clone()).collect();
+        Expression::constants(&curves)
+    }
+
+    fn is_alike(&self, other: &Self) -> bool {
+        self.curve.is_alike(&other.curve)
+    }
+
+    type Series<'c, V: Lane, const N: usize> = ExpressionSeries<'c, V, N>;
+
+    #[inline(always)]
+    fn series<V: Lane, const N: usize>(
+        constants: &mut ExpressionConstants<V>,
+        sign: V,
+        w0: V,
+    ) -> ExpressionSeries<'_, V, N> {
+        Expression::series(constants, sign, w0)
+    }
+
+    fn of(friction: &Friction) -> Option<Self> {
+        if let Friction::Samples(law) = friction { Some(law.clone()) } else { None }
+    }
+
+    fn alone(&self, speed: f64) -> (f64, f64) {
+        self.curve.alone(speed)
+    }
+}

@@ -1,0 +1,113 @@
+//! The friction law of a study in words and fields: its numbers, its formula, the error of its fit.
+
+use quell_model::Friction;
+use quell_model::friction::samples::Fit;
+use quell_model::units::Quantity;
+use serde_json::{Map, Value as Json};
+
+use super::in_words;
+use crate::fields::Fields;
+use crate::study::Study;
+
+/// The law as an object.
+pub(super) fn fields(study: &Study) -> Fields {
+    let law = study.belt().friction();
+    let mut fields = Fields::new(study.scales());
+    fields.plain("law", law.kind().name());
+    for (parameter, value) in law.kind().parameters().iter().zip(law.values()) {
+        fields.number(parameter.key(), parameter.quantity, value);
+    }
+    match law {
+        Friction::Expression(law) => {
+            let constants: Map<String, Json> =
+                law.named().map(|(name, value)| (name.to_owned(), value.into())).collect();
+            fields.plain("coefficient", law.text()).plain("constants", constants).number(
+                "coefficient_at_rest",
+                Quantity::Ratio,
+                study.belt().friction().coefficient(0.0),
+            );
+        }
+        Friction::Samples(law) => {
+            let unit = law.curve().velocity_unit();
+            let fit = law.fit();
+            let mut inner = Fields::new(study.scales());
+            inner
+                .plain("coefficient", fit.formula())
+                .plain("terms", fit.terms.len())
+                .plain("samples", fit.samples)
+                .number("largest_error", Quantity::Ratio, fit.largest_error)
+                .number("rms_error", Quantity::Ratio, fit.rms_error)
+                .number("left_out_error", Quantity::Ratio, fit.left_out_error)
+                .plain("held_at_static_coefficient", fit.pinned)
+                .number("coefficient_at_rest", Quantity::Ratio, fit.start())
+                .number("coefficient_far_out", Quantity::Ratio, fit.limit)
+                .number("slip_velocity_from", Quantity::Velocity, fit.range.0 * unit)
+                .number("slip_velocity_to", Quantity::Velocity, fit.range.1 * unit);
+            let file = study.measured().and_then(|measured| measured.file.as_ref());
+            if let Some(file) = file {
+                fields.plain("file", file.display().to_string());
+            }
+            fields.nested("fit", inner);
+        }
+        Friction::Stribeck(_) | Friction::Decreasing(_) => {}
+    }
+    fields
+}
+
+/// What a law of one's own says beyond its numbers, as label and words; nothing for other laws.
+pub fn words(study: &Study) -> Vec<(String, String)> {
+    let row = |label: &str, words: String| (label.to_owned(), words);
+    match study.belt().friction() {
+        Friction::Expression(law) => {
+            let mut rows = vec![row("coefficient μ(v)", law.text().to_owned())];
+            rows.extend(
+                law.named().map(|(name, value)| row(&format!("  {name}"), value.to_string())),
+            );
+            rows
+        }
+        Friction::Samples(law) => {
+            let fit = law.fit();
+            let unit = law.curve().velocity_unit();
+            let speed = |speed: f64| in_words(study, Quantity::Velocity, speed * unit);
+            let (from, to) = fit.range;
+            vec![
+                row("samples", format!("{} from {} to {}", fit.samples, speed(from), speed(to))),
+                row("  fit μ(v)", fit.formula()),
+                row("  error of the fit", error(fit)),
+            ]
+        }
+        Friction::Stribeck(_) | Friction::Decreasing(_) => Vec::new(),
+    }
+}
+
+fn error(fit: &Fit) -> String {
+    let pinned = if fit.pinned { ", held at the static level at v = 0" } else { "" };
+    format!(
+        "{:.2e} at most, {:.2e} rms, {:.2e} rms at left-out samples{pinned}",
+        fit.largest_error, fit.rms_error, fit.left_out_error
+    )
+}
+
+/// Where the study leaves the speeds that were measured.
+pub fn warnings(study: &Study) -> Vec<String> {
+    let Friction::Samples(law) = study.belt().friction() else { return Vec::new() };
+    let belt = study.belt();
+    let fast: f64 = belt
+        .dithers_along(quell_model::Direction::Tangential)
+        .map(|dither| dither.amplitude_ratio() * dither.waveform.peak_integral())
+        .sum();
+    let reached = belt.belt_velocity() + fast;
+    let unit = law.curve().velocity_unit();
+    let (fit, to) = (law.fit(), law.fit().range.1 * unit);
+    if reached <= to {
+        return Vec::new();
+    }
+    let speed = |speed: f64| in_words(study, Quantity::Velocity, speed);
+    vec![format!(
+        "slip reaches {} by the belt and the dither alone, samples end at {}: beyond them the fit's trend dies \
+         out towards μ = {:.4}",
+        speed(reached),
+        speed(to),
+        fit.limit
+    )]
+}

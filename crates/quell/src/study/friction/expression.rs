@@ -1,0 +1,76 @@
+//! A law written as a formula, with its named constants.
+
+use quell_model::friction::expression::{CONSTANTS, FORMULA};
+use quell_model::parameter::{Bounds, STATIC_COEFFICIENT};
+use quell_model::units::Quantity;
+use quell_model::{Expression, Friction, Invalid};
+use serde_json::Value as Json;
+
+use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::mirror::{Node, Table, Value};
+use crate::study::reader::{Found, Reader};
+
+/// Reads `coefficient`, `static_coefficient` and `[friction.constants]`.
+pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option<Friction> {
+    let constants = constants(reader, table);
+    let level = reader.optional(table, "friction", STATIC_COEFFICIENT, None);
+    let Some(node) = table.get("coefficient") else {
+        let allowed = "a formula in the slip velocity v, such as \"0.3 + 0.1*exp(-abs(v)/0.2)\"";
+        reader.complain(Complaint::new(Fault::Missing, FORMULA, header, Json::Null, allowed));
+        return None;
+    };
+    let text = match &node.value {
+        Value::Text(text) => text.clone(),
+        Value::Number(number) => format!("{number:?}"),
+        _ => {
+            reader.wrong(FORMULA, node, format!("a formula in quotes; this is {}", node.kind()));
+            return None;
+        }
+    };
+    let level = match level {
+        Found::Value(level) => Some(level),
+        Found::Absent => None,
+        Found::Wrong => return None,
+    };
+    match Expression::new(&text, &constants?, level, velocity_unit(reader)) {
+        Ok(law) => Some(Friction::Expression(law)),
+        Err(invalid) => {
+            complain(reader, table, node, invalid);
+            None
+        }
+    }
+}
+
+/// The velocity of the equations that one unit of the study's velocities means.
+pub(super) fn velocity_unit(reader: &Reader) -> f64 {
+    // Where mass or stiffness are wrong that was complained about, and no law is made.
+    reader.known_scales().map_or(1.0, |scales| scales.from_si(Quantity::Velocity, 1.0))
+}
+
+fn constants(reader: &mut Reader, table: &Table) -> Option<Vec<(String, f64)>> {
+    let Some(node) = table.get("constants") else { return Some(Vec::new()) };
+    let table = reader.table(CONSTANTS, node)?;
+    let read: Vec<Option<(String, f64)>> = table
+        .iter()
+        .map(|(name, node)| {
+            let key = format!("{CONSTANTS}.{name}");
+            let value = reader.within(&key, node, Bounds::FINITE, "", false)?;
+            Some((name.to_owned(), value))
+        })
+        .collect();
+    read.into_iter().collect()
+}
+
+/// Tells what the model said of a law of one's own, each under its key.
+pub(super) fn complain(reader: &mut Reader, table: &Table, formula: &Node, invalid: Vec<Invalid>) {
+    for Invalid { key, allowed, .. } in invalid {
+        let name = key.rsplit('.').next().unwrap_or_default();
+        let inside = table.get("constants").and_then(Node::table);
+        let node = if key.starts_with(CONSTANTS) {
+            inside.and_then(|table| table.get(name))
+        } else {
+            table.get(name)
+        };
+        reader.wrong(&key, node.unwrap_or(formula), allowed);
+    }
+}

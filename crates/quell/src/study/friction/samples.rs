@@ -1,0 +1,266 @@
+//! A law from measured samples, in the study or in a CSV file beside it.
+//!
+//! The file: comment lines begin with `#`; the first other line names the columns, `slip_velocity` (in a study in SI
+//! `slip_velocity_m_per_s`) and `coefficient`. Other columns are passed over.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use quell_model::friction::samples::{COEFFICIENTS, Fit, MOST_TERMS, SPEEDS, TERMS};
+use quell_model::parameter::{Bounds, STATIC_COEFFICIENT};
+use quell_model::{Friction, Invalid, Samples};
+use serde_json::Value as Json;
+
+use super::Read;
+use super::expression::{complain, velocity_unit};
+use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::mirror::{Node, Table, Value};
+use crate::study::reader::{Found, Reader};
+
+/// The largest file of samples that is read.
+const LARGEST: u64 = 16 << 20;
+
+/// Path of the file's key.
+const FILE: &str = "friction.file";
+
+/// Samples and what was made of them; what decides it is kept to see whether it is still the same.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// The file, where they stand in one.
+    pub file: Option<PathBuf>,
+    /// Slip speed, in the study's unit, and coefficient.
+    pub samples: Vec<(f64, f64)>,
+    static_coefficient: Option<f64>,
+    terms: Option<usize>,
+    fit: Fit,
+}
+
+impl Measured {
+    /// What decides the law, with the digits that read back as the same numbers.
+    pub(in crate::study) fn settings(&self) -> (String, String) {
+        ("friction.fit".to_owned(), self.fit.formula())
+    }
+}
+
+/// Reads the samples and fits them.
+pub(super) fn read(
+    reader: &mut Reader,
+    table: &Table,
+    header: Origin,
+    folder: &Path,
+    known: Option<&Measured>,
+) -> Option<Read> {
+    let level = reader.optional(table, "friction", STATIC_COEFFICIENT, None);
+    let terms = match table.get("terms") {
+        None => Some(None),
+        Some(node) => {
+            let bounds = Bounds { upper: MOST_TERMS as f64, ..Bounds::at_least(1.0) };
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a whole number from 1 to MOST_TERMS"
+            )]
+            let whole = reader.within(TERMS, node, bounds, "", true).map(|it| it as usize);
+            whole.map(Some)
+        }
+    };
+    let (origin, file, samples) = given(reader, table, header, folder, known)?;
+    let static_coefficient = match level {
+        Found::Value(level) => Some(level),
+        Found::Absent => None,
+        Found::Wrong => return None,
+    };
+    let (terms, unit) = (terms?, velocity_unit(reader));
+    let same = known.filter(|known| {
+        known.samples == samples
+            && known.static_coefficient == static_coefficient
+            && known.terms == terms
+    });
+    let made = match same {
+        Some(known) => Samples::of_fit(known.fit.clone(), static_coefficient, unit),
+        None => Samples::new(&samples, static_coefficient, terms, unit),
+    };
+    match made {
+        Ok(law) => {
+            let fit = law.fit().clone();
+            let measured = Measured { file, samples, static_coefficient, terms, fit };
+            Some((Friction::Samples(law), Some(measured)))
+        }
+        Err(invalid) => {
+            told(reader, table, origin, file.is_some(), invalid);
+            None
+        }
+    }
+}
+
+/// Complaints of the model, under the keys that the study has.
+fn told(reader: &mut Reader, table: &Table, place: &Node, in_file: bool, invalid: Vec<Invalid>) {
+    let invalid = invalid.into_iter().map(|mut it| {
+        // A number of a list is told with the list.
+        let list = it.key.split('[').next().unwrap_or_default();
+        if list == SPEEDS || list == COEFFICIENTS {
+            it.allowed = format!("{}: {} must be {}", it.key, it.value, it.allowed);
+            it.key = if in_file { FILE.to_owned() } else { list.to_owned() };
+        }
+        it
+    });
+    complain(reader, table, place, invalid.collect());
+}
+
+type Given<'t> = (&'t Node, Option<PathBuf>, Vec<(f64, f64)>);
+
+/// The samples, from wherever the study has them.
+fn given<'t>(
+    reader: &mut Reader,
+    table: &'t Table,
+    header: Origin,
+    folder: &Path,
+    known: Option<&Measured>,
+) -> Option<Given<'t>> {
+    let column = if reader.is_si() { "slip_velocity_m_per_s" } else { "slip_velocity" };
+    let other = if reader.is_si() { "slip_velocity" } else { "slip_velocity_m_per_s" };
+    if let Some(node) = table.get(other) {
+        let allowed = format!("in the units of this study: give friction.{column}");
+        let key = format!("friction.{other}");
+        let complaint = Complaint::new(Fault::Mixed, key, node.origin, Json::Null, allowed);
+        reader.complain(complaint.suggesting(Some(format!("friction.{column}"))));
+        return None;
+    }
+    if let Some(node) = table.get("file") {
+        for name in [column, "coefficient"] {
+            if let Some(other) = table.get(name) {
+                let key = format!("friction.{name}");
+                let allowed = format!("samples are given by {FILE} already; leave this out");
+                reader.complain(Complaint::new(
+                    Fault::Conflict,
+                    key,
+                    other.origin,
+                    Json::Null,
+                    allowed,
+                ));
+                return None;
+            }
+        }
+        let name = reader.text(FILE, node)?;
+        let path = folder.join(&name);
+        if let Some(known) = known.filter(|known| known.file.as_deref() == Some(&path)) {
+            return Some((node, Some(path), known.samples.clone()));
+        }
+        return match from_file(&path, column) {
+            Ok(samples) => Some((node, Some(path), samples)),
+            Err(why) => {
+                reader.complain(Complaint::new(Fault::Path, FILE, node.origin, name, why));
+                None
+            }
+        };
+    }
+    let speeds = list(reader, table, header, column);
+    let coefficients = list(reader, table, header, "coefficient");
+    let ((node, speeds), (other, coefficients)) = (speeds?, coefficients?);
+    if speeds.len() != coefficients.len() {
+        let allowed = format!("as many numbers as friction.{column} has, {}", speeds.len());
+        let given = coefficients.len();
+        let complaint = Complaint::new(Fault::Value, COEFFICIENTS, other.origin, given, allowed);
+        reader.complain(complaint);
+        return None;
+    }
+    Some((node, None, speeds.into_iter().zip(coefficients).collect()))
+}
+
+/// An array of numbers.
+fn list<'t>(
+    reader: &mut Reader,
+    table: &'t Table,
+    header: Origin,
+    name: &str,
+) -> Option<(&'t Node, Vec<f64>)> {
+    let key = format!("friction.{name}");
+    let Some(node) = table.get(name) else {
+        let allowed =
+            format!("an array of numbers; or give {FILE}, a CSV file with a column {name}");
+        reader.complain(Complaint::new(Fault::Missing, key, header, Json::Null, allowed));
+        return None;
+    };
+    let Value::List(list) = &node.value else {
+        reader.wrong(&key, node, format!("an array of numbers; this is {}", node.kind()));
+        return None;
+    };
+    let numbers: Vec<Option<f64>> = list
+        .iter()
+        .enumerate()
+        .map(|(index, node)| {
+            reader.within(&format!("{key}[{index}]"), node, Bounds::NOT_NEGATIVE, "", false)
+        })
+        .collect();
+    Some((node, numbers.into_iter().collect::<Option<_>>()?))
+}
+
+/// Reads the samples of a file; what is wrong, with its line.
+fn from_file(path: &Path, column: &str) -> Result<Vec<(f64, f64)>, String> {
+    let unreadable =
+        |error: std::io::Error| format!("a CSV file of samples; it cannot be read: {error}");
+    let size = fs::metadata(path).map_err(unreadable)?;
+    if !size.is_file() || size.len() > LARGEST {
+        return Err("a CSV file of samples of at most 16 MiB".to_owned());
+    }
+    parse(&fs::read_to_string(path).map_err(unreadable)?, column)
+}
+
+fn parse(text: &str, column: &str) -> Result<Vec<(f64, f64)>, String> {
+    let mut rows = text
+        .lines()
+        .enumerate()
+        .map(|(index, line)| (index + 1, line.trim().trim_start_matches('\u{feff}')))
+        .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+    let (_, header) = rows.next().ok_or("a CSV file of samples with a line of column names")?;
+    let names: Vec<&str> = header.split(',').map(|name| name.trim().trim_matches('"')).collect();
+    let place = |name: &str| {
+        names
+            .iter()
+            .position(|known| *known == name)
+            .ok_or_else(|| format!("a CSV file with a column {name}; it has {}", names.join(", ")))
+    };
+    let (speed, coefficient) = (place(column)?, place("coefficient")?);
+    let mut samples = Vec::new();
+    for (number, row) in rows {
+        let cells: Vec<&str> = row.split(',').map(str::trim).collect();
+        let value = |at: usize, name: &str| {
+            let cell = cells.get(at).copied().unwrap_or_default();
+            let right = |value: &f64| value.is_finite() && *value >= 0.0;
+            cell.parse::<f64>().ok().filter(right).ok_or_else(|| {
+                let why = match cell.parse::<f64>() {
+                    Ok(value) if value < 0.0 => {
+                        "; friction is the same in both directions of slip here: samples of one direction, with \
+                         both numbers positive, make one law"
+                    }
+                    _ => "",
+                };
+                format!("line {number}, {name}: {cell:?} must be a finite number ≥ 0{why}")
+            })
+        };
+        samples.push((value(speed, column)?, value(coefficient, "coefficient")?));
+    }
+    Ok(samples)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_found_by_name_and_wrong_cells_by_line() {
+        let text = "# synthetic\ncoefficient, note, slip_velocity\n0.4,a,0\n\n0.3,b,0.5\n";
+        assert_eq!(parse(text, "slip_velocity"), Ok(vec![(0.0, 0.4), (0.5, 0.3)]));
+        let wrong = parse(text, "slip_velocity_m_per_s").expect_err("no such column");
+        assert!(wrong.contains("slip_velocity_m_per_s; it has coefficient, note"), "{wrong}");
+        for (row, part) in [
+            ("-1,0.3", "one direction"),
+            ("x,0.3", "line 3, slip_velocity: \"x\""),
+            ("1", "line 3"),
+        ] {
+            let text = format!("slip_velocity,coefficient\n0,0.4\n{row}\n");
+            let wrong = parse(&text, "slip_velocity").expect_err(row);
+            assert!(wrong.contains(part), "{row}: {wrong}");
+        }
+    }
+}
