@@ -41,6 +41,9 @@ pub const REACH: f64 = 1e6;
 /// Speeds at which a law is checked, in equal ratios from 1/[`REACH`] to [`REACH`].
 pub const PLACES: u32 = 960;
 
+/// Coefficients beyond this are taken for infinite: exponentials are held before they overflow.
+const LARGEST: f64 = 1e100;
+
 /// Derivatives at v = 0⁺ of which the velocity scale is made.
 const DERIVATIVES: usize = 6;
 
@@ -214,7 +217,7 @@ impl Expression {
         };
         let judged = |speed: f64| {
             let (value, slope) = self.at(speed);
-            if !value.is_finite() || !slope.is_finite() {
+            if !(value.abs() <= LARGEST && slope.is_finite()) {
                 return Err(singular(speed));
             }
             // Differences of equal terms leave their rounding.

@@ -290,7 +290,7 @@ impl Compiler {
     fn unary(&mut self, x: Part, step: fn(Argument) -> Step, function: Function) -> Part {
         match x {
             Part::Constant(x) => Part::Constant(Tree::Call(function, Box::new(x))),
-            x => {
+            x @ Part::Straight { .. } => {
                 let x = self.argument(x);
                 self.step(step(x), false)
             }

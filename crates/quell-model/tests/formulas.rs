@@ -1,0 +1,133 @@
+//! Formulas: whatever the text, an answer and no panic; wrong laws are refused with their reason.
+
+use proptest::prelude::*;
+use quell_model::{Expression, Samples, SlidingLaw};
+
+fn constants() -> Vec<(String, f64)> {
+    vec![("a".to_owned(), 0.3), ("b".to_owned(), 0.2)]
+}
+
+/// What is said about a formula.
+fn refused(text: &str) -> String {
+    let wrong = Expression::new(text, &constants(), None, 1.0).expect_err(text);
+    wrong.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}
+
+#[test]
+fn what_is_no_law_is_refused_with_its_reason() {
+    for (text, part) in [
+        ("0.3 + ", "at character 7"),
+        ("min(v)", "kinks"),
+        ("0.4 - 0.1*abs(v)", "≥ 0"),
+        ("0.3/(abs(v) - b)^2", "finite"),
+        ("0.3/abs(v)", "0⁺"),
+        ("0.3 + sqrt(abs(v))", "0⁺"),
+        ("abs(v)^1.5", "0⁺"),
+        ("0.3 + 0.1*v^2 + 0.01*v", "same in both directions"),
+        ("0.3 + 0.1*sign(v)", "same in both directions"),
+        ("0.3 + abs(v - a)", "multiple of v"),
+        ("0.3 + log(v^2 - 1)", "0⁺"),
+        ("exp(abs(v))", "finite"),
+        ("c*v", "constants are a, b"),
+    ] {
+        let told = refused(text);
+        assert!(told.contains(part) && told.starts_with("friction.coefficient"), "{text}: {told}");
+    }
+    let wrong = |level, constants: &[(String, f64)]| {
+        let found = Expression::new("a + b*exp(-abs(v))", constants, level, 1.0);
+        found.expect_err("wrong").iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+    };
+    assert!(wrong(Some(0.4), &constants()).contains("at least μ(0⁺) = 0.5"));
+    assert!(wrong(Some(-0.4), &constants()).contains("friction.static_coefficient"));
+    let mut named = constants();
+    named[1].1 = f64::NAN;
+    assert!(wrong(None, &named).contains("friction.constants.b"));
+    named[1] = ("exp".to_owned(), 1.0);
+    assert!(wrong(None, &named).contains("means nothing else"));
+}
+
+#[test]
+fn the_static_level_is_apart_or_follows_the_formula() {
+    let follows = Expression::new("a + b*exp(-abs(v))", &constants(), None, 1.0).expect("valid");
+    assert_eq!((follows.static_coefficient(), follows.starts_at_static_level()), (0.5, true));
+    let moved = follows.with("friction.constants.a", 0.4).expect("valid");
+    assert_eq!(moved.static_coefficient(), 0.6000000000000001);
+    let apart = Expression::new("a + b*exp(-abs(v))", &constants(), Some(0.7), 1.0).expect("valid");
+    assert_eq!((apart.static_coefficient(), apart.starts_at_static_level()), (0.7, false));
+    assert_eq!(apart.coefficient(0.0), 0.5);
+    // A level that only the rounding of decimals keeps from μ(0⁺) is μ(0⁺).
+    let sum = Expression::new("0.1 + 0.2*exp(-abs(v))", &[], Some(0.3), 1.0).expect("valid");
+    assert!(sum.starts_at_static_level());
+}
+
+#[test]
+fn samples_that_make_no_law_are_refused_with_their_reason() {
+    let line = |k: u32| (0.1 * f64::from(k), 0.4 - 0.01 * f64::from(k));
+    let good: Vec<(f64, f64)> = (0..12).map(line).collect();
+    let told = |samples: &[(f64, f64)], level, terms| {
+        let wrong = Samples::new(samples, level, terms, 1.0).expect_err("wrong");
+        wrong.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+    };
+    assert!(told(&good[..4], None, None).contains("5 different speeds"));
+    assert!(told(&good, None, Some(9)).contains("from 1 to 4"));
+    let mut bad = good.clone();
+    bad[3].0 = -0.3;
+    bad[5].1 = f64::NAN;
+    let both = told(&bad, None, None);
+    assert!(both.contains("slip_velocity[3]") && both.contains("one direction"), "{both}");
+    assert!(both.contains("coefficient[5]"), "{both}");
+    // Below the samples the static level holds the fit.
+    let pinned = Samples::new(&good, Some(0.39), None, 1.0).expect("a fit");
+    assert!(pinned.fit().pinned && pinned.starts_at_static_level(), "{:?}", pinned.fit());
+    assert!((pinned.coefficient(0.0) - 0.39).abs() < 1e-12);
+}
+
+/// Noise is not followed: the fit's error is that of the noise, and so is that at left-out samples.
+#[test]
+fn noise_is_smoothed_and_its_size_told() {
+    let mut state = 1_u64;
+    let mut noise = || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        ((state >> 40) as f64 / f64::from(1 << 24) - 0.5) * 0.01 * 12f64.sqrt()
+    };
+    let truth = |u: f64| 0.26 + 0.12 * (-u / 0.08).exp();
+    let samples: Vec<(f64, f64)> =
+        (0..200).map(|k| f64::from(k) * 0.004).map(|u| (u, truth(u) + noise())).collect();
+    let law = Samples::new(&samples, Some(0.45), None, 1.0).expect("a fit");
+    let fit = law.fit();
+    assert!((0.008..0.012).contains(&fit.rms_error), "{fit:?}");
+    assert!((0.008..0.012).contains(&fit.left_out_error), "{fit:?}");
+    for (u, _) in &samples {
+        assert!((law.coefficient(*u) - truth(*u)).abs() < 0.006, "{u}: {fit:?}");
+    }
+    // Far beyond the samples it is bounded.
+    assert!((law.coefficient(100.0) - fit.limit).abs() < 1e-12 && (0.2..0.3).contains(&fit.limit));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_text_has_an_answer(text in ".{0,60}") {
+        let _ = Expression::new(&text, &constants(), None, 1.0);
+    }
+
+    #[test]
+    fn any_arrangement_of_words_has_an_answer(
+        words in prop::collection::vec(
+            prop::sample::select(vec![
+                "v", "a", "b", "abs(", "exp(", "log(", "sqrt(", "tanh(", "sech(", "sin(", "atan(", "sign(",
+                "(", ")", ")", ")", "+", "-", "*", "/", "^", "2", "0.3", "1e-9", "1e300", " ", "pi", "max(",
+            ]),
+            0..24,
+        )
+    ) {
+        let text = words.concat();
+        if let Ok(law) = Expression::new(&text, &constants(), None, 1.0) {
+            for speed in [0.0, 1e-9, 0.1, 1.0, 30.0] {
+                let speed = speed * law.velocity_scale();
+                prop_assert!(law.coefficient(speed) >= -1e-12 && law.slope(speed).is_finite());
+            }
+        }
+    }
+}
