@@ -39,6 +39,12 @@ fn a_formula_with_constants_is_read_and_set() {
     let swept = Study::parse(&swept, &[]).expect("valid");
     let point = swept.at([("friction.constants.a", 0.2)]).expect("valid");
     assert_eq!(point.belt().friction().coefficient(0.0), 0.2 + 0.1);
+    let both = format!(
+        "{whole}b = 1.0\n[[sweep]]\nparameter = \"friction.constants.a\"\nvalues = [0.2, 0.3]\n\
+         [[sweep]]\nparameter = \"friction.constants.b\"\nvalues = [0.2, 0.3]\n"
+    );
+    let both = Study::parse(&both, &[]).expect("two constants are two axes");
+    assert_eq!(quell::sweep::Grid::of(&both).expect("a grid").len(), 4);
     let wrong = swept.with("friction.constants.b", 0.2);
     assert!(wrong.is_ok(), "another constant may be given, a formula need not use it");
 }

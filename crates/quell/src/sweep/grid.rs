@@ -7,8 +7,8 @@ use serde_json::Value as Json;
 
 use super::refine;
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::vocabulary::Address;
-use crate::study::{Axis, DiscStudy, Subject};
+use crate::study::vocabulary::{Address, Role};
+use crate::study::{Axis, DiscStudy, Subject, Sweep};
 
 /// Most points a map may have: their values are kept in memory until the map is done.
 pub const MOST_POINTS: usize = 100_000_000;
@@ -67,7 +67,7 @@ impl Grid {
         }
         for (index, sweep) in sweeps.iter().enumerate() {
             let earlier = &sweeps[..index];
-            if let Some(other) = earlier.iter().find(|other| same(&other.address, &sweep.address)) {
+            if let Some(other) = earlier.iter().find(|other| same(other, sweep)) {
                 let key = format!("sweep[{index}].parameter");
                 let allowed = format!("{} sets the same number as {}", sweep.path, other.path);
                 let path = sweep.path.clone();
@@ -177,8 +177,13 @@ impl Grid {
     }
 }
 
-/// Whether two axes set the same number: a parameter and its SI twin do.
-fn same(one: &Address, other: &Address) -> bool {
+/// Whether two axes set the same number: a parameter and its SI twin do. Named constants share one key and differ by
+/// their paths.
+fn same(first: &Sweep, second: &Sweep) -> bool {
+    let (one, other) = (&first.address, &second.address);
+    if one.key.role == Role::Constant {
+        return first.path.trim() == second.path.trim();
+    }
     let parameter = |address: &Address| address.key.parameter().map(|parameter| parameter.path);
     one.key.section == other.key.section
         && one.index.unwrap_or(0) == other.index.unwrap_or(0)
