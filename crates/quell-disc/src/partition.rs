@@ -16,19 +16,24 @@
 //! table 5.1 an exponent is imaginary for every f; that one is out of the load's reach and does not appear.
 //! At ω = 0 and ω = R/2 eigenvalues are real or in pairs by symmetry, and real ones count as boundaries
 //! (divergence, and doubling of the dither's period).
+//! Eigenvalues come from QL on the tridiagonal matrix at every point, which sees them all; a crossing is closed in by a secant in ω
+//! along its own eigenvalue, which Newton's method follows, and by bisection where that does not serve.
 //! Limits: crossings that come and go within one step of ω are missed (`POINTS_PER_WAVE`); near poles of T, at ξ = 0 close to a
 //! coincidence, they can be that close.
 
 use num_complex::Complex64;
-use quell_numerics::eigen::complex_eigenvalues;
+use quell_numerics::eigen::Tridiagonal;
 
 use crate::disc::Disc;
 
 /// Points over [0, R/2] for each free wave.
 const POINTS_PER_WAVE: usize = 40;
 
-/// Bisections of a crossing: the interval shrinks below the last digit of ω.
-const BISECTIONS: usize = 60;
+/// Turns of closing in on a crossing: with bisections alone the interval shrinks below the last digit of ω.
+const TURNS: usize = 60;
+
+/// A crossing is reached where the imaginary part of the eigenvalue is below this fraction of the eigenvalue.
+const REAL: f64 = 1e-15;
 
 /// A resonant wave is detuned by this fraction of its stiffness: far below what a map shows, far above rounding.
 const BESIDE_POLE: f64 = 1e-14;
@@ -91,28 +96,35 @@ impl Operator<'_> {
         h2 / (z * h1 + 1.0) * load.friction
     }
 
-    /// Eigenvalues 1/factor at ρ = iω. Harmonics are −H…H at ω = 0 and −H−1…H elsewhere: at either end of the range the set is
-    /// symmetric, so that what is real by symmetry is real to the last digits.
-    fn inverse_factors(&self, omega: f64) -> Vec<Complex64> {
+    /// 𝒯F at ρ = iω, whose eigenvalues are 1/factor. Harmonics are −H…H at ω = 0 and −H−1…H elsewhere: at either end of the range
+    /// the set is symmetric, so that what is real by symmetry is real to the last digits.
+    fn matrix(&self, omega: f64) -> Tridiagonal {
         let below = if omega == 0.0 { self.harmonics } else { self.harmonics + 1 };
-        let n = self.harmonics + 1 + below;
-        let mut matrix = vec![Complex64::new(0.0, 0.0); n * n];
-        for row in 0..n {
-            let w = (row as f64 - below as f64).mul_add(self.ratio, omega);
-            let receptance = self.receptance(w);
-            matrix[row * n + row] = receptance * self.mean;
-            if row > 0 {
-                matrix[row * n + row - 1] = receptance * self.half_amplitude;
-            }
-            if row + 1 < n {
-                matrix[row * n + row + 1] = receptance * self.half_amplitude;
-            }
+        let receptances: Vec<Complex64> = (0..=self.harmonics + below)
+            .map(|row| self.receptance((row as f64 - below as f64).mul_add(self.ratio, omega)))
+            .collect();
+        let square = self.half_amplitude * self.half_amplitude;
+        Tridiagonal {
+            diagonal: receptances.iter().map(|receptance| receptance * self.mean).collect(),
+            across: receptances.windows(2).map(|pair| pair[0] * pair[1] * square).collect(),
         }
-        // Not finite on a pole: no crossing is seen there.
-        complex_eigenvalues(&matrix, n).unwrap_or_default()
     }
 
-    /// Bisects the crossing of one eigenvalue through the real axis; `None` where the eigenvalue jumps (two
+    /// Eigenvalues 1/factor at ρ = iω.
+    fn inverse_factors(&self, omega: f64) -> Vec<Complex64> {
+        // Not finite on a pole: no crossing is seen there.
+        self.matrix(omega).eigenvalues().unwrap_or_default()
+    }
+
+    /// The eigenvalue at ρ = iω that is `guess` but for `gap`: by Newton's method, or the nearest of all.
+    fn followed(&self, omega: f64, guess: Complex64, gap: f64) -> Option<Complex64> {
+        let matrix = self.matrix(omega);
+        matrix
+            .refine(guess, gap)
+            .or_else(|| nearest(&matrix.eigenvalues().unwrap_or_default(), guess))
+    }
+
+    /// Closes in on the crossing of one eigenvalue through the real axis; `None` where the eigenvalue jumps (two
     /// were mistaken for one, or a pole lies between).
     fn close_in(
         &self,
@@ -121,16 +133,25 @@ impl Operator<'_> {
         mut high: f64,
         mut beyond: Complex64,
     ) -> Option<Crossing> {
-        for _ in 0..BISECTIONS {
+        for turn in 0..TURNS {
             let middle = 0.5 * (low + high);
             if middle <= low || middle >= high {
                 break;
             }
-            let next = nearest(&self.inverse_factors(middle), 0.5 * (value + beyond))?;
+            // Every third turn halves: a secant may creep.
+            let share = if turn % 3 == 2 { 0.5 } else { value.im / (value.im - beyond.im) };
+            let secant = share.mul_add(high - low, low);
+            let omega = if secant > low && secant < high { secant } else { middle };
+            let gap = (value - beyond).norm_sqr().sqrt();
+            let guess = value + (beyond - value) * ((omega - low) / (high - low));
+            let next = self.followed(omega, guess, gap)?;
             if (value.im < 0.0) == (next.im < 0.0) {
-                (low, value) = (middle, next);
+                (low, value) = (omega, next);
             } else {
-                (high, beyond) = (middle, next);
+                (high, beyond) = (omega, next);
+            }
+            if next.im.abs() <= REAL * next.re && gap <= 1e-3 * next.re {
+                return Some(Crossing { factor: next.re.recip(), frequency: omega });
             }
         }
         let jump = (value - beyond).norm_sqr().sqrt();

@@ -16,8 +16,9 @@ use quell_numerics::polynomial::first_crossing_after;
 
 use super::clock::Clock;
 use super::event::EventKind;
-use super::forcing::{Forcing, Series};
+use super::forcing::{Forcing, Series, Shape};
 use super::observer::{Observer, Segment};
+use super::release::Release;
 use super::stick::{Bond, Search};
 use super::transitions::{Contact, PATIENCE};
 use super::{FinalState, ORDER, Run, Stalled};
@@ -33,6 +34,8 @@ pub(super) struct Engine<'a> {
     /// 2ζ.
     pub(super) damping: f64,
     pub(super) bond: Bond,
+    /// The closed form of a release, where there is one.
+    release: Option<Release>,
     pub(super) tangential: Forcing,
     pub(super) normal: Forcing,
     /// Tolerance in units of the velocity scale.
@@ -144,13 +147,17 @@ impl<'a> Engine<'a> {
         let slip = (belt.belt_velocity() - start.velocity) / unit;
         let (tangential, normal) = forcings(belt, unit, clock);
         let fastest = tangential.highest_rate().max(normal.highest_rate()).max(1.0);
+        let bond = Bond {
+            damper: damping * belt_velocity,
+            belt_velocity,
+            static_coefficient: law.static_coefficient(),
+        };
+        let shapes = [Direction::Tangential, Direction::Normal]
+            .map(|direction| Shape::of(belt.dithers(), direction));
         let mut engine = Self {
             damping,
-            bond: Bond {
-                damper: damping * belt_velocity,
-                belt_velocity,
-                static_coefficient: law.static_coefficient(),
-            },
+            bond,
+            release: Release::of(&bond, (&tangential, &normal), (shapes[0], shapes[1])),
             tangential,
             normal,
             longest_step: 0.5 * ORDER as f64 / fastest,
@@ -345,6 +352,11 @@ impl<'a> Engine<'a> {
             self.contact = Contact::Stick { held: false };
             return;
         }
+        if let Some(release) = &self.release {
+            let search = release.search(&self.bond, self.clock, self.displacement, room);
+            self.end_of_stick(search, stop, room);
+            return;
+        }
         let sure = self.bond.surely_holds(self.displacement, &self.tangential, &self.normal);
         if sure > WORTH_SKIPPING {
             // Breaks of the dither inside are passed over: none of them can break the bond.
@@ -362,6 +374,12 @@ impl<'a> Engine<'a> {
             &self.tangential,
             &self.normal,
         );
+        self.end_of_stick(search, stop, room);
+    }
+
+    /// Moves with the belt to where the bond breaks, or to the end of the stretch.
+    #[inline(always)]
+    fn end_of_stick(&mut self, search: Search, stop: f64, room: f64) {
         match search {
             Search::Holds(length) => self.stay(length, stop, room),
             Search::Breaks { after, sign, rate, at_once } => {

@@ -2,7 +2,8 @@
 //!
 //! * Slip is a Taylor step of order [`ORDER`] on one analytic branch of the law
 //!   (`slip`); its length keeps the last two retained terms below the tolerance.
-//! * Stick is closed form; the release is the first root of |f_s| − μ_s N (`stick`).
+//! * Stick is closed form; the release is the first root of |f_s| − μ_s N, under one sine without
+//!   a series (`release`), under any other dither on one (`stick`).
 //! * Every root of a step is isolated or proven absent
 //!   ([`quell_numerics::polynomial::first_crossing`]); kinks and jumps of the dither are time
 //!   events (`forcing`).
@@ -23,6 +24,7 @@ mod event;
 mod forcing;
 mod lanes;
 mod observer;
+mod release;
 mod slip;
 mod stick;
 mod transitions;

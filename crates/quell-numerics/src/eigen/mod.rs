@@ -14,6 +14,7 @@ mod francis;
 mod hessenberg;
 mod rightmost;
 mod shifted;
+mod tridiagonal;
 
 use num_complex::Complex64;
 
@@ -23,6 +24,7 @@ pub(crate) use hessenberg::LANES;
 use hessenberg::{Reflectors, stride_of};
 pub use rightmost::Rightmost;
 pub(crate) use shifted::{Shifted, Split};
+pub use tridiagonal::Tridiagonal;
 
 /// Why there are no eigenvalues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,7 +5,8 @@ use std::ops::RangeInclusive;
 
 pub use quell_disc::resonance::Order;
 use quell_disc::resonance::{
-    Blocked, Clearance, ClearanceError, Nearby, Resonance, Tongue, Waves, clear_frequencies, within,
+    Blocked, Clearance, ClearanceError, Nearby, Resonance, Tongue, WaveError, Waves,
+    clear_frequencies, within,
 };
 use quell_disc::system::Contributions;
 use quell_model::units::Quantity;
@@ -65,8 +66,8 @@ pub struct Resonances {
 /// A complaint where the theory does not apply (other than one load, negative friction, parts left out), where there is no dither
 /// whose frequency could be chosen, or where a wave grows by itself whatever the frequency.
 pub fn run(study: &DiscStudy, question: Question) -> Result<Resonances, Failure> {
-    let refuse = |key: &str, allowed: String| {
-        Failure::from(Complaint::new(Fault::Value, key, Origin::Whole, Json::Null, allowed))
+    let refuse = |key: &str, why: String| {
+        Failure::from(Complaint::new(Fault::Conflict, key, Origin::Whole, Json::Null, why))
     };
     if study.parts() != Contributions::ALL {
         let told = study.without();
@@ -74,7 +75,15 @@ pub fn run(study: &DiscStudy, question: Question) -> Result<Resonances, Failure>
         let complaint = Complaint::new(Fault::Value, "disc.without", Origin::Whole, told, allowed);
         return Err(complaint.into());
     }
-    let waves = Waves::new(study.disc()).map_err(|why| refuse("disc.load", why.to_string()))?;
+    let waves = Waves::new(study.disc()).map_err(|why| {
+        let instead = match why {
+            WaveError::Loads(_) => {
+                "; `quell stability` and `quell map --quantity growth` take any number of loads"
+            }
+            WaveError::NegativeFriction { .. } | WaveError::Frequency { .. } => "",
+        };
+        refuse("disc.load", format!("{why}{instead}"))
+    })?;
     let waves = waves.with_order(question.order);
     let clear = match &question.clear {
         None => None,

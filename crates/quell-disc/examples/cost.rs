@@ -1,0 +1,65 @@
+//! Time per point against the number of modes N = (N_r, N_θ), up to (4, 12).
+//!
+//! `cargo run --release --package quell-disc --example cost` prints one line of CSV a mode set: states, µs of one growth
+//! rate with its bound without dither, µs of one Floquet exponent with its bound (normal dither, α = 1, R = 2.7).
+//! Of some passes over a few points the fastest counts: other work on the machine only slows.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use quell_disc::dithered::DitheredDisc;
+use quell_disc::plate::{ModeSet, Plate, Reference};
+use quell_disc::system::System;
+use quell_disc::{Disc, Dither, Load, Mode, undithered};
+use quell_numerics::floquet::Effort;
+
+/// Passes over the points.
+const PASSES: u32 = 5;
+
+/// Frictions of the points.
+const FRICTIONS: usize = 8;
+
+const SPEED: f64 = 0.37;
+
+fn modes(radial: usize, diameters: u32) -> Vec<Mode> {
+    let plate = Plate::new(0.5, 0.3).expect("valid");
+    let set = ModeSet::new(&plate, radial, diameters, Reference::Critical);
+    set.expect("modes with a critical speed").at_radius(0.75, 1e-4).expect("on the plate")
+}
+
+fn disc(modes: &[Mode], dither: Dither) -> Disc {
+    let load = Load::new(0.3, 0.3, 0.3, 1.0);
+    Disc::new(modes.to_vec(), vec![load], dither, SPEED).expect("valid")
+}
+
+/// Fastest pass, µs per point.
+fn fastest(mut point: impl FnMut(f64)) -> f64 {
+    let mut fastest = f64::INFINITY;
+    for _ in 0..PASSES {
+        let began = Instant::now();
+        for index in 0..FRICTIONS {
+            point(0.02 + 0.07 * index as f64);
+        }
+        fastest = fastest.min(began.elapsed().as_secs_f64());
+    }
+    1e6 * fastest / FRICTIONS as f64
+}
+
+fn main() {
+    println!("radial_modes,nodal_diameters,states,eigenvalues_us,exponents_us");
+    let sets = [(1, 1), (1, 2), (1, 4), (2, 5), (2, 8), (3, 8), (3, 10), (3, 12), (4, 12)];
+    for (radial, diameters) in sets {
+        let modes = modes(radial, diameters);
+        let system = System::new(&disc(&modes, Dither::None));
+        let eigenvalues = fastest(|friction| {
+            black_box(undithered::growth_of(&system, &[friction]).expect("finite"));
+        });
+        let dither = Dither::Normal { amplitude: 1.0, frequency_ratio: 2.7 };
+        let prepared = DitheredDisc::new(&disc(&modes, dither)).expect("finite").expect("dithered");
+        let exponents = fastest(|friction| {
+            black_box(prepared.exponent(friction, Effort::default()).expect("finite"));
+        });
+        let states = 2 * system.coordinates();
+        println!("{radial},{diameters},{states},{eigenvalues:.1},{exponents:.1}");
+    }
+}

@@ -1,0 +1,271 @@
+//! Eigenvalues of complex tridiagonal matrices: all of them by QL, one of them by Newton's method.
+//!
+//! Only the diagonal d and the products c of entries across it decide the eigenvalues, so that any tridiagonal matrix is as
+//! good as the complex symmetric one with √c beside the diagonal. QL with implicit Wilkinson shifts on that one costs
+//! O(n²) in all, against O(n³) for a matrix that is not known to be tridiagonal; see Cullum and Willoughby (1996). Its rotations are
+//! orthogonal, not unitary: they may be large, and in rare matrices break down, where the dense iteration takes over.
+//!
+//! One eigenvalue is refined by p/p′ of p(μ) = det(T − μ), from the quotients of neighbouring leading minors; that costs
+//! O(n) a turn and does not depend on how good the start is, once it converges.
+
+use num_complex::Complex64;
+
+use super::{EigenError, complex_eigenvalues, modulus};
+
+/// QL turns for one eigenvalue before the dense iteration takes over; two or three are usual.
+const TURNS: usize = 60;
+
+/// Newton turns before giving up.
+const NEWTON_TURNS: usize = 12;
+
+/// Fraction of the norm below which an entry beside the diagonal never counts.
+const NEGLIGIBLE: f64 = 1e-3 * f64::EPSILON;
+
+/// A complex tridiagonal matrix, up to a similarity by a diagonal one.
+#[derive(Clone, Debug)]
+pub struct Tridiagonal {
+    /// The diagonal d.
+    pub diagonal: Vec<Complex64>,
+    /// c: entry (k, k + 1) times entry (k + 1, k), one fewer than d.
+    pub across: Vec<Complex64>,
+}
+
+/// √z with a real part that is not negative, the same bits on every machine.
+fn root(z: Complex64) -> Complex64 {
+    let size = modulus(z);
+    if size == 0.0 {
+        return Complex64::new(0.0, 0.0);
+    }
+    let larger = (0.5 * (size + z.re.abs())).sqrt();
+    let smaller = 0.5 * z.im / larger;
+    if z.re >= 0.0 {
+        Complex64::new(larger, smaller)
+    } else {
+        Complex64::new(smaller.abs(), larger.copysign(z.im))
+    }
+}
+
+impl Tridiagonal {
+    /// All eigenvalues.
+    ///
+    /// # Errors
+    /// [`EigenError`] for entries that are not finite, and without convergence.
+    pub fn eigenvalues(&self) -> Result<Vec<Complex64>, EigenError> {
+        let entries = self.diagonal.iter().chain(&self.across);
+        if !entries.into_iter().all(|z| z.re.is_finite() && z.im.is_finite()) {
+            return Err(EigenError::NotFinite);
+        }
+        match self.by_ql() {
+            Some(values) => Ok(values),
+            None => self.by_dense(),
+        }
+    }
+
+    /// QL with implicit shifts; `None` where it breaks down.
+    fn by_ql(&self) -> Option<Vec<Complex64>> {
+        let n = self.diagonal.len();
+        let mut d = self.diagonal.clone();
+        let mut e: Vec<Complex64> = self.across.iter().map(|&c| root(c)).collect();
+        e.push(Complex64::new(0.0, 0.0));
+        let size = |z: Complex64| z.re.abs() + z.im.abs();
+        let norm = d.iter().chain(&e).fold(0.0, |most: f64, &z| most.max(size(z)));
+        for first in 0..n {
+            let mut turns = 0;
+            loop {
+                let small = |k: usize| {
+                    let beside = f64::EPSILON * (size(d[k]) + size(d[k + 1]));
+                    size(e[k]) <= beside.max(NEGLIGIBLE * norm)
+                };
+                let last = (first..n - 1).find(|&k| small(k)).unwrap_or(n - 1);
+                if last == first {
+                    break;
+                }
+                turns += 1;
+                if turns > TURNS {
+                    return None;
+                }
+                turn(&mut d, &mut e, first, last)?;
+            }
+        }
+        d.iter().all(|z| z.re.is_finite() && z.im.is_finite()).then_some(d)
+    }
+
+    fn by_dense(&self) -> Result<Vec<Complex64>, EigenError> {
+        let n = self.diagonal.len();
+        let mut dense = vec![Complex64::new(0.0, 0.0); n * n];
+        for (k, &value) in self.diagonal.iter().enumerate() {
+            dense[k * n + k] = value;
+        }
+        for (k, &product) in self.across.iter().enumerate() {
+            let beside = root(product);
+            dense[k * n + k + 1] = beside;
+            dense[(k + 1) * n + k] = beside;
+        }
+        complex_eigenvalues(&dense, n)
+    }
+
+    /// The eigenvalue that Newton's method comes to from `start`, to the last digits; `None` where it comes to none or
+    /// leaves the circle of radius `within` about the start.
+    pub fn refine(&self, start: Complex64, within: f64) -> Option<Complex64> {
+        let mut value = start;
+        for _ in 0..NEWTON_TURNS {
+            let step = self.newton_step(value);
+            let next = value - step;
+            // Not finite is not near.
+            let near = modulus(next - start) <= within;
+            if !near {
+                return None;
+            }
+            value = next;
+            if modulus(step) <= 1e-11 * modulus(value) {
+                // Newton's method doubles the digits: one more turn is below the last one.
+                return Some(value - self.newton_step(value));
+            }
+        }
+        None
+    }
+
+    /// p/p′ at μ.
+    fn newton_step(&self, value: Complex64) -> Complex64 {
+        let zero = Complex64::new(0.0, 0.0);
+        let (mut inverse, mut slope, mut sum) = (zero, zero, zero);
+        for (k, &diagonal) in self.diagonal.iter().enumerate() {
+            // q = p_k/p_{k−1} and its derivative.
+            let share = if k == 0 { zero } else { self.across[k - 1] * inverse };
+            let mut quotient = diagonal - value - share;
+            if quotient.norm_sqr() == 0.0 {
+                quotient = Complex64::new(f64::MIN_POSITIVE.sqrt(), 0.0);
+            }
+            let derivative = share * inverse * slope - 1.0;
+            inverse = quotient.inv();
+            slope = derivative;
+            sum += derivative * inverse;
+        }
+        sum.inv()
+    }
+}
+
+/// One QL turn on rows `first`…`last`; `None` where a rotation is not finite.
+fn turn(d: &mut [Complex64], e: &mut [Complex64], first: usize, last: usize) -> Option<()> {
+    let one = Complex64::new(1.0, 0.0);
+    // Wilkinson's shift: the eigenvalue of the leading two rows that is nearer to the first.
+    let g = (d[first + 1] - d[first]) / (e[first] * 2.0);
+    let r = root(g * g + 1.0);
+    let larger = if (g + r).norm_sqr() >= (g - r).norm_sqr() { g + r } else { g - r };
+    let mut g = d[last] - d[first] + e[first] / larger;
+    let (mut s, mut c, mut p) = (one, one, Complex64::new(0.0, 0.0));
+    for k in (first..last).rev() {
+        let (f, b) = (s * e[k], c * e[k]);
+        let r = root(f * f + g * g);
+        e[k + 1] = r;
+        if r.norm_sqr() == 0.0 {
+            if f.norm_sqr() > 0.0 {
+                // f² + g² = 0 with f ≠ 0: no orthogonal rotation.
+                return None;
+            }
+            d[k + 1] -= p;
+            e[last] = Complex64::new(0.0, 0.0);
+            return Some(());
+        }
+        let inverse = r.inv();
+        s = f * inverse;
+        c = g * inverse;
+        g = d[k + 1] - p;
+        let turned = (d[k] - g) * s + c * b * 2.0;
+        p = s * turned;
+        d[k + 1] = g + p;
+        g = c * turned - b;
+        if !(g.re.is_finite() && g.im.is_finite()) {
+            return None;
+        }
+    }
+    d[first] -= p;
+    e[first] = g;
+    e[last] = Complex64::new(0.0, 0.0);
+    Some(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn random(state: &mut u64) -> f64 {
+        *state ^= *state << 13;
+        *state ^= *state >> 7;
+        *state ^= *state << 17;
+        (*state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+    }
+
+    /// Random matrices: full, graded to both ends, and with a diagonal of zeros.
+    fn sample(kind: usize, n: usize, state: &mut u64) -> Tridiagonal {
+        let mut number = |k: usize| {
+            let middle = (k as f64 - 0.5 * n as f64).abs();
+            let size = if kind == 1 { (-0.5 * middle).exp() } else { 1.0 };
+            Complex64::new(random(state), random(state)) * size
+        };
+        let diagonal: Vec<Complex64> =
+            (0..n).map(|k| if kind == 2 { Complex64::new(0.0, 0.0) } else { number(k) }).collect();
+        let across = (0..n - 1).map(|k| number(k) * number(k + 1)).collect();
+        Tridiagonal { diagonal, across }
+    }
+
+    #[test]
+    fn ql_and_the_dense_iteration_agree() {
+        let mut state = 0x9e37_79b9_7f4a_7c15;
+        let (mut turned, mut worst) = (0, 0.0f64);
+        for round in 0..300 {
+            let n = 1 + round % 60;
+            let matrix = sample(round % 3, n, &mut state);
+            let mut dense = matrix.by_dense().expect("finite");
+            let Some(found) = matrix.by_ql() else { continue };
+            turned += 1;
+            let norm = dense.iter().map(|z| modulus(*z)).fold(0.0, f64::max);
+            for value in found {
+                let near = (0..dense.len()).min_by(|&i, &j| {
+                    modulus(dense[i] - value).total_cmp(&modulus(dense[j] - value))
+                });
+                let other = dense.swap_remove(near.expect("as many"));
+                // The condition of these eigenvalues is some hundreds.
+                worst = worst.max(modulus(value - other) / norm);
+            }
+        }
+        println!("{turned} matrices, worst difference {worst:.1e}");
+        assert!(turned > 295 && worst < 1e-10, "{turned} {worst:e}");
+    }
+
+    #[test]
+    fn newton_finds_what_ql_finds() {
+        let mut state = 0x2545_f491_4f6c_dd1d;
+        for round in 0..60 {
+            let matrix = sample(round % 3, 30, &mut state);
+            let values = matrix.eigenvalues().expect("finite");
+            for &value in &values {
+                let gap = values
+                    .iter()
+                    .map(|other| modulus(other - value))
+                    .filter(|gap| *gap > 0.0)
+                    .fold(f64::INFINITY, f64::min);
+                let start = value + Complex64::new(1e-3, 1e-3) * gap;
+                let found = matrix.refine(start, 0.5 * gap).expect("it is near");
+                assert!(modulus(found - value) <= 1e-9 * modulus(value) + 1e-12, "{found} {value}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_known_matrix_has_its_eigenvalues() {
+        // 2 on the diagonal and 1 beside it: 2 + 2 cos(kπ/(n + 1)).
+        let n = 17;
+        let one = Complex64::new(1.0, 0.0);
+        let matrix = Tridiagonal { diagonal: vec![one * 2.0; n], across: vec![one; n - 1] };
+        let mut found: Vec<f64> =
+            matrix.eigenvalues().expect("finite").iter().map(|z| z.re).collect();
+        found.sort_by(f64::total_cmp);
+        for (k, value) in found.iter().rev().enumerate() {
+            let exact = 2.0 + 2.0 * libm::cos(core::f64::consts::PI * (k + 1) as f64 / 18.0);
+            assert!((value - exact).abs() < 1e-14, "{value} {exact}");
+        }
+        let endless = Tridiagonal { diagonal: vec![one * f64::NAN], across: vec![] };
+        assert_eq!(endless.eigenvalues(), Err(EigenError::NotFinite));
+    }
+}
