@@ -13,8 +13,8 @@ use serde_json::Value as Json;
 
 use crate::answer;
 use crate::verbs::{
-    check, cite, friction, map, modes, orbit, reproduce, resonances, response, schema, simulate,
-    stability, thresholds,
+    basins, bifurcation, check, cite, friction, map, modes, orbit, reproduce, resonances, response,
+    schema, simulate, stability, thresholds,
 };
 
 /// Finds the dither that silences friction-induced vibration, and tells how sure it is.
@@ -37,6 +37,8 @@ enum Verb {
     Response(response::Arguments),
     Orbit(orbit::Arguments),
     Thresholds(thresholds::Arguments),
+    Bifurcation(bifurcation::Arguments),
+    Basins(basins::Arguments),
     Map(map::Arguments),
     Modes(modes::Arguments),
     Resonances(resonances::Arguments),
@@ -64,6 +66,8 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Response(arguments) => response::run(arguments),
         Verb::Orbit(arguments) => orbit::run(arguments),
         Verb::Thresholds(arguments) => thresholds::run(arguments),
+        Verb::Bifurcation(arguments) => bifurcation::run(arguments),
+        Verb::Basins(arguments) => basins::run(arguments),
         Verb::Map(arguments) => map::run(arguments),
         Verb::Modes(arguments) => modes::run(arguments),
         Verb::Resonances(arguments) => resonances::run(arguments),

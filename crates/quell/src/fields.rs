@@ -26,6 +26,11 @@ impl Fields {
         Self { scales, object: Map::new(), units: Map::new(), why: Map::new() }
     }
 
+    /// The scales of the study.
+    pub fn scales(&self) -> Option<Scales> {
+        self.scales
+    }
+
     /// A word, a flag, a count, or anything else without unit.
     pub fn plain(&mut self, name: &str, value: impl Into<Json>) -> &mut Self {
         self.object.insert(name.to_owned(), value.into());

@@ -114,7 +114,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     Ok(answer.warning(done.warnings()))
 }
 
-fn threads(text: Option<&str>) -> Result<Option<usize>, Box<Complaint>> {
+pub(super) fn threads(text: Option<&str>) -> Result<Option<usize>, Box<Complaint>> {
     let Some(text) = text else {
         return Ok(None);
     };

@@ -1,11 +1,14 @@
 //! One verb, one file, one `run`.
 
+pub(crate) mod basins;
+pub(crate) mod bifurcation;
 pub(crate) mod check;
 pub(crate) mod cite;
 pub(crate) mod friction;
 pub(crate) mod map;
 pub(crate) mod modes;
 pub(crate) mod orbit;
+mod range;
 pub(crate) mod reproduce;
 pub(crate) mod resonances;
 pub(crate) mod response;

@@ -3,6 +3,8 @@
 //! A study in SI is drawn in SI, with the metric prefix that suits the values; any other in the
 //! numbers of the equations. The caption says what the picture cannot.
 
+mod basins;
+mod bifurcation;
 mod caption;
 pub mod disc;
 mod friction;
@@ -14,6 +16,8 @@ mod simulate;
 mod stability;
 mod sweep;
 
+pub use basins::basins;
+pub use bifurcation::bifurcation;
 pub use friction::friction;
 pub use map::{MOST_PANELS, Map, MapAxis, MapKind, map, map_panel};
 pub use orbit::orbit;

@@ -198,7 +198,7 @@ fn panel(map: &Map, entry: &Entry) -> Panel {
 }
 
 /// An axis with symbol and unit; numbers of the equations carry none.
-fn labelled(axis: Axis, symbol: &str, unit: &str) -> Axis {
+pub(super) fn labelled(axis: Axis, symbol: &str, unit: &str) -> Axis {
     let axis = if symbol.is_empty() { axis } else { axis.symbol(symbol) };
     let scaled = unit.is_empty() || unit == "1" || unit.contains(['ω', '(']) || unit == "length";
     if scaled { axis } else { axis.unit(unit) }

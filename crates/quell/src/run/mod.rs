@@ -3,6 +3,9 @@
 //! One file per verb. Numbers leave in the units of the equations and, for a study in SI, in
 //! SI beside them ([`crate::fields`]).
 
+pub mod attractor;
+pub mod basins;
+pub mod bifurcation;
 pub mod check;
 pub mod disc;
 pub mod friction;
@@ -13,6 +16,7 @@ pub mod response;
 pub mod simulate;
 pub mod stability;
 pub mod thresholds;
+pub mod varied;
 
 use quell_belt::simulation::{Stalled, Start};
 use quell_belt::start::NoSquealingStart;

@@ -1,0 +1,237 @@
+//! What a settled run is on: a closed orbit of some periods, a closed curve, or neither.
+//!
+//! A state that returns after n periods is taken as the guess of an orbit of n periods; shooting closes it to 10⁻¹², and its
+//! multipliers say whether it attracts. Where nothing returns the motion fills a curve, if its rotation number is the same in both halves
+//! of the record. Limit: an orbit of more than `MOST_PERIODS` periods is not told from a curve.
+
+use quell_numerics::roots::{Closeness, find_root};
+
+use super::average::Moments;
+use super::rotation::Rotation;
+use super::settle::{Outcome, Settled};
+use super::strobe::Scene;
+use super::watch::Watch;
+use crate::orbit::{Verdict, near};
+use crate::simulation::{DEFAULT_TOLERANCE, Observer, Segment, Stalled, Start, simulate};
+
+/// Most periods of a closed orbit.
+const MOST_PERIODS: usize = 400;
+
+/// Periods of the record in which returns are looked for.
+const RECORD: usize = 1024;
+
+/// Distance of a return, relative to the size of the section, that is worth shooting.
+const RETURNS: f64 = 1e-3;
+
+/// Distance of the orbit from the guess, relative to the size of the section, at which it is the run's own.
+const ITS_OWN: f64 = 2e-2;
+
+/// Returns that are tried.
+const TRIED: usize = 3;
+
+/// Difference of the rotation number of the two halves of a record at which the motion is a curve's.
+const STEADY: f64 = 1e-5;
+
+/// Times that a record is continued.
+const RECORDS: u32 = 4;
+
+/// What an attractor is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// A closed orbit.
+    Periodic {
+        /// Its periods of the strobe.
+        periods: u32,
+        /// The larger modulus of its multipliers, once round.
+        radius: f64,
+    },
+    /// A limit cycle of the belt without dither, which no strobe need return to.
+    Cycle,
+    /// A closed curve, filled.
+    QuasiPeriodic,
+    /// Settled, but neither of both.
+    Unclassified,
+}
+
+impl Kind {
+    /// In words.
+    pub fn words(self) -> String {
+        match self {
+            Self::Periodic { periods, .. } => format!("period-{periods}"),
+            Self::Cycle => "limit cycle".to_owned(),
+            Self::QuasiPeriodic => "quasi-periodic".to_owned(),
+            Self::Unclassified => "unclassified".to_owned(),
+        }
+    }
+}
+
+/// An attractor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attractor {
+    /// What it is.
+    pub kind: Kind,
+    /// Whether it is the response that sliding becomes.
+    pub quiet: bool,
+    /// A state on it at τ = 0.
+    pub state: Start,
+    /// States (x, x′), one a period: an orbit once round, a curve as far as the record goes.
+    pub section: Vec<(f64, f64)>,
+    /// Least x.
+    pub lowest: f64,
+    /// Largest x.
+    pub highest: f64,
+    /// Share of the time in stick.
+    pub stick_fraction: f64,
+    /// Turns of the slow motion a period; `None` for a response of one period, which does not turn.
+    pub rotation: Option<Rotation>,
+}
+
+impl Attractor {
+    /// Peak-to-peak of x.
+    pub fn size(&self) -> f64 {
+        self.highest - self.lowest
+    }
+
+    /// Frequency of the slow motion (ω₀), where it turns.
+    pub fn frequency(&self, period: f64) -> Option<f64> {
+        let rotation = self.rotation.as_ref()?;
+        Some(rotation.turns_per_period.abs() * std::f64::consts::TAU / period)
+    }
+}
+
+/// The attractor of a run that has settled; `None` for one that has not.
+///
+/// # Errors
+/// [`Stalled`].
+pub fn measure(scene: &Scene<'_>, settled: &Settled) -> Result<Option<Attractor>, Stalled> {
+    match (settled.outcome, &scene.quiet) {
+        (Outcome::Unsettled(_), _) => Ok(None),
+        (Outcome::Quiet, Ok(quiet)) => {
+            let state =
+                Start { time: 0.0, displacement: quiet.displacement, velocity: quiet.velocity };
+            let kind = Kind::Periodic { periods: 1, radius: quiet.radius };
+            Ok(Some(Attractor { quiet: true, ..seen(scene, kind, state, 1)? }))
+        }
+        (Outcome::Quiet | Outcome::Elsewhere, _) => elsewhere(scene, settled.state).map(Some),
+    }
+}
+
+/// The attractor from a state on it.
+fn elsewhere(scene: &Scene<'_>, state: Start) -> Result<Attractor, Stalled> {
+    let mut state = state;
+    for record in 1..=RECORDS {
+        let (section, end) = section(scene, state)?;
+        if let Some((periods, radius, start)) = orbit(scene, &section, end) {
+            let kind = Kind::Periodic { periods, radius };
+            return seen(scene, kind, start, periods as usize);
+        }
+        let centre = Moments::of(&section).centre;
+        let rotation = Rotation::of_curve(&section, centre);
+        let steady = rotation.error <= STEADY;
+        if steady || record == RECORDS {
+            let kind = match steady {
+                true if scene.is_autonomous() => Kind::Cycle,
+                true => Kind::QuasiPeriodic,
+                false => Kind::Unclassified,
+            };
+            return seen(scene, kind, state, RECORD);
+        }
+        state = end;
+    }
+    seen(scene, Kind::Unclassified, state, RECORD)
+}
+
+/// States of a record, and the state after it.
+fn section(scene: &Scene<'_>, start: Start) -> Result<(Vec<(f64, f64)>, Start), Stalled> {
+    let period = scene.strobe.period;
+    let mut watch = Watch::new(period, RECORD);
+    let until = RECORD as f64 * period;
+    let end = simulate(scene.belt, start, until, DEFAULT_TOLERANCE, &mut watch)?;
+    Ok((watch.section(), Start { time: 0.0, ..end.restart() }))
+}
+
+/// The closed orbit to which the last states of a section return: periods, radius, state.
+fn orbit(scene: &Scene<'_>, section: &[(f64, f64)], end: Start) -> Option<(u32, f64, Start)> {
+    // A cycle without dither has its own period; at the strobe no state need return.
+    if scene.is_autonomous() {
+        return None;
+    }
+    let size = Moments::of(section).size().max(1e-9 * scene.belt.normal_load());
+    let gap = |a: (f64, f64), b: (f64, f64)| libm::hypot(a.0 - b.0, a.1 - b.1);
+    let returns = |n: &usize| {
+        let from = section.len() - n;
+        (from..section.len()).all(|k| gap(section[k], section[k - n]) <= RETURNS * size)
+    };
+    (1..=MOST_PERIODS).filter(returns).take(TRIED).find_map(|n| {
+        let periods = u32::try_from(n).ok()?;
+        let orbit = near(scene.belt, end, periods).ok()?;
+        let away =
+            gap((orbit.start.displacement, orbit.start.velocity), (end.displacement, end.velocity));
+        (away <= ITS_OWN * size && orbit.verdict() == Verdict::Stable).then_some((
+            periods,
+            orbit.radius(),
+            orbit.start,
+        ))
+    })
+}
+
+/// An attractor as a run over it sees it.
+fn seen(scene: &Scene<'_>, kind: Kind, state: Start, periods: usize) -> Result<Attractor, Stalled> {
+    let period = scene.strobe.period;
+    let length = periods as f64 * period;
+    let mut watch = (
+        Watch::new(period, periods),
+        Extremes { lowest: f64::INFINITY, highest: f64::NEG_INFINITY },
+    );
+    simulate(scene.belt, state, length, DEFAULT_TOLERANCE, &mut watch)?;
+    let (watch, extremes) = watch;
+    let section = watch.section();
+    let centre = Moments::of(&section).centre;
+    let rotation = match kind {
+        Kind::Periodic { periods: 1, .. } => None,
+        Kind::Periodic { .. } => {
+            let count = section.len() as f64;
+            let sum = section.iter().fold((0.0, 0.0), |sum, (x, v)| (sum.0 + x, sum.1 + v));
+            Some(Rotation::of_orbit(&section, [sum.0 / count, sum.1 / count]))
+        }
+        Kind::Cycle | Kind::QuasiPeriodic | Kind::Unclassified => {
+            Some(Rotation::of_curve(&section, centre))
+        }
+    };
+    Ok(Attractor {
+        kind,
+        quiet: false,
+        state,
+        section,
+        lowest: extremes.lowest,
+        highest: extremes.highest,
+        stick_fraction: watch.stuck / length,
+        rotation,
+    })
+}
+
+/// Least and largest x of a run, between the ends of steps too: where x′ changes sign inside one.
+struct Extremes {
+    lowest: f64,
+    highest: f64,
+}
+
+/// Closeness of the moment at which x turns: x errs by its square.
+const TURNS: Closeness = Closeness { absolute: 0.0, relative: 1e-9 };
+
+impl Observer for Extremes {
+    fn segment(&mut self, segment: &Segment<'_>) {
+        let h = segment.duration();
+        let mut take = |x: f64| {
+            self.lowest = self.lowest.min(x);
+            self.highest = self.highest.max(x);
+        };
+        take(segment.displacement(0.0));
+        take(segment.displacement(h));
+        if segment.velocity(0.0) * segment.velocity(h) < 0.0
+            && let Ok(root) = find_root(|since| segment.velocity(since), 0.0, h, TURNS)
+        {
+            take(segment.displacement(root.location));
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! The response that sliding becomes under dither, and the distance from it in which it decays evenly.
+//!
+//! For a complex pair of multipliers λ = ρe^{±iθ} of M = [[a, b], [c, d]] the form c x² + (d − a) x v − b v² is multiplied
+//! by det M = ρ² in each period, whatever the phase of the slow motion. Its root is the distance used here: it falls by exactly ρ a
+//! period while the motion is small, so that a measured rate can be held against ln ρ. For real multipliers
+//! the distance is √(x² + v²).
+//!
+//! Without dither the response is steady sliding, x = μ(v₀)F, and M that of x″ + (2ζ + μ′(v₀)F)x′ + x = 0 in closed form.
+
+use quell_model::Belt;
+
+use super::strobe::Strobe;
+use crate::orbit::{Matrix, NoOrbit, Orbit, Verdict, from_sliding};
+
+/// Steps of the dither from nothing to its amplitude.
+const STEPS: u32 = 8;
+
+/// Multipliers this near to modulus 1 leave the verdict open, as for orbits.
+const UNDECIDED: f64 = 1e-9;
+
+/// The response that sliding becomes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quiet {
+    /// x at τ = 0.
+    pub displacement: f64,
+    /// x′ at τ = 0.
+    pub velocity: f64,
+    /// The larger modulus of its multipliers over one period of the strobe.
+    pub radius: f64,
+    /// Whether it is stable.
+    pub verdict: Verdict,
+    /// Coefficients of x², xv, v² of the form above; `None` for real multipliers.
+    form: Option<[f64; 3]>,
+}
+
+impl Quiet {
+    /// The response of a belt.
+    ///
+    /// # Errors
+    /// [`NoOrbit`] where shooting does not find it.
+    pub(super) fn of(belt: &Belt, strobe: Strobe) -> Result<Self, NoOrbit> {
+        if strobe.dithered {
+            return Ok(Self::of_orbit(&from_sliding(belt, STEPS)?));
+        }
+        let slope = belt.friction().slope(belt.belt_velocity());
+        let damping = slope.mul_add(belt.normal_load(), 2.0 * belt.damping_ratio());
+        let matrix = flow(0.5 * damping, strobe.period);
+        let radius = radius(&matrix);
+        Ok(Self::new((belt.steady_sliding(), 0.0), &matrix, radius))
+    }
+
+    fn of_orbit(orbit: &Orbit) -> Self {
+        let state = (orbit.start.displacement, orbit.start.velocity);
+        Self { verdict: orbit.verdict(), ..Self::new(state, &orbit.monodromy, orbit.radius()) }
+    }
+
+    fn new((displacement, velocity): (f64, f64), matrix: &Matrix, radius: f64) -> Self {
+        let [[a, b], [c, d]] = *matrix;
+        // −(discriminant)/4 = Im²λ, the determinant of the form.
+        let squared = -(0.25 * (a - d) * (a - d) + b * c);
+        let form = (squared > 0.0).then(|| {
+            let unit = libm::copysign(libm::sqrt(squared), c);
+            [c / unit, (d - a) / unit, -b / unit]
+        });
+        let verdict = match radius {
+            radius if radius > 1.0 + UNDECIDED => Verdict::Unstable,
+            radius if radius < 1.0 - UNDECIDED => Verdict::Stable,
+            _ => Verdict::Undecided,
+        };
+        Self { displacement, velocity, radius, verdict, form }
+    }
+
+    /// Distance of a state of the section.
+    pub fn distance(&self, displacement: f64, velocity: f64) -> f64 {
+        let (x, v) = (displacement - self.displacement, velocity - self.velocity);
+        match self.form {
+            Some([xx, xv, vv]) => libm::sqrt((xx * x * x + xv * x * v + vv * v * v).abs()),
+            None => libm::hypot(x, v),
+        }
+    }
+
+    /// ln ρ, at which small motions decay or grow each period, where they all do so alike.
+    pub fn rate(&self) -> Option<f64> {
+        self.form.map(|_| libm::log(self.radius))
+    }
+}
+
+/// e^{At} of x″ + 2δx′ + x = 0.
+fn flow(delta: f64, t: f64) -> Matrix {
+    let square = 1.0 - delta * delta;
+    let omega = libm::sqrt(square.abs());
+    let fall = libm::exp(-delta * t);
+    // cos ωt and sin(ωt)/ω, or their hyperbolic twins.
+    let (even, odd) = if square > 0.0 {
+        (libm::cos(omega * t), libm::sin(omega * t) / omega)
+    } else if square < 0.0 {
+        (libm::cosh(omega * t), libm::sinh(omega * t) / omega)
+    } else {
+        (1.0, t)
+    };
+    [[fall * (even + delta * odd), fall * odd], [-fall * odd, fall * (even - delta * odd)]]
+}
+
+/// Spectral radius of a 2 × 2 matrix.
+fn radius([[a, b], [c, d]]: &Matrix) -> f64 {
+    let discriminant = 0.25 * (a - d) * (a - d) + b * c;
+    if discriminant < 0.0 {
+        return libm::sqrt(a * d - b * c);
+    }
+    (0.5 * (a + d)).abs() + libm::sqrt(discriminant)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_form_falls_by_the_radius_each_period() {
+        for delta in [0.003, 0.4, -0.02] {
+            let matrix = flow(delta, 0.7);
+            let quiet = Quiet::new((0.3, 0.0), &matrix, radius(&matrix));
+            assert!((quiet.radius - (-delta * 0.7_f64).exp()).abs() < 1e-15);
+            let [[a, b], [c, d]] = matrix;
+            let (mut x, mut v) = (0.2, -0.1);
+            for _ in 0..5 {
+                let before = quiet.distance(0.3 + x, v);
+                (x, v) = (a * x + b * v, c * x + d * v);
+                let after = quiet.distance(0.3 + x, v);
+                assert!((after / before - quiet.radius).abs() < 1e-12, "{delta}");
+            }
+        }
+        // An overdamped belt has no such form.
+        let matrix = flow(1.5, 0.7);
+        assert!(Quiet::new((0.0, 0.0), &matrix, radius(&matrix)).rate().is_none());
+    }
+}

@@ -1,0 +1,320 @@
+//! Runs side by side, in blocks of periods, until each has settled.
+//!
+//! After each block one of these ends a run:
+//! 1. **Quiet.** It is at the response of sliding, and that is stable; or its distance falls with the rate of the multipliers
+//!    (within `ALIKE`, two blocks in a row), so that the rest of the way is known.
+//! 2. **Elsewhere.** Centre, size and shape of the section no longer change, and what they would still change by at the
+//!    measured rate is below the closeness asked for. Where the block has a stick that is enough: a stick forgets all but its
+//!    moment. In slip throughout the rate at which areas shrink must be positive, and fast enough for the rest of the way.
+//! 3. **Unsettled**, when its periods are over: it still moves, or it dwells beside a curve that does not attract.
+//!
+//! A start on an unstable response of sliding would stay there for as long as rounding lets it: it is displaced by
+//! `NUDGE` F first.
+//!
+//! Each run depends on itself alone: the outcome has the same bits in any company.
+//! Limits: a run counts as quiet on the linear rate although a further attractor could hide in the neighbourhood where the rate is
+//! within `ALIKE` of it; the slow change along a curve with sticks that is about to lock is not a change of size.
+
+use super::average::Moments;
+use super::quiet::Quiet;
+use super::strobe::Scene;
+use super::watch::Watch;
+use crate::orbit::Verdict;
+use crate::simulation::{FinalState, Run, Stalled, Start, simulate_many};
+
+/// Periods of the strobe in a block: some 25 slow turns at R = 10, enough for the bump's averages.
+pub(super) const BLOCK: usize = 256;
+
+/// Periods at either end of a block over which a rate is measured.
+const WINDOW: usize = 64;
+
+/// Distance from the quiet response, relative to F, that counts as being there.
+const NEAR: f64 = 1e-6;
+
+/// Relative difference of a measured rate and the multipliers' that counts as alike.
+const ALIKE: f64 = 0.05;
+
+/// Displacement of a start on an unstable response, relative to F: far above rounding, far below any response.
+const NUDGE: f64 = 1e-4;
+
+/// Size of a section, relative to F, below which it is one state.
+const POINT: f64 = 1e-7;
+
+/// How long and how closely.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Patience {
+    /// Bound on the last retained Taylor terms of a step, relative to F.
+    pub tolerance: f64,
+    /// What centre, size and shape of the section may still change by, relative to its size.
+    pub closeness: f64,
+    /// Most periods of a run.
+    pub periods: u64,
+}
+
+impl Patience {
+    /// For one response that is to be measured.
+    pub const SWEEP: Self = Self { tolerance: 1e-12, closeness: 1e-3, periods: 1_000_000 };
+
+    /// For many starts that are to be told apart.
+    pub const BASIN: Self = Self { tolerance: 1e-12, closeness: 3e-3, periods: 100_000 };
+}
+
+/// Why a run has not settled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unsettled {
+    /// It still moved when its periods were over.
+    Moving,
+    /// It dwells in slip where areas grow: beside an unstable curve between two basins.
+    Dwelling,
+}
+
+impl Unsettled {
+    /// In words.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Moving => "it still moved when its periods were over",
+            Self::Dwelling => "it dwells beside an unstable curve between two basins",
+        }
+    }
+}
+
+/// Where a run ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Outcome {
+    /// On the response that sliding becomes.
+    Quiet,
+    /// On another attractor.
+    Elsewhere,
+    /// Unknown.
+    Unsettled(Unsettled),
+}
+
+/// A run that is over.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settled {
+    /// Where.
+    pub outcome: Outcome,
+    /// Its last state, at τ = 0 modulo the period.
+    pub state: Start,
+    /// Periods it took.
+    pub periods: u64,
+    /// Its last block.
+    pub(super) summary: Summary,
+}
+
+/// What is kept of a block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Summary {
+    /// Centre, size and shape of the motion, over time.
+    pub(super) moments: Moments,
+    /// Size of the section: of the slow motion alone.
+    pub(super) size: f64,
+}
+
+impl Summary {
+    /// The largest difference of centre, size and shape, a length.
+    pub(super) fn distance(&self, other: &Self) -> f64 {
+        self.moments.distance(&other.moments, self.size.max(other.size))
+    }
+}
+
+/// A run under way.
+struct Course {
+    number: usize,
+    state: Start,
+    blocks: u64,
+    /// The last blocks, newest last.
+    earlier: Vec<Summary>,
+    /// Whether the last block decayed as the multipliers say.
+    decayed_alike: bool,
+    /// Whether areas are watched in the next block.
+    watches_area: bool,
+    /// Whether it looked settled where areas grow.
+    dwelt: bool,
+}
+
+/// Runs one start until it has settled.
+///
+/// # Errors
+/// [`Stalled`].
+pub fn settle(scene: &Scene<'_>, start: Start, patience: Patience) -> Result<Settled, Stalled> {
+    let many = settle_many(scene, &[start], patience);
+    many.into_iter().next().unwrap_or(Err(Stalled::NEVER_STARTED))
+}
+
+/// Runs every start until it has settled, side by side. The dither has its phase at τ = 0, where every run starts.
+pub fn settle_many(
+    scene: &Scene<'_>,
+    starts: &[Start],
+    patience: Patience,
+) -> Vec<Result<Settled, Stalled>> {
+    let mut outcomes = vec![Err(Stalled::NEVER_STARTED); starts.len()];
+    let mut under_way: Vec<Course> = starts
+        .iter()
+        .enumerate()
+        .map(|(number, start)| Course::new(number, nudged(scene, *start)))
+        .collect();
+    let period = scene.strobe.period;
+    let length = BLOCK as f64 * period;
+    while !under_way.is_empty() {
+        let mut watches: Vec<Watch<'_>> = under_way
+            .iter()
+            .map(|course| {
+                let watch = Watch::new(period, BLOCK);
+                if course.watches_area { watch.with_contraction(scene.belt) } else { watch }
+            })
+            .collect();
+        let runs: Vec<Run<'_>> = under_way
+            .iter()
+            .zip(&mut watches)
+            .map(|(course, watch)| Run {
+                belt: scene.belt,
+                start: course.state,
+                until: length,
+                observer: watch,
+            })
+            .collect();
+        let ends = simulate_many(runs, patience.tolerance);
+        let mut still = Vec::with_capacity(under_way.len());
+        for ((mut course, watch), end) in under_way.into_iter().zip(&watches).zip(ends) {
+            let number = course.number;
+            match end.map(|end| course.after(scene, patience, watch, &end)) {
+                Ok(None) => still.push(course),
+                Ok(Some(settled)) => outcomes[number] = Ok(settled),
+                Err(stalled) => outcomes[number] = Err(stalled),
+            }
+        }
+        under_way = still;
+    }
+    outcomes
+}
+
+/// A start that does not stand on an unstable response.
+fn nudged(scene: &Scene<'_>, start: Start) -> Start {
+    let start = Start { time: 0.0, ..start };
+    let nudge = NUDGE * scene.belt.normal_load();
+    match &scene.quiet {
+        Ok(quiet)
+            if quiet.verdict != Verdict::Stable
+                && quiet.distance(start.displacement, start.velocity) < nudge =>
+        {
+            Start { displacement: quiet.displacement + nudge, velocity: quiet.velocity, ..start }
+        }
+        _ => start,
+    }
+}
+
+impl Course {
+    fn new(number: usize, state: Start) -> Self {
+        Self {
+            number,
+            state,
+            blocks: 0,
+            earlier: Vec::new(),
+            decayed_alike: false,
+            watches_area: false,
+            dwelt: false,
+        }
+    }
+
+    /// What a block says; `None` to go on.
+    fn after(
+        &mut self,
+        scene: &Scene<'_>,
+        patience: Patience,
+        watch: &Watch<'_>,
+        end: &FinalState,
+    ) -> Option<Settled> {
+        let section = watch.section();
+        let now = Summary { moments: watch.moments(), size: Moments::of(&section).size() };
+        self.state = Start { time: 0.0, displacement: end.displacement, velocity: end.velocity };
+        self.blocks += 1;
+        let scale = scene.belt.normal_load();
+        if let Ok(quiet) = &scene.quiet
+            && quiet.verdict == Verdict::Stable
+            && self.nears(quiet, &section, scale)
+        {
+            return Some(self.over(Outcome::Quiet, now));
+        }
+        let still = self.change(patience, now, scale);
+        self.earlier.push(now);
+        if let Some(change) = still {
+            if watch.sticks > 0 || now.size < POINT * scale {
+                return Some(self.over(Outcome::Elsewhere, now));
+            }
+            match watch.contraction() {
+                None => self.watches_area = true,
+                Some((rate, error)) => {
+                    let length = BLOCK as f64 * scene.strobe.period;
+                    // What is left of the way shrinks by this share a block.
+                    let share = -libm::expm1(-rate * length);
+                    if rate > error && change <= share * patience.closeness * now.size {
+                        return Some(self.over(Outcome::Elsewhere, now));
+                    }
+                    self.dwelt = rate < -error;
+                }
+            }
+        } else {
+            self.watches_area = false;
+        }
+        if self.blocks * BLOCK as u64 >= patience.periods {
+            let why = if self.dwelt { Unsettled::Dwelling } else { Unsettled::Moving };
+            return Some(self.over(Outcome::Unsettled(why), now));
+        }
+        None
+    }
+
+    fn over(&self, outcome: Outcome, summary: Summary) -> Settled {
+        Settled { outcome, state: self.state, periods: self.blocks * BLOCK as u64, summary }
+    }
+
+    /// Whether it is at the quiet response, or on a way there that is known.
+    fn nears(&mut self, quiet: &Quiet, section: &[(f64, f64)], scale: f64) -> bool {
+        if quiet.distance(self.state.displacement, self.state.velocity) < NEAR * scale {
+            return true;
+        }
+        let Some(expected) = quiet.rate() else { return false };
+        let size = |states: &[(f64, f64)]| {
+            let squares = states.iter().map(|&(x, v)| {
+                let distance = quiet.distance(x, v);
+                distance * distance
+            });
+            libm::sqrt(squares.sum())
+        };
+        let (first, last) = (size(&section[..WINDOW]), size(&section[BLOCK - WINDOW..]));
+        let measured = libm::log(last / first) / (BLOCK - WINDOW) as f64;
+        let alike = (measured - expected).abs() <= ALIKE * expected.abs();
+        let before = std::mem::replace(&mut self.decayed_alike, alike);
+        alike && before
+    }
+
+    /// The largest change of the last blocks, where the section has come to rest within the closeness.
+    fn change(&self, patience: Patience, now: Summary, scale: f64) -> Option<f64> {
+        let size = now.size;
+        let allowed = patience.closeness * size;
+        let [.., third, second, last] = self.earlier.as_slice() else { return None };
+        let change = now.distance(last);
+        if size < POINT * scale {
+            return (change < POINT * scale).then_some(change);
+        }
+        let before = last.distance(second);
+        let ratio = change / before;
+        // It shrinks evenly: what is left is a geometric sum.
+        if ratio < 0.9 && change <= allowed * (1.0 - ratio) && before <= 10.0 * allowed {
+            return Some(change);
+        }
+        // It wavers without a trend.
+        let wavers = [change, before, second.distance(third)].into_iter().fold(0.0, f64::max);
+        (wavers <= allowed / 3.0 && now.distance(third) <= 0.5 * allowed).then_some(wavers)
+    }
+}
+
+impl Settled {
+    /// Why it has not settled, where it has not.
+    pub fn why(&self) -> Option<Unsettled> {
+        match self.outcome {
+            Outcome::Unsettled(why) => Some(why),
+            Outcome::Quiet | Outcome::Elsewhere => None,
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! What is seen of a block of periods: the section, sticks, and how fast areas shrink.
+//!
+//! In slip an area of nearby states shrinks with the rate 2ζ + μ′(v_r)N; a reversal multiplies it by a₊/a₋, a stick by zero. On
+//! a closed curve that is filled quasi-periodically one exponent is zero along the curve, so that the other one, across
+//! it, is minus the mean rate: a curve attracts if and only if that mean is positive. A run that dwells beside an unstable
+//! curve between two basins looks settled, and this mean tells it apart.
+
+use std::sync::LazyLock;
+
+use quell_model::{Belt, Direction};
+use quell_numerics::gauss_legendre::GaussLegendre;
+
+use super::average::{Moments, Sums, bump};
+use crate::simulation::{Event, EventKind, Observer, Sampler, Segment};
+
+/// Nodes of a segment: 10⁻⁶ of the rate on steps of the engine, where only its sign and size are asked for.
+const NODES: usize = 5;
+
+static RULE: LazyLock<GaussLegendre> = LazyLock::new(|| GaussLegendre::new(NODES));
+
+/// Share of a segment over which an acceleration at its end is measured.
+const BESIDE: f64 = 1e-5;
+
+/// Half the distance of the two Gaussian nodes of a segment, over which states are averaged: 10⁻⁵ of what varies in a step.
+const BESIDE_MIDDLE: f64 = 0.288_675_134_594_812_9;
+
+/// Watches a block that starts at τ = 0.
+pub(super) struct Watch<'a> {
+    sampler: Sampler,
+    length: f64,
+    sums: Sums,
+    /// Time spent in stick.
+    pub(super) stuck: f64,
+    /// Number of times that the mass began to stick.
+    pub(super) sticks: u64,
+    /// Number of reversals.
+    pub(super) reversals: u64,
+    contraction: Option<Contraction<'a>>,
+}
+
+impl<'a> Watch<'a> {
+    /// A watch over `periods` of the strobe.
+    pub(super) fn new(period: f64, periods: usize) -> Self {
+        Self {
+            sampler: Sampler::new(0.0, period, periods),
+            length: periods as f64 * period,
+            sums: Sums::default(),
+            stuck: 0.0,
+            sticks: 0,
+            reversals: 0,
+            contraction: None,
+        }
+    }
+
+    /// The same with the contraction of area.
+    pub(super) fn with_contraction(mut self, belt: &'a Belt) -> Self {
+        self.contraction = Some(Contraction::new(belt, self.length));
+        self
+    }
+
+    /// Centre, size and shape of the motion, averaged over time: where the slow motion is nearly locked the section creeps
+    /// along its curve, and its own averages with it; these do not mind.
+    pub(super) fn moments(&self) -> Moments {
+        self.sums.moments()
+    }
+
+    /// The section, one state a period.
+    pub(super) fn section(&self) -> Vec<(f64, f64)> {
+        let states = self.sampler.samples.iter();
+        states.map(|sample| (sample.displacement, sample.velocity)).collect()
+    }
+
+    /// Mean rate at which areas shrink, and its error, where it was watched.
+    pub(super) fn contraction(&self) -> Option<(f64, f64)> {
+        self.contraction.as_ref().map(Contraction::mean)
+    }
+}
+
+impl Observer for Watch<'_> {
+    fn segment(&mut self, segment: &Segment<'_>) {
+        self.sampler.segment(segment);
+        let h = segment.duration();
+        let weight = h * bump((segment.clock().time() + 0.5 * h) / self.length);
+        for node in [0.5 - BESIDE_MIDDLE, 0.5 + BESIDE_MIDDLE] {
+            let since = node * h;
+            self.sums.add(weight, segment.displacement(since), segment.velocity(since));
+        }
+        if segment.slip_sign() == 0 {
+            self.stuck += segment.duration();
+        }
+        if let Some(contraction) = &mut self.contraction {
+            contraction.segment(segment);
+        }
+    }
+
+    fn event(&mut self, event: &Event) {
+        match event.kind {
+            EventKind::Stick => self.sticks += 1,
+            EventKind::Reversal => {
+                self.reversals += 1;
+                if let Some(contraction) = &mut self.contraction {
+                    contraction.reversed = true;
+                }
+            }
+            EventKind::Release => {}
+        }
+    }
+}
+
+/// ∫(2ζ + μ′N)dτ − Σ ln|a₊/a₋|, weighted over the block and over each half of it.
+struct Contraction<'a> {
+    belt: &'a Belt,
+    length: f64,
+    /// Σ w·rate and Σ w·h of the block and of its halves.
+    sums: [(f64, f64); 3],
+    /// The acceleration of v_r at the end of the last segment, and whether a reversal followed.
+    before: f64,
+    reversed: bool,
+}
+
+impl<'a> Contraction<'a> {
+    fn new(belt: &'a Belt, length: f64) -> Self {
+        Self { belt, length, sums: [(0.0, 0.0); 3], before: 0.0, reversed: false }
+    }
+
+    fn segment(&mut self, segment: &Segment<'_>) {
+        let h = segment.duration();
+        let beside = BESIDE * h;
+        if self.reversed && beside > 0.0 {
+            let after = segment.slip_velocity(beside) / beside;
+            self.add(segment.clock().time(), -libm::log((after / self.before).abs()), 0.0);
+        }
+        self.reversed = false;
+        let middle = segment.clock().time() + 0.5 * h;
+        if segment.slip_sign() == 0 {
+            self.add(middle, 0.0, h);
+            return;
+        }
+        let rule = &*RULE;
+        let rates = rule.nodes.iter().map(|node| self.rate(segment, 0.5 * h * (1.0 + node)));
+        let mean = 0.5 * rates.zip(&rule.weights).map(|(rate, w)| rate * w).sum::<f64>();
+        self.add(middle, h * mean, h);
+        if beside > 0.0 {
+            self.before = segment.slip_velocity(h - beside) / -beside;
+        }
+    }
+
+    /// 2ζ + μ′(v_r)N.
+    fn rate(&self, segment: &Segment<'_>, since: f64) -> f64 {
+        let time = segment.clock().time() + since;
+        let normal = self.belt.dithers_along(Direction::Normal).map(|it| {
+            it.amplitude * it.waveform.value(f64::mul_add(it.frequency_ratio, time, it.phase))
+        });
+        let load = self.belt.normal_load() + normal.sum::<f64>();
+        let slope = self.belt.friction().slope(segment.slip_velocity(since).abs());
+        f64::mul_add(slope, load, 2.0 * self.belt.damping_ratio())
+    }
+
+    fn add(&mut self, time: f64, amount: f64, duration: f64) {
+        let place = time / self.length;
+        for (sum, t) in self.sums.iter_mut().zip([place, 2.0 * place, 2.0 * place - 1.0]) {
+            let weight = bump(t);
+            sum.0 += weight * amount;
+            sum.1 += weight * duration;
+        }
+    }
+
+    fn mean(&self) -> (f64, f64) {
+        let [whole, first, second] = self.sums.map(|(sum, time)| sum / time);
+        (whole, (first - second).abs())
+    }
+}

@@ -1,0 +1,182 @@
+//! `quell basins`: which starts end on which response.
+
+use std::fmt::Write as _;
+
+use clap::Args;
+use quell::run::attractor::words;
+use quell::run::basins::{Basins, Layout, Over, Portrait, Question, run as basins};
+use quell::sweep::Running;
+use quell::{Complaint, Failure, Fault, Origin, Study, picture};
+use quell_model::units::Quantity;
+
+use super::map::threads;
+use super::range::{count, number, range};
+use crate::answer::Answer;
+use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
+use crate::interrupt;
+use crate::progress::Bar;
+use crate::table::figure;
+
+/// Finds the responses that starts of a window end on, and which share of it each holds
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// Displacements x of the window; about steady sliding by default
+    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
+    displacement: Option<String>,
+    /// Velocities x′ of the window
+    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
+    velocity: Option<String>,
+    /// A grid of so many displacements and velocities, from edge to edge [default: 41x31]
+    #[arg(long, value_name = "NxM", conflicts_with = "sample")]
+    grid: Option<String>,
+    /// So many random states in place of a grid
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    sample: Option<String>,
+    /// Which random states
+    #[arg(long, value_name = "SEED", requires = "sample", default_value_t = 1)]
+    seed: u64,
+    /// Follows the shares over this parameter, such as dither.amplitude; needs --from and --to
+    #[arg(long, value_name = "PATH", requires = "from", requires = "to")]
+    over: Option<String>,
+    /// Its smallest value
+    #[arg(long, value_name = "A", requires = "over", allow_hyphen_values = true)]
+    from: Option<String>,
+    /// Its largest value
+    #[arg(long, value_name = "B", requires = "over", allow_hyphen_values = true)]
+    to: Option<String>,
+    /// Number of its values
+    #[arg(long, value_name = "N", default_value = "41", allow_hyphen_values = true)]
+    points: String,
+    /// Number of threads; all there are by default
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    threads: Option<String>,
+    #[command(flatten)]
+    output: OutputArguments,
+    #[command(flatten)]
+    plot: PlotArguments,
+}
+
+/// Answers.
+pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
+    let mut complaints = Complaints::default();
+    let study = complaints.take(arguments.study.read());
+    let question = question(arguments, study.as_ref(), &mut complaints);
+    let threads = complaints.take(threads(arguments.threads.as_deref()));
+    let output = complaints.take(arguments.output.prepare(&[]));
+    let plot = complaints.take(arguments.plot.prepare());
+    let ((study, question), (threads, (output, plot))) =
+        complaints.finish(study.zip(question).zip(threads.zip(output.zip(plot))))?;
+    let bar = Bar::new();
+    let running = Running { threads, stop: interrupt::flag(), progress: &bar };
+    let done = basins(&study, &question, running)?;
+    let mut object = done.json(&study);
+    output.write(&[done.dataset(&study)], &mut object)?;
+    plot.try_write(|| picture::basins(&study, &done), &mut object)?;
+    let answer = Answer::new(arguments.study.json, || object, || text(&study, &done));
+    Ok(answer.warning(done.warnings()))
+}
+
+fn question(
+    arguments: &Arguments,
+    study: Option<&Study>,
+    complaints: &mut Complaints,
+) -> Option<Question> {
+    let scales = study.and_then(Study::scales);
+    let mut window = |option, text: &Option<String>, quantity| {
+        let found = text.as_deref().map(|text| range(option, text, quantity, scales));
+        complaints.take(found.transpose())
+    };
+    let displacement = window("--displacement", &arguments.displacement, Quantity::Displacement);
+    let velocity = window("--velocity", &arguments.velocity, Quantity::Velocity);
+    let layout = complaints.take(layout(arguments));
+    let over = match &arguments.over {
+        None => Some(None),
+        Some(parameter) => {
+            let end =
+                |option, text: &Option<String>| number(option, text.as_deref().unwrap_or_default());
+            let from = complaints.take(end("--from", &arguments.from));
+            let to = complaints.take(end("--to", &arguments.to));
+            let points = complaints.take(count("--points", &arguments.points));
+            let parameter = parameter.clone();
+            from.zip(to)
+                .zip(points)
+                .map(|((from, to), points)| Some(Over { parameter, from, to, points }))
+        }
+    };
+    Some(Question {
+        displacement: displacement?,
+        velocity: velocity?,
+        layout: layout?,
+        over: over?,
+    })
+}
+
+fn layout(arguments: &Arguments) -> Result<Layout, Box<Complaint>> {
+    if let Some(text) = &arguments.sample {
+        return Ok(Layout::Sample { count: count("--sample", text)?, seed: arguments.seed });
+    }
+    let Some(text) = &arguments.grid else { return Ok(Layout::default()) };
+    let sides = text.split_once(['x', 'X', '×']).and_then(|(columns, rows)| {
+        Some((columns.trim().parse().ok()?, rows.trim().parse().ok()?))
+    });
+    sides.map(|(columns, rows)| Layout::Grid { columns, rows }).ok_or_else(|| {
+        let allowed = "NxM, a number of displacements and one of velocities, such as 41x31";
+        let origin = Origin::Argument("--grid");
+        Box::new(Complaint::new(Fault::Value, "--grid", origin, text.as_str(), allowed))
+    })
+}
+
+fn text(study: &Study, done: &Basins) -> String {
+    let mut text = String::new();
+    if let Some(title) = study.title() {
+        let _ = writeln!(text, "{title}");
+    }
+    let _ = writeln!(text, "{}", done.sentence(study));
+    let _ = writeln!(text, "  {}", done.starts_in_words(study));
+    match (&done.varied, done.portraits.as_slice()) {
+        (None, [portrait]) => text += &attractors(portrait),
+        (varied, portraits) => {
+            let path = varied.as_ref().map_or("", |varied| varied.path.as_str());
+            let _ = writeln!(text, "\n  {path:<18}  quiet response  share of starts that reach it");
+            for portrait in portraits {
+                let value = portrait.value.map_or_else(String::new, figure);
+                let local = portrait.local.as_ref().map_or("unknown", |verdict| verdict.name());
+                let share = portrait.quiet().map_or_else(
+                    || "none".to_owned(),
+                    |share| {
+                        format!(
+                            "{} ({} to {})",
+                            figure(share.fraction),
+                            figure(share.low),
+                            figure(share.high)
+                        )
+                    },
+                );
+                let _ = writeln!(text, "  {value:<18}  {local:<14}  {share}");
+            }
+        }
+    }
+    let _ = writeln!(text, "  bounds: {}", done.meaning());
+    text
+}
+
+fn attractors(portrait: &Portrait) -> String {
+    let mut text = String::new();
+    for (basin, share) in portrait.gathered.basins.iter().zip(&portrait.shares) {
+        let attractor = &basin.attractor;
+        let quiet = if attractor.quiet { "quiet, " } else { "" };
+        let _ = writeln!(
+            text,
+            "  {:>6.2} % ({:.2} to {:.2})  {quiet}{}, peak-to-peak {}, stick fraction {}",
+            100.0 * share.fraction,
+            100.0 * share.low,
+            100.0 * share.high,
+            words(attractor, portrait.period),
+            figure(attractor.size()),
+            figure(attractor.stick_fraction),
+        );
+    }
+    text
+}

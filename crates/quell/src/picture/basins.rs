@@ -1,0 +1,150 @@
+//! Basins in the plane of starts, and the share of the quiet response over a parameter.
+
+use quell_belt::attractor::{Basin, Label};
+use quell_belt::orbit::Verdict;
+use quell_model::units::Quantity;
+
+use super::bifurcation::{axis, stretches};
+use super::caption::caption;
+use super::map::{Map, MapAxis, MapKind, map_panel};
+use super::ruler::Ruler;
+use crate::complaint::Failure;
+use crate::plot::{
+    Axis, Figure, Layer, Legend, Line, Marker, Panel, Points, Region, Role, SharedLegend, Size,
+};
+use crate::run::attractor::words;
+use crate::run::basins::{Basins, Portrait, Share};
+use crate::study::Study;
+
+/// States of a section that are drawn.
+const STATES: usize = 400;
+
+/// Why an end has no colour.
+const UNKNOWN: &str = "end not known";
+
+/// The picture of basins: the plane of starts, or the share over a parameter.
+///
+/// # Errors
+/// [`Failure::Failed`] where it cannot be drawn.
+pub fn basins(study: &Study, done: &Basins) -> Result<Figure, Failure> {
+    let figure = match (&done.varied, done.portraits.as_slice()) {
+        (None, [portrait]) => {
+            Figure::single(plane(study, done, portrait)?).size(Size::Frame(420.0, 330.0))
+        }
+        _ => {
+            Figure::single(shares(done)).legend(SharedLegend::Above).size(Size::Frame(480.0, 280.0))
+        }
+    };
+    let title = study.title().unwrap_or_default();
+    let told =
+        format!("{} {}. {}.", done.sentence(study), done.starts_in_words(study), caption(study));
+    Ok(figure.title(title).caption(told))
+}
+
+/// The plane of starts of one portrait.
+///
+/// # Errors
+/// [`Failure::Failed`] where it cannot be drawn.
+pub(crate) fn plane(study: &Study, done: &Basins, portrait: &Portrait) -> Result<Panel, Failure> {
+    let window = done.starts.window();
+    let (x, v) = (
+        Ruler::of(study, Quantity::Displacement, [window.displacement.0, window.displacement.1]),
+        Ruler::of(study, Quantity::Velocity, [window.velocity.0, window.velocity.1]),
+    );
+    let basins = &portrait.gathered.basins;
+    let outcome = |place: usize| {
+        let share = 100.0 * portrait.shares[place].fraction;
+        let name = if basins[place].attractor.quiet {
+            "quiet".to_owned()
+        } else {
+            words(&basins[place].attractor, portrait.period)
+        };
+        (role(basins, place), format!("{name}: {share:.1} %"))
+    };
+    let mut over: Vec<Layer> = Vec::new();
+    for (place, basin) in basins.iter().enumerate() {
+        let section = &basin.attractor.section;
+        let step = section.len().div_ceil(STATES).max(1);
+        let states: Vec<(f64, f64)> =
+            section.iter().step_by(step).map(|(a, b)| (x.place(*a), v.place(*b))).collect();
+        let single = states.len() == 1;
+        let points = Points::new(if single { Role::Exact } else { role(basins, place) }, states);
+        let marker = if single { Marker::Cross } else { Marker::Disc };
+        let label = if place == 0 { "sections of the responses" } else { "" };
+        over.push(points.marker(marker).size(if single { 8.0 } else { 2.4 }).label(label).into());
+    }
+    let (across, up) = (x.axis("displacement", "x"), v.axis("velocity", "x′"));
+    let labels = &portrait.gathered.labels;
+    let Some((columns, rows)) = done.starts.axes() else {
+        let mut panel = Panel::new(across, up);
+        for place in 0..basins.len() {
+            let (role, label) = outcome(place);
+            let states = done.starts.states().iter().zip(labels);
+            let inside = states.filter(|(_, label)| **label == Label::Attractor(place));
+            let inside = inside.map(|(it, _)| (x.place(it.displacement), v.place(it.velocity)));
+            panel = panel.with(Points::new(role, inside).size(3.0).label(label));
+        }
+        return Ok(panel.with_all(over).legend(Legend::Above));
+    };
+    let value = |column: usize, row: usize| match labels[row * columns.len() + column] {
+        Label::Attractor(place) => Ok(place as f64),
+        Label::Unsettled(_) | Label::Stalled(_) => Err(0),
+    };
+    let values =
+        (0..columns.len()).flat_map(|column| (0..rows.len()).map(move |row| (column, row)));
+    let picture = Map {
+        values: values.map(|(column, row)| value(column, row)).collect(),
+        axes: vec![
+            MapAxis { axis: across, values: columns.iter().map(|it| x.place(*it)).collect() },
+            MapAxis { axis: up, values: rows.iter().map(|it| v.place(*it)).collect() },
+        ],
+        quantity: Axis::new("end"),
+        kind: MapKind::Outcome((0..basins.len()).map(outcome).collect()),
+        reasons: vec![UNKNOWN.to_owned()],
+        over,
+    };
+    let panel = map_panel(&picture, false);
+    let panel =
+        panel.map_err(|why| Failure::Failed { key: "--plot".to_owned(), why: why.to_string() })?;
+    Ok(panel.legend(Legend::Above))
+}
+
+/// The quiet response is blue, the largest other one red.
+fn role(basins: &[Basin], place: usize) -> Role {
+    let quiet_first = basins.first().is_some_and(|basin| basin.attractor.quiet);
+    match (quiet_first, place) {
+        (true, 0) => Role::Stable,
+        (true, 1) | (false, 0) => Role::Unstable,
+        _ => Role::Series(place + 1),
+    }
+}
+
+/// The share of the quiet response over the parameter.
+fn shares(done: &Basins) -> Panel {
+    let Some(varied) = &done.varied else { return Panel::default() };
+    let up = Axis::new("share of starts that fall quiet").between(0.0, 1.0);
+    let mut panel = Panel::new(axis(varied), up);
+    let points = |which: fn(Share) -> f64| -> Vec<(f64, f64)> {
+        let of = |it: &Portrait| Some((it.value?, it.quiet().map_or(0.0, which)));
+        done.portraits.iter().filter_map(of).collect()
+    };
+    let local: Vec<(f64, bool)> = done
+        .portraits
+        .iter()
+        .filter_map(|it| Some((it.value?, it.local == Ok(Verdict::Unstable))))
+        .collect();
+    for (number, (from, to)) in stretches(&local).into_iter().enumerate() {
+        let label = if number == 0 { "quiet response unstable" } else { "" };
+        panel = panel.with(Region::across_x(Role::Undecided, from, to).label(label));
+    }
+    panel
+        .with(
+            Region::between(Role::Dithered, points(|share| share.low), points(|share| share.high))
+                .label("bounds"),
+        )
+        .with(
+            Line::new(Role::Dithered, points(|share| share.fraction))
+                .label("starts that fall quiet"),
+        )
+        .with(Points::new(Role::Dithered, points(|share| share.fraction)).size(3.5))
+}

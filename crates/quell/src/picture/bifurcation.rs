@@ -1,0 +1,150 @@
+//! Bifurcation diagrams: section, size and slow frequency over the parameter, up and down.
+
+use quell_belt::attractor::Attractor;
+use quell_belt::orbit::Verdict;
+use quell_model::units::Quantity;
+
+use super::caption::caption_of_run;
+use super::ruler::Ruler;
+use super::sweep::labelled;
+use crate::plot::{
+    Axis, Figure, Line, Marker, Panel, Points, Region, Role, SharedLegend, Sharing, Size,
+};
+use crate::run::bifurcation::{Bifurcation, Branch, Direction};
+use crate::run::varied::Varied;
+use crate::study::Study;
+
+/// States of all sections that are drawn: more is black and makes a picture of many megabytes.
+const MOST_STATES: usize = 16_000;
+
+/// States of one section that are always drawn.
+const STATES: usize = 12;
+
+/// The axis of a varied number.
+pub(super) fn axis(varied: &Varied) -> Axis {
+    labelled(Axis::new(varied.about), varied.symbol.unwrap_or(""), varied.unit)
+}
+
+/// Stretches in which something holds, each from the middle before it to the middle behind it.
+pub(super) fn stretches(values: &[(f64, bool)]) -> Vec<(f64, f64)> {
+    let mut found: Vec<(f64, f64)> = Vec::new();
+    for (place, (value, holds)) in values.iter().enumerate() {
+        if !holds {
+            continue;
+        }
+        let middle = |other: Option<&(f64, bool)>| other.map_or(*value, |it| 0.5 * (it.0 + value));
+        let before = middle(place.checked_sub(1).and_then(|place| values.get(place)));
+        let behind = middle(values.get(place + 1));
+        match found.last_mut() {
+            Some(last) if last.1 >= before => last.1 = behind,
+            _ => found.push((before, behind)),
+        }
+    }
+    found
+}
+
+/// The diagram.
+pub fn bifurcation(study: &Study, done: &Bifurcation) -> Figure {
+    let attractors = || {
+        done.branches
+            .iter()
+            .flat_map(|branch| &branch.points)
+            .filter_map(|it| it.response.as_ref().ok())
+    };
+    let ruler = Ruler::of(
+        study,
+        Quantity::Displacement,
+        attractors().flat_map(|it| [it.lowest, it.highest]),
+    );
+    let count = attractors().count().max(1);
+    let each = (MOST_STATES / count).max(STATES);
+    let panel = |up: Axis| {
+        let mut panel = Panel::new(axis(&done.varied), up);
+        for (number, (from, to)) in unstable(done).into_iter().enumerate() {
+            let region = Region::across_x(Role::Undecided, from, to);
+            let label = if number == 0 { "quiet response unstable" } else { "" };
+            panel = panel.with(region.label(label));
+        }
+        panel
+    };
+    let mut section = panel(ruler.axis("section displacement", "x"));
+    let mut size = panel(ruler.axis("peak-to-peak", "").from(0.0));
+    let mut frequency = panel(Axis::new("slow frequency").symbol("ω/ω_0"));
+    for branch in &done.branches {
+        let (role, marker, width) = look(branch.direction);
+        let label = format!("swept {}", branch.direction.name());
+        let settled =
+            || branch.points.iter().filter_map(|it| Some((it, it.response.as_ref().ok()?)));
+        let states = settled().flat_map(|(point, attractor)| {
+            let step = attractor.section.len().div_ceil(each).max(1);
+            let states = attractor.section.iter().step_by(step);
+            states.map(|(x, _)| (point.value, ruler.place(*x))).collect::<Vec<_>>()
+        });
+        section = section.with(Points::new(role, states).marker(marker).size(width).label(label));
+        let sizes = line(branch, |attractor| Some(ruler.place(attractor.size())));
+        size = size.with(Line::pieces(role, sizes).width(1.6));
+        let turning = settled().filter_map(|(point, attractor)| {
+            Some((point.value, attractor.frequency(point.period)?))
+        });
+        frequency = frequency.with(Points::new(role, turning).marker(marker).size(width + 1.0));
+    }
+    let mut panels = vec![section, size];
+    if attractors().any(|attractor| attractor.rotation.is_some()) {
+        panels.push(frequency);
+    }
+    Figure::grid(1, panels)
+        .sharing_x(Sharing::All)
+        .legend(SharedLegend::Above)
+        .size(Size::Frame(560.0, 190.0))
+        .title(study.title().unwrap_or_default())
+        .caption(format!("{} {}", done.sentence(study), caption_of_run(study)))
+}
+
+/// Colour and mark of a direction: one below the other where both agree.
+fn look(direction: Direction) -> (Role, Marker, f64) {
+    match direction {
+        Direction::Up => (Role::Series(0), Marker::Disc, 2.2),
+        Direction::Down => (Role::Series(1), Marker::Circle, 3.0),
+    }
+}
+
+/// Stretches in which the quiet response is unstable.
+fn unstable(done: &Bifurcation) -> Vec<(f64, f64)> {
+    let Some(branch) = done.branches.first() else { return Vec::new() };
+    let mut values: Vec<(f64, bool)> = branch
+        .points
+        .iter()
+        .map(|point| (point.value, point.local == Ok(Verdict::Unstable)))
+        .collect();
+    values.sort_by(|a, b| a.0.total_cmp(&b.0));
+    stretches(&values)
+}
+
+/// A quantity of a branch, broken where it jumps between the quiet response and another.
+fn line(branch: &Branch, value: impl Fn(&Attractor) -> Option<f64>) -> Vec<Vec<(f64, f64)>> {
+    let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
+    let mut before: Option<bool> = None;
+    for point in &branch.points {
+        let Some(y) = point.response.as_ref().ok().and_then(&value) else {
+            before = None;
+            continue;
+        };
+        match pieces.last_mut() {
+            Some(piece) if before == Some(point.quiet()) => piece.push((point.value, y)),
+            _ => pieces.push(vec![(point.value, y)]),
+        }
+        before = Some(point.quiet());
+    }
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::stretches;
+
+    #[test]
+    fn stretches_reach_half_way_to_their_neighbours() {
+        let values = [(0.0, true), (1.0, true), (2.0, false), (3.0, false), (4.0, true)];
+        assert_eq!(stretches(&values), [(0.0, 1.5), (3.5, 4.0)]);
+    }
+}

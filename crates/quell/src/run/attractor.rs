@@ -1,0 +1,118 @@
+//! Attractors in outcomes: their names in JSON and in sentences, for `bifurcation` and `basins`.
+
+use quell_belt::attractor::{Attractor, Kind, Scene};
+use quell_belt::orbit::NoOrbit;
+use quell_model::Belt;
+use quell_model::units::Quantity;
+use serde_json::{Value as Json, json};
+
+use super::orbit::refused;
+use crate::complaint::Failure;
+use crate::fields::Fields;
+use crate::study::Study;
+
+/// The belt with its strobe and its quiet response.
+pub(super) fn scene(belt: &Belt) -> Result<Scene<'_>, Failure> {
+    Scene::new(belt).map_err(refused)
+}
+
+/// The attractor in words: what it is, and at which frequency it turns.
+pub fn words(attractor: &Attractor, period: f64) -> String {
+    let frequency = attractor.frequency(period);
+    let frequency = frequency
+        .map_or_else(String::new, |frequency| format!(", slow frequency {frequency:.5} ω₀"));
+    let ratio = attractor.rotation.and_then(|rotation| rotation.ratio);
+    match (attractor.kind, ratio) {
+        (Kind::Periodic { periods: 1, .. }, _) if attractor.size() == 0.0 => {
+            "steady sliding".to_owned()
+        }
+        (Kind::Periodic { periods: 1, .. }, _) => "the period of the dither".to_owned(),
+        (Kind::Periodic { periods, .. }, Some(ratio)) => {
+            format!(
+                "locked at {periods} periods, {} turns in {}{frequency}",
+                ratio.turns, ratio.periods
+            )
+        }
+        (kind, _) => format!("{}{frequency}", kind.words()),
+    }
+}
+
+/// What is known of an attractor, added to an object.
+pub(super) fn put(fields: &mut Fields, attractor: &Attractor, period: f64) {
+    let not_turning = || "a response of one period does not turn".to_owned();
+    let rotation = attractor.rotation;
+    let (kind, periods, radius) = match attractor.kind {
+        Kind::Periodic { periods: 1, radius } => ("period-1", Ok(f64::from(1)), Ok(radius)),
+        Kind::Periodic { periods, radius } => ("locked", Ok(f64::from(periods)), Ok(radius)),
+        Kind::Cycle => {
+            let why = || {
+                "a cycle without dither has a period of its own, not one of the strobe".to_owned()
+            };
+            ("limit-cycle", Err(why()), Err(why()))
+        }
+        Kind::QuasiPeriodic => {
+            let why = || "a quasi-periodic response has no period".to_owned();
+            ("quasi-periodic", Err(why()), Err(why()))
+        }
+        Kind::Unclassified => {
+            let why = || "no period up to 400 and no steady rotation number was found".to_owned();
+            ("unclassified", Err(why()), Err(why()))
+        }
+    };
+    fields
+        .plain("kind", kind)
+        .plain("quiet", attractor.quiet)
+        .known("periods", Quantity::Count, periods)
+        .known("multiplier", Quantity::Ratio, radius)
+        .number("displacement", Quantity::Displacement, attractor.state.displacement)
+        .number("velocity", Quantity::Velocity, attractor.state.velocity)
+        .number("lowest", Quantity::Displacement, attractor.lowest)
+        .number("highest", Quantity::Displacement, attractor.highest)
+        .number("peak_to_peak", Quantity::Displacement, attractor.size())
+        .number("stick_fraction", Quantity::Ratio, attractor.stick_fraction)
+        .known(
+            "rotation_number",
+            Quantity::Ratio,
+            rotation.map(|it| it.turns_per_period).ok_or_else(not_turning),
+        )
+        .known(
+            "rotation_error",
+            Quantity::Ratio,
+            rotation.map(|it| it.error).ok_or_else(not_turning),
+        )
+        .known(
+            "frequency",
+            Quantity::FrequencyRatio,
+            attractor.frequency(period).ok_or_else(not_turning),
+        );
+    match rotation.and_then(|it| it.ratio) {
+        Some(ratio) => {
+            fields.plain("locking", json!({ "turns": ratio.turns, "periods": ratio.periods }));
+        }
+        None => {
+            fields.plain("locking", Json::Null).why("locking", "it is not locked");
+        }
+    }
+}
+
+/// The section of an attractor as two arrays.
+pub(super) fn put_section(fields: &mut Fields, attractor: &Attractor) {
+    let (x, v): (Vec<f64>, Vec<f64>) = attractor.section.iter().copied().unzip();
+    fields.numbers("section_displacement", Quantity::Displacement, &x).numbers(
+        "section_velocity",
+        Quantity::Velocity,
+        &v,
+    );
+}
+
+/// Why the response of sliding is not known, in words.
+pub(super) fn unknown(why: &NoOrbit) -> String {
+    format!("the response that sliding becomes was not found: {why}")
+}
+
+/// A number of the study in words.
+pub(super) fn number(study: &Study, unit: &str, value: f64) -> String {
+    let text = format!("{value:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.').to_owned();
+    if study.scales().is_some() && unit != "1" { format!("{text} {unit}") } else { text }
+}

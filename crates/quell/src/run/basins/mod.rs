@@ -1,0 +1,207 @@
+//! `basins`: the attractors that starts of a window of states end on, the share of each, and its curve over a parameter.
+//!
+//! | file | what |
+//! |---|---|
+//! | `starts` | the window and its starts: a grid or a random sample |
+//! | `share` | how large a basin is, and how sure that is |
+//! | `tell` | the outcome as sentence, JSON, datasets |
+
+mod share;
+mod starts;
+mod tell;
+
+use std::sync::atomic::Ordering;
+
+use quell_belt::attractor::{
+    Basins as Gathered, Label, Patience, Scene, Settled, gather, settle_many,
+};
+use quell_belt::orbit::Verdict;
+use quell_belt::simulation::Stalled;
+use rayon::prelude::*;
+
+use super::attractor::{scene, unknown};
+use super::bifurcation::stopped;
+use super::failed;
+use super::varied::Varied;
+use crate::complaint::{Complaint, Failure};
+use crate::study::Study;
+use crate::sweep::Running;
+
+pub use share::Share;
+pub use starts::{Layout, MOST_STARTS, Starts, Window};
+
+/// Starts of one piece of work: enough to fill the lanes of a processor several times.
+const CHUNK: usize = 128;
+
+/// A parameter over which the shares are followed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Over {
+    /// Path of the parameter.
+    pub parameter: String,
+    /// First value.
+    pub from: f64,
+    /// Last value, above the first.
+    pub to: f64,
+    /// Number of values.
+    pub points: usize,
+}
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// Displacements x of the window; from the belt where there is none.
+    pub displacement: Option<(f64, f64)>,
+    /// Velocities x′ of the window; from the belt where there is none.
+    pub velocity: Option<(f64, f64)>,
+    /// How starts are laid out.
+    pub layout: Layout,
+    /// A parameter over which the shares are followed.
+    pub over: Option<Over>,
+}
+
+/// The basins at one value of the parameter, or of the study as it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Portrait {
+    /// The parameter, where one is followed.
+    pub value: Option<f64>,
+    /// Period of the section, τ.
+    pub period: f64,
+    /// Whether the response of sliding is stable, whoever reaches it; or why that is not known.
+    pub local: Result<Verdict, String>,
+    /// Attractors and where each start ends.
+    pub gathered: Gathered,
+    /// The share of each attractor.
+    pub shares: Vec<Share>,
+    /// The share of starts of which the end is not known.
+    pub unknown: Share,
+}
+
+/// The basins of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Basins {
+    /// The starts.
+    pub starts: Starts,
+    /// The parameter that is followed.
+    pub varied: Option<Varied>,
+    /// One for each value; one alone where no parameter is followed.
+    pub portraits: Vec<Portrait>,
+}
+
+/// Runs every start until it has settled and gathers the ends.
+///
+/// # Errors
+/// Complaints about the question; [`Failure::Failed`] if there are no threads or the work is stopped.
+pub fn run(study: &Study, question: &Question, running: Running<'_>) -> Result<Basins, Failure> {
+    let belt = study.belt();
+    let varied = question.over.as_ref().map(|over| {
+        Varied::new(study, "--over", &over.parameter, (over.from, over.to), over.points)
+    });
+    let starts = Starts::new(belt, question.displacement, question.velocity, question.layout);
+    let (varied, starts) = match (varied.transpose(), starts) {
+        (Ok(varied), Ok(starts)) => (varied, starts),
+        (varied, starts) => {
+            let mut complaints: Vec<Complaint> = varied.err().unwrap_or_default();
+            complaints.extend(starts.err().unwrap_or_default());
+            return Err(complaints.into());
+        }
+    };
+    let studies = match &varied {
+        None => vec![(None, study.clone())],
+        Some(varied) => {
+            let at = |value: &f64| Ok((Some(*value), varied.study_at(study, *value)?));
+            varied.values.iter().map(at).collect::<Result<Vec<_>, Failure>>()?
+        }
+    };
+    for (_, study) in &studies {
+        moves(study)?;
+    }
+    let mut pool = rayon::ThreadPoolBuilder::new();
+    if let Some(threads) = running.threads {
+        pool = pool.num_threads(threads);
+    }
+    let pool = pool.build().map_err(|why| Failure::Failed {
+        key: "--threads".to_owned(),
+        why: format!("no threads could be started: {why}"),
+    })?;
+    running.progress.begin(studies.len() * starts.states().len(), 0);
+    let portraits = pool.install(|| portraits(&studies, &starts, running));
+    running.progress.end();
+    Ok(Basins { starts, varied, portraits: portraits? })
+}
+
+/// A belt at rest without dither holds the mass wherever friction can: its attractors are a continuum.
+fn moves(study: &Study) -> Result<(), Failure> {
+    let belt = study.belt();
+    if belt.belt_velocity() > 0.0 {
+        return Ok(());
+    }
+    let allowed = "above 0: on a belt at rest the mass may stay anywhere within the reach of friction, and these ends are \
+                   no separate attractors";
+    let key = "belt.belt_velocity";
+    let origin = crate::complaint::Origin::Whole;
+    Err(Complaint::new(crate::complaint::Fault::Value, key, origin, 0.0, allowed).into())
+}
+
+/// The portrait of each study. Chunks of starts are handed to whoever is free; each run depends on itself alone.
+fn portraits(
+    studies: &[(Option<f64>, Study)],
+    starts: &Starts,
+    running: Running<'_>,
+) -> Result<Vec<Portrait>, Failure> {
+    let scenes: Vec<Scene<'_>> =
+        studies.par_iter().map(|(_, study)| scene(study.belt())).collect::<Result<_, Failure>>()?;
+    let chunks: Vec<_> = starts.states().chunks(CHUNK).collect();
+    let tasks: Vec<(usize, usize)> = (0..scenes.len())
+        .flat_map(|value| (0..chunks.len()).map(move |chunk| (value, chunk)))
+        .collect();
+    let done: Vec<Vec<Result<Settled, Stalled>>> = tasks
+        .par_iter()
+        .with_max_len(1)
+        .map(|&(value, chunk)| {
+            if running.stop.load(Ordering::Relaxed) {
+                return Err(stopped("basins"));
+            }
+            let tolerance = studies[value].1.solver().tolerance;
+            let patience = Patience { tolerance, ..Patience::BASIN };
+            let settled = settle_many(&scenes[value], chunks[chunk], patience);
+            running.progress.advance(settled.len());
+            Ok(settled)
+        })
+        .collect::<Result<_, Failure>>()?;
+    let whole = |value: usize| done[value * chunks.len()..(value + 1) * chunks.len()].concat();
+    scenes
+        .par_iter()
+        .enumerate()
+        .map(|(place, scene)| {
+            let gathered = gather(scene, &whole(place)).map_err(failed)?;
+            Ok(Portrait::new(studies[place].0, scene, starts, gathered))
+        })
+        .collect()
+}
+
+impl Portrait {
+    fn new(value: Option<f64>, scene: &Scene<'_>, starts: &Starts, gathered: Gathered) -> Self {
+        let share = |holds: &dyn Fn(&Label) -> bool| {
+            let inside: Vec<bool> = gathered.labels.iter().map(holds).collect();
+            Share::of(starts.layout(), &inside)
+        };
+        let shares = (0..gathered.basins.len())
+            .map(|place| share(&|label| *label == Label::Attractor(place)))
+            .collect();
+        let unknown_share = share(&|label| !matches!(label, Label::Attractor(_)));
+        Self {
+            value,
+            period: scene.strobe.period,
+            local: scene.quiet.as_ref().map(|quiet| quiet.verdict).map_err(unknown),
+            shares,
+            unknown: unknown_share,
+            gathered,
+        }
+    }
+
+    /// The share of starts that end on the response of sliding.
+    pub fn quiet(&self) -> Option<Share> {
+        let place = self.gathered.basins.iter().position(|basin| basin.attractor.quiet)?;
+        self.shares.get(place).copied()
+    }
+}

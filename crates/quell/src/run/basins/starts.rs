@@ -1,0 +1,198 @@
+//! The window of states and its starts.
+
+use quell_belt::simulation::Start;
+use quell_model::Belt;
+
+use crate::complaint::Complaint;
+
+/// Most starts of one portrait.
+pub const MOST_STARTS: usize = 10_000_000;
+
+/// How starts are laid out in the window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// A grid from edge to edge, displacement running fastest: so many displacements and velocities.
+    Grid {
+        /// Displacements.
+        columns: usize,
+        /// Velocities.
+        rows: usize,
+    },
+    /// So many states drawn evenly and independently.
+    Sample {
+        /// States.
+        count: usize,
+        /// Which sample: the same seed gives the same states.
+        seed: u64,
+    },
+}
+
+impl Default for Layout {
+    fn default() -> Self {
+        Self::Grid { columns: 41, rows: 31 }
+    }
+}
+
+/// Displacements and velocities between which starts lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// x.
+    pub displacement: (f64, f64),
+    /// x′.
+    pub velocity: (f64, f64),
+}
+
+impl Window {
+    /// The window of a belt: about steady sliding, as far as friction holds the spring and half as fast again as the belt.
+    pub fn of(belt: &Belt) -> Self {
+        let hold = belt.friction().static_coefficient() * belt.normal_load();
+        let reach = 1.5f64.mul_add(belt.belt_velocity(), hold);
+        let centre = belt.steady_sliding();
+        Self { displacement: (centre - reach, centre + reach), velocity: (-reach, reach) }
+    }
+}
+
+/// The window with its starts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Starts {
+    window: Window,
+    layout: Layout,
+    states: Vec<Start>,
+}
+
+impl Starts {
+    /// The starts of a belt's window.
+    ///
+    /// # Errors
+    /// Every complaint about the window and the layout.
+    pub fn new(
+        belt: &Belt,
+        displacement: Option<(f64, f64)>,
+        velocity: Option<(f64, f64)>,
+        layout: Layout,
+    ) -> Result<Self, Vec<Complaint>> {
+        let mut complaints = Vec::new();
+        for (option, range) in [("--displacement", displacement), ("--velocity", velocity)] {
+            if let Some((from, to)) = range
+                && !(from.is_finite() && to.is_finite() && from < to)
+            {
+                let allowed = "FROM:TO, two finite numbers, the first below the second";
+                complaints.push(Complaint::option(option, format!("{from}:{to}"), allowed));
+            }
+        }
+        match layout {
+            Layout::Grid { columns, rows } => {
+                let count = columns.checked_mul(rows);
+                if columns < 2 || rows < 2 || count.is_none_or(|count| count > MOST_STARTS) {
+                    let allowed = format!(
+                        "NxM, two whole numbers from 2, at most {MOST_STARTS} starts, such as 41x31"
+                    );
+                    complaints.push(Complaint::option(
+                        "--grid",
+                        format!("{columns}x{rows}"),
+                        allowed,
+                    ));
+                }
+            }
+            Layout::Sample { count, .. } => {
+                if !(1..=MOST_STARTS).contains(&count) {
+                    let allowed = format!("a whole number from 1 to {MOST_STARTS}");
+                    complaints.push(Complaint::option("--sample", count, allowed));
+                }
+            }
+        }
+        if !complaints.is_empty() {
+            return Err(complaints);
+        }
+        let whole = Window::of(belt);
+        let window = Window {
+            displacement: displacement.unwrap_or(whole.displacement),
+            velocity: velocity.unwrap_or(whole.velocity),
+        };
+        Ok(Self { window, layout, states: states(window, layout) })
+    }
+
+    /// The window.
+    pub fn window(&self) -> Window {
+        self.window
+    }
+
+    /// How they are laid out.
+    pub fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    /// The states, all at τ = 0.
+    pub fn states(&self) -> &[Start] {
+        &self.states
+    }
+
+    /// The displacements and the velocities of a grid.
+    pub fn axes(&self) -> Option<(Vec<f64>, Vec<f64>)> {
+        match self.layout {
+            Layout::Grid { columns, rows } => Some((
+                evenly(self.window.displacement, columns),
+                evenly(self.window.velocity, rows),
+            )),
+            Layout::Sample { .. } => None,
+        }
+    }
+}
+
+fn states(window: Window, layout: Layout) -> Vec<Start> {
+    let at = |displacement: f64, velocity: f64| Start { time: 0.0, displacement, velocity };
+    match layout {
+        Layout::Grid { columns, rows } => {
+            let across = evenly(window.displacement, columns);
+            let upwards = evenly(window.velocity, rows);
+            upwards.iter().flat_map(|v| across.iter().map(|x| at(*x, *v))).collect()
+        }
+        Layout::Sample { count, seed } => {
+            let mut state = seed;
+            let mut between = |(from, to): (f64, f64)| from + (to - from) * uniform(&mut state);
+            (0..count).map(|_| at(between(window.displacement), between(window.velocity))).collect()
+        }
+    }
+}
+
+fn evenly((from, to): (f64, f64), count: usize) -> Vec<f64> {
+    let last = (count - 1) as f64;
+    (0..count)
+        .map(|k| if k + 1 == count { to } else { from + (to - from) * k as f64 / last })
+        .collect()
+}
+
+/// A number of [0, 1) by SplitMix64 (Steele, Lea, Flood, 2014): a handful of lines whose bits no release of another package
+/// changes, so that a seed means the same starts for ever.
+fn uniform(state: &mut u64) -> f64 {
+    *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let mut mixed = *state;
+    mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    mixed ^= mixed >> 31;
+    (mixed >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_generator_is_the_published_one() {
+        // First two outputs of SplitMix64 from 1234567: 6457827717110365317, 3203168211198807973.
+        let mut state = 1_234_567;
+        for wanted in [6_457_827_717_110_365_317_u64, 3_203_168_211_198_807_973] {
+            assert_eq!(uniform(&mut state), (wanted >> 11) as f64 / (1_u64 << 53) as f64);
+        }
+    }
+
+    #[test]
+    fn a_grid_reaches_its_edges() {
+        assert_eq!(evenly((-1.0, 1.5), 11)[10], 1.5);
+        let window = Window { displacement: (0.0, 1.0), velocity: (2.0, 3.0) };
+        let states = states(window, Layout::Grid { columns: 3, rows: 2 });
+        let pairs: Vec<(f64, f64)> =
+            states.iter().map(|it| (it.displacement, it.velocity)).collect();
+        assert_eq!(pairs, [(0.0, 2.0), (0.5, 2.0), (1.0, 2.0), (0.0, 3.0), (0.5, 3.0), (1.0, 3.0)]);
+    }
+}

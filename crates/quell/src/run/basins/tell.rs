@@ -1,0 +1,344 @@
+//! Basins as sentences, JSON, datasets.
+
+use quell_belt::attractor::Label;
+use quell_belt::orbit::Verdict;
+use quell_model::units::Quantity;
+use serde_json::{Value as Json, json};
+
+use super::super::attractor::{number, put, put_section, words};
+use super::super::in_words;
+use super::{Basins, Layout, Portrait, Share};
+use crate::dataset::{Array, Dataset};
+use crate::fields::Fields;
+use crate::study::Study;
+
+/// A share in words: 62 %, with the bounds.
+fn percent(share: Share) -> String {
+    let digits = |value: f64| {
+        let text = format!("{:.1}", 100.0 * value);
+        text.trim_end_matches(".0").to_owned()
+    };
+    format!("{} % ({} to {} %)", digits(share.fraction), digits(share.low), digits(share.high))
+}
+
+impl Portrait {
+    /// Whether starts end on the response of sliding, in one sentence.
+    pub fn sentence(&self) -> String {
+        let count = self.gathered.labels.len();
+        let others = self.gathered.basins.iter().filter(|basin| !basin.attractor.quiet).count();
+        let elsewhere = match others {
+            0 => String::new(),
+            1 => "; the others end on one more attractor".to_owned(),
+            _ => format!("; the others end on {others} more attractors"),
+        };
+        let unknown = match self.gathered.unknown() {
+            0 => String::new(),
+            unknown => format!(" Of {unknown} starts the end is not known."),
+        };
+        let told = match (&self.local, self.quiet()) {
+            (Ok(Verdict::Stable), Some(share)) if share.starts == count => {
+                format!("The quiet response is stable, and every one of {count} starts reaches it.")
+            }
+            (Ok(Verdict::Stable), Some(share)) => {
+                format!(
+                    "The quiet response is stable, but only {} of {count} starts reach it{elsewhere}.",
+                    percent(share)
+                )
+            }
+            (Ok(Verdict::Stable), None) => {
+                format!("The quiet response is stable, but none of {count} starts reaches it.")
+            }
+            (Ok(verdict), _) => format!(
+                "The quiet response is {}: no start stays on it; {count} starts end on {} attractor{}.",
+                verdict.name(),
+                self.gathered.basins.len(),
+                if self.gathered.basins.len() == 1 { "" } else { "s" }
+            ),
+            (Err(why), _) => {
+                format!("{count} starts end on {} attractors; {why}.", self.gathered.basins.len())
+            }
+        };
+        told + &unknown
+    }
+
+    /// Place of the attractor on which each start ends, null where that is not known.
+    fn ends(&self) -> Json {
+        let end = |label: &Label| match label {
+            Label::Attractor(place) => Json::from(*place),
+            Label::Unsettled(_) | Label::Stalled(_) => Json::Null,
+        };
+        self.gathered.labels.iter().map(end).collect()
+    }
+}
+
+fn put_share(fields: &mut Fields, share: Share) {
+    fields
+        .plain("starts", share.starts)
+        .number("fraction", Quantity::Ratio, share.fraction)
+        .number("fraction_low", Quantity::Ratio, share.low)
+        .number("fraction_high", Quantity::Ratio, share.high)
+        .number("fraction_error", Quantity::Ratio, share.error());
+}
+
+impl Basins {
+    /// What the shares and their bounds mean.
+    pub fn meaning(&self) -> &'static str {
+        match self.starts.layout() {
+            Layout::Grid { .. } => {
+                "a grid: each start stands for its cell of the window; the bounds give or take half of each cell beside the border, and \
+                 parts of a basin smaller than a cell are not seen"
+            }
+            Layout::Sample { .. } => {
+                "a random sample of the window, evenly spread: the bounds are Wilson's 95 % interval"
+            }
+        }
+    }
+
+    /// The window and its starts, in words.
+    pub fn starts_in_words(&self, study: &Study) -> String {
+        let window = self.starts.window();
+        let x = |value| in_words(study, Quantity::Displacement, value);
+        let v = |value| in_words(study, Quantity::Velocity, value);
+        let layout = match self.starts.layout() {
+            Layout::Grid { columns, rows } => format!("a grid of {columns} × {rows} starts"),
+            Layout::Sample { count, seed } => format!("{count} random starts (seed {seed})"),
+        };
+        let (from, to) = (window.displacement, window.velocity);
+        format!(
+            "{layout}, x from {} to {}, x′ from {} to {}",
+            x(from.0),
+            x(from.1),
+            v(to.0),
+            v(to.1)
+        )
+    }
+
+    /// What was found, in one sentence or a few.
+    pub fn sentence(&self, study: &Study) -> String {
+        match (&self.varied, self.portraits.as_slice()) {
+            (None, [portrait]) => portrait.sentence(),
+            (Some(varied), portraits) => {
+                let path = &varied.path;
+                let value = |portrait: &Portrait| {
+                    portrait
+                        .value
+                        .map_or_else(String::new, |value| number(study, varied.unit, value))
+                };
+                let fraction =
+                    |portrait: &&Portrait| portrait.quiet().map_or(0.0, |share| share.fraction);
+                let ends: Vec<String> =
+                    portraits.first().into_iter().chain(portraits.last()).map(value).collect();
+                let mut text = format!("Over {path} from {}", ends.join(" to "));
+                let least = portraits.iter().min_by(|a, b| fraction(a).total_cmp(&fraction(b)));
+                let most = portraits.iter().max_by(|a, b| fraction(a).total_cmp(&fraction(b)));
+                if let (Some(least), Some(most)) = (least, most) {
+                    text += &format!(
+                        " the share of starts that reach the quiet response lies between {:.1} % (at {}) and {:.1} % (at {})",
+                        100.0 * fraction(&least),
+                        value(least),
+                        100.0 * fraction(&most),
+                        value(most)
+                    );
+                }
+                let only_local = portraits
+                    .iter()
+                    .filter(|it| it.local == Ok(Verdict::Stable) && fraction(it) < 1.0)
+                    .count();
+                if only_local > 0 {
+                    text += &format!(
+                        "; at {only_local} of {} values it is stable, but not every start reaches it",
+                        portraits.len()
+                    );
+                }
+                text + "."
+            }
+            (None, _) => String::new(),
+        }
+    }
+
+    /// What a reader of the numbers should know.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for portrait in &self.portraits {
+            let at = match (portrait.value, &self.varied) {
+                (Some(value), Some(varied)) => format!(" at {} = {value}", varied.path),
+                _ => String::new(),
+            };
+            let mut reasons: Vec<(&str, usize)> = Vec::new();
+            for label in &portrait.gathered.labels {
+                let why = match label {
+                    Label::Attractor(_) => continue,
+                    Label::Unsettled(why) => why.about(),
+                    Label::Stalled(stalled) => stalled.why,
+                };
+                match reasons.iter_mut().find(|it| it.0 == why) {
+                    Some(reason) => reason.1 += 1,
+                    None => reasons.push((why, 1)),
+                }
+            }
+            warnings.extend(
+                reasons.into_iter().map(|(why, count)| {
+                    format!("the end of {count} starts{at} is not known: {why}")
+                }),
+            );
+        }
+        warnings
+    }
+
+    /// As JSON: with one portrait its fields, with several a list of them.
+    pub fn json(&self, study: &Study) -> Json {
+        let scales = study.scales();
+        let mut fields = Fields::new(scales);
+        let window = self.starts.window();
+        let pair = |pair: (f64, f64)| [pair.0, pair.1];
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study))
+            .plain("protocol", "each start at τ = 0, run until a growth rate says where it ends")
+            .plain("error_meaning", self.meaning())
+            .numbers("window_displacement", Quantity::Displacement, &pair(window.displacement))
+            .numbers("window_velocity", Quantity::Velocity, &pair(window.velocity))
+            .plain("starts", self.starts.states().len());
+        let layout = match self.starts.layout() {
+            Layout::Grid { columns, rows } => json!({ "grid": [columns, rows] }),
+            Layout::Sample { count, seed } => json!({ "sample": count, "seed": seed }),
+        };
+        fields.plain("layout", layout);
+        if let Some(varied) = &self.varied {
+            fields.plain("parameter", varied.path.as_str()).plain("unit", varied.unit);
+            let portraits = self.portraits.iter().map(|portrait| {
+                let mut inner = Fields::new(scales);
+                inner.plain("value", portrait.value);
+                put_portrait(&mut inner, portrait, false);
+                inner
+            });
+            fields.list("portraits", portraits);
+        } else if let [portrait] = self.portraits.as_slice() {
+            put_portrait(&mut fields, portrait, true);
+            fields.plain("ends", portrait.ends());
+        }
+        fields.plain("warnings", self.warnings());
+        fields.finish()
+    }
+
+    /// Where each start ends; with a parameter the shares over it.
+    pub fn dataset(&self, study: &Study) -> Dataset {
+        let facts = format!("{}; {}", self.starts_in_words(study), self.meaning());
+        match (&self.varied, self.portraits.as_slice()) {
+            (None, [portrait]) => self.map(study, portrait).fact(facts),
+            (varied, portraits) => {
+                let of = |value: &dyn Fn(&Portrait) -> f64| {
+                    portraits.iter().map(value).collect::<Vec<f64>>()
+                };
+                let quiet = |which: fn(Share) -> f64| of(&|it| it.quiet().map_or(0.0, which));
+                let verdicts: Vec<u8> = portraits
+                    .iter()
+                    .map(|it| match it.local {
+                        Ok(Verdict::Stable) => 0,
+                        Ok(Verdict::Unstable) => 1,
+                        Ok(Verdict::Undecided) => 2,
+                        Err(_) => 3,
+                    })
+                    .collect();
+                let words = vec![(0, "stable"), (1, "unstable"), (2, "undecided"), (3, "unknown")];
+                let (name, unit) = varied
+                    .as_ref()
+                    .map_or((String::new(), ""), |varied| (varied.name(), varied.unit));
+                Dataset::new(study, "basins")
+                    .fact(facts)
+                    .with_axis(Array::new(name, unit, of(&|it| it.value.unwrap_or(f64::NAN))))
+                    .with(Array::of_words("local_verdict", words, &verdicts))
+                    .array("quiet_fraction", Quantity::Ratio, quiet(|share| share.fraction))
+                    .array("quiet_fraction_low", Quantity::Ratio, quiet(|share| share.low))
+                    .array(
+                        "quiet_fraction_high",
+                        Quantity::Ratio,
+                        of(&|it| {
+                            // None of so many: the upper bound is that of no start inside.
+                            it.quiet().map_or_else(
+                                || Share::none(self.starts.layout(), it.gathered.labels.len()).high,
+                                |share| share.high,
+                            )
+                        }),
+                    )
+                    .array("unknown_fraction", Quantity::Ratio, of(&|it| it.unknown.fraction))
+                    .array("attractors", Quantity::Count, of(&|it| it.gathered.basins.len() as f64))
+            }
+        }
+    }
+
+    /// Where each start ends: over the grid, or a row a start.
+    fn map(&self, study: &Study, portrait: &Portrait) -> Dataset {
+        let labels = &portrait.gathered.labels;
+        let place = |label: &Label| match label {
+            Label::Attractor(place) => *place as f64,
+            Label::Unsettled(_) | Label::Stalled(_) => f64::NAN,
+        };
+        let quiet = |label: &Label| match label {
+            Label::Attractor(place) => u8::from(portrait.gathered.basins[*place].attractor.quiet),
+            Label::Unsettled(_) | Label::Stalled(_) => 2,
+        };
+        let ends: Vec<f64> = labels.iter().map(place).collect();
+        let quiet: Vec<u8> = labels.iter().map(quiet).collect();
+        let mut dataset = Dataset::new(study, "basins");
+        for (place, basin) in portrait.gathered.basins.iter().enumerate() {
+            dataset = dataset
+                .fact(format!("attractor {place}: {}", words(&basin.attractor, portrait.period)));
+        }
+        let words = vec![(0, "no"), (1, "yes"), (2, "unknown")];
+        let dataset = match self.starts.axes() {
+            // The axis that runs fastest is the last.
+            Some((x, v)) => dataset.axis("velocity", Quantity::Velocity, v).axis(
+                "displacement",
+                Quantity::Displacement,
+                x,
+            ),
+            None => {
+                let states = self.starts.states();
+                let rows = (0..states.len()).map(|row| row as f64).collect();
+                dataset
+                    .with_axis(Array::new("start", "1", rows))
+                    .array(
+                        "displacement",
+                        Quantity::Displacement,
+                        states.iter().map(|it| it.displacement).collect(),
+                    )
+                    .array(
+                        "velocity",
+                        Quantity::Velocity,
+                        states.iter().map(|it| it.velocity).collect(),
+                    )
+            }
+        };
+        dataset
+            .with(Array::new("attractor", "1", ends))
+            .with(Array::of_words("quiet", words, &quiet))
+    }
+}
+
+fn put_portrait(fields: &mut Fields, portrait: &Portrait, section: bool) {
+    match &portrait.local {
+        Ok(verdict) => fields.plain("local_verdict", verdict.name()),
+        Err(why) => fields.plain("local_verdict", Json::Null).why("local_verdict", why.as_str()),
+    };
+    match portrait.quiet() {
+        Some(share) => fields.number("quiet_fraction", Quantity::Ratio, share.fraction),
+        None => fields.number("quiet_fraction", Quantity::Ratio, 0.0),
+    };
+    let scales = fields.scales();
+    let attractors = portrait.gathered.basins.iter().zip(&portrait.shares).map(|(basin, share)| {
+        let mut inner = Fields::new(scales);
+        inner.plain("words", words(&basin.attractor, portrait.period));
+        put_share(&mut inner, *share);
+        put(&mut inner, &basin.attractor, portrait.period);
+        if section {
+            put_section(&mut inner, &basin.attractor);
+        }
+        inner
+    });
+    let attractors: Vec<Fields> = attractors.collect();
+    fields.list("attractors", attractors);
+    let mut unknown = Fields::new(scales);
+    put_share(&mut unknown, portrait.unknown);
+    fields.nested("unknown", unknown);
+}

@@ -1,0 +1,117 @@
+//! One number of a study varied over a range: `--parameter PATH --from A --to B --points N`.
+
+use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::vocabulary::{Address, resolve};
+use crate::study::{Study, suggest};
+
+/// Most values of a range.
+pub const MOST_VALUES: usize = 100_000;
+
+/// One number of a study and the values it takes, in rising order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Varied {
+    /// Path, such as `dither.amplitude`; the SI keys of a study in SI too.
+    pub path: String,
+    /// What it is, in one line.
+    pub about: &'static str,
+    /// Symbol in the equations, where it has one.
+    pub symbol: Option<&'static str>,
+    /// Unit of the values.
+    pub unit: &'static str,
+    /// The values.
+    pub values: Vec<f64>,
+}
+
+impl Varied {
+    /// A range of values; `option` is how the path was given.
+    ///
+    /// # Errors
+    /// Every complaint about the path, the ends and the number of values at once.
+    pub fn new(
+        study: &Study,
+        option: &'static str,
+        path: &str,
+        (from, to): (f64, f64),
+        points: usize,
+    ) -> Result<Self, Vec<Complaint>> {
+        let address = address(option, path).map_err(|complaint| vec![*complaint])?;
+        let mut complaints = Vec::new();
+        let studies = [("--from", from), ("--to", to)].map(|(end, value)| {
+            let changed = study.with(path, value);
+            changed
+                .map_err(|wrong| complaints.extend(wrong.into_iter().map(|it| told(it, end))))
+                .ok()
+        });
+        if from.is_nan() || to.is_nan() || from >= to {
+            complaints.push(Complaint::option("--to", to, format!("a number above --from {from}")));
+        }
+        if !(2..=MOST_VALUES).contains(&points) {
+            let allowed = format!("a whole number from 2 to {MOST_VALUES}");
+            complaints.push(Complaint::option("--points", points, allowed));
+        }
+        if let [Some(first), Some(last)] = &studies
+            && first.belt() == last.belt()
+            && from < to
+        {
+            let allowed = "a number of the belt, of its friction or of a dither: this one changes none of them";
+            complaints.push(Complaint::option(option, path, allowed));
+        }
+        if !complaints.is_empty() {
+            return Err(complaints);
+        }
+        let last = (points - 1) as f64;
+        let value = |k: usize| {
+            if k == points - 1 { to } else { from + (to - from) * k as f64 / last }
+        };
+        Ok(Self {
+            path: path.to_owned(),
+            about: address.key.about,
+            symbol: address.key.parameter().map(|parameter| parameter.symbol),
+            unit: address.key.unit_in_words(),
+            values: (0..points).map(value).collect(),
+        })
+    }
+
+    /// The study at one value.
+    ///
+    /// # Errors
+    /// Complaints, where a value inside the range is not allowed although its ends are.
+    pub fn study_at(&self, study: &Study, value: f64) -> Result<Study, Vec<Complaint>> {
+        study.with(&self.path, value)
+    }
+
+    /// Name in datasets: the path with its dots as underscores.
+    pub fn name(&self) -> String {
+        self.path.replace(['.', '['], "_").replace(']', "")
+    }
+}
+
+fn address(option: &'static str, path: &str) -> Result<Address, Box<Complaint>> {
+    let origin = Origin::Argument(option);
+    let refuse = |suggestion: Option<String>| {
+        let allowed = "a number of the study, such as dither.amplitude or belt.belt_velocity";
+        let complaint = Complaint::new(Fault::Value, option, origin, path, allowed);
+        Box::new(complaint.suggesting(suggestion))
+    };
+    let found = resolve(path).map_err(|nearest| {
+        refuse(nearest.or_else(|| {
+            suggest::word(path, ["dither.amplitude", "belt.belt_velocity"].into_iter())
+        }))
+    })?;
+    if found.key.parameter().is_some() { Ok(found) } else { Err(refuse(None)) }
+}
+
+/// A complaint about a study at an end of the range, told of that option.
+fn told(complaint: Complaint, option: &'static str) -> Complaint {
+    let allowed = match complaint.fault {
+        Fault::Value => format!("such that {} is {}", complaint.key, complaint.allowed),
+        _ => format!("allowed for this study: {complaint}"),
+    };
+    Complaint {
+        fault: Fault::Value,
+        key: option.to_owned(),
+        origin: Origin::Argument(option),
+        allowed,
+        ..complaint
+    }
+}
