@@ -1,6 +1,6 @@
 //! What a settled run is on: a closed orbit of some periods, a closed curve, or neither.
 //!
-//! A state that returns after n periods is taken as the guess of an orbit of n periods; shooting closes it to 10⁻¹², and its
+//! A state that returns after n periods, ever closer, is taken as the guess of an orbit of n periods; shooting closes it to 10⁻¹², and its
 //! multipliers say whether it attracts. Where nothing returns the motion fills a curve, if its rotation number is the same in both halves
 //! of the record. Limit: an orbit of more than `MOST_PERIODS` periods is not told from a curve.
 
@@ -8,17 +8,18 @@ use quell_numerics::roots::{Closeness, find_root};
 
 use super::average::Moments;
 use super::rotation::Rotation;
-use super::settle::{Outcome, Settled};
+use super::settle::{Outcome, Settled, block};
 use super::strobe::Scene;
 use super::watch::Watch;
 use crate::orbit::{Verdict, near};
 use crate::simulation::{DEFAULT_TOLERANCE, Observer, Segment, Stalled, Start, simulate};
 
 /// Most periods of a closed orbit.
-const MOST_PERIODS: usize = 400;
+const MOST_PERIODS: usize = 200;
 
-/// Periods of the record in which returns are looked for.
+/// Fewest periods of the record in which returns are looked for, and blocks of settling in it.
 const RECORD: usize = 1024;
+const BLOCKS: usize = 5;
 
 /// Distance of a return, relative to the size of the section, that is worth shooting.
 const RETURNS: f64 = 1e-3;
@@ -26,8 +27,11 @@ const RETURNS: f64 = 1e-3;
 /// Distance of the orbit from the guess, relative to the size of the section, at which it is the run's own.
 const ITS_OWN: f64 = 2e-2;
 
-/// Returns that are tried.
-const TRIED: usize = 3;
+/// Share to which a return must have shrunk over the record: on a curve it stays what it is.
+const SHRINKS: f64 = 0.5;
+
+/// Distance of a return, relative to the size, that is closed already.
+const CLOSED: f64 = 1e-7;
 
 /// Difference of the rotation number of the two halves of a record at which the motion is a curve's.
 const STEADY: f64 = 1e-5;
@@ -134,7 +138,7 @@ fn elsewhere(scene: &Scene<'_>, state: Start) -> Result<Attractor, Stalled> {
                 true => Kind::QuasiPeriodic,
                 false => Kind::Unclassified,
             };
-            return seen(scene, kind, state, RECORD);
+            return seen(scene, kind, state, section.len());
         }
         state = end;
     }
@@ -144,8 +148,9 @@ fn elsewhere(scene: &Scene<'_>, state: Start) -> Result<Attractor, Stalled> {
 /// States of a record, and the state after it.
 fn section(scene: &Scene<'_>, start: Start) -> Result<(Vec<(f64, f64)>, Start), Stalled> {
     let period = scene.strobe.period;
-    let mut watch = Watch::new(period, RECORD);
-    let until = RECORD as f64 * period;
+    let periods = RECORD.max(BLOCKS * block(scene));
+    let mut watch = Watch::new(period, periods);
+    let until = periods as f64 * period;
     let end = simulate(scene.belt, start, until, DEFAULT_TOLERANCE, &mut watch)?;
     Ok((watch.section(), Start { time: 0.0, ..end.restart() }))
 }
@@ -158,21 +163,20 @@ fn orbit(scene: &Scene<'_>, section: &[(f64, f64)], end: Start) -> Option<(u32, 
     }
     let size = Moments::of(section).size().max(1e-9 * scene.belt.normal_load());
     let gap = |a: (f64, f64), b: (f64, f64)| libm::hypot(a.0 - b.0, a.1 - b.1);
-    let returns = |n: &usize| {
-        let from = section.len() - n;
-        (from..section.len()).all(|k| gap(section[k], section[k - n]) <= RETURNS * size)
+    // The largest return after n periods among the n states before a place.
+    let returns = |n: usize, end: usize| {
+        (end - n..end).map(|k| gap(section[k], section[k - n])).fold(0.0, f64::max)
     };
-    (1..=MOST_PERIODS).filter(returns).take(TRIED).find_map(|n| {
-        let periods = u32::try_from(n).ok()?;
-        let orbit = near(scene.belt, end, periods).ok()?;
-        let away =
-            gap((orbit.start.displacement, orbit.start.velocity), (end.displacement, end.velocity));
-        (away <= ITS_OWN * size && orbit.verdict() == Verdict::Stable).then_some((
-            periods,
-            orbit.radius(),
-            orbit.start,
-        ))
-    })
+    let n = (1..=MOST_PERIODS).find(|&n| {
+        let late = returns(n, section.len());
+        late <= CLOSED * size || (late <= RETURNS * size && late <= SHRINKS * returns(n, 2 * n))
+    })?;
+    let periods = u32::try_from(n).ok()?;
+    let orbit = near(scene.belt, end, periods).ok()?;
+    let away =
+        gap((orbit.start.displacement, orbit.start.velocity), (end.displacement, end.velocity));
+    let attracts = orbit.verdict() == Verdict::Stable && away <= ITS_OWN * size;
+    attracts.then_some((periods, orbit.radius(), orbit.start))
 }
 
 /// An attractor as a run over it sees it.

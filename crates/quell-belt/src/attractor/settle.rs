@@ -22,11 +22,11 @@ use super::watch::Watch;
 use crate::orbit::Verdict;
 use crate::simulation::{FinalState, Run, Stalled, Start, simulate_many};
 
-/// Periods of the strobe in a block: some 25 slow turns at R = 10, enough for the bump's averages.
-pub(super) const BLOCK: usize = 256;
+/// Slow turns of 2π in a block: enough for the bump's averages.
+const TURNS: f64 = 20.0;
 
-/// Periods at either end of a block over which a rate is measured.
-const WINDOW: usize = 64;
+/// Fewest periods of the strobe in a block.
+const FEWEST: usize = 64;
 
 /// Distance from the quiet response, relative to F, that counts as being there.
 const NEAR: f64 = 1e-6;
@@ -118,11 +118,19 @@ impl Summary {
     }
 }
 
+/// Periods of the strobe in a block.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+pub(super) fn block(scene: &Scene<'_>) -> usize {
+    ((TURNS * std::f64::consts::TAU / scene.strobe.period).ceil() as usize).max(FEWEST)
+}
+
 /// A run under way.
 struct Course {
     number: usize,
     state: Start,
-    blocks: u64,
+    periods: u64,
+    /// Whether the block before had a stick.
+    stuck: bool,
     /// The last blocks, newest last.
     earlier: Vec<Summary>,
     /// Whether the last block decayed as the multipliers say.
@@ -155,12 +163,13 @@ pub fn settle_many(
         .map(|(number, start)| Course::new(number, nudged(scene, *start)))
         .collect();
     let period = scene.strobe.period;
-    let length = BLOCK as f64 * period;
+    let block = block(scene);
+    let length = block as f64 * period;
     while !under_way.is_empty() {
         let mut watches: Vec<Watch<'_>> = under_way
             .iter()
             .map(|course| {
-                let watch = Watch::new(period, BLOCK);
+                let watch = Watch::new(period, block);
                 if course.watches_area { watch.with_contraction(scene.belt) } else { watch }
             })
             .collect();
@@ -209,7 +218,8 @@ impl Course {
         Self {
             number,
             state,
-            blocks: 0,
+            periods: 0,
+            stuck: false,
             earlier: Vec::new(),
             decayed_alike: false,
             watches_area: false,
@@ -228,7 +238,7 @@ impl Course {
         let section = watch.section();
         let now = Summary { moments: watch.moments(), size: Moments::of(&section).size() };
         self.state = Start { time: 0.0, displacement: end.displacement, velocity: end.velocity };
-        self.blocks += 1;
+        self.periods += section.len() as u64;
         let scale = scene.belt.normal_load();
         if let Ok(quiet) = &scene.quiet
             && quiet.verdict == Verdict::Stable
@@ -236,16 +246,18 @@ impl Course {
         {
             return Some(self.over(Outcome::Quiet, now));
         }
-        let still = self.change(patience, now, scale);
+        let sticks = watch.sticks > 0;
+        let forgets = sticks && std::mem::replace(&mut self.stuck, sticks);
+        let still = self.change(patience, now, scale, forgets);
         self.earlier.push(now);
         if let Some(change) = still {
-            if watch.sticks > 0 || now.size < POINT * scale {
+            if sticks || now.size < POINT * scale {
                 return Some(self.over(Outcome::Elsewhere, now));
             }
             match watch.contraction() {
                 None => self.watches_area = true,
                 Some((rate, error)) => {
-                    let length = BLOCK as f64 * scene.strobe.period;
+                    let length = section.len() as f64 * scene.strobe.period;
                     // What is left of the way shrinks by this share a block.
                     let share = -libm::expm1(-rate * length);
                     if rate > error && change <= share * patience.closeness * now.size {
@@ -257,7 +269,7 @@ impl Course {
         } else {
             self.watches_area = false;
         }
-        if self.blocks * BLOCK as u64 >= patience.periods {
+        if self.periods >= patience.periods {
             let why = if self.dwelt { Unsettled::Dwelling } else { Unsettled::Moving };
             return Some(self.over(Outcome::Unsettled(why), now));
         }
@@ -265,7 +277,7 @@ impl Course {
     }
 
     fn over(&self, outcome: Outcome, summary: Summary) -> Settled {
-        Settled { outcome, state: self.state, periods: self.blocks * BLOCK as u64, summary }
+        Settled { outcome, state: self.state, periods: self.periods, summary }
     }
 
     /// Whether it is at the quiet response, or on a way there that is known.
@@ -281,22 +293,29 @@ impl Course {
             });
             libm::sqrt(squares.sum())
         };
-        let (first, last) = (size(&section[..WINDOW]), size(&section[BLOCK - WINDOW..]));
-        let measured = libm::log(last / first) / (BLOCK - WINDOW) as f64;
+        let quarter = section.len() / 4;
+        let between = section.len() - quarter;
+        let (first, last) = (size(&section[..quarter]), size(&section[between..]));
+        let measured = libm::log(last / first) / between as f64;
         let alike = (measured - expected).abs() <= ALIKE * expected.abs();
         let before = std::mem::replace(&mut self.decayed_alike, alike);
         alike && before
     }
 
-    /// The largest change of the last blocks, where the section has come to rest within the closeness.
-    fn change(&self, patience: Patience, now: Summary, scale: f64) -> Option<f64> {
+    /// The largest change of the last blocks, where the motion no longer changes within the closeness. A run that `forgets`
+    /// stuck in both of its last blocks: what it was before has no part in what it is.
+    fn change(&self, patience: Patience, now: Summary, scale: f64, forgets: bool) -> Option<f64> {
         let size = now.size;
         let allowed = patience.closeness * size;
-        let [.., third, second, last] = self.earlier.as_slice() else { return None };
+        let last = self.earlier.last()?;
         let change = now.distance(last);
         if size < POINT * scale {
             return (change < POINT * scale).then_some(change);
         }
+        if forgets && change <= 0.1 * allowed {
+            return Some(change);
+        }
+        let second = self.earlier.iter().rev().nth(1)?;
         let before = last.distance(second);
         let ratio = change / before;
         // It shrinks evenly: what is left is a geometric sum.
@@ -304,6 +323,7 @@ impl Course {
             return Some(change);
         }
         // It wavers without a trend.
+        let third = self.earlier.iter().rev().nth(2)?;
         let wavers = [change, before, second.distance(third)].into_iter().fold(0.0, f64::max);
         (wavers <= allowed / 3.0 && now.distance(third) <= 0.5 * allowed).then_some(wavers)
     }

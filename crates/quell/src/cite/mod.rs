@@ -15,8 +15,8 @@ mod references;
 pub use corrections::Correction;
 use corrections::corrections;
 pub use references::{
-    CUNEFARE_GRAF_2002, FILIPPOV_1988, HARRIS_1978, JORBA_ZOU_2005, MICHAUX_2005, SOURCES, Source,
-    THOMSEN_1999, THOMSEN_FIDLIN_2003,
+    CUNEFARE_GRAF_2002, DAS_SAIKI_SANDER_YORKE_2017, FILIPPOV_1988, HARRIS_1978, JORBA_ZOU_2005,
+    MENCK_2013, MICHAUX_2005, SOURCES, Source, THOMSEN_1999, THOMSEN_FIDLIN_2003, WILSON_1927,
 };
 
 /// A computation, named after its verb.
@@ -30,6 +30,10 @@ pub enum Task {
     Simulate,
     /// The steady response.
     Response,
+    /// Sweeps of a parameter up and down.
+    Bifurcation,
+    /// Which starts end on which response.
+    Basins,
     /// Modes of a disc.
     Modes,
     /// Resonances of a disc.
@@ -38,8 +42,14 @@ pub enum Task {
 
 impl Task {
     /// Every task of a belt.
-    pub const ALL: &'static [Self] =
-        &[Self::Friction, Self::Stability, Self::Simulate, Self::Response];
+    pub const ALL: &'static [Self] = &[
+        Self::Friction,
+        Self::Stability,
+        Self::Simulate,
+        Self::Response,
+        Self::Bifurcation,
+        Self::Basins,
+    ];
 
     /// Name of the verb.
     pub fn name(self) -> &'static str {
@@ -48,6 +58,8 @@ impl Task {
             Self::Stability => "stability",
             Self::Simulate => "simulate",
             Self::Response => "response",
+            Self::Bifurcation => "bifurcation",
+            Self::Basins => "basins",
             Self::Modes => "modes",
             Self::Resonances => "resonances",
         }
@@ -84,6 +96,7 @@ pub fn sources(study: &Study) -> Sources {
         match task {
             Task::Friction | Task::Stability => averaging(belt, task, &mut cite),
             Task::Simulate | Task::Response => simulation(task, &mut cite),
+            Task::Bifurcation | Task::Basins => attractors(task, &mut cite),
             Task::Modes | Task::Resonances => {}
         }
     }
@@ -162,6 +175,15 @@ fn simulation(task: Task, cite: &mut impl FnMut(Task, Source, &'static str)) {
         cite(task, HARRIS_1978, "Hann window of the spectrum");
         cite(task, THOMSEN_FIDLIN_2003, "the stick-slip of the belt without dither");
         cite(task, CUNEFARE_GRAF_2002, "dither against squeal");
+    }
+}
+
+fn attractors(task: Task, cite: &mut impl FnMut(Task, Source, &'static str)) {
+    simulation(task, cite);
+    cite(task, DAS_SAIKI_SANDER_YORKE_2017, "averages of a section and rotation numbers");
+    if task == Task::Basins {
+        cite(task, MENCK_2013, "the share of starts that reach a response");
+        cite(task, WILSON_1927, "interval of a share that was sampled");
     }
 }
 

@@ -51,6 +51,24 @@ pub const HARRIS_1978: Source = Source {
     reference: "F. J. Harris: On the use of windows for harmonic analysis with the discrete \
                 Fourier transform. Proceedings of the IEEE 66(1), 51–83, 1978",
 };
+/// Averages and rotation numbers of quasi-periodic motion.
+pub const DAS_SAIKI_SANDER_YORKE_2017: Source = Source {
+    key: "das2017",
+    reference: "S. Das, Y. Saiki, E. Sander, J. A. Yorke: Quantitative quasiperiodicity. \
+                Nonlinearity 30(11), 4111–4140, 2017",
+};
+/// The share of starts that reach a state, beside its linear stability.
+pub const MENCK_2013: Source = Source {
+    key: "menck2013",
+    reference: "P. J. Menck, J. Heitzig, N. Marwan, J. Kurths: How basin stability complements the \
+                linear-stability paradigm. Nature Physics 9(2), 89–92, 2013",
+};
+/// The interval of a share that was sampled.
+pub const WILSON_1927: Source = Source {
+    key: "wilson1927",
+    reference: "E. B. Wilson: Probable inference, the law of succession, and statistical inference. \
+                Journal of the American Statistical Association 22(158), 209–212, 1927",
+};
 
 /// Every source that can be cited.
 pub const SOURCES: &[Source] = &[
@@ -61,4 +79,7 @@ pub const SOURCES: &[Source] = &[
     JORBA_ZOU_2005,
     FILIPPOV_1988,
     HARRIS_1978,
+    DAS_SAIKI_SANDER_YORKE_2017,
+    MENCK_2013,
+    WILSON_1927,
 ];

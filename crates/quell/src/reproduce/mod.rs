@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `source` | study files of the entries, their cases |
 //! | `product`, `write` | pictures, tables of data, and their files |
-//! | `laws`, `waveforms`, `effective_friction`, `stability_map`, `responses`, `efficiency_map`, `measured_friction` | the kinds of figures |
+//! | `laws`, `waveforms`, `effective_friction`, `stability_map`, `responses`, `sections`, `efficiency_map`, `measured_friction` | the kinds of figures |
 //! | `disc` | tables and figures of chapter 5 |
 //! | `print` | formulas as the dissertation prints them, right or wrong |
 //! | `claims` | claim, printed, measured, verdict |
@@ -33,6 +33,7 @@ mod measured_friction;
 mod print;
 mod product;
 mod responses;
+mod sections;
 mod source;
 mod stability_map;
 mod waveforms;
@@ -87,6 +88,8 @@ pub const ENTRIES: &[Entry] = &[
     figure!("2.7", "stability map, decreasing law", stability_map::single),
     figure!("2.8", "efficiency, Stribeck law, four belt velocities", efficiency_map::velocities),
     figure!("2.9", "efficiency, decreasing law, four belt velocities", efficiency_map::velocities),
+    figure!("2.10", "responses and sections, decreasing law, sine, v₀ = 1", sections::figure),
+    figure!("2.11", "responses and sections, decreasing law, sine, v₀ = 1.5", sections::figure),
     figure!("3.2", "dither waveforms and their integrals", waveforms::figure),
     figure!("3.3", "effective friction, Stribeck law, three waveforms", effective_friction::three),
     figure!(
@@ -101,6 +104,8 @@ pub const ENTRIES: &[Entry] = &[
     figure!("3.9", "responses, Stribeck law, square tangential dither", responses::figure),
     figure!("3.10", "efficiency, Stribeck law, three waveforms", efficiency_map::waveforms),
     figure!("3.11", "efficiency, decreasing law, three waveforms", efficiency_map::waveforms),
+    figure!("3.12", "responses and sections, decreasing law, triangle", sections::figure),
+    figure!("3.13", "responses and sections, decreasing law, square", sections::figure),
     figure!("4.2", "Stribeck and decreasing friction law", laws::figure),
     figure!("4.3", "responses, Stribeck law, sinusoidal normal dither", responses::figure),
     figure!("4.4", "responses, decreasing law, sinusoidal normal dither", responses::figure),
@@ -110,6 +115,11 @@ pub const ENTRIES: &[Entry] = &[
     figure!("4.8", "stability maps, decreasing law, normal dither", stability_map::three),
     figure!("4.9", "efficiency, Stribeck law, normal dither", efficiency_map::single),
     figure!("4.10", "efficiency, decreasing law, normal dither", efficiency_map::single),
+    figure!(
+        "4.11",
+        "responses and sections, normal dither, square and sine",
+        sections::square_and_sine
+    ),
     table!("table-5.1", "speeds at which waves of the disc meet", disc::undithered),
     table!("table-5.2", "speeds at which dither makes waves of the disc meet", disc::induced),
     figure!("5.2", "modes of the annular plate", disc::modes),

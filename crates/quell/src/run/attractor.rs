@@ -28,8 +28,14 @@ pub fn words(attractor: &Attractor, period: f64) -> String {
         }
         (Kind::Periodic { periods: 1, .. }, _) => "the period of the dither".to_owned(),
         (Kind::Periodic { periods, .. }, Some(ratio)) => {
+            let turns = if ratio.turns == 1 { "turn" } else { "turns" };
+            let closed = if periods == ratio.periods {
+                String::new()
+            } else {
+                format!(", closed after {periods}")
+            };
             format!(
-                "locked at {periods} periods, {} turns in {}{frequency}",
+                "locked: {} {turns} in {} periods{closed}{frequency}",
                 ratio.turns, ratio.periods
             )
         }
@@ -55,7 +61,7 @@ pub(super) fn put(fields: &mut Fields, attractor: &Attractor, period: f64) {
             ("quasi-periodic", Err(why()), Err(why()))
         }
         Kind::Unclassified => {
-            let why = || "no period up to 400 and no steady rotation number was found".to_owned();
+            let why = || "no period up to 200 and no steady rotation number was found".to_owned();
             ("unclassified", Err(why()), Err(why()))
         }
     };

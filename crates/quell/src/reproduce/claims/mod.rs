@@ -1,6 +1,6 @@
 //! The table of claims: what the dissertation says, what independent numerics measure, and the verdict.
 //!
-//! A claim is made by a function that measures (`chapter2` to `chapter5`, `isocline`); the verdict follows from printed and
+//! A claim is made by a function that measures (`chapter2` to `chapter5`, `attractors`, `isocline`); the verdict follows from printed and
 //! measured values by the rules of [`Verdict`], never from words.
 
 use serde_json::{Value as Json, json};
@@ -9,6 +9,7 @@ use super::product::{Cell, Product, Table};
 use super::source::Source;
 use crate::complaint::Failure;
 
+mod attractors;
 mod chapter2;
 mod chapter3;
 mod chapter3_formulas;
@@ -42,6 +43,9 @@ const SECTIONS: &[Section] = &[
     chapter4::effective_friction,
     chapter4::stability_maps,
     isocline::normal,
+    attractors::tangential,
+    attractors::normal,
+    attractors::other_starts,
     chapter4::formulas,
     chapter5::tables,
     chapter5::thresholds,

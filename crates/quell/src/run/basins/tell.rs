@@ -100,7 +100,7 @@ impl Basins {
         let x = |value| in_words(study, Quantity::Displacement, value);
         let v = |value| in_words(study, Quantity::Velocity, value);
         let layout = match self.starts.layout() {
-            Layout::Grid { columns, rows } => format!("a grid of {columns} × {rows} starts"),
+            Layout::Grid { columns, rows } => format!("A grid of {columns} × {rows} starts"),
             Layout::Sample { count, seed } => format!("{count} random starts (seed {seed})"),
         };
         let (from, to) = (window.displacement, window.velocity);
