@@ -5,9 +5,11 @@
 //! * [`polynomial`]: first root of a Taylor step, isolated or proven absent; step length;
 //! * [`quadrature`], [`gauss_legendre`], [`roots`], [`special`], [`bessel`], [`spectrum`]: integrals, scalar roots and minima,
 //!   special functions, spectra;
-//! * [`symmetric`]: eigenvalues of symmetric pencils.
+//! * [`symmetric`]: eigenvalues of symmetric pencils;
+//! * [`continuation`]: fixed points of period maps by shooting, their branches, thresholds and curves of thresholds.
 
 pub mod bessel;
+pub mod continuation;
 pub mod dispatch;
 pub mod eigen;
 pub mod elementary;

@@ -1,0 +1,145 @@
+//! One step along a one-dimensional set of solutions: N equations for N + 1 unknowns.
+//!
+//! Predictor: the tangent. Corrector: Newton's method on the hyperplane through the predicted point, orthogonal to the way
+//! (Keller's pseudo-arclength), which passes folds without noticing. What the equations are is told by a [`System`].
+
+use crate::matrix::Matrix;
+
+/// Mismatch that counts as solved.
+const SOLVED: f64 = 1e-12;
+
+/// Mismatch that rounding may leave.
+const NEARLY_SOLVED: f64 = 1e-9;
+
+/// Corrections of one step.
+const MOST_CORRECTIONS: u32 = 12;
+
+/// N equations for N + 1 unknowns, all scaled.
+pub(super) trait System {
+    /// What is known beside the mismatch.
+    type Known;
+    /// Why there is none.
+    type Error;
+
+    /// Mismatch of the equations.
+    fn mismatch(&self, unknowns: &[f64]) -> Result<(Vec<f64>, Self::Known), Self::Error>;
+
+    /// Derivative of the mismatch, N × (N + 1). `before` is one from nearby whose expensive parts may be kept; `way`
+    /// is where the step goes, the side to which one-sided differences are taken.
+    fn derivative(
+        &self,
+        unknowns: &[f64],
+        known: &Self::Known,
+        before: Option<&Matrix>,
+        way: &[f64],
+    ) -> Result<Matrix, Self::Error>;
+}
+
+/// A solution.
+#[derive(Clone, Debug)]
+pub(super) struct Solved<K> {
+    pub(super) unknowns: Vec<f64>,
+    pub(super) residual: f64,
+    pub(super) known: K,
+    pub(super) derivative: Matrix,
+}
+
+/// Why a step failed.
+pub(super) enum NoStep<E> {
+    /// Corrections did not come to an end.
+    NotConverged,
+    /// The equations have no mismatch there.
+    Failed(E),
+}
+
+impl<E> From<E> for NoStep<E> {
+    fn from(why: E) -> Self {
+        Self::Failed(why)
+    }
+}
+
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Distance of two points.
+pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+}
+
+/// The vector of length 1 in a direction.
+pub(super) fn direction(mut vector: Vec<f64>) -> Vec<f64> {
+    let length = product(&vector, &vector).sqrt();
+    if length > 0.0 {
+        for entry in &mut vector {
+            *entry /= length;
+        }
+    }
+    vector
+}
+
+/// Cosine of the angle of two directions.
+pub(super) fn cosine(a: &[f64], b: &[f64]) -> f64 {
+    product(a, b)
+}
+
+/// The solution on the hyperplane through `predicted` orthogonal to `normal`.
+pub(super) fn corrected<S: System>(
+    system: &S,
+    predicted: &[f64],
+    normal: &[f64],
+    before: Option<&Matrix>,
+) -> Result<Solved<S::Known>, NoStep<S::Error>> {
+    let mut unknowns = predicted.to_vec();
+    let mut derivative: Option<Matrix> = None;
+    let mut last = f64::INFINITY;
+    for _ in 0..MOST_CORRECTIONS {
+        let (mismatch, known) = system.mismatch(&unknowns)?;
+        let residual = super::shooting::largest(&mismatch);
+        if !residual.is_finite() {
+            return Err(NoStep::NotConverged);
+        }
+        let nearby = derivative.as_ref().or(before);
+        let slope = system.derivative(&unknowns, &known, nearby, normal)?;
+        let off: Vec<f64> = unknowns.iter().zip(predicted).map(|(u, p)| u - p).collect();
+        let aside = product(normal, &off);
+        let solved = residual <= SOLVED || (residual <= NEARLY_SOLVED && residual > 0.5 * last);
+        if solved && aside.abs() < 1e-9 {
+            return Ok(Solved { unknowns, residual, known, derivative: slope });
+        }
+        last = residual;
+        let n = mismatch.len();
+        let bordered = bordered(&slope, normal);
+        let right = Matrix::from_fn(n + 1, 1, |i, _| if i < n { -mismatch[i] } else { -aside });
+        let Some(step) = bordered.solve(&right).filter(Matrix::is_finite) else {
+            return Err(NoStep::NotConverged);
+        };
+        for (entry, change) in unknowns.iter_mut().zip(step.as_slice()) {
+            *entry += change;
+        }
+        derivative = Some(slope);
+    }
+    Err(NoStep::NotConverged)
+}
+
+/// The tangent at a solution, towards `way`.
+pub(super) fn tangent(derivative: &Matrix, way: &[f64]) -> Option<Vec<f64>> {
+    let n = derivative.rows();
+    let right = Matrix::from_fn(n + 1, 1, |i, _| f64::from(u8::from(i == n)));
+    let found = bordered(derivative, way).solve(&right).filter(Matrix::is_finite)?;
+    Some(direction(found.as_slice().to_vec()))
+}
+
+fn bordered(derivative: &Matrix, row: &[f64]) -> Matrix {
+    let n = derivative.rows();
+    Matrix::from_fn(n + 1, n + 1, |i, j| if i < n { derivative[(i, j)] } else { row[j] })
+}
+
+/// The cubic through two points with their tangents, at the share `s` of the way; tangents have length 1.
+pub(super) fn between(a: (&[f64], &[f64]), b: (&[f64], &[f64]), s: f64) -> Vec<f64> {
+    let length = distance(a.0, b.0);
+    let (s2, s3) = (s * s, s * s * s);
+    let (h00, h01) = (2.0 * s3 - 3.0 * s2 + 1.0, 3.0 * s2 - 2.0 * s3);
+    let (h10, h11) = (length * (s3 - 2.0 * s2 + s), length * (s3 - s2));
+    (0..a.0.len()).map(|k| h00 * a.0[k] + h01 * b.0[k] + h10 * a.1[k] + h11 * b.1[k]).collect()
+}

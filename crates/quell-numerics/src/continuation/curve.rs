@@ -1,0 +1,312 @@
+//! The curve of a threshold in two parameters, by pseudo-arclength.
+//!
+//! Unknowns are the state and both parameters; equations are φ(x) = x and the test function of the threshold's kind. The
+//! derivative of the image by the state is exact; that by the parameters and the gradient of the test are differences, taken
+//! once a step: they steer Newton's method and bound no digit of the result.
+//!
+//! A curve of folds, flips or Neimark–Sacker bifurcations ends where its orbit touches the border of its signature; one of
+//! Neimark–Sacker bifurcations also where its pair becomes real, at ±1.
+
+use num_complex::Complex64;
+
+use super::arc::{self, NoStep, Solved, System, cosine, distance, tangent};
+use super::branch::NUDGE;
+use super::threshold::{Kind, confirmed, test};
+use super::{Family, Image, multipliers};
+use crate::matrix::Matrix;
+
+/// The windows of the two parameters and the steps of a trace.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trace {
+    /// Window of the first parameter.
+    pub first: (f64, f64),
+    /// Window of the second parameter.
+    pub second: (f64, f64),
+    /// Longest step in scaled coordinates, in which both windows have width 1.
+    pub longest: f64,
+    /// Shortest step: below it the curve counts as lost.
+    pub shortest: f64,
+    /// Most points on each side of the first one.
+    pub most_points: u32,
+}
+
+impl Trace {
+    /// Through two windows with at least `steps` points across either of them.
+    pub fn windows(first: (f64, f64), second: (f64, f64), steps: u32) -> Self {
+        let longest = 1.0 / f64::from(steps.max(1));
+        Self { first, second, longest, shortest: 1e-7, most_points: 2000 }
+    }
+}
+
+/// A point of a curve.
+#[derive(Clone, Debug)]
+pub struct CurvePoint {
+    /// The fixed point.
+    pub state: Vec<f64>,
+    /// The two parameters.
+    pub parameters: [f64; 2],
+    /// Multipliers, the largest modulus first; at a touch those of the piece inside.
+    pub multipliers: Vec<Complex64>,
+    /// Largest mismatch of the equations, scaled.
+    pub residual: f64,
+}
+
+/// How a curve ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CurveEnd {
+    /// At the border of a window.
+    Window,
+    /// Where it began.
+    Closed,
+    /// Its orbit touches the border of its signature.
+    Touch,
+    /// The pair of multipliers is real: a resonance 1 : 1 or 1 : 2.
+    Resonance,
+    /// Steps became too short.
+    Lost,
+    /// After as many points as were allowed.
+    TooLong,
+}
+
+/// A curve, from one of its ends to the other.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// What happens on it.
+    pub kind: Kind,
+    /// Points in order.
+    pub points: Vec<CurvePoint>,
+    /// How it ends before the first and after the last point.
+    pub ends: [CurveEnd; 2],
+}
+
+/// The equations of a threshold in scaled unknowns.
+struct Equations<'a, F: Family> {
+    family: &'a F,
+    trace: Trace,
+    kind: Kind,
+    held: &'a F::Signature,
+}
+
+impl<F: Family> Equations<'_, F> {
+    fn unscaled(&self, unknowns: &[f64]) -> (Vec<f64>, [f64; 2]) {
+        let n = unknowns.len() - 2;
+        let state = unknowns[..n].iter().map(|it| it * self.family.scale()).collect();
+        let value = |(from, to): (f64, f64), share: f64| {
+            if share == 1.0 { to } else { (to - from).mul_add(share, from) }
+        };
+        (state, [value(self.trace.first, unknowns[n]), value(self.trace.second, unknowns[n + 1])])
+    }
+
+    /// The test at an image; a distance is a length.
+    fn test(&self, image: &Image<F::Signature>) -> f64 {
+        let value = test(self.kind, image).unwrap_or(f64::NAN);
+        if self.kind == Kind::Touch { value / self.family.scale() } else { value }
+    }
+}
+
+impl<F: Family> System for Equations<'_, F> {
+    type Known = Image<F::Signature>;
+    type Error = F::Error;
+
+    fn mismatch(&self, unknowns: &[f64]) -> Result<(Vec<f64>, Self::Known), F::Error> {
+        let (state, parameters) = self.unscaled(unknowns);
+        let image = self.family.image(&state, &parameters, Some(self.held))?;
+        let scale = self.family.scale();
+        let mismatch = image.state.iter().zip(&state).map(|(to, from)| (to - from) / scale);
+        Ok((mismatch.chain([self.test(&image)]).collect(), image))
+    }
+
+    fn derivative(
+        &self,
+        unknowns: &[f64],
+        image: &Self::Known,
+        before: Option<&Matrix>,
+        _: &[f64],
+    ) -> Result<Matrix, F::Error> {
+        let n = self.family.dimension();
+        let mut derivative = if let Some(before) = before {
+            before.clone()
+        } else {
+            let here = self.test(image);
+            let mut fresh = Matrix::zeros(n + 1, n + 2);
+            for column in 0..n + 2 {
+                let inwards = column >= n && unknowns[column] + NUDGE > 1.0;
+                let nudge = if inwards { -NUDGE } else { NUDGE };
+                let mut moved = unknowns.to_vec();
+                moved[column] += nudge;
+                let (state, parameters) = self.unscaled(&moved);
+                let other = self.family.image(&state, &parameters, Some(self.held))?;
+                fresh[(n, column)] = (self.test(&other) - here) / nudge;
+                for row in 0..n {
+                    let change = other.state[row] - image.state[row];
+                    fresh[(row, column)] = change / (self.family.scale() * nudge);
+                }
+            }
+            fresh
+        };
+        for i in 0..n {
+            for j in 0..n {
+                derivative[(i, j)] = image.derivative[(i, j)] - if i == j { 1.0 } else { 0.0 };
+            }
+        }
+        Ok(derivative)
+    }
+}
+
+/// A point with what the trace needs.
+#[derive(Clone)]
+struct Place<S> {
+    unknowns: Vec<f64>,
+    tangent: Vec<f64>,
+    image: Image<S>,
+    residual: f64,
+    multipliers: Vec<Complex64>,
+}
+
+/// A corrected point off the predicted one by more than this share of the step is not believed.
+const NEAR: f64 = 0.1;
+
+/// Least cosine of the turn of a step.
+const TURN: f64 = 0.9;
+
+impl<F: Family> Equations<'_, F> {
+    fn at(&self, predicted: &[f64], normal: &[f64]) -> Option<Place<F::Signature>> {
+        let Solved { unknowns, residual, known, derivative } =
+            match arc::corrected(self, predicted, normal, None) {
+                Ok(solved) => solved,
+                Err(NoStep::NotConverged | NoStep::Failed(_)) => return None,
+            };
+        let multipliers = multipliers(&known.derivative)?;
+        let tangent = tangent(&derivative, normal)?;
+        Some(Place { unknowns, tangent, image: known, residual, multipliers })
+    }
+
+    fn point(&self, place: &Place<F::Signature>) -> CurvePoint {
+        let (state, parameters) = self.unscaled(&place.unknowns);
+        let multipliers = place.multipliers.clone();
+        CurvePoint { state, parameters, multipliers, residual: place.residual }
+    }
+
+    /// The share of a step at which it leaves a window first, and through which coordinate and end.
+    fn leaves(&self, here: &Place<F::Signature>, length: f64) -> Option<(f64, usize, f64)> {
+        let n = here.unknowns.len() - 2;
+        (n..n + 2)
+            .filter_map(|column| {
+                let (at, speed) = (here.unknowns[column], here.tangent[column]);
+                let end = if speed > 0.0 { 1.0 } else { 0.0 };
+                let way = (end - at) / speed;
+                (speed != 0.0 && way <= length).then_some((way, column, end))
+            })
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// One step; `Err` where this length does not do, or for good where the end is known.
+    fn step(
+        &self,
+        here: &Place<F::Signature>,
+        length: f64,
+    ) -> Result<(Place<F::Signature>, bool), Option<CurveEnd>> {
+        let leaving = self.leaves(here, length);
+        let mut normal = here.tangent.clone();
+        let way = leaving.map_or(length, |(way, ..)| way.max(0.0));
+        let mut predicted: Vec<f64> =
+            here.unknowns.iter().zip(&here.tangent).map(|(u, t)| u + way * t).collect();
+        if let Some((_, column, end)) = leaving {
+            predicted[column] = end;
+            normal = vec![0.0; normal.len()];
+            normal[column] = here.tangent[column].signum();
+        }
+        let mut next = self.at(&predicted, &normal).ok_or(None)?;
+        if let Some((_, column, end)) = leaving {
+            next.unknowns[column] = end;
+        }
+        if distance(&next.unknowns, &predicted) > NEAR * way.max(1e-7)
+            || cosine(&next.tangent, &here.tangent) < TURN
+        {
+            return Err(None);
+        }
+        if next.image.signature != *self.held
+            || (self.kind != Kind::Touch && next.image.distance <= 0.0)
+        {
+            return Err(Some(CurveEnd::Touch));
+        }
+        if !confirmed(self.kind, &next.multipliers) {
+            return Err(Some(CurveEnd::Resonance));
+        }
+        let n = next.unknowns.len() - 2;
+        let outside = |share: &f64| !(-1e-12..=1.0 + 1e-12).contains(share);
+        if next.unknowns[n..].iter().any(outside) {
+            return Err(None);
+        }
+        Ok((next, leaving.is_some()))
+    }
+
+    /// The curve from a place in the direction of its tangent.
+    fn side(&self, begin: &Place<F::Signature>) -> (Vec<CurvePoint>, CurveEnd) {
+        let mut here = begin.clone();
+        let mut points = Vec::new();
+        let mut length = self.trace.longest;
+        loop {
+            if points.len() >= self.trace.most_points as usize {
+                return (points, CurveEnd::TooLong);
+            }
+            match self.step(&here, length) {
+                Ok((next, leaves)) => {
+                    points.push(self.point(&next));
+                    if leaves {
+                        return (points, CurveEnd::Window);
+                    }
+                    let way = distance(&next.unknowns, &here.unknowns);
+                    let turned = 1.0 - cosine(&next.tangent, &here.tangent);
+                    if turned < 3e-3 {
+                        length = (2.0 * way).min(self.trace.longest);
+                    }
+                    here = next;
+                    let closes = points.len() > 8
+                        && distance(&here.unknowns, &begin.unknowns) < 0.6 * way
+                        && cosine(&here.tangent, &begin.tangent) > TURN;
+                    if closes {
+                        return (points, CurveEnd::Closed);
+                    }
+                }
+                Err(_) if length > self.trace.shortest => length *= 0.4,
+                Err(end) => return (points, end.unwrap_or(CurveEnd::Lost)),
+            }
+        }
+    }
+}
+
+/// The curve of a threshold of a kind through a fixed point that has it, on the piece of `signature`, in both directions
+/// to the borders of the windows. `None` where the point is not one of the curve.
+pub fn trace<F: Family>(
+    family: &F,
+    kind: Kind,
+    signature: &F::Signature,
+    state: &[f64],
+    parameters: [f64; 2],
+    options: Trace,
+) -> Option<Curve> {
+    let equations = Equations { family, trace: options, kind, held: signature };
+    let share = |(from, to): (f64, f64), value: f64| (value - from) / (to - from);
+    let mut unknowns: Vec<f64> = state.iter().map(|it| it / family.scale()).collect();
+    unknowns.push(share(options.first, parameters[0]));
+    unknowns.push(share(options.second, parameters[1]));
+    let n = state.len();
+    // The curve is met across its second parameter, or along its first one where it runs so.
+    let met = (0..2).find_map(|turn| {
+        let mut normal = vec![0.0; n + 2];
+        normal[n + 1 - turn] = 1.0;
+        equations.at(&unknowns, &normal)
+    })?;
+    let back = Place { tangent: met.tangent.iter().map(|it| -it).collect(), ..met.clone() };
+    let (forward, end) = equations.side(&met);
+    let (backward, begin) = if end == CurveEnd::Closed {
+        (Vec::new(), CurveEnd::Closed)
+    } else {
+        equations.side(&back)
+    };
+    let mut points: Vec<CurvePoint> = backward.into_iter().rev().collect();
+    points.push(equations.point(&met));
+    points.extend(forward);
+    Some(Curve { kind, points, ends: [begin, end] })
+}

@@ -1,0 +1,290 @@
+//! Fixed points, thresholds and their curves against planted answers.
+
+use std::f64::consts::FRAC_PI_3;
+
+use quell_numerics::continuation::branch::{End, Follow, Passage, follow};
+use quell_numerics::continuation::curve::{Curve, CurveEnd, Trace, trace};
+use quell_numerics::continuation::shooting::{NotClosed, Shooting, fixed_point};
+use quell_numerics::continuation::threshold::Kind;
+use quell_numerics::continuation::{Family, Image};
+use quell_numerics::matrix::Matrix;
+
+/// Hénon's map (x, y) → (1 − a x² + y, b x), parameters a and then b.
+struct Henon {
+    b: f64,
+}
+
+impl Henon {
+    fn b(&self, parameters: &[f64]) -> f64 {
+        parameters.get(1).copied().unwrap_or(self.b)
+    }
+}
+
+impl Family for Henon {
+    type Signature = ();
+    type Error = String;
+
+    fn dimension(&self) -> usize {
+        2
+    }
+
+    fn scale(&self) -> f64 {
+        1.0
+    }
+
+    fn image(&self, state: &[f64], parameters: &[f64], _: Option<&()>) -> Result<Image<()>, String> {
+        let (x, y, a, b) = (state[0], state[1], parameters[0], self.b(parameters));
+        if x.abs() > 1e3 {
+            return Err(format!("x = {x} runs away"));
+        }
+        let derivative = [[-2.0 * a * x, 1.0], [b, 0.0]];
+        Ok(Image {
+            state: vec![1.0 - a * x * x + y, b * x],
+            derivative: Matrix::from_fn(2, 2, |i, j| derivative[i][j]),
+            distance: f64::INFINITY,
+            signature: (),
+        })
+    }
+}
+
+/// Delayed logistic map (x, y) → (r x (1 − y), x), parameter r, with y weighted by a second parameter c where there is one.
+struct Delayed;
+
+impl Family for Delayed {
+    type Signature = ();
+    type Error = ();
+
+    fn dimension(&self) -> usize {
+        2
+    }
+
+    fn scale(&self) -> f64 {
+        1.0
+    }
+
+    fn image(&self, state: &[f64], parameters: &[f64], _: Option<&()>) -> Result<Image<()>, ()> {
+        let (x, y, r) = (state[0], state[1], parameters[0]);
+        let c = parameters.get(1).copied().unwrap_or(1.0);
+        let derivative = [[r * (1.0 - c * y), -r * c * x], [1.0, 0.0]];
+        Ok(Image {
+            state: vec![r * x * (1.0 - c * y), x],
+            derivative: Matrix::from_fn(2, 2, |i, j| derivative[i][j]),
+            distance: f64::INFINITY,
+            signature: (),
+        })
+    }
+}
+
+/// The piecewise linear map x → slope·x + p with one slope on either side of x = q: its fixed point touches the border
+/// where p = (1 − inside)·q. `continued` says whether the inner piece can be held beyond its border.
+struct Corner {
+    inside: f64,
+    outside: f64,
+    continued: bool,
+}
+
+impl Family for Corner {
+    type Signature = bool;
+    type Error = ();
+
+    fn dimension(&self) -> usize {
+        1
+    }
+
+    fn scale(&self) -> f64 {
+        1.0
+    }
+
+    fn image(
+        &self,
+        state: &[f64],
+        parameters: &[f64],
+        held: Option<&bool>,
+    ) -> Result<Image<bool>, ()> {
+        let (x, p) = (state[0], parameters[0]);
+        let q = parameters.get(1).copied().unwrap_or(0.0);
+        let is_inside = x > q || (self.continued && held == Some(&true));
+        let slope = if is_inside { self.inside } else { self.outside };
+        let known = is_inside && self.continued;
+        Ok(Image {
+            state: vec![slope * (x - q) + self.inside * q + p],
+            derivative: Matrix::from_fn(1, 1, |_, _| slope),
+            distance: if known { x - q } else { f64::INFINITY },
+            signature: is_inside,
+        })
+    }
+}
+
+fn near(found: f64, wanted: f64, closeness: f64) {
+    assert!((found - wanted).abs() < closeness, "{found} {wanted}: {:e}", found - wanted);
+}
+
+fn counts<S>(passage: &Passage<S>) -> (Option<usize>, Option<usize>) {
+    (passage.below.as_ref().map(|it| it.unstable), passage.above.as_ref().map(|it| it.unstable))
+}
+
+#[test]
+fn henon_flips_and_is_followed_around_its_fold() {
+    let b = 0.3;
+    let fold = -0.25 * (1.0 - b) * (1.0 - b);
+    let flip = 0.75 * (1.0 - b) * (1.0 - b);
+    let stable = |a: f64| (-(1.0 - b) + ((1.0_f64 - b).powi(2) + 4.0 * a).sqrt()) / (2.0 * a);
+    // The stable one of the two fixed points, followed down around the fold and up again.
+    let x = stable(-0.06);
+    let window = Follow::window(-0.4, -0.05, 40);
+    let branch = follow(&Henon { b }, &[x, b * x], -0.06, false, window).expect("a branch");
+    assert_eq!(branch.passages.len(), 1, "{:?}", branch.passages);
+    let passage = &branch.passages[0];
+    assert_eq!(passage.kind, Kind::Fold);
+    near(passage.parameter, fold, 1e-9);
+    assert_eq!(counts(passage), (None, Some(0)));
+    assert!(matches!(branch.end, End::Window { at: -0.05 }), "{:?}", branch.end);
+    let last = branch.points.last().expect("points");
+    near(last.state[0], (-(1.0 - b) - ((1.0_f64 - b).powi(2) - 0.2).sqrt()) / -0.1, 1e-10);
+    // Upwards it flips.
+    let x = stable(0.2);
+    let branch = follow(&Henon { b }, &[x, b * x], 0.2, true, Follow::window(-1.0, 1.0, 40))
+        .expect("a branch");
+    assert_eq!(branch.passages.len(), 1, "{:?}", branch.passages);
+    assert_eq!(branch.passages[0].kind, Kind::Flip);
+    near(branch.passages[0].parameter, flip, 1e-9);
+    assert_eq!(counts(&branch.passages[0]), (Some(0), Some(1)));
+    assert!(branch.passages[0].error < 1e-8);
+}
+
+#[test]
+fn delayed_logistic_map_has_its_torus_born() {
+    let window = Follow::window(1.2, 3.0, 30);
+    let branch = follow(&Delayed, &[1.0 - 1.0 / 1.5; 2], 1.5, true, window).expect("a branch");
+    assert_eq!(branch.passages.len(), 1, "{:?}", branch.passages);
+    let passage = &branch.passages[0];
+    assert_eq!(passage.kind, Kind::NeimarkSacker);
+    near(passage.parameter, 2.0, 1e-9);
+    assert_eq!(counts(passage), (Some(0), Some(2)));
+    // A walk in a reversed window goes the other way and finds the same.
+    let window = Follow::window(3.0, 1.2, 30);
+    let branch = follow(&Delayed, &[1.0 - 1.0 / 2.5; 2], 2.5, false, window).expect("a branch");
+    near(branch.passages[0].parameter, 2.0, 1e-9);
+    assert_eq!(counts(&branch.passages[0]), (Some(0), Some(2)));
+    let angle = branch.points.iter().map(|it| it.multipliers[0].arg());
+    assert!(angle.clone().any(|it| it > FRAC_PI_3) && angle.clone().any(|it| it < FRAC_PI_3));
+}
+
+/// Persistent and turning touches, met from the piece that can be continued and from the other one.
+#[test]
+fn touches_persist_or_turn_back() {
+    for continued in [true, false] {
+        let kind = if continued { Kind::Touch } else { Kind::Border };
+        let closeness = if continued { 1e-10 } else { 1e-8 };
+        let persists = Corner { inside: 0.5, outside: -0.3, continued };
+        let window = Follow::window(-1.0, 1.0, 20);
+        let down = follow(&persists, &[1.0], 0.5, false, window).expect("a branch");
+        let up = follow(&persists, &[-0.5], -0.65, true, window).expect("a branch");
+        for (branch, end) in [(down, -1.0), (up, 1.0)] {
+            assert_eq!(branch.passages.len(), 1, "{:?}", branch.passages);
+            assert_eq!(branch.passages[0].kind, kind);
+            near(branch.passages[0].parameter, 0.0, closeness);
+            assert_eq!(counts(&branch.passages[0]), (Some(0), Some(0)));
+            assert!(matches!(branch.end, End::Window { at } if at == end), "{:?}", branch.end);
+        }
+        // With an outer slope above 1 the fixed point of the outer piece lies on the same side: the branch turns back.
+        let turns = Corner { inside: 0.5, outside: 1.5, continued };
+        let branch = follow(&turns, &[1.0], 0.5, false, window).expect("a branch");
+        assert_eq!(branch.passages.len(), 1, "{:?}", branch.passages);
+        near(branch.passages[0].parameter, 0.0, 1e-7);
+        assert_eq!(counts(&branch.passages[0]), (None, Some(0)));
+        assert!(matches!(branch.end, End::Window { at: 1.0 }), "{:?}", branch.end);
+        near(branch.points.last().expect("points").state[0], -2.0, 1e-10);
+    }
+}
+
+fn all(curve: &Curve, wanted: impl Fn(f64) -> f64) {
+    assert!(curve.points.len() > 20);
+    for point in &curve.points {
+        near(point.parameters[0], wanted(point.parameters[1]), 1e-9);
+    }
+}
+
+#[test]
+fn curves_in_two_parameters() {
+    let options = Trace::windows((-1.0, 2.0), (-0.5, 0.6), 40);
+    let b = 0.3_f64;
+    for (kind, factor, sign) in [(Kind::Fold, -0.25, 0.0), (Kind::Flip, 0.75, 1.0)] {
+        let a = factor * (1.0 - b) * (1.0 - b);
+        let root = ((1.0 - b) * (1.0 - b) + 4.0 * a).max(0.0).sqrt();
+        let x = (-(1.0 - b) + sign * root) / (2.0 * a);
+        let curve =
+            trace(&Henon { b }, kind, &(), &[x, b * x], [a, b], options).expect("a curve");
+        assert_eq!(curve.ends, [CurveEnd::Window; 2]);
+        all(&curve, |b| factor * (1.0 - b) * (1.0 - b));
+        let ends = [&curve.points[0], curve.points.last().expect("points")];
+        let mut reached = ends.map(|it| it.parameters[1]);
+        reached.sort_by(f64::total_cmp);
+        assert_eq!(reached, [-0.5, 0.6]);
+    }
+    // The weight of the delay scales the state alone.
+    let options = Trace::windows((1.0, 3.0), (0.5, 2.0), 40);
+    let curve = trace(&Delayed, Kind::NeimarkSacker, &(), &[0.5, 0.5], [2.0, 1.0], options)
+        .expect("a curve");
+    all(&curve, |_| 2.0);
+    // p = (1 − inside) q.
+    let corner = Corner { inside: 0.5, outside: -0.3, continued: true };
+    let options = Trace::windows((-1.0, 1.0), (-1.0, 1.5), 40);
+    let curve = trace(&corner, Kind::Touch, &true, &[0.2], [0.1, 0.2], options).expect("a curve");
+    all(&curve, |q| 0.5 * q);
+}
+
+/// x → x + (x² + p² + … − 1)-like closed curve of folds: x → x + (x − q)² + p² + q² − 1 has its folds on p² + q² = 1.
+struct Ring;
+
+impl Family for Ring {
+    type Signature = ();
+    type Error = ();
+
+    fn dimension(&self) -> usize {
+        1
+    }
+
+    fn scale(&self) -> f64 {
+        1.0
+    }
+
+    fn image(&self, state: &[f64], parameters: &[f64], _: Option<&()>) -> Result<Image<()>, ()> {
+        let (x, p, q) = (state[0], parameters[0], parameters[1]);
+        Ok(Image {
+            state: vec![x + (x - q) * (x - q) + p * p + q * q - 1.0],
+            derivative: Matrix::from_fn(1, 1, |_, _| 1.0 + 2.0 * (x - q)),
+            distance: f64::INFINITY,
+            signature: (),
+        })
+    }
+}
+
+#[test]
+fn a_closed_curve_is_closed() {
+    let options = Trace::windows((-2.0, 2.0), (-2.0, 2.0), 60);
+    let curve = trace(&Ring, Kind::Fold, &(), &[0.6], [0.8, 0.6], options).expect("a curve");
+    assert_eq!(curve.ends, [CurveEnd::Closed; 2]);
+    for point in &curve.points {
+        near(point.parameters[0].hypot(point.parameters[1]), 1.0, 1e-9);
+    }
+}
+
+#[test]
+fn shooting_says_where_it_stopped() {
+    let henon = Henon { b: 0.3 };
+    // Below the fold there is no fixed point.
+    let told = fixed_point(&henon, &[1.0, 0.3], &[-0.5], None, &Shooting::default());
+    let Err(NotClosed::TooManySteps { steps, residual, at }) = told else {
+        panic!("{told:?}");
+    };
+    assert!(steps == 40 && residual > 0.1 && at.iter().all(|it| it.is_finite()));
+    let told = fixed_point(&henon, &[2e3, 0.0], &[0.2], None, &Shooting::default());
+    assert!(matches!(&told, Err(NotClosed::NoImage { steps: 0, .. })), "{told:?}");
+    // The other fixed point is not meant by this guess.
+    let near_one = Shooting { reach: 0.01, ..Shooting::default() };
+    let told = fixed_point(&henon, &[0.5, 0.15], &[0.2], None, &near_one);
+    assert!(matches!(&told, Err(NotClosed::Strayed { .. })), "{told:?}");
+    let text = told.expect_err("strayed").to_string();
+    assert!(text.contains("from the guess"), "{text}");
+}
