@@ -5,8 +5,17 @@
 //! every event; neither averaging nor a long simulation is needed. In pure slip det M = exp(−∮(2ζ + μ′N)dτ); with a
 //! stick one multiplier is 0, because the mass leaves it at one state whatever came before.
 //!
-//! [`threshold`] follows an orbit along a parameter to the values at which its stability changes.
+//! Shooting, branches and thresholds are the mathematics of [`quell_numerics::continuation`]; [`family`] tells it
+//! what a belt does in a period, and is what a model with more masses and contacts would write anew.
+//!
+//! * [`threshold`]: the values of a parameter at which the response of sliding gains or loses stability;
+//! * [`curve`]: curves of thresholds in two parameters;
+//! * [`cycle`]: the limit cycles of an undithered belt, stable or not;
+//! * [`reached`]: where a run from a given start ends, and on what orbit.
 
+pub mod curve;
+pub mod cycle;
+pub mod family;
 pub mod reached;
 pub mod threshold;
 mod variation;
@@ -15,22 +24,16 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use quell_model::Belt;
+use quell_numerics::continuation::branch::{End, Follow, follow};
+use quell_numerics::continuation::shooting::{NotClosed, Shooting, fixed_point};
 
 use crate::simulation::{EventKind, FinalState, Stalled, Start, simulate};
+use family::{Forced, Setting, Signature};
 pub use variation::Matrix;
 use variation::Variation;
 
 /// Bound on the last retained Taylor terms of a step while shooting, relative to F.
 const TOLERANCE: f64 = 1e-14;
-
-/// Newton steps of one shooting.
-const MOST_STEPS: u32 = 40;
-
-/// Mismatch of an orbit after its period, relative to F, at which shooting ends.
-const CLOSED: f64 = 1e-12;
-
-/// A mismatch that rounding of a long period may leave.
-const NEARLY_CLOSED: f64 = 1e-9;
 
 /// Frequencies whose ratio is a fraction with a denominator up to this are commensurate.
 const DENOMINATORS: u32 = 64;
@@ -50,6 +53,15 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// Of an orbit whose largest multiplier has this modulus.
+    pub fn of(radius: f64) -> Self {
+        match radius {
+            radius if radius > 1.0 + UNDECIDED => Self::Unstable,
+            radius if radius < 1.0 - UNDECIDED => Self::Stable,
+            _ => Self::Undecided,
+        }
+    }
+
     /// Word in outputs.
     pub fn name(self) -> &'static str {
         match self {
@@ -81,22 +93,35 @@ pub struct Orbit {
     pub least_slip: Option<(f64, f64)>,
     /// Share of the period spent in stick.
     pub stick_fraction: f64,
+    /// Sign of v_r at its end.
+    pub slip_sign: i8,
+    /// Whether its phase is free: a limit cycle without dither, one multiplier of which is 1, along it.
+    pub is_free: bool,
 }
 
 impl Orbit {
-    /// Modulus of the larger multiplier.
+    /// Modulus of the multiplier that decides: the larger one; of a free orbit the one that is not 1.
     pub fn radius(&self) -> f64 {
-        let (re, im) = self.multipliers[0];
+        let off = |(re, im): (f64, f64)| libm::hypot(re - 1.0, im);
+        let [larger, smaller] = self.multipliers;
+        let (re, im) = if self.is_free && off(smaller) > off(larger) { smaller } else { larger };
         libm::hypot(re, im)
+    }
+
+    /// The same with a free phase.
+    fn free(self) -> Self {
+        Self { is_free: true, ..self }
+    }
+
+    /// What happens along its period.
+    pub fn signature(&self) -> Signature {
+        let stuck = self.stick_fraction * self.period;
+        Signature::of(&self.events, stuck, self.slip_sign)
     }
 
     /// What the multipliers say.
     pub fn verdict(&self) -> Verdict {
-        match self.radius() {
-            radius if radius > 1.0 + UNDECIDED => Verdict::Unstable,
-            radius if radius < 1.0 - UNDECIDED => Verdict::Stable,
-            _ => Verdict::Undecided,
-        }
+        Verdict::of(self.radius())
     }
 
     /// Whether it never touches v_r = 0.
@@ -126,6 +151,37 @@ pub enum NoOrbit {
         /// Where it was then.
         at: Start,
     },
+    /// A multiplier is 1 to rounding, so that Newton's method has no step.
+    Degenerate {
+        /// Steps taken.
+        steps: u32,
+        /// Mismatch there.
+        residual: f64,
+        /// Where it was then.
+        at: Start,
+    },
+    /// An orbit was found, but not the one that was meant.
+    Another {
+        /// Its distance from where the orbit should be.
+        distance: f64,
+        /// Where it is.
+        at: Start,
+    },
+    /// The response that sliding becomes ends before the dither has its amplitude.
+    Ends {
+        /// Share of the amplitude up to which there is one.
+        share: f64,
+    },
+    /// The run does not come back to itself within this number of common periods.
+    NoPeriod {
+        /// The number.
+        most: u32,
+    },
+    /// A parameter cannot take this value.
+    Invalid {
+        /// The value.
+        value: f64,
+    },
     /// The engine stopped.
     Stalled(Stalled),
 }
@@ -142,12 +198,50 @@ impl fmt::Display for NoOrbit {
                 "shooting stopped after {steps} steps at x = {}, x′ = {} with a mismatch of {residual:.1e}",
                 at.displacement, at.velocity
             ),
+            Self::Degenerate { steps, residual, at } => write!(
+                f,
+                "shooting stopped after {steps} steps at x = {}, x′ = {} with a mismatch of {residual:.1e}: \
+                 a multiplier is 1 there",
+                at.displacement, at.velocity
+            ),
+            Self::Another { distance, at } => write!(
+                f,
+                "shooting found an orbit at x = {}, x′ = {}, but {distance:.1e} from where it should be: another one",
+                at.displacement, at.velocity
+            ),
+            Self::Ends { share } => write!(
+                f,
+                "the response that sliding becomes ends when the dither has {share:.7} of its amplitude: \
+                 there is none beyond; look near a state, or for what a run ends on"
+            ),
+            Self::NoPeriod { most } => write!(
+                f,
+                "the run does not come back to itself within {most} periods of the dither: \
+                 it is slow, locked at a longer period, or not periodic"
+            ),
+            Self::Invalid { value } => write!(f, "a parameter cannot be {value}"),
             Self::Stalled(stalled) => stalled.fmt(f),
         }
     }
 }
 
 impl std::error::Error for NoOrbit {}
+
+impl From<NotClosed<NoOrbit>> for NoOrbit {
+    fn from(why: NotClosed<NoOrbit>) -> Self {
+        let start = |at: &[f64]| family::start_of(at);
+        match why {
+            NotClosed::TooManySteps { steps, residual, at } => {
+                Self::NotConverged { steps, residual, at: start(&at) }
+            }
+            NotClosed::Singular { steps, residual, at } => {
+                Self::Degenerate { steps, residual, at: start(&at) }
+            }
+            NotClosed::Strayed { distance, at, .. } => Self::Another { distance, at: start(&at) },
+            NotClosed::NoImage { why, .. } => why,
+        }
+    }
+}
 
 /// The common period of the dithers.
 ///
@@ -182,113 +276,81 @@ fn shot(belt: &Belt, start: Start, period: f64) -> Result<(FinalState, Variation
 /// # Errors
 /// [`NoOrbit`].
 pub fn near(belt: &Belt, guess: Start, periods: u32) -> Result<Orbit, NoOrbit> {
-    let period = f64::from(periods.max(1)) * common_period(belt)?;
-    let scale = belt.normal_load();
-    let mut start = Start { time: 0.0, ..guess };
-    let mut best: Option<(f64, Start)> = None;
-    for steps in 0..MOST_STEPS {
-        let (end, variation) = shot(belt, start, period)?;
-        let mismatch = [end.displacement - start.displacement, end.velocity - start.velocity];
-        let residual = mismatch[0].abs().max(mismatch[1].abs());
-        let improves = best.is_none_or(|(least, _)| residual < 0.5 * least);
-        if residual <= CLOSED * scale || (residual <= NEARLY_CLOSED * scale && !improves) {
-            return Ok(orbit_of(start, period, residual, &variation));
-        }
-        if best.is_none_or(|(least, _)| residual < least) {
-            best = Some((residual, start));
-        }
-        let [[a, b], [c, d]] = variation.matrix;
-        let determinant = (a - 1.0) * (d - 1.0) - b * c;
-        let step = [
-            -((d - 1.0) * mismatch[0] - b * mismatch[1]) / determinant,
-            -((a - 1.0) * mismatch[1] - c * mismatch[0]) / determinant,
-        ];
-        // Far from the orbit the first order may send the state anywhere: no step is longer than the system is wide.
-        let longest = scale.max(belt.belt_velocity());
-        let length = step[0].abs().max(step[1].abs());
-        if !length.is_finite() {
-            return Err(NoOrbit::NotConverged { steps, residual, at: start });
-        }
-        let share = (longest / length).min(1.0);
-        start.displacement += share * step[0];
-        start.velocity += share * step[1];
-    }
-    let (residual, at) = best.unwrap_or((f64::INFINITY, start));
-    Err(NoOrbit::NotConverged { steps: MOST_STEPS, residual, at })
+    let forced = Forced { belt, setting: Setting::Given, periods: periods.max(1) };
+    let longest = (belt.belt_velocity() / belt.normal_load()).max(1.0);
+    let shooting = Shooting { longest_step: longest, ..Shooting::default() };
+    let guess = [guess.displacement, guess.velocity];
+    let found = fixed_point(&forced, &guess, &[], None, &shooting)?;
+    orbit_at(belt, &found.state, forced.period_of(belt)?)
 }
 
-fn orbit_of(start: Start, period: f64, residual: f64, variation: &Variation<'_>) -> Orbit {
+/// The orbit of a state that is known to close.
+fn orbit_at(belt: &Belt, state: &[f64], period: f64) -> Result<Orbit, NoOrbit> {
+    let start = family::start_of(state);
+    let (end, variation) = shot(belt, start, period)?;
+    let mismatch = [end.displacement - start.displacement, end.velocity - start.velocity];
+    let residual = mismatch[0].abs().max(mismatch[1].abs());
+    Ok(orbit_of(start, period, residual, &end, &variation))
+}
+
+fn orbit_of(
+    start: Start,
+    period: f64,
+    residual: f64,
+    end: &FinalState,
+    variation: &Variation<'_>,
+) -> Orbit {
     Orbit {
         start,
         period,
         residual,
         monodromy: variation.matrix,
-        multipliers: eigenvalues(&variation.matrix),
+        multipliers: multipliers_of(&variation.matrix),
         events: variation.events.clone(),
         damping: variation.damping,
         least_slip: variation.least,
         stick_fraction: variation.stuck / period,
+        slip_sign: end.slip_sign,
+        is_free: false,
     }
 }
 
-/// Eigenvalues of a 2 × 2 matrix, the larger modulus first.
-fn eigenvalues([[a, b], [c, d]]: &Matrix) -> [(f64, f64); 2] {
-    let half = 0.5 * (a + d);
-    let determinant = a * d - b * c;
-    let discriminant = 0.25 * (a - d) * (a - d) + b * c;
-    if discriminant < 0.0 {
-        let im = libm::sqrt(-discriminant);
-        return [(half, im), (half, -im)];
-    }
-    let large = half + libm::copysign(libm::sqrt(discriminant), half);
-    // The smaller one by the product, which does not cancel.
-    let small = if large == 0.0 { 0.0 } else { determinant / large };
-    [(large, 0.0), (small, 0.0)]
+/// Multipliers of a period map, the larger modulus first.
+fn multipliers_of(matrix: &Matrix) -> [(f64, f64); 2] {
+    let found = quell_numerics::continuation::multipliers(&family::matrix_of(matrix));
+    let both = found.filter(|found| found.len() == 2).map(|found| [found[0], found[1]]);
+    // A matrix that is not finite has none; a run that ended has a finite one.
+    both.map_or([(f64::INFINITY, 0.0); 2], |both| both.map(|it| (it.re, it.im)))
 }
 
-/// The orbit that sliding without dither becomes when the dither grows from nothing: followed in
-/// `steps` of all amplitudes at once, halved where shooting does not converge.
+/// The orbit that sliding without dither becomes when the dither grows from nothing: followed along the share of all
+/// amplitudes at once in at least `steps` steps, around folds and through touches of v_r = 0.
 ///
 /// # Errors
-/// [`NoOrbit`] of the last amplitude that failed.
+/// [`NoOrbit`]: where the branch ends before the amplitudes are reached, or is lost.
 pub fn from_sliding(belt: &Belt, steps: u32) -> Result<Orbit, NoOrbit> {
-    let scaled = |share: f64| {
-        (0..belt.dithers().len()).try_fold(belt.clone(), |scaled, index| {
-            let amplitude = share * belt.dithers()[index].amplitude;
-            scaled.with(&belt.dither_path(index, "amplitude"), amplitude).ok()
-        })
-    };
-    let mut share = 0.0;
-    let mut step = 1.0 / f64::from(steps.max(1));
-    let mut known: Vec<(f64, Start)> =
-        vec![(0.0, Start { time: 0.0, displacement: belt.steady_sliding(), velocity: 0.0 })];
-    loop {
-        let next = if share + step > 1.0 - 1e-9 { 1.0 } else { share + step };
-        let belt = scaled(next).ok_or(NoOrbit::NoDither)?;
-        match near(&belt, predicted(&known, next), 1) {
-            Ok(orbit) if next >= 1.0 => return Ok(orbit),
-            Ok(orbit) => {
-                known.push((next, orbit.start));
-                share = next;
-            }
-            Err(why) if step < 1e-6 => return Err(why),
-            Err(_) => step *= 0.5,
-        }
+    let forced = Forced { belt, setting: Setting::Share, periods: 1 };
+    let period = forced.period_of(belt)?;
+    let branch = follow(
+        &forced,
+        &[belt.steady_sliding(), 0.0],
+        0.0,
+        true,
+        Follow::window(0.0, 1.0, steps),
+    )?;
+    // Where the branch turns back the response that grew from sliding is over, wherever the branch goes on to.
+    let turn = branch.passages.iter().find(|it| it.below.is_none() || it.above.is_none());
+    if let Some(turn) = turn {
+        return Err(NoOrbit::Ends { share: turn.parameter });
     }
-}
-
-/// The state at `value` on the line through the last two known ones.
-fn predicted(known: &[(f64, Start)], value: f64) -> Start {
-    match known {
-        [.., (a, from), (b, to)] if a != b => {
-            let share = (value - b) / (b - a);
-            Start {
-                time: 0.0,
-                displacement: share.mul_add(to.displacement - from.displacement, to.displacement),
-                velocity: share.mul_add(to.velocity - from.velocity, to.velocity),
-            }
+    match branch.end {
+        End::Window { at: 1.0 } => {}
+        End::Lost { why: Some(why), .. } => return Err(why.into()),
+        End::Touch { at } | End::Lost { at, .. } | End::TooLong { at } => {
+            return Err(NoOrbit::Ends { share: at });
         }
-        [.., (_, last)] => *last,
-        [] => Start::REST,
+        End::Window { .. } | End::Closed => return Err(NoOrbit::Ends { share: 0.0 }),
     }
+    let last = branch.points.last().ok_or(NoOrbit::Ends { share: 0.0 })?;
+    orbit_at(belt, &last.state, period)
 }

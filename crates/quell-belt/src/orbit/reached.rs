@@ -4,15 +4,21 @@
 //! dither quenches is another question than whether its response is stable.
 //!
 //! Scheme: states once a period, compared with the orbit. Settled is what comes nearer than `NEAR`; away is
-//! what has not come nearer over a whole block. A run that still comes nearer goes on, for near a threshold a
-//! decay takes long and a small remnant says nothing. Limit: a run that dwells beside the
-//! boundary of the basin for two blocks counts as away; that is an exponentially narrow range of parameters.
+//! what has not come nearer over a whole block, while it is on something that attracts. A run that still comes nearer
+//! goes on, for near a threshold a decay takes long and a small remnant says nothing: the rate decides. A run that dwells in
+//! slip where areas grow, ∫(2ζ + μ′N)dτ < 0 over a block, is not on an attractor however steady it looks: it is
+//! beside the unstable curve between two basins, and goes on too, until it leaves or is told as unsettled.
+//!
+//! A ramp grows all amplitudes in equal steps, one a common period: the dither's phase goes on through them.
 
-use quell_model::Belt;
+use quell_model::friction::{LawVisitor, SlidingLaw};
+use quell_model::{Belt, Direction};
 
 use super::threshold::NoThresholds;
-use super::{NoOrbit, Orbit, from_sliding};
-use crate::simulation::{DEFAULT_TOLERANCE, Sample, Sampler, Stalled, Start, simulate};
+use super::{NoOrbit, Orbit, common_period, from_sliding, near};
+use crate::simulation::{
+    DEFAULT_TOLERANCE, Event, Observer, Sample, Sampler, Segment, Stalled, Start, simulate,
+};
 
 /// Distance from the orbit, relative to F, that counts as being there.
 const NEAR: f64 = 1e-6;
@@ -25,6 +31,12 @@ const MOST_BLOCKS: u32 = 200;
 
 /// Share by which the distance must fall over a block to count as coming nearer.
 const NEARER: f64 = 1e-3;
+
+/// Time for which a run settles before its period is looked for, τ, and how often that is done.
+const SETTLE: (f64, u32) = (2000.0, 6);
+
+/// Closeness of two states of a run, relative to F, that may be the same of a periodic orbit.
+const AGAIN: f64 = 1e-5;
 
 /// Where a run ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -54,7 +66,9 @@ pub fn reached(belt: &Belt, orbit: &Orbit, start: Start) -> Result<Reached, Stal
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
         let mut sampler = Sampler::new(first, orbit.period, count as usize);
         let until = first + (count - 1.0) * orbit.period;
-        let end = simulate(belt, state, until, DEFAULT_TOLERANCE, &mut sampler)?;
+        let mut watch = (&mut sampler, Areas::new(belt));
+        let end = simulate(belt, state, until, DEFAULT_TOLERANCE, &mut watch)?;
+        let dwells = watch.1.grow();
         let distance = |sample: &Sample| {
             let x = (sample.displacement - orbit.start.displacement).abs();
             x.max((sample.velocity - orbit.start.velocity).abs()) / scale
@@ -64,7 +78,7 @@ pub fn reached(belt: &Belt, orbit: &Orbit, start: Start) -> Result<Reached, Stal
         if last < NEAR {
             return Ok(Reached::Sliding);
         }
-        if most > (1.0 - NEARER) * before {
+        if most > (1.0 - NEARER) * before && !dwells {
             lasting += 1;
             if lasting == 2 {
                 return Ok(Reached::Elsewhere);
@@ -79,11 +93,136 @@ pub fn reached(belt: &Belt, orbit: &Orbit, start: Start) -> Result<Reached, Stal
     Ok(Reached::Unsettled)
 }
 
+/// Whether areas of the phase plane grow along a run: in slip alone, ∫(2ζ + μ′N)dτ < 0.
+struct Areas<'a> {
+    belt: &'a Belt,
+    damping: f64,
+    touched: bool,
+}
+
+/// Gauss's two nodes on [0, 1]: the sign of an integral over many steps is all that is asked.
+const NODES: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+
+impl<'a> Areas<'a> {
+    fn new(belt: &'a Belt) -> Self {
+        Self { belt, damping: 0.0, touched: false }
+    }
+
+    fn grow(&self) -> bool {
+        !self.touched && self.damping < 0.0
+    }
+}
+
+impl Observer for Areas<'_> {
+    fn segment(&mut self, segment: &Segment<'_>) {
+        if segment.slip_sign() == 0 {
+            self.touched = true;
+        } else if !self.touched {
+            let rate = Rate { belt: self.belt, segment };
+            self.damping += self.belt.friction().visit(rate);
+        }
+    }
+
+    fn event(&mut self, _: &Event) {
+        self.touched = true;
+    }
+}
+
+/// ∫(2ζ + μ′N)dτ over a segment.
+struct Rate<'a, 's, 'c> {
+    belt: &'a Belt,
+    segment: &'s Segment<'c>,
+}
+
+impl LawVisitor for Rate<'_, '_, '_> {
+    type Output = f64;
+
+    fn visit<L: SlidingLaw>(self, law: &L) -> f64 {
+        let Self { belt, segment } = self;
+        let h = segment.duration();
+        let at = |node: f64| {
+            let since = node * h;
+            let load = super::variation::dithers(
+                belt,
+                Direction::Normal,
+                segment.clock().time() + since,
+            ) + belt.normal_load();
+            let slope = law.slope(segment.slip_velocity(since).abs());
+            slope.mul_add(load, 2.0 * belt.damping_ratio())
+        };
+        0.5 * h * NODES.map(at).iter().sum::<f64>()
+    }
+}
+
+/// Where a run is after its dither has grown from nothing over a time `over`, in equal steps, one a common period (at
+/// least one). `over` = 0 is no ramp.
+///
+/// # Errors
+/// [`NoOrbit`]: no common period, or the engine stopped.
+pub fn ramped(belt: &Belt, start: Start, over: f64) -> Result<Start, NoOrbit> {
+    if over <= 0.0 {
+        return Ok(start);
+    }
+    let period = common_period(belt)?;
+    let count = (over / period).ceil().max(1.0);
+    let mut state = start;
+    let mut number = 0.0;
+    while number < count {
+        let share = (number + 0.5) / count;
+        let step = (0..belt.dithers().len()).try_fold(belt.clone(), |step, index| {
+            let amplitude = share * belt.dithers()[index].amplitude;
+            let path = belt.dither_path(index, "amplitude");
+            step.with(&path, amplitude).map_err(|_| NoOrbit::Invalid { value: amplitude })
+        })?;
+        number += 1.0;
+        let until = number.mul_add(period, start.time);
+        state = simulate(&step, state, until, DEFAULT_TOLERANCE, &mut ())
+            .map_err(NoOrbit::Stalled)?
+            .restart();
+    }
+    Ok(state)
+}
+
+/// The periodic orbit on which a run from a state at τ = 0 ends, of up to `most` common periods.
+///
+/// # Errors
+/// [`NoOrbit`]; [`NoOrbit::NoPeriod`] where the run does not come back to itself, slow as it may be or not periodic.
+pub fn orbit_reached(belt: &Belt, start: Start, most: u32) -> Result<Orbit, NoOrbit> {
+    let period = common_period(belt)?;
+    let mut state = start;
+    for _ in 0..SETTLE.1 {
+        let count = (SETTLE.0 / period).ceil();
+        let first = ((state.time / period).round() + count) * period;
+        let mut sampler = Sampler::new(first, period, most as usize + 1);
+        let until = f64::from(most).mul_add(period, first);
+        let end =
+            simulate(belt, state, until, DEFAULT_TOLERANCE, &mut sampler).map_err(NoOrbit::Stalled)?;
+        if let Some(last) = sampler.samples.last() {
+            let again = |n: u32| {
+                let before = sampler.samples.len().checked_sub(1 + n as usize)?;
+                let sample = sampler.samples.get(before)?;
+                let off = (sample.displacement - last.displacement).abs();
+                let off = off.max((sample.velocity - last.velocity).abs());
+                (off < AGAIN * belt.normal_load()).then_some(n)
+            };
+            if let Some(periods) = (1..=most).find_map(again) {
+                let guess =
+                    Start { time: 0.0, displacement: last.displacement, velocity: last.velocity };
+                return near(belt, guess, periods);
+            }
+        }
+        state = end.restart();
+    }
+    Err(NoOrbit::NoPeriod { most })
+}
+
 /// A value of the parameter at which the answer of a protocol changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Switch {
     /// The parameter.
     pub value: f64,
+    /// Half the width of the interval in which the answer changes.
+    pub error: f64,
     /// Where runs end for slightly larger values.
     pub becomes: Reached,
 }
@@ -108,7 +247,13 @@ pub fn switches(
         let lost = |why| NoThresholds::Lost { at: value, why };
         let orbit = match from_sliding(&belt, 8) {
             Ok(orbit) => orbit,
-            Err(NoOrbit::NotConverged { .. }) => return Ok(Reached::Elsewhere),
+            // Where sliding becomes no response there is nothing to be quenched to.
+            Err(
+                NoOrbit::NotConverged { .. }
+                | NoOrbit::Ends { .. }
+                | NoOrbit::Degenerate { .. }
+                | NoOrbit::Another { .. },
+            ) => return Ok(Reached::Elsewhere),
             Err(why) => return Err(lost(why)),
         };
         reached(&belt, &orbit, start).map_err(|why| lost(NoOrbit::Stalled(why)))
@@ -122,9 +267,15 @@ pub fn switches(
             let (mut low, mut high) = (value(k - 1), value(k));
             while (high - low).abs() > closeness * high.abs().max(low.abs()) {
                 let middle = 0.5 * (low + high);
-                if ends(middle)? == last { low = middle } else { high = middle }
+                match ends(middle)? {
+                    it if it == last => low = middle,
+                    // Between two answers that are known one that is not says no more than that it lies here.
+                    Reached::Unsettled if next != Reached::Unsettled => break,
+                    _ => high = middle,
+                }
             }
-            found.push(Switch { value: 0.5 * (low + high), becomes: next });
+            let (value, error) = (0.5 * (low + high), 0.5 * (high - low).abs());
+            found.push(Switch { value, error, becomes: next });
         }
         last = next;
     }

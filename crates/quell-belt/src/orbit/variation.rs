@@ -18,16 +18,15 @@
 
 use std::sync::LazyLock;
 
+use quell_model::friction::{LawVisitor, SlidingLaw};
 use quell_model::{Belt, Direction};
-use quell_numerics::roots::{Closeness, minimise};
+use quell_numerics::dispatch::{Work, with_fused_multiply_add};
+use quell_numerics::lane::horner;
 
 use crate::simulation::{Event, EventKind, Observer, Segment};
 
 /// Collocation nodes of a segment.
 const NODES: usize = 8;
-
-/// Places of a segment at which its least |v_r| is looked for.
-const PLACES: u32 = 12;
 
 /// A 2 × 2 matrix, row by row.
 pub type Matrix = [[f64; 2]; 2];
@@ -38,6 +37,10 @@ struct Collocation {
     weights: [f64; NODES],
     /// `integrals[i][j]`: ∫₀^{cᵢ} of the j-th Lagrange polynomial.
     integrals: [[f64; NODES]; NODES],
+    /// The square of `integrals`.
+    squares: [[f64; NODES]; NODES],
+    /// Sums of the rows of `integrals`.
+    reaches: [f64; NODES],
 }
 
 static COLLOCATION: LazyLock<Collocation> = LazyLock::new(Collocation::new);
@@ -67,7 +70,14 @@ impl Collocation {
                 *entry = end * values.iter().zip(weights).map(|(v, w)| v * w).sum::<f64>();
             }
         }
-        Self { nodes, weights, integrals }
+        let mut squares = [[0.0; NODES]; NODES];
+        for i in 0..NODES {
+            for j in 0..NODES {
+                squares[i][j] = (0..NODES).map(|k| integrals[i][k] * integrals[k][j]).sum();
+            }
+        }
+        let reaches = integrals.map(|row| row.iter().sum());
+        Self { nodes, weights, integrals, squares, reaches }
     }
 }
 
@@ -97,7 +107,7 @@ pub(super) struct Variation<'a> {
     pub(super) damping: f64,
     /// Events in order, with the sign of v_r afterwards.
     pub(super) events: Vec<(EventKind, i8)>,
-    /// Least |v_r| inside slip, and when.
+    /// Least slip velocity in the direction of slip, and when.
     pub(super) least: Option<(f64, f64)>,
     /// Time spent in stick.
     pub(super) stuck: f64,
@@ -119,50 +129,6 @@ impl<'a> Variation<'a> {
 
     fn normal_load(&self, time: f64) -> f64 {
         self.belt.normal_load() + dithers(self.belt, Direction::Normal, time)
-    }
-
-    /// 2ζ + μ′(v_r)N.
-    fn rate(&self, segment: &Segment<'_>, since: f64) -> f64 {
-        let slope = self.belt.friction().slope(segment.slip_velocity(since).abs());
-        let load = self.normal_load(segment.clock().time() + since);
-        f64::mul_add(slope, load, 2.0 * self.belt.damping_ratio())
-    }
-
-    fn slip(&mut self, segment: &Segment<'_>) {
-        let rule = &*COLLOCATION;
-        let h = segment.duration();
-        let mut rates = [0.0; NODES];
-        for (rate, node) in rates.iter_mut().zip(rule.nodes) {
-            *rate = self.rate(segment, node * h);
-        }
-        self.damping += h * rates.iter().zip(rule.weights).map(|(r, w)| r * w).sum::<f64>();
-        for column in 0..2 {
-            let (xi, eta) = (self.matrix[0][column], self.matrix[1][column]);
-            let (velocity, force) = stages(rule, &rates, h, xi, eta);
-            let sum = |values: &[f64; NODES]| {
-                h * values.iter().zip(rule.weights).map(|(v, w)| v * w).sum::<f64>()
-            };
-            self.matrix[0][column] = xi + sum(&velocity);
-            self.matrix[1][column] = eta + sum(&force);
-        }
-    }
-
-    fn look_for_least(&mut self, segment: &Segment<'_>) {
-        let h = segment.duration();
-        let speed = |since: f64| segment.slip_velocity(since).abs();
-        let place = |k: u32| h * f64::from(k) / f64::from(PLACES);
-        let Some(k) = (0..=PLACES).min_by(|a, b| speed(place(*a)).total_cmp(&speed(place(*b))))
-        else {
-            return;
-        };
-        let (low, high) = (place(k.saturating_sub(1)), place((k + 1).min(PLACES)));
-        let closeness = Closeness { absolute: 0.0, relative: 1e-12 };
-        let found = minimise(speed, low, high, closeness)
-            .map_or((place(k), speed(place(k))), |minimum| (minimum.location, minimum.value));
-        let candidate = (found.1.min(speed(place(k))), segment.clock().time() + found.0);
-        if self.least.is_none_or(|least| candidate.0 < least.0) {
-            self.least = Some(candidate);
-        }
     }
 
     /// x″ at v_r = 0 on the branch of a sign.
@@ -219,7 +185,7 @@ fn dither_rates(belt: &Belt, direction: Direction, time: f64) -> f64 {
 }
 
 /// Σ D g of one direction.
-fn dithers(belt: &Belt, direction: Direction, time: f64) -> f64 {
+pub(super) fn dithers(belt: &Belt, direction: Direction, time: f64) -> f64 {
     belt.dithers_along(direction)
         .map(|it| {
             it.amplitude * it.waveform.value(f64::mul_add(it.frequency_ratio, time, it.phase))
@@ -227,57 +193,174 @@ fn dithers(belt: &Belt, direction: Direction, time: f64) -> f64 {
         .sum()
 }
 
-/// Derivatives (ξ′, η′) at the nodes: vᵢ = η + hΣaᵢⱼfⱼ, fᵢ = −(ξ + hΣaᵢⱼvⱼ) − rᵢvᵢ, by elimination of v.
-fn stages(
+/// A segment of slip with the law that its changes obey.
+struct Along<'v, 'b, 's, 'c> {
+    variation: &'v mut Variation<'b>,
+    segment: &'s Segment<'c>,
+}
+
+impl LawVisitor for Along<'_, '_, '_, '_> {
+    type Output = ();
+
+    fn visit<L: SlidingLaw>(self, law: &L) {
+        with_fused_multiply_add(AlongBy { along: self, law });
+    }
+}
+
+struct AlongBy<'v, 'b, 's, 'c, 'l, L> {
+    along: Along<'v, 'b, 's, 'c>,
+    law: &'l L,
+}
+
+impl<L: SlidingLaw> Work for AlongBy<'_, '_, '_, '_, '_, L> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Along { variation, segment } = self.along;
+        let rule = &*COLLOCATION;
+        let h = segment.duration();
+        let sign = f64::from(segment.slip_sign());
+        let (slip, unit) = segment.slip_series();
+        let belt = variation.belt;
+        let has_normal = belt.dithers().iter().any(|it| it.direction == Direction::Normal);
+        let mut speeds = [0.0; NODES];
+        let mut rates = [0.0; NODES];
+        for k in 0..NODES {
+            let since = rule.nodes[k] * h;
+            speeds[k] = sign * unit * horner(slip, since);
+            let load = if has_normal {
+                variation.normal_load(segment.clock().time() + since)
+            } else {
+                belt.normal_load()
+            };
+            rates[k] = f64::mul_add(self.law.slope(speeds[k]), load, 2.0 * belt.damping_ratio());
+        }
+        variation.damping += h * weighted(rule, &rates);
+        let [upper, lower] = variation.matrix;
+        let force = forces(rule, &rates, h, [upper[0], upper[1]], [lower[0], lower[1]]);
+        for column in 0..2 {
+            let mut velocity = [lower[column]; NODES];
+            for i in 0..NODES {
+                for j in 0..NODES {
+                    velocity[i] = (h * rule.integrals[i][j]).mul_add(force[column][j], velocity[i]);
+                }
+            }
+            variation.matrix[0][column] += h * weighted(rule, &velocity);
+            variation.matrix[1][column] += h * weighted(rule, &force[column]);
+        }
+        if let Some((least, since)) = least_of(rule, slip, sign * unit, h, &speeds)
+            && variation.least.is_none_or(|known| least < known.0)
+        {
+            variation.least = Some((least, segment.clock().time() + since));
+        }
+    }
+}
+
+#[inline(always)]
+fn weighted(rule: &Collocation, values: &[f64; NODES]) -> f64 {
+    let mut sum = 0.0;
+    for k in 0..NODES {
+        sum = values[k].mul_add(rule.weights[k], sum);
+    }
+    sum
+}
+
+/// Accelerations η′ at the nodes for two columns of changes: vᵢ = η + hΣaᵢⱼfⱼ, fᵢ = −(ξ + hΣaᵢⱼvⱼ) − rᵢvᵢ, by
+/// elimination of v: (I + r h A + h²A²) f = −ξ − η(h A 1 + r). The matrix is the identity and something small,
+/// so that elimination needs no pivots: h is a step of the engine, at most 8 radians of the fastest oscillation
+/// and in practice below 1.
+#[inline(always)]
+fn forces(
     rule: &Collocation,
     rates: &[f64; NODES],
     h: f64,
-    xi: f64,
-    eta: f64,
-) -> ([f64; NODES], [f64; NODES]) {
-    let a = &rule.integrals;
-    // (I + r h A + h² A²) f = −ξ − η(h A 1 + r).
-    let mut system = [[0.0; NODES + 1]; NODES];
+    xi: [f64; 2],
+    eta: [f64; 2],
+) -> [[f64; NODES]; 2] {
+    let mut system = [[0.0; NODES + 2]; NODES];
     for i in 0..NODES {
         for j in 0..NODES {
-            let square: f64 = (0..NODES).map(|k| a[i][k] * a[k][j]).sum();
-            let identity = if i == j { 1.0 } else { 0.0 };
-            system[i][j] = identity + rates[i] * h * a[i][j] + h * h * square;
+            system[i][j] = (rates[i] * h).mul_add(rule.integrals[i][j], h * h * rule.squares[i][j]);
         }
-        let reach: f64 = a[i].iter().sum();
-        system[i][NODES] = -xi - eta * (h * reach + rates[i]);
-    }
-    let force = solved(system);
-    let mut velocity = [eta; NODES];
-    for i in 0..NODES {
-        for j in 0..NODES {
-            velocity[i] += h * a[i][j] * force[j];
+        system[i][i] += 1.0;
+        for column in 0..2 {
+            let reach = h.mul_add(rule.reaches[i], rates[i]);
+            system[i][NODES + column] = -eta[column].mul_add(reach, xi[column]);
         }
     }
-    (velocity, force)
-}
-
-/// Gaussian elimination with the largest pivot.
-fn solved(mut system: [[f64; NODES + 1]; NODES]) -> [f64; NODES] {
     for column in 0..NODES {
-        let pivot = (column..NODES)
-            .max_by(|i, j| system[*i][column].abs().total_cmp(&system[*j][column].abs()))
-            .unwrap_or(column);
-        system.swap(column, pivot);
         let head = system[column];
+        let inverse = 1.0 / head[column];
         for row in &mut system[column + 1..] {
-            let factor = row[column] / head[column];
-            for (entry, above) in row.iter_mut().zip(head).skip(column) {
-                *entry -= factor * above;
+            let factor = row[column] * inverse;
+            for k in column..NODES + 2 {
+                row[k] = (-factor).mul_add(head[k], row[k]);
             }
         }
     }
-    let mut solution = [0.0; NODES];
+    let mut force = [[0.0; NODES]; 2];
     for row in (0..NODES).rev() {
-        let known: f64 = (row + 1..NODES).map(|k| system[row][k] * solution[k]).sum();
-        solution[row] = (system[row][NODES] - known) / system[row][row];
+        for column in 0..2 {
+            let mut rest = system[row][NODES + column];
+            for k in row + 1..NODES {
+                rest = (-system[row][k]).mul_add(force[column][k], rest);
+            }
+            force[column][row] = rest / system[row][row];
+        }
     }
-    solution
+    force
+}
+
+/// Least value of Σ cₖtᵏ times `unit` on [0, h] and where: at the lowest of the nodes and ends, or between its neighbours by Newton's method on
+/// the derivative, which a bracket keeps.
+#[inline(always)]
+fn least_of(
+    rule: &Collocation,
+    slip: &[f64],
+    unit: f64,
+    h: f64,
+    speeds: &[f64; NODES],
+) -> Option<(f64, f64)> {
+    let value = |since: f64| unit * horner(slip, since);
+    let mut places = [(0.0, 0.0); NODES + 2];
+    places[0] = (0.0, value(0.0));
+    places[NODES + 1] = (h, value(h));
+    for k in 0..NODES {
+        places[k + 1] = (rule.nodes[k] * h, speeds[k]);
+    }
+    let lowest = (0..NODES + 2).min_by(|a, b| places[*a].1.total_cmp(&places[*b].1))?;
+    let (mut since, mut least) = places[lowest];
+    if lowest == 0 || lowest == NODES + 1 {
+        let inwards = if lowest == 0 { slip.get(1).map_or(0.0, |it| unit * it) } else { 0.0 };
+        if inwards >= 0.0 && lowest == 0 {
+            return Some((least, since));
+        }
+    }
+    let (mut low, mut high) =
+        (places[lowest.saturating_sub(1)].0, places[(lowest + 1).min(NODES + 1)].0);
+    for _ in 0..12 {
+        let (mut slope, mut bend) = (0.0, 0.0);
+        for (k, coefficient) in slip.iter().enumerate().skip(1).rev() {
+            bend = bend * since + slope;
+            slope = slope * since + unit * coefficient * k as f64;
+        }
+        if slope > 0.0 { high = since } else { low = since }
+        let next = since - slope / bend;
+        let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+        let moved = (next - since).abs();
+        since = next;
+        if moved <= 1e-9 * h {
+            break;
+        }
+    }
+    let inside = value(since);
+    if inside < least {
+        least = inside;
+    } else {
+        since = places[lowest].0;
+    }
+    Some((least, since))
 }
 
 impl Observer for Variation<'_> {
@@ -285,9 +368,11 @@ impl Observer for Variation<'_> {
         self.sign = segment.slip_sign();
         if self.sign == 0 {
             self.stuck += segment.duration();
+            // A run that begins in stick begins on v_r = 0: a change of velocity is taken away at once.
+            self.matrix[1] = [0.0; 2];
         } else {
-            self.slip(segment);
-            self.look_for_least(segment);
+            let law = self.belt.friction();
+            law.visit(Along { variation: self, segment });
         }
     }
 
@@ -320,8 +405,11 @@ mod tests {
         assert!((power - 1.0 / 16.0).abs() < 1e-14);
         // ξ″ + 2ζξ′ + ξ = 0 over one step of 0.8.
         let (zeta, h) = (0.3_f64, 0.8_f64);
-        let (velocity, _) = stages(rule, &[2.0 * zeta; NODES], h, 1.0, 0.0);
-        let xi = 1.0 + h * velocity.iter().zip(rule.weights).map(|(v, w)| v * w).sum::<f64>();
+        let force = forces(rule, &[2.0 * zeta; NODES], h, [1.0, 0.0], [0.0, 1.0]);
+        // ξ(h) = ξ + hη + h²Σwᵢ(1 − cᵢ)fᵢ.
+        let double: f64 =
+            (0..NODES).map(|k| rule.weights[k] * (1.0 - rule.nodes[k]) * force[0][k]).sum();
+        let xi = 1.0 + h * h * double;
         let omega = (1.0 - zeta * zeta).sqrt();
         let exact = (-zeta * h).exp() * ((omega * h).cos() + zeta / omega * (omega * h).sin());
         assert!((xi - exact).abs() < 1e-14, "{xi} {exact}");

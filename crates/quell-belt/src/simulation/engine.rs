@@ -447,7 +447,7 @@ impl Work for Take<'_, '_, '_> {
 
 /// The dithers of a belt in units of `unit`, tangential and normal, at the moment `clock`.
 #[inline(always)]
-fn forcings(belt: &Belt, unit: f64, clock: Clock) -> (Forcing, Forcing) {
+pub(super) fn forcings(belt: &Belt, unit: f64, clock: Clock) -> (Forcing, Forcing) {
     let load = belt.normal_load() / unit;
     let forcing = |direction, mean| Forcing::new(belt.dithers(), direction, mean, unit, clock);
     (forcing(Direction::Tangential, 0.0), forcing(Direction::Normal, load))

@@ -36,6 +36,7 @@ pub use quell_numerics::dispatch::InstructionSet;
 
 pub use clock::Clock;
 pub use event::{Event, EventKind};
+pub(crate) use lanes::slide;
 pub use observer::{EventRecorder, Observer, Sample, Sampler, Segment, VelocitySection};
 
 /// Order of the Taylor series. At tolerance 10⁻¹⁰ about three steps cover a period of free

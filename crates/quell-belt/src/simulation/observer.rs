@@ -41,6 +41,12 @@ impl Segment<'_> {
         self.slip_sign
     }
 
+    /// Coefficients of v_r, and the unit they count in.
+    #[inline(always)]
+    pub(crate) fn slip_series(&self) -> (&[f64], f64) {
+        (self.slip, self.unit)
+    }
+
     /// Displacement x at `since` after its start.
     pub fn displacement(&self, since: f64) -> f64 {
         self.unit * value_of(self.displacement, since)

@@ -486,16 +486,17 @@ impl<F: Family> Walk<'_, F> {
         let way: Vec<f64> = b.unknowns.iter().zip(&a.unknowns).map(|(b, a)| b - a).collect();
         let normal = direction(way);
         let (mut low, mut high) = (0.0, 1.0);
-        while high - low > 1e-10 {
+        while high - low > 1e-9 {
             let share = 0.5 * (low + high);
             let predicted: Vec<f64> =
                 a.unknowns.iter().zip(&b.unknowns).map(|(a, b)| a + share * (b - a)).collect();
-            let guess: Vec<f64> = predicted[..predicted.len() - 1]
-                .iter()
-                .enumerate()
-                .map(|(k, _)| 0.5 * (near.unknowns[k] + far.unknowns[k]))
-                .chain([predicted[predicted.len() - 1]])
-                .collect();
+            // The middle of the two, moved onto the plane of this share.
+            let mut guess: Vec<f64> =
+                near.unknowns.iter().zip(&far.unknowns).map(|(a, b)| 0.5 * (a + b)).collect();
+            let aside: f64 = normal.iter().zip(predicted.iter().zip(&guess)).map(|(n, (p, g))| n * (p - g)).sum();
+            for (entry, along) in guess.iter_mut().zip(&normal) {
+                *entry += aside * along;
+            }
             match self.at(&guess, &normal, None, None) {
                 Some(place) if place.image.signature == a.image.signature => {
                     near = place;

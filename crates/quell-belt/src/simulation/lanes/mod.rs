@@ -13,6 +13,7 @@ mod bench;
 mod board;
 mod rows;
 mod search;
+mod sliding;
 
 use quell_model::Direction;
 use quell_model::friction::{LawVisitor, SlidingLaw};
@@ -22,6 +23,7 @@ use quell_numerics::lane::Lane;
 use self::bench::{Bench, MOST_BENCHES};
 pub(super) use self::rows::Row;
 use self::search::RootSearch;
+pub(crate) use self::sliding::slide;
 use super::forcing::Shape;
 use super::{FinalState, Run, Stalled};
 

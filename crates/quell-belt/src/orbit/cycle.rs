@@ -1,0 +1,116 @@
+//! The limit cycles of an undithered belt, stable or not, with their periods.
+//!
+//! The period is unknown; the phase is fixed by the section x′ = 0 at the lowest displacement, so that a cycle is a fixed point of
+//! a map of one number, the displacement there. Trajectories of the plane do not cross: every cycle lies inside
+//! the turn that follows a release, for a release has one state, x = μ_sF − 2ζv₀, x′ = v₀. The map is
+//! searched on all of that interval, and each change of sign is closed in on.
+//!
+//! One multiplier of a cycle is 1, along it; the other is the derivative of the map, 0 where the cycle sticks.
+//! Limits: two cycles between neighbouring places of the search are missed; cycles that pass v_r = 0 without sticking
+//! lie outside the turn after a release and are not looked for.
+
+use std::f64::consts::TAU;
+
+use quell_model::Belt;
+use quell_numerics::roots::{Closeness, find_root};
+
+use super::{NoOrbit, Orbit, TOLERANCE, orbit_at, starts_at_static_level};
+use crate::simulation::{EventKind, EventRecorder, Start, VelocitySection, simulate};
+
+/// Places at which the map is tried.
+const PLACES: u32 = 60;
+
+/// Least size of a cycle that is looked for, relative to the largest possible one.
+const SMALLEST: f64 = 1e-3;
+
+/// The next lowest point after a state, its time, and whether the mass stuck on the way.
+struct Turn {
+    displacement: f64,
+    time: f64,
+    sticks: bool,
+}
+
+/// Every limit cycle of the belt without its dither, the largest first; none where all motion settles to steady sliding.
+///
+/// Each starts at its lowest displacement, at τ = 0.
+///
+/// # Errors
+/// [`NoOrbit::JumpAtRelease`], [`NoOrbit::Stalled`].
+pub fn cycles(belt: &Belt) -> Result<Vec<Orbit>, NoOrbit> {
+    let belt = &belt.undithered();
+    if !starts_at_static_level(belt.friction()) {
+        return Err(NoOrbit::JumpAtRelease);
+    }
+    if belt.belt_velocity() == 0.0 {
+        return Ok(Vec::new());
+    }
+    let sliding = belt.steady_sliding();
+    let threshold = belt.friction().static_coefficient() * belt.normal_load();
+    let released = Start {
+        time: 0.0,
+        displacement: threshold - 2.0 * belt.damping_ratio() * belt.belt_velocity(),
+        velocity: belt.belt_velocity(),
+    };
+    let Some(outermost) = turn(belt, released)? else { return Ok(Vec::new()) };
+    let largest = sliding - outermost.displacement;
+    if largest <= 0.0 {
+        return Ok(Vec::new());
+    }
+    let lowest = |size: f64| Start { time: 0.0, displacement: sliding - size, velocity: 0.0 };
+    let mut found = Vec::new();
+    let again = turn(belt, lowest(largest))?;
+    if let Some(turn) = again.filter(|turn| turn.sticks) {
+        let start = lowest(largest);
+        found.push(orbit_at(belt, &[start.displacement, start.velocity], turn.time)?.free());
+    }
+    // Relative growth of the size over a turn.
+    let growth = |size: f64| -> Result<f64, NoOrbit> {
+        let turn = turn(belt, lowest(size))?;
+        Ok(turn.map_or(-1.0, |turn| (sliding - turn.displacement) / size - 1.0))
+    };
+    let size = |k: u32| {
+        let share = f64::from(k) / f64::from(PLACES);
+        largest * (SMALLEST + (1.0 - 1e-7 - SMALLEST) * share * (2.0 - share))
+    };
+    let (mut upper, mut above) = (size(PLACES), growth(size(PLACES))?);
+    for k in (0..PLACES).rev() {
+        let (lower, below) = (size(k), growth(size(k))?);
+        if below * above < 0.0 {
+            let closeness = Closeness { absolute: 0.0, relative: 1e-14 };
+            let root = find_root(|at| growth(at).unwrap_or(f64::NAN), lower, upper, closeness);
+            if let Ok(root) = root
+                && let Some(turn) = turn(belt, lowest(root.location))?
+            {
+                let start = lowest(root.location);
+                found.push(orbit_at(belt, &[start.displacement, 0.0], turn.time)?.free());
+            }
+        }
+        (upper, above) = (lower, below);
+    }
+    Ok(found)
+}
+
+/// From a state to the next lowest point; `None` where none comes within the longest possible turn.
+fn turn(belt: &Belt, start: Start) -> Result<Option<Turn>, NoOrbit> {
+    // A stick carries the mass from its lowest to its highest place at most.
+    let reach = 2.0 * (belt.friction().static_coefficient() * belt.normal_load() + start.displacement.abs());
+    let longest = 2.0 * TAU + reach / belt.belt_velocity();
+    let mut watch = (VelocitySection::upward(0.0), EventRecorder::default());
+    let mut from = start;
+    while from.time < start.time + longest {
+        let end = simulate(belt, from, from.time + 0.5 * TAU, TOLERANCE, &mut watch)
+            .map_err(NoOrbit::Stalled)?;
+        if let Some(lowest) = watch.0.crossings.first() {
+            let is_before = |time: f64| time < lowest.time;
+            let sticks = watch
+                .1
+                .events
+                .iter()
+                .any(|event| event.kind == EventKind::Stick && is_before(event.time));
+            let (displacement, time) = (lowest.displacement, lowest.time);
+            return Ok(Some(Turn { displacement, time, sticks }));
+        }
+        from = end.restart();
+    }
+    Ok(None)
+}
