@@ -51,16 +51,22 @@ fn orbits(criterion: &mut Criterion) {
     for waveform in [Waveform::Sine, Waveform::Square] {
         let belt = belt(waveform, 1.0);
         assert_eq!(both_thresholds(&belt), 2);
-        group.bench_function(format!("both thresholds of the amplitude, {}", waveform.name()), |bencher| {
-            bencher.iter(|| both_thresholds(black_box(&belt)));
-        });
+        group.bench_function(
+            format!("both thresholds of the amplitude, {}", waveform.name()),
+            |bencher| {
+                bencher.iter(|| both_thresholds(black_box(&belt)));
+            },
+        );
     }
     let belt = belt(Waveform::Sine, 1.0);
     let points = both_curves(&belt);
     assert!(points > 100);
-    group.bench_function(format!("two curves over the belt's velocity, {points} points"), |bencher| {
-        bencher.iter(|| both_curves(black_box(&belt)));
-    });
+    group.bench_function(
+        format!("two curves over the belt's velocity, {points} points"),
+        |bencher| {
+            bencher.iter(|| both_curves(black_box(&belt)));
+        },
+    );
     group.finish();
 }
 

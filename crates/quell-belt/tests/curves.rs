@@ -32,17 +32,23 @@ fn amplitude_over_belt_velocity() {
     assert_eq!(found.len(), 2);
     for (kind, at_one) in [(Kind::NeimarkSacker, 4.322_392_624), (Kind::Grazing, 9.900_214_849)] {
         let curve = found.iter().find(|it| it.kind == kind).expect("a curve");
-        assert!(curve.points.len() > 30 && curve.ends.contains(&Ending::Window), "{:?}", curve.ends);
-        let nearest = curve.points.iter().min_by(|a, b| {
-            (a.along - 1.0).abs().total_cmp(&(b.along - 1.0).abs())
-        });
+        assert!(
+            curve.points.len() > 30 && curve.ends.contains(&Ending::Window),
+            "{:?}",
+            curve.ends
+        );
+        let nearest = curve
+            .points
+            .iter()
+            .min_by(|a, b| (a.along - 1.0).abs().total_cmp(&(b.along - 1.0).abs()));
         let nearest = nearest.expect("points");
         assert!((nearest.value - at_one).abs() < 30.0 * (nearest.along - 1.0).abs() + 1e-6);
         for point in curve.points.iter().step_by(9) {
             let belt = belt().with("belt.belt_velocity", point.along).expect("valid");
             let (from, to) = (0.8 * point.value, (1.1 * point.value).min(16.0));
             let line = local_thresholds(&belt, "dither.amplitude", from, to, 20).expect("followed");
-            let off = line.iter().filter(|it| it.kind == kind).map(|it| (it.value - point.value).abs());
+            let off =
+                line.iter().filter(|it| it.kind == kind).map(|it| (it.value - point.value).abs());
             let off = off.fold(f64::INFINITY, f64::min);
             assert!(off < 1e-7, "{kind:?} at {}: {off:e}", point.along);
         }

@@ -37,10 +37,42 @@ fn an_orbit_has_its_names() {
 }
 
 #[test]
-fn without_dither_there_is_no_orbit() {
-    let (told, status) = quell(&["orbit", "studies/does-it-squeal.toml"]);
-    assert_eq!(status, 2);
-    assert_eq!(told["errors"][0]["key"], "dither");
+fn without_dither_the_limit_cycle_is_the_orbit() {
+    let study = ["orbit", "studies/does-it-squeal.toml"];
+    let stribeck = ["--set", "friction.law=stribeck", "--set", "belt.belt_velocity=0.05"];
+    let (found, status) = quell(&[&study[..], &stribeck].concat());
+    assert_eq!(status, 0, "{found}");
+    assert_eq!((&found["verdict"], &found["free_phase"]), (&"stable".into(), &true.into()));
+    assert!((found["period"].as_f64().expect("a period") - 9.600_930_182_576).abs() < 1e-10);
+    let off = |it: &Json| (it[0].as_f64().expect("re") - 1.0).hypot(it[1].as_f64().expect("im"));
+    let multipliers = found["multipliers"].as_array().expect("multipliers");
+    assert!(multipliers.iter().map(off).fold(f64::INFINITY, f64::min) < 1e-9);
+    // Where nothing squeals there is none, and it is said why.
+    let (found, status) = quell(&[&study[..], &["--set", "belt.belt_velocity=3"]].concat());
+    assert_eq!((status, found["verdict"].as_str()), (0, Some("stable")));
+    assert!(found["period"].is_null() && found["why"]["period"].is_string());
+    assert_eq!(found["cycles"], Json::Array(Vec::new()));
+    // Beside the squeal lies the unstable cycle that bounds its basin.
+    let study = ["orbit", "studies/can-it-squeal-although-stable.toml"];
+    let (found, _) = quell(&study);
+    let cycles = found["cycles"].as_array().expect("cycles");
+    let verdicts: Vec<_> = cycles.iter().map(|it| it["verdict"].as_str()).collect();
+    assert_eq!(verdicts, [Some("stable"), Some("unstable")], "{found}");
+    let near = format!("{},0", cycles[1]["displacement"]);
+    let (found, _) = quell(&[&study[..], &["--near", &near]].concat());
+    assert_eq!(found["verdict"], "unstable");
+}
+
+#[test]
+fn the_orbit_on_which_a_run_ends() {
+    let set = ["orbit", STUDY, "--set", "dither.amplitude=2.5"];
+    let (quiet, _) = quell(&[&set[..], &["--from-rest"]].concat());
+    let (loud, status) = quell(&[&set[..], &["--from-squeal"]].concat());
+    assert_eq!(status, 0, "{loud}");
+    assert_eq!((&quiet["stick_episodes"], &quiet["verdict"]), (&0.into(), &"stable".into()));
+    assert!(loud["stick_episodes"].as_u64() >= Some(1), "{loud}");
+    let ratio = loud["period"].as_f64().expect("a period") / quiet["period"].as_f64().expect("one");
+    assert!((ratio - 10.0).abs() < 1e-9, "{ratio}");
 }
 
 #[test]
@@ -75,7 +107,64 @@ fn thresholds_tell_each_protocol_apart() {
     // What squeals stays so up to the upper local threshold.
     let squeal = found["from_squeal"].as_array().expect("from squeal");
     assert_eq!((squeal.len(), &squeal[0]["becomes"]), (1, &"quenched".into()));
-    assert!((value(&squeal[0]) - 9.9).abs() < 2e-3, "{squeal:?}");
+    assert!((value(&squeal[0]) / 9.900_214_849 - 1.0).abs() < 2e-5, "{squeal:?}");
+}
+
+#[test]
+fn curves_of_thresholds_are_followed_and_saved() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let (csv, svg) = (directory.path().join("curves.csv"), directory.path().join("curves.svg"));
+    let (found, status) = quell(&[
+        "thresholds",
+        STUDY,
+        "--parameter",
+        "dither.amplitude",
+        "--from",
+        "0.5",
+        "--to",
+        "16",
+        "--along",
+        "belt.belt_velocity",
+        "--between",
+        "0.85:1.5",
+        "--save",
+        csv.to_str().expect("text"),
+        "--plot",
+        svg.to_str().expect("text"),
+    ]);
+    assert_eq!(status, 0, "{found}");
+    let curves = found["curves"].as_array().expect("curves");
+    let kinds: Vec<_> = curves.iter().filter_map(|it| it["kind"].as_str()).collect();
+    assert!(kinds.contains(&"neimark-sacker") && kinds.contains(&"grazing"), "{kinds:?}");
+    assert_eq!(found["averaged"].as_array().map(Vec::len), Some(2));
+    let points: usize = curves.iter().map(|it| it["value"].as_array().expect("values").len()).sum();
+    let text = std::fs::read_to_string(csv).expect("saved");
+    let rows = text.lines().filter(|line| !line.starts_with('#')).count();
+    assert_eq!(rows, points + 1);
+    assert!(text.contains("belt.belt_velocity,dither.amplitude,amplitude_ratio"), "{text}");
+    assert!(std::fs::read_to_string(svg).expect("drawn").contains("exact: grazing"));
+}
+
+#[test]
+fn steady_sliding_has_a_hopf_bifurcation() {
+    let (found, status) = quell(&[
+        "thresholds",
+        "studies/does-it-squeal.toml",
+        "--parameter",
+        "belt.belt_velocity",
+        "--from",
+        "0.5",
+        "--to",
+        "3",
+        "--from-squeal",
+    ]);
+    assert_eq!(status, 0, "{found}");
+    let local = &found["local"][0];
+    assert_eq!((&local["kind"], &local["becomes"]), (&"hopf".into(), &"stable".into()));
+    assert!((local["value"].as_f64().expect("a value") - 0.809_135_878_048).abs() < 1e-9);
+    // What squeals goes on far beyond, as long as the cycle exists.
+    let squeal = found["from_squeal"][0]["value"].as_f64().expect("a value");
+    assert!((squeal - 2.4999).abs() < 2e-3, "{squeal}");
 }
 
 #[test]
@@ -88,6 +177,40 @@ fn wrong_questions_are_told() {
         (
             &["--parameter", "dither.amplitude", "--from", "1", "--to", "2", "--start", "1"],
             "--start",
+        ),
+        (
+            &["--parameter", "dither.amplitude", "--from", "1", "--to", "2", "--ramp", "-1"],
+            "--ramp",
+        ),
+        (
+            &[
+                "--parameter",
+                "dither.amplitude",
+                "--from",
+                "1",
+                "--to",
+                "2",
+                "--along",
+                "belt.belt_velocity",
+                "--between",
+                "2:1",
+            ],
+            "--between",
+        ),
+        (
+            &[
+                "--parameter",
+                "dither.amplitude",
+                "--from",
+                "1",
+                "--to",
+                "2",
+                "--along",
+                "dither.amplitude",
+                "--between",
+                "1:2",
+            ],
+            "--along",
         ),
     ] {
         let (told, status) = quell(&[&["thresholds", STUDY], arguments].concat());

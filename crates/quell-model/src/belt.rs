@@ -144,6 +144,17 @@ impl Belt {
         }
     }
 
+    /// The entry of the registry for a path, or `None` if there is no such number here.
+    pub fn parameter(&self, path: &str) -> Option<Parameter> {
+        match self.place(path)? {
+            Place::DampingRatio => Some(DAMPING_RATIO),
+            Place::NormalLoad => Some(NORMAL_LOAD),
+            Place::BeltVelocity => Some(BELT_VELOCITY),
+            Place::Law(index) => self.friction.kind().parameters().get(index).copied(),
+            Place::Dither(_, parameter) => Some(parameter),
+        }
+    }
+
     /// The same belt with one parameter changed.
     ///
     /// # Errors
@@ -274,6 +285,8 @@ mod tests {
         ] {
             let changed = belt.with(path, value).expect(path);
             assert_eq!(changed.get(path), Some(value), "{path}");
+            let entry = belt.parameter(path).expect(path);
+            assert!(path.ends_with(entry.key()), "{path}");
             assert_ne!(belt.get(path), Some(value), "{path}");
         }
         for path in ["dither[2].amplitude", "belt.colour", "dither[x].phase"] {

@@ -32,7 +32,12 @@ impl Family for Henon {
         1.0
     }
 
-    fn image(&self, state: &[f64], parameters: &[f64], _: Option<&()>) -> Result<Image<()>, String> {
+    fn image(
+        &self,
+        state: &[f64],
+        parameters: &[f64],
+        _: Option<&()>,
+    ) -> Result<Image<()>, String> {
         let (x, y, a, b) = (state[0], state[1], parameters[0], self.b(parameters));
         if x.abs() > 1e3 {
             return Err(format!("x = {x} runs away"));
@@ -213,8 +218,7 @@ fn curves_in_two_parameters() {
         let a = factor * (1.0 - b) * (1.0 - b);
         let root = ((1.0 - b) * (1.0 - b) + 4.0 * a).max(0.0).sqrt();
         let x = (-(1.0 - b) + sign * root) / (2.0 * a);
-        let curve =
-            trace(&Henon { b }, kind, &(), &[x, b * x], [a, b], options).expect("a curve");
+        let curve = trace(&Henon { b }, kind, &(), &[x, b * x], [a, b], options).expect("a curve");
         assert_eq!(curve.ends, [CurveEnd::Window; 2]);
         all(&curve, |b| factor * (1.0 - b) * (1.0 - b));
         let ends = [&curve.points[0], curve.points.last().expect("points")];

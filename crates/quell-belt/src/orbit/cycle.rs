@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 use quell_model::Belt;
 use quell_numerics::roots::{Closeness, find_root};
 
-use super::{NoOrbit, Orbit, TOLERANCE, orbit_at, starts_at_static_level};
+use super::{NoOrbit, Orbit, TOLERANCE, orbit_at};
 use crate::simulation::{EventKind, EventRecorder, Start, VelocitySection, simulate};
 
 /// Places at which the map is tried.
@@ -35,12 +35,9 @@ struct Turn {
 /// Each starts at its lowest displacement, at τ = 0.
 ///
 /// # Errors
-/// [`NoOrbit::JumpAtRelease`], [`NoOrbit::Stalled`].
+/// [`NoOrbit::Stalled`].
 pub fn cycles(belt: &Belt) -> Result<Vec<Orbit>, NoOrbit> {
     let belt = &belt.undithered();
-    if !starts_at_static_level(belt.friction()) {
-        return Err(NoOrbit::JumpAtRelease);
-    }
     if belt.belt_velocity() == 0.0 {
         return Ok(Vec::new());
     }
@@ -93,7 +90,8 @@ pub fn cycles(belt: &Belt) -> Result<Vec<Orbit>, NoOrbit> {
 /// From a state to the next lowest point; `None` where none comes within the longest possible turn.
 fn turn(belt: &Belt, start: Start) -> Result<Option<Turn>, NoOrbit> {
     // A stick carries the mass from its lowest to its highest place at most.
-    let reach = 2.0 * (belt.friction().static_coefficient() * belt.normal_load() + start.displacement.abs());
+    let reach = 2.0
+        * (belt.friction().static_coefficient() * belt.normal_load() + start.displacement.abs());
     let longest = 2.0 * TAU + reach / belt.belt_velocity();
     let mut watch = (VelocitySection::upward(0.0), EventRecorder::default());
     let mut from = start;

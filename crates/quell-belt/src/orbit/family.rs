@@ -8,7 +8,7 @@ use quell_numerics::continuation::{Family, Image};
 use quell_numerics::matrix::Matrix as Dense;
 
 use super::variation::Variation;
-use super::{Matrix, NoOrbit, TOLERANCE, common_period, starts_at_static_level};
+use super::{Matrix, NoOrbit, TOLERANCE, common_period};
 use crate::simulation::{EventKind, Start, simulate, slide};
 
 /// What happens along a period.
@@ -103,8 +103,14 @@ impl Forced<'_> {
         }
     }
 
+    /// The time over which states are mapped. Without dither, where steady sliding alone is followed, it is 1: far from
+    /// the period 2π of its oscillation, whose multipliers would be 1.
     pub(crate) fn period_of(&self, belt: &Belt) -> Result<f64, NoOrbit> {
-        Ok(f64::from(self.periods) * common_period(belt)?)
+        match common_period(belt) {
+            Ok(period) => Ok(f64::from(self.periods) * period),
+            Err(NoOrbit::NoDither) if matches!(self.setting, Setting::Paths(_)) => Ok(1.0),
+            Err(why) => Err(why),
+        }
     }
 }
 
@@ -127,9 +133,6 @@ impl Family for Forced<'_> {
         held: Option<&Signature>,
     ) -> Result<Image<Signature>, NoOrbit> {
         let belt = self.belt_at(parameters)?;
-        if !starts_at_static_level(belt.friction()) {
-            return Err(NoOrbit::JumpAtRelease);
-        }
         let (start, until) = (start_of(state), self.period_of(&belt)?);
         let mut variation = Variation::new(&belt);
         let end = if let Some(Signature::PureSlip(sign)) = held {

@@ -331,13 +331,8 @@ fn multipliers_of(matrix: &Matrix) -> [(f64, f64); 2] {
 pub fn from_sliding(belt: &Belt, steps: u32) -> Result<Orbit, NoOrbit> {
     let forced = Forced { belt, setting: Setting::Share, periods: 1 };
     let period = forced.period_of(belt)?;
-    let branch = follow(
-        &forced,
-        &[belt.steady_sliding(), 0.0],
-        0.0,
-        true,
-        Follow::window(0.0, 1.0, steps),
-    )?;
+    let branch =
+        follow(&forced, &[belt.steady_sliding(), 0.0], 0.0, true, Follow::window(0.0, 1.0, steps))?;
     // Where the branch turns back the response that grew from sliding is over, wherever the branch goes on to.
     let turn = branch.passages.iter().find(|it| it.below.is_none() || it.above.is_none());
     if let Some(turn) = turn {
@@ -353,4 +348,12 @@ pub fn from_sliding(belt: &Belt, steps: u32) -> Result<Orbit, NoOrbit> {
     }
     let last = branch.points.last().ok_or(NoOrbit::Ends { share: 0.0 })?;
     orbit_at(belt, &last.state, period)
+}
+
+/// The response that sliding becomes; without dither steady sliding itself, as the fixed point of the flow over unit time.
+pub(crate) fn quiet(belt: &Belt, steps: u32) -> Result<Orbit, NoOrbit> {
+    if !belt.dithers().is_empty() {
+        return from_sliding(belt, steps);
+    }
+    orbit_at(belt, &[belt.steady_sliding(), 0.0], 1.0)
 }

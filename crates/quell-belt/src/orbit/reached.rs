@@ -15,7 +15,7 @@ use quell_model::friction::{LawVisitor, SlidingLaw};
 use quell_model::{Belt, Direction};
 
 use super::threshold::NoThresholds;
-use super::{NoOrbit, Orbit, common_period, from_sliding, near};
+use super::{NoOrbit, Orbit, Verdict, common_period, near, quiet};
 use crate::simulation::{
     DEFAULT_TOLERANCE, Event, Observer, Sample, Sampler, Segment, Stalled, Start, simulate,
 };
@@ -75,7 +75,8 @@ pub fn reached(belt: &Belt, orbit: &Orbit, start: Start) -> Result<Reached, Stal
         };
         let last = sampler.samples.last().map_or(f64::INFINITY, distance);
         let most = sampler.samples.iter().map(distance).fold(0.0, f64::max);
-        if last < NEAR {
+        // Nothing ends on an unstable orbit: what is this near to one is another, small one around it, or leaves it.
+        if last < NEAR && orbit.verdict() != Verdict::Unstable {
             return Ok(Reached::Sliding);
         }
         if most > (1.0 - NEARER) * before && !dwells {
@@ -142,11 +143,9 @@ impl LawVisitor for Rate<'_, '_, '_> {
         let h = segment.duration();
         let at = |node: f64| {
             let since = node * h;
-            let load = super::variation::dithers(
-                belt,
-                Direction::Normal,
-                segment.clock().time() + since,
-            ) + belt.normal_load();
+            let load =
+                super::variation::dithers(belt, Direction::Normal, segment.clock().time() + since)
+                    + belt.normal_load();
             let slope = law.slope(segment.slip_velocity(since).abs());
             slope.mul_add(load, 2.0 * belt.damping_ratio())
         };
@@ -195,8 +194,8 @@ pub fn orbit_reached(belt: &Belt, start: Start, most: u32) -> Result<Orbit, NoOr
         let first = ((state.time / period).round() + count) * period;
         let mut sampler = Sampler::new(first, period, most as usize + 1);
         let until = f64::from(most).mul_add(period, first);
-        let end =
-            simulate(belt, state, until, DEFAULT_TOLERANCE, &mut sampler).map_err(NoOrbit::Stalled)?;
+        let end = simulate(belt, state, until, DEFAULT_TOLERANCE, &mut sampler)
+            .map_err(NoOrbit::Stalled)?;
         if let Some(last) = sampler.samples.last() {
             let again = |n: u32| {
                 let before = sampler.samples.len().checked_sub(1 + n as usize)?;
@@ -208,12 +207,27 @@ pub fn orbit_reached(belt: &Belt, start: Start, most: u32) -> Result<Orbit, NoOr
             if let Some(periods) = (1..=most).find_map(again) {
                 let guess =
                     Start { time: 0.0, displacement: last.displacement, velocity: last.velocity };
-                return near(belt, guess, periods);
+                let orbit = near(belt, guess, periods)?;
+                return Ok(shortest(belt, orbit, periods));
             }
         }
         state = end.restart();
     }
     Err(NoOrbit::NoPeriod { most })
+}
+
+/// The orbit with its own period, where it is a part of the one that was found: a slow spiral comes near to itself after
+/// many periods before it does after one.
+fn shortest(belt: &Belt, orbit: Orbit, periods: u32) -> Orbit {
+    let same = |part: &Orbit| {
+        let off = (part.start.displacement - orbit.start.displacement).abs();
+        let off = off.max((part.start.velocity - orbit.start.velocity).abs());
+        off < AGAIN * belt.normal_load()
+    };
+    (1..periods)
+        .filter(|part| periods.is_multiple_of(*part))
+        .find_map(|part| near(belt, orbit.start, part).ok().filter(same))
+        .unwrap_or(orbit)
 }
 
 /// A value of the parameter at which the answer of a protocol changes.
@@ -245,7 +259,7 @@ pub fn switches(
         let belt = belt.with(path, value).map_err(|_| NoThresholds::Invalid { value })?;
         let Some(start) = start(&belt) else { return Ok(Reached::Sliding) };
         let lost = |why| NoThresholds::Lost { at: value, why };
-        let orbit = match from_sliding(&belt, 8) {
+        let orbit = match quiet(&belt, 8) {
             Ok(orbit) => orbit,
             // Where sliding becomes no response there is nothing to be quenched to.
             Err(

@@ -12,7 +12,7 @@ use quell_numerics::continuation::branch::{Branch, End, Follow, Passage, Side, f
 use quell_numerics::continuation::threshold::Kind as Event;
 
 use super::family::{Forced, Setting, Signature, start_of};
-use super::{NoOrbit, Verdict, from_sliding};
+use super::{NoOrbit, Verdict, quiet};
 use crate::simulation::Start;
 
 /// Steps in which an orbit is first followed from sliding.
@@ -23,6 +23,8 @@ const FIRST_STEPS: u32 = 8;
 pub enum Kind {
     /// A complex pair of multipliers passes the unit circle.
     NeimarkSacker,
+    /// The same of steady sliding without dither: its oscillation begins or ceases to grow.
+    Hopf,
     /// A multiplier passes −1.
     Flip,
     /// A multiplier passes +1 and the branch of responses turns back.
@@ -40,6 +42,7 @@ impl Kind {
     pub fn name(self) -> &'static str {
         match self {
             Self::NeimarkSacker => "neimark-sacker",
+            Self::Hopf => "hopf",
             Self::Flip => "flip",
             Self::Fold => "fold",
             Self::Branching => "branching",
@@ -65,7 +68,7 @@ impl Kind {
             Self::Fold => Event::Fold,
             Self::Branching | Self::Signature => return None,
             Self::Flip => Event::Flip,
-            Self::NeimarkSacker => Event::NeimarkSacker,
+            Self::NeimarkSacker | Self::Hopf => Event::NeimarkSacker,
             Self::Grazing => Event::Touch,
         })
     }
@@ -181,7 +184,7 @@ pub fn local(
     steps: u32,
 ) -> Result<Local, NoThresholds> {
     let valid = |value: f64| belt.with(path, value).map_err(|_| NoThresholds::Invalid { value });
-    let first = from_sliding(&valid(from)?, FIRST_STEPS).map_err(NoThresholds::Start)?;
+    let first = quiet(&valid(from)?, FIRST_STEPS).map_err(NoThresholds::Start)?;
     valid(to)?;
     along(belt, path, (from, first.start), to, steps, 1)
 }
@@ -204,7 +207,15 @@ pub fn along(
     let window = Follow::window(from, to, steps);
     let branch = follow(&forced, &state, from, to > from, window)
         .map_err(|why| NoThresholds::Start(why.into()))?;
-    Ok(told(&branch, from, to))
+    let mut found = told(&branch, from, to);
+    if belt.dithers().is_empty() {
+        for threshold in &mut found.thresholds {
+            if threshold.kind == Kind::NeimarkSacker {
+                threshold.kind = Kind::Hopf;
+            }
+        }
+    }
+    Ok(found)
 }
 
 /// A branch in the terms of the belt.
@@ -232,7 +243,9 @@ fn told(branch: &Branch<Signature, NoOrbit>, from: f64, to: f64) -> Local {
         End::Window { at } if *at == to => Ending::Covered,
         End::Window { .. } | End::Closed => {
             let further = |a: f64, b: f64| if (b - a) * (to - from) > 0.0 { b } else { a };
-            Ending::TurnedBack { at: branch.points.iter().map(|it| it.parameter).fold(from, further) }
+            Ending::TurnedBack {
+                at: branch.points.iter().map(|it| it.parameter).fold(from, further),
+            }
         }
         End::Touch { at } => Ending::Touch { at: *at },
         End::Lost { at, .. } | End::TooLong { at } => Ending::Lost { at: *at },

@@ -345,7 +345,11 @@ fn least_of(
             bend = bend * since + slope;
             slope = slope * since + unit * coefficient * k as f64;
         }
-        if slope > 0.0 { high = since } else { low = since }
+        if slope > 0.0 {
+            high = since
+        } else {
+            low = since
+        }
         let next = since - slope / bend;
         let next = if next > low && next < high { next } else { 0.5 * (low + high) };
         let moved = (next - since).abs();

@@ -3,12 +3,15 @@
 use std::fmt::Write as _;
 
 use clap::Args;
-use quell::run::thresholds::{Protocol, Question, Thresholds, becomes, run as thresholds};
-use quell::{Complaint, Failure};
+use quell::run::curves::{Curves, Question as CurveQuestion, run as curves};
+use quell::run::thresholds::{
+    Ending, Protocol, Question, Thresholds, becomes, run as thresholds, side,
+};
+use quell::{Complaint, Failure, Study, picture};
 
 use super::orbit::state;
 use crate::answer::Answer;
-use crate::arguments::{Complaints, StudyArguments};
+use crate::arguments::{Complaints, OutputArguments, Outputs, Plot, PlotArguments, StudyArguments};
 use crate::table::figure;
 
 /// Finds the values of a parameter at which dither begins or ceases to quench, exactly
@@ -37,6 +40,19 @@ pub(crate) struct Arguments {
     /// Also for runs from this state
     #[arg(long, value_name = "X,V", allow_hyphen_values = true)]
     start: Option<String>,
+    /// Lets the dither of these runs grow over this time τ, in steps of its period, instead of switching it on
+    #[arg(long, value_name = "T", default_value_t = 0.0, allow_hyphen_values = true)]
+    ramp: f64,
+    /// Follows each local threshold as a curve along a second parameter, such as belt.belt_velocity
+    #[arg(long, value_name = "PATH", requires = "between", conflicts_with_all = ["from_rest", "from_sliding", "from_squeal", "start", "ramp"])]
+    along: Option<String>,
+    /// The window of the second parameter
+    #[arg(long, value_name = "C:D", requires = "along", allow_hyphen_values = true)]
+    between: Option<String>,
+    #[command(flatten)]
+    output: OutputArguments,
+    #[command(flatten)]
+    plot: PlotArguments,
 }
 
 /// Answers.
@@ -45,14 +61,43 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = complaints.take(arguments.study.read());
     let from = complaints.take(number("--from", &arguments.from));
     let to = complaints.take(number("--to", &arguments.to));
+    let between = complaints.take(arguments.between.as_deref().map(window).transpose());
     let start =
         complaints.take(arguments.start.as_deref().map(|it| state("--start", it)).transpose());
-    let (study, (range, start)) = complaints.finish(study.zip(from.zip(to).zip(start)))?;
-    let (from, to) = range;
-    if from >= to {
+    let outputs = complaints.take(arguments.output.prepare(&[]));
+    let plot = complaints.take(arguments.plot.prepare());
+    if let Some((from, to)) = from.zip(to)
+        && from >= to
+    {
         let allowed = format!("a number above --from {from}");
-        return Err(Complaint::option("--to", to, allowed).into());
+        complaints.take::<()>(Err(Complaint::option("--to", to, allowed)));
     }
+    if arguments.output.saves() && arguments.along.is_none() {
+        let allowed = "together with --along: curves are saved as CSV";
+        complaints.take::<()>(Err(Complaint::option("--save", "", allowed)));
+    }
+    let range = from.zip(to);
+    let files = outputs.zip(plot);
+    let (study, ((range, start), (between, (outputs, plot)))) =
+        complaints.finish(study.zip(range.zip(start).zip(between.zip(files))))?;
+    match arguments.along.clone().zip(between) {
+        Some((along, between)) => {
+            let parameter = arguments.parameter.clone();
+            let question = CurveQuestion { parameter, window: range, along, between };
+            followed(arguments, &study, question, outputs, plot)
+        }
+        None => on_a_line(arguments, &study, range, start, plot),
+    }
+}
+
+/// Thresholds of one parameter.
+fn on_a_line(
+    arguments: &Arguments,
+    study: &Study,
+    (from, to): (f64, f64),
+    start: Option<(f64, f64)>,
+    plot: Plot,
+) -> Result<Answer, Failure> {
     let flags = [
         (arguments.from_rest, Protocol::Rest),
         (arguments.from_sliding, Protocol::Sliding),
@@ -61,9 +106,58 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut protocols: Vec<Protocol> =
         flags.into_iter().filter(|(asked, _)| *asked).map(|(_, protocol)| protocol).collect();
     protocols.extend(start.map(|(x, v)| Protocol::From(x, v)));
-    let question = Question { parameter: arguments.parameter.clone(), from, to, protocols };
-    let done = thresholds(&study, question)?;
-    Ok(Answer::new(arguments.study.json, || done.json(), || text(&done)))
+    let parameter = arguments.parameter.clone();
+    let question = Question { parameter, from, to, protocols, ramp: arguments.ramp };
+    let done = thresholds(study, question)?;
+    let mut object = done.json();
+    plot.write(|| picture::thresholds(study, &done), &mut object)?;
+    Ok(Answer::new(arguments.study.json, || object, || text(&done)))
+}
+
+/// Curves of thresholds in two parameters.
+fn followed(
+    arguments: &Arguments,
+    study: &Study,
+    question: CurveQuestion,
+    outputs: Outputs,
+    plot: Plot,
+) -> Result<Answer, Failure> {
+    let done = curves(study, question)?;
+    let mut object = done.json(study);
+    outputs.write(&[done.dataset(study)], &mut object)?;
+    plot.write(|| picture::curves(study, &done), &mut object)?;
+    Ok(Answer::new(arguments.study.json, || object, || text_of_curves(&done)))
+}
+
+fn text_of_curves(done: &Curves) -> String {
+    let mut text = done.sentence() + "\n";
+    for curve in &done.curves {
+        let [first, last] = curve.ends.map(quell::run::curves::Ending::name);
+        let _ =
+            writeln!(text, "\n{}, from its end ({first}) to its end ({last}):", curve.kind.name());
+        let _ = writeln!(text, "  {:<14}  {:<14}", done.question.along, done.question.parameter);
+        let every = curve.points.len().div_ceil(12).max(1);
+        let last = curve.points.len().saturating_sub(1);
+        for (number, point) in curve.points.iter().enumerate() {
+            if number % every == 0 || number == last {
+                let _ =
+                    writeln!(text, "  {:<14}  {:<14}", figure(point.along), figure(point.value));
+            }
+        }
+    }
+    text
+}
+
+/// Two numbers C:D, the second one above the first.
+fn window(text: &str) -> Result<(f64, f64), Failure> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|it| it.is_finite());
+    text.split_once(':')
+        .and_then(|(from, to)| Some((number(from)?, number(to)?)))
+        .filter(|(from, to)| from < to)
+        .ok_or_else(|| {
+            let allowed = "two finite numbers C:D, the second above the first, such as 0.05:1.5";
+            Complaint::option("--between", text, allowed).into()
+        })
 }
 
 fn number(option: &'static str, text: &str) -> Result<f64, Failure> {
@@ -78,17 +172,28 @@ fn text(done: &Thresholds) -> String {
         "{} from {} to {}, the response that sliding becomes under dither:\n",
         question.parameter, question.from, question.to
     );
-    for threshold in &done.local {
+    for threshold in &done.local.thresholds {
         let _ = writeln!(
             text,
-            "  {:<14}  {:<15}  {} above",
+            "  {:<14}  {:<15}  {} below, {} above",
             figure(threshold.value),
             threshold.kind.name(),
-            threshold.becomes.name()
+            side(threshold.was),
+            side(threshold.becomes)
         );
     }
-    if done.local.is_empty() {
+    if done.local.thresholds.is_empty() {
         text.push_str("  no local threshold\n");
+    }
+    if done.local.ending != Ending::Covered {
+        let _ = writeln!(text, "{}", done.sentence());
+    }
+    for change in &done.local.changes {
+        let words = |it: &Option<_>| {
+            it.as_ref().map_or("none".to_owned(), quell::run::thresholds::Signature::words)
+        };
+        let (below, above) = (words(&change.below), words(&change.above));
+        let _ = writeln!(text, "  {:<14}  {below} below, {above} above", figure(change.value));
     }
     for (protocol, switches) in &done.protocols {
         let _ = writeln!(text, "runs {}:", protocol.name().replace('_', " "));

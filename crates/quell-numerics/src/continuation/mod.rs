@@ -120,14 +120,18 @@ mod tests {
 
     #[test]
     fn two_by_two_agrees_with_the_general_algorithm() {
-        for (a, b, c, d) in
-            [(0.3, -1.2, 0.8, 0.5), (2.0, 0.5, 0.25, -0.7), (1.0, 3.0, 0.0, 0.0), (0.0, 1.0, 1.0, 0.0)]
-        {
+        for (a, b, c, d) in [
+            (0.3, -1.2, 0.8, 0.5),
+            (2.0, 0.5, 0.25, -0.7),
+            (1.0, 3.0, 0.0, 0.0),
+            (0.0, 1.0, 1.0, 0.0),
+        ] {
             let matrix = Matrix::from_fn(2, 2, |i, j| [[a, b], [c, d]][i][j]);
             let own = multipliers(&matrix).expect("finite");
             let general = eigenvalues(&matrix).expect("finite");
             for value in own {
-                let off = general.iter().map(|it| (it - value).norm()).fold(f64::INFINITY, f64::min);
+                let off =
+                    general.iter().map(|it| (it - value).norm()).fold(f64::INFINITY, f64::min);
                 assert!(off < 1e-14, "{matrix:?}: {off}");
             }
         }

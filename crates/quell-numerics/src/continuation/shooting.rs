@@ -133,10 +133,13 @@ pub fn fixed_point<F: Family>(
     let mut state = guess.to_vec();
     let mut best: Option<(f64, Vec<f64>)> = None;
     for steps in 0..shooting.most_steps {
-        let image = family
-            .image(&state, parameters, held)
-            .map_err(|why| NotClosed::NoImage { steps, at: state.clone(), why })?;
-        let mismatch: Vec<f64> = image.state.iter().zip(&state).map(|(to, from)| to - from).collect();
+        let image = family.image(&state, parameters, held).map_err(|why| NotClosed::NoImage {
+            steps,
+            at: state.clone(),
+            why,
+        })?;
+        let mismatch: Vec<f64> =
+            image.state.iter().zip(&state).map(|(to, from)| to - from).collect();
         let residual = largest(&mismatch);
         let least = best.as_ref().map_or(f64::INFINITY, |(least, _)| *least);
         let improves = residual < 0.5 * least;
@@ -154,9 +157,8 @@ pub fn fixed_point<F: Family>(
             best = Some((residual, state.clone()));
         }
         let stopped = |state: Vec<f64>| NotClosed::Singular { steps, residual, at: state };
-        let system = Matrix::from_fn(n, n, |i, j| {
-            image.derivative[(i, j)] - if i == j { 1.0 } else { 0.0 }
-        });
+        let system =
+            Matrix::from_fn(n, n, |i, j| image.derivative[(i, j)] - if i == j { 1.0 } else { 0.0 });
         let right = Matrix::from_fn(n, 1, |i, _| -mismatch[i]);
         let Some(step) = system.solve(&right).filter(Matrix::is_finite) else {
             return Err(stopped(state));

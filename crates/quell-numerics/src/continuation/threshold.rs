@@ -41,7 +41,8 @@ pub(super) const SMOOTH: [Kind; 3] = [Kind::Fold, Kind::Flip, Kind::NeimarkSacke
 
 impl Tests {
     pub(super) fn of(multipliers: &[Complex64]) -> Self {
-        let product = |shift: f64| multipliers.iter().map(|it| it + shift).product::<Complex64>().re;
+        let product =
+            |shift: f64| multipliers.iter().map(|it| it + shift).product::<Complex64>().re;
         let mut pairs = Complex64::new(1.0, 0.0);
         for (i, a) in multipliers.iter().enumerate() {
             for b in &multipliers[i + 1..] {

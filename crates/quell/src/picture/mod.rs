@@ -15,16 +15,18 @@ mod ruler;
 mod simulate;
 mod stability;
 mod sweep;
+mod thresholds;
 
 pub use basins::basins;
 pub use bifurcation::bifurcation;
 pub use friction::friction;
 pub use map::{MOST_PANELS, Map, MapAxis, MapKind, map, map_panel};
-pub use orbit::orbit;
+pub use orbit::{orbit, response as periodic_response};
 pub use response::response;
 pub use simulate::simulate;
 pub use stability::stability;
 pub use sweep::sweep;
+pub use thresholds::{curves, thresholds};
 
 use crate::complaint::Failure;
 use crate::output::Output;

@@ -8,8 +8,9 @@ use quell_model::units::Quantity;
 
 use super::caption::caption;
 use super::ruler::Ruler;
+use crate::complaint::Failure;
 use crate::plot::{Axis, Figure, Line, Marker, Panel, Points, Role, Rule, Size};
-use crate::run::orbit::sentence;
+use crate::run::orbit::{Response, sentence};
 use crate::study::Study;
 
 /// Samples of a period.
@@ -18,12 +19,28 @@ const SAMPLES: usize = 1200;
 /// Points of a circle.
 const CIRCLE: u32 = 180;
 
+/// The picture of what `orbit` found: its periodic response.
+///
+/// # Errors
+/// [`Failure::Failed`] where there is none.
+pub fn response(study: &Study, found: &Response) -> Result<Figure, Failure> {
+    let why = || Failure::Failed { key: "--plot".to_owned(), why: found.sentence(study) };
+    found.orbit.as_ref().map(|found| orbit(study, found)).ok_or_else(why)
+}
+
 /// The picture of a periodic response.
 pub fn orbit(study: &Study, found: &Orbit) -> Figure {
     let belt = study.belt();
     let step = found.period / SAMPLES as f64;
     let mut sampler = Sampler::new(0.0, step, SAMPLES + 1);
     // Where the engine stops the curve ends: the orbit itself was integrated before.
+    let free;
+    let belt = if found.is_free {
+        free = belt.undithered();
+        &free
+    } else {
+        belt
+    };
     let _ = simulate(belt, found.start, found.period, DEFAULT_TOLERANCE, &mut sampler);
     let largest = |of: fn(&quell_belt::simulation::Sample) -> f64| {
         sampler.samples.iter().map(|sample| of(sample).abs()).fold(0.0, f64::max)

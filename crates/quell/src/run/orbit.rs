@@ -1,44 +1,110 @@
-//! `orbit`: the periodic response that sliding becomes under dither, or one near a given state, with its Floquet
-//! multipliers.
+//! `orbit`: the periodic response that sliding becomes under dither, one near a given state, or the one on which a run ends,
+//! with its Floquet multipliers; without dither the limit cycles, or steady sliding where there is none.
 
-use quell_belt::orbit::{NoOrbit, Orbit, Verdict, from_sliding, near};
+use quell_belt::orbit::cycle::cycles;
+use quell_belt::orbit::reached::orbit_reached;
+use quell_belt::orbit::{NoOrbit, from_sliding, near};
+pub use quell_belt::orbit::{Orbit, Verdict};
 use quell_belt::simulation::{EventKind, Start};
+use quell_belt::start::NoSquealingStart;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
+use super::thresholds::Protocol;
 use super::{failed, in_words};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::fields::Fields;
 use crate::study::Study;
 
-/// Steps of the dither's amplitude from nothing to its value.
+/// Least number of steps of the dither's amplitude from nothing to its value.
 const STEPS: u32 = 8;
+
+/// Most periods of the dither in one period of a response on which a run ends.
+const MOST_PERIODS: u32 = 200;
 
 /// Which periodic response is looked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wanted {
-    /// Near this state (x, x′) at τ = 0; by default the one that sliding becomes.
+    /// Near this state (x, x′) at τ = 0; by default the one that sliding becomes. Without dither the cycle whose lowest point
+    /// is nearest to it.
     pub near: Option<(f64, f64)>,
     /// Common periods of the dithers in a period of the response.
     pub periods: u32,
+    /// The one on which a run from here ends, of whatever number of periods.
+    pub after: Option<Protocol>,
+}
+
+/// What was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Response {
+    /// The periodic response; none for an undithered belt without a limit cycle.
+    pub orbit: Option<Orbit>,
+    /// Every limit cycle of an undithered belt, the largest first.
+    pub cycles: Vec<Orbit>,
+    /// Verdict on steady sliding of an undithered belt, 2ζ + μ′(v₀)F > 0.
+    pub sliding: Option<Verdict>,
+}
+
+impl From<Orbit> for Response {
+    fn from(orbit: Orbit) -> Self {
+        Self { orbit: Some(orbit), cycles: Vec::new(), sliding: None }
+    }
 }
 
 /// The periodic response of a study.
 ///
 /// # Errors
 /// A complaint where there is no period; [`Failure::Failed`] where shooting does not converge, with the place.
-pub fn run(study: &Study, wanted: Wanted) -> Result<Orbit, Failure> {
+pub fn run(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
     let belt = study.belt();
-    let found = match wanted.near {
-        Some((displacement, velocity)) => {
-            near(belt, Start { time: 0.0, displacement, velocity }, wanted.periods.max(1))
+    if belt.dithers().is_empty() {
+        return undithered(study, wanted);
+    }
+    let periods = wanted.periods.max(1);
+    let found = match (wanted.after, wanted.near) {
+        (Some(protocol), _) => {
+            let start = protocol.start(study)?;
+            orbit_reached(belt, start, MOST_PERIODS)
         }
-        None if wanted.periods > 1 => {
-            from_sliding(belt, STEPS).and_then(|orbit| near(belt, orbit.start, wanted.periods))
+        (None, Some((displacement, velocity))) => {
+            near(belt, Start { time: 0.0, displacement, velocity }, periods)
         }
-        None => from_sliding(belt, STEPS),
+        (None, None) if periods > 1 => {
+            from_sliding(belt, STEPS).and_then(|orbit| near(belt, orbit.start, periods))
+        }
+        (None, None) => from_sliding(belt, STEPS),
     };
-    found.map_err(refused)
+    found.map(Response::from).map_err(refused)
+}
+
+/// The limit cycles of an undithered belt.
+fn undithered(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
+    let belt = study.belt();
+    let cycles = cycles(belt).map_err(refused)?;
+    let slope = belt.friction().slope(belt.belt_velocity()) * belt.normal_load();
+    // e^−(2ζ + μ′F)/2 is the modulus of both multipliers over unit time.
+    let radius = (-0.5 * (2.0 * belt.damping_ratio() + slope)).exp();
+    let orbit = match (wanted.after, wanted.near) {
+        (Some(Protocol::Sliding), _) => None,
+        (Some(_), _) | (None, None) => cycles.first(),
+        (None, Some((x, v))) => {
+            let off = |it: &&Orbit| (it.start.displacement - x).hypot(it.start.velocity - v);
+            cycles.iter().min_by(|a, b| off(a).total_cmp(&off(b)))
+        }
+    };
+    Ok(Response { orbit: orbit.cloned(), sliding: Some(Verdict::of(radius)), cycles })
+}
+
+impl Protocol {
+    /// The state at τ = 0.
+    pub(super) fn start(self, study: &Study) -> Result<Start, Failure> {
+        self.initial().resolve(study.belt(), study.solver()).map_err(|why| match why {
+            NoSquealingStart::Stalled(stalled) => failed(stalled),
+            NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest => {
+                Complaint::option("--from-squeal", "", format!("another start: {why}")).into()
+            }
+        })
+    }
 }
 
 /// Why there is no orbit, as it is told.
@@ -46,7 +112,12 @@ pub(super) fn refused(why: NoOrbit) -> Failure {
     let key = match why {
         NoOrbit::NoDither => "dither",
         NoOrbit::Incommensurate => "dither.frequency_ratio",
-        NoOrbit::NotConverged { .. } => {
+        NoOrbit::NotConverged { .. }
+        | NoOrbit::Degenerate { .. }
+        | NoOrbit::Another { .. }
+        | NoOrbit::Ends { .. }
+        | NoOrbit::NoPeriod { .. }
+        | NoOrbit::Invalid { .. } => {
             return Failure::Failed { key: "orbit".to_owned(), why: why.to_string() };
         }
         NoOrbit::Stalled(stalled) => return failed(stalled),
@@ -69,7 +140,66 @@ pub fn sentence(study: &Study, orbit: &Orbit) -> String {
         (sticks, reversals) => format!("sticks {sticks} and reverses {reversals} times a period"),
     };
     let period = in_words(study, Quantity::Time, orbit.period);
-    format!("The response of period {period} {contact}; it is {verdict}.")
+    let what = if orbit.is_free { "The limit cycle without dither," } else { "The response" };
+    format!("{what} of period {period} {contact}; it is {verdict}.")
+}
+
+impl Response {
+    /// What was found in one sentence.
+    pub fn sentence(&self, study: &Study) -> String {
+        match &self.orbit {
+            Some(orbit) => sentence(study, orbit),
+            None => self.without_orbit(study),
+        }
+    }
+
+    fn without_orbit(&self, study: &Study) -> String {
+        let place = in_words(study, Quantity::Displacement, study.belt().steady_sliding());
+        let whether = match self.sliding {
+            Some(Verdict::Stable) => "which is stable",
+            Some(Verdict::Unstable) => "which is unstable",
+            Some(Verdict::Undecided) | None => "which is at its threshold",
+        };
+        let cycles = if self.cycles.is_empty() {
+            "and there is no limit cycle: every motion settles there"
+        } else {
+            "beside the limit cycles"
+        };
+        format!(
+            "Without dither nothing gives the response a period: it is steady sliding at x = {place}, {whether}, {cycles}."
+        )
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &Study) -> Json {
+        let mut object = match &self.orbit {
+            Some(orbit) => json(study, orbit),
+            None => self.sliding_json(study),
+        };
+        if self.sliding.is_some() {
+            object["cycles"] = self.cycles.iter().map(|cycle| json(study, cycle)).collect();
+        }
+        object
+    }
+
+    fn sliding_json(&self, study: &Study) -> Json {
+        let sentence = self.without_orbit(study);
+        let mut fields = Fields::new(study.scales());
+        fields
+            .plain("ok", true)
+            .plain("sentence", sentence.clone())
+            .plain("protocol", "local: 2ζ + μ′(v₀)F of steady sliding")
+            .number("displacement", Quantity::Displacement, study.belt().steady_sliding())
+            .number("velocity", Quantity::Velocity, 0.0)
+            .known("period", Quantity::Time, Err(sentence.clone()))
+            .plain("multipliers", Json::Null)
+            .why("multipliers", sentence)
+            .plain("verdict", self.sliding.map_or("undecided", Verdict::name))
+            .plain("stick_episodes", 0)
+            .plain("reversals", 0)
+            .number("residual", Quantity::Displacement, 0.0);
+        fields.finish()
+    }
 }
 
 /// The orbit as JSON.
@@ -79,6 +209,7 @@ pub fn json(study: &Study, orbit: &Orbit) -> Json {
         .plain("ok", true)
         .plain("sentence", sentence(study, orbit))
         .plain("protocol", "local: Floquet multipliers of the periodic response")
+        .plain("free_phase", orbit.is_free)
         .number("displacement", Quantity::Displacement, orbit.start.displacement)
         .number("velocity", Quantity::Velocity, orbit.start.velocity)
         .number("period", Quantity::Time, orbit.period)

@@ -1,8 +1,11 @@
 //! `thresholds`: values of a parameter at which the response changes: local ones by Floquet multipliers, and for runs
 //! from given starts the values at which dither begins or ceases to quench.
 
-use quell_belt::orbit::reached::{Reached, Switch, switches};
-use quell_belt::orbit::threshold::{NoThresholds, Threshold, local_thresholds};
+use quell_belt::orbit::NoOrbit;
+pub use quell_belt::orbit::family::Signature;
+use quell_belt::orbit::reached::{Reached, Switch, ramped, switches};
+pub use quell_belt::orbit::threshold::{Change, Ending, Kind, Local, Threshold};
+use quell_belt::orbit::threshold::{NoThresholds, local};
 use quell_belt::simulation::Start;
 use serde_json::{Value as Json, json};
 
@@ -10,8 +13,8 @@ use super::orbit::refused;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::study::{InitialState, Study};
 
-/// Values between which an orbit is followed.
-const STEPS: u32 = 80;
+/// Least number of values between which an orbit is followed.
+const STEPS: u32 = 40;
 
 /// Values that are tried of a protocol.
 const TRIED: u32 = 40;
@@ -43,7 +46,7 @@ impl Protocol {
         }
     }
 
-    fn initial(self) -> InitialState {
+    pub(super) fn initial(self) -> InitialState {
         match self {
             Self::Rest => InitialState::Rest,
             Self::Sliding => InitialState::Sliding,
@@ -54,7 +57,7 @@ impl Protocol {
 }
 
 /// What is asked.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Question {
     /// Path of the parameter.
     pub parameter: String,
@@ -64,6 +67,8 @@ pub struct Question {
     pub to: f64,
     /// Protocols besides the local thresholds.
     pub protocols: Vec<Protocol>,
+    /// Time τ over which the dither of a protocol grows from nothing, in steps of its period; 0 switches it on.
+    pub ramp: f64,
 }
 
 /// The thresholds of a parameter.
@@ -71,44 +76,61 @@ pub struct Question {
 pub struct Thresholds {
     /// What was asked.
     pub question: Question,
-    /// By multipliers.
-    pub local: Vec<Threshold>,
+    /// By multipliers, with the branch of responses on which they lie.
+    pub local: Local,
     /// By runs from a start.
     pub protocols: Vec<(Protocol, Vec<Switch>)>,
 }
 
-/// Thresholds of a study's belt.
-///
-/// # Errors
-/// A complaint about the parameter or its range; [`Failure::Failed`] where an orbit is lost, with the place.
-pub fn run(study: &Study, question: Question) -> Result<Thresholds, Failure> {
-    let belt = study.belt();
-    let path = question.parameter.as_str();
-    if belt.get(path).is_none() {
-        let allowed = "a number of the equations that this study has, such as dither.amplitude or belt.belt_velocity";
-        let origin = Origin::Argument("--parameter");
-        return Err(Complaint::new(Fault::Value, "--parameter", origin, path, allowed).into());
+/// Refuses a parameter that the study does not have.
+pub(super) fn known(study: &Study, option: &'static str, path: &str) -> Result<(), Complaint> {
+    if study.belt().get(path).is_some() {
+        return Ok(());
     }
-    let told = |why: NoThresholds| match why {
+    let allowed = "a number of the equations that this study has, such as dither.amplitude or belt.belt_velocity";
+    Err(Complaint::new(Fault::Value, option, Origin::Argument(option), path, allowed))
+}
+
+/// Why there are no thresholds, as it is told.
+pub(super) fn told(why: NoThresholds, path: &str, option: &'static str) -> Failure {
+    match why {
         NoThresholds::Invalid { value } => {
-            let allowed = format!("values that {path} can take");
-            Complaint::option("--from", value, allowed).into()
+            Complaint::option(option, value, format!("values that {path} can take")).into()
         }
         NoThresholds::Start(why) => refused(why),
         NoThresholds::Lost { at, why } => Failure::Failed {
             key: "thresholds".to_owned(),
             why: format!("the response was lost beyond {path} = {at}: {why}"),
         },
-    };
+    }
+}
+
+/// Thresholds of a study's belt.
+///
+/// # Errors
+/// A complaint about the parameter or its range; [`Failure::Failed`] where there is no response to begin with.
+pub fn run(study: &Study, question: Question) -> Result<Thresholds, Failure> {
+    let belt = study.belt();
+    let path = question.parameter.as_str();
+    known(study, "--parameter", path)?;
+    if !(question.ramp.is_finite() && question.ramp >= 0.0) {
+        return Err(Complaint::option("--ramp", question.ramp, "a time, 0 or more").into());
+    }
     let (from, to) = (question.from, question.to);
-    let local = local_thresholds(belt, path, from, to, STEPS).map_err(told)?;
+    let local = local(belt, path, from, to, STEPS).map_err(|why| told(why, path, "--from"))?;
     let mut protocols = Vec::new();
     for &protocol in &question.protocols {
         let initial = protocol.initial();
         let start = |belt: &quell_model::Belt| -> Option<Start> {
-            initial.resolve(belt, study.solver()).ok()
+            let start = initial.resolve(belt, study.solver()).ok()?;
+            // Without dither there is nothing to grow.
+            match ramped(belt, start, question.ramp) {
+                Err(NoOrbit::NoDither) => Some(start),
+                ramped => ramped.ok(),
+            }
         };
-        let found = switches(belt, path, (from, to), TRIED, CLOSENESS, start).map_err(told)?;
+        let found = switches(belt, path, (from, to), TRIED, CLOSENESS, start)
+            .map_err(|why| told(why, path, "--from"))?;
         protocols.push((protocol, found));
     }
     Ok(Thresholds { question, local, protocols })
@@ -123,27 +145,87 @@ pub fn becomes(reached: Reached) -> &'static str {
     }
 }
 
+/// The verdict on one side of a threshold; "none" where this response does not exist there.
+pub fn side(verdict: Option<quell_belt::orbit::Verdict>) -> &'static str {
+    verdict.map_or("none", quell_belt::orbit::Verdict::name)
+}
+
 impl Thresholds {
+    /// Whether and how far the response was followed, in one sentence.
+    pub fn sentence(&self) -> String {
+        let path = &self.question.parameter;
+        let (from, to) = (self.question.from, self.question.to);
+        match self.local.ending {
+            Ending::Covered => {
+                format!(
+                    "The response that sliding becomes was followed from {path} = {from} to {to}."
+                )
+            }
+            Ending::TurnedBack { at } => format!(
+                "The response that sliding becomes turns back at {path} = {at}: there is none of it beyond, \
+                 and what a run ends on there is another one."
+            ),
+            Ending::Touch { at } => format!(
+                "The response that sliding becomes ends at {path} = {at}, where it touches v_r = 0: there is none beyond."
+            ),
+            Ending::Lost { at } => {
+                format!("The response that sliding becomes was lost beyond {path} = {at}.")
+            }
+        }
+    }
+
     /// As JSON.
     pub fn json(&self) -> Json {
         let local: Vec<Json> = self
             .local
+            .thresholds
             .iter()
             .map(|it| {
-                json!({ "value": it.value, "kind": it.kind.name(), "becomes": it.becomes.name() })
+                json!({
+                    "value": it.value,
+                    "error": it.error,
+                    "kind": it.kind.name(),
+                    "was": side(it.was),
+                    "becomes": side(it.becomes),
+                    "displacement": it.state.displacement,
+                    "velocity": it.state.velocity,
+                })
+            })
+            .collect();
+        let words = |signature: Option<&Signature>| {
+            signature.map_or_else(|| "none".to_owned(), |it| it.words())
+        };
+        let changes: Vec<Json> = self
+            .local
+            .changes
+            .iter()
+            .map(|it| {
+                json!({
+                    "value": it.value,
+                    "below": words(it.below.as_ref()),
+                    "above": words(it.above.as_ref()),
+                })
             })
             .collect();
         let mut object = json!({
             "ok": true,
+            "sentence": self.sentence(),
             "parameter": self.question.parameter,
             "from": self.question.from,
             "to": self.question.to,
+            "covered": self.local.ending == Ending::Covered,
             "local": local,
+            "signature_changes": changes,
         });
+        if self.question.ramp > 0.0 {
+            object["ramp"] = self.question.ramp.into();
+        }
         for (protocol, switches) in &self.protocols {
             object[protocol.name()] = switches
                 .iter()
-                .map(|it| json!({ "value": it.value, "becomes": becomes(it.becomes) }))
+                .map(|it| {
+                    json!({ "value": it.value, "error": it.error, "becomes": becomes(it.becomes) })
+                })
                 .collect();
         }
         object

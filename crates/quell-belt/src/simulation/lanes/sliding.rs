@@ -68,8 +68,7 @@ impl<L: SlidingLaw> Work for SlidingBy<'_, '_, L> {
         let equation = SlipEquation { damping: 2.0 * belt.damping_ratio(), belt_velocity };
         let mut displacement = start.displacement / unit;
         let mut slip = (belt.belt_velocity() - start.velocity) / unit;
-        let mut series =
-            SlipSeries { displacement: [0.0; ORDER + 1], slip: [0.0; ORDER + 1] };
+        let mut series = SlipSeries { displacement: [0.0; ORDER + 1], slip: [0.0; ORDER + 1] };
         let mut table = [Row::ZERO; ORDER + 1];
         let mut steps = 0;
         while clock.until(until) > 0.0 {

@@ -1,0 +1,276 @@
+//! One step of the walk along a branch.
+
+use num_complex::Complex64;
+
+use super::super::arc::{
+    self, NoStep, Solved, System, between, cosine, direction, distance, tangent,
+};
+use super::super::threshold::Kind;
+use super::super::{Family, Image, modulus, multipliers, unstable};
+use super::{Follow, Passage, Point, Side};
+use crate::matrix::Matrix;
+
+/// A point with what the walk needs.
+#[derive(Clone, Debug)]
+pub(super) struct Place<S> {
+    pub(super) unknowns: Vec<f64>,
+    pub(super) tangent: Vec<f64>,
+    pub(super) derivative: Matrix,
+    pub(super) image: Image<S>,
+    pub(super) residual: f64,
+    pub(super) multipliers: Vec<Complex64>,
+}
+
+impl<S: Clone> Place<S> {
+    pub(super) fn side(&self) -> Side<S> {
+        Side {
+            unstable: unstable(&self.multipliers),
+            radius: self.multipliers.first().map_or(0.0, |&it| modulus(it)),
+            signature: self.image.signature.clone(),
+        }
+    }
+
+    pub(super) fn parameter(&self) -> f64 {
+        self.unknowns.last().copied().unwrap_or(0.0)
+    }
+}
+
+/// The equations φ(x) = x in scaled unknowns, on one piece.
+struct Closing<'a, F: Family> {
+    walk: &'a Walk<'a, F>,
+    held: Option<&'a F::Signature>,
+}
+
+/// Difference by which the derivative by a parameter is taken: it steers Newton's method only.
+pub(in super::super) const NUDGE: f64 = 1e-6;
+
+impl<F: Family> System for Closing<'_, F> {
+    type Known = Image<F::Signature>;
+    type Error = F::Error;
+
+    fn mismatch(&self, unknowns: &[f64]) -> Result<(Vec<f64>, Self::Known), F::Error> {
+        let (state, parameter) = self.walk.unscaled(unknowns);
+        let image = self.walk.family.image(&state, &[parameter], self.held)?;
+        let scale = self.walk.family.scale();
+        let mismatch = image.state.iter().zip(&state).map(|(to, from)| (to - from) / scale);
+        Ok((mismatch.collect(), image))
+    }
+
+    fn derivative(
+        &self,
+        unknowns: &[f64],
+        image: &Self::Known,
+        before: Option<&Matrix>,
+        way: &[f64],
+    ) -> Result<Matrix, F::Error> {
+        let n = self.walk.family.dimension();
+        let column: Vec<f64> = if let Some(before) = before {
+            (0..n).map(|i| before[(i, n)]).collect()
+        } else {
+            let towards = if way[n] < 0.0 { -NUDGE } else { NUDGE };
+            let inside = (0.0..=1.0).contains(&(unknowns[n] + towards));
+            let nudge = if inside { towards } else { -towards };
+            let mut moved = unknowns.to_vec();
+            moved[n] += nudge;
+            let (state, parameter) = self.walk.unscaled(&moved);
+            let other = self.walk.family.image(&state, &[parameter], self.held)?;
+            let scale = self.walk.family.scale() * nudge;
+            other.state.iter().zip(&image.state).map(|(b, a)| (b - a) / scale).collect()
+        };
+        Ok(Matrix::from_fn(n, n + 1, |i, j| match j {
+            j if j == n => column[i],
+            j => image.derivative[(i, j)] - if i == j { 1.0 } else { 0.0 },
+        }))
+    }
+}
+
+/// The walk along a branch.
+pub(super) struct Walk<'a, F: Family> {
+    pub(super) family: &'a F,
+    pub(super) follow: Follow,
+}
+
+/// A corrected point off the predicted one by more than this share of the step is not believed.
+const NEAR: f64 = 0.1;
+
+/// Least cosine of the turn of a step.
+pub(super) const TURN: f64 = 0.9;
+
+pub(super) type Found<F> = Option<Place<<F as Family>::Signature>>;
+
+impl<F: Family> Walk<'_, F> {
+    pub(super) fn unscaled(&self, unknowns: &[f64]) -> (Vec<f64>, f64) {
+        let n = unknowns.len() - 1;
+        let state = unknowns[..n].iter().map(|it| it * self.family.scale()).collect();
+        (state, self.value(unknowns[n]))
+    }
+
+    /// The parameter of a scaled one; the ends of the window exactly.
+    pub(super) fn value(&self, share: f64) -> f64 {
+        let Follow { from, to, .. } = self.follow;
+        if share == 1.0 { to } else { (to - from).mul_add(share, from) }
+    }
+
+    pub(super) fn scaled(&self, state: &[f64], share: f64) -> Vec<f64> {
+        state.iter().map(|it| it / self.family.scale()).chain([share]).collect()
+    }
+
+    /// The point on the hyperplane through `predicted`, with its tangent along `normal`.
+    pub(super) fn at(
+        &self,
+        predicted: &[f64],
+        normal: &[f64],
+        held: Option<&F::Signature>,
+        before: Option<&Matrix>,
+    ) -> Found<F> {
+        let system = Closing { walk: self, held };
+        let solved = arc::corrected(&system, predicted, normal, before);
+        let Solved { unknowns, residual, known, derivative } = match solved {
+            Ok(solved) => solved,
+            Err(NoStep::NotConverged | NoStep::Failed(_)) => return None,
+        };
+        let multipliers = multipliers(&known.derivative)?;
+        let tangent = tangent(&derivative, normal)?;
+        Some(Place { unknowns, tangent, derivative, image: known, residual, multipliers })
+    }
+
+    /// The place at a scaled parameter, near a state, whatever its signature.
+    pub(super) fn standing(&self, state: &[f64], share: f64, towards: f64) -> Found<F> {
+        let mut normal = vec![0.0; state.len() + 1];
+        normal[state.len()] = towards;
+        self.at(&self.scaled(state, share), &normal, None, None)
+    }
+
+    pub(super) fn point(&self, place: &Place<F::Signature>) -> Point<F::Signature> {
+        let (state, parameter) = self.unscaled(&place.unknowns);
+        Point {
+            state,
+            parameter,
+            multipliers: place.multipliers.clone(),
+            residual: place.residual,
+            distance: place.image.distance,
+            signature: place.image.signature.clone(),
+        }
+    }
+
+    /// The place at a share of the way between two on one piece.
+    pub(super) fn on_the_way(
+        &self,
+        a: &Place<F::Signature>,
+        b: &Place<F::Signature>,
+        held: Option<&F::Signature>,
+        share: f64,
+    ) -> Found<F> {
+        let predicted = between((&a.unknowns, &a.tangent), (&b.unknowns, &b.tangent), share);
+        let way: Vec<f64> = b.unknowns.iter().zip(&a.unknowns).map(|(b, a)| b - a).collect();
+        self.at(&predicted, &direction(way), held, Some(&a.derivative))
+    }
+}
+
+/// What a step led to.
+pub(super) enum Step<S> {
+    /// On along the piece.
+    On(Box<Place<S>>),
+    /// To a border, and beyond it where there is something.
+    Over(Option<Box<Place<S>>>),
+    /// Nowhere at this length.
+    Failed,
+}
+
+impl<F: Family> Walk<'_, F> {
+    /// One step of a length from `here`, with what is passed on it.
+    pub(super) fn step(
+        &self,
+        here: &Place<F::Signature>,
+        length: f64,
+        out: &mut Vec<Passage<F::Signature>>,
+    ) -> Step<F::Signature> {
+        let n = here.unknowns.len() - 1;
+        let mut normal = here.tangent.clone();
+        let mut length = length;
+        let end = if here.tangent[n] > 0.0 { 1.0 } else { 0.0 };
+        let reaches = (here.unknowns[n] + length * here.tangent[n] - end) * here.tangent[n] >= 0.0;
+        if reaches {
+            length = (end - here.unknowns[n]) / here.tangent[n];
+            normal = vec![0.0; n + 1];
+            normal[n] = here.tangent[n].signum();
+        }
+        let mut predicted: Vec<f64> =
+            here.unknowns.iter().zip(&here.tangent).map(|(u, t)| u + length * t).collect();
+        if reaches {
+            predicted[n] = end;
+        }
+        let held = Some(&here.image.signature);
+        let Some(mut next) = self.at(&predicted, &normal, held, None) else {
+            return Step::Failed;
+        };
+        if reaches {
+            next.unknowns[n] = end;
+        }
+        let off = distance(&next.unknowns, &predicted);
+        let same = next.image.signature == here.image.signature;
+        if off > NEAR * length.max(1e-7) * if same { 1.0 } else { 5.0 } {
+            return Step::Failed;
+        }
+        if !same {
+            return self.across(here, &next, out);
+        }
+        if cosine(&next.tangent, &here.tangent) < TURN {
+            return Step::Failed;
+        }
+        if next.image.distance <= 0.0 {
+            let touched = self.root(here, &next, held, |it| it.image.distance);
+            let Some((touch, error)) = touched else { return Step::Failed };
+            self.thresholds(here, &touch, out);
+            let after = self.beyond(&touch, here.tangent[n].signum());
+            out.push(self.passage(
+                Kind::Touch,
+                &touch,
+                error,
+                &touch_side(here, &touch),
+                after.as_ref(),
+            ));
+            return Step::Over(after.map(Box::new));
+        }
+        self.thresholds(here, &next, out);
+        Step::On(Box::new(next))
+    }
+
+    /// From one signature to another.
+    fn across(
+        &self,
+        here: &Place<F::Signature>,
+        next: &Place<F::Signature>,
+        out: &mut Vec<Passage<F::Signature>>,
+    ) -> Step<F::Signature> {
+        // Where the piece beyond knows its border, that is a touch met from outside.
+        let held = Some(&next.image.signature);
+        if next.image.distance.is_finite()
+            && let Some((touch, error)) = self.root(here, next, held, |it| it.image.distance)
+        {
+            out.push(self.passage(Kind::Touch, &touch, error, here, Some(&on_from(&touch, next))));
+            self.thresholds(&touch, next, out);
+            return Step::Over(Some(Box::new(next.clone())));
+        }
+        let (near, far) = self.border(here, next);
+        if distance(&near.unknowns, &far.unknowns) > 1e-8 {
+            // The two do not meet: they belong to different branches.
+            return Step::Failed;
+        }
+        self.thresholds(here, &near, out);
+        let width = (far.parameter() - near.parameter()).abs() + 1e-12;
+        let error = width * (self.follow.to - self.follow.from).abs();
+        out.push(self.passage(Kind::Border, &near, error, here, Some(next)));
+        Step::Over(Some(Box::new(next.clone())))
+    }
+}
+
+/// A touch seen as the end of the piece before it: its own multipliers, on the side where the walk was.
+fn touch_side<S: Clone>(here: &Place<S>, touch: &Place<S>) -> Place<S> {
+    Place { unknowns: here.unknowns.clone(), tangent: here.tangent.clone(), ..touch.clone() }
+}
+
+/// A touch seen as the beginning of the piece after it.
+fn on_from<S: Clone>(touch: &Place<S>, next: &Place<S>) -> Place<S> {
+    Place { unknowns: next.unknowns.clone(), tangent: next.tangent.clone(), ..touch.clone() }
+}

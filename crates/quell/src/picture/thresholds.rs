@@ -1,0 +1,146 @@
+//! The modulus of the larger multiplier over a parameter, with its thresholds; and curves of thresholds in two parameters beside
+//! the boundaries of averaging.
+
+use quell_belt::orbit::threshold::Kind;
+use quell_model::units::Quantity;
+
+use super::caption::caption;
+use super::ruler::Ruler;
+use crate::plot::{
+    Axis, Figure, Legend, Line, LineStyle, Marker, Panel, Points, Region, Role, Rule, Size,
+};
+use crate::run::curves::Curves;
+use crate::run::thresholds::{Thresholds, becomes};
+use crate::study::Study;
+
+/// A jump of the multiplier between neighbouring points, at a touch.
+const JUMP: f64 = 0.05;
+
+/// The axis of a parameter, and how its values are placed.
+fn axis_of(study: &Study, path: &str, range: (f64, f64)) -> (Axis, Ruler) {
+    let largest = range.0.abs().max(range.1.abs());
+    let Some(parameter) = study.belt().parameter(path) else {
+        return (Axis::new(path), Ruler::new(study, Quantity::Ratio, largest));
+    };
+    let ruler = Ruler::new(study, parameter.quantity, largest);
+    let name = parameter.key().replace('_', " ");
+    let axis = ruler
+        .axis(&name, &parameter.symbol.replace('₀', "_0"))
+        .between(ruler.place(range.0.min(range.1)), ruler.place(range.0.max(range.1)));
+    (axis, ruler)
+}
+
+/// The picture of the thresholds of one parameter.
+pub fn thresholds(study: &Study, done: &Thresholds) -> Figure {
+    let question = &done.question;
+    let (axis, ruler) = axis_of(study, &question.parameter, (question.from, question.to));
+    // At a touch the multipliers jump: the curve is open there.
+    let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
+    for pair in done.local.branch.windows(2) {
+        let (a, b) = (&pair[0], &pair[1]);
+        if let Some(piece) = pieces.last_mut() {
+            piece.push((ruler.place(a.value), a.radius));
+        }
+        if a.signature != b.signature && (a.radius - b.radius).abs() > JUMP {
+            pieces.push(Vec::new());
+        }
+    }
+    if let (Some(piece), Some(last)) = (pieces.last_mut(), done.local.branch.last()) {
+        piece.push((ruler.place(last.value), last.radius));
+    }
+    let radii = || pieces.iter().flatten().map(|it| it.1);
+    let (low, high) = (radii().fold(1.0, f64::min), radii().fold(1.0, f64::max));
+    let room = 0.15 * (high - low).max(1e-3);
+    let modulus =
+        Axis::new("modulus of the multiplier").symbol("|λ|").between(low - room, high + room);
+    let mut panel = Panel::new(axis, modulus)
+        .with(Region::across_y(Role::Unstable, 1.0, f64::INFINITY).label("unstable"))
+        .with(Rule::horizontal(1.0))
+        .with(Line::pieces(Role::Exact, pieces));
+    for kind in [
+        Kind::NeimarkSacker,
+        Kind::Hopf,
+        Kind::Flip,
+        Kind::Fold,
+        Kind::Branching,
+        Kind::Grazing,
+        Kind::Signature,
+    ] {
+        let places: Vec<(f64, f64)> = done
+            .local
+            .thresholds
+            .iter()
+            .filter(|it| it.kind == kind)
+            .map(|it| (ruler.place(it.value), 1.0))
+            .collect();
+        if !places.is_empty() {
+            let marker = if kind == Kind::Grazing { Marker::Circle } else { Marker::Disc };
+            panel = panel
+                .with(Points::new(Role::Exact, places).marker(marker).size(7.0).label(words(kind)));
+        }
+    }
+    for (protocol, switches) in &done.protocols {
+        for switch in switches {
+            let label =
+                format!("{}: {} above", protocol.name().replace('_', " "), becomes(switch.becomes));
+            let rule = Rule::vertical(ruler.place(switch.value)).style(LineStyle::Dashed);
+            panel = panel.with(rule.label(label));
+        }
+    }
+    Figure::single(panel.legend(Legend::Above))
+        .title(study.title().unwrap_or_default())
+        .caption(format!("{} {}.", done.sentence(), caption(study)))
+}
+
+/// A kind in a legend.
+fn words(kind: Kind) -> &'static str {
+    match kind {
+        Kind::NeimarkSacker => "Neimark–Sacker",
+        Kind::Hopf => "Hopf",
+        Kind::Flip => "flip",
+        Kind::Fold => "fold",
+        Kind::Branching => "branching",
+        Kind::Grazing => "grazing",
+        Kind::Signature => "change of events",
+    }
+}
+
+/// The picture of curves of thresholds.
+pub fn curves(study: &Study, done: &Curves) -> Figure {
+    let question = &done.question;
+    let (x, across) = axis_of(study, &question.along, question.between);
+    let (y, up) = axis_of(study, &question.parameter, question.window);
+    let place = |(along, value): (f64, f64)| (across.place(along), up.place(value));
+    let mut panel = Panel::new(x, y);
+    for averaged in &done.averaged {
+        let (label, style) = if averaged.sharper {
+            ("averaged, with the oscillator's own fast motion", LineStyle::Dashed)
+        } else {
+            ("averaged", LineStyle::Solid)
+        };
+        let pieces = averaged.pieces.iter().map(|piece| piece.iter().copied().map(place));
+        let pieces: Vec<Vec<(f64, f64)>> = pieces.map(Iterator::collect).collect();
+        if !pieces.is_empty() {
+            panel = panel.with(Line::pieces(Role::Averaged, pieces).style(style).label(label));
+        }
+    }
+    for (number, kind) in [Kind::NeimarkSacker, Kind::Grazing, Kind::Fold, Kind::Flip, Kind::Hopf]
+        .into_iter()
+        .enumerate()
+    {
+        let pieces: Vec<Vec<(f64, f64)>> = done
+            .curves
+            .iter()
+            .filter(|curve| curve.kind == kind)
+            .map(|curve| curve.points.iter().map(|it| place((it.along, it.value))).collect())
+            .collect();
+        if !pieces.is_empty() {
+            let role = if number == 0 { Role::Exact } else { Role::Series(number - 1) };
+            panel = panel.with(Line::pieces(role, pieces).label(format!("exact: {}", words(kind))));
+        }
+    }
+    Figure::single(panel.legend(Legend::Above))
+        .size(Size::Frame(380.0, 300.0))
+        .title(study.title().unwrap_or_default())
+        .caption(format!("{} {}.", done.sentence(), caption(study)))
+}

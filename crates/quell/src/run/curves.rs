@@ -1,0 +1,271 @@
+//! `thresholds --along`: curves of local thresholds in two parameters, beside the boundaries of averaging.
+
+use quell_belt::averaging::{
+    AveragingOptions, CriticalAmplitude, Response as FastResponse, critical_amplitudes,
+};
+pub use quell_belt::orbit::curve::{CurvePoint, Ending, ThresholdCurve};
+use quell_belt::orbit::curve::{Plane, curves};
+use quell_model::units::Quantity;
+use serde_json::{Value as Json, json};
+
+use super::thresholds::{Kind, known, told};
+use crate::complaint::{Complaint, Failure};
+use crate::dataset::{Array, Dataset};
+use crate::study::Study;
+
+/// Lines across the second parameter on which curves are met first.
+const LINES: u32 = 5;
+
+/// Least number of points of a curve across a window.
+const POINTS: u32 = 100;
+
+/// Places of the second parameter at which averaging is asked.
+const AVERAGED: u32 = 120;
+
+/// What is asked.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Question {
+    /// Path of the parameter whose thresholds are followed.
+    pub parameter: String,
+    /// Its window.
+    pub window: (f64, f64),
+    /// Path of the parameter along which they are followed.
+    pub along: String,
+    /// Its window.
+    pub between: (f64, f64),
+}
+
+/// A boundary of averaging in the same plane: (second parameter, amplitude).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Averaged {
+    /// Whether the fast motion is the oscillator's own instead of its limit R → ∞.
+    pub sharper: bool,
+    /// Points; a boundary that is not there at a place is broken there.
+    pub pieces: Vec<Vec<(f64, f64)>>,
+}
+
+/// Curves of thresholds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curves {
+    /// What was asked.
+    pub question: Question,
+    /// The curves.
+    pub curves: Vec<ThresholdCurve>,
+    /// Boundaries of averaging, where the first parameter is the amplitude of the first dither.
+    pub averaged: Vec<Averaged>,
+}
+
+/// The curves of a study.
+///
+/// # Errors
+/// A complaint about a parameter or its window; [`Failure::Failed`] where there is no response to begin with.
+pub fn run(study: &Study, question: Question) -> Result<Curves, Failure> {
+    let belt = study.belt();
+    known(study, "--parameter", &question.parameter)?;
+    known(study, "--along", &question.along)?;
+    if question.parameter == question.along {
+        let allowed = "another parameter than --parameter";
+        return Err(Complaint::option("--along", question.along.as_str(), allowed).into());
+    }
+    for (option, path, window) in [
+        ("--from", &question.parameter, question.window),
+        ("--between", &question.along, question.between),
+    ] {
+        for value in [window.0, window.1] {
+            if belt.with(path, value).is_err() {
+                let allowed = format!("values that {path} can take");
+                return Err(Complaint::option(option, value, allowed).into());
+            }
+        }
+    }
+    let plane = Plane {
+        path: &question.parameter,
+        window: question.window,
+        along: &question.along,
+        between: question.between,
+    };
+    let curves = curves(belt, plane, LINES, POINTS)
+        .map_err(|why| told(why, &question.parameter, "--between"))?;
+    let averaged = averaged(study, &question);
+    Ok(Curves { question, curves, averaged })
+}
+
+/// The boundaries of averaging; none where the first parameter is no amplitude of the first dither. Where averaging
+/// says nothing a boundary is broken.
+fn averaged(study: &Study, question: &Question) -> Vec<Averaged> {
+    let belt = study.belt();
+    let amplitude = ["dither.amplitude", "dither[0].amplitude"];
+    if !amplitude.contains(&question.parameter.as_str()) {
+        return Vec::new();
+    }
+    let (first, last) = question.between;
+    let inside = |it: &CriticalAmplitude| {
+        it.amplitude >= question.window.0 && it.amplitude <= question.window.1
+    };
+    [(false, FastResponse::Limit), (true, FastResponse::Oscillator)]
+        .into_iter()
+        .map(|(sharper, response)| {
+            let options = AveragingOptions { response, ..AveragingOptions::default() };
+            let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
+            // Boundaries that become stable and those that become unstable are curves of their own.
+            for index in 0..2 {
+                let mut piece = Vec::new();
+                for k in 0..=AVERAGED {
+                    let along = first + (last - first) * f64::from(k) / f64::from(AVERAGED);
+                    let found = belt.with(&question.along, along).ok().and_then(|belt| {
+                        let found = critical_amplitudes(&belt, options).ok()?;
+                        let of_kind = |it: &&CriticalAmplitude| {
+                            (it.becomes == quell_belt::averaging::Becomes::Stable) == (index == 0)
+                        };
+                        found.iter().find(of_kind).copied().filter(inside)
+                    });
+                    match found {
+                        Some(found) => piece.push((along, found.amplitude)),
+                        None if piece.is_empty() => {}
+                        None => pieces.push(std::mem::take(&mut piece)),
+                    }
+                }
+                if !piece.is_empty() {
+                    pieces.push(piece);
+                }
+            }
+            Averaged { sharper, pieces }
+        })
+        .collect()
+}
+
+impl Curves {
+    /// Number of points of all curves.
+    pub fn points(&self) -> usize {
+        self.curves.iter().map(|curve| curve.points.len()).sum()
+    }
+
+    /// What was found in one sentence.
+    pub fn sentence(&self) -> String {
+        let Question { parameter, along, between: (first, last), .. } = &self.question;
+        match self.curves.len() {
+            0 => format!(
+                "No threshold of {parameter} was met on {LINES} lines across {along} from {first} to {last}."
+            ),
+            count => format!(
+                "{count} curve{} of thresholds of {parameter} along {along} from {first} to {last}, {} points.",
+                if count == 1 { "" } else { "s" },
+                self.points()
+            ),
+        }
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &Study) -> Json {
+        let curves: Vec<Json> = self
+            .curves
+            .iter()
+            .map(|curve| {
+                let column = |of: &dyn Fn(&CurvePoint) -> f64| -> Vec<f64> {
+                    curve.points.iter().map(of).collect()
+                };
+                let mut object = json!({
+                    "kind": curve.kind.name(),
+                    "value": column(&|it| it.value),
+                    "along": column(&|it| it.along),
+                    "displacement": column(&|it| it.state.displacement),
+                    "velocity": column(&|it| it.state.velocity),
+                    "multiplier_modulus": column(&|it| it.radius),
+                    "ends": curve.ends.map(Ending::name).to_vec(),
+                });
+                if let Some(ratios) = self.amplitude_ratios(study, curve) {
+                    object["amplitude_ratio"] = ratios.into();
+                }
+                object
+            })
+            .collect();
+        let averaged: Vec<Json> = self
+            .averaged
+            .iter()
+            .map(|it| {
+                let points: Vec<[f64; 2]> =
+                    it.pieces.iter().flatten().map(|(along, value)| [*along, *value]).collect();
+                json!({ "sharper": it.sharper, "points": points })
+            })
+            .collect();
+        json!({
+            "ok": true,
+            "sentence": self.sentence(),
+            "parameter": self.question.parameter,
+            "from": self.question.window.0,
+            "to": self.question.window.1,
+            "along": self.question.along,
+            "between": [self.question.between.0, self.question.between.1],
+            "curves": curves,
+            "averaged": averaged,
+        })
+    }
+
+    /// α = D/R of the first dither along a curve, where the first parameter is its amplitude.
+    pub fn amplitude_ratios(&self, study: &Study, curve: &ThresholdCurve) -> Option<Vec<f64>> {
+        if self.averaged.is_empty() {
+            return None;
+        }
+        let ratio = study.belt().dithers().first()?.frequency_ratio;
+        let along_ratio = ["dither.frequency_ratio", "dither[0].frequency_ratio"]
+            .contains(&self.question.along.as_str());
+        let of = |it: &CurvePoint| it.value / if along_ratio { it.along } else { ratio };
+        Some(curve.points.iter().map(of).collect())
+    }
+
+    /// The points of all curves, one after another.
+    pub fn dataset(&self, study: &Study) -> Dataset {
+        let quantity = |path: &str| {
+            study.belt().parameter(path).map_or(Quantity::Ratio, |parameter| parameter.quantity)
+        };
+        let kinds: Vec<Kind> = self.curves.iter().map(|curve| curve.kind).collect();
+        let words = [Kind::NeimarkSacker, Kind::Hopf, Kind::Flip, Kind::Fold, Kind::Grazing];
+        let code = |kind: Kind| {
+            words
+                .iter()
+                .position(|it| *it == kind)
+                .and_then(|it| u8::try_from(it).ok())
+                .unwrap_or(0)
+        };
+        let each = |of: &dyn Fn(&CurvePoint) -> f64| -> Vec<f64> {
+            self.curves.iter().flat_map(|curve| &curve.points).map(of).collect()
+        };
+        let per_curve = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            let repeated =
+                |(number, curve): (usize, &ThresholdCurve)| vec![of(number); curve.points.len()];
+            self.curves.iter().enumerate().flat_map(repeated).collect()
+        };
+        let codes: Vec<u8> = self
+            .curves
+            .iter()
+            .zip(&kinds)
+            .flat_map(|(curve, kind)| vec![code(*kind); curve.points.len()])
+            .collect();
+        let names = words
+            .iter()
+            .enumerate()
+            .filter_map(|(index, kind)| Some((u8::try_from(index).ok()?, kind.name())));
+        let (parameter, along) = (self.question.parameter.as_str(), self.question.along.as_str());
+        let numbers = (0..self.points()).map(|it| it as f64).collect();
+        let mut dataset = Dataset::new(study, "thresholds")
+            .fact(self.sentence())
+            .with_axis(Array::new("point", "1", numbers))
+            .with(Array::new("curve", "1", per_curve(&|number| number as f64)))
+            .with(Array::of_words("kind", names.collect(), &codes))
+            .array(along, quantity(along), each(&|it| it.along))
+            .array(parameter, quantity(parameter), each(&|it| it.value));
+        let ratios: Option<Vec<f64>> = self
+            .curves
+            .iter()
+            .map(|curve| self.amplitude_ratios(study, curve))
+            .collect::<Option<Vec<_>>>()
+            .map(|all| all.concat());
+        if let Some(ratios) = ratios {
+            dataset = dataset.array("amplitude_ratio", Quantity::Velocity, ratios);
+        }
+        dataset
+            .array("displacement", Quantity::Displacement, each(&|it| it.state.displacement))
+            .array("velocity", Quantity::Velocity, each(&|it| it.state.velocity))
+            .array("multiplier_modulus", Quantity::Ratio, each(&|it| it.radius))
+    }
+}
