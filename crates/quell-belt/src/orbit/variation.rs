@@ -215,6 +215,10 @@ struct AlongBy<'v, 'b, 's, 'c, 'l, L> {
 impl<L: SlidingLaw> Work for AlongBy<'_, '_, '_, '_, '_, L> {
     type Output = ();
 
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "small matrices by their indices, as in the formula"
+    )]
     #[inline(always)]
     fn run(self) {
         let Along { variation, segment } = self.along;
@@ -257,6 +261,10 @@ impl<L: SlidingLaw> Work for AlongBy<'_, '_, '_, '_, '_, L> {
     }
 }
 
+#[expect(
+    clippy::needless_range_loop,
+    reason = "small matrices by their indices, as in the formula"
+)]
 #[inline(always)]
 fn weighted(rule: &Collocation, values: &[f64; NODES]) -> f64 {
     let mut sum = 0.0;
@@ -270,6 +278,10 @@ fn weighted(rule: &Collocation, values: &[f64; NODES]) -> f64 {
 /// elimination of v: (I + r h A + h²A²) f = −ξ − η(h A 1 + r). The matrix is the identity and something small,
 /// so that elimination needs no pivots: h is a step of the engine, at most 8 radians of the fastest oscillation
 /// and in practice below 1.
+#[expect(
+    clippy::needless_range_loop,
+    reason = "small matrices by their indices, as in the formula"
+)]
 #[inline(always)]
 fn forces(
     rule: &Collocation,
@@ -346,9 +358,9 @@ fn least_of(
             slope = slope * since + unit * coefficient * k as f64;
         }
         if slope > 0.0 {
-            high = since
+            high = since;
         } else {
-            low = since
+            low = since;
         }
         let next = since - slope / bend;
         let next = if next > low && next < high { next } else { 0.5 * (low + high) };

@@ -169,6 +169,19 @@ const NEAR: f64 = 0.1;
 /// Least cosine of the turn of a step.
 const TURN: f64 = 0.9;
 
+/// The share of a step at which it leaves a window first, and through which coordinate and end.
+fn leaves<S>(here: &Place<S>, length: f64) -> Option<(f64, usize, f64)> {
+    let n = here.unknowns.len() - 2;
+    (n..n + 2)
+        .filter_map(|column| {
+            let (at, speed) = (here.unknowns[column], here.tangent[column]);
+            let end = if speed > 0.0 { 1.0 } else { 0.0 };
+            let way = (end - at) / speed;
+            (speed != 0.0 && way <= length).then_some((way, column, end))
+        })
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
 impl<F: Family> Equations<'_, F> {
     fn at(&self, predicted: &[f64], normal: &[f64]) -> Option<Place<F::Signature>> {
         let Solved { unknowns, residual, known, derivative } =
@@ -187,26 +200,13 @@ impl<F: Family> Equations<'_, F> {
         CurvePoint { state, parameters, multipliers, residual: place.residual }
     }
 
-    /// The share of a step at which it leaves a window first, and through which coordinate and end.
-    fn leaves(&self, here: &Place<F::Signature>, length: f64) -> Option<(f64, usize, f64)> {
-        let n = here.unknowns.len() - 2;
-        (n..n + 2)
-            .filter_map(|column| {
-                let (at, speed) = (here.unknowns[column], here.tangent[column]);
-                let end = if speed > 0.0 { 1.0 } else { 0.0 };
-                let way = (end - at) / speed;
-                (speed != 0.0 && way <= length).then_some((way, column, end))
-            })
-            .min_by(|a, b| a.0.total_cmp(&b.0))
-    }
-
     /// One step; `Err` where this length does not do, or for good where the end is known.
     fn step(
         &self,
         here: &Place<F::Signature>,
         length: f64,
     ) -> Result<(Place<F::Signature>, bool), Option<CurveEnd>> {
-        let leaving = self.leaves(here, length);
+        let leaving = leaves(here, length);
         let mut normal = here.tangent.clone();
         let way = leaving.map_or(length, |(way, ..)| way.max(0.0));
         let mut predicted: Vec<f64> =

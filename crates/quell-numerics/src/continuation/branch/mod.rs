@@ -130,6 +130,10 @@ pub struct Branch<S, E> {
     pub end: End<E>,
 }
 
+/// A branch of a family, or why there is none.
+pub type Followed<F> =
+    Result<Branch<<F as Family>::Signature, <F as Family>::Error>, NotClosed<<F as Family>::Error>>;
+
 /// The branch through a fixed point near `state` at `parameter`, followed upwards or downwards through its window.
 ///
 /// # Errors
@@ -140,7 +144,7 @@ pub fn follow<F: Family>(
     parameter: f64,
     upwards: bool,
     options: Follow,
-) -> Result<Branch<F::Signature, F::Error>, NotClosed<F::Error>> {
+) -> Followed<F> {
     let walk = Walk { family, follow: options };
     let first = fixed_point(family, state, &[parameter], None, &Shooting::default())?;
     let share = (parameter - options.from) / (options.to - options.from);
