@@ -1,24 +1,33 @@
-//! Chores of the workspace: `cargo xtask layers`, `cargo xtask test`.
+//! Chores of the workspace: `cargo xtask test` and its parts, `cargo xtask book`.
 
 use std::path::Path;
 use std::process::ExitCode;
 
+mod book;
 mod layers;
+mod licences;
 mod manifest;
+mod package;
 mod test;
 
 const USAGE: &str = "usage: cargo xtask CHORE
 
 chores:
-  layers   dependency arrows and confined dependencies against the table of layers
-  test     everything that must hold before a change is merged, tests last";
+  book      the book with its pictures, in target/book
+  layers    dependency arrows and confined dependencies against the table of layers
+  licences  licences of all dependencies against the accepted ones
+  package   every crate packed for publication, in order
+  test      everything that must hold before a change is merged, tests last";
 
 fn main() -> ExitCode {
     // xtask lies directly below the root of the workspace.
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let done = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["book"] => book::run(&root),
         ["layers"] => layers::run(&root),
+        ["licences"] => licences::run(&root),
+        ["package"] => package::run(&root),
         ["test"] => test::run(&root),
         _ => {
             eprintln!("{USAGE}");

@@ -8,7 +8,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::layers;
+use crate::{layers, licences};
 
 /// One step.
 struct Step {
@@ -26,6 +26,8 @@ enum Action {
     Cargo(&'static [&'static str]),
     /// The check of dependency arrows.
     Layers,
+    /// The check of licences.
+    Licences,
 }
 
 #[rustfmt::skip]
@@ -44,6 +46,11 @@ const STEPS: &[Step] = &[
         name: "layers",
         action: Action::Layers,
         advice: "turn the arrow round, or move the code",
+    },
+    Step {
+        name: "licences",
+        action: Action::Licences,
+        advice: "choose another crate, or argue for its licence in xtask/src/licences.rs",
     },
     Step {
         name: "documentation",
@@ -65,6 +72,7 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     until_failure(|action| match action {
         Action::Cargo(arguments) => cargo(root, arguments),
         Action::Layers => layers::run(root),
+        Action::Licences => licences::run(root),
     })
 }
 
@@ -74,6 +82,7 @@ fn until_failure(mut act: impl FnMut(&Action) -> Result<(), String>) -> Result<(
         let command = match step.action {
             Action::Cargo(arguments) => format!("cargo {}", arguments.join(" ")),
             Action::Layers => "cargo xtask layers".to_owned(),
+            Action::Licences => "cargo xtask licences".to_owned(),
         };
         eprintln!("[{}/{}] {}: {command}", index + 1, STEPS.len(), step.name);
         act(&step.action).map_err(|why| {

@@ -3,14 +3,15 @@
 //! Each test computes the formula as printed, checks that it gives the number the print gives, and that Quell gives the
 //! right one, which the definition (quadrature) confirms. Unless said: v_r = 0.08, α = 0.2, the dissertation's parameters.
 
-use core::f64::consts::PI;
+use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use quell_belt::averaging::{
-    Becomes, EverywhereStable, FastMotion, FastWave, closed_band, effective,
-    effective_by_quadrature, everywhere_stable_amplitude,
+    AveragingOptions, Becomes, EverywhereStable, FastMotion, FastWave, NormalOrder, closed_band,
+    critical_amplitudes, effective, effective_by_quadrature, everywhere_stable_amplitude,
 };
-use quell_model::{Direction, Friction, LawKind, Waveform};
-use quell_numerics::special::{dawson, erf, exp};
+use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
+use quell_numerics::quadrature::{QuadratureOptions, integrate};
+use quell_numerics::special::{dawson, erf, exp, ln};
 
 const STATIC: f64 = 0.4;
 const MINIMUM: f64 = 0.2857;
@@ -144,6 +145,164 @@ fn everywhere_stable_amplitudes() {
 fn sign_for_negative_slip() {
     let (minus, _) = right(LawKind::Decreasing, Waveform::Square, -0.08, 0.2);
     close(minus, -0.0789661487, 1e-8);
+}
+
+/// (2.21), (3.19): x′ = Z′ + αG makes the slip v_r − αG. The printed + is forgiven by antiperiodic G only; two sines at R and
+/// 2R are none.
+#[test]
+fn sign_of_the_fast_motion() {
+    let sine = |amplitude: f64, frequency_ratio: f64| Dither {
+        direction: Direction::Tangential,
+        waveform: Waveform::Sine,
+        amplitude,
+        frequency_ratio,
+        phase: 0.0,
+    };
+    let law = law(LawKind::Decreasing);
+    let dithers = vec![sine(1.0, 10.0), sine(1.0, 20.0)];
+    let belt = Belt::new(0.005, 1.0, 0.3, law, dithers).expect("valid");
+    let fast = |theta: f64| -0.1 * theta.cos() - 0.05 * (2.0 * theta).cos();
+    let average = |sign: f64| {
+        let mean = |theta: f64| law.coefficient(0.3 + sign * fast(theta)) / TAU;
+        integrate(mean, 0.0, TAU, &[PI], &QuadratureOptions::default()).expect("converges").value
+    };
+    let motion = FastMotion::of(&belt, 0.3, AveragingOptions::default()).expect("a motion");
+    let found = effective(&law, &motion, 0.3).expect("a value").coefficient;
+    close(found, average(-1.0), 1e-12);
+    assert!((average(1.0) / average(-1.0) - 1.0).abs() > 1e-3, "the printed sign is seen");
+}
+
+/// Text after (3.25): G is even, and only for an even G is τ₂ = 2π − τ₁ the second place where αG takes a value.
+#[test]
+fn integral_of_a_waveform_is_even() {
+    for waveform in [Waveform::Sine, Waveform::Triangle, Waveform::Square] {
+        for k in 1..40 {
+            let theta = 0.15 * f64::from(k);
+            let (here, mirrored) = (waveform.integral(theta), waveform.integral(TAU - theta));
+            assert!((here - mirrored).abs() < 1e-14);
+            assert!(
+                (waveform.value(theta) + waveform.value(TAU - theta)).abs() < 1e-14,
+                "g is odd"
+            );
+        }
+        assert!(waveform.integral(0.3) + waveform.integral(TAU - 0.3) < -0.5, "G is not odd");
+    }
+}
+
+/// (B.3), (B.4), (B.5): wrong prefactors of the three integrals behind (3.38a).
+#[test]
+fn integrals_of_appendix_b() {
+    let (v, alpha) = (0.08, 0.2);
+    let crossing = (PI * (PI / 4.0 - v / alpha)).sqrt();
+    let integral = |from: f64, to: f64, sign: f64| {
+        let density = |x: f64| exp(sign * (v + alpha * Waveform::Triangle.integral(x)) / VM);
+        integrate(density, from, to, &[FRAC_PI_2, 3.0 * FRAC_PI_2], &QuadratureOptions::default())
+            .expect("converges")
+            .value
+    };
+    let (gamma, w) = (PI * alpha / (4.0 * VM), v / VM);
+    let first = 0.5 * PI * (VM / alpha).sqrt() * erfi((gamma - w).sqrt());
+    let right = exp(w - gamma) * first;
+    close(right, 0.856_800_506_592_44, 1e-12);
+    close(integral(0.0, crossing, 1.0), right, 1e-12);
+    close(integral(TAU - crossing, TAU, 1.0), right, 1e-12);
+    let (b3, b5) = (exp((v - alpha * PI / VM) / VM) * first, exp(w - alpha * PI / 4.0) * first);
+    assert!(b3 < 1e-6 && (b5 - 1.6060).abs() < 1e-4, "{b3} {b5}");
+    let second = |sign: f64| {
+        let jump = exp(sign * gamma - w) * (erf(gamma.sqrt()) - erf((gamma - w).sqrt()));
+        PI * (VM / alpha).sqrt() * (jump + exp(-w - gamma) * erfi(gamma.sqrt()))
+    };
+    close(integral(crossing, TAU - crossing, -1.0), second(1.0), 1e-12);
+    close(second(1.0), 2.068_384_752_523, 1e-12);
+    close(second(-1.0), 1.446_860_439_5, 1e-10);
+}
+
+/// "μ̄′ ≥ 0 inside": for Stribeck iff (μ_s − μ_m)/μ_s ≤ √6/π (sine), √0.4 (triangle); always for the square.
+#[test]
+fn slope_inside_can_be_negative() {
+    // The slope inside is least at v_r = 0.
+    let least = |share: f64, waveform: Waveform| {
+        let law = LawKind::Stribeck.build(&[STATIC, STATIC * (1.0 - share), VM]).expect("valid");
+        let wave = FastWave::Integral(waveform);
+        (1..400)
+            .map(|k| {
+                let motion = FastMotion::single(wave, 0.005 * f64::from(k));
+                effective(&law, &motion, 0.0).expect("a value").slope
+            })
+            .fold(f64::INFINITY, f64::min)
+    };
+    for (waveform, limit) in
+        [(Waveform::Sine, 6.0_f64.sqrt() / PI), (Waveform::Triangle, 0.4_f64.sqrt())]
+    {
+        assert!(least(limit - 0.01, waveform) > 0.0, "{waveform:?}");
+        assert!(least(limit + 0.01, waveform) < 0.0, "{waveform:?}");
+    }
+    assert!(least(0.999, Waveform::Square) > 0.0);
+}
+
+/// (4.15), dw/dθ = α_N μ(V − w) g, "cannot be solved exactly": it separates. For the decreasing law
+/// H(u) = (v_m/μ_m) ln(μ_m e^{u/v_m} + Δμ) has H′ = 1/μ, so that H(V − w) + α_N G is constant.
+#[test]
+fn fast_motion_under_normal_dither_separates() {
+    let (law, slow, alpha) = (law(LawKind::Decreasing), 0.3, 0.05);
+    let primitive = |u: f64| VM / MINIMUM * ln(MINIMUM * exp(u / VM) + DIFFERENCE);
+    let rate = |theta: f64, w: f64| alpha * law.coefficient(slow - w) * theta.sin();
+    let (mut w, step) = (0.01_f64, TAU / 2000.0);
+    let constant = primitive(slow - w) - alpha;
+    for k in 0..2000 {
+        let theta = step * f64::from(k);
+        let a = rate(theta, w);
+        let b = rate(theta + 0.5 * step, w + 0.5 * step * a);
+        let c = rate(theta + 0.5 * step, w + 0.5 * step * b);
+        let d = rate(theta + step, w + step * c);
+        w += step / 6.0 * (a + 2.0 * b + 2.0 * c + d);
+        let integral = -(theta + step).cos();
+        let kept = primitive(slow - w) + alpha * integral;
+        assert!((kept - constant).abs() < 1e-12, "{kept} {constant}");
+    }
+}
+
+/// (4.32): φ′ stays frozen while friction is differentiated. Square, ζ = 0.2, v₀ = 0.075: exact multipliers of the orbit at
+/// R = 40 give 0.115251, and the limit is the frozen criterion with the exact φ′, 0.115282; the total derivative 0.097.
+#[test]
+fn fast_motion_stays_frozen_in_the_slope() {
+    let (law, v, exact) = (law(LawKind::Decreasing), 0.075, 0.115_282);
+    let dither = Dither {
+        direction: Direction::Normal,
+        waveform: Waveform::Square,
+        amplitude: 0.1,
+        frequency_ratio: 40.0,
+        phase: 0.0,
+    };
+    let belt = Belt::new(0.2, 1.0, v, law, vec![dither]).expect("valid");
+    for (normal_order, known) in [(NormalOrder::First, 0.115_719), (NormalOrder::Second, 0.115_518)]
+    {
+        let options = AveragingOptions { normal_order, ..AveragingOptions::default() };
+        let found = critical_amplitudes(&belt, options).expect("found");
+        let nearest = found
+            .iter()
+            .map(|change| change.amplitude_ratio)
+            .min_by(|a, b| (a - exact).abs().total_cmp(&(b - exact).abs()))
+            .expect("one");
+        assert!((nearest - known).abs() < 1e-5, "{nearest}");
+        assert!((nearest / exact - 1.0).abs() < 0.004, "{nearest}");
+    }
+    // As printed: d/dv of ⟨μ(v − α_N μ(v) G)⟩.
+    let level = |v: f64, alpha: f64| {
+        let wave = FastWave::Integral(Waveform::Square);
+        effective_by_quadrature(&law, wave, alpha * law.coefficient(v), v)
+            .expect("a value")
+            .coefficient
+    };
+    let criterion = |alpha: f64| 0.4 + (level(v + 1e-5, alpha) - level(v - 1e-5, alpha)) / 2e-5;
+    let (mut low, mut high) = (0.06, 0.115);
+    assert!(criterion(low) * criterion(high) < 0.0, "{} {}", criterion(low), criterion(high));
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        if criterion(low) * criterion(middle) <= 0.0 { high = middle } else { low = middle }
+    }
+    assert!((low - 0.0967).abs() < 3e-4, "{low}");
+    assert!((low / exact - 1.0).abs() > 0.15);
 }
 
 /// (3.61): "0.98" for v₀ = 1 is a plotting-grid value; the averaged quench amplitude is α = v₀ exactly, by a jump.

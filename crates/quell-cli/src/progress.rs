@@ -1,13 +1,20 @@
-//! How far a map is: a bar with rate and time left, on standard error where that is a terminal.
+//! How far a map or a reproduction is: a bar on standard error where that is a terminal.
 
+use std::sync::Mutex;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use quell::reproduce::Step;
 use quell::sweep::Progress;
+
+use crate::answer::tell;
 
 /// What the bar shows.
 const TEMPLATE: &str =
     "{bar:32} {human_pos}/{human_len} points  {per_sec}  {elapsed} gone, {eta} left";
+
+/// What the bar of a reproduction shows.
+const ENTRIES: &str = "{bar:32} {pos}/{len}  {elapsed} gone  {msg}";
 
 /// A bar.
 #[derive(Debug)]
@@ -18,13 +25,17 @@ pub(crate) struct Bar {
 impl Bar {
     /// A bar that is not shown yet; never where standard error is no terminal.
     pub(crate) fn new() -> Self {
-        // Hidden by itself where standard error is no terminal.
-        let bar = ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::stderr());
-        if let Ok(style) = ProgressStyle::with_template(TEMPLATE) {
-            bar.set_style(style);
-        }
-        Self { bar }
+        Self { bar: bar(0, TEMPLATE) }
     }
+}
+
+/// Hidden by itself where standard error is no terminal.
+fn bar(length: u64, template: &str) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar
 }
 
 impl Progress for Bar {
@@ -41,6 +52,48 @@ impl Progress for Bar {
     }
 
     fn end(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// A bar over the entries of a reproduction, with what is being made; a line for each where there is no terminal.
+#[derive(Debug)]
+pub(crate) struct Entries {
+    bar: ProgressBar,
+    /// Names of those begun and not done.
+    making: Mutex<Vec<&'static str>>,
+}
+
+impl Entries {
+    /// A bar over so many.
+    pub(crate) fn new(count: usize) -> Self {
+        let bar = bar(count as u64, ENTRIES);
+        bar.enable_steady_tick(Duration::from_millis(500));
+        Self { bar, making: Mutex::default() }
+    }
+
+    /// Hears of one begun or done.
+    pub(crate) fn hear(&self, step: Step) {
+        let Ok(mut making) = self.making.lock() else { return };
+        match step {
+            Step::Begun(entry) => making.push(entry.name),
+            Step::Done(done) => {
+                making.retain(|name| *name != done.entry.name);
+                self.bar.inc(1);
+                if self.bar.is_hidden() {
+                    let seconds = done.elapsed.as_secs_f64();
+                    tell(&format!(
+                        "{:>9}  {:6.2} s  {}\n",
+                        done.entry.name, seconds, done.entry.about
+                    ));
+                }
+            }
+        }
+        self.bar.set_message(making.join(", "));
+    }
+
+    /// Takes the bar away.
+    pub(crate) fn end(&self) {
         self.bar.finish_and_clear();
     }
 }

@@ -66,3 +66,12 @@ pub use layer::{
 pub use map_layers::{Contours, Gap, Grid};
 pub use palette::{LineStyle, Role};
 pub use shades::Palette;
+
+/// A label as HTML: what prints in italics, lowered, raised or barred in a picture does so on a page.
+///
+/// ```
+/// assert_eq!(quell::plot::html("$v_m$ < 1"), "<i>v</i><sub>m</sub> &lt; 1");
+/// ```
+pub fn html(label: &str) -> String {
+    typeset::Label::parse(label).html()
+}

@@ -1,25 +1,30 @@
-//! `quell reproduce`: figures and tables of the dissertation, with their data and the table of claims.
+//! `quell reproduce`: figures and tables of the dissertation, with their data, the table of claims and a report.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
 use quell::Failure;
-use quell::reproduce::{ENTRIES, Written, find, run as reproduce};
+use quell::reproduce::claims::Claim;
+use quell::reproduce::{ENTRIES, Pace, Reproduction, Written, find, run as reproduce};
 use serde_json::{Value as Json, json};
 
-use crate::answer::{Answer, tell};
+use crate::answer::Answer;
+use crate::progress::Entries;
 
-/// Makes the figures and tables of the dissertation again, with their data
+/// Makes the figures and tables of the dissertation again, with their data and one report
 #[derive(Debug, Args)]
 #[command(after_help = list())]
 pub(crate) struct Arguments {
     /// Figures such as 2.3, or claims; everything where none is given
     #[arg(value_name = "NAME")]
     names: Vec<String>,
-    /// Directory for pictures, data and tables; it is made if it is missing
-    #[arg(long, value_name = "DIR")]
+    /// Directory for the report, pictures, data and tables; it is made if it is missing
+    #[arg(long, value_name = "DIR", default_value = "reproduction")]
     out: PathBuf,
+    /// Coarser grids of the maps: a look in less than a minute
+    #[arg(long)]
+    quick: bool,
     /// Prints one JSON object on standard output and nothing else
     #[arg(long)]
     json: bool,
@@ -28,20 +33,36 @@ pub(crate) struct Arguments {
 /// Answers.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let entries = find(&arguments.names)?;
-    let written = reproduce(&entries, &arguments.out, |done| {
-        tell(&format!("{:>8}  {}\n", done.entry.name, done.entry.about));
-    })?;
+    let pace = if arguments.quick { Pace::Quick } else { Pace::Full };
+    let bar = Entries::new(entries.len());
+    let done = reproduce(&entries, &arguments.out, pace, |step| bar.hear(step));
+    bar.end();
+    let done = done?;
     let object = || {
-        let entries: Vec<Json> = written.iter().map(Written::json).collect();
-        json!({ "ok": true, "directory": arguments.out.display().to_string(), "entries": entries })
+        let entries: Vec<Json> = done.written.iter().map(Written::json).collect();
+        json!({
+            "ok": true,
+            "directory": arguments.out.display().to_string(),
+            "report": done.report.display().to_string(),
+            "table": done.table.display().to_string(),
+            "quick": arguments.quick,
+            "entries": entries,
+        })
     };
-    Ok(Answer::new(arguments.json, object, || text(arguments, &written)))
+    let warnings = done.changed().into_iter().map(unexpected).collect();
+    Ok(Answer::new(arguments.json, object, || text(arguments, &done)).warning(warnings))
 }
 
-fn text(arguments: &Arguments, written: &[Written]) -> String {
-    let files: usize = written.iter().map(|done| done.files.len()).sum();
-    let mut text = format!("Wrote {files} files into {}.\n", arguments.out.display());
-    for claim in written.iter().flat_map(|done| &done.claims) {
+/// A verdict that is not the one on record.
+fn unexpected(claim: &Claim) -> String {
+    let expected = claim.expected.map_or("nothing on record", |expected| expected.name());
+    format!("{}: {}, expected: {expected}", claim.name, claim.verdict)
+}
+
+fn text(arguments: &Arguments, done: &Reproduction) -> String {
+    let files: usize = done.written.iter().map(|one| one.files.len()).sum();
+    let mut text = format!("Wrote {} files into {}.\n", files + 2, arguments.out.display());
+    for claim in done.written.iter().flat_map(|one| &one.product.claims) {
         let printed = if claim.printed.is_empty() { "" } else { " printed " };
         let _ = writeln!(
             text,
@@ -49,6 +70,7 @@ fn text(arguments: &Arguments, written: &[Written]) -> String {
             claim.place, claim.statement, claim.printed, claim.measured, claim.verdict
         );
     }
+    let _ = writeln!(text, "Report: {}", done.report.display());
     text
 }
 

@@ -6,14 +6,16 @@
 use quell_model::{Belt, Direction, LawKind, Waveform};
 use serde_json::{Value as Json, json};
 
-use crate::study::{Study, Subject};
+use crate::study::{DiscStudy, Study, Subject};
 
+mod correction;
 mod corrections;
 mod disc;
+pub mod errata;
 mod references;
 
-pub use corrections::Correction;
-use corrections::corrections;
+pub use correction::{Bears, Correction, DiscKind, Proof};
+pub use corrections::CORRECTIONS;
 pub use references::{
     CUNEFARE_GRAF_2002, DAS_SAIKI_SANDER_YORKE_2017, FILIPPOV_1988, HARRIS_1978, JORBA_ZOU_2005,
     MENCK_2013, MICHAUX_2005, SOURCES, Source, THOMSEN_1999, THOMSEN_FIDLIN_2003, WILSON_1927,
@@ -78,7 +80,7 @@ pub struct Citation {
 }
 
 /// What a study's computations rest on.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sources {
     /// Citations, task by task.
     pub citations: Vec<Citation>,
@@ -86,8 +88,32 @@ pub struct Sources {
     pub corrections: Vec<Correction>,
 }
 
-/// What a study's computations rest on.
+/// What the computations of a belt's study rest on, with the corrections that bear on it.
 pub fn sources(study: &Study) -> Sources {
+    gather(citations(study), |bears| bears.on_belt(study.belt()))
+}
+
+/// The same of a disc's study.
+pub fn sources_of_disc(study: &DiscStudy) -> Sources {
+    gather(disc::citations(study), |bears| bears.on_disc(study))
+}
+
+/// The same of a study of whatever it is about.
+pub fn sources_of(study: &Subject) -> Sources {
+    match study {
+        Subject::Belt(study) => sources(study),
+        Subject::Disc(study) => sources_of_disc(study),
+    }
+}
+
+/// The citations with the corrections that bear and enter a computation.
+fn gather(citations: Vec<Citation>, bears: impl Fn(Bears) -> bool) -> Sources {
+    let concerned =
+        |correction: &&Correction| !correction.tasks.is_empty() && bears(correction.bears);
+    Sources { citations, corrections: CORRECTIONS.iter().filter(concerned).copied().collect() }
+}
+
+fn citations(study: &Study) -> Vec<Citation> {
     let belt = study.belt();
     let mut citations = Vec::new();
     let mut cite = |task, source, used| citations.push(Citation { source, task, used });
@@ -100,15 +126,7 @@ pub fn sources(study: &Study) -> Sources {
             Task::Modes | Task::Resonances => {}
         }
     }
-    Sources { citations, corrections: corrections(belt) }
-}
-
-/// What the computations of a study of whatever it is about rest on.
-pub fn sources_of(study: &Subject) -> Sources {
-    match study {
-        Subject::Belt(study) => sources(study),
-        Subject::Disc(study) => disc::sources(study),
-    }
+    citations
 }
 
 /// Equations of motion and law.
@@ -193,6 +211,40 @@ fn has(belt: &Belt, direction: Direction, waveform: Option<Waveform>) -> bool {
 }
 
 impl Sources {
+    /// What of it concerns these tasks.
+    #[must_use]
+    pub fn of_tasks(&self, tasks: &[Task]) -> Self {
+        let concerned = |of: &[Task]| of.iter().any(|task| tasks.contains(task));
+        Self {
+            citations: self
+                .citations
+                .iter()
+                .filter(|citation| tasks.contains(&citation.task))
+                .copied()
+                .collect(),
+            corrections: self
+                .corrections
+                .iter()
+                .filter(|correction| concerned(correction.tasks))
+                .copied()
+                .collect(),
+        }
+    }
+
+    /// Adds what is not there yet of another study's.
+    pub fn extend(&mut self, other: &Self) {
+        for citation in &other.citations {
+            if !self.citations.contains(citation) {
+                self.citations.push(*citation);
+            }
+        }
+        for correction in &other.corrections {
+            if !self.corrections.contains(correction) {
+                self.corrections.push(*correction);
+            }
+        }
+    }
+
     /// The sources without repetition, in the order of [`SOURCES`].
     pub fn unique(&self) -> Vec<Source> {
         let cited =
@@ -223,6 +275,7 @@ impl Sources {
                 json!({
                     "source": MICHAUX_2005.key,
                     "equations": correction.equations,
+                    "printed": correction.printed,
                     "right": correction.right,
                     "verbs": verbs,
                 })
@@ -269,5 +322,20 @@ mod tests {
         keys.sort_unstable();
         keys.dedup();
         assert_eq!(keys.len(), SOURCES.len());
+    }
+
+    /// Who reads that a test proves a correction finds it.
+    #[test]
+    fn every_proof_is_there() {
+        let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        for correction in CORRECTIONS {
+            let Proof::Test { file, name } = correction.proof else {
+                assert!(correction.tasks.is_empty(), "{}", correction.equations);
+                continue;
+            };
+            let text = std::fs::read_to_string(root.join(file)).expect(file);
+            let test = format!("#[test]\nfn {name}()");
+            assert!(text.contains(&test), "{}: {file} has {name}", correction.equations);
+        }
     }
 }

@@ -137,6 +137,36 @@ impl Label {
         pen.text
     }
 
+    /// The text for a page of HTML.
+    pub(super) fn html(&self) -> String {
+        let mut html = String::new();
+        for run in &self.runs {
+            let Look { italic, barred, level } = run.look;
+            let mut text = String::new();
+            for letter in run.text.chars() {
+                match letter {
+                    '&' => text.push_str("&amp;"),
+                    '<' => text.push_str("&lt;"),
+                    '>' => text.push_str("&gt;"),
+                    _ => text.push(letter),
+                }
+                if barred {
+                    text.push('\u{304}');
+                }
+            }
+            if italic {
+                text = format!("<i>{text}</i>");
+            }
+            html += &match level {
+                Level::Base => text,
+                Level::Lowered => format!("<sub>{text}</sub>"),
+                Level::Raised => format!("<sup>{text}</sup>"),
+                Level::RaisedLowered => format!("<sup><sub>{text}</sub></sup>"),
+            };
+        }
+        html
+    }
+
     fn push_text(&mut self, text: &str, look: Look) {
         for letter in text.chars() {
             // Controls and private-use characters have no print, and no place in XML.

@@ -10,6 +10,7 @@ use quell_model::{LawKind, Waveform};
 use super::print::{self, LawNumbers};
 use super::product::{Product, Table};
 use super::source::{Source, failed, letter, parameters, short, values, waveform_name};
+use crate::cite::Task;
 use crate::complaint::Failure;
 use crate::plot::{
     Axis, Figure, Legend, Line, LineStyle, Panel, Place, Role, Rule, SharedLegend, Sharing, Size,
@@ -33,7 +34,7 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
         super::source::law_name(study.belt().friction().kind()),
         parameters(&study),
     );
-    Ok(Product::new(Figure::single(panel), caption, &study).table(table))
+    Ok(Product::new(Figure::single(panel), caption, &study).by(&[Task::Friction]).table(table))
 }
 
 /// Figures 3.3 and 3.4: three waveforms.
@@ -41,9 +42,10 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
     let mut panels = Vec::new();
-    for (index, (waveform, study)) in source.with_waveforms()?.into_iter().enumerate() {
-        let title = format!("({}) {}", letter(index), waveform_name(waveform));
-        panels.push(panel(source, &study, waveform, &mut table)?.title(title));
+    let studies = source.with_waveforms()?;
+    for (index, (waveform, study)) in studies.iter().enumerate() {
+        let title = format!("({}) {}", letter(index), waveform_name(*waveform));
+        panels.push(panel(source, study, *waveform, &mut table)?.title(title));
     }
     let law = study.belt().friction().kind();
     let note = match law {
@@ -64,7 +66,9 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
         .sharing_y(Sharing::All)
         .legend(SharedLegend::Below)
         .size(Size::Frame(270.0, 250.0));
-    Ok(Product::new(figure, caption, &study).table(table))
+    let product =
+        Product::new(figure, caption, &study).also(studies.iter().map(|(_, study)| study));
+    Ok(product.by(&[Task::Friction]).table(table))
 }
 
 fn empty_table() -> Table {

@@ -11,6 +11,7 @@ use quell_model::{Direction, Waveform};
 
 use super::product::{Cell, Product, Table};
 use super::source::{Source, failed, law_name, letter, parameters, short, values, waveform_name};
+use crate::cite::Task;
 use crate::complaint::Failure;
 use crate::picture::{self, MapAxis, MapKind};
 use crate::plot::{
@@ -83,7 +84,7 @@ fn figure(source: &Source, cases: &[Case], columns: usize) -> Result<Product, Fa
             ("amplitude", "length (force/k)"),
         ],
     );
-    let mut panels = Vec::new();
+    let (mut panels, mut studies) = (Vec::new(), Vec::new());
     for (index, case) in cases.iter().enumerate() {
         let study = study_of(source, &first, case)?;
         let done = efficiency(source, &study)?;
@@ -104,6 +105,7 @@ fn figure(source: &Source, cases: &[Case], columns: usize) -> Result<Product, Fa
             Some(title) => panel.title(title).legend(Legend::None),
             None => panel.legend(Legend::Above),
         });
+        studies.push(study);
     }
     let figure = if columns == 1 {
         Figure::grid(1, panels).size(Size::Frame(400.0, 300.0))
@@ -114,7 +116,8 @@ fn figure(source: &Source, cases: &[Case], columns: usize) -> Result<Product, Fa
             .legend(SharedLegend::Below)
             .size(Size::Frame(if columns == 2 { 330.0 } else { 270.0 }, 230.0))
     };
-    Ok(Product::new(figure, caption(source, &first), &first).table(data).table(edges))
+    let product = Product::new(figure, caption(source, &first), &first).also(&studies);
+    Ok(product.by(&[Task::Response, Task::Stability]).table(data).table(edges))
 }
 
 /// The study of a panel: its sweep of D goes as far beyond the averaged boundary as the first panel's.

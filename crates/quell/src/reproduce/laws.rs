@@ -6,6 +6,7 @@ use quell_model::Friction;
 
 use super::product::{Product, Table};
 use super::source::{Source, law_name, parameters};
+use crate::cite::Task;
 use crate::complaint::Failure;
 use crate::plot::{Axis, Figure, Legend, Line, LineStyle, Panel, Place, Role, Rule};
 
@@ -66,7 +67,8 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
         place = if number.starts_with('4') { "here" } else { "in the text" },
         parameters = parameters(&studies[0]),
     );
-    Ok(Product::new(Figure::single(panel), caption, &studies[0]).table(table))
+    let product = Product::new(Figure::single(panel), caption, &studies[0]).also(&studies);
+    Ok(product.by(&[Task::Friction]).table(table))
 }
 
 fn grid() -> impl Iterator<Item = f64> {

@@ -11,6 +11,7 @@ use quell_belt::simulation::Start;
 
 use super::product::{Product, Table};
 use super::source::{Source, failed, law_name, letter, parameters, values};
+use crate::cite::Task;
 use crate::complaint::Failure;
 use crate::plot::{Axis, Figure, Line, Panel, Points, Role, SharedLegend, Sharing, Size};
 use crate::study::Study;
@@ -151,7 +152,8 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
         study.belt().dithers()[0].frequency_ratio,
         parameters(&study),
     );
-    Ok(Product::new(figure, caption, &study).table(bins))
+    let product = Product::new(figure, caption, &study);
+    Ok(product.by(&[Task::Simulate, Task::Friction]).table(bins))
 }
 
 /// μ̄(v) of (4.28) with φ′ of (4.23).

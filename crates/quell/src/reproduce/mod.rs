@@ -10,7 +10,8 @@
 //! | `laws`, `waveforms`, `effective_friction`, `stability_map`, `responses`, `sections`, `efficiency_map`, `measured_friction` | the kinds of figures |
 //! | `disc` | tables and figures of chapter 5 |
 //! | `print` | formulas as the dissertation prints them, right or wrong |
-//! | `claims` | claim, printed, measured, verdict |
+//! | `claims` | claim, printed, measured, tolerance, verdict, expected verdict |
+//! | `report` | the page that holds everything, and a table of it |
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -32,6 +33,7 @@ mod laws;
 mod measured_friction;
 mod print;
 mod product;
+mod report;
 mod responses;
 mod sections;
 mod source;
@@ -60,7 +62,7 @@ macro_rules! figure {
         Entry {
             name: $name,
             about: $about,
-            study: include_str!(concat!("../../../../studies/figure-", $name, ".toml")),
+            study: include_str!(concat!("../../studies/figure-", $name, ".toml")),
             make: $make,
         }
     };
@@ -72,7 +74,7 @@ macro_rules! table {
         Entry {
             name: $name,
             about: $about,
-            study: include_str!(concat!("../../../../studies/", $name, ".toml")),
+            study: include_str!(concat!("../../studies/", $name, ".toml")),
             make: $make,
         }
     };
@@ -161,6 +163,14 @@ impl Entry {
         (self.make)(&Source { most_points: Some(most_points), ..self.source() })
     }
 
+    /// The product at this pace.
+    fn at(&self, pace: Pace) -> Result<Product, Failure> {
+        match pace {
+            Pace::Full => self.product(),
+            Pace::Quick => self.coarse_product(QUICK_POINTS),
+        }
+    }
+
     /// Its name and study file.
     pub fn source(&self) -> Source {
         Source { name: self.name, about: self.about, text: self.study, most_points: None }
@@ -226,12 +236,10 @@ pub struct Written {
     pub entry: Entry,
     /// Its files.
     pub files: Vec<PathBuf>,
-    /// Its caption, plain text.
-    pub caption: String,
+    /// What was made; the rows of its tables of data are in the files.
+    pub product: Product,
     /// How long it took.
     pub elapsed: Duration,
-    /// The claims, where it is the table of claims.
-    pub claims: Vec<claims::Claim>,
 }
 
 impl Written {
@@ -242,43 +250,85 @@ impl Written {
             "name": self.entry.name,
             "about": self.entry.about,
             "files": files,
-            "caption": self.caption,
+            "caption": self.product.plain_caption(),
             "seconds": self.elapsed.as_secs_f64(),
         });
-        if !self.claims.is_empty() {
-            object["claims"] = claims::json(&self.claims);
+        if !self.product.claims.is_empty() {
+            object["claims"] = claims::json(&self.product.claims);
         }
         object
     }
 }
 
-/// Makes `entries` and writes them into `directory`, which is made if it is missing; two at a time. `progress` hears
-/// of each as soon as it is written.
+/// How fine the grids of the figures are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Pace {
+    /// As their study files say.
+    #[default]
+    Full,
+    /// At most a few points along each axis of a map: a look in less than a minute.
+    Quick,
+}
+
+/// Most points along an axis of a map in a quick look.
+const QUICK_POINTS: usize = 12;
+
+/// What is heard while entries are made.
+#[derive(Clone, Copy, Debug)]
+pub enum Step<'a> {
+    /// Work on an entry begins.
+    Begun(&'a Entry),
+    /// An entry is written.
+    Done(&'a Written),
+}
+
+/// Everything that was made.
+#[derive(Clone, Debug)]
+pub struct Reproduction {
+    /// The entries, in the order of [`ENTRIES`].
+    pub written: Vec<Written>,
+    /// The report: one page that needs no other file.
+    pub report: PathBuf,
+    /// The same as a Markdown table.
+    pub table: PathBuf,
+}
+
+impl Reproduction {
+    /// Claims whose verdict is not the expected one.
+    pub fn changed(&self) -> Vec<&claims::Claim> {
+        let claims = self.written.iter().flat_map(|done| &done.product.claims);
+        claims.filter(|claim| !claim.as_expected()).collect()
+    }
+}
+
+/// Makes `entries` and writes them into `directory`, which is made if it is missing, with a report; two at a time.
+/// `progress` hears of each.
 ///
 /// # Errors
 /// A complaint where the directory cannot be written; the first failure otherwise. What was written stays.
 pub fn run(
     entries: &[Entry],
     directory: &Path,
-    progress: impl Fn(&Written) + Sync,
-) -> Result<Vec<Written>, Failure> {
+    pace: Pace,
+    progress: impl Fn(Step) + Sync,
+) -> Result<Reproduction, Failure> {
     write::prepare(directory)?;
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<(usize, Result<Written, Failure>)>> = Mutex::new(Vec::new());
+    // The claims take longest and use one thread: whoever begins with them ends with the others.
+    let mut order: Vec<usize> = (0..entries.len()).collect();
+    order.sort_by_key(|place| entries[*place].name != "claims");
     let work = || {
-        while let Some(entry) = entries.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let outcome = one(entry, directory);
-            if let Ok(written) = &outcome {
-                progress(written);
+        while let Some(&place) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let entry = &entries[place];
+            progress(Step::Begun(entry));
+            let outcome = one(entry, directory, pace);
+            match &outcome {
+                Ok(written) => progress(Step::Done(written)),
+                Err(_) => next.store(entries.len(), Ordering::Relaxed),
             }
-            let failed = outcome.is_err();
             if let Ok(mut done) = done.lock() {
-                let place =
-                    entries.iter().position(|other| other.name == entry.name).unwrap_or(usize::MAX);
                 done.push((place, outcome));
-            }
-            if failed {
-                next.store(entries.len(), Ordering::Relaxed);
             }
         }
     };
@@ -289,18 +339,18 @@ pub fn run(
     });
     let mut done = done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     done.sort_by_key(|(place, _)| *place);
-    done.into_iter().map(|(_, outcome)| outcome).collect()
+    let written: Vec<Written> =
+        done.into_iter().map(|(_, outcome)| outcome).collect::<Result<_, Failure>>()?;
+    let page = report::html(&written, pace);
+    let table = report::markdown(&written, pace);
+    let report = write::file(directory, "report.html", page.as_bytes())?;
+    let table = write::file(directory, "report.md", table.as_bytes())?;
+    Ok(Reproduction { written, report, table })
 }
 
-fn one(entry: &Entry, directory: &Path) -> Result<Written, Failure> {
+fn one(entry: &Entry, directory: &Path, pace: Pace) -> Result<Written, Failure> {
     let began = Instant::now();
-    let product = entry.product()?;
+    let product = entry.at(pace)?;
     let files = write::product(&product, &entry.stem(), directory)?;
-    Ok(Written {
-        entry: *entry,
-        files,
-        caption: product.plain_caption(),
-        elapsed: began.elapsed(),
-        claims: product.claims,
-    })
+    Ok(Written { entry: *entry, files, product, elapsed: began.elapsed() })
 }

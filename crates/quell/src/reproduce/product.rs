@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 
 use super::claims::Claim;
+use crate::cite::{self, Sources, Task};
 use crate::plot::Figure;
-use crate::study::Study;
+use crate::study::{DiscStudy, Study};
 
 /// A figure or table, ready to be written.
 #[derive(Clone, Debug, Default)]
@@ -19,27 +20,52 @@ pub struct Product {
     pub claims: Vec<Claim>,
     /// Study text and changes, for the header of the data.
     pub provenance: Vec<String>,
+    /// What it rests on: equations, and where the print was corrected.
+    pub sources: Sources,
 }
 
 impl Product {
     /// A figure with its data; the caption is put below the picture too.
     pub fn new(figure: Figure, caption: impl Into<String>, study: &Study) -> Self {
-        Self::of(figure, caption, study.text(), study.changes())
+        Self { sources: cite::sources(study), ..Self::told(caption, study.text(), study.changes()) }
+            .drawn(figure)
     }
 
-    /// The same with the text and the changes of any study.
-    pub(super) fn of(
-        figure: Figure,
-        caption: impl Into<String>,
-        text: &str,
-        changes: &[String],
-    ) -> Self {
-        let product = Self::of_table(caption, text, changes);
-        Self { figure: Some(figure.caption(product.caption.clone())), ..product }
+    /// A figure of a disc.
+    pub(super) fn of_disc(figure: Figure, caption: impl Into<String>, study: &DiscStudy) -> Self {
+        Self::table_of_disc(caption, study).drawn(figure)
     }
 
-    /// A table without a picture, with the text and the changes of its study.
-    pub(super) fn of_table(caption: impl Into<String>, text: &str, changes: &[String]) -> Self {
+    /// A table of a disc without a picture.
+    pub(super) fn table_of_disc(caption: impl Into<String>, study: &DiscStudy) -> Self {
+        Self {
+            sources: cite::sources_of_disc(study),
+            ..Self::told(caption, study.text(), study.changes())
+        }
+    }
+
+    fn drawn(self, figure: Figure) -> Self {
+        Self { figure: Some(figure.caption(self.caption.clone())), ..self }
+    }
+
+    /// It rests on what these computations need, not on all that its study could be asked.
+    #[must_use]
+    pub fn by(mut self, tasks: &[Task]) -> Self {
+        self.sources = self.sources.of_tasks(tasks);
+        self
+    }
+
+    /// It was made of these studies too.
+    #[must_use]
+    pub fn also<'a>(mut self, studies: impl IntoIterator<Item = &'a Study>) -> Self {
+        for study in studies {
+            self.sources.extend(&cite::sources(study));
+        }
+        self
+    }
+
+    /// Caption, text and changes.
+    fn told(caption: impl Into<String>, text: &str, changes: &[String]) -> Self {
         // A symbol, its sign and its number stay on one line.
         let caption = caption.into().replace(" = ", "\u{a0}=\u{a0}");
         let mut provenance: Vec<String> =

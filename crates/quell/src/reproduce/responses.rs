@@ -9,6 +9,7 @@ use quell_model::{Belt, Direction, LawKind};
 
 use super::product::{Product, Table};
 use super::source::{Source, failed, law_name, letter, parameters, values, waveform_name};
+use crate::cite::Task;
 use crate::complaint::Failure;
 use crate::plot::{Axis, Figure, Legend, Line, Panel, Role, Rule, SharedLegend, Sharing, Size};
 use crate::run;
@@ -127,6 +128,7 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
             .size(Size::Frame(270.0, 165.0));
     let caption = caption(source, &study, &cases[0].response);
     Ok(Product::new(figure, caption, &study)
+        .by(&[Task::Simulate, Task::Response])
         .table(Table::of_columns("", histories))
         .table(Table::of_columns("spectrum", spectra)))
 }

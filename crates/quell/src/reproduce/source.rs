@@ -5,7 +5,7 @@ use std::fmt::Display;
 use quell_model::{LawKind, Waveform};
 
 use crate::complaint::Failure;
-use crate::study::{Change, Study};
+use crate::study::{Axis, Change, Study, Sweep};
 
 /// An entry's name and study file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,12 +37,24 @@ impl Source {
         let changes: Result<Vec<Change>, _> =
             changes.iter().map(|change| Change::parse(change, "reproduce")).collect();
         let mut changes = changes?;
-        let Some(most) = self.most_points else { return Ok(Study::parse(self.text, &changes)?) };
-        for (number, sweep) in Study::parse(self.text, &changes)?.sweeps().iter().enumerate() {
-            let points = sweep.axis.len().min(most);
-            changes.push(Change::parse(&format!("sweep[{number}].points={points}"), "reproduce")?);
+        if self.most_points.is_some() {
+            let fine = Study::parse(self.text, &changes)?;
+            changes.extend(self.coarser(fine.sweeps())?);
         }
         Ok(Study::parse(self.text, &changes)?)
+    }
+
+    /// The changes that leave the axes of a study no more points than allowed; listed values stay.
+    pub(super) fn coarser(&self, sweeps: &[Sweep]) -> Result<Vec<Change>, Failure> {
+        let Some(most) = self.most_points else { return Ok(Vec::new()) };
+        let mut changes = Vec::new();
+        for (number, sweep) in sweeps.iter().enumerate() {
+            if !matches!(sweep.axis, Axis::Values(_)) && sweep.axis.len() > most {
+                changes
+                    .push(Change::parse(&format!("sweep[{number}].points={most}"), "reproduce")?);
+            }
+        }
+        Ok(changes)
     }
 
     /// The study with each waveform.

@@ -14,6 +14,7 @@ use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 use super::print::{self, LawNumbers};
 use super::product::{Product, Table};
 use super::source::{Source, failed, law_name, letter, parameters, values, waveform_name};
+use crate::cite::Task;
 use crate::complaint::Failure;
 use crate::plot::{
     Axis, Figure, Legend, Line, LineStyle, Note, Panel, Points, Region, Role, Rule, SharedLegend,
@@ -60,7 +61,7 @@ pub(super) fn single(source: &Source) -> Result<Product, Failure> {
         parameters(&study),
         closing(&study, false)
     );
-    Ok(Product::new(Figure::single(panel), caption, &study).table(table))
+    Ok(Product::new(Figure::single(panel), caption, &study).by(&[Task::Stability]).table(table))
 }
 
 /// Figures 3.5, 3.6, 4.7, 4.8: three waveforms, three damping ratios.
@@ -68,9 +69,10 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
     let mut panels = Vec::new();
-    for (index, (waveform, study)) in source.with_waveforms()?.into_iter().enumerate() {
-        let title = format!("({}) {}", letter(index), waveform_name(waveform));
-        panels.push(panel(source, &study, waveform, &mut table)?.title(title).legend(Legend::None));
+    let studies = source.with_waveforms()?;
+    for (index, (waveform, study)) in studies.iter().enumerate() {
+        let title = format!("({}) {}", letter(index), waveform_name(*waveform));
+        panels.push(panel(source, study, *waveform, &mut table)?.title(title).legend(Legend::None));
     }
     let damping: Vec<String> =
         values(&study, "belt.damping_ratio").iter().map(f64::to_string).collect();
@@ -86,7 +88,9 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
         .sharing_y(Sharing::All)
         .legend(SharedLegend::Below)
         .size(Size::Frame(270.0, 250.0));
-    Ok(Product::new(figure, caption, &study).table(table))
+    let product =
+        Product::new(figure, caption, &study).also(studies.iter().map(|(_, study)| study));
+    Ok(product.by(&[Task::Stability]).table(table))
 }
 
 fn opening(source: &Source, study: &Study) -> String {

@@ -6,6 +6,7 @@ use quell_model::Waveform;
 
 use super::product::{Product, Table};
 use super::source::{Source, letter, waveform_name};
+use crate::cite::Task;
 use crate::complaint::Failure;
 use crate::plot::{Axis, Figure, Legend, Line, Panel, Role, Rule, Sharing};
 
@@ -16,7 +17,8 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut columns = vec![("cycles".to_owned(), "1", cycles().collect::<Vec<f64>>())];
     let mut rows: [Vec<Panel>; 2] = [Vec::new(), Vec::new()];
-    for (index, (waveform, _)) in source.with_waveforms()?.into_iter().enumerate() {
+    let studies = source.with_waveforms()?;
+    for (index, &(waveform, _)) in studies.iter().enumerate() {
         let name = waveform.name();
         columns.push((
             format!("{name}_g"),
@@ -49,7 +51,10 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
         .sharing_y(Sharing::Aligned);
     let caption = "Figure 3.2. Two cycles of the dither waveforms $g$ (3.4)–(3.6), odd and of unit amplitude, and their \
         zero-mean integrals $G$, which are even (the text after (3.25) calls them odd).";
-    Ok(Product::new(figure, caption, &study).table(Table::of_columns("", columns)))
+    let product = Product::new(figure, caption, &study)
+        .also(studies.iter().map(|(_, study)| study))
+        .by(&[Task::Friction]);
+    Ok(product.table(Table::of_columns("", columns)))
 }
 
 fn axes(name: &str, symbol: &str, below: &str) -> Panel {

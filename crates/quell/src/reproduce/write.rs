@@ -22,6 +22,13 @@ pub(super) fn prepare(directory: &Path) -> Result<(), Failure> {
         .map_err(|complaint| refuse(complaint.allowed))
 }
 
+/// Writes one file, whole or not at all.
+pub(super) fn file(directory: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, Failure> {
+    let extension = name.rsplit('.').next().unwrap_or_default();
+    let output = Output::prepare(&directory.join(name), OPTION, &[extension])?;
+    output.write(bytes)
+}
+
 /// Writes a product; its files are whole or not there.
 pub(super) fn product(
     product: &Product,
@@ -30,9 +37,7 @@ pub(super) fn product(
 ) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     let mut put = |name: String, bytes: &[u8]| -> Result<(), Failure> {
-        let extension = name.rsplit('.').next().unwrap_or_default().to_owned();
-        let output = Output::prepare(&directory.join(name), OPTION, &[&extension])?;
-        files.push(output.write(bytes)?);
+        files.push(file(directory, &name, bytes)?);
         Ok(())
     };
     if let Some(figure) = &product.figure {

@@ -1,8 +1,10 @@
 //! The table of claims: what the dissertation says, what independent numerics measure, and the verdict.
 //!
 //! A claim is made by a function that measures (`chapter2` to `chapter5`, `attractors`, `isocline`); the verdict follows from printed and
-//! measured values by the rules of [`Verdict`], never from words.
+//! measured values by the rules of [`Verdict`], never from words. The verdict on record stands in [`LEDGER`]; a test holds
+//! every claim to it, so that none changes unseen.
 
+use rayon::prelude::*;
 use serde_json::{Value as Json, json};
 
 use super::product::{Cell, Product, Table};
@@ -16,8 +18,10 @@ mod chapter3_formulas;
 mod chapter4;
 mod chapter5;
 mod isocline;
+mod ledger;
 mod sheet;
 
+pub use ledger::{Expected, LEDGER};
 pub use sheet::{Claim, Verdict};
 
 use sheet::Sheet;
@@ -55,16 +59,19 @@ const SECTIONS: &[Section] = &[
     chapter5::revived,
 ];
 
-/// Measures every claim.
+/// Measures every claim, on all cores; the order is that of the dissertation.
 ///
 /// # Errors
 /// [`Failure`] if a run stops or an average has no value.
 pub fn measure() -> Result<Vec<Claim>, Failure> {
-    let mut sheet = Sheet::default();
-    for section in SECTIONS {
-        section(&mut sheet)?;
-    }
-    Ok(sheet.claims)
+    let sections: Result<Vec<Vec<Claim>>, Failure> = SECTIONS
+        .par_iter()
+        .map(|section| {
+            let mut sheet = Sheet::default();
+            section(&mut sheet).map(|()| sheet.claims)
+        })
+        .collect();
+    Ok(sections?.concat())
 }
 
 /// The table as a product.
@@ -90,6 +97,11 @@ pub(super) fn product(_: &Source) -> Result<Product, Failure> {
     Ok(Product { caption, tables: vec![table], claims, ..Product::default() })
 }
 
+/// How many have a verdict of this kind.
+pub(super) fn count<'a>(claims: impl IntoIterator<Item = &'a Claim>, name: &str) -> usize {
+    claims.into_iter().filter(|claim| claim.verdict.name() == name).count()
+}
+
 /// The table as JSON.
 pub fn json(claims: &[Claim]) -> Json {
     claims
@@ -104,6 +116,10 @@ pub fn json(claims: &[Claim]) -> Json {
                 "measured_values": claim.values,
                 "verdict": claim.verdict.to_string(),
                 "deviation": claim.verdict.deviation(),
+                "tolerance": claim.tolerance,
+                "expected": claim.expected.map(Expected::name),
+                "as_expected": claim.as_expected(),
+                "why": claim.why(),
                 "note": claim.note,
             })
         })
@@ -112,7 +128,7 @@ pub fn json(claims: &[Claim]) -> Json {
 
 /// The table as Markdown.
 pub fn markdown(claims: &[Claim]) -> String {
-    let count = |name: &str| claims.iter().filter(|claim| claim.verdict.name() == name).count();
+    let count = |name| count(claims, name);
     let mut text = format!(
         "# Claims of the dissertation\n\n{} claims: {} reproduced, {} reproduced within a stated deviation, \
          {} not reproduced, {} printed formulas wrong.\n\n\

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::ledger::{self, Expected};
+
 /// What becomes of a claim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
@@ -33,6 +35,11 @@ impl Verdict {
             Self::NotReproduced { .. } => "not reproduced",
             Self::FormulaWrong { .. } => "printed formula wrong",
         }
+    }
+
+    /// Does the claim hold?
+    pub fn holds(self) -> bool {
+        matches!(self, Self::Reproduced | Self::Within { .. })
     }
 
     /// The relative deviation behind it.
@@ -87,6 +94,10 @@ pub struct Claim {
     pub values: Vec<f64>,
     /// What follows.
     pub verdict: Verdict,
+    /// Largest relative deviation at which a printed number still counts as reproduced; none for a statement.
+    pub tolerance: Option<f64>,
+    /// The verdict on record, none for a claim that is not on record yet.
+    pub expected: Option<Expected>,
     /// What a reader should know; empty for nothing.
     pub note: String,
 }
@@ -136,7 +147,9 @@ impl Sheet {
         } else {
             Verdict::NotReproduced { deviation: Some(deviation) }
         };
-        self.push(words, printed.to_owned(), list(measured), measured, verdict)
+        let claim = self.push(words, printed.to_owned(), list(measured), measured, verdict);
+        claim.tolerance = Some(limit);
+        claim
     }
 
     /// A statement that holds or not, with the numbers that say so.
@@ -160,7 +173,9 @@ impl Sheet {
         } else {
             Verdict::FormulaWrong { deviation }
         };
-        self.push(words, digits(printed, 8), digits(right, 8), &[right], verdict)
+        let claim = self.push(words, digits(printed, 8), digits(right, 8), &[right], verdict);
+        claim.tolerance = Some(FORMULA_AGREES);
+        claim
     }
 
     fn push(
@@ -179,6 +194,8 @@ impl Sheet {
             measured,
             values: values.to_vec(),
             verdict,
+            tolerance: None,
+            expected: ledger::expected(name),
             note: String::new(),
         });
         let last = self.claims.len() - 1;
@@ -187,6 +204,16 @@ impl Sheet {
 }
 
 impl Claim {
+    /// Is the verdict the one on record?
+    pub fn as_expected(&self) -> bool {
+        self.expected.is_some_and(|expected| expected.name() == self.verdict.name())
+    }
+
+    /// Why it does not hold, where it does not and the reason is on record; empty otherwise.
+    pub fn why(&self) -> &'static str {
+        self.expected.map_or("", Expected::why)
+    }
+
     /// Adds what a reader should know.
     pub(super) fn note(&mut self, note: impl Into<String>) {
         self.note = note.into();

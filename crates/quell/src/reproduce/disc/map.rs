@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use super::super::product::{Product, Table};
 use super::super::source::{Source, failed, letter};
 use super::{FRICTION_PER_PRINTED, OPEN, STRENGTH_PER_PRINTED, study};
+use crate::cite::Task;
 use crate::complaint::Failure;
 use crate::picture::{self, MapAxis, MapKind};
 use crate::plot::{Axis, Figure, Legend, Panel, SharedLegend, Sharing, Size, Spread};
@@ -164,7 +165,7 @@ fn draw(
         .legend(SharedLegend::Below)
         .size(Size::Frame(390.0, 280.0));
     let study = &studies[0].0;
-    Ok(Product::of(figure, caption, study.text(), study.changes()).table(table))
+    Ok(Product::of_disc(figure, caption, study).by(&[Task::Stability]).table(table))
 }
 
 fn panel(done: &Growths, disc: &Disc, bar: bool) -> Result<Panel, crate::plot::PlotError> {

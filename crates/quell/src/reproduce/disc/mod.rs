@@ -35,12 +35,9 @@ pub(super) fn study(source: &Source, changes: &[&str]) -> Result<DiscStudy, Fail
         changes.iter().map(|change| Change::parse(change, "reproduce")).collect();
     let mut changes = changes?;
     let folder = Path::new("");
-    if let Some(most) = source.most_points {
-        let study = DiscStudy::parse(source.text, &changes, folder)?;
-        for (number, sweep) in study.sweeps().iter().enumerate() {
-            let points = sweep.axis.len().min(most);
-            changes.push(Change::parse(&format!("sweep[{number}].points={points}"), "reproduce")?);
-        }
+    if source.most_points.is_some() {
+        let fine = DiscStudy::parse(source.text, &changes, folder)?;
+        changes.extend(source.coarser(fine.sweeps())?);
     }
     Ok(DiscStudy::parse(source.text, &changes, folder)?)
 }

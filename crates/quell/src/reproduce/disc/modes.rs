@@ -5,6 +5,7 @@ use quell_disc::plate::{ModeSet, Plate, PlateMode, Reference};
 use super::super::product::{Product, Table};
 use super::super::source::{Source, failed, letter};
 use super::study;
+use crate::cite::Task;
 use crate::complaint::Failure;
 use crate::picture;
 use crate::plot::{Figure, Sharing, Size};
@@ -50,5 +51,5 @@ pub(in crate::reproduce) fn figure(source: &Source) -> Result<Product, Failure> 
     let caption = "Figure 5.2. Modes of the annular plate clamped at its inner and free at its outer edge, $b$/$a$ = 0.5, $ν$ = 0.3: \
                    deflection $φ$($r$) cos $jθ$ with unit mean square over the plate, red up, blue down, black at rest; $k^2$ is the \
                    frequency parameter.";
-    Ok(Product::of(figure, caption, study.text(), study.changes()).table(table))
+    Ok(Product::of_disc(figure, caption, &study).by(&[Task::Modes]).table(table))
 }

@@ -43,5 +43,5 @@ pub(in crate::reproduce) fn figure(source: &Source) -> Result<Product, Failure> 
     let figure = Figure::grid(3, panels).sharing_x(Sharing::All).size(Size::Frame(250.0, 180.0));
     let caption = "Figure 5.6. Responses of one degree of freedom, $x$ = $e^{ρτ}$ cos $τ$ with Re $ρ$ = 0.03, 0, −0.03, and their \
                    envelopes; the print gives no numbers.";
-    Ok(Product::of(figure, caption, study.text(), study.changes()).table(table))
+    Ok(Product::of_disc(figure, caption, &study).by(&[]).table(table))
 }

@@ -5,6 +5,7 @@ use quell_disc::resonance::{Resonance, Waves};
 use super::super::product::{Product, Table};
 use super::super::source::{Source, failed};
 use super::study;
+use crate::cite::Task;
 use crate::complaint::Failure;
 
 /// Speeds of table 5.1.
@@ -69,5 +70,5 @@ fn table(
          order, and the friction $f$/$c$ at the tip of its tongue.",
         if number == "5.2" { ", $R$ = 2.7" } else { "" }
     );
-    Ok(Product::of_table(caption, study.text(), study.changes()).table(table))
+    Ok(Product::table_of_disc(caption, &study).by(&[Task::Resonances]).table(table))
 }

@@ -1,0 +1,225 @@
+//! The book tells the truth: every study in it is valid, every command in it runs, and what it shows is what is answered.
+//!
+//! A page is read from top to bottom in a folder of its own, with the studies of the project beside it:
+//!
+//! | block | what is done |
+//! |---|---|
+//! | `toml` | saved under the name in its first line, `# NAME.toml`, and checked |
+//! | `sh` | every line that begins with `quell` is run and must succeed |
+//! | `text` after `sh` | must be what the last command said |
+//!
+//! `QUELL_BLESS=1 cargo test -p quell-cli --test book` writes the answers into the pages.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// One block of code.
+struct Block {
+    language: String,
+    /// Lines between the fences.
+    lines: Vec<String>,
+    /// Line of the opening fence, counted from 0.
+    begins: usize,
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Every page of the book, and the README.
+fn pages() -> Vec<PathBuf> {
+    let mut pages = vec![root().join("README.md")];
+    let mut folders = vec![root().join("docs/book/src")];
+    while let Some(folder) = folders.pop() {
+        for file in fs::read_dir(folder).expect("the book") {
+            let path = file.expect("a file").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "md") {
+                pages.push(path);
+            }
+        }
+    }
+    pages.sort();
+    pages
+}
+
+fn blocks(text: &str) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    let mut open: Option<Block> = None;
+    for (number, line) in text.lines().enumerate() {
+        match (&mut open, line.strip_prefix("```")) {
+            (None, Some(language)) => {
+                open = Some(Block {
+                    language: language.to_owned(),
+                    lines: Vec::new(),
+                    begins: number,
+                });
+            }
+            (Some(_), Some(_)) => blocks.extend(open.take()),
+            (Some(block), None) => block.lines.push(line.to_owned()),
+            (None, None) => {}
+        }
+    }
+    assert!(open.is_none(), "a block of code is not closed");
+    blocks
+}
+
+/// Commands of a block: lines that end in a backslash go on.
+fn commands(block: &Block) -> Vec<String> {
+    let joined = block.lines.join("\n").replace("\\\n", " ");
+    joined.lines().filter(|line| line.starts_with("quell ")).map(str::to_owned).collect()
+}
+
+/// Runs one in `folder`; its standard output.
+fn run(command: &str, folder: &Path, page: &Path) -> String {
+    let words: Vec<&str> = command.split_whitespace().skip(1).collect();
+    let output = Command::new(env!("CARGO_BIN_EXE_quell"))
+        .args(&words)
+        .current_dir(folder)
+        .output()
+        .expect("quell runs");
+    assert!(
+        output.status.success(),
+        "{}: {command}\n{}",
+        page.display(),
+        String::from_utf8_lossy(&output.stderr)
+    );
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// A folder with the studies of the project.
+fn workplace() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let studies = folder.path().join("studies");
+    fs::create_dir(&studies).expect("made");
+    for file in fs::read_dir(root().join("studies")).expect("studies") {
+        let path = file.expect("a file").path();
+        fs::copy(&path, studies.join(path.file_name().expect("a name"))).expect("copied");
+    }
+    folder
+}
+
+/// Goes through a page; the page with the answers as they are.
+fn page(path: &Path) -> String {
+    let text = fs::read_to_string(path).expect("a page");
+    let folder = workplace();
+    let mut answer: Option<String> = None;
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    // From the last block to the first, so that line numbers before it stay.
+    let mut answers: Vec<(usize, usize, String)> = Vec::new();
+    for block in blocks(&text) {
+        match block.language.as_str() {
+            "toml" => {
+                let name = block.lines.first().and_then(|line| line.strip_prefix("# "));
+                let name = name.filter(|name| name.ends_with(".toml")).unwrap_or("study.toml");
+                fs::write(folder.path().join(name), block.lines.join("\n")).expect("written");
+                run(&format!("quell check {name}"), folder.path(), path);
+                answer = None;
+            }
+            "sh" => {
+                let said = commands(&block).iter().map(|it| run(it, folder.path(), path)).last();
+                answer = said;
+            }
+            "text" => {
+                if let Some(answer) = answer.take() {
+                    answers.push((block.begins, block.lines.len(), answer));
+                }
+            }
+            _ => answer = None,
+        }
+    }
+    for (begins, count, answer) in answers.into_iter().rev() {
+        let shown: Vec<String> = answer.trim_end().lines().map(str::to_owned).collect();
+        lines.splice(begins + 1..=begins + count, shown);
+    }
+    lines.join("\n") + "\n"
+}
+
+#[test]
+fn studies_commands_and_answers_are_true() {
+    let bless = std::env::var_os("QUELL_BLESS").is_some();
+    let pages = pages();
+    assert!(pages.len() > 15);
+    let wrong: Vec<String> = std::thread::scope(|scope| {
+        let halves: Vec<_> = (0..2)
+            .map(|half| {
+                let pages = &pages;
+                scope.spawn(move || {
+                    let mut wrong = Vec::new();
+                    for path in pages.iter().skip(half).step_by(2) {
+                        let (before, now) = (fs::read_to_string(path).expect("a page"), page(path));
+                        if before != now {
+                            if bless {
+                                fs::write(path, now).expect("written");
+                            } else {
+                                wrong.push(path.display().to_string());
+                            }
+                        }
+                    }
+                    wrong
+                })
+            })
+            .collect();
+        halves.into_iter().flat_map(|half| half.join().expect("a half")).collect()
+    });
+    assert!(
+        wrong.is_empty(),
+        "answers differ: {wrong:?}; QUELL_BLESS=1 writes the present ones into the pages"
+    );
+}
+
+/// What a picture in the book shows can be made: its file is that of an entry of `reproduce`.
+#[test]
+fn pictures_are_made_by_reproduce() {
+    let known: Vec<String> =
+        quell::reproduce::ENTRIES.iter().map(quell::reproduce::Entry::stem).collect();
+    let mut count = 0;
+    for path in pages() {
+        let text = fs::read_to_string(&path).expect("a page");
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            if let Some((_, file)) = link.split_once("reproduction/") {
+                let stem = file.trim_end_matches(".svg");
+                assert!(known.iter().any(|known| known == stem), "{}: {link}", path.display());
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 8);
+}
+
+/// Every link to a file leads somewhere, and every page is in the table of contents.
+#[test]
+fn links_lead_somewhere() {
+    let book = root().join("docs/book/src");
+    let contents = fs::read_to_string(book.join("SUMMARY.md")).expect("contents");
+    for path in pages() {
+        let text = fs::read_to_string(&path).expect("a page");
+        let folder = path.parent().expect("a folder");
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            let outside = link.starts_with("http") || link.contains("reproduction/");
+            let file = link.split('#').next().unwrap_or_default();
+            if !outside && !file.is_empty() {
+                assert!(folder.join(file).exists(), "{}: {link}", path.display());
+            }
+        }
+        if let Ok(name) = path.strip_prefix(&book) {
+            let name = name.display().to_string();
+            let listed = name == "SUMMARY.md" || contents.contains(&format!("({name})"));
+            assert!(listed, "{name} is not in SUMMARY.md");
+        }
+    }
+}
+
+/// The page of errata is the registry's.
+#[test]
+fn errata_are_those_of_the_registry() {
+    let path = root().join("docs/book/src/errata.md");
+    let now = quell::cite::errata::markdown("../../..");
+    if std::env::var_os("QUELL_BLESS").is_some() {
+        fs::write(&path, &now).expect("written");
+    }
+    let page = fs::read_to_string(&path).expect("QUELL_BLESS=1 writes it");
+    assert_eq!(page, now, "QUELL_BLESS=1 writes the present registry into the page");
+}

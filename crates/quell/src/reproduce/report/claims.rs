@@ -1,0 +1,107 @@
+//! The claims in the report: all in one table, and those of one figure beside it.
+
+use super::super::claims::{Claim, Verdict};
+use super::super::{Entry, Written};
+use super::html::{Page, escape, symbols, table};
+use super::summary;
+
+/// Writes the table of all claims.
+pub(super) fn write(page: &mut Page, written: &[Written]) {
+    let claims = summary::claims(written);
+    if claims.is_empty() {
+        return;
+    }
+    page.section("claims", "All claims");
+    page.put(
+        "<p>Verdicts follow from printed and measured numbers. A printed number is <em>reproduced</em> where the measured one rounds \
+         to it, and <em>reproduced within</em> a deviation up to its tolerance; a formula is held against quadrature of its definition.</p>",
+    );
+    let rows = claims.iter().map(|claim| {
+        let tolerance = claim.tolerance.map(|it| format!("{} %", 100.0 * it)).unwrap_or_default();
+        vec![
+            format!(
+                "<span id=\"claim-{0}\" class=\"name\">{0}</span>{1}",
+                escape(&claim.name),
+                escape(&claim.place)
+            ),
+            symbols(&claim.statement),
+            symbols(&claim.printed),
+            symbols(&claim.measured),
+            tolerance,
+            chip(claim),
+            symbols(&claim.note),
+        ]
+    });
+    let names = ["claim", "statement", "printed", "measured", "tolerance", "verdict", "note"];
+    page.put(&table("claims", &names, rows));
+}
+
+/// The verdict in colour and words.
+pub(super) fn chip(claim: &Claim) -> String {
+    let class = match claim.verdict {
+        Verdict::Reproduced => "holds",
+        Verdict::Within { .. } => "within",
+        Verdict::FormulaWrong { .. } => "wrong",
+        Verdict::NotReproduced { .. } => "fails",
+    };
+    format!("<span class=\"chip {class}\">{}</span>", claim.verdict)
+}
+
+/// The claims about a figure or table.
+pub(super) fn of<'a>(entry: &Entry, claims: &[&'a Claim]) -> Vec<&'a Claim> {
+    claims.iter().filter(|claim| about(&claim.place, entry.name)).copied().collect()
+}
+
+/// Does "Figures 2.7, 2.10" speak of `2.10`, "figures 5.9–5.12" of `5.11`? Numbers in parentheses are of equations.
+fn about(place: &str, name: &str) -> bool {
+    let (kind, number) = match name.strip_prefix("table-") {
+        Some(number) => ("able", number),
+        None => ("igure", name),
+    };
+    let mut kind_now = "";
+    for word in place.split([' ', ',', ';']).filter(|word| !word.is_empty()) {
+        kind_now = ["able", "igure", "quation"]
+            .into_iter()
+            .find(|it| word.contains(it))
+            .unwrap_or(kind_now);
+        let bare = word.split('(').next().unwrap_or_default();
+        let named = match bare.split_once('–') {
+            Some((from, to)) => within(from, number, to),
+            None => bare == number,
+        };
+        if kind_now == kind && named {
+            return true;
+        }
+    }
+    false
+}
+
+/// Is the number, such as 5.10, from 5.9 to 5.12?
+fn within(from: &str, number: &str, to: &str) -> bool {
+    let parts = |text: &str| -> Option<(u32, u32)> {
+        let (chapter, figure) = text.split_once('.')?;
+        Some((chapter.parse().ok()?, figure.parse().ok()?))
+    };
+    match (parts(from), parts(number), parts(to)) {
+        (Some(from), Some(number), Some(to)) => (from..=to).contains(&number),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::about;
+
+    #[test]
+    fn places_name_their_figures() {
+        assert!(about("Figures 2.7, 2.10", "2.10"));
+        assert!(!about("Figures 2.7, 2.10", "2.1"));
+        assert!(about("Figure 2.3(a), (b)", "2.3"));
+        assert!(!about("(3.38a), (B.10a)", "3.38"));
+        assert!(about("Table 5.1", "table-5.1"));
+        assert!(!about("Table 5.1", "5.1"));
+        assert!(about("Text of figure 5.13", "5.13"));
+        assert!(about("Text of figures 5.9–5.12", "5.11"));
+        assert!(!about("Text of figures 5.9–5.12", "5.13"));
+    }
+}

@@ -1,0 +1,135 @@
+//! A page of HTML under construction: its head, its table of contents, its escapes.
+
+/// How everything looks.
+const STYLE: &str = include_str!("style.css");
+
+/// A page with sections and a table of contents.
+pub(super) struct Page {
+    title: &'static str,
+    contents: String,
+    body: String,
+    open: bool,
+}
+
+impl Page {
+    pub(super) fn new(title: &'static str) -> Self {
+        Self { title, contents: String::new(), body: String::new(), open: false }
+    }
+
+    /// Adds HTML.
+    pub(super) fn put(&mut self, html: &str) {
+        self.body += html;
+        self.body.push('\n');
+    }
+
+    /// Begins a section with a line in the table of contents.
+    pub(super) fn section(&mut self, anchor: &str, title: &str) {
+        self.close();
+        self.open = true;
+        let title = escape(title);
+        self.contents += &format!("<a class=\"part\" href=\"#{anchor}\">{title}</a>\n");
+        self.put(&format!("<section id=\"{anchor}\"><h2>{title}</h2>"));
+    }
+
+    /// A line in the table of contents below the section.
+    pub(super) fn entry(&mut self, anchor: &str, number: &str, title: &str) {
+        self.contents += &format!(
+            "<a href=\"#{anchor}\"><span>{}</span>{}</a>\n",
+            escape(number),
+            escape(title)
+        );
+    }
+
+    fn close(&mut self) {
+        if std::mem::take(&mut self.open) {
+            self.put("</section>");
+        }
+    }
+
+    /// The whole page.
+    pub(super) fn finish(mut self) -> String {
+        self.close();
+        let Self { title, contents, body, .. } = self;
+        format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
+             <nav aria-label=\"Contents\"><a class=\"top\" href=\"#top\">{title}</a>\n{contents}</nav>\n\
+             <main id=\"top\">\n{body}</main>\n</body>\n</html>\n"
+        )
+    }
+}
+
+/// Text as HTML.
+pub(super) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// A sentence with symbols as HTML: `v_m` and `α^L`, `e^{γ−w}` with what is lowered and raised, minus signs before numbers.
+pub(super) fn symbols(text: &str) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    let mut html = String::new();
+    let mut at = 0;
+    while at < letters.len() {
+        let before = at.checked_sub(1).map(|before| letters[before]);
+        let next = letters.get(at + 1).copied();
+        let mark = match letters[at] {
+            '_' if before.is_some_and(char::is_alphabetic) => Some("sub"),
+            '^' => Some("sup"),
+            _ => None,
+        };
+        let inner = mark.map(|_| group(&letters[at + 1..])).filter(|(inner, _)| !inner.is_empty());
+        if let (Some(mark), Some((inner, length))) = (mark, inner) {
+            html += &format!("<{mark}>{}</{mark}>", escape(&inner));
+            at += 1 + length;
+            continue;
+        }
+        let negative = letters[at] == '-'
+            && next.is_some_and(|next| next.is_ascii_digit())
+            && before.is_none_or(|before| !before.is_alphanumeric() || before == 'e');
+        html += &if negative { "−".to_owned() } else { escape(&letters[at].to_string()) };
+        at += 1;
+    }
+    html
+}
+
+/// What is lowered or raised: `{…}` or letters and digits of one word; and how many characters that takes.
+fn group(letters: &[char]) -> (String, usize) {
+    if letters.first() == Some(&'{') {
+        let end = letters.iter().position(|letter| *letter == '}').unwrap_or(letters.len());
+        return (letters[1..end].iter().collect(), (end + 1).min(letters.len()));
+    }
+    let count = letters.iter().take_while(|letter| letter.is_ascii_alphanumeric()).count();
+    (letters[..count].iter().collect(), count)
+}
+
+/// A table: names of columns, rows of cells that are HTML already.
+pub(super) fn table(
+    class: &str,
+    names: &[&str],
+    rows: impl IntoIterator<Item = Vec<String>>,
+) -> String {
+    let head: String = names.iter().map(|name| format!("<th>{name}</th>")).collect();
+    let body: String = rows
+        .into_iter()
+        .map(|cells| {
+            let cells: String = cells.iter().map(|cell| format!("<td>{cell}</td>")).collect();
+            format!("<tr>{cells}</tr>\n")
+        })
+        .collect();
+    format!(
+        "<div class=\"wide\"><table class=\"{class}\"><thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table></div>"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::symbols;
+
+    #[test]
+    fn symbols_are_lowered_and_raised() {
+        assert_eq!(symbols("v_mζ < Ω_1"), "v<sub>m</sub>ζ &lt; Ω<sub>1</sub>");
+        assert_eq!(symbols("α^L, e^{γ−w}"), "α<sup>L</sup>, e<sup>γ−w</sup>");
+        assert_eq!(symbols("-0.5, 5.9-5.12, 2e-7"), "−0.5, 5.9-5.12, 2e−7");
+    }
+}
