@@ -54,9 +54,90 @@ fn copy(from: &Path, to: &Path) -> Result<(), String> {
         let target = to.join(name);
         if path.is_dir() {
             copy(&path, &target)?;
+        } else if path.extension().is_some_and(|extension| extension == "md") {
+            let text = fs::read_to_string(&path).map_err(|why| failed(&path, why))?;
+            fs::write(&target, typeset(&text)).map_err(|why| failed(&target, why))?;
         } else {
             fs::copy(&path, &target).map_err(|why| failed(&path, why))?;
         }
     }
     Ok(())
+}
+
+/// A page with `v_m` and `e^{γ−w}` lowered and raised; code and links stay as they are.
+fn typeset(page: &str) -> String {
+    let mut fenced = false;
+    let mut typeset = String::new();
+    for line in page.lines() {
+        fenced ^= line.starts_with("```");
+        if fenced || line.starts_with("    ") || line.starts_with("```") {
+            typeset += line;
+        } else {
+            for (place, piece) in line.split('`').enumerate() {
+                if place > 0 {
+                    typeset.push('`');
+                }
+                typeset += &if place % 2 == 1 { piece.to_owned() } else { symbols(piece) };
+            }
+        }
+        typeset.push('\n');
+    }
+    typeset
+}
+
+/// One letter with an underscore behind it is a symbol; a word with one is a name.
+fn symbols(text: &str) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    let mut typeset = String::new();
+    let mut at = 0;
+    while at < letters.len() {
+        let letter = |back: usize| at.checked_sub(back).map(|place| letters[place]);
+        let symbol = letter(1).is_some_and(|it| it.is_alphabetic() && !it.is_ascii_alphabetic())
+            || letter(1).is_some_and(|it| it.is_ascii_alphabetic())
+                && !letter(2).is_some_and(|it| it.is_ascii_alphabetic());
+        let tag = match letters[at] {
+            '_' if symbol => "sub",
+            '^' => "sup",
+            _ => "",
+        };
+        let (inner, length) =
+            if tag.is_empty() { (String::new(), 0) } else { group(&letters[at + 1..]) };
+        if inner.is_empty() {
+            typeset.push(letters[at]);
+        } else {
+            typeset += &format!("<{tag}>{inner}</{tag}>");
+        }
+        at += 1 + length;
+    }
+    typeset
+}
+
+/// What is lowered or raised, and how many characters that takes.
+fn group(letters: &[char]) -> (String, usize) {
+    let close = match letters.first() {
+        Some('{') => '}',
+        Some('(') => ')',
+        _ => {
+            let count = letters.iter().take_while(|letter| letter.is_ascii_alphanumeric()).count();
+            return (letters[..count].iter().collect(), count);
+        }
+    };
+    let end = letters.iter().position(|letter| *letter == close).unwrap_or(letters.len() - 1);
+    (letters[1..end].iter().collect(), end + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::typeset;
+
+    #[test]
+    fn symbols_are_typeset_and_names_are_not() {
+        assert_eq!(typeset("αG_max, 2v_mζ\n"), "αG<sub>max</sub>, 2v<sub>m</sub>ζ\n");
+        assert_eq!(
+            typeset("e^{γ−w}, α^L, e^(−w)\n"),
+            "e<sup>γ−w</sup>, α<sup>L</sup>, e<sup>−w</sup>\n"
+        );
+        let untouched = "`v_m` and [sign_test_name](crates/quell_b.rs)\n```sh\nx_y\n```\n    v_m\n";
+        assert_eq!(typeset(untouched), untouched);
+    }
 }

@@ -57,9 +57,12 @@ fn forced_amplitude_grows_as_the_ratio_falls() {
         let near = response.peaks.iter().filter(|peak| (peak.frequency - ratio).abs() < 0.1);
         near.map(|peak| peak.amplitude).fold(0.0, f64::max)
     };
-    for ratio in [10.0, 9.0, 8.0] {
-        let (found, linear) = (amplitude(ratio), 0.5 / (ratio * ratio - 1.0));
-        assert!((found / linear - 1.0).abs() < 0.02, "R = {ratio}: {found} {linear}");
+    // At R = 10 the mass only just keeps sliding, and its forced motion is the linear one; below, friction turns round
+    // within each period and takes some of it.
+    let linear = |ratio: f64| 0.5 / (ratio * ratio - 1.0);
+    assert!((amplitude(10.0) / linear(10.0) - 1.0).abs() < 0.005, "{}", amplitude(10.0));
+    for ratio in [9.0, 8.0] {
+        assert!(amplitude(ratio) < linear(ratio) && amplitude(ratio) > 0.9 * linear(ratio));
     }
     assert!(amplitude(8.0) > amplitude(9.0) && amplitude(9.0) > amplitude(10.0));
 }

@@ -137,6 +137,27 @@ fn page(path: &Path) -> String {
     lines.join("\n") + "\n"
 }
 
+/// Are two texts the same but for the last digits of numbers? Spectra may differ in them from one processor to another.
+fn alike(one: &str, other: &str) -> bool {
+    let words =
+        |text: &str| -> Vec<String> { text.split_whitespace().map(str::to_owned).collect() };
+    let (one, other) = (words(one), words(other));
+    let close = |(a, b): (&String, &String)| {
+        a == b
+            || match (a.parse::<f64>(), b.parse::<f64>()) {
+                (Ok(a), Ok(b)) => (a - b).abs() <= 1e-6 * a.abs().max(b.abs()) + 1e-8,
+                _ => false,
+            }
+    };
+    one.len() == other.len() && one.iter().zip(&other).all(close)
+}
+
+#[test]
+fn answers_differ_in_their_last_digits_only() {
+    assert!(alike("E 0.25843820\n", "E 0.25843821") && alike("left 1.3e-11", "left 1.2e-11"));
+    assert!(!alike("E 0.2584", "E 0.2585") && !alike("stable", "unstable") && !alike("a", "a b"));
+}
+
 #[test]
 fn studies_commands_and_answers_are_true() {
     let bless = std::env::var_os("QUELL_BLESS").is_some();
@@ -150,7 +171,7 @@ fn studies_commands_and_answers_are_true() {
                     let mut wrong = Vec::new();
                     for path in pages.iter().skip(half).step_by(2) {
                         let (before, now) = (fs::read_to_string(path).expect("a page"), page(path));
-                        if before != now {
+                        if !alike(&before, &now) {
                             if bless {
                                 fs::write(path, now).expect("written");
                             } else {

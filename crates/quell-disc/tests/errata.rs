@@ -156,7 +156,7 @@ fn indices_of_the_double_sum() {
     let right = undithered::growth(&disc).expect("finite");
     let system = System::new(&disc);
     // As printed: every row of the load's mass and damper acts on its own coordinate, with the sum of all shapes.
-    let (count, load) = (system.coordinates(), disc.loads()[0]);
+    let (count, load) = (system.coordinates(), &disc.loads()[0]);
     let bare = System::assemble(
         &disc,
         Contributions::ALL.without(Contribution::LoadMass).without(Contribution::Damper),
@@ -174,16 +174,10 @@ fn indices_of_the_double_sum() {
             damping.row_mut(i)[i] += load.damping * sum;
         }
     }
-    let stiffness = {
-        let mut stiffness = bare.stiffness().clone();
-        let state = system.state_matrix(system.mean_friction());
-        let kept = bare.state_matrix(bare.mean_friction());
-        assert_eq!((state.rows(), kept.rows()), (2 * count, 2 * count));
-        // Follower forces: K of the undithered system is M(−lower left of its state matrix).
-        let lower = Matrix::from_fn(count, count, |i, j| -kept.row(count + i)[j]);
-        stiffness = bare.mass().times(&lower).clone();
-        stiffness
-    };
+    // With the follower forces: what the state matrix of the rest has in its lower left is −M⁻¹K.
+    let kept = bare.state_matrix(bare.mean_friction());
+    let lower = Matrix::from_fn(count, count, |i, j| -kept.row(count + i)[j]);
+    let stiffness = bare.mass().times(&lower);
     let joined = Matrix::from_fn(count, 2 * count, |i, j| {
         if j < count { -stiffness.row(i)[j] } else { -damping.row(i)[j - count] }
     });
