@@ -210,8 +210,27 @@ fn files_are_written_whole_into_a_new_directory() {
         .flat_map(|name| {
             ["csv", "png", "svg"].map(|extension| format!("figure-{name}.{extension}"))
         })
+        .chain(["report.html".to_owned(), "report.md".to_owned()])
         .collect();
     assert_eq!(names, expected);
+    // The report needs nothing but itself: pictures are inside, and nothing is fetched.
+    let page = std::fs::read_to_string(directory.join("report.html")).expect("a report");
+    assert_eq!(page.matches("<img ").count(), 3);
+    assert_eq!(page.matches("src=\"data:image/svg+xml;base64,").count(), 3);
+    for outside in ["<script", "src=\"http", "<link", "@import", "url("] {
+        assert!(!page.contains(outside), "{outside}");
+    }
+    for inside in [
+        "id=\"figure-2.6\"",
+        "Corrections applied",
+        "Equations used",
+        "law = \"stribeck\"",
+        "Run time",
+    ] {
+        assert!(page.contains(inside), "{inside}");
+    }
+    let table = std::fs::read_to_string(directory.join("report.md")).expect("a table");
+    assert!(table.contains("[figure-2.6.csv](figure-2.6.csv)"), "{table}");
     // Once more, over what stands there: the same bytes.
     let first = std::fs::read(directory.join("figure-2.6.png")).expect("read");
     run(&entries, &directory, Pace::Full, |_| ()).expect("written again");
