@@ -160,7 +160,7 @@ fn sign_of_the_fast_motion() {
     };
     let law = law(LawKind::Decreasing);
     let dithers = vec![sine(1.0, 10.0), sine(1.0, 20.0)];
-    let belt = Belt::new(0.005, 1.0, 0.3, law, dithers).expect("valid");
+    let belt = Belt::new(0.005, 1.0, 0.3, law.clone(), dithers).expect("valid");
     let fast = |theta: f64| -0.1 * theta.cos() - 0.05 * (2.0 * theta).cos();
     let average = |sign: f64| {
         let mean = |theta: f64| law.coefficient(0.3 + sign * fast(theta)) / TAU;
@@ -274,7 +274,7 @@ fn fast_motion_stays_frozen_in_the_slope() {
         frequency_ratio: 40.0,
         phase: 0.0,
     };
-    let belt = Belt::new(0.2, 1.0, v, law, vec![dither]).expect("valid");
+    let belt = Belt::new(0.2, 1.0, v, law.clone(), vec![dither]).expect("valid");
     for (normal_order, known) in [(NormalOrder::First, 0.115_719), (NormalOrder::Second, 0.115_518)]
     {
         let options = AveragingOptions { normal_order, ..AveragingOptions::default() };
@@ -308,18 +308,15 @@ fn fast_motion_stays_frozen_in_the_slope() {
 /// (3.61): "0.98" for v₀ = 1 is a plotting-grid value; the averaged quench amplitude is α = v₀ exactly, by a jump.
 #[test]
 fn quench_amplitude_is_a_jump() {
-    let dither = quell_model::Dither {
+    let dither = Dither {
         direction: Direction::Tangential,
         waveform: Waveform::Sine,
         amplitude: 1.0,
         frequency_ratio: 10.0,
         phase: 0.0,
     };
-    let belt = quell_model::Belt::new(0.005, 1.0, 1.0, law(LawKind::Decreasing), vec![dither]);
-    let found = quell_belt::averaging::critical_amplitudes(
-        &belt.expect("valid"),
-        quell_belt::averaging::AveragingOptions::default(),
-    )
-    .expect("found");
+    let belt = Belt::new(0.005, 1.0, 1.0, law(LawKind::Decreasing), vec![dither]);
+    let found =
+        critical_amplitudes(&belt.expect("valid"), AveragingOptions::default()).expect("found");
     assert_eq!((found[1].amplitude_ratio, found[1].becomes), (1.0, Becomes::Stable));
 }

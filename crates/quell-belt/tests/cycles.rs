@@ -20,7 +20,7 @@ fn with_sine(belt: &Belt, amplitude: f64, frequency_ratio: f64) -> Belt {
         frequency_ratio,
         phase: 0.0,
     };
-    let friction = *belt.friction();
+    let friction = belt.friction().clone();
     Belt::new(belt.damping_ratio(), 1.0, belt.belt_velocity(), friction, vec![dither])
         .expect("a valid belt")
 }

@@ -144,13 +144,16 @@ impl Belt {
         }
     }
 
-    /// The entry of the registry for a path, or `None` if there is no such number here.
+    /// The entry of the registry for a path, or `None` if there is no such number here or the study
+    /// itself named it (a constant of a formula).
     pub fn parameter(&self, path: &str) -> Option<Parameter> {
         match self.place(path)? {
             Place::DampingRatio => Some(DAMPING_RATIO),
             Place::NormalLoad => Some(NORMAL_LOAD),
             Place::BeltVelocity => Some(BELT_VELOCITY),
-            Place::Law(index) => self.friction.kind().parameters().get(index).copied(),
+            Place::Law => {
+                self.friction.kind().parameters().iter().find(|it| it.path == path).copied()
+            }
             Place::Dither(_, parameter) => Some(parameter),
         }
     }

@@ -63,7 +63,7 @@ impl<L: SlidingLaw> Work for SlidingBy<'_, '_, L> {
         let mut clock = Clock::at(start.time);
         let (mut tangential, mut normal) = forcings(belt, unit, clock);
         let fastest = tangential.highest_rate().max(normal.highest_rate()).max(1.0);
-        let constants = L::constants::<f64>(std::slice::from_ref(law));
+        let mut constants = L::constants::<f64>(std::slice::from_ref(law));
         let belt_velocity = belt.belt_velocity() / unit;
         let equation = SlipEquation { damping: 2.0 * belt.damping_ratio(), belt_velocity };
         let mut displacement = start.displacement / unit;
@@ -85,13 +85,13 @@ impl<L: SlidingLaw> Work for SlidingBy<'_, '_, L> {
                 Load::Series(&load_series)
             };
             let from = SlipStart { sign, displacement, slip, first_slope: 1.0 };
-            equation.series::<L>(&constants, from, &dither, load, &mut series);
             let limits = StepLimits {
                 tolerance: tolerance * belt.normal_load() / unit,
                 longest: 0.5 * ORDER as f64 / fastest,
                 room: clock.until(stop),
             };
-            let length = series.step(limits, L::longest_change(ORDER));
+            let length =
+                equation.series::<L>(&mut constants, from, &dither, load, limits, &mut series);
             (displacement, slip) = series.end(length);
             observer.segment(&Segment {
                 clock,
