@@ -5,6 +5,7 @@
 //! | block | what is done |
 //! |---|---|
 //! | `toml` | saved under the name in its first line, `# NAME.toml`, and checked |
+//! | `toml` without `schema` | takes the place of `[friction]` in the last belt, and is checked (unless it names a data file) |
 //! | `sh` | every line that begins with `quell` is run and must succeed |
 //! | `text` after `sh` | must be what the last command said |
 //!
@@ -101,26 +102,52 @@ fn workplace() -> tempfile::TempDir {
     folder
 }
 
+/// A study with another `[friction]`.
+fn with_friction(study: &str, friction: &str) -> String {
+    let (before, rest) = study.split_once("[friction]").expect("a belt before");
+    let after = rest.split_once("\n[").map_or("", |(_, after)| after);
+    format!("{before}{friction}\n[{after}")
+}
+
 /// Goes through a page; the page with the answers as they are.
 fn page(path: &Path) -> String {
     let text = fs::read_to_string(path).expect("a page");
     let folder = workplace();
     let mut answer: Option<String> = None;
+    // The last complete study of a belt on the page.
+    let mut belt = String::new();
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     // From the last block to the first, so that line numbers before it stay.
     let mut answers: Vec<(usize, usize, String)> = Vec::new();
     for block in blocks(&text) {
         match block.language.as_str() {
+            "toml" if !block.lines.iter().any(|line| line.starts_with("schema")) => {
+                let part = block.lines.join("\n");
+                if !part.contains("file =") {
+                    assert!(part.starts_with("[friction]"), "{}: a part of what?", path.display());
+                    let study = with_friction(&belt, &part);
+                    fs::write(folder.path().join("part.toml"), study).expect("written");
+                    run("quell check part.toml", folder.path(), path);
+                }
+                answer = None;
+            }
             "toml" => {
+                if block.lines.iter().any(|line| line == "[belt]") {
+                    belt = block.lines.join("\n");
+                }
                 let name = block.lines.first().and_then(|line| line.strip_prefix("# "));
-                let name = name.filter(|name| name.ends_with(".toml")).unwrap_or("study.toml");
+                let named =
+                    |name: &&str| Path::new(name).extension().is_some_and(|it| it == "toml");
+                let name = name.filter(named).unwrap_or("study.toml");
                 fs::write(folder.path().join(name), block.lines.join("\n")).expect("written");
                 run(&format!("quell check {name}"), folder.path(), path);
                 answer = None;
             }
             "sh" => {
-                let said = commands(&block).iter().map(|it| run(it, folder.path(), path)).last();
-                answer = said;
+                answer = None;
+                for command in commands(&block) {
+                    answer = Some(run(&command, folder.path(), path));
+                }
             }
             "text" => {
                 if let Some(answer) = answer.take() {
