@@ -3,6 +3,7 @@
 //! Chapters are copied from `docs/book` beside fresh pictures, the report and the table of claims; mdBook does the rest.
 
 use std::ffi::OsStr;
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -105,7 +106,7 @@ fn symbols(text: &str) -> String {
         if inner.is_empty() {
             typeset.push(letters[at]);
         } else {
-            typeset += &format!("<{tag}>{inner}</{tag}>");
+            let _ = write!(typeset, "<{tag}>{inner}</{tag}>");
         }
         at += 1 + length;
     }

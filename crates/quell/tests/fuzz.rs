@@ -213,7 +213,7 @@ fn the_reader_of_stores_believes_no_damage() {
         match Store::open(&path, &plan, true) {
             Ok(store) => match store.read(&plan, 0) {
                 Found::Whole(values) => {
-                    assert_eq!(Found::Whole(values), known, "{}", chosen.display())
+                    assert_eq!(Found::Whole(values), known, "{}", chosen.display());
                 }
                 Found::Damaged | Found::Nothing => seen += 1,
             },

@@ -157,12 +157,15 @@ impl Label {
             if italic {
                 text = format!("<i>{text}</i>");
             }
-            html += &match level {
-                Level::Base => text,
-                Level::Lowered => format!("<sub>{text}</sub>"),
-                Level::Raised => format!("<sup>{text}</sup>"),
-                Level::RaisedLowered => format!("<sup><sub>{text}</sub></sup>"),
+            let (open, close) = match level {
+                Level::Base => ("", ""),
+                Level::Lowered => ("<sub>", "</sub>"),
+                Level::Raised => ("<sup>", "</sup>"),
+                Level::RaisedLowered => ("<sup><sub>", "</sub></sup>"),
             };
+            html += open;
+            html += &text;
+            html += close;
         }
         html
     }

@@ -2,6 +2,7 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use std::fmt::Write as _;
 
 use super::super::Written;
 use super::super::claims::Claim;
@@ -55,7 +56,7 @@ fn write_one(page: &mut Page, done: &Written, claims: &[&Claim]) {
         plot::html(&done.product.caption)
     ));
     if !claims.is_empty() {
-        let items: String = claims
+        let items = claims
             .iter()
             .map(|claim| {
                 format!(
@@ -66,7 +67,8 @@ fn write_one(page: &mut Page, done: &Written, claims: &[&Claim]) {
                     compared(claim)
                 )
             })
-            .collect();
+            .collect::<Vec<String>>()
+            .concat();
         page.put(&format!("<ul class=\"beside\">{items}</ul>"));
     }
     page.put(&details(done));
@@ -131,7 +133,8 @@ fn details(done: &Written) -> String {
         }
     });
     let list = |items: &[String]| -> String {
-        let items: String = items.iter().map(|item| format!("<li>{item}</li>")).collect();
+        let items =
+            items.iter().map(|item| format!("<li>{item}</li>")).collect::<Vec<String>>().concat();
         format!("<ul>{items}</ul>")
     };
     let equations: Vec<String> = used.iter().map(|text| symbols(text)).collect();
@@ -146,7 +149,7 @@ fn details(done: &Written) -> String {
         done.elapsed.as_secs_f64()
     );
     let mut fold = |title: String, inside: String| {
-        html += &format!("<details><summary>{title}</summary>{inside}</details>");
+        let _ = write!(html, "<details><summary>{title}</summary>{inside}</details>");
     };
     if !equations.is_empty() {
         fold(format!("Equations used ({})", equations.len()), list(&equations));

@@ -17,7 +17,7 @@ pub(super) fn write(page: &mut Page, written: &[Written]) {
          to it, and <em>reproduced within</em> a deviation up to its tolerance; a formula is held against quadrature of its definition.</p>",
     );
     let rows = claims.iter().map(|claim| {
-        let tolerance = claim.tolerance.map(|it| format!("{} %", 100.0 * it)).unwrap_or_default();
+        let tolerance = claim.tolerance.map(tolerance).unwrap_or_default();
         vec![
             format!(
                 "<span id=\"claim-{0}\" class=\"name\">{0}</span>{1}",
@@ -34,6 +34,15 @@ pub(super) fn write(page: &mut Page, written: &[Written]) {
     });
     let names = ["claim", "statement", "printed", "measured", "tolerance", "verdict", "note"];
     page.put(&table("claims", &names, rows));
+}
+
+/// A tolerance as a percentage, a small one as a power of ten.
+fn tolerance(share: f64) -> String {
+    if share < 1e-4 {
+        symbols(&format!("10^{{−{:.0}}}", -share.log10()))
+    } else {
+        format!("{:.0} %", 100.0 * share)
+    }
 }
 
 /// The verdict in colour and words.

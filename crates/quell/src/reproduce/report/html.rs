@@ -1,5 +1,7 @@
 //! A page of HTML under construction: its head, its table of contents, its escapes.
 
+use std::fmt::Write as _;
+
 /// How everything looks.
 const STYLE: &str = include_str!("style.css");
 
@@ -27,14 +29,15 @@ impl Page {
         self.close();
         self.open = true;
         let title = escape(title);
-        self.contents += &format!("<a class=\"part\" href=\"#{anchor}\">{title}</a>\n");
+        let _ = writeln!(self.contents, "<a class=\"part\" href=\"#{anchor}\">{title}</a>");
         self.put(&format!("<section id=\"{anchor}\"><h2>{title}</h2>"));
     }
 
     /// A line in the table of contents below the section.
     pub(super) fn entry(&mut self, anchor: &str, number: &str, title: &str) {
-        self.contents += &format!(
-            "<a href=\"#{anchor}\"><span>{}</span>{}</a>\n",
+        let _ = writeln!(
+            self.contents,
+            "<a href=\"#{anchor}\"><span>{}</span>{}</a>",
             escape(number),
             escape(title)
         );
@@ -80,7 +83,7 @@ pub(super) fn symbols(text: &str) -> String {
         };
         let inner = mark.map(|_| group(&letters[at + 1..])).filter(|(inner, _)| !inner.is_empty());
         if let (Some(mark), Some((inner, length))) = (mark, inner) {
-            html += &format!("<{mark}>{}</{mark}>", escape(&inner));
+            let _ = write!(html, "<{mark}>{}</{mark}>", escape(&inner));
             at += 1 + length;
             continue;
         }
@@ -109,14 +112,20 @@ pub(super) fn table(
     names: &[&str],
     rows: impl IntoIterator<Item = Vec<String>>,
 ) -> String {
-    let head: String = names.iter().map(|name| format!("<th>{name}</th>")).collect();
-    let body: String = rows
+    let head =
+        names.iter().map(|name| format!("<th>{name}</th>")).collect::<Vec<String>>().concat();
+    let body = rows
         .into_iter()
         .map(|cells| {
-            let cells: String = cells.iter().map(|cell| format!("<td>{cell}</td>")).collect();
+            let cells = cells
+                .iter()
+                .map(|cell| format!("<td>{cell}</td>"))
+                .collect::<Vec<String>>()
+                .concat();
             format!("<tr>{cells}</tr>\n")
         })
-        .collect();
+        .collect::<Vec<String>>()
+        .concat();
     format!(
         "<div class=\"wide\"><table class=\"{class}\"><thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table></div>"
     )

@@ -68,7 +68,7 @@ fn overview(page: &mut Page, claims: &[&Claim]) {
     let total = claims.len();
     let share = |count: usize| 100.0 * count as f64 / total as f64;
     let counts = KINDS.map(|(name, ..)| count(claims.iter().copied(), name));
-    let bar: String = KINDS
+    let bar = KINDS
         .iter()
         .zip(counts)
         .map(|((name, class, _), count)| {
@@ -77,14 +77,16 @@ fn overview(page: &mut Page, claims: &[&Claim]) {
                 share(count)
             )
         })
-        .collect();
-    let cards: String = KINDS
+        .collect::<Vec<String>>()
+        .concat();
+    let cards = KINDS
         .iter()
         .zip(counts)
         .map(|((name, class, about), count)| {
             format!("<li class=\"{class}\"><b>{count}</b> <em>{name}</em><span>{about}</span></li>")
         })
-        .collect();
+        .collect::<Vec<String>>()
+        .concat();
     page.put(&format!(
         "<p>Of <strong>{total}</strong> claims:</p><div class=\"bar\">{bar}</div><ul class=\"cards\">{cards}</ul>"
     ));
@@ -97,7 +99,7 @@ fn changed(page: &mut Page, claims: &[&Claim]) {
         page.put("<p class=\"calm\">Every verdict is the expected one.</p>");
         return;
     }
-    let items: String = changed
+    let items = changed
         .iter()
         .map(|claim| {
             let expected =
@@ -108,7 +110,8 @@ fn changed(page: &mut Page, claims: &[&Claim]) {
                 claim.verdict
             )
         })
-        .collect();
+        .collect::<Vec<String>>()
+        .concat();
     page.put(&format!("<div class=\"alarm\"><strong>Verdicts that are not the expected ones</strong><ul>{items}</ul></div>"));
 }
 
