@@ -168,6 +168,6 @@ impl<V: Lane, const N: usize> BranchSeries<V> for DecreasingSeries<V, N> {
 
     #[inline(always)]
     fn trusted(&self, w: &[V], length: V) -> V {
-        length_of_change(w, length, longest_change(w.len() - 1))
+        length_of_change(w, V::splat(1.0), length, longest_change(w.len() - 1))
     }
 }

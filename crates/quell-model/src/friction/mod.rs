@@ -166,15 +166,15 @@ fn longest_change(order: usize) -> f64 {
     0.5 * order as f64
 }
 
-/// The part of `length` over which Σ aₖtᵏ without its first term changes by no more than `most`:
+/// The part of `length` over which `times` Σ aₖtᵏ without its first term changes by no more than `most`:
 /// every term shrinks at least as the step does.
 #[inline(always)]
-fn length_of_change<V: Lane>(series: &[V], length: V, most: f64) -> V {
+fn length_of_change<V: Lane>(series: &[V], times: V, length: V, most: f64) -> V {
     let mut largest = V::splat(0.0);
     for k in (1..series.len()).rev() {
         largest = largest.mul_add(length, series[k].abs());
     }
-    let share = (largest * length).map(|it| if it > most { most / it } else { 1.0 });
+    let share = (largest * length * times).map(|it| if it > most { most / it } else { 1.0 });
     length * share
 }
 

@@ -21,7 +21,7 @@
 //! so that uₖ = u′(w₀)wₖ + (a part of lower orders), as the engine wants it.
 
 use quell_numerics::elementary;
-use quell_numerics::lane::{Lane, partial_product};
+use quell_numerics::lane::{Lane, half_inner_square, partial_product};
 
 use super::program::{Argument, MOST_SLOTS, Program, Step};
 use crate::friction::{BranchSeries, length_of_change, longest_change};
@@ -32,6 +32,8 @@ enum Sum {
     Nothing,
     /// Σ pⱼqₖ₋ⱼ.
     Plain(usize, usize),
+    /// Σ pⱼpₖ₋ⱼ.
+    Square(usize),
     /// Σ j pⱼqₖ₋ⱼ / k.
     Weighted(usize, usize),
 }
@@ -49,11 +51,27 @@ struct Rule {
 /// α, β, γ of a slot.
 type Coefficients<V> = [V; 3];
 
-/// Value and slope in the slip speed of each slot, and the numbers of its recurrence.
+/// A slot at the start of a step, and what its recurrence needs.
+#[derive(Clone, Copy, Debug)]
+struct Slot<V> {
+    value: V,
+    /// Slope in the slip speed; along the slip itself once the recurrence has begun.
+    slope: V,
+    /// uₖ without its part in wₖ, for the last k.
+    lower: V,
+    coefficients: Coefficients<V>,
+}
+
+impl<V: Lane> Slot<V> {
+    fn zero() -> Self {
+        let zero = V::splat(0.0);
+        Self { value: zero, slope: zero, lower: zero, coefficients: [zero; 3] }
+    }
+}
+
+/// The slots while they are filled.
 struct Start<'s, V> {
-    value: &'s mut [V],
-    slope: &'s mut [V],
-    coefficients: &'s mut [Coefficients<V>],
+    slots: &'s mut [Slot<V>],
 }
 
 impl<V: Lane> Start<'_, V> {
@@ -70,9 +88,9 @@ impl<V: Lane> Start<'_, V> {
     #[inline(always)]
     fn set(&mut self, slot: usize, value: V, of: (usize, usize), coefficients: Coefficients<V>) {
         let [alpha, beta, _] = coefficients;
-        self.value[slot] = value;
-        self.slope[slot] = alpha.mul_add(self.slope[of.0], beta * self.slope[of.1]);
-        self.coefficients[slot] = coefficients;
+        let slope = alpha.mul_add(self.slots[of.0].slope, beta * self.slots[of.1].slope);
+        let lower = V::splat(0.0);
+        self.slots[slot] = Slot { value, slope, lower, coefficients };
     }
 
     #[inline(always)]
@@ -81,7 +99,7 @@ impl<V: Lane> Start<'_, V> {
         let one = V::splat(1.0);
         let at = |start: &Self, it: Argument| {
             let factor = constants[it.factor];
-            (factor.mul_add(start.value[it.slot], constants[it.offset]), factor)
+            (factor.mul_add(start.slots[it.slot].value, constants[it.offset]), factor)
         };
         match step {
             Step::Sum(x, y) => {
@@ -151,21 +169,19 @@ const EXP_CEILING: f64 = 709.0;
 
 /// Value and slope of the output per unit of slot 0.
 #[inline(always)]
-fn output<V: Lane>(program: &Program, constants: &[V], value: &[V], slope: &[V]) -> (V, V) {
+fn output<V: Lane>(program: &Program, constants: &[V], slots: &[Slot<V>]) -> (V, V) {
     let Argument { slot, factor, offset } = program.output;
-    let factor = constants[factor];
-    (factor.mul_add(value[slot], constants[offset]), factor * slope[slot])
+    let (factor, slot) = (constants[factor], slots[slot]);
+    (factor.mul_add(slot.value, constants[offset]), factor * slot.slope)
 }
 
 /// Coefficient and its slope at a slip speed, in the unit of the formula.
 #[inline]
 pub(super) fn at_speed(program: &Program, constants: &[f64], speed: f64) -> (f64, f64) {
-    let (mut value, mut slope) = ([0.0; MOST_SLOTS], [0.0; MOST_SLOTS]);
-    let mut coefficients = [[0.0; 3]; MOST_SLOTS];
-    (value[0], slope[0]) = (speed, 1.0);
-    let mut start = Start { value: &mut value, slope: &mut slope, coefficients: &mut coefficients };
-    start.fill(program, constants);
-    output(program, constants, &value, &slope)
+    let mut slots = [Slot::zero(); MOST_SLOTS];
+    (slots[0].value, slots[0].slope) = (speed, 1.0);
+    Start { slots: &mut slots }.fill(program, constants);
+    output(program, constants, &slots)
 }
 
 /// Rules of the slots, slot 0 without any.
@@ -179,16 +195,19 @@ fn rules(program: &Program) -> Vec<Rule> {
             |x: Argument, sum, times| Rule { guard: Some((times, x.factor)), ..one(x, sum) };
         match *step {
             Step::Sum(x, y) => rules.push(two(x, y, Sum::Nothing)),
+            Step::Product(x, y) if x.slot == y.slot => {
+                rules.push(two(x, y, Sum::Square(x.slot)));
+            }
             Step::Product(x, y) => rules.push(two(x, y, Sum::Plain(x.slot, y.slot))),
             Step::Quotient(x, y) => rules.push(two(x, y, Sum::Plain(y.slot, slot))),
             Step::Exp(x) => rules.push(guarded(x, Sum::Weighted(x.slot, slot), 1.0)),
             Step::Log(x) => rules.push(one(x, Sum::Weighted(slot, x.slot))),
-            Step::Sqrt(x) => rules.push(one(x, Sum::Plain(slot, slot))),
+            Step::Sqrt(x) => rules.push(one(x, Sum::Square(slot))),
             Step::Tanh(x) => {
                 // 1 − tanh² falls as e^(−2|X|).
                 rules.push(guarded(x, Sum::Weighted(x.slot, slot + 1), 2.0));
                 let u = Argument { slot, ..x };
-                rules.push(one(u, Sum::Plain(slot, slot)));
+                rules.push(one(u, Sum::Square(slot)));
             }
             Step::Sine(x) => {
                 rules.push(guarded(x, Sum::Weighted(x.slot, slot + 1), 1.0));
@@ -196,7 +215,7 @@ fn rules(program: &Program) -> Vec<Rule> {
             }
             Step::Atan(x) => {
                 rules.push(one(x, Sum::Weighted(slot, slot + 1)));
-                rules.push(one(x, Sum::Plain(x.slot, x.slot)));
+                rules.push(one(x, Sum::Square(x.slot)));
             }
         }
     }
@@ -212,27 +231,20 @@ pub struct ExpressionConstants<V> {
     constants: Vec<V>,
     /// Slip speed in the unit of the formula per unit of scaled slip.
     scale: V,
-    value: Vec<V>,
-    slope: Vec<V>,
-    lower: Vec<V>,
-    coefficients: Vec<Coefficients<V>>,
+    slots: Vec<Slot<V>>,
     /// Slot by slot, as many orders as the last recurrence had.
     series: Vec<V>,
-    /// j xⱼ of the first factor of weighted sums, likewise.
+    /// j pⱼ of the first factor of weighted sums, likewise.
     rates: Vec<V>,
 }
 
 impl<V: Lane> ExpressionConstants<V> {
     pub(super) fn new(program: std::sync::Arc<Program>, constants: Vec<V>, scale: V) -> Self {
-        let zeros = vec![V::splat(0.0); program.slots];
         Self {
             rules: rules(&program),
             constants,
             scale,
-            value: zeros.clone(),
-            slope: zeros.clone(),
-            lower: zeros,
-            coefficients: vec![[V::splat(0.0); 3]; program.slots],
+            slots: vec![Slot::zero(); program.slots],
             series: Vec::new(),
             rates: Vec::new(),
             program,
@@ -242,25 +254,20 @@ impl<V: Lane> ExpressionConstants<V> {
     /// Starts the recurrence at scaled slip `w0` on the branch of `sign`.
     #[inline(always)]
     pub(super) fn start<const N: usize>(&mut self, sign: V, w0: V) -> ExpressionSeries<'_, V, N> {
-        let length = self.value.len() * N;
+        let length = self.slots.len() * N;
         if self.series.len() != length {
             self.series = vec![V::splat(0.0); length];
             self.rates = vec![V::splat(0.0); length];
         }
-        self.value[0] = sign * w0 * self.scale;
-        self.slope[0] = self.scale;
-        let mut start = Start {
-            value: &mut self.value,
-            slope: &mut self.slope,
-            coefficients: &mut self.coefficients,
-        };
-        start.fill(&self.program, &self.constants);
-        let (first, slope) = output(&self.program, &self.constants, &self.value, &self.slope);
+        self.slots[0].value = sign * w0 * self.scale;
+        self.slots[0].slope = self.scale;
+        Start { slots: &mut self.slots }.fill(&self.program, &self.constants);
+        let (first, slope) = output(&self.program, &self.constants, &self.slots);
         // Along scaled slip of this sign; slot 0 is the speed.
-        for own in &mut self.slope {
-            *own = *own * sign;
+        for slot in &mut self.slots {
+            slot.slope = slot.slope * sign;
         }
-        ExpressionSeries { law: self, sign, first: sign * first, slope, complete: 0 }
+        ExpressionSeries { law: self, sign, first: sign * first, slope }
     }
 }
 
@@ -271,33 +278,6 @@ pub struct ExpressionSeries<'c, V, const N: usize> {
     sign: V,
     first: V,
     slope: V,
-    /// Orders of every slot that are complete, order 0 apart.
-    complete: usize,
-}
-
-impl<V: Lane, const N: usize> ExpressionSeries<'_, V, N> {
-    /// The series of a slot.
-    #[inline(always)]
-    fn slot(of: &[V], slot: usize) -> &[V; N] {
-        let row = of.get(slot * N..).and_then(<[V]>::first_chunk::<N>);
-        // UNWRAP: `start` gives every slot a row of N.
-        row.unwrap()
-    }
-
-    /// Completes order k − 1 of every slot.
-    #[inline(always)]
-    fn complete(&mut self, k: usize, w: &[V]) {
-        let law = &mut *self.law;
-        let (newest, order) = (w[k - 1], V::splat((k - 1) as f64));
-        for (slot, rule) in law.rules.iter().enumerate() {
-            law.series[slot * N + k - 1] = law.slope[slot].mul_add(newest, law.lower[slot]);
-            // A weighted sum's first factor is an earlier slot or this one: complete by now.
-            if let Sum::Weighted(p, _) = rule.sum {
-                law.rates[slot * N + k - 1] = order * law.series[p * N + k - 1];
-            }
-        }
-        self.complete = k - 1;
-    }
 }
 
 impl<V: Lane, const N: usize> BranchSeries<V> for ExpressionSeries<'_, V, N> {
@@ -313,52 +293,64 @@ impl<V: Lane, const N: usize> BranchSeries<V> for ExpressionSeries<'_, V, N> {
 
     #[inline(always)]
     fn lower(&mut self, k: usize, w: &[V]) -> V {
+        let ExpressionConstants { program, rules, constants, slots, series, rates, .. } =
+            &mut *self.law;
+        let (series, _) = series.as_chunks_mut::<N>();
+        let (rates, _) = rates.as_chunks_mut::<N>();
+        let rules = &rules[..];
+        let slots = &mut slots[..rules.len()];
         if k > 1 {
-            self.complete(k, w);
-        }
-        let law = &mut *self.law;
-        law.lower[0] = V::splat(0.0);
-        for (slot, rule) in law.rules.iter().enumerate().skip(1) {
-            let [alpha, beta, gamma] = law.coefficients[slot];
-            let mut lower = alpha * law.lower[rule.x];
-            if let Some(y) = rule.y {
-                lower = beta.mul_add(law.lower[y], lower);
-            }
-            if k > 1 {
-                let sum = match rule.sum {
-                    Sum::Nothing => None,
-                    Sum::Plain(p, q) => {
-                        Some((Self::slot(&law.series, p), Self::slot(&law.series, q), gamma))
-                    }
-                    Sum::Weighted(_, q) => {
-                        let by = gamma * V::splat(1.0 / k as f64);
-                        Some((Self::slot(&law.rates, slot), Self::slot(&law.series, q), by))
-                    }
-                };
-                if let Some((p, q, by)) = sum {
-                    lower = by.mul_add(partial_product(p, q, k, 1, k - 1), lower);
+            // Completes order k − 1 of every slot.
+            let (newest, order) = (w[k - 1], V::splat((k - 1) as f64));
+            for at in 0..rules.len() {
+                series[at][k - 1] = slots[at].slope.mul_add(newest, slots[at].lower);
+                // A weighted sum's first factor is an earlier slot or this one: complete by now.
+                if let Sum::Weighted(p, _) = rules[at].sum {
+                    rates[at][k - 1] = order * series[p][k - 1];
                 }
             }
-            law.lower[slot] = lower;
         }
-        let Argument { slot, factor, .. } = law.program.output;
-        self.sign * (law.constants[factor] * law.lower[slot])
+        for at in 1..rules.len() {
+            let rule = &rules[at];
+            let [alpha, beta, gamma] = slots[at].coefficients;
+            let mut lower = alpha * slots[rule.x].lower;
+            if let Some(y) = rule.y {
+                lower = beta.mul_add(slots[y].lower, lower);
+            }
+            if k > 1 {
+                lower = match rule.sum {
+                    Sum::Nothing => lower,
+                    Sum::Plain(p, q) => {
+                        let sum = partial_product(&series[p], &series[q], k, 1, k - 1);
+                        gamma.mul_add(sum, lower)
+                    }
+                    Sum::Square(p) => {
+                        let half = half_inner_square(&series[p], k);
+                        gamma.mul_add(half + half, lower)
+                    }
+                    Sum::Weighted(_, q) => {
+                        let sum = partial_product(&rates[at], &series[q], k, 1, k - 1);
+                        (gamma * V::splat(1.0 / k as f64)).mul_add(sum, lower)
+                    }
+                };
+            }
+            slots[at].lower = lower;
+        }
+        let Argument { slot, factor, .. } = program.output;
+        self.sign * (constants[factor] * slots[slot].lower)
     }
 
     #[inline(always)]
     fn trusted(&self, w: &[V], length: V) -> V {
         let most = longest_change(w.len() - 1);
+        let (series, _) = self.law.series.as_chunks::<N>();
         let mut trusted = length;
         for rule in &self.law.rules {
             if let Some((times, factor)) = rule.guard {
-                let by = self.law.constants[factor] * V::splat(times);
-                let mut change = [V::splat(0.0); N];
-                // The orders beyond are those that the step's length keeps below the tolerance.
-                let known = Self::slot(&self.law.series, rule.x);
-                for k in 1..=self.complete {
-                    change[k] = by * known[k];
-                }
-                trusted = length_of_change(&change, trusted, most);
+                // The last orders are those that the step's length keeps below the tolerance.
+                let known = &series[rule.x][..N.saturating_sub(2)];
+                let by = (self.law.constants[factor] * V::splat(times)).abs();
+                trusted = length_of_change(known, by, trusted, most);
             }
         }
         trusted
