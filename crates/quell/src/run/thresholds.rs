@@ -83,12 +83,12 @@ pub struct Thresholds {
 }
 
 /// Refuses a parameter that the study does not have.
-pub(super) fn known(study: &Study, option: &'static str, path: &str) -> Result<(), Complaint> {
+pub(super) fn known(study: &Study, option: &'static str, path: &str) -> Result<(), Failure> {
     if study.belt().get(path).is_some() {
         return Ok(());
     }
     let allowed = "a number of the equations that this study has, such as dither.amplitude or belt.belt_velocity";
-    Err(Complaint::new(Fault::Value, option, Origin::Argument(option), path, allowed))
+    Err(Complaint::new(Fault::Value, option, Origin::Argument(option), path, allowed).into())
 }
 
 /// Why there are no thresholds, as it is told.
@@ -193,7 +193,7 @@ impl Thresholds {
             })
             .collect();
         let words = |signature: Option<&Signature>| {
-            signature.map_or_else(|| "none".to_owned(), |it| it.words())
+            signature.map_or_else(|| "none".to_owned(), Signature::words)
         };
         let changes: Vec<Json> = self
             .local
