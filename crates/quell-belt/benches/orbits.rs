@@ -1,10 +1,10 @@
-//! Cost of a period map, of exact thresholds and of curves of them: user time of one core.
+//! Cost of a period map, of exact thresholds and of curves of them, on one core.
 //!
-//! Limits: a local threshold costs under 50 ms, a curve of 100 points under 5 s. They are held here by the time
-//! that this process itself has used, with the margin that a slower machine needs.
+//! Before criterion measures, two limits are held, each by the best of five attempts: a local threshold costs under
+//! 50 ms, a curve of 100 points under 5 s.
 
 use std::hint::black_box;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group};
 use quell_belt::orbit::curve::{Plane, curves};
@@ -72,7 +72,31 @@ fn orbits(criterion: &mut Criterion) {
 
 criterion_group!(benches, orbits);
 
+/// Shortest time of five attempts, s.
+fn shortest(mut work: impl FnMut()) -> f64 {
+    let attempt = |_| {
+        let begun = Instant::now();
+        work();
+        begun.elapsed().as_secs_f64()
+    };
+    (0..5).map(attempt).fold(f64::INFINITY, f64::min)
+}
+
+/// Panics when a threshold or a curve costs more than it may.
+fn hold_limits() {
+    let belt = belt(Waveform::Sine, 1.0);
+    let each = shortest(|| assert_eq!(both_thresholds(black_box(&belt)), 2)) / 2.0;
+    println!("a local threshold: {:.1} ms, at most 50", 1e3 * each);
+    assert!(each < 0.05, "a local threshold is too slow");
+    let mut points = 0;
+    let all = shortest(|| points = both_curves(black_box(&belt)));
+    let hundred = 100.0 * all / points as f64;
+    println!("100 points of a curve: {hundred:.3} s, at most 5");
+    assert!(hundred < 5.0, "a curve of thresholds is too slow");
+}
+
 fn main() {
+    hold_limits();
     benches();
     Criterion::default().configure_from_args().final_summary();
 }

@@ -1,9 +1,9 @@
 //! Periodic responses against identities, differences and known thresholds.
 
-use quell_belt::orbit::reached::{Reached, switches};
+use quell_belt::orbit::reached::{Reached, orbit_reached, switches};
 use quell_belt::orbit::threshold::{Kind, Threshold, local_thresholds};
 use quell_belt::orbit::{Orbit, Verdict, from_sliding};
-use quell_belt::simulation::{Start, simulate};
+use quell_belt::simulation::{EventKind, Start, simulate};
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 use serde_json::Value;
 
@@ -28,8 +28,7 @@ fn tangential(waveform: Waveform, d: f64) -> Belt {
 }
 
 /// Five-point differences of the period map.
-fn differences(belt: &Belt, orbit: &Orbit) -> [[f64; 2]; 2] {
-    let h = 1e-3;
+fn differences(belt: &Belt, orbit: &Orbit, h: f64) -> [[f64; 2]; 2] {
     let end = |dx: f64, dv: f64| {
         let start = Start {
             time: 0.0,
@@ -57,7 +56,7 @@ fn determinant_in_pure_slip_and_differences() {
         let [[a, b], [c, e]] = orbit.monodromy;
         let determinant = a * e - b * c;
         assert!((determinant - (-orbit.damping).exp()).abs() < 1e-10, "{determinant}");
-        let other = differences(&belt, &orbit);
+        let other = differences(&belt, &orbit, 1e-3);
         for (own, other) in orbit.monodromy.iter().flatten().zip(other.iter().flatten()) {
             assert!((own - other).abs() < 1e-8, "{waveform:?} {d}: {own} {other}");
         }
@@ -73,6 +72,25 @@ fn saltation_at_reversals() {
     let [[a, b], [c, d]] = orbit.monodromy;
     assert!((a * d - b * c - 0.803_191_453_458_5).abs() < 1e-9, "{}", a * d - b * c);
     assert_eq!(orbit.verdict(), Verdict::Stable);
+}
+
+/// A stick among reversals, over ten periods of the dither: one multiplier is 0, the derivative is that of differences, and so
+/// it is where the mass only reverses. The steps stay inside one order of events.
+#[test]
+fn multipliers_through_stick_and_reversal() {
+    let squeal = Start { time: 0.0, displacement: -0.750_838_2, velocity: 0.0 };
+    let squealing = orbit_reached(&tangential(Waveform::Sine, 2.5), squeal, 40).expect("an orbit");
+    assert!(squealing.count(EventKind::Stick) > 0 && squealing.count(EventKind::Reversal) > 0);
+    let (re, im) = squealing.multipliers[1];
+    assert!(re.hypot(im) < 1e-9, "{re} {im}");
+    let reversing = from_sliding(&tangential(Waveform::Sine, 12.0), 16).expect("an orbit");
+    assert_eq!((reversing.count(EventKind::Stick), reversing.events.len()), (0, 2));
+    for (d, orbit) in [(2.5, squealing), (12.0, reversing)] {
+        let other = differences(&tangential(Waveform::Sine, d), &orbit, 1e-5);
+        for (own, other) in orbit.monodromy.iter().flatten().zip(other.iter().flatten()) {
+            assert!((own - other).abs() < 1e-8, "{d}: {own} {other}");
+        }
+    }
 }
 
 fn check(found: &[Threshold], expected: &[(f64, Kind, Verdict)]) {
