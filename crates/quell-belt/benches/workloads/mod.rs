@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 use std::fs;
+use std::thread;
 use std::time::Instant;
 
 use quell_belt::simulation::{InstructionSet, Run, Start, simulate, simulate_many_with};
@@ -105,6 +106,8 @@ impl Workload {
 
 /// Time that this thread was on a processor, where the system tells: other work does not count.
 fn processor_seconds() -> Option<f64> {
+    // The system brings its account up to date where a thread gives way.
+    thread::yield_now();
     let told = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     let nanoseconds: f64 = told.split_whitespace().next()?.parse().ok()?;
     Some(1e-9 * nanoseconds)
