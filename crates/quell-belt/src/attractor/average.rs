@@ -8,7 +8,9 @@ pub(super) fn weights(count: usize) -> Vec<f64> {
     let step = 1.0 / (count as f64 + 1.0);
     let mut weights: Vec<f64> = (1..=count).map(|k| bump(k as f64 * step)).collect();
     let sum: f64 = weights.iter().sum();
-    weights.iter_mut().for_each(|weight| *weight /= sum);
+    for weight in &mut weights {
+        *weight /= sum;
+    }
     weights
 }
 

@@ -125,6 +125,7 @@ pub(super) fn block(scene: &Scene<'_>) -> usize {
 }
 
 /// A run under way.
+#[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own about the last block")]
 struct Course {
     number: usize,
     state: Start,
