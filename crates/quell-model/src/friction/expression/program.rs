@@ -59,8 +59,10 @@ pub(super) struct Program {
     /// Constants of the steps, in terms of the named ones.
     pub(super) constants: Vec<Tree>,
     pub(super) steps: Vec<Step>,
-    /// The coefficient.
-    pub(super) output: Argument,
+    /// The coefficient: a sum of series, each by its slot and the place of its factor…
+    pub(super) output: Vec<(usize, usize)>,
+    /// …and of the constant of this place.
+    pub(super) offset: usize,
     /// Number of series, slot 0 included.
     pub(super) slots: usize,
 }
@@ -69,12 +71,8 @@ pub(super) struct Program {
 #[derive(Clone, Debug)]
 enum Part {
     Constant(Tree),
-    /// a x + b.
-    Straight {
-        slot: usize,
-        factor: Tree,
-        offset: Tree,
-    },
+    /// Σ a x + b, the series of different slots with their factors.
+    Straight(Vec<(usize, Tree)>, Tree),
 }
 
 const ONE: Tree = Tree::Number(1.0);
@@ -109,21 +107,20 @@ impl Program {
     pub(super) fn new(tree: &Tree, sign: f64) -> Result<Self, String> {
         let mut compiler =
             Compiler { constants: vec![ZERO, ONE], steps: Vec::new(), slots: 1, sign };
-        let whole = compiler.part(tree)?;
-        let output = match whole {
-            Part::Constant(value) => {
-                let offset = compiler.constant(value);
-                Argument { slot: 0, factor: 0, offset }
-            }
-            straight @ Part::Straight { .. } => compiler.argument(straight),
+        let (terms, offset) = match compiler.part(tree)? {
+            Part::Constant(value) => (Vec::new(), value),
+            Part::Straight(terms, offset) => (terms, offset),
         };
+        let output =
+            terms.into_iter().map(|(slot, factor)| (slot, compiler.constant(factor))).collect();
+        let offset = compiler.constant(offset);
         let Compiler { constants, steps, slots, .. } = compiler;
         if slots > MOST_SLOTS {
             return Err(format!(
                 "shorter: it needs {slots} series (one a product, a quotient or a function), at most {MOST_SLOTS} are there"
             ));
         }
-        Ok(Self { constants, steps, output, slots })
+        Ok(Self { constants, steps, output, offset, slots })
     }
 
     /// Values of the constants of the steps.
@@ -149,47 +146,51 @@ impl Compiler {
     }
 
     fn argument(&mut self, part: Part) -> Argument {
-        match part {
-            Part::Constant(value) => Argument { slot: 0, factor: 0, offset: self.constant(value) },
-            Part::Straight { slot, factor, offset } => {
-                Argument { slot, factor: self.constant(factor), offset: self.constant(offset) }
-            }
+        let (terms, offset) = match part {
+            Part::Constant(value) => (Vec::new(), value),
+            Part::Straight(terms, offset) => (terms, offset),
+        };
+        let zero = self.constant(ZERO);
+        let mut terms = terms.into_iter();
+        let mut whole = match terms.next() {
+            None => Argument { slot: 0, factor: zero, offset: zero },
+            Some((slot, factor)) => Argument { slot, factor: self.constant(factor), offset: zero },
+        };
+        for (slot, factor) in terms {
+            let next = Argument { slot, factor: self.constant(factor), offset: zero };
+            let slot = self.step(Step::Sum(whole, next));
+            whole = Argument { slot, factor: self.constant(ONE), offset: zero };
         }
+        Argument { offset: self.constant(offset), ..whole }
     }
 
-    /// Adds a step; its first slot, or the one after it.
-    fn step(&mut self, step: Step, second: bool) -> Part {
+    /// Adds a step; its first slot.
+    fn step(&mut self, step: Step) -> usize {
         // The same step twice is one.
         let mut slot = 1;
         for known in &self.steps {
             if *known == step {
-                return Part::Straight {
-                    slot: slot + usize::from(second),
-                    factor: ONE,
-                    offset: ZERO,
-                };
+                return slot;
             }
             slot += known.slots();
         }
         self.steps.push(step);
         self.slots += step.slots();
-        Part::Straight { slot: slot + usize::from(second), factor: ONE, offset: ZERO }
+        slot
     }
 
     fn part(&mut self, tree: &Tree) -> Result<Part, String> {
         Ok(match tree {
             Tree::Number(_) | Tree::Constant(_) => Part::Constant(tree.clone()),
-            Tree::Velocity => {
-                Part::Straight { slot: 0, factor: Tree::Number(self.sign), offset: ZERO }
-            }
+            Tree::Velocity => Part::Straight(vec![(0, Tree::Number(self.sign))], ZERO),
             Tree::Negative(x) => scaled(self.part(x)?, &Tree::Number(-1.0)),
             Tree::Sum(x, y) => {
                 let (x, y) = (self.part(x)?, self.part(y)?);
-                self.sum(x, y)
+                combined(x, y)
             }
             Tree::Difference(x, y) => {
                 let (x, y) = (self.part(x)?, scaled(self.part(y)?, &Tree::Number(-1.0)));
-                self.sum(x, y)
+                combined(x, y)
             }
             Tree::Product(x, y) => {
                 let (x, y) = (self.part(x)?, self.part(y)?);
@@ -210,32 +211,12 @@ impl Compiler {
         })
     }
 
-    fn sum(&mut self, x: Part, y: Part) -> Part {
-        match (x, y) {
-            (Part::Constant(x), Part::Constant(y)) => Part::Constant(sum(x, y)),
-            (Part::Constant(c), Part::Straight { slot, factor, offset })
-            | (Part::Straight { slot, factor, offset }, Part::Constant(c)) => {
-                Part::Straight { slot, factor, offset: sum(offset, c) }
-            }
-            (
-                Part::Straight { slot, factor, offset },
-                Part::Straight { slot: other, factor: second, offset: shift },
-            ) if slot == other => {
-                Part::Straight { slot, factor: sum(factor, second), offset: sum(offset, shift) }
-            }
-            (x, y) => {
-                let (x, y) = (self.argument(x), self.argument(y));
-                self.step(Step::Sum(x, y), false)
-            }
-        }
-    }
-
     fn product(&mut self, x: Part, y: Part) -> Part {
         match (x, y) {
             (Part::Constant(c), part) | (part, Part::Constant(c)) => scaled(part, &c),
             (x, y) => {
                 let (x, y) = (self.argument(x), self.argument(y));
-                self.step(Step::Product(x, y), false)
+                alone(self.step(Step::Product(x, y)))
             }
         }
     }
@@ -245,7 +226,7 @@ impl Compiler {
             (part, Part::Constant(c)) => scaled(part, &Tree::Quotient(Box::new(ONE), Box::new(c))),
             (x, y) => {
                 let (x, y) = (self.argument(x), self.argument(y));
-                self.step(Step::Quotient(x, y), false)
+                alone(self.step(Step::Quotient(x, y)))
             }
         }
     }
@@ -290,9 +271,9 @@ impl Compiler {
     fn unary(&mut self, x: Part, step: fn(Argument) -> Step, function: Function) -> Part {
         match x {
             Part::Constant(x) => Part::Constant(Tree::Call(function, Box::new(x))),
-            x @ Part::Straight { .. } => {
+            x @ Part::Straight(..) => {
                 let x = self.argument(x);
-                self.step(step(x), false)
+                alone(self.step(step(x)))
             }
         }
     }
@@ -311,7 +292,7 @@ impl Compiler {
             Function::Atan => self.unary(x, Step::Atan, function),
             Function::Cos => {
                 let x = self.argument(x);
-                self.step(Step::Sine(x), true)
+                alone(self.step(Step::Sine(x)) + 1)
             }
             Function::Sech => self.sech(x)?,
         })
@@ -324,7 +305,7 @@ impl Compiler {
         let size = directed(Function::Abs, x)?;
         let decay = self.unary(scaled(size, &Tree::Number(-1.0)), Step::Exp, Function::Exp);
         let square = self.product(decay.clone(), decay.clone());
-        let below = self.sum(square, Part::Constant(ONE));
+        let below = combined(square, Part::Constant(ONE));
         Ok(self.quotient(scaled(decay, &Tree::Number(2.0)), below))
     }
 }
@@ -332,10 +313,10 @@ impl Compiler {
 /// abs and sign of a multiple of v, which has one sign on a branch.
 fn directed(function: Function, x: Part) -> Result<Part, String> {
     match x {
-        Part::Straight { slot: 0, factor, offset } if offset == ZERO => {
-            let factor = Tree::Call(function, Box::new(factor));
+        Part::Straight(terms, offset) if offset == ZERO && terms.len() == 1 && terms[0].0 == 0 => {
+            let factor = Tree::Call(function, Box::new(terms[0].1.clone()));
             Ok(if function == Function::Abs {
-                Part::Straight { slot: 0, factor, offset: ZERO }
+                Part::Straight(vec![(0, factor)], ZERO)
             } else {
                 Part::Constant(factor)
             })
@@ -351,10 +332,34 @@ fn scaled(part: Part, by: &Tree) -> Part {
     match part {
         Part::Constant(value) if *by == Tree::Number(-1.0) => Part::Constant(negative(value)),
         Part::Constant(value) => Part::Constant(product(value, by.clone())),
-        Part::Straight { slot, factor, offset } => Part::Straight {
-            slot,
-            factor: product(factor, by.clone()),
-            offset: product(offset, by.clone()),
-        },
+        Part::Straight(terms, offset) => {
+            let terms = terms.into_iter().map(|(slot, factor)| (slot, product(factor, by.clone())));
+            Part::Straight(terms.collect(), product(offset, by.clone()))
+        }
     }
+}
+
+/// A series by itself.
+fn alone(slot: usize) -> Part {
+    Part::Straight(vec![(slot, ONE)], ZERO)
+}
+
+/// The sum of two parts: no step is needed for it until it becomes an argument.
+fn combined(x: Part, y: Part) -> Part {
+    let (mut terms, offset) = match x {
+        Part::Constant(x) => (Vec::new(), x),
+        Part::Straight(terms, offset) => (terms, offset),
+    };
+    let (others, shift) = match y {
+        Part::Constant(y) => (Vec::new(), y),
+        Part::Straight(terms, offset) => (terms, offset),
+    };
+    for (slot, factor) in others {
+        match terms.iter_mut().find(|(known, _)| *known == slot) {
+            Some((_, known)) => *known = sum(known.clone(), factor),
+            None => terms.push((slot, factor)),
+        }
+    }
+    let offset = sum(offset, shift);
+    if terms.is_empty() { Part::Constant(offset) } else { Part::Straight(terms, offset) }
 }

@@ -170,9 +170,13 @@ const EXP_CEILING: f64 = 709.0;
 /// Value and slope of the output per unit of slot 0.
 #[inline(always)]
 fn output<V: Lane>(program: &Program, constants: &[V], slots: &[Slot<V>]) -> (V, V) {
-    let Argument { slot, factor, offset } = program.output;
-    let (factor, slot) = (constants[factor], slots[slot]);
-    (factor.mul_add(slot.value, constants[offset]), factor * slot.slope)
+    let (mut value, mut slope) = (constants[program.offset], V::splat(0.0));
+    for &(slot, factor) in &program.output {
+        let (factor, slot) = (constants[factor], slots[slot]);
+        value = factor.mul_add(slot.value, value);
+        slope = factor.mul_add(slot.slope, slope);
+    }
+    (value, slope)
 }
 
 /// Coefficient and its slope at a slip speed, in the unit of the formula.
@@ -336,8 +340,11 @@ impl<V: Lane, const N: usize> BranchSeries<V> for ExpressionSeries<'_, V, N> {
             }
             slots[at].lower = lower;
         }
-        let Argument { slot, factor, .. } = program.output;
-        self.sign * (constants[factor] * slots[slot].lower)
+        let mut whole = V::splat(0.0);
+        for &(slot, factor) in &program.output {
+            whole = constants[factor].mul_add(slots[slot].lower, whole);
+        }
+        self.sign * whole
     }
 
     #[inline(always)]
