@@ -3,6 +3,8 @@
 //! What the prints judge by eye is measured: where the run from rest ends, whether the response of sliding is stable at that
 //! amplitude, and between which amplitudes either of them changes, bisected to `CLOSENESS`.
 
+use std::fmt::Write as _;
+
 use quell_belt::attractor::{Attractor, Outcome, Patience, Scene, Settled, measure, settle};
 use quell_belt::orbit::Verdict;
 use quell_belt::simulation::{Sample, Sampler, simulate};
@@ -144,17 +146,17 @@ fn changes(
 
 /// One waveform: that of the study.
 pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
-    of_waveforms(source, vec![Columns::of(source.name, source.study()?)?])
+    of_waveforms(source, &[Columns::of(source.name, source.study()?)?])
 }
 
 /// Figure 4.11: square as its caption says, and sine, which its text describes.
 pub(super) fn square_and_sine(source: &Source) -> Result<Product, Failure> {
     let square = Columns::of(source.name, source.study()?)?;
     let sine = Columns::of(source.name, source.changed(&["dither.waveform=sine"])?)?;
-    of_waveforms(source, vec![square, sine])
+    of_waveforms(source, &[square, sine])
 }
 
-fn of_waveforms(source: &Source, blocks: Vec<Columns>) -> Result<Product, Failure> {
+fn of_waveforms(source: &Source, blocks: &[Columns]) -> Result<Product, Failure> {
     let several = blocks.len() > 1;
     let mut panels = Vec::new();
     let mut histories: Vec<(String, &'static str, Vec<f64>)> = Vec::new();
@@ -171,7 +173,7 @@ fn of_waveforms(source: &Source, blocks: Vec<Columns>) -> Result<Product, Failur
     );
     let mut summary = Table::new("", SUMMARY);
     let columns = blocks.first().map_or(1, |block| block.cases.len());
-    for block in &blocks {
+    for block in blocks {
         let waveform = waveform_name(block.study.belt().dithers()[0].waveform);
         let mut rows: [Vec<Panel>; 3] = Default::default();
         for (index, case) in block.cases.iter().enumerate() {
@@ -225,7 +227,7 @@ fn of_waveforms(source: &Source, blocks: Vec<Columns>) -> Result<Product, Failur
         .legend(SharedLegend::Above)
         .size(Size::Frame(150.0, 118.0));
     let study = blocks[0].study.clone();
-    Ok(Product::new(figure, caption(source, &blocks), &study)
+    Ok(Product::new(figure, caption(source, blocks), &study)
         .table(summary)
         .table(sections)
         .table(Table::of_columns("history", histories)))
@@ -351,7 +353,8 @@ fn caption(source: &Source, blocks: &[Columns]) -> String {
     );
     for block in blocks {
         let waveform = waveform_name(block.study.belt().dithers()[0].waveform);
-        text += &format!(
+        let _ = write!(
+            text,
             " Measured, {waveform}: from rest it {}; the quiet response itself {}.",
             list(&block.from_rest, d, ["vibrates", "settles"]),
             list(&block.local, d, ["is unstable", "is stable"]),

@@ -94,9 +94,7 @@ fn address(option: &'static str, path: &str) -> Result<Address, Box<Complaint>> 
         Box::new(complaint.suggesting(suggestion))
     };
     let found = resolve(path).map_err(|nearest| {
-        refuse(nearest.or_else(|| {
-            suggest::word(path, ["dither.amplitude", "belt.belt_velocity"].into_iter())
-        }))
+        refuse(nearest.or_else(|| suggest::word(path, ["dither.amplitude", "belt.belt_velocity"])))
     })?;
     if found.key.parameter().is_some() { Ok(found) } else { Err(refuse(None)) }
 }

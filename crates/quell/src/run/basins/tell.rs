@@ -1,5 +1,7 @@
 //! Basins as sentences, JSON, datasets.
 
+use std::fmt::Write as _;
+
 use quell_belt::attractor::Label;
 use quell_belt::orbit::Verdict;
 use quell_model::units::Quantity;
@@ -132,7 +134,8 @@ impl Basins {
                 let least = portraits.iter().min_by(|a, b| fraction(a).total_cmp(&fraction(b)));
                 let most = portraits.iter().max_by(|a, b| fraction(a).total_cmp(&fraction(b)));
                 if let (Some(least), Some(most)) = (least, most) {
-                    text += &format!(
+                    let _ = write!(
+                        text,
                         " the share of starts that reach the quiet response lies between {:.1} % (at {}) and {:.1} % (at {})",
                         100.0 * fraction(&least),
                         value(least),
@@ -145,7 +148,8 @@ impl Basins {
                     .filter(|it| it.local == Ok(Verdict::Stable) && fraction(it) < 1.0)
                     .count();
                 if only_local > 0 {
-                    text += &format!(
+                    let _ = write!(
+                        text,
                         "; at {only_local} of {} values it is stable, but not every start reaches it",
                         portraits.len()
                     );
@@ -286,29 +290,28 @@ impl Basins {
                 .fact(format!("attractor {place}: {}", words(&basin.attractor, portrait.period)));
         }
         let words = vec![(0, "no"), (1, "yes"), (2, "unknown")];
-        let dataset = match self.starts.axes() {
+        let dataset = if let Some((x, v)) = self.starts.axes() {
             // The axis that runs fastest is the last.
-            Some((x, v)) => dataset.axis("velocity", Quantity::Velocity, v).axis(
+            dataset.axis("velocity", Quantity::Velocity, v).axis(
                 "displacement",
                 Quantity::Displacement,
                 x,
-            ),
-            None => {
-                let states = self.starts.states();
-                let rows = (0..states.len()).map(|row| row as f64).collect();
-                dataset
-                    .with_axis(Array::new("start", "1", rows))
-                    .array(
-                        "displacement",
-                        Quantity::Displacement,
-                        states.iter().map(|it| it.displacement).collect(),
-                    )
-                    .array(
-                        "velocity",
-                        Quantity::Velocity,
-                        states.iter().map(|it| it.velocity).collect(),
-                    )
-            }
+            )
+        } else {
+            let states = self.starts.states();
+            let rows = (0..states.len()).map(|row| row as f64).collect();
+            dataset
+                .with_axis(Array::new("start", "1", rows))
+                .array(
+                    "displacement",
+                    Quantity::Displacement,
+                    states.iter().map(|it| it.displacement).collect(),
+                )
+                .array(
+                    "velocity",
+                    Quantity::Velocity,
+                    states.iter().map(|it| it.velocity).collect(),
+                )
         };
         dataset
             .with(Array::new("attractor", "1", ends))
