@@ -156,6 +156,11 @@ impl Dataset {
         &self.arrays
     }
 
+    /// Where it comes from, the axes, and the arrays: what hands them on without copying.
+    pub fn into_parts(self) -> (Provenance, Vec<Array>, Vec<Array>) {
+        (self.provenance, self.axes, self.arrays)
+    }
+
     /// Where it comes from.
     pub fn provenance(&self) -> &Provenance {
         &self.provenance

@@ -31,6 +31,7 @@ mod axis;
 mod bar;
 mod canvas;
 mod colouring;
+mod describe;
 mod draw;
 mod error;
 mod field;

@@ -510,3 +510,29 @@ fn axes_are_read_and_checked() {
         check(&axis(lines), &[expected]);
     }
 }
+
+#[test]
+fn axes_are_added_one_after_the_other_and_take_the_place_of_others() {
+    let axis = |index: usize, path: &str| {
+        [format!("sweep[{index}].parameter={path}"), format!("sweep[{index}].values=[0.1, 0.2]")]
+    };
+    let both: Vec<String> =
+        [axis(0, "dither.amplitude"), axis(1, "belt.belt_velocity")].concat().into_iter().collect();
+    let study = good(&both.iter().map(String::as_str).collect::<Vec<_>>());
+    let paths = |study: &Study| -> Vec<String> {
+        study.sweeps().iter().map(|sweep| sweep.path.clone()).collect()
+    };
+    assert_eq!(paths(&study), ["dither.amplitude", "belt.belt_velocity"]);
+    // An axis beyond the next one is still refused.
+    assert!(complaints(GOOD, &["sweep[1].parameter=dither.amplitude"])[0].fault == Fault::Conflict);
+
+    let mut table = quell::study::mirror::Table::default();
+    let value = |text| quell::study::mirror::Node::from_argument(text, "axes");
+    table.set("parameter", value("belt.normal_load"));
+    table.set("values", value("[1, 2, 3]"));
+    let other = study.sweeping(&[table]).expect("valid");
+    assert_eq!(paths(&other), ["belt.normal_load"]);
+    let told = ["sweep[0].parameter=\"belt.normal_load\"", "sweep[0].values=[1,2,3]"];
+    assert_eq!(other.changes(), told);
+    assert!(study.sweeping(&[]).expect("valid").sweeps().is_empty());
+}

@@ -13,8 +13,6 @@ use crate::answer::Answer;
 use crate::arguments::{Complaints, Plot, PlotArguments, StudyArguments};
 use crate::table::{Table, figure};
 
-/// Speeds of a Campbell diagram go at least so far.
-const CAMPBELL_END: f64 = 1.0;
 /// Most marginal frictions that are told in words.
 const MOST_CHANGES: usize = 6;
 
@@ -48,7 +46,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 fn of_disc(study: &DiscStudy, plot: Plot, json: bool) -> Result<Answer, Failure> {
     let done = disc::stability::run(study)?;
     let mut object = done.json(study);
-    let last = CAMPBELL_END.max(1.25 * study.disc().speed().abs());
+    let last = disc::campbell::usual_end(study);
     let figure = || {
         let campbell = disc::campbell::run(study, last)?;
         Ok(picture::disc::stability(study, &done, &campbell))

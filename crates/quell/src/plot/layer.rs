@@ -163,6 +163,17 @@ pub enum Fill {
     Hatched,
 }
 
+impl Fill {
+    /// Opacity of a tint; none of strokes.
+    pub(super) fn opacity(self) -> Option<f64> {
+        match self {
+            Self::Shade => Some(0.16),
+            Self::Solid => Some(0.38),
+            Self::Hatched => None,
+        }
+    }
+}
+
 /// What a region covers.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {

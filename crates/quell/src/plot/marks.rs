@@ -107,9 +107,8 @@ pub(super) fn union(cells: &[bool], columns: &[(f64, f64)], rows: &[(f64, f64)])
 
 /// Fills an outline as a role's region.
 pub(super) fn fill(canvas: &mut Canvas, outline: String, role: Role, fill: Fill) {
-    match fill {
-        Fill::Shade => canvas.fill(outline, role.colour(), 0.16),
-        Fill::Solid => canvas.fill(outline, role.colour(), 0.38),
-        Fill::Hatched => canvas.hatch(outline, role.colour(), 0),
+    match fill.opacity() {
+        Some(opacity) => canvas.fill(outline, role.colour(), opacity),
+        None => canvas.hatch(outline, role.colour(), 0),
     }
 }

@@ -75,15 +75,20 @@ impl LineStyle {
     /// Dash lengths for a line of this width (pixels); nothing for a solid line.
     pub(super) fn dashes(self, width: f64) -> Option<String> {
         let scale = width.max(1.0);
-        let lengths: &[f64] = match self {
-            Self::Solid => return None,
+        let lengths = self.pattern();
+        let words: Vec<String> =
+            lengths.iter().map(|length| format!("{:.1}", length * scale)).collect();
+        (!words.is_empty()).then(|| words.join(" "))
+    }
+
+    /// Lengths of dashes and gaps in turn, in widths of the line; none of a solid line.
+    pub(super) fn pattern(self) -> &'static [f64] {
+        match self {
+            Self::Solid => &[],
             Self::Dashed => &[4.5, 2.8],
             Self::Dotted => &[1.2, 2.2],
             Self::DashDotted => &[5.5, 2.2, 1.2, 2.2],
-        };
-        let words: Vec<String> =
-            lengths.iter().map(|length| format!("{:.1}", length * scale)).collect();
-        Some(words.join(" "))
+        }
     }
 }
 

@@ -136,6 +136,8 @@ impl Change {
         let chosen = match (index, count) {
             (None | Some(0), 0 | 1) => 0,
             (Some(index), count) if index < count => index,
+            // The next axis; entries of other lists are not made one key at a time.
+            (Some(index), count) if index == count && name == "sweep" => index,
             (_, count) => {
                 let allowed = match count {
                     0 => format!("the study has no [{name}]"),
@@ -157,10 +159,15 @@ impl Change {
         }
         Ok(match root.get_mut(name).map(|node| &mut node.value) {
             Some(Value::Table(table)) => Some(table),
-            Some(Value::List(list)) => match list.get_mut(chosen).map(|node| &mut node.value) {
-                Some(Value::Table(table)) => Some(table),
-                _ => None,
-            },
+            Some(Value::List(list)) => {
+                if chosen == list.len() {
+                    list.push(fresh());
+                }
+                match list.get_mut(chosen).map(|node| &mut node.value) {
+                    Some(Value::Table(table)) => Some(table),
+                    _ => None,
+                }
+            }
             _ => None,
         })
     }

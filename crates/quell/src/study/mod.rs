@@ -157,6 +157,18 @@ impl Study {
         Ok(study)
     }
 
+    /// The same study with these axes in place of its own.
+    ///
+    /// # Errors
+    /// Every complaint about the axes.
+    pub fn sweeping(&self, axes: &[Table]) -> Result<Self, Vec<Complaint>> {
+        let mut mirror = self.mirror.clone();
+        sweep::replace(&mut mirror, axes);
+        let mut study = self.check_again(mirror)?;
+        study.changes = sweep::told(&self.changes, axes);
+        Ok(study)
+    }
+
     /// Checks the changed mirror of this study; files are not read again.
     fn check_again(&self, mirror: Table) -> Result<Self, Vec<Complaint>> {
         Self::check(mirror, &self.text, &self.folder, self.measured.as_deref())

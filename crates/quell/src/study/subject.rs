@@ -71,6 +71,17 @@ impl Subject {
         }
     }
 
+    /// The study with these axes in place of its own: see [`Study::sweeping`].
+    ///
+    /// # Errors
+    /// Every complaint about the axes.
+    pub fn sweeping(&self, axes: &[Table]) -> Result<Self, Vec<Complaint>> {
+        match self {
+            Self::Belt(study) => study.sweeping(axes).map(|study| Self::Belt(Box::new(study))),
+            Self::Disc(study) => study.sweeping(axes).map(Self::Disc),
+        }
+    }
+
     /// Title, if the file gives one.
     pub fn title(&self) -> Option<&str> {
         match self {

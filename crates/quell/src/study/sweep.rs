@@ -6,7 +6,7 @@ use serde_json::Value as Json;
 use super::mirror::{Node, Table, Value};
 use super::reader::Reader;
 use super::vocabulary::{self, Address, Choice, MOST_POINTS, Role, Section, join};
-use crate::complaint::{Complaint, Fault};
+use crate::complaint::{Complaint, Fault, Origin};
 
 /// One axis of a map. Its values are in the unit of the key it names.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,6 +103,23 @@ impl Sweep {
         self.address == other.address
             && (self.address.key.role != Role::Constant || self.path.trim() == other.path.trim())
     }
+}
+
+/// Puts these axes in place of those of a study.
+pub(super) fn replace(root: &mut Table, axes: &[Table]) {
+    let entry = |table: &Table| Node { value: Value::Table(table.clone()), origin: Origin::Whole };
+    let list = axes.iter().map(entry).collect();
+    root.remove("sweep");
+    root.set("sweep", Node { value: Value::List(list), origin: Origin::Whole });
+}
+
+/// Changes of a study with other axes, as `path=value`.
+pub(super) fn told(changes: &[String], axes: &[Table]) -> Vec<String> {
+    let earlier = changes.iter().filter(|change| !change.starts_with("sweep"));
+    let new = axes.iter().enumerate().flat_map(|(index, axis)| {
+        axis.iter().map(move |(key, node)| format!("sweep[{index}].{key}={}", node.given()))
+    });
+    earlier.cloned().chain(new).collect()
 }
 
 /// Reads every `[[sweep]]`; `None` where one of them is wrong.

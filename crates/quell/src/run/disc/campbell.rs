@@ -12,6 +12,14 @@ use crate::study::DiscStudy;
 /// Speeds of the diagram.
 const SPEEDS: usize = 401;
 
+/// The diagram goes at least so far.
+const LEAST_END: f64 = 1.0;
+
+/// Where the diagram of a study ends, so that its own speed is well inside.
+pub fn usual_end(study: &DiscStudy) -> f64 {
+    LEAST_END.max(1.25 * study.disc().speed().abs())
+}
+
 /// Frequency and growth against speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Campbell {

@@ -144,8 +144,23 @@ impl Map {
 
     /// As JSON: arrays nested like the axes.
     pub fn json(&self) -> Json {
+        let mut object = self.facts();
         let grid = self.plan.grid();
         let shape = grid.shape();
+        let fields = self.plan.sheet().fields();
+        for entry in self.plan.sheet().entries() {
+            for array in [Some(entry.value), entry.twin, Some(entry.status)].into_iter().flatten() {
+                let states = array == entry.status;
+                let values = (0..grid.len()).map(|point| self.cell(entry, array, point, states));
+                object[fields[array].name.as_str()] = nested(&shape, values.collect());
+            }
+        }
+        object
+    }
+
+    /// As JSON without the arrays: axes, units, and how many points are known.
+    pub fn facts(&self) -> Json {
+        let grid = self.plan.grid();
         let mut object = Object::new();
         object.insert("ok".into(), true.into());
         let axes: Vec<Json> = grid
@@ -161,7 +176,7 @@ impl Map {
             })
             .collect();
         object.insert("axes".into(), axes.into());
-        object.insert("shape".into(), shape.clone().into());
+        object.insert("shape".into(), grid.shape().into());
         object.insert("points".into(), grid.len().into());
         let (mut units, mut why, mut counts) = (Object::new(), Object::new(), Object::new());
         let summaries = self.summaries();
@@ -169,9 +184,6 @@ impl Map {
             let fields = self.plan.sheet().fields();
             for array in [Some(entry.value), entry.twin, Some(entry.status)].into_iter().flatten() {
                 let field = &fields[array];
-                let states = array == entry.status;
-                let values = (0..grid.len()).map(|point| self.cell(entry, array, point, states));
-                object.insert(field.name.clone(), nested(&shape, values.collect()));
                 if !field.unit.is_empty() {
                     units.insert(field.name.clone(), field.unit.clone().into());
                 }

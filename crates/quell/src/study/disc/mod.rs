@@ -111,6 +111,18 @@ impl DiscStudy {
         Self::check(mirror, &common.text, &common.folder, changes, Some(&common.source))
     }
 
+    /// The same study with these axes in place of its own.
+    ///
+    /// # Errors
+    /// Every complaint about the axes.
+    pub fn sweeping(&self, axes: &[Table]) -> Result<Self, Vec<Complaint>> {
+        let common = &self.common;
+        let mut mirror = common.mirror.clone();
+        sweep::replace(&mut mirror, axes);
+        let told = sweep::told(&common.changes, axes);
+        Self::check(mirror, &common.text, &common.folder, told, Some(&common.source))
+    }
+
     /// The disc at one point of a map, the same as that of [`DiscStudy::at`]: without reading the study again where
     /// the numbers are ones of the equations. `None` where they make no valid study.
     pub fn disc_at(&self, numbers: &[(&str, f64)]) -> Option<Disc> {
