@@ -8,6 +8,7 @@ mod layers;
 mod licences;
 mod manifest;
 mod package;
+mod python;
 mod test;
 
 const USAGE: &str = "usage: cargo xtask CHORE
@@ -17,6 +18,7 @@ chores:
   layers    dependency arrows and confined dependencies against the table of layers
   licences  licences of all dependencies against the accepted ones
   package   every crate packed for publication, in order
+  python    the wheel, in an environment of its own (target/python), and the tests of Python
   test      everything that must hold before a change is merged, tests last";
 
 fn main() -> ExitCode {
@@ -28,6 +30,7 @@ fn main() -> ExitCode {
         ["layers"] => layers::run(&root),
         ["licences"] => licences::run(&root),
         ["package"] => package::run(&root),
+        ["python"] => python::run(&root),
         ["test"] => test::run(&root),
         _ => {
             eprintln!("{USAGE}");

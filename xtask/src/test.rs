@@ -1,14 +1,14 @@
 //! `cargo xtask test`: everything that must hold before a change is merged.
 //!
-//! The steps run in order and stop at the first failure, which is named. `cargo test` comes
-//! last and nothing is printed after it, so that a good run closes with its summary. One
-//! profile (dev, optimised in the root manifest) serves all steps: nothing is compiled twice
-//! for the sake of a profile.
+//! The steps run in order and stop at the first failure, which is named. The tests come last,
+//! those of Python after those of Rust, and nothing is printed after them, so that a good run
+//! closes with a summary. One profile (dev, optimised in the root manifest) serves all steps:
+//! nothing is compiled twice for the sake of a profile.
 
 use std::path::Path;
 use std::process::Command;
 
-use crate::{layers, licences};
+use crate::{layers, licences, python};
 
 /// One step.
 struct Step {
@@ -28,6 +28,8 @@ enum Action {
     Layers,
     /// The check of licences.
     Licences,
+    /// The wheel, in an environment of its own, and the tests of Python.
+    Python,
 }
 
 #[rustfmt::skip]
@@ -62,6 +64,11 @@ const STEPS: &[Step] = &[
         action: Action::Cargo(&["test", "--workspace"]),
         advice: "the failing test is named above",
     },
+    Step {
+        name: "python",
+        action: Action::Python,
+        advice: "the failing test is named above; target/python has the environment",
+    },
 ];
 
 /// Runs every step in the workspace at `root`.
@@ -73,6 +80,7 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
         Action::Cargo(arguments) => cargo(root, arguments),
         Action::Layers => layers::run(root),
         Action::Licences => licences::run(root),
+        Action::Python => python::run(root),
     })
 }
 
@@ -83,6 +91,7 @@ fn until_failure(mut act: impl FnMut(&Action) -> Result<(), String>) -> Result<(
             Action::Cargo(arguments) => format!("cargo {}", arguments.join(" ")),
             Action::Layers => "cargo xtask layers".to_owned(),
             Action::Licences => "cargo xtask licences".to_owned(),
+            Action::Python => "cargo xtask python".to_owned(),
         };
         eprintln!("[{}/{}] {}: {command}", index + 1, STEPS.len(), step.name);
         act(&step.action).map_err(|why| {
@@ -109,15 +118,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_good_run_closes_with_the_summary_of_cargo_test() {
+    fn a_good_run_closes_with_the_summaries_of_the_tests() {
         let mut names = 0;
         let done = until_failure(|_| {
             names += 1;
             Ok(())
         });
         assert_eq!((done, names), (Ok(()), STEPS.len()));
-        let last = STEPS.last().expect("steps");
-        assert!(matches!(last.action, Action::Cargo(["test", "--workspace"])));
+        let [.., rust, python] = STEPS else { panic!("steps") };
+        assert!(matches!(rust.action, Action::Cargo(["test", "--workspace"])));
+        assert!(matches!(python.action, Action::Python));
     }
 
     #[test]

@@ -1,0 +1,371 @@
+"""The mass on a moving belt: its tables and its study."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from typing import Any, Literal
+
+import numpy.typing as npt
+
+from ._study import Axes, Study, axes_tables
+from ._tables import Table, Unknown
+
+__all__ = ["Belt", "Decreasing", "Dither", "Expression", "Friction", "Initial", "Samples", "Solver", "Stribeck"]
+
+
+class Friction(Table):
+    """A friction law by its name, with the parameters of that law: ``Friction("stribeck", …)``.
+
+    Every law of :func:`quell.schema` can be given so; the common ones have classes of their own.
+    """
+
+    _path = "friction"
+    law: str
+
+    def __init__(self, law: str, **parameters: Any) -> None:
+        super().__init__(law=law, **parameters)
+
+
+class Stribeck(Friction):
+    """The Stribeck law, μ(v) = μ_s − (3/2)(μ_s − μ_m)(w − w³/3) with w = v/v_m > 0, equation (2.7).
+
+    Friction falls to μ_m at v_m, then rises.
+
+    Parameters
+    ----------
+    static_coefficient, minimum_coefficient :
+        μ_s and μ_m, with 0 ≤ μ_m ≤ μ_s, dimensionless.
+    reference_velocity :
+        v_m, the slip velocity of least friction, as length per τ (velocity/ω₀).
+    reference_velocity_m_per_s :
+        The same in m/s, in a study in SI.
+    """
+
+    def __init__(
+        self,
+        *,
+        static_coefficient: float | None = None,
+        minimum_coefficient: float | None = None,
+        reference_velocity: float | None = None,
+        reference_velocity_m_per_s: float | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__(
+            "stribeck",
+            static_coefficient=static_coefficient,
+            minimum_coefficient=minimum_coefficient,
+            reference_velocity=reference_velocity,
+            reference_velocity_m_per_s=reference_velocity_m_per_s,
+            **unknown,
+        )
+
+
+class Decreasing(Friction):
+    """The decreasing law, μ(v) = μ_m + (μ_s − μ_m) exp(−v/v_m), equation (2.8).
+
+    Parameters
+    ----------
+    static_coefficient, minimum_coefficient :
+        μ_s and μ_m, with 0 ≤ μ_m ≤ μ_s, dimensionless.
+    reference_velocity :
+        v_m, over which friction falls by 1/e, as length per τ (velocity/ω₀).
+    reference_velocity_m_per_s :
+        The same in m/s, in a study in SI.
+    """
+
+    def __init__(
+        self,
+        *,
+        static_coefficient: float | None = None,
+        minimum_coefficient: float | None = None,
+        reference_velocity: float | None = None,
+        reference_velocity_m_per_s: float | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__(
+            "decreasing",
+            static_coefficient=static_coefficient,
+            minimum_coefficient=minimum_coefficient,
+            reference_velocity=reference_velocity,
+            reference_velocity_m_per_s=reference_velocity_m_per_s,
+            **unknown,
+        )
+
+
+class Expression(Friction):
+    """A friction law as a formula: ``Expression("0.3 + 0.1*exp(-abs(v)/0.2)")``.
+
+    Parameters
+    ----------
+    coefficient :
+        The coefficient in the slip velocity v, in the unit of the belt's velocity; the same for both directions of slip.
+        Its derivatives are exact.
+    constants :
+        Named numbers of the formula; they can be changed, swept and searched for thresholds as
+        ``friction.constants.NAME``.
+    static_coefficient :
+        μ_s, apart from the formula; the formula's value at v = 0 where it is not given.
+    """
+
+    def __init__(
+        self,
+        coefficient: str | None = None,
+        *,
+        constants: Mapping[str, float] | None = None,
+        static_coefficient: float | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__(
+            "expression",
+            coefficient=coefficient,
+            constants=constants,
+            static_coefficient=static_coefficient,
+            **unknown,
+        )
+
+
+class Samples(Friction):
+    """A friction law from measured samples: one smooth fit of exponentials, its error stated by ``Study.check``.
+
+    Parameters
+    ----------
+    slip_velocity, coefficient :
+        Slip speeds ≥ 0 (n,), as length per τ, and the coefficients measured there (n,).
+    slip_velocity_m_per_s :
+        The same in m/s, in a study in SI.
+    file :
+        A CSV file with columns of these names instead.
+    static_coefficient :
+        μ_s, apart from the samples; the fit's value at v = 0 where it is not given.
+    terms :
+        Number of exponentials of the fit; the best number where it is not given.
+    """
+
+    def __init__(
+        self,
+        slip_velocity: npt.ArrayLike | None = None,
+        coefficient: npt.ArrayLike | None = None,
+        *,
+        slip_velocity_m_per_s: npt.ArrayLike | None = None,
+        file: str | os.PathLike[str] | None = None,
+        static_coefficient: float | None = None,
+        terms: int | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__(
+            "samples",
+            slip_velocity=slip_velocity,
+            coefficient=coefficient,
+            slip_velocity_m_per_s=slip_velocity_m_per_s,
+            file=file,
+            static_coefficient=static_coefficient,
+            terms=terms,
+            **unknown,
+        )
+
+
+class Dither(Table):
+    """One dither force.
+
+    Parameters
+    ----------
+    direction :
+        "tangential", along the belt on the mass, or "normal", on the normal load.
+    waveform :
+        "sine", "triangle" or "square".
+    amplitude :
+        D, the peak of the force over k: a length, ≥ 0. Of a disc: the relative amplitude α.
+    frequency_ratio :
+        R, in units of ω₀ (belt) or ω_ref (disc), > 0.
+    phase :
+        Phase at τ = 0, in radians.
+    amplitude_n, amplitude_n_rms, frequency_hz :
+        The same in N (peak, or root mean square) and Hz, in a study in SI.
+    """
+
+    _path = "dither"
+
+    def __init__(
+        self,
+        direction: Literal["tangential", "normal"] | None = None,
+        waveform: Literal["sine", "triangle", "square"] | None = None,
+        *,
+        amplitude: float | None = None,
+        frequency_ratio: float | None = None,
+        phase: float | None = None,
+        amplitude_n: float | None = None,
+        amplitude_n_rms: float | None = None,
+        frequency_hz: float | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__(
+            direction=direction,
+            waveform=waveform,
+            amplitude=amplitude,
+            frequency_ratio=frequency_ratio,
+            phase=phase,
+            amplitude_n=amplitude_n,
+            amplitude_n_rms=amplitude_n_rms,
+            frequency_hz=frequency_hz,
+            **unknown,
+        )
+
+
+class Initial(Table):
+    """Where a run starts: a named state, or displacement and velocity.
+
+    Parameters
+    ----------
+    state :
+        "rest" (x = x′ = 0), "sliding" (steady sliding without dither) or "squealing" (on the limit cycle
+        of the belt without dither).
+    displacement, velocity :
+        x and x′ at τ = 0: lengths.
+    displacement_m, velocity_m_per_s :
+        The same in m and m/s, in a study in SI.
+    """
+
+    _path = "belt.initial"
+
+    def __init__(
+        self,
+        state: Literal["rest", "sliding", "squealing"] | None = None,
+        *,
+        displacement: float | None = None,
+        velocity: float | None = None,
+        displacement_m: float | None = None,
+        velocity_m_per_s: float | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__(
+            state=state,
+            displacement=displacement,
+            velocity=velocity,
+            displacement_m=displacement_m,
+            velocity_m_per_s=velocity_m_per_s,
+            **unknown,
+        )
+
+
+class Solver(Table):
+    """Accuracy and length of the computations.
+
+    Parameters
+    ----------
+    tolerance :
+        Bound on the last retained Taylor terms of a step, relative to the length scale F; 1e-12 by default.
+    settle :
+        τ that is discarded before a response is measured; 1200 by default. ``settle_s``: the same in seconds.
+    record_periods :
+        Slow periods 2π in the record; 60 by default.
+    """
+
+    _path = "solver"
+
+    def __init__(
+        self,
+        *,
+        tolerance: float | None = None,
+        settle: float | None = None,
+        settle_s: float | None = None,
+        record_periods: int | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__(
+            tolerance=tolerance, settle=settle, settle_s=settle_s, record_periods=record_periods, **unknown
+        )
+
+
+class Belt(Study):
+    """A study of a mass on a moving belt, in the numbers of the equations or in SI.
+
+    Lengths are x and everything over k: F = N/k, D, v₀ = V₀/ω₀, v_m. A study in SI gives mass and stiffness and
+    the SI twin of every key instead, and is answered in both.
+
+    Parameters
+    ----------
+    damping_ratio :
+        ζ ≥ 0. In SI ``damping_n_s_per_m``, in N·s/m.
+    normal_load :
+        F = N/k > 0: a length. In SI ``normal_force_n``, in N.
+    belt_velocity :
+        v₀ ≥ 0: a length per τ. In SI ``belt_velocity_m_per_s``, in m/s.
+    friction :
+        A law: :class:`Stribeck`, :class:`Decreasing`, :class:`Expression` (a formula), :class:`Samples` (measured), or
+        :class:`Friction` with its name.
+    dither :
+        A :class:`Dither`, or several.
+    initial :
+        "rest" (the default), "sliding", "squealing", (x, x′), or an :class:`Initial`.
+    solver :
+        A :class:`Solver`.
+    axes :
+        Axes of a map: see :meth:`Study.map`.
+    title :
+        What the study is about.
+    mass_kg, stiffness_n_per_m :
+        m in kg and k in N/m: they make it a study in SI.
+
+    Raises
+    ------
+    quell.StudyError
+        With every complaint at once.
+    """
+
+    def __init__(
+        self,
+        *,
+        damping_ratio: float | None = None,
+        normal_load: float | None = None,
+        belt_velocity: float | None = None,
+        friction: Friction | Mapping[str, Any] | None = None,
+        dither: Dither | Iterable[Dither] | None = None,
+        initial: Literal["rest", "sliding", "squealing"] | tuple[float, float] | Initial | None = None,
+        solver: Solver | None = None,
+        axes: Axes | None = None,
+        title: str | None = None,
+        mass_kg: float | None = None,
+        stiffness_n_per_m: float | None = None,
+        damping_n_s_per_m: float | None = None,
+        normal_force_n: float | None = None,
+        belt_velocity_m_per_s: float | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        belt = Table(
+            damping_ratio=damping_ratio,
+            normal_load=normal_load,
+            belt_velocity=belt_velocity,
+            mass_kg=mass_kg,
+            stiffness_n_per_m=stiffness_n_per_m,
+            damping_n_s_per_m=damping_n_s_per_m,
+            normal_force_n=normal_force_n,
+            belt_velocity_m_per_s=belt_velocity_m_per_s,
+            **unknown,
+        )
+        if initial is not None:
+            belt.given["initial"] = start(initial)
+        self._build(
+            title=title,
+            belt=belt,
+            friction=friction,
+            dither=several(dither),
+            solver=solver,
+            sweep=axes_tables(axes),
+        )
+
+
+def start(initial: object) -> object:
+    """The table of a start; what is none is left for the reader to refuse."""
+    if isinstance(initial, str):
+        return Initial(state=initial)  # type: ignore[arg-type]
+    if isinstance(initial, tuple) and len(initial) == 2:
+        return Initial(displacement=initial[0], velocity=initial[1])
+    return initial
+
+
+def several(given: object) -> object:
+    """One table or a list of them."""
+    if isinstance(given, Iterable) and not isinstance(given, (str, bytes, Table, Mapping)):
+        return list(given)
+    return given

@@ -1,0 +1,192 @@
+"""Facts and arrays of a result as labelled arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._quell import __version__
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["Arrays", "Variable", "arrays"]
+
+NOT_FACTS = ("ok", "units", "why", "warnings", "counts", "axes", "shape", "points", "resumed_points")
+"""Entries of the facts that are told elsewhere."""
+
+
+class Variable:
+    """An array with its dimensions and attributes: what xarray calls a Variable, in plain NumPy."""
+
+    def __init__(self, dims: tuple[str, ...], values: npt.NDArray[Any], attrs: dict[str, Any]) -> None:
+        self.dims, self.values, self.attrs = dims, values, attrs
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[Any]:
+        return np.array(self.values, dtype=dtype) if copy else np.asarray(self.values, dtype=dtype)
+
+    def __float__(self) -> float:
+        return float(self.values)
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.values[index]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Lengths of the dimensions."""
+        return self.values.shape
+
+    def words(self) -> npt.NDArray[np.str_]:
+        """What codes mean."""
+        meanings = self.attrs["flag_meanings"].split(" ")
+        table = np.full(256, "", dtype=f"<U{max(map(len, meanings))}")
+        for code, meaning in zip(self.attrs["flag_values"], meanings, strict=True):
+            table[int(code)] = meaning
+        found: npt.NDArray[np.str_] = table[self.values]
+        return found
+
+    def __repr__(self) -> str:
+        unit = self.attrs.get("units", "")
+        return f"<{', '.join(self.dims) or 'scalar'}{f' [{unit}]' if unit else ''}: {self.values!r}>"
+
+
+class Arrays(Mapping[str, Variable]):
+    """Named variables: what xarray calls a Dataset, in plain NumPy."""
+
+    def __init__(self, variables: dict[str, Variable], coords: set[str], attrs: dict[str, Any]) -> None:
+        self._variables, self.coords, self.attrs = variables, coords, attrs
+
+    def __getitem__(self, name: str) -> Variable:
+        return self._variables[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._variables)
+
+    def __len__(self) -> int:
+        return len(self._variables)
+
+    def __repr__(self) -> str:
+        lines = [f"  {name}: {it!r}" for name, it in self._variables.items()]
+        return "<quell.results.Arrays\n" + "\n".join(lines) + "\n>"
+
+    def to_xarray(self, needed: bool = False) -> xarray.Dataset:
+        """As an xarray Dataset, without copying; itself where xarray is not installed and not ``needed``."""
+        try:
+            import xarray
+        except ImportError:
+            if needed:
+                raise
+            return self  # type: ignore[return-value]
+        every = {name: (it.dims, it.values, it.attrs) for name, it in self._variables.items()}
+        coords = {name: it for name, it in every.items() if name in self.coords}
+        others = {name: it for name, it in every.items() if name not in self.coords}
+        return xarray.Dataset(others, coords, self.attrs)
+
+
+def arrays(verb: str, facts: Mapping[str, Any], datasets: list[tuple[str, Any]]) -> Arrays:
+    """Facts and datasets of a result as one set of variables."""
+    variables: dict[str, Variable] = {}
+    coords: set[str] = set()
+    attrs: dict[str, Any] = {"quell_version": __version__, "verb": verb}
+    given = {array[0] for _, (_, axes, values) in datasets for array in (*axes, *values)}
+    for place, (name, (provenance, axes, values)) in enumerate(datasets):
+        for key in ("title", "study"):
+            if provenance[key] is not None:
+                attrs[key] = provenance[key]
+        if provenance["changes"]:
+            attrs["changes"] = "\n".join(provenance["changes"])
+        if provenance["facts"]:
+            attrs[f"{name}_facts"] = "\n".join(provenance["facts"])
+        dims = tuple(axis[0] for axis in axes)
+        shape = tuple(len(axis[2]) for axis in axes)
+        for axis in axes:
+            coords.add(axis[0])
+            variables[axis[0]] = variable((axis[0],), axis)
+        for array in values:
+            # Names of later datasets, such as the spectrum's, are told apart where they meet others.
+            label = array[0] if place == 0 and array[0] not in variables else f"{name}_{array[0]}"
+            variables[label] = variable(dims, array, shape)
+    Facts(facts, given, variables, attrs).all()
+    return Arrays(variables, coords, attrs)
+
+
+def variable(dims: tuple[str, ...], array: Any, shape: tuple[int, ...] | None = None) -> Variable:
+    """A native array as a variable."""
+    _, unit, values, words = array
+    if words is None:
+        attrs: dict[str, Any] = {"units": unit}
+    else:
+        codes = np.array([code for code, _ in words], dtype=np.uint8)
+        attrs = {"flag_values": codes, "flag_meanings": " ".join(word.replace(" ", "_") for _, word in words)}
+    return Variable(dims, values if shape is None else values.reshape(shape), attrs)
+
+
+class Facts:
+    """Facts as variables: numbers without dimension, lists with one of their own."""
+
+    def __init__(
+        self, facts: Mapping[str, Any], given: set[str], variables: dict[str, Variable], attrs: dict[str, Any]
+    ) -> None:
+        self.facts, self.given, self.variables, self.attrs = facts, given, variables, attrs
+        self.units: Mapping[str, str] = facts.get("units", {})
+        self.why: Mapping[str, str] = facts.get("why", {})
+
+    def all(self) -> None:
+        """Adds all of them."""
+        for name, value in self.facts.items():
+            # An array that is there already is no fact again.
+            of_array = name in self.given and isinstance(value, list)
+            if name not in NOT_FACTS and not of_array:
+                self.add(name, name, value)
+
+    def add(self, label: str, name: str, value: Any) -> None:
+        """Adds one, by what it is."""
+        if isinstance(value, str):
+            self.attrs[label] = value
+        elif isinstance(value, Mapping):
+            for inner, it in value.items():
+                self.add(f"{label}_{inner}", inner, it)
+        elif isinstance(value, list):
+            self.many(label, name, value)
+        else:
+            number = np.nan if value is None else value
+            self.put(label, name, (), np.asarray(number))
+
+    def many(self, label: str, name: str, values: list[Any]) -> None:
+        """A list: of numbers or words, or of objects with the same keys."""
+        dim = label.removesuffix("s")
+        if values and all(isinstance(it, Mapping) for it in values):
+            for inner in dict.fromkeys(key for it in values for key in it):
+                column = [it.get(inner) for it in values]
+                if all(isinstance(it, (int, float, bool, str, type(None))) for it in column):
+                    self.put(f"{dim}_{inner}", inner, (dim,), as_array(column))
+        elif values and all(isinstance(it, (int, float, bool, str, type(None))) for it in values):
+            self.put(label, name, (dim,), as_array(values))
+        elif values and all(isinstance(it, list) for it in values):
+            table = np.asarray(values, dtype=np.float64)
+            self.put(label, name, (dim, f"{dim}_part"), table)
+
+    def put(self, label: str, name: str, dims: tuple[str, ...], values: npt.NDArray[Any]) -> None:
+        """Adds a variable with its unit, and why it is unknown."""
+        if label in self.variables or label in dims:
+            label = f"{label}_value"
+        attrs: dict[str, Any] = {}
+        if name in self.units:
+            attrs["units"] = self.units[name]
+        if label in self.why:
+            attrs["why"] = self.why[label]
+        self.variables[label] = Variable(dims, values, attrs)
+
+
+def as_array(values: list[Any]) -> npt.NDArray[Any]:
+    """A list of one kind as an array; what is unknown is NaN, of words empty."""
+    if any(isinstance(it, str) for it in values):
+        return np.array(["" if it is None else str(it) for it in values])
+    if all(isinstance(it, bool) for it in values):
+        return np.array(values, dtype=bool)
+    if all(isinstance(it, int) for it in values):
+        return np.array(values, dtype=np.int64)
+    return np.array([np.nan if it is None else it for it in values], dtype=np.float64)

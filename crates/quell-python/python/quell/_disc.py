@@ -1,0 +1,171 @@
+"""The annular disc under rotating loads: its tables and its study."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from typing import Literal
+
+from ._belt import Dither, several
+from ._study import Axes, Study, axes_tables
+from ._tables import Table, Unknown
+
+__all__ = ["Disc", "Load", "Mode"]
+
+
+class Load(Table):
+    """A mass, damper and spring with friction at one point, rotating over the disc.
+
+    Parameters
+    ----------
+    radius_ratio :
+        r₀/a, between b/a and 1; needed where modes are computed.
+    angle_deg :
+        Angle of the load, in degrees; of several loads each its own.
+    mass, damping, stiffness, friction :
+        m*, c*, k*, f* of the equations, dimensionless.
+    speed :
+        Ω in units of ω_ref, the same for every load.
+    """
+
+    _path = "disc.load"
+
+    def __init__(
+        self,
+        *,
+        radius_ratio: float | None = None,
+        angle_deg: float | None = None,
+        mass: float | None = None,
+        damping: float | None = None,
+        stiffness: float | None = None,
+        friction: float | None = None,
+        speed: float | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__(
+            radius_ratio=radius_ratio,
+            angle_deg=angle_deg,
+            mass=mass,
+            damping=damping,
+            stiffness=stiffness,
+            friction=friction,
+            speed=speed,
+            **unknown,
+        )
+
+
+class Mode(Table):
+    """A mode of the disc, where modes are listed instead of computed.
+
+    Parameters
+    ----------
+    diameters :
+        Nodal diameters q.
+    ratio, frequency_hz :
+        Natural frequency, in ω_ref or in Hz.
+    shape_at_load :
+        Value of the mode shape where the load is; one for each load.
+    damping :
+        Damping ratio ξ of this mode.
+    """
+
+    _path = "disc.mode"
+
+    def __init__(
+        self,
+        *,
+        diameters: int | None = None,
+        ratio: float | None = None,
+        frequency_hz: float | None = None,
+        shape_at_load: float | None = None,
+        damping: float | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__(
+            diameters=diameters,
+            ratio=ratio,
+            frequency_hz=frequency_hz,
+            shape_at_load=shape_at_load,
+            damping=damping,
+            **unknown,
+        )
+
+
+class Disc(Study):
+    """A study of an annular disc, clamped inside and free outside, under rotating loads (chapter 5).
+
+    Parameters
+    ----------
+    inner_radius_ratio, poisson_ratio :
+        b/a and ν: modes are computed from them.
+    radial_modes, nodal_diameters :
+        N_r and N_θ: modes with 0 to N_θ nodal diameters, N_r of each.
+    modal_damping :
+        ξ of every mode.
+    reference_frequency :
+        "critical", the lowest critical speed of these modes, or a frequency parameter k².
+    mode :
+        Modes that are listed instead: a :class:`Mode` or several.
+    modes_file :
+        A CSV file of modes instead.
+    load :
+        A :class:`Load` or several.
+    dither :
+        A :class:`Dither` of the friction, with ``waveform="sine"``.
+    without :
+        Parts of the equations that are left out.
+    youngs_modulus_pa, density_kg_per_m3, thickness_m, outer_radius_m :
+        Material and size: frequencies in Hz beside the others.
+    axes :
+        Axes of a map: see :meth:`Study.map`.
+    title :
+        What the study is about.
+
+    Raises
+    ------
+    quell.StudyError
+        With every complaint at once.
+    """
+
+    def __init__(
+        self,
+        *,
+        inner_radius_ratio: float | None = None,
+        poisson_ratio: float | None = None,
+        modal_damping: float | None = None,
+        radial_modes: int | None = None,
+        nodal_diameters: int | None = None,
+        reference_frequency: Literal["critical"] | float | None = None,
+        mode: Mode | Iterable[Mode] | None = None,
+        modes_file: str | os.PathLike[str] | None = None,
+        load: Load | Iterable[Load] | None = None,
+        dither: Dither | Iterable[Dither] | None = None,
+        without: Iterable[str] | None = None,
+        youngs_modulus_pa: float | None = None,
+        density_kg_per_m3: float | None = None,
+        thickness_m: float | None = None,
+        outer_radius_m: float | None = None,
+        axes: Axes | None = None,
+        title: str | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        disc = Table(
+            inner_radius_ratio=inner_radius_ratio,
+            poisson_ratio=poisson_ratio,
+            modal_damping=modal_damping,
+            radial_modes=radial_modes,
+            nodal_diameters=nodal_diameters,
+            reference_frequency=reference_frequency,
+            modes_file=modes_file,
+            without=several(without),
+            youngs_modulus_pa=youngs_modulus_pa,
+            density_kg_per_m3=density_kg_per_m3,
+            thickness_m=thickness_m,
+            outer_radius_m=outer_radius_m,
+            **unknown,
+        )
+        modes = [mode] if isinstance(mode, Table) else several(mode)
+        for name, inner in (("mode", modes), ("load", several(load))):
+            if inner is not None:
+                disc.given[name] = inner
+        self._build(title=title, disc=disc, dither=several(dither), sweep=axes_tables(axes))

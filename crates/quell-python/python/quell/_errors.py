@@ -1,0 +1,79 @@
+"""What can go wrong: input that cannot be accepted, and work that could not be done."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, TypedDict
+
+__all__ = ["Complaint", "QuellError", "RunError", "StudyError"]
+
+
+class Complaint(TypedDict):
+    """One complaint about the input, as the command line tells it with ``--json``."""
+
+    key: str
+    """Path of the key, such as ``dither[1].amplitude``, or the argument, such as ``until``."""
+    line: int | None
+    """Line of the study file; none where the study was not read from one."""
+    value: Any
+    """The value as it was given."""
+    allowed: str | None
+    """What is allowed instead."""
+    suggestion: str | None
+    """The nearest right key or value."""
+    fault: str
+    """What is wrong with it: "value", "unknown", "missing", "conflict", "mixed", "path", …"""
+    message: str
+    """All of it in one line."""
+
+
+class QuellError(Exception):
+    """Anything that Quell raises by itself."""
+
+
+class StudyError(QuellError, ValueError):
+    """Input that cannot be accepted. Nothing was computed, nothing was written.
+
+    ``errors`` has every :class:`Complaint` at once; the message has one line for each.
+    """
+
+    errors: list[Complaint]
+
+    def __init__(self, errors: Sequence[Complaint]) -> None:
+        self.errors = list(errors)
+        lines = [error["message"] for error in self.errors]
+        if len(lines) > 1:
+            lines.append(f"{len(lines)} complaints; nothing was computed")
+        super().__init__("\n".join(lines))
+
+    def __reduce__(self) -> tuple[type[StudyError], tuple[list[Complaint]]]:
+        return type(self), (self.errors,)
+
+
+class RunError(QuellError, RuntimeError):
+    """The input is right, but the work could not be done: ``key`` says what, ``why`` says why."""
+
+    key: str
+    why: str
+
+    def __init__(self, key: str, why: str) -> None:
+        self.key, self.why = key, why
+        super().__init__(f"{key}: {why}")
+
+    def __reduce__(self) -> tuple[type[RunError], tuple[str, str]]:
+        return type(self), (self.key, self.why)
+
+
+def complaint(argument: str, value: object, allowed: str, fault: str = "value") -> Complaint:
+    """A complaint about an argument."""
+    given = value if isinstance(value, (bool, int, float, str, type(None))) else repr(value)[:80]
+    message = f"{argument} = {given}: must be {allowed}" if fault == "value" else f"{argument}: {allowed}"
+    return {
+        "key": argument,
+        "line": None,
+        "value": given,
+        "allowed": allowed,
+        "suggestion": None,
+        "fault": fault,
+        "message": message,
+    }

@@ -1,0 +1,656 @@
+"""A study and its verbs: what the command line does, under the same names."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, Union, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _toml, results
+from ._errors import Complaint, StudyError, complaint
+from ._quell import NativeStudy
+from ._tables import Table, Unknown
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+__all__ = ["Axis", "Study"]
+
+Self = TypeVar("Self", bound="Study")
+Numbers = Union["npt.ArrayLike", Sequence[float]]
+
+
+class Axis(Table):
+    """One axis of a map: ``Axis("dither.amplitude", 0.05, 1.0, 100)`` or ``Axis("dither.amplitude", values=[…])``.
+
+    Parameters
+    ----------
+    parameter :
+        Path of the number that is varied, SI twins included, such as ``belt.belt_velocity``.
+    from_, to, points :
+        Both ends included, in the unit of the parameter. An axis of a disc's speed gets further points beside
+        every meeting of waves.
+    values :
+        The values themselves instead, in any order.
+    spacing :
+        "linear" (equal steps) or "log" (equal ratios).
+    """
+
+    _path = "sweep"
+
+    def __init__(
+        self,
+        parameter: str | None = None,
+        from_: float | None = None,
+        to: float | None = None,
+        points: int | None = None,
+        *,
+        values: Numbers | None = None,
+        spacing: Literal["linear", "log"] | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        given = None if values is None else np.asarray(values, dtype=object).tolist()
+        super().__init__(
+            parameter=parameter, to=to, points=points, values=given, spacing=spacing, **unknown
+        )
+        if from_ is not None:
+            self.given["from"] = from_
+
+
+Axes = Union[Mapping[str, "Numbers | Axis"], Iterable[Axis], Axis]
+
+
+def axes_tables(axes: Axes | None) -> list[Any] | None:
+    """Axes as tables; what is none is left for the reader to refuse."""
+    if axes is None:
+        return None
+    if isinstance(axes, Table):
+        return [axes]
+    if isinstance(axes, Mapping):
+        return [
+            values if isinstance(values, Table) else Axis(path, values=values)
+            for path, values in axes.items()
+        ]
+    if isinstance(axes, Iterable) and not isinstance(axes, (str, bytes)):
+        return list(axes)
+    return [axes]
+
+
+class Arguments:
+    """Takes arguments of a method and gathers complaints about them."""
+
+    def __init__(self) -> None:
+        self.wrong: list[Complaint] = []
+
+    def number(self, name: str, given: object, allowed: str = "a finite number") -> float:
+        """A finite number."""
+        try:
+            if isinstance(given, (str, bytes, bool)):
+                raise TypeError
+            value = float(given)  # type: ignore[arg-type]
+        except (TypeError, ValueError, OverflowError):
+            value = float("nan")
+        if not np.isfinite(value):
+            self.wrong.append(complaint(name, given, allowed))
+        return value
+
+    def whole(self, name: str, given: object, least: int, most: int) -> int:
+        """A whole number between two others."""
+        if isinstance(given, (int, np.integer)) and not isinstance(given, bool) and least <= given <= most:
+            return int(given)
+        self.wrong.append(complaint(name, given, f"a whole number from {least} to {most}"))
+        return least
+
+    def pair(self, name: str, given: Any, allowed: str) -> tuple[float, float]:
+        """Two finite numbers."""
+        try:
+            first, second = given
+            pair = (float(first), float(second))
+        except (TypeError, ValueError, OverflowError):
+            pair = (float("nan"), float("nan"))
+        if not np.isfinite(pair).all():
+            self.wrong.append(complaint(name, given, allowed))
+        return pair
+
+    def path(self, name: str, given: object) -> str:
+        """A path."""
+        try:
+            found = os.fspath(given)  # type: ignore[call-overload]
+        except TypeError:
+            found = None
+        if not isinstance(found, str):
+            self.wrong.append(complaint(name, given, "a path", "path"))
+            return ""
+        return found
+
+    def text(self, name: str, given: object, allowed: str) -> str:
+        """A string."""
+        if not isinstance(given, str):
+            self.wrong.append(complaint(name, given, allowed))
+            return ""
+        return given.encode("utf-8", "replace").decode("utf-8")
+
+    def done(self) -> None:
+        """Raises where anything was wrong."""
+        if self.wrong:
+            raise StudyError(self.wrong)
+
+
+class Study:
+    """A checked study: of a belt or of a disc.
+
+    Made by :class:`quell.Belt`, :class:`quell.Disc`, :meth:`from_toml` or :meth:`from_text`; valid as soon as it is
+    there, and never changed afterwards (:meth:`set` gives another one). Studies compare by their settings, pickle,
+    and have a method for every verb of the command line. A verb that is about the other kind of study raises
+    :class:`quell.StudyError`.
+    """
+
+    _native: NativeStudy
+
+    def _build(self, **tables: Any) -> None:
+        text = _toml.study(tables)
+        self._native = NativeStudy.parse((text, "", [], None, False))
+
+    @classmethod
+    def _of(cls: type[Self], native: NativeStudy) -> Self:
+        from ._belt import Belt
+        from ._disc import Disc
+
+        kind = Belt if native.kind == "belt" else Disc
+        study: Self = object.__new__(kind)
+        study._native = native
+        return study
+
+    @classmethod
+    def from_toml(cls, path: str | os.PathLike[str], set: Mapping[str, Any] | None = None) -> Study:  # noqa: A002
+        """Reads and checks a study file; ``set`` changes values first, as ``--set path=value`` does.
+
+        Raises
+        ------
+        quell.StudyError
+            With every complaint, each with its line.
+        """
+        arguments = Arguments()
+        place = arguments.path("path", path)
+        changes = changes_of(set, arguments)
+        arguments.done()
+        return Study._of(NativeStudy.read(place, changes))
+
+    @classmethod
+    def from_text(cls, text: str, set: Mapping[str, Any] | None = None) -> Study:  # noqa: A002
+        """Checks the text of a study, as :meth:`from_toml` does that of a file."""
+        arguments = Arguments()
+        given = arguments.text("text", text, "the text of a study")
+        changes = changes_of(set, arguments)
+        arguments.done()
+        return Study._of(NativeStudy.parse((given, "", changes, None, True)))
+
+    def set(self: Self, changes: Mapping[str, Any]) -> Self:
+        """The same study with values changed: ``study.set({"dither.amplitude": 0.5})``.
+
+        Paths are those of the study file, ``dither[1].phase`` and SI twins included.
+        """
+        arguments = Arguments()
+        wanted = changes_of(changes, arguments)
+        arguments.done()
+        return self._of(self._native.changed(wanted))
+
+    def sweeping(self: Self, axes: Axes) -> Self:
+        """The same study with these axes in place of its own: see :meth:`map`."""
+        tables = axes_tables(axes) or []
+        wrong = [it for it in tables if not isinstance(it, Table)]
+        if wrong:
+            allowed = "Axis objects, or a dict of paths and values"
+            raise StudyError([complaint("axes", it, allowed) for it in wrong])
+        lists = [[(name, _toml.value(it)) for name, it in axis.given.items()] for axis in tables]
+        return self._of(self._native.swept(lists))
+
+    @property
+    def text(self) -> str:
+        """The text of the study as a file: what :attr:`changes` are made to."""
+        return self._native.parts()[0]
+
+    @property
+    def changes(self) -> list[str]:
+        """Changes made to the text, as ``path=value``."""
+        return self._native.changes
+
+    @property
+    def title(self) -> str | None:
+        """What the study is about, if it says so."""
+        return self._native.title
+
+    @property
+    def settings(self) -> dict[str, str]:
+        """Every value after the changes, by its path; neither title nor axes."""
+        return dict(self._native.settings)
+
+    # Verbs, in the order of the command line.
+
+    def check(self) -> results.Check:
+        """The study in numbers; in SI also in SI."""
+        return results.Check(self, self._native.check())
+
+    def cite(self) -> results.Citations:
+        """Which equations and papers its computations use, and where the print was corrected."""
+        return results.Citations(self, self._native.cite())
+
+    def friction(self, at: npt.ArrayLike | None = None) -> results.FrictionCurve:
+        """The friction law and what the dither makes of it, equations (2.21), (3.19)–(3.27), (4.27).
+
+        Parameters
+        ----------
+        at :
+            Slip velocities, any shape, flattened; a grid that shows the law where none are given.
+
+        Returns
+        -------
+        quell.results.FrictionCurve
+            μ, μ̄ and μ̄′ over ``slip_velocity`` (n,).
+        """
+        where: npt.NDArray[np.float64] | None = None
+        if at is not None:
+            try:
+                where = np.atleast_1d(np.asarray(at, dtype=np.float64)).ravel()
+            except (TypeError, ValueError, OverflowError):
+                raise StudyError([complaint("at", at, "slip velocities: finite numbers")]) from None
+        return results.FrictionCurve(self, self._native.friction(where))
+
+    def stability(self) -> results.Stability:
+        """Belt: averaged stability of steady sliding, equation (2.26), and every critical amplitude.
+
+        Disc: the largest growth rate by eigenvalues or Floquet exponents, with its error.
+        """
+        return results.Stability(self, self._native.stability())
+
+    def simulate(
+        self, until: float | str, *, events: bool = True, samples: bool = True
+    ) -> results.Simulation:
+        """One trajectory with every event at the contact, exactly.
+
+        Parameters
+        ----------
+        until :
+            τ at the end, or a time with its unit such as ``"0.5s"`` in a study in SI.
+        events :
+            Whether every event is kept: ``events``, in order.
+        samples :
+            Whether the trajectory is sampled: displacement and velocity over ``time`` (n,). Sampling changes no bit
+            of it.
+        """
+        arguments = Arguments()
+        if isinstance(until, str):
+            end = arguments.text("until", until, "a time")
+        else:
+            end = repr(arguments.number("until", until, "a finite number, or a time with its unit such as \"0.5s\""))
+        arguments.done()
+        return results.Simulation(self, self._native.simulate(end, bool(events), bool(samples)))
+
+    def response(self) -> results.Response:
+        """The steady response, what the dither does to it (efficiency E, equation (2.27)), and what it costs."""
+        return results.Response(self, self._native.response())
+
+    def orbit(
+        self,
+        *,
+        near: tuple[float, float] | None = None,
+        periods: int = 1,
+        from_rest: bool = False,
+        from_sliding: bool = False,
+        from_squeal: bool = False,
+        start: tuple[float, float] | None = None,
+    ) -> results.Orbit:
+        """The periodic response to dither and its Floquet multipliers, through stick and slip; limit cycles without it.
+
+        Parameters
+        ----------
+        near :
+            Look near this state (x, x′) at τ = 0; by default for what sliding becomes under dither.
+        periods :
+            Common periods of the dithers in one period of the response.
+        from_rest, from_sliding, from_squeal, start :
+            One of them: look for the response on which a run from there ends, of whatever number of periods.
+        """
+        arguments = Arguments()
+        state = None if near is None else arguments.pair("near", near, "two finite numbers (x, x′)")
+        count = arguments.whole("periods", periods, 1, 1000)
+        begin = None if start is None else arguments.pair("start", start, "two finite numbers (x, x′)")
+        flags = {"from_rest": from_rest, "from_sliding": from_sliding, "from_squeal": from_squeal}
+        asked = [name for name, wanted in flags.items() if wanted]
+        if len(asked) + (start is not None) > 1:
+            arguments.wrong.append(complaint("start", start, "one start alone", "conflict"))
+        arguments.done()
+        return results.Orbit(self, self._native.orbit(state, count, asked, begin))
+
+    @overload
+    def thresholds(
+        self,
+        parameter: str,
+        from_: float,
+        to: float,
+        *,
+        from_rest: bool = False,
+        from_sliding: bool = False,
+        from_squeal: bool = False,
+        start: tuple[float, float] | None = None,
+        ramp: float = 0.0,
+    ) -> results.Thresholds: ...
+
+    @overload
+    def thresholds(
+        self, parameter: str, from_: float, to: float, *, along: str, between: tuple[float, float]
+    ) -> results.ThresholdCurves: ...
+
+    def thresholds(
+        self,
+        parameter: str,
+        from_: float,
+        to: float,
+        *,
+        from_rest: bool = False,
+        from_sliding: bool = False,
+        from_squeal: bool = False,
+        start: tuple[float, float] | None = None,
+        ramp: float = 0.0,
+        along: str | None = None,
+        between: tuple[float, float] | None = None,
+    ) -> results.Thresholds | results.ThresholdCurves:
+        """Values of a parameter at which dither begins or ceases to quench, exactly; curves of them in two parameters.
+
+        Parameters
+        ----------
+        parameter :
+            Path of a number of the equations, such as ``dither.amplitude``.
+        from_, to :
+            The range that is searched (the ``--from`` and ``--to`` of the command line).
+        from_rest, from_sliding, from_squeal, start :
+            Also for runs from rest, from steady sliding, from full squeal, from a state (x, x′).
+        ramp :
+            Lets the dither of these runs grow over this time τ instead of switching it on.
+        along, between :
+            Follows each local threshold as a curve along a second parameter, within a window of it.
+        """
+        arguments = Arguments()
+        path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
+        ends = (arguments.number("from_", from_), arguments.number("to", to))
+        state = None if start is None else arguments.pair("start", start, "two finite numbers (x, x′)")
+        time = arguments.number("ramp", ramp, "a time τ ≥ 0")
+        second = None if along is None else arguments.text("along", along, "path of a number, such as belt.belt_velocity")
+        window = None if between is None else arguments.pair("between", between, "two numbers, the second above the first")
+        flags = {"from_rest": from_rest, "from_sliding": from_sliding, "from_squeal": from_squeal}
+        asked = [name for name, wanted in flags.items() if wanted]
+        if (along is None) != (between is None):
+            arguments.wrong.append(complaint("along", along, "given together with between", "conflict"))
+        if along is not None and (asked or start is not None or ramp):
+            arguments.wrong.append(complaint("along", along, "given without starts and ramp", "conflict"))
+        arguments.done()
+        if second is not None and window is not None:
+            return results.ThresholdCurves(self, self._native.threshold_curves(path, ends, second, window))
+        return results.Thresholds(self, self._native.thresholds(path, ends, asked, state, time))
+
+    @overload
+    def map(
+        self,
+        quantity: str | Iterable[str],
+        axes: Axes | None = None,
+        *,
+        store: str | os.PathLike[str] | None = None,
+        resume: bool = False,
+        threads: int | None = None,
+        progress: Callable[[int, int], object] | None = None,
+        client: Client | None = None,
+        shard: None = None,
+    ) -> results.Map: ...
+
+    @overload
+    def map(
+        self,
+        quantity: str | Iterable[str],
+        axes: Axes | None = None,
+        *,
+        store: str | os.PathLike[str],
+        threads: int | None = None,
+        progress: Callable[[int, int], object] | None = None,
+        shard: str,
+    ) -> results.Shard: ...
+
+    def map(
+        self,
+        quantity: str | Iterable[str],
+        axes: Axes | None = None,
+        *,
+        store: str | os.PathLike[str] | None = None,
+        resume: bool = False,
+        threads: int | None = None,
+        progress: Callable[[int, int], object] | None = None,
+        client: Client | None = None,
+        shard: str | None = None,
+    ) -> results.Map | results.Shard:
+        """Quantities over the axes of the study, on all cores, or on a cluster.
+
+        Parameters
+        ----------
+        quantity :
+            A name or several: see :func:`quell.quantities`.
+        axes :
+            Axes in place of the study's own: :class:`Axis` objects, or a dict of paths and values.
+        store :
+            A Zarr store (a path that ends in .zarr) that keeps the map chunk by chunk.
+        resume :
+            Whether to go on with that store.
+        threads :
+            Number of threads; all there are by default.
+        progress :
+            Called with (points that are there, all points) now and then.
+        client :
+            A ``dask.distributed`` client: its workers compute the chunks into ``store``, which all of them must reach.
+            A chunk of a lost worker is done again; the result is the local one bit for bit.
+        shard :
+            One of several parts, such as "3/16", of a map that as many processes compute into ``store``, in any
+            order; the answer then tells what is left. ``resume=True`` without ``shard`` reads the whole map.
+
+        Returns
+        -------
+        quell.results.Map
+            Arrays over the axes, in their order; what is not known is NaN, and ``NAME_status`` says why.
+        """
+        arguments = Arguments()
+        names = [quantity] if isinstance(quantity, str) else quantity
+        if not isinstance(names, Iterable) or not (names := list(names)):
+            arguments.wrong.append(complaint("quantity", quantity, "a name of quell.quantities(), or several"))
+            names = []
+        asked = [arguments.text("quantity", name, "a name of quell.quantities()") for name in names]
+        place = None if store is None else arguments.path("store", store)
+        if place is not None and not place.endswith(".zarr"):
+            arguments.wrong.append(complaint("store", place, "a path that ends in .zarr"))
+        if resume and place is None:
+            arguments.wrong.append(complaint("resume", resume, "given together with store", "conflict"))
+        for name, given in (("client", client), ("shard", shard)):
+            if given is not None and place is None:
+                allowed = "given together with store: every process keeps its chunks there"
+                arguments.wrong.append(complaint(name, "…", allowed, "conflict"))
+        if shard is not None and (resume or client is not None):
+            arguments.wrong.append(complaint("shard", shard, "given without resume and client", "conflict"))
+        part = None if shard is None else arguments.text("shard", shard, "k/n, such as 3/16")
+        count = None if threads is None else arguments.whole("threads", threads, 1, 1024)
+        arguments.done()
+        study = self if axes is None else self.sweeping(axes)
+        if part is not None and place is not None:
+            from .cluster import compute_shard
+
+            return compute_shard(study, asked, place, part, threads=count, progress=progress)
+        if client is not None and place is not None:
+            from .cluster import compute
+
+            return compute(study, asked, place, client, resume=resume, progress=progress)
+        return results.Map(study, study._native.map(asked, place, bool(resume), count, progress))
+
+    def bifurcation(
+        self,
+        parameter: str,
+        from_: float,
+        to: float,
+        *,
+        points: int = 101,
+        up: bool = False,
+        down: bool = False,
+        progress: Callable[[int, int], object] | None = None,
+    ) -> results.Bifurcation:
+        """The response along a parameter, swept up and down with the state carried over.
+
+        Parameters
+        ----------
+        parameter :
+            Path of a number of the study, such as ``dither.amplitude``.
+        from_, to, points :
+            Smallest and largest value, and how many values.
+        up, down :
+            Which ways; both where neither is asked for. Down alone begins at the start of the study.
+        progress :
+            Called with (values that are done, all values) now and then.
+        """
+        arguments = Arguments()
+        path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
+        ends = (arguments.number("from_", from_), arguments.number("to", to))
+        count = arguments.whole("points", points, 0, 2**31)
+        arguments.done()
+        ways = (bool(up), bool(down))
+        return results.Bifurcation(self, self._native.bifurcation(path, ends, count, ways, progress))
+
+    def basins(
+        self,
+        *,
+        displacement: tuple[float, float] | None = None,
+        velocity: tuple[float, float] | None = None,
+        grid: tuple[int, int] = (41, 31),
+        sample: int | None = None,
+        seed: int = 1,
+        over: str | None = None,
+        from_: float | None = None,
+        to: float | None = None,
+        points: int = 41,
+        threads: int | None = None,
+        progress: Callable[[int, int], object] | None = None,
+    ) -> results.Basins:
+        """The responses that starts of a window end on, and which share of it each holds, with its error.
+
+        Parameters
+        ----------
+        displacement, velocity :
+            The window, x and x′; about steady sliding by default.
+        grid :
+            So many displacements and velocities, from edge to edge.
+        sample, seed :
+            So many random states in place of a grid, and which ones.
+        over, from_, to, points :
+            Follows the shares over a parameter between two values.
+        threads :
+            Number of threads; all there are by default.
+        progress :
+            Called with (starts that are done, all starts) now and then.
+        """
+        arguments = Arguments()
+        two = "two numbers, the first below the second"
+        window = (
+            None if displacement is None else arguments.pair("displacement", displacement, two),
+            None if velocity is None else arguments.pair("velocity", velocity, two),
+        )
+        for name, ends in zip(("displacement", "velocity"), window, strict=True):
+            if ends is not None and not ends[0] < ends[1]:
+                arguments.wrong.append(complaint(name, list(ends), two))
+        cells = arguments.pair("grid", grid, "two whole numbers, at least 2")
+        sides = [
+            arguments.whole("grid", int(side) if side == int(side) else side, 0, 10**7)
+            for side in cells
+            if np.isfinite(side)
+        ]
+        states = None if sample is None else arguments.whole("sample", sample, 0, 10**7)
+        which = arguments.whole("seed", seed, 0, 2**63 - 1)
+        count = arguments.whole("points", points, 0, 2**31)
+        along = None
+        if over is not None:
+            path = arguments.text("over", over, "path of a number, such as dither.amplitude")
+            along = (path, arguments.number("from_", from_), arguments.number("to", to), count)
+        elif from_ is not None or to is not None:
+            arguments.wrong.append(complaint("over", None, "given together with from_ and to", "conflict"))
+        workers = None if threads is None else arguments.whole("threads", threads, 1, 1024)
+        arguments.done()
+        drawn = None if states is None else (states, which)
+        native = self._native.basins(window, ((sides[0], sides[1]), drawn), along, workers, progress)
+        return results.Basins(self, native)
+
+    def modes(self) -> results.Modes:
+        """Natural frequencies, shapes and critical speeds of a disc."""
+        return results.Modes(self, self._native.modes())
+
+    def resonances(
+        self,
+        *,
+        speeds: tuple[float, float] = (0.0, 1.0),
+        order: Literal["first", "second"] = "first",
+        clear: tuple[float, float] | None = None,
+        frequency: tuple[float, float] | None = None,
+    ) -> results.Resonances:
+        """Where waves of a disc meet, which meetings can be unstable, which dither frequencies keep speeds clear.
+
+        Parameters
+        ----------
+        speeds :
+            Speeds between which meetings are told, in ω_ref.
+        order :
+            How far the theory goes: "second" counts friction twice.
+        clear, frequency :
+            A range of speeds that the dither shall keep clear, and the dither frequencies R that may do it.
+        """
+        arguments = Arguments()
+        two = "two numbers of which the first is not larger"
+        ranges = arguments.pair("speeds", speeds, two)
+        wanted = None if clear is None else arguments.pair("clear", clear, two)
+        within = None if frequency is None else arguments.pair("frequency", frequency, two)
+        how_far = arguments.text("order", order, '"first" or "second"')
+        arguments.done()
+        return results.Resonances(self, self._native.resonances(ranges, how_far, wanted, within))
+
+    # What makes it a value.
+
+    def __reduce__(self) -> tuple[Callable[..., Study], tuple[Any, ...]]:
+        return study_of, (self._native.parts(),)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Study):
+            return NotImplemented
+        return self._native.settings == other._native.settings and self.changes == other.changes
+
+    def __hash__(self) -> int:
+        return hash(tuple(self._native.settings))
+
+    def __repr__(self) -> str:
+        title = f" {self.title!r}" if self.title else ""
+        values = ", ".join(f"{path}={value}" for path, value in self._native.settings if path != "schema")
+        return f"<quell.{type(self).__name__}{title}: {values}>"
+
+    def _repr_html_(self) -> str:
+        from ._html import study
+
+        return study(self)
+
+
+def study_of(parts: Any) -> Study:
+    """A study from what pickle kept of it."""
+    return Study._of(NativeStudy.parse(parts))
+
+
+def changes_of(changes: object, arguments: Arguments) -> list[tuple[str, str]]:
+    """Changes as pairs of path and value."""
+    if changes is None:
+        return []
+    if not isinstance(changes, Mapping):
+        arguments.wrong.append(complaint("set", changes, "a dict of paths and values"))
+        return []
+    return [
+        (arguments.text("set", path, "a path such as belt.belt_velocity"), _toml.value(value))
+        for path, value in changes.items()
+    ]

@@ -1,0 +1,35 @@
+"""Tables of a study: what was given under which key, nothing more."""
+
+from __future__ import annotations
+
+from typing import Any, NoReturn
+
+__all__ = ["Table"]
+
+
+class Table:
+    """Keys and values of one table of a study file.
+
+    Nothing is checked until the study is made of its tables: then everything that is wrong is told at once.
+    """
+
+    _path: str = ""
+
+    given: dict[str, Any]
+    """What was given, by key."""
+
+    def __init__(self, **given: Any) -> None:
+        self.given = {name: value for name, value in given.items() if value is not None}
+
+    def __repr__(self) -> str:
+        inside = ", ".join(f"{name}={value!r}" for name, value in self.given.items())
+        return f"quell.{type(self).__name__}({inside})"
+
+    def __eq__(self, other: object) -> bool:
+        return type(other) is type(self) and other.__dict__ == self.__dict__
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+Unknown = NoReturn
+"""Keys that no table has: a type checker refuses them, and at run time the nearest right key is named."""

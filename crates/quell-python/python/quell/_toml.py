@@ -1,0 +1,119 @@
+"""The text of a study from Python's values.
+
+Nothing is judged here: whatever was given is written down, and the reader of study files says what is
+wrong with it, all at once.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from ._tables import Table
+
+LARGEST_WHOLE = 2**63 - 1
+
+
+def word(text: str) -> str:
+    """A string in quotes; what is no text of UTF-8 is replaced."""
+    clean = text.encode("utf-8", "replace").decode("utf-8")
+    return json.dumps(clean, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def key(name: str) -> str:
+    """A key, in quotes where it needs them."""
+    bare = name.isascii() and name.replace("_", "").replace("-", "").isalnum()
+    return name if bare else word(name)
+
+
+def value(given: object) -> str:
+    """A value; of what TOML has no word for, its ``repr`` as a string, which the reader refuses."""
+    if isinstance(given, (np.generic, np.ndarray)):
+        given = given.tolist()
+    if isinstance(given, bool):
+        return "true" if given else "false"
+    if isinstance(given, int):
+        return repr(given) if abs(given) <= LARGEST_WHOLE else number(given)
+    if isinstance(given, float):
+        return repr(float(given))
+    if isinstance(given, str):
+        return word(given)
+    if isinstance(given, os.PathLike):
+        return word(os.fspath(given) if isinstance(os.fspath(given), str) else repr(given))
+    if isinstance(given, Table):
+        return inline(given.given)
+    if isinstance(given, Mapping):
+        return inline({str(name): it for name, it in given.items()})
+    if isinstance(given, (list, tuple, range, set, frozenset)):
+        return "[" + ", ".join(value(it) for it in given) + "]"
+    return word(shown(given))
+
+
+def shown(given: object) -> str:
+    """The ``repr`` of something strange, at most a line of it."""
+    try:
+        return repr(given)[:80]
+    except Exception:  # noqa: BLE001  whatever it is, it is refused
+        return f"<{type(given).__name__}>"
+
+
+def number(given: int) -> str:
+    """A whole number that is too large for TOML's integers."""
+    try:
+        return repr(float(given))
+    except OverflowError:
+        return "inf" if given > 0 else "-inf"
+
+
+def inline(table: Mapping[str, Any]) -> str:
+    """A table on one line."""
+    inside = ", ".join(f"{key(name)} = {value(it)}" for name, it in table.items() if it is not None)
+    return "{ " + inside + " }" if inside else "{}"
+
+
+def study(root: Mapping[str, Any]) -> str:
+    """The text of a study: plain keys first, then tables in the order given."""
+    plain, tables = ["schema = 1"], []
+    for name, given in root.items():
+        if given is None:
+            continue
+        if isinstance(given, (Table, Mapping)):
+            tables.append((name, [given], False))
+        elif isinstance(given, (list, tuple)):
+            if all(isinstance(it, (Table, Mapping)) for it in given):
+                tables.append((name, list(given), True))
+            else:
+                plain.append(f"{key(name)} = {value(given)}")
+        else:
+            plain.append(f"{key(name)} = {value(given)}")
+    lines = plain
+    for name, entries, listed in tables:
+        for entry in entries:
+            lines += section(name, mapping(entry), listed)
+    return "\n".join(lines) + "\n"
+
+
+def mapping(table: Table | Mapping[str, Any]) -> Mapping[str, Any]:
+    """Keys and values of a table."""
+    return table.given if isinstance(table, Table) else {str(k): v for k, v in table.items()}
+
+
+def section(path: str, table: Mapping[str, Any], listed: bool) -> Iterable[str]:
+    """A table and the tables inside it."""
+    lines = ["", f"[[{path}]]" if listed else f"[{path}]"]
+    inner: list[str] = []
+    for name, given in table.items():
+        if given is None:
+            continue
+        if isinstance(given, (Table, Mapping)):
+            inner += section(f"{path}.{key(name)}", mapping(given), False)
+        elif isinstance(given, (list, tuple)) and given and all(isinstance(it, (Table, Mapping)) for it in given):
+            for entry in given:
+                inner += section(f"{path}.{key(name)}", mapping(entry), True)
+        else:
+            lines.append(f"{key(name)} = {value(given)}")
+    return lines + inner

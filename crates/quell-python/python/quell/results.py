@@ -1,0 +1,397 @@
+"""Results: what the verbs of a study answer.
+
+A result has the facts that the command line prints with ``--json`` as attributes (``response.efficiency``), in the
+numbers of the equations and, for a study in SI, in SI beside them (``amplitude_m``). What is unknown is ``None``, and
+``result.why`` says why. All of it, arrays included, is one :class:`xarray.Dataset` with units and provenance in
+``result.dataset`` (a :class:`quell.results.Arrays` where xarray is not installed). Results plot, save, pickle, and
+show as a table in notebooks.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _dataset
+from ._dataset import Arrays, Variable
+from ._errors import StudyError, complaint
+
+if TYPE_CHECKING:
+    import matplotlib.figure
+    import xarray
+
+    from ._quell import NativeAnswer
+    from ._study import Study
+
+__all__ = [
+    "Arrays",
+    "Basins",
+    "Bifurcation",
+    "Check",
+    "Citations",
+    "FrictionCurve",
+    "Map",
+    "Modes",
+    "Orbit",
+    "Resonances",
+    "Response",
+    "Result",
+    "Shard",
+    "Simulation",
+    "Stability",
+    "ThresholdCurves",
+    "Thresholds",
+    "Variable",
+]
+
+Verdict = Literal["stable", "unstable", "undecided"]
+R = TypeVar("R", bound="Result")
+
+
+class Result:
+    """What a verb answered about a study."""
+
+    verb: str = ""
+    """The verb."""
+
+    study: Study
+    """The study it is about."""
+
+    sentence: str
+    """The answer in one sentence, where there is one."""
+
+    def __init__(self, study: Study, native: NativeAnswer | None) -> None:
+        self.study = study
+        self._native = native
+        self._facts: dict[str, Any] | None = None
+        self._arrays: Arrays | None = None
+        self._description: dict[str, Any] | None = None
+
+    @property
+    def facts(self) -> dict[str, Any]:
+        """The facts, as the command line prints them with ``--json``; of a map without its arrays."""
+        if self._facts is None:
+            self._facts = self._alive().facts()
+        return self._facts
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of the facts, by name."""
+        units: dict[str, str] = self.facts.get("units", {})
+        return units
+
+    @property
+    def why(self) -> dict[str, str]:
+        """Why facts are ``None``, by name."""
+        why: dict[str, str] = self.facts.get("why", {})
+        return why
+
+    @property
+    def warnings(self) -> list[str]:
+        """What a reader of the numbers should know."""
+        found: list[str] = self.facts.get("warnings", [])
+        return found or (self._native.warnings() if self._native else [])
+
+    @property
+    def arrays(self) -> Arrays:
+        """Everything as NumPy arrays with dimensions, units and provenance; no xarray needed."""
+        if self._arrays is None:
+            self._arrays = _dataset.arrays(self.verb, self.facts, self._alive().datasets())
+        return self._arrays
+
+    @property
+    def dataset(self) -> xarray.Dataset:
+        """Everything as one xarray Dataset; the same as :attr:`arrays` where xarray is not installed.
+
+        Facts are variables without dimension, lists of the facts have one dimension, arrays theirs; units stand in
+        the attributes of each variable, where it comes from in those of the Dataset.
+        """
+        return self.arrays.to_xarray()
+
+    def to_xarray(self) -> xarray.Dataset:
+        """:attr:`dataset`, but an ImportError where xarray is not installed."""
+        return self.arrays.to_xarray(needed=True)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The facts as a new dict, as ``--json`` prints them."""
+        import copy
+
+        return copy.deepcopy(self.facts)
+
+    def plot(self) -> matplotlib.figure.Figure:
+        """The picture of the command line's ``--plot``, drawn with matplotlib."""
+        from .plotting import draw
+
+        return draw(self._described())
+
+    def save(self, path: str | os.PathLike[str]) -> list[str]:
+        """Writes the arrays as .csv, with units and the study in its header, or the picture as .svg or .png.
+
+        These are the files of the command line's ``--save`` and ``--plot``. Returns the paths that were written.
+        """
+        try:
+            place = os.fspath(path)
+        except TypeError:
+            raise StudyError([complaint("path", path, "a path", "path")]) from None
+        if self._native is None:
+            raise StudyError([complaint("save", None, "a result that was not unpickled: repeat the call", "usage")])
+        if str(place).lower().endswith((".svg", ".png")):
+            return [self._native.picture(str(place))]
+        return self._native.csv(str(place))
+
+    def _alive(self) -> NativeAnswer:
+        if self._native is None:
+            raise RuntimeError("a result that was unpickled has what was kept, and no more")
+        return self._native
+
+    def _described(self) -> dict[str, Any]:
+        if self._description is None:
+            if self._native is None:
+                allowed = "there is no picture of this result"
+                raise StudyError([complaint("plot", None, allowed, "usage")])
+            self._description = self._native.description()
+        return self._description
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return self.facts[name]
+        except KeyError:
+            pass
+        there = ", ".join(key for key in self.facts if key not in ("ok", "units", "why"))
+        raise AttributeError(f"{type(self).__name__} has no {name}; there are {there}") from None
+
+    def __getitem__(self, name: str) -> Any:
+        """A variable of :attr:`dataset`."""
+        return self.dataset[name]
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *(key for key in self.facts if key not in ("ok",))})
+
+    def __getstate__(self) -> dict[str, Any]:
+        try:
+            description = self._described() if self._native else self._description
+        except StudyError:
+            description = None  # there is no picture
+        return {
+            "study": self.study,
+            "_native": None,
+            "_facts": {**self.facts, "warnings": self.warnings},
+            "_arrays": self.arrays,
+            "_description": description,
+        }
+
+    def __repr__(self) -> str:
+        from ._html import plain
+
+        return plain(self)
+
+    def _repr_html_(self) -> str:
+        from ._html import result
+
+        return result(self)
+
+
+class Check(Result):
+    """The study in numbers."""
+
+    verb = "check"
+    system: Literal["dimensionless", "si"]
+
+
+class Citations(Result):
+    """Sources of a study's computations, and where the print was corrected."""
+
+    verb = "cite"
+    sources: list[dict[str, Any]]
+    """``key``, ``reference``, and ``used``: for what."""
+    corrections: list[dict[str, Any]]
+
+
+class FrictionCurve(Result):
+    """The friction law and its average under the dither, over slip velocities (n,)."""
+
+    verb = "friction"
+
+    @property
+    def slip_velocity(self) -> npt.NDArray[np.float64]:
+        """v_r (n,): lengths per τ."""
+        return self.arrays["slip_velocity"].values
+
+    @property
+    def coefficient(self) -> npt.NDArray[np.float64]:
+        """μ (n,); NaN at v_r = 0, where friction takes any value up to ±μ_s."""
+        return self.arrays["coefficient"].values
+
+    @property
+    def effective_coefficient(self) -> npt.NDArray[np.float64]:
+        """μ̄ (n,); NaN where there is none."""
+        return self.arrays["effective_coefficient"].values
+
+    @property
+    def effective_slope(self) -> npt.NDArray[np.float64]:
+        """μ̄′ (n,) per unit of v_r; NaN where there is none."""
+        return self.arrays["effective_slope"].values
+
+
+class Stability(Result):
+    """Stability of steady sliding by averaging, or of a disc by eigenvalues or Floquet exponents."""
+
+    verb = "stability"
+    verdict: Verdict
+    criterion: float | None
+    """Belt: 2ζ + Fμ̄′ (2.26), stable where positive."""
+    critical_amplitudes: list[dict[str, Any]] | None
+    """Belt: every α > 0 at which it changes: ``amplitude_ratio``, ``amplitude``, ``kind``, ``becomes``."""
+    growth_rate: float | None
+    """Largest growth rate per unit τ."""
+
+
+class Simulation(Result):
+    """A trajectory: its end, its events, its samples."""
+
+    verb = "simulate"
+    final: dict[str, Any]
+    """``time``, ``displacement``, ``velocity``, ``sticking``, ``slip_sign`` at the end."""
+    events: list[dict[str, Any]]
+    """``time``, ``kind`` ("stick", "release", "reversal"), ``slip_sign``, ``displacement`` of every event."""
+    event_count: int
+
+
+class Response(Result):
+    """The steady response with and without dither."""
+
+    verb = "response"
+    amplitude: float
+    """Largest spectral amplitude below 2 ω₀: a length."""
+    undithered_amplitude: float
+    efficiency: float | None
+    """E = amplitude over undithered amplitude (2.27)."""
+    stick_fraction: float
+    settled: bool
+    undithered_settled: bool
+    mean_friction: float
+    mean_friction_undithered: float
+    dither_power: float | None
+    dither_stroke: float | None
+    minimum_normal_load: float
+    peaks: list[dict[str, float]]
+    """Peaks of the spectrum: ``frequency`` (ω₀), ``amplitude``."""
+
+
+class Orbit(Result):
+    """A periodic response and its Floquet multipliers."""
+
+    verb = "orbit"
+    displacement: float
+    velocity: float
+    period: float
+    verdict: Verdict
+    stick_episodes: int
+    reversals: int
+    stick_fraction: float
+    residual: float
+
+    @property
+    def multipliers(self) -> npt.NDArray[np.complex128]:
+        """The two multipliers; none where there is no orbit (see ``why``)."""
+        pairs = self.facts["multipliers"] or []
+        return np.array([complex(re, im) for re, im in pairs], dtype=np.complex128)
+
+
+class Thresholds(Result):
+    """Values of a parameter at which the response changes."""
+
+    verb = "thresholds"
+    parameter: str
+    local: list[dict[str, Any]]
+    """``value`` with its ``error``, ``kind`` ("neimark-sacker", "grazing", "fold", "flip"), ``was``, ``becomes``."""
+
+
+class ThresholdCurves(Result):
+    """Curves of thresholds in the plane of two parameters."""
+
+    verb = "thresholds"
+    parameter: str
+    along: str
+    curves: list[dict[str, Any]]
+    """``kind``, ``value`` (n,), ``along`` (n,), ``multiplier_modulus`` (n,), ``ends`` of each curve."""
+
+
+class Bifurcation(Result):
+    """The response along a parameter, swept up and down."""
+
+    verb = "bifurcation"
+
+
+class Basins(Result):
+    """The responses that starts of a window end on, and the share of each."""
+
+    verb = "basins"
+
+
+class Modes(Result):
+    """Natural frequencies and shapes of a disc."""
+
+    verb = "modes"
+    modes: list[dict[str, Any]]
+    """``radial``, ``diameters``, ``frequency_parameter`` (k²), ``ratio`` (ω_ref), ``shape_at_load``, ``damping``, …"""
+    critical_mode: dict[str, int] | None
+    """The mode with the lowest critical speed."""
+
+
+class Resonances(Result):
+    """Where waves of a disc meet."""
+
+    verb = "resonances"
+    undithered: list[dict[str, Any]]
+    dithered: list[dict[str, Any]]
+    """``speed``, ``waves``, ``can_be_unstable``, ``threshold``, ``edges``, ``peak_growth`` of each meeting."""
+
+
+class Map(Result, Mapping[str, Any]):
+    """Quantities over the axes of a study: a mapping of names to variables over them."""
+
+    verb = "map"
+    shape: list[int]
+    points: int
+    resumed_points: int
+    """Points that were in the store already."""
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.arrays)
+
+    def __len__(self) -> int:
+        return len(self.arrays)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def words(self, name: str) -> npt.NDArray[np.str_]:
+        """The words of a variable of words or states, such as "verdict" or "efficiency_status"."""
+        return self.arrays[name].words()
+
+
+class Shard(Result):
+    """What one of several processes computed of a map, and what is left of it."""
+
+    verb = "map"
+    chunks: int
+    """Chunks of this shard."""
+    computed_chunks: int
+    computed_points: int
+    there_chunks: int
+    """Chunks that the store had already."""
+    left_chunks: int
+    """Chunks of the whole map that are not there yet."""
+    left_shards: list[int]
+    """Shards, of as many, that have them."""
+
+    def __init__(self, study: Study, facts: dict[str, Any]) -> None:
+        super().__init__(study, None)
+        self._facts = facts
+        self._arrays = _dataset.arrays(self.verb, facts, [])

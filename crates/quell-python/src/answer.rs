@@ -1,0 +1,122 @@
+//! What a verb answered: facts, datasets, the picture. Handed over when they are asked for.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use pyo3::prelude::*;
+use quell::dataset::Dataset;
+use quell::output::Output;
+use quell::picture::{self, EXTENSIONS};
+use quell::plot::Figure;
+use quell::{Complaint, Failure, Fault, Origin};
+use serde_json::Value as Json;
+
+use crate::{call, convert};
+
+/// What every verb's outcome can tell.
+pub(crate) trait Answer: Send + Sync {
+    /// The object that the command line prints with `--json`; of a map without its arrays.
+    fn json(&self) -> Json;
+
+    /// Arrays, each dataset with its name; the first is the main one.
+    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
+        Vec::new()
+    }
+
+    /// The picture, where there is one.
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        None
+    }
+
+    /// What a reader of the numbers should know.
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
+/// The answer of a verb.
+#[pyclass(name = "NativeAnswer", module = "quell._quell", frozen)]
+pub(crate) struct NativeAnswer {
+    inner: Arc<dyn Answer>,
+}
+
+impl NativeAnswer {
+    pub(crate) fn new(answer: impl Answer + 'static) -> Self {
+        Self { inner: Arc::new(answer) }
+    }
+
+    fn figure(&self) -> Result<Figure, Failure> {
+        self.inner.figure().unwrap_or_else(|| {
+            let allowed = "there is no picture of this result";
+            Err(Complaint::new(Fault::Usage, "plot", Origin::Whole, Json::Null, allowed).into())
+        })
+    }
+}
+
+#[pymethods]
+impl NativeAnswer {
+    /// What `--json` gives, as a dict.
+    fn facts(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        convert::to_python(py, &self.inner.json())
+    }
+
+    /// What a reader of the numbers should know.
+    fn warnings(&self) -> Vec<String> {
+        self.inner.warnings()
+    }
+
+    /// (name, (provenance, axes, arrays)) of every dataset.
+    fn datasets(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, Py<PyAny>)>> {
+        let inner = Arc::clone(&self.inner);
+        let found = py.detach(move || inner.datasets());
+        found.into_iter().map(|(name, it)| Ok((name, convert::dataset(py, it)?))).collect()
+    }
+
+    /// The picture as plain data, for matplotlib.
+    fn description(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        let inner = Self { inner: Arc::clone(&self.inner) };
+        let data = call::run(py, move || Ok(inner.figure()?.described()))?;
+        convert::to_python(py, &data)
+    }
+
+    /// The picture as SVG.
+    fn svg(&self, py: Python<'_>) -> PyResult<String> {
+        let inner = Self { inner: Arc::clone(&self.inner) };
+        call::run(py, move || Ok(inner.figure()?.to_svg()))
+    }
+
+    /// Writes the picture.
+    fn picture(&self, py: Python<'_>, path: PathBuf) -> PyResult<String> {
+        let inner = Self { inner: Arc::clone(&self.inner) };
+        call::run(py, move || {
+            let output = Output::prepare(&path, "--plot", EXTENSIONS)?;
+            picture::write(&inner.figure()?, output)
+        })
+    }
+
+    /// Writes the datasets as CSV, those after the first beside it.
+    fn csv(&self, py: Python<'_>, path: PathBuf) -> PyResult<Vec<String>> {
+        let inner = Arc::clone(&self.inner);
+        call::run(py, move || {
+            let mut saved = Vec::new();
+            let first = Output::prepare(&path, "--save", &["csv"])?;
+            let datasets = inner.datasets();
+            if datasets.is_empty() {
+                let allowed = "there is no table of this result";
+                let origin = Origin::Whole;
+                return Err(
+                    Complaint::new(Fault::Usage, "save", origin, Json::Null, allowed).into()
+                );
+            }
+            let mut outputs = Vec::new();
+            for (name, _) in datasets.iter().skip(1) {
+                outputs.push(first.beside(name, "--save")?);
+            }
+            outputs.insert(0, first);
+            for (output, (_, dataset)) in outputs.into_iter().zip(datasets) {
+                saved.push(output.write(dataset.csv().as_bytes())?.display().to_string());
+            }
+            Ok(saved)
+        })
+    }
+}

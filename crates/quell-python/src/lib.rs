@@ -1,0 +1,50 @@
+//! The native part of the Python package `quell`: studies, their verbs, and what they answer.
+//!
+//! A door like the command line: it turns arguments into the front door's, runs without the lock of
+//! the interpreter, and hands numbers over. What a study may say is judged by the front door alone;
+//! classes, plots and datasets are Python's (`python/quell`).
+//!
+//! | file | what |
+//! |---|---|
+//! | `study` | a checked study and its verbs |
+//! | `verbs` | one file per verb: arguments in, an answer out |
+//! | `answer` | facts, arrays and the picture of what was computed |
+//! | `reference` | reference numbers for a self-test |
+//! | `shared` | maps that several processes compute into one store |
+//! | `call` | work without the interpreter's lock; Ctrl-C; panics become errors |
+//! | `convert`, `errors` | JSON, arrays and complaints as Python knows them |
+
+mod answer;
+mod call;
+mod convert;
+mod errors;
+mod reference;
+mod shared;
+mod study;
+mod verbs;
+
+use pyo3::prelude::*;
+
+/// The native module.
+#[pymodule]
+mod _quell {
+    use pyo3::prelude::*;
+
+    #[pymodule_export]
+    use crate::answer::NativeAnswer;
+    #[pymodule_export]
+    use crate::reference::reference;
+    #[pymodule_export]
+    use crate::shared::NativeShared;
+    #[pymodule_export]
+    use crate::study::NativeStudy;
+    #[pymodule_export]
+    use crate::verbs::reproduce::{reproduce, reproduce_names};
+    #[pymodule_export]
+    use crate::verbs::schema::{keys, quantities, schema};
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

@@ -1,0 +1,19 @@
+//! Reference numbers: what `python -m quell.selftest` holds an installation to.
+
+use pyo3::prelude::*;
+
+/// Files of `reference/`, which says where they come from.
+const FILES: &[(&str, &str)] = &[
+    ("averaging", include_str!("../../../reference/averaging.json")),
+    ("trajectories", include_str!("../../../reference/trajectories.json")),
+    ("quench_thresholds", include_str!("../../../reference/quench_thresholds.json")),
+    ("disc_eigenvalues", include_str!("../../../reference/disc_eigenvalues.json")),
+    ("disc_floquet", include_str!("../../../reference/disc_floquet.json")),
+    ("disc_modes", include_str!("../../../reference/disc_modes.json")),
+];
+
+/// The text of a reference file; none where there is none of that name.
+#[pyfunction]
+pub(crate) fn reference(name: &str) -> Option<&'static str> {
+    FILES.iter().find(|(file, _)| *file == name).map(|(_, text)| *text)
+}

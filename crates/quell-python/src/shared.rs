@@ -1,0 +1,91 @@
+//! A map that several processes compute into one store: what a scheduler in Python hands out.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use pyo3::prelude::*;
+use quell::run::map::Shared;
+use quell::sweep::Shard;
+
+use crate::answer::NativeAnswer;
+use crate::study::NativeStudy;
+use crate::verbs::map::{Counter, Done, Watched, plan};
+use crate::{call, errors};
+
+/// A map in a store that other processes may write at the same time.
+#[pyclass(name = "NativeShared", module = "quell._quell", frozen)]
+pub(crate) struct NativeShared {
+    inner: Arc<Shared>,
+}
+
+#[pymethods]
+impl NativeShared {
+    /// Opens the store, or makes it.
+    #[staticmethod]
+    fn open(
+        py: Python<'_>,
+        study: &NativeStudy,
+        quantities: Vec<String>,
+        path: PathBuf,
+    ) -> PyResult<Self> {
+        let subject = study.subject();
+        let shared = call::run(py, move || Shared::open(&path, plan(&subject, &quantities)?))?;
+        Ok(Self { inner: Arc::new(shared) })
+    }
+
+    /// Number of points of each chunk, in their order.
+    fn points(&self) -> Vec<usize> {
+        let chunks = self.inner.plan().chunks();
+        (0..chunks.len()).map(|chunk| chunks.points(chunk).len()).collect()
+    }
+
+    /// Chunks that have no completion record yet.
+    fn unrecorded(&self, py: Python<'_>) -> PyResult<Vec<usize>> {
+        let inner = Arc::clone(&self.inner);
+        call::run(py, move || inner.unrecorded())
+    }
+
+    /// Chunks that the store does not have whole; every one is read.
+    fn missing(&self, py: Python<'_>) -> PyResult<Vec<usize>> {
+        let inner = Arc::clone(&self.inner);
+        call::run(py, move || Ok(inner.missing()))
+    }
+
+    /// Shard `k/n` as (k, n), before there is a store.
+    #[staticmethod]
+    fn shard(py: Python<'_>, text: &str) -> PyResult<(usize, usize)> {
+        read(py, text).map(|shard| (shard.number(), shard.of()))
+    }
+
+    /// Chunks of shard `k/n`.
+    fn chunks_of(&self, py: Python<'_>, text: &str) -> PyResult<Vec<usize>> {
+        Ok(read(py, text)?.chunks(self.inner.plan().chunks()))
+    }
+
+    /// Computes those of the chunks that the store does not have: (computed, there, damaged, points, seconds).
+    #[pyo3(signature = (chunks, threads, progress))]
+    fn compute(
+        &self,
+        py: Python<'_>,
+        chunks: Vec<usize>,
+        threads: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(usize, usize, usize, usize, f64)> {
+        let inner = Arc::clone(&self.inner);
+        let counter = Arc::new(Counter::default());
+        let watched = Watched::new(&counter, progress);
+        let part =
+            call::watched(py, move || inner.compute(&chunks, counter.running(threads)), watched)?;
+        Ok((part.computed, part.there, part.damaged, part.points, part.elapsed.as_secs_f64()))
+    }
+
+    /// The whole map.
+    fn read(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
+        let inner = Arc::clone(&self.inner);
+        call::run(py, move || inner.read().map(|map| NativeAnswer::new(Done(map))))
+    }
+}
+
+fn read(py: Python<'_>, text: &str) -> PyResult<Shard> {
+    Shard::parse(text, "--shard").map_err(|complaint| errors::raised(py, complaint.into()))
+}

@@ -1,0 +1,327 @@
+//! A checked study and its verbs.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use numpy::PyReadonlyArray1;
+use pyo3::prelude::*;
+use quell::run::basins::{Layout, Over, Question as Window};
+use quell::run::bifurcation::Question as Range;
+use quell::study::mirror::{Node, Table};
+use quell::{Change, Complaint, DiscStudy, Failure, Fault, Origin, Study, Subject};
+
+use crate::answer::NativeAnswer;
+use crate::verbs::map::Asked;
+use crate::verbs::{
+    basins, bifurcation, check, cite, friction, map, modes, orbit, resonances, response, simulate,
+    stability, thresholds,
+};
+use crate::{call, errors};
+
+/// A checked study.
+#[pyclass(name = "NativeStudy", module = "quell._quell", frozen)]
+pub(crate) struct NativeStudy {
+    subject: Arc<Subject>,
+    /// Where a file of modes is looked for.
+    folder: PathBuf,
+    changes: Vec<(String, String)>,
+    /// Axes in place of those of the text, each as (key, value).
+    axes: Option<Vec<Axis>>,
+    /// Whether its lines mean something to who made it.
+    from_file: bool,
+}
+
+/// The ends of a range.
+type Ends = (f64, f64);
+
+/// Keys and values of an axis.
+type Axis = Vec<(String, String)>;
+
+/// What makes a study again: text, folder, changes, axes, whether it was a file.
+type Parts = (String, PathBuf, Vec<(String, String)>, Option<Vec<Axis>>, bool);
+
+impl NativeStudy {
+    fn made(py: Python<'_>, parts: Parts) -> PyResult<Self> {
+        let (text, folder, changes, axes, from_file) = parts;
+        let (place, made, swept) = (folder.clone(), changes.clone(), axes.clone());
+        let subject = call::here(py, move || {
+            let changes: Vec<Change> = made.iter().map(change).collect();
+            let subject = Subject::parse(&text, &changes, &place);
+            subject.and_then(|subject| sweeping(subject, swept.as_deref())).map_err(|complaints| {
+                let told = if from_file { complaints } else { errors::without_lines(complaints) };
+                Failure::Wrong(told)
+            })
+        })?;
+        Ok(Self { subject: Arc::new(subject), folder, changes, axes, from_file })
+    }
+
+    /// The study itself.
+    pub(crate) fn subject(&self) -> Arc<Subject> {
+        Arc::clone(&self.subject)
+    }
+}
+
+fn sweeping(subject: Subject, axes: Option<&[Axis]>) -> Result<Subject, Vec<Complaint>> {
+    let Some(axes) = axes else { return Ok(subject) };
+    let table = |axis: &Axis| {
+        let mut table = Table::default();
+        for (key, value) in axis {
+            table.set(key, Node::from_argument(value, "axes"));
+        }
+        table
+    };
+    let tables: Vec<Table> = axes.iter().map(table).collect();
+    subject.sweeping(&tables)
+}
+
+fn change((path, value): &(String, String)) -> Change {
+    Change { path: path.trim().to_owned(), node: Node::from_argument(value, "set") }
+}
+
+/// The belt of a study, for a verb that is about belts.
+pub(crate) fn belt(subject: &Subject) -> Result<&Study, Failure> {
+    subject.belt().ok_or_else(|| {
+        let allowed = "a belt study: this verb is about a belt ([belt], [friction]), and the study is of a disc";
+        Complaint::new(Fault::Conflict, "disc", Origin::Whole, serde_json::Value::Null, allowed).into()
+    })
+}
+
+/// The disc of a study, for a verb that is about discs.
+pub(crate) fn disc(subject: &Subject) -> Result<&DiscStudy, Failure> {
+    subject.disc().ok_or_else(|| {
+        let allowed =
+            "a disc study: this verb is about a disc ([disc]), and the study is of a belt";
+        Complaint::new(Fault::Missing, "disc", Origin::Whole, serde_json::Value::Null, allowed)
+            .into()
+    })
+}
+
+#[pymethods]
+impl NativeStudy {
+    /// Checks a study made of its parts.
+    #[staticmethod]
+    fn parse(py: Python<'_>, parts: Parts) -> PyResult<Self> {
+        Self::made(py, parts)
+    }
+
+    /// Reads and checks a study file.
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf, changes: Vec<(String, String)>) -> PyResult<Self> {
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        let made = changes.clone();
+        let subject = call::here(py, move || {
+            let changes: Vec<Change> = made.iter().map(change).collect();
+            Subject::read(&path, &changes)
+        })?;
+        Ok(Self { subject: Arc::new(subject), folder, changes, axes: None, from_file: true })
+    }
+
+    /// The same study with values changed, as `--set path=value` changes them.
+    fn changed(&self, py: Python<'_>, changes: Vec<(String, String)>) -> PyResult<Self> {
+        let (text, folder, mut all, axes, from_file) = self.parts();
+        all.extend(changes);
+        Self::made(py, (text, folder, all, axes, from_file))
+    }
+
+    /// The same study with these axes in place of its own.
+    fn swept(&self, py: Python<'_>, axes: Vec<Axis>) -> PyResult<Self> {
+        let (text, folder, changes, _, from_file) = self.parts();
+        Self::made(py, (text, folder, changes, Some(axes), from_file))
+    }
+
+    /// What makes this study again: text, folder, changes, axes, whether it was a file.
+    fn parts(&self) -> Parts {
+        let text = self.subject.text().to_owned();
+        // Whoever makes it again may run elsewhere.
+        let folder = std::env::current_dir()
+            .map_or_else(|_| self.folder.clone(), |here| here.join(&self.folder));
+        (text, folder, self.changes.clone(), self.axes.clone(), self.from_file)
+    }
+
+    /// "belt" or "disc".
+    #[getter]
+    fn kind(&self) -> &'static str {
+        match *self.subject {
+            Subject::Belt(_) => "belt",
+            Subject::Disc(_) => "disc",
+        }
+    }
+
+    /// The title, where there is one.
+    #[getter]
+    fn title(&self) -> Option<&str> {
+        self.subject.title()
+    }
+
+    /// Every value after its changes, as (path, value).
+    #[getter]
+    fn settings(&self) -> Vec<(String, String)> {
+        self.subject.settings()
+    }
+
+    fn check(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
+        let subject = self.subject();
+        call::here(py, move || Ok(check::run(subject)))
+    }
+
+    fn cite(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
+        let subject = self.subject();
+        call::here(py, move || Ok(cite::run(&subject)))
+    }
+
+    /// `at`: slip velocities; a grid of them where it is none.
+    #[pyo3(signature = (at))]
+    fn friction(
+        &self,
+        py: Python<'_>,
+        at: Option<PyReadonlyArray1<'_, f64>>,
+    ) -> PyResult<NativeAnswer> {
+        let subject = self.subject();
+        let at = at.map(|at| at.as_array().to_vec());
+        call::run(py, move || friction::run(&subject, at))
+    }
+
+    fn stability(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
+        let subject = self.subject();
+        call::run(py, move || stability::run(&subject))
+    }
+
+    /// `until`: τ, or a time with its unit.
+    fn simulate(
+        &self,
+        py: Python<'_>,
+        until: String,
+        events: bool,
+        samples: bool,
+    ) -> PyResult<NativeAnswer> {
+        let subject = self.subject();
+        call::run(py, move || simulate::run(&subject, &until, events, samples))
+    }
+
+    fn response(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
+        let subject = self.subject();
+        call::run(py, move || response::run(&subject))
+    }
+
+    /// `after`: the name of a start, or `start`, whose run is followed to its response.
+    #[pyo3(signature = (near, periods, after, start))]
+    fn orbit(
+        &self,
+        py: Python<'_>,
+        near: Option<(f64, f64)>,
+        periods: u32,
+        after: Vec<String>,
+        start: Option<(f64, f64)>,
+    ) -> PyResult<NativeAnswer> {
+        let subject = self.subject();
+        call::run(py, move || orbit::run(&subject, near, periods, &after, start))
+    }
+
+    /// `protocols`: names of starts, and a start of its own.
+    #[pyo3(signature = (parameter, range, protocols, start, ramp))]
+    fn thresholds(
+        &self,
+        py: Python<'_>,
+        parameter: String,
+        range: (f64, f64),
+        protocols: Vec<String>,
+        start: Option<(f64, f64)>,
+        ramp: f64,
+    ) -> PyResult<NativeAnswer> {
+        let subject = self.subject();
+        call::run(py, move || {
+            let protocols = thresholds::protocols(&protocols, start);
+            thresholds::run(&subject, parameter, range, protocols, ramp)
+        })
+    }
+
+    /// Curves of thresholds in the plane of two parameters.
+    fn threshold_curves(
+        &self,
+        py: Python<'_>,
+        parameter: String,
+        range: (f64, f64),
+        along: String,
+        between: (f64, f64),
+    ) -> PyResult<NativeAnswer> {
+        let subject = self.subject();
+        call::run(py, move || thresholds::run_along(&subject, parameter, range, along, between))
+    }
+
+    /// `ways`: whether up and whether down is asked for.
+    #[pyo3(signature = (parameter, range, points, ways, progress))]
+    fn bifurcation(
+        &self,
+        py: Python<'_>,
+        parameter: String,
+        range: (f64, f64),
+        points: usize,
+        ways: (bool, bool),
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<NativeAnswer> {
+        let ((from, to), (up, down)) = (range, ways);
+        let question = Range { parameter, from, to, points, up, down };
+        bifurcation::run(py, self.subject(), question, progress)
+    }
+
+    /// `window`: displacements and velocities; `layout`: a grid, or states and seed in place of it; `over`: a
+    /// parameter with its ends and points.
+    #[pyo3(signature = (window, layout, over, threads, progress))]
+    fn basins(
+        &self,
+        py: Python<'_>,
+        window: (Option<Ends>, Option<Ends>),
+        layout: ((usize, usize), Option<(usize, u64)>),
+        over: Option<(String, f64, f64, usize)>,
+        threads: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<NativeAnswer> {
+        let (displacement, velocity) = window;
+        let layout = match layout {
+            (_, Some((count, seed))) => Layout::Sample { count, seed },
+            ((columns, rows), None) => Layout::Grid { columns, rows },
+        };
+        let over = over.map(|(parameter, from, to, points)| Over { parameter, from, to, points });
+        let question = Window { displacement, velocity, layout, over };
+        basins::run(py, self.subject(), question, threads, progress)
+    }
+
+    fn modes(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
+        let subject = self.subject();
+        call::run(py, move || modes::run(&subject))
+    }
+
+    #[pyo3(signature = (speeds, order, clear, frequency))]
+    fn resonances(
+        &self,
+        py: Python<'_>,
+        speeds: (f64, f64),
+        order: String,
+        clear: Option<(f64, f64)>,
+        frequency: Option<(f64, f64)>,
+    ) -> PyResult<NativeAnswer> {
+        let subject = self.subject();
+        call::run(py, move || resonances::run(&subject, speeds, &order, clear, frequency))
+    }
+
+    /// `progress`: called with the points that are there and all points.
+    #[pyo3(signature = (quantities, store, resume, threads, progress))]
+    fn map(
+        &self,
+        py: Python<'_>,
+        quantities: Vec<String>,
+        store: Option<PathBuf>,
+        resume: bool,
+        threads: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<NativeAnswer> {
+        let asked = Asked { subject: self.subject(), quantities, store, resume, threads };
+        map::run(py, asked, progress)
+    }
+
+    /// Changes of the text, axes included, as `path=value`.
+    #[getter]
+    fn changes(&self) -> Vec<String> {
+        self.subject.changes().to_vec()
+    }
+}

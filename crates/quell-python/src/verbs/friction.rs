@@ -1,0 +1,42 @@
+//! `friction`: the law and what the dither makes of it.
+
+use quell::dataset::Dataset;
+use quell::picture;
+use quell::plot::Figure;
+use quell::run::friction::{FrictionCurve, grid, run as friction};
+use quell::{Failure, Study, Subject};
+use serde_json::Value as Json;
+
+use super::refused;
+use crate::answer::{Answer, NativeAnswer};
+use crate::study::belt;
+
+struct Curve {
+    study: Study,
+    done: FrictionCurve,
+}
+
+impl Answer for Curve {
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
+        vec![("friction", self.done.dataset(&self.study))]
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::friction(&self.study, &self.done)))
+    }
+}
+
+/// Answers.
+pub(crate) fn run(subject: &Subject, at: Option<Vec<f64>>) -> Result<NativeAnswer, Failure> {
+    let study = belt(subject)?.clone();
+    let at = at.unwrap_or_else(|| grid(study.belt()));
+    if let Some(wrong) = at.iter().find(|v| !v.is_finite()) {
+        return Err(refused("at", wrong.to_string(), "finite slip velocities"));
+    }
+    let done = friction(&study, &at);
+    Ok(NativeAnswer::new(Curve { study, done }))
+}

@@ -1,0 +1,155 @@
+//! `map`: quantities over the axes of a study.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use pyo3::prelude::*;
+use quell::dataset::Dataset;
+use quell::picture;
+use quell::plot::Figure;
+use quell::run::map::{Map, run as front_door};
+use quell::store::Store;
+use quell::sweep::{MOST_THREADS, Plan, Progress, Quantity, Running, System};
+use quell::{Failure, Subject};
+use serde_json::Value as Json;
+
+use super::refused;
+use crate::answer::{Answer, NativeAnswer};
+use crate::call::{self, Watch};
+
+/// What is asked.
+pub(crate) struct Asked {
+    /// The study with its axes.
+    pub(crate) subject: Arc<Subject>,
+    /// Names of quantities.
+    pub(crate) quantities: Vec<String>,
+    /// A Zarr store that keeps the map.
+    pub(crate) store: Option<PathBuf>,
+    /// Whether to go on with it.
+    pub(crate) resume: bool,
+    /// Number of threads.
+    pub(crate) threads: Option<usize>,
+}
+
+/// A finished map.
+pub(crate) struct Done(pub(crate) Map);
+
+impl Answer for Done {
+    fn json(&self) -> Json {
+        self.0.facts()
+    }
+
+    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
+        vec![("map", self.0.dataset())]
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(picture::sweep(&self.0))
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.0.warnings()
+    }
+}
+
+/// How far it is, told between two threads.
+#[derive(Default)]
+pub(crate) struct Counter {
+    all: AtomicUsize,
+    there: AtomicUsize,
+    stop: AtomicBool,
+}
+
+impl Counter {
+    /// How the work is run that this counts.
+    pub(crate) fn running(&self, threads: Option<usize>) -> Running<'_> {
+        Running { threads, stop: &self.stop, progress: self }
+    }
+}
+
+impl Progress for Counter {
+    fn begin(&self, points: usize, there: usize) {
+        self.all.store(points, Ordering::Relaxed);
+        self.there.store(there, Ordering::Relaxed);
+    }
+
+    fn advance(&self, points: usize) {
+        self.there.fetch_add(points, Ordering::Relaxed);
+    }
+
+    fn end(&self) {}
+}
+
+/// Tells Python how far it is; a signal stops the work after the chunks that are begun.
+pub(crate) struct Watched {
+    counter: Arc<Counter>,
+    progress: Option<Py<PyAny>>,
+    told: Option<usize>,
+}
+
+impl Watched {
+    pub(crate) fn new(counter: &Arc<Counter>, progress: Option<Py<PyAny>>) -> Self {
+        Self { counter: Arc::clone(counter), progress, told: None }
+    }
+}
+
+impl Watch for Watched {
+    fn tick(&mut self, py: Python<'_>) -> PyResult<()> {
+        let all = self.counter.all.load(Ordering::Relaxed);
+        let there = self.counter.there.load(Ordering::Relaxed);
+        let Some(progress) = &self.progress else { return Ok(()) };
+        if all > 0 && self.told != Some(there) {
+            self.told = Some(there);
+            progress.call1(py, (there, all))?;
+        }
+        Ok(())
+    }
+
+    fn stop(&self) -> bool {
+        self.counter.stop.store(true, Ordering::Relaxed);
+        true
+    }
+}
+
+/// The plan of a map.
+pub(crate) fn plan(subject: &Subject, names: &[String]) -> Result<Plan, Failure> {
+    let system = System::of(subject);
+    let (mut asked, mut wrong) = (Vec::new(), Vec::new());
+    for name in names {
+        match Quantity::named_for(system, name.trim(), "quantity") {
+            Ok(quantity) => asked.push(quantity),
+            Err(complaint) => wrong.push(*complaint),
+        }
+    }
+    match Plan::new(subject, &asked) {
+        Ok(plan) if wrong.is_empty() => Ok(plan),
+        Ok(_) => Err(Failure::Wrong(wrong)),
+        Err(complaint) => {
+            wrong.push(*complaint);
+            Err(Failure::Wrong(wrong))
+        }
+    }
+}
+
+/// Answers.
+pub(crate) fn run(
+    py: Python<'_>,
+    asked: Asked,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<NativeAnswer> {
+    let counter = Arc::new(Counter::default());
+    let watched = Watched::new(&counter, progress);
+    let work = move || {
+        let Asked { subject, quantities, store, resume, threads } = asked;
+        if threads.is_some_and(|threads| !(1..=MOST_THREADS).contains(&threads)) {
+            let allowed = format!("a whole number from 1 to {MOST_THREADS}");
+            return Err(refused("threads", threads.unwrap_or(0), &allowed));
+        }
+        let plan = plan(&subject, &quantities)?;
+        let store = store.map(|path| Store::open(&path, &plan, resume)).transpose()?;
+        let done = front_door(plan, store.as_ref(), counter.running(threads))?;
+        Ok(NativeAnswer::new(Done(done)))
+    };
+    call::watched(py, work, watched)
+}

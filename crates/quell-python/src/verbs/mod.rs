@@ -1,0 +1,25 @@
+//! The verbs: arguments in, an answer out. One file each, as on the command line.
+
+pub(crate) mod basins;
+pub(crate) mod bifurcation;
+pub(crate) mod check;
+pub(crate) mod cite;
+pub(crate) mod friction;
+pub(crate) mod map;
+pub(crate) mod modes;
+pub(crate) mod orbit;
+pub(crate) mod reproduce;
+pub(crate) mod resonances;
+pub(crate) mod response;
+pub(crate) mod schema;
+pub(crate) mod simulate;
+pub(crate) mod stability;
+pub(crate) mod thresholds;
+
+use quell::{Complaint, Failure};
+use serde_json::Value as Json;
+
+/// A complaint about an argument.
+fn refused(argument: &'static str, value: impl Into<Json>, allowed: &str) -> Failure {
+    Complaint::option(argument, value, allowed).into()
+}

@@ -1,0 +1,40 @@
+//! `orbit`: the periodic response and its Floquet multipliers.
+
+use quell::picture;
+use quell::plot::Figure;
+use quell::run::orbit::{Response, Wanted, run as orbit};
+use quell::{Failure, Study, Subject};
+use serde_json::Value as Json;
+
+use super::thresholds::protocols;
+use crate::answer::{Answer, NativeAnswer};
+use crate::study::belt;
+
+struct Found {
+    study: Study,
+    done: Response,
+}
+
+impl Answer for Found {
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(picture::periodic_response(&self.study, &self.done))
+    }
+}
+
+/// Answers; `after`: names of a start, or a start of its own, whose run is followed.
+pub(crate) fn run(
+    subject: &Subject,
+    near: Option<(f64, f64)>,
+    periods: u32,
+    after: &[String],
+    start: Option<(f64, f64)>,
+) -> Result<NativeAnswer, Failure> {
+    let study = belt(subject)?.clone();
+    let after = protocols(after, start).into_iter().next();
+    let done = orbit(&study, Wanted { near, periods, after })?;
+    Ok(NativeAnswer::new(Found { study, done }))
+}

@@ -1,0 +1,40 @@
+//! `reproduce`: figures and tables of the dissertation, with their data, the table of claims and a report.
+
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use quell::reproduce::{ENTRIES, Pace, Written, find, run};
+use serde_json::{Value as Json, json};
+
+use crate::{call, convert};
+
+/// Makes entries again and writes them into a folder; the command line's object.
+#[pyfunction]
+pub(crate) fn reproduce(
+    py: Python<'_>,
+    names: Vec<String>,
+    out: PathBuf,
+    quick: bool,
+) -> PyResult<Py<PyAny>> {
+    let object = call::run(py, move || {
+        let entries = find(&names)?;
+        let pace = if quick { Pace::Quick } else { Pace::Full };
+        let done = run(&entries, &out, pace, |_| ())?;
+        let entries: Vec<Json> = done.written.iter().map(Written::json).collect();
+        Ok(json!({
+            "ok": true,
+            "directory": out.display().to_string(),
+            "report": done.report.display().to_string(),
+            "table": done.table.display().to_string(),
+            "quick": quick,
+            "entries": entries,
+        }))
+    })?;
+    convert::to_python(py, &object)
+}
+
+/// (name, what it shows) of everything that can be reproduced.
+#[pyfunction]
+pub(crate) fn reproduce_names() -> Vec<(&'static str, &'static str)> {
+    ENTRIES.iter().map(|entry| (entry.name, entry.about)).collect()
+}

@@ -1,0 +1,44 @@
+//! `response`: the steady response, what the dither does to it, and what it costs.
+
+use quell::dataset::Dataset;
+use quell::picture;
+use quell::plot::Figure;
+use quell::run::response::{Steady, run as response};
+use quell::{Failure, Study, Subject};
+use serde_json::Value as Json;
+
+use crate::answer::{Answer, NativeAnswer};
+use crate::study::belt;
+
+struct Measured {
+    study: Study,
+    done: Steady,
+}
+
+impl Answer for Measured {
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
+        vec![
+            ("record", self.done.record(&self.study)),
+            ("spectrum", self.done.spectrum(&self.study)),
+        ]
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::response(&self.study, &self.done)))
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.done.warnings(&self.study)
+    }
+}
+
+/// Answers.
+pub(crate) fn run(subject: &Subject) -> Result<NativeAnswer, Failure> {
+    let study = belt(subject)?.clone();
+    let done = response(&study)?;
+    Ok(NativeAnswer::new(Measured { study, done }))
+}

@@ -1,0 +1,31 @@
+//! `schema`: the JSON Schema of a study file; the lists that classes and arguments are held to.
+
+use pyo3::prelude::*;
+use quell::schema::schema as front_door;
+use quell::study::vocabulary::{self, Section};
+use quell::sweep::{QUANTITIES, System};
+
+use crate::convert;
+
+/// The JSON Schema of a study file, as a dict.
+#[pyfunction]
+pub(crate) fn schema(py: Python<'_>) -> PyResult<Py<PyAny>> {
+    convert::to_python(py, &front_door())
+}
+
+/// (table, key, unit, what it is) of every key of a study file.
+#[pyfunction]
+pub(crate) fn keys() -> Vec<(&'static str, &'static str, &'static str, &'static str)> {
+    let all = Section::ALL.iter().flat_map(|section| vocabulary::keys_of(*section));
+    all.map(|key| (key.section.path(), key.name, key.unit_in_words(), key.about)).collect()
+}
+
+/// ("belt" or "disc", name, what it is) of everything that a map can show.
+#[pyfunction]
+pub(crate) fn quantities() -> Vec<(&'static str, &'static str, &'static str)> {
+    let system = |system| match system {
+        System::Belt => "belt",
+        System::Disc => "disc",
+    };
+    QUANTITIES.iter().map(|it| (system(it.system), it.name, it.about)).collect()
+}

@@ -1,0 +1,64 @@
+//! `stability`: averaged stability of steady sliding; eigenvalues or Floquet exponents of a disc.
+
+use quell::picture;
+use quell::plot::Figure;
+use quell::run::disc;
+use quell::run::stability::{Stability, run as stability};
+use quell::{DiscStudy, Failure, Study, Subject};
+use serde_json::Value as Json;
+
+use crate::answer::{Answer, NativeAnswer};
+
+struct OfBelt {
+    study: Study,
+    done: Stability,
+}
+
+impl Answer for OfBelt {
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::stability(&self.study, &self.done)))
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.done.warnings(&self.study)
+    }
+}
+
+struct OfDisc {
+    study: DiscStudy,
+    done: disc::stability::Stability,
+}
+
+impl Answer for OfDisc {
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        let last = disc::campbell::usual_end(&self.study);
+        let campbell = disc::campbell::run(&self.study, last);
+        Some(campbell.map(|it| picture::disc::stability(&self.study, &self.done, &it)))
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.study.warnings().to_vec()
+    }
+}
+
+/// Answers.
+pub(crate) fn run(subject: &Subject) -> Result<NativeAnswer, Failure> {
+    Ok(match subject {
+        Subject::Belt(study) => {
+            let done = stability(study);
+            NativeAnswer::new(OfBelt { study: study.as_ref().clone(), done })
+        }
+        Subject::Disc(study) => {
+            let done = disc::stability::run(study)?;
+            NativeAnswer::new(OfDisc { study: study.clone(), done })
+        }
+    })
+}

@@ -1,0 +1,93 @@
+//! `thresholds`: exact values of a parameter at which the response changes, and curves of them in two.
+
+use quell::dataset::Dataset;
+use quell::picture;
+use quell::plot::Figure;
+use quell::run::curves::{Curves, Question as Plane, run as curves};
+use quell::run::thresholds::{Protocol, Question, Thresholds, run as thresholds};
+use quell::{Failure, Study, Subject};
+use serde_json::Value as Json;
+
+use super::refused;
+use crate::answer::{Answer, NativeAnswer};
+use crate::study::belt;
+
+struct OnALine {
+    study: Study,
+    done: Thresholds,
+}
+
+impl Answer for OnALine {
+    fn json(&self) -> Json {
+        self.done.json()
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::thresholds(&self.study, &self.done)))
+    }
+}
+
+struct InAPlane {
+    study: Study,
+    done: Curves,
+}
+
+impl Answer for InAPlane {
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
+        vec![("curves", self.done.dataset(&self.study))]
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::curves(&self.study, &self.done)))
+    }
+}
+
+/// Protocols by the names of their fields, and one from a state.
+pub(crate) fn protocols(names: &[String], start: Option<(f64, f64)>) -> Vec<Protocol> {
+    let known = [Protocol::Rest, Protocol::Sliding, Protocol::Squeal];
+    let asked = known.into_iter().filter(|it| names.iter().any(|name| name == it.name()));
+    asked.chain(start.map(|(x, v)| Protocol::From(x, v))).collect()
+}
+
+/// Answers; `range`: the values of the parameter that are searched.
+pub(crate) fn run(
+    subject: &Subject,
+    parameter: String,
+    (from, to): (f64, f64),
+    protocols: Vec<Protocol>,
+    ramp: f64,
+) -> Result<NativeAnswer, Failure> {
+    let study = belt(subject)?.clone();
+    ascending(from, to)?;
+    let done = thresholds(&study, Question { parameter, from, to, protocols, ramp })?;
+    Ok(NativeAnswer::new(OnALine { study, done }))
+}
+
+/// Answers; `between`: the window of the second parameter.
+pub(crate) fn run_along(
+    subject: &Subject,
+    parameter: String,
+    window: (f64, f64),
+    along: String,
+    between: (f64, f64),
+) -> Result<NativeAnswer, Failure> {
+    let study = belt(subject)?.clone();
+    ascending(window.0, window.1)?;
+    if between.0 >= between.1 {
+        let allowed = "two numbers, the second above the first";
+        return Err(refused("between", vec![between.0, between.1], allowed));
+    }
+    let done = curves(&study, Plane { parameter, window, along, between })?;
+    Ok(NativeAnswer::new(InAPlane { study, done }))
+}
+
+fn ascending(from: f64, to: f64) -> Result<(), Failure> {
+    if from < to {
+        return Ok(());
+    }
+    Err(refused("to", to, &format!("a number above from_ = {from}")))
+}

@@ -1,0 +1,183 @@
+"""Results: facts, arrays with units, xarray Datasets, pictures, files, pickles."""
+
+from __future__ import annotations
+
+import pickle
+import subprocess
+import sys
+from typing import Any, get_type_hints
+
+import matplotlib.figure
+import numpy as np
+import pytest
+import xarray
+from conftest import STUDIES
+
+import quell
+from quell import results
+
+
+def every(belt: quell.Belt, disc: quell.Disc) -> dict[str, results.Result]:
+    """A result of every kind."""
+    return {
+        "check": belt.check(),
+        "cite": belt.cite(),
+        "friction": belt.friction(),
+        "stability": belt.stability(),
+        "disc stability": disc.stability(),
+        "simulate": belt.simulate(20.0),
+        "response": belt.response(),
+        "orbit": belt.orbit(),
+        "thresholds": belt.thresholds("dither.amplitude", 0.3, 0.6),
+        "map": belt.map(["growth", "verdict"], {"dither.amplitude": [0.1, 0.5], "belt.belt_velocity": [0.05, 0.1, 0.2]}),
+        "bifurcation": belt.bifurcation("dither.amplitude", 0.45, 0.55, points=3, up=True),
+        "basins": belt.basins(grid=(5, 4)),
+        "curves": belt.thresholds("dither.amplitude", 0.45, 0.55, along="belt.belt_velocity", between=(0.045, 0.055)),
+        "modes": disc.modes(),
+        "resonances": disc.resonances(),
+    }
+
+
+WITHOUT_PICTURE = {"check", "cite"}
+
+
+def test_every_result_is_a_dataset_and_pickles_and_shows(belt: quell.Belt, disc: quell.Disc) -> None:
+    for name, result in every(belt, disc).items():
+        dataset = result.dataset
+        assert isinstance(dataset, xarray.Dataset), name
+        assert dataset.attrs["verb"] == result.verb and dataset.attrs["quell_version"] == quell.__version__
+        again = pickle.loads(pickle.dumps(result))
+        assert again.facts == {**result.facts, "warnings": result.warnings}, name
+        assert again.dataset.identical(dataset), name
+        assert again.study == result.study
+        assert repr(again) and f"quell {result.verb}" in again._repr_html_()
+        if name in WITHOUT_PICTURE:
+            with pytest.raises(quell.StudyError, match="no picture"):
+                result.plot()
+        else:
+            assert isinstance(again.plot(), matplotlib.figure.Figure), name
+
+
+def test_annotated_facts_are_there(belt: quell.Belt, disc: quell.Disc) -> None:
+    other_study = {"critical_amplitudes", "criterion"}
+    for name, result in every(belt, disc).items():
+        for fact, hint in get_type_hints(type(result), localns={"Study": quell.Study}).items():
+            if fact in ("verb", "study") or (fact == "sentence" and "sentence" not in result.facts):
+                continue
+            if name == "disc stability" and fact in other_study:
+                continue
+            value = getattr(result, fact)
+            if hint in (int, float, bool):
+                assert isinstance(value, (int, float)), (name, fact, value)
+            if hint is bool:
+                assert isinstance(value, bool), (name, fact)
+
+
+def test_arrays_have_dimensions_units_and_provenance(belt: quell.Belt) -> None:
+    run = belt.simulate(20.0).dataset
+    assert run["displacement"].dims == ("time",) and run["time"].attrs["units"]
+    assert run["displacement"].attrs["units"].startswith("length")
+    assert float(run["time"][-1]) == 20.0 == float(run["final_time"])
+    assert run.attrs["study"] == belt.text and run.attrs["title"] == "a belt"
+    assert run["event_time"].dims == ("event",) and set(run["event_kind"].values) <= {"stick", "release", "reversal"}
+    response = belt.response()
+    dataset = response.dataset
+    assert float(dataset["efficiency"]) == response.efficiency
+    assert dataset["displacement"].dims == ("time",) and dataset["spectrum_amplitude"].dims == ("frequency",)
+    assert dataset["peak_frequency"].attrs["units"] == "ω₀"
+    for name, variable in dataset.variables.items():
+        assert variable.attrs.get("units") is not None or variable.dtype.kind in "bU" or name in ("settled",), name
+
+
+def test_maps_are_arrays_over_their_axes(belt: quell.Belt, tmp_path: Any) -> None:
+    done = belt.map("efficiency", {"dither.amplitude": np.linspace(0.1, 0.8, 5), "belt.belt_velocity": [0.05, 0.3]},
+                    store=tmp_path / "m.zarr")
+    dataset = done.dataset
+    assert dataset["efficiency"].dims == ("dither_amplitude", "belt_velocity")
+    assert dataset["efficiency"].shape == (5, 2) == tuple(done.shape)
+    stored = xarray.open_zarr(tmp_path / "m.zarr", consolidated=False, mask_and_scale=False)
+    assert set(stored.data_vars) <= set(dataset.data_vars)
+    for name in stored.data_vars:
+        assert stored[name].dims == dataset[name].dims
+        assert stored[name].values.tobytes() == dataset[name].values.tobytes(), name
+    assert "efficiency" in done and len(done) == len(list(done))
+    assert belt.map("efficiency", {"dither.amplitude": [0.1]}).dataset["efficiency"].dims == ("dither_amplitude",)
+    single = belt.set({"dither.amplitude": 0.1, "belt.belt_velocity": 0.3}).response()
+    assert float(done["efficiency"][0, 1]) == single.efficiency or single.efficiency is None
+
+
+def test_what_is_unknown_is_none_and_says_why(belt: quell.Belt) -> None:
+    quiet = belt.set({"belt.damping_ratio": 0.5}).response()
+    assert quiet.efficiency is None and "vibration" in quiet.why["efficiency"]
+    assert np.isnan(quiet.dataset["efficiency"]) and quiet.dataset["efficiency"].attrs["why"]
+    with pytest.raises(AttributeError, match="efficency.*there are.*efficiency"):
+        _ = quiet.efficency
+
+
+def test_friction_takes_and_gives_numpy(belt: quell.Belt) -> None:
+    at = np.linspace(-0.5, 0.5, 11)
+    curve = belt.friction(at)
+    assert np.array_equal(curve.slip_velocity, at)
+    assert curve.coefficient[-1] == -curve.coefficient[0] and np.isnan(curve.coefficient[5])
+    assert np.array_equal(belt.friction(at[::2]).coefficient, curve.coefficient[::2], equal_nan=True)
+    with pytest.raises(quell.StudyError, match="at"):
+        belt.friction([0.1, np.nan])
+    with pytest.raises(quell.StudyError, match="at"):
+        belt.friction("fast")
+
+
+def test_arrays_are_handed_over_not_copied(belt: quell.Belt) -> None:
+    run = belt.simulate(5.0)
+    values = run.arrays["displacement"].values
+    assert values is run.arrays["displacement"].values and values.base is not None or values.flags.owndata
+    assert np.shares_memory(run.dataset["displacement"].values, values)
+
+
+def test_files_are_those_of_the_command_line(belt: quell.Belt, cli: Any, tmp_path: Any) -> None:
+    path = STUDIES / "stribeck-belt.toml"
+    run = quell.Study.from_toml(path).simulate(20)
+    cli("simulate", str(path), "--until", "20", "--save", str(tmp_path / "c.csv"), "--plot", str(tmp_path / "c.svg"))
+    assert run.save(tmp_path / "p.csv") == [str(tmp_path / "p.csv")]
+    run.save(tmp_path / "p.svg")
+    for kind in ("csv", "svg"):
+        assert (tmp_path / f"p.{kind}").read_bytes() == (tmp_path / f"c.{kind}").read_bytes()
+    assert [str(tmp_path / "r.csv"), str(tmp_path / "r_spectrum.csv")] == belt.response().save(tmp_path / "r.csv")
+    with pytest.raises(quell.StudyError, match="must end in"):
+        run.save(tmp_path / "p.xlsx")
+    with pytest.raises(quell.StudyError, match="cannot be written"):
+        run.save(tmp_path / "nowhere" / "p.csv")
+
+
+def test_pictures_have_the_curves_of_the_command_line_s(belt: quell.Belt) -> None:
+    figure = belt.response().plot()
+    record, spectrum = figure.axes
+    colours = {line.get_color() for line in record.get_lines()}
+    assert {"#0072b2", "#808080"} <= colours
+    assert spectrum.get_yscale() == "log"
+    assert "time" in record.get_xlabel() and figure.legends
+    described = belt.response()._native.description()  # type: ignore[union-attr]
+    frame = described["panels"][0]["frame"]
+    box = record.get_position()
+    assert box.x0 * described["width"] == pytest.approx(frame["left"])
+    assert (1.0 - box.y1) * described["height"] == pytest.approx(frame["top"])
+
+
+def test_without_xarray_and_matplotlib_there_is_numpy() -> None:
+    program = """
+import sys
+sys.modules["xarray"] = sys.modules["matplotlib"] = None
+import quell
+belt = quell.Belt(damping_ratio=0.005, normal_load=1, belt_velocity=0.05,
+    friction=quell.Stribeck(static_coefficient=0.4, minimum_coefficient=0.2857, reference_velocity=0.2),
+    dither=quell.Dither("tangential", "sine", amplitude=0.4, frequency_ratio=10))
+run = belt.simulate(5)
+assert isinstance(run.dataset, quell.results.Arrays)
+assert run.dataset["displacement"].dims == ("time",) and run["time"].values[-1] == 5.0
+assert run.dataset.attrs["study"] == belt.text
+try:
+    run.to_xarray()
+except ImportError:
+    print("as it should be")
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert done.stdout == "as it should be\n", done.stderr

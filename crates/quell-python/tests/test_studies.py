@@ -1,0 +1,212 @@
+"""Studies made of objects say what study files say, and are refused with the same complaints."""
+
+from __future__ import annotations
+
+import inspect
+import pickle
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import BELT, DITHER, STUDIES
+
+import quell
+from quell import _quell
+
+
+def test_objects_and_files_make_the_same_study() -> None:
+    made = quell.Belt(**BELT, dither=DITHER)
+    text = """
+        schema = 1
+        [belt]
+        damping_ratio = 0.005
+        normal_load = 1.0
+        belt_velocity = 0.05
+        [friction]
+        law = "stribeck"
+        static_coefficient = 0.4
+        minimum_coefficient = 0.2857
+        reference_velocity = 0.2
+        [dither]
+        direction = "tangential"
+        waveform = "sine"
+        amplitude = 0.4
+        frequency_ratio = 10.0
+    """
+    read = quell.Study.from_text(text)
+    assert isinstance(read, quell.Belt)
+    assert read == made and hash(read) == hash(made)
+    assert quell.Study.from_text(made.text) == made
+    assert made != made.set({"dither.amplitude": 0.5})
+
+
+@pytest.mark.parametrize("path", sorted(STUDIES.glob("*.toml")), ids=lambda path: path.stem)
+def test_every_study_of_the_project_is_read(path: Any) -> None:
+    study = quell.Study.from_toml(path)
+    assert isinstance(study, (quell.Belt, quell.Disc))
+    assert pickle.loads(pickle.dumps(study)) == study
+    assert study.check().facts["ok"] is True
+
+
+def test_all_complaints_come_at_once_with_key_value_and_advice() -> None:
+    with pytest.raises(quell.StudyError) as caught:
+        quell.Belt(
+            damping_ratio=-1,
+            normal_load="heavy",  # type: ignore[arg-type]
+            belt_velcity=0.05,  # type: ignore[arg-type]
+            friction=quell.Stribeck(static_coefficient=0.2, minimum_coefficient=0.3, reference_velocity=0.2),
+            dither=[DITHER, quell.Dither("sideways", "sine", amplitude=1, frequency_ratio=0)],  # type: ignore[arg-type]
+            initial="asleep",  # type: ignore[arg-type]
+            solver=quell.Solver(tolerance=2.0),
+        )
+    errors = {error["key"]: error for error in caught.value.errors}
+    wanted = {
+        "belt.damping_ratio",
+        "belt.normal_load",
+        "belt.belt_velcity",
+        "belt.belt_velocity",
+        "friction.minimum_coefficient",
+        "dither[1].direction",
+        "dither[1].frequency_ratio",
+        "belt.initial.state",
+        "solver.tolerance",
+    }
+    assert wanted <= set(errors)
+    assert errors["belt.damping_ratio"]["value"] == -1
+    assert errors["belt.belt_velcity"]["suggestion"] == "belt.belt_velocity"
+    # Lines of a text that nobody wrote are not told; a file's are.
+    assert all(error["line"] is None for error in errors.values())
+    assert "line" not in str(caught.value)
+    with pytest.raises(quell.StudyError, match="line 2"):
+        quell.Study.from_text("schema = 1\nbelt = 3\n")
+    assert isinstance(caught.value, ValueError)
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert again.errors == caught.value.errors and str(again) == str(caught.value)
+
+
+def test_complaints_are_those_of_the_command_line(cli: Any, tmp_path: Any) -> None:
+    path = tmp_path / "wrong.toml"
+    path.write_text("schema = 1\n[belt]\ndamping_ratio = -1\n[frition]\n")
+    with pytest.raises(quell.StudyError) as caught:
+        quell.Study.from_toml(path)
+    assert caught.value.errors == cli("check", str(path))["errors"]
+    with pytest.raises(quell.StudyError) as caught:
+        quell.Study.from_toml(tmp_path / "missing.toml")
+    assert caught.value.errors[0]["fault"] == "path"
+
+
+def test_a_study_in_si_answers_in_both() -> None:
+    belt = quell.Belt(
+        mass_kg=2.0,
+        stiffness_n_per_m=200.0,
+        damping_n_s_per_m=0.2,
+        normal_force_n=20.0,
+        belt_velocity_m_per_s=0.05,
+        friction=quell.Stribeck(static_coefficient=0.4, minimum_coefficient=0.2857, reference_velocity_m_per_s=0.2),
+        dither=quell.Dither("tangential", "sine", amplitude_n=80.0, frequency_hz=16.0),
+        initial=quell.Initial(displacement_m=0.01),
+    )
+    end = belt.simulate("1.5s").final
+    assert end["time"] == 15.0 and end["time_s"] == 1.5
+    assert belt.simulate(15.0).final == end
+    assert belt.check().system == "si"
+
+
+def test_numpy_numbers_are_numbers() -> None:
+    one = quell.Belt(**{**BELT, "belt_velocity": np.float64(0.05), "normal_load": np.int64(1)}, dither=DITHER)
+    assert one == quell.Belt(**BELT, dither=DITHER)
+    assert one.set({"dither.amplitude": np.float32(0.5)}).settings["dither.amplitude"] == "0.5"
+
+
+def test_changes_are_those_of_set() -> None:
+    belt = quell.Study.from_toml(STUDIES / "stribeck-belt.toml", set={"belt.belt_velocity": 0.1})
+    assert belt.changes == ["belt.belt_velocity=0.1"]
+    again = belt.set({"dither.waveform": "square"})
+    assert again.changes == ["belt.belt_velocity=0.1", 'dither.waveform="square"']
+    assert again.settings["dither.waveform"] == '"square"'
+    with pytest.raises(quell.StudyError, match="did you mean belt.belt_velocity"):
+        belt.set({"belt.belt_velcity": 1})
+    with pytest.raises(quell.StudyError, match="set"):
+        belt.set("belt.belt_velocity=1")  # type: ignore[arg-type]
+
+
+def parameters(cls: type) -> set[str]:
+    """Keyword arguments of a class."""
+    found = inspect.signature(cls.__init__).parameters.values()
+    return {it.name for it in found if it.name != "self" and it.kind is not it.VAR_KEYWORD}
+
+
+def keys(table: str) -> set[str]:
+    """Keys of a table of study files."""
+    return {key for section, key, _, _ in _quell.keys() if section == table}
+
+
+@pytest.mark.parametrize(
+    ("cls", "table", "also"),
+    [
+        (quell.Belt, "belt", {"friction", "dither", "initial", "solver", "axes", "title"}),
+        (quell.Initial, "belt.initial", set()),
+        (quell.Dither, "dither", set()),
+        (quell.Solver, "solver", set()),
+        (quell.Disc, "disc", {"dither", "mode", "load", "axes", "title"}),
+        (quell.Mode, "disc.mode", set()),
+        (quell.Load, "disc.load", set()),
+    ],
+)
+def test_classes_have_the_keys_of_their_tables(cls: type, table: str, also: set[str]) -> None:
+    assert parameters(cls) == keys(table) | also
+
+
+def test_every_law_has_a_class_with_its_parameters() -> None:
+    classes = {
+        cls.__name__.lower(): cls
+        for cls in vars(quell).values()
+        if isinstance(cls, type) and issubclass(cls, quell.Friction) and cls is not quell.Friction
+    }
+    laws: dict[str, set[str]] = {}
+    for system in ("scaled", "si"):
+        for law in quell.schema()["$defs"][f"friction_{system}"]["oneOf"]:
+            name = law["properties"]["law"]["const"]
+            laws.setdefault(name, set()).update(set(law["properties"]) - {"law"})
+    assert set(classes) == set(laws)
+    for name, wanted in laws.items():
+        assert parameters(classes[name]) == wanted, name
+
+
+def test_laws_of_one_s_own_take_formulas_and_arrays() -> None:
+    belt = {**BELT, "friction": quell.Expression("a + b*exp(-abs(v)/0.2)", constants={"a": 0.3, "b": 0.1})}
+    formula = quell.Belt(**belt, dither=DITHER)
+    speed = np.linspace(0.0, 1.0, 60)
+    exact = 0.3 + 0.1 * np.exp(-speed / 0.2)
+    measured = quell.Belt(**{**BELT, "friction": quell.Samples(speed, exact)}, dither=DITHER)
+    built_in = quell.Decreasing(static_coefficient=0.4, minimum_coefficient=0.3, reference_velocity=0.2)
+    known = quell.Belt(**{**BELT, "friction": built_in}, dither=DITHER)
+    at = np.array([0.01, 0.1, 0.5])
+    wanted = known.friction(at)
+    for study, allowed in ((formula, 1e-12), (measured, 1e-4)):
+        found = study.friction(at)
+        assert np.allclose(found.coefficient, wanted.coefficient, rtol=0, atol=allowed)
+        assert np.allclose(found.effective_coefficient, wanted.effective_coefficient, rtol=0, atol=allowed)
+        assert pickle.loads(pickle.dumps(study)) == study
+    steeper = formula.set({"friction.constants.b": 0.2})
+    assert steeper.friction([1e-9]).coefficient[0] == pytest.approx(0.5, abs=1e-6)
+    with pytest.raises(quell.StudyError, match="friction"):
+        quell.Belt(**{**BELT, "friction": quell.Expression("0.3 + 0.1*exq(-v)")}, dither=DITHER)
+
+
+def test_axes_of_a_map_take_the_place_of_the_study_s_own() -> None:
+    belt = quell.Belt(**BELT, dither=DITHER, axes={"dither.amplitude": [0.1, 0.2]})
+    other = belt.sweeping([quell.Axis("belt.belt_velocity", 0.01, 0.1, 3, spacing="log")])
+    assert [axis["parameter"] for axis in other.check().facts["sweeps"]] == ["belt.belt_velocity"]
+    assert pickle.loads(pickle.dumps(other)).check().facts == other.check().facts
+    with pytest.raises(quell.StudyError) as caught:
+        belt.sweeping({"dither.amplitude": [0.1, -0.2], "belt.belt_velcity": np.linspace(0, 1, 3)})
+    assert {error["key"] for error in caught.value.errors} >= {"sweep[1].parameter"}
+    with pytest.raises(quell.StudyError, match="axes"):
+        belt.map("efficiency", 3)  # type: ignore[arg-type]
+
+
+def test_a_verb_about_the_other_kind_of_study_says_so(belt: quell.Belt, disc: quell.Disc) -> None:
+    for refused in (disc.response, disc.friction, disc.orbit, lambda: disc.simulate(1.0), belt.modes, belt.resonances):
+        with pytest.raises(quell.StudyError, match="this verb is about a"):
+            refused()

@@ -1,0 +1,69 @@
+"""Types: the package is clean under mypy, its stub is what the native module has, and misuse is found."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import quell
+
+CRATE = Path(__file__).resolve().parents[1]
+CONFIGURATION = CRATE / "pyproject.toml"
+
+CACHE = str(CRATE.parents[1] / "target" / "python" / "mypy")
+
+GOOD = """
+import quell
+
+belt = quell.Belt(damping_ratio=0.1, normal_load=1, belt_velocity=0.1,
+    friction=quell.Stribeck(static_coefficient=0.4, minimum_coefficient=0.3, reference_velocity=0.2),
+    dither=[quell.Dither("normal", "square", amplitude=0.1, frequency_ratio=10)], initial=(0.1, 0))
+efficiency: float | None = belt.response().efficiency
+amplitude: float = belt.response().amplitude
+faster: quell.Belt = belt.set({"belt.belt_velocity": 0.2})
+again: quell.Study = quell.Study.from_toml("x.toml")
+shape: list[int] = belt.map("efficiency", {"dither.amplitude": [0.1, 0.2]}).shape
+left: list[int] = belt.map("efficiency", store="m.zarr", shard="1/2").left_shards
+"""
+
+BAD = """
+import quell
+
+quell.Belt(damping_ratio="none")
+quell.Belt(belt_velcity=0.1)
+quell.Dither("sideways", "sine")
+quell.Stribeck(mu=0.4)
+belt: quell.Belt = quell.Study.from_text("")
+number: str = belt.response().amplitude
+belt.simulate()
+"""
+
+
+def mypy(*arguments: str) -> subprocess.CompletedProcess[str]:
+    """Runs mypy with the package's configuration."""
+    command = [sys.executable, "-m", "mypy", "--config-file", str(CONFIGURATION), "--no-error-summary", "--cache-dir", CACHE, *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def test_the_package_is_clean_and_misuse_is_found(tmp_path: Path) -> None:
+    good, bad = tmp_path / "good.py", tmp_path / "bad.py"
+    good.write_text(GOOD)
+    bad.write_text(BAD)
+    assert (Path(quell.__file__).parent / "py.typed").is_file()
+    done = mypy(str(CRATE / "python" / "quell"), str(good), str(bad))
+    lines = [line for line in done.stdout.splitlines() if ": error:" in line]
+    others = [line for line in lines if "bad.py" not in line]
+    assert not others, "\n".join(others) + done.stderr
+    wrong = {int(line.split(":")[1]) for line in lines}
+    assert wrong == set(range(4, 11)), "\n".join(lines)
+
+
+def test_the_stub_is_what_the_native_module_has() -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "mypy.stubtest", "quell._quell", "--ignore-missing-stub"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr

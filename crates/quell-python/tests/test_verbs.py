@@ -1,0 +1,146 @@
+"""Everything the command line can, Python can, under the same names and with the same answers."""
+
+from __future__ import annotations
+
+import inspect
+import re
+import subprocess
+from typing import Any
+
+import pytest
+from conftest import STUDIES, command
+
+import quell
+
+ELSEWHERE = {
+    "--help": "help(quell)",
+    "--version": "quell.__version__",
+    "--set": "Study.set, and set= of Study.from_toml",
+    "--tolerance": 'study.set({"solver.tolerance": …})',
+    "--json": "Result.facts, Result.to_dict",
+    "--plot": "Result.plot, Result.save",
+    "--save": "Result.save, and store= of Study.map",
+}
+"""Options that every result or study has in Python, and where."""
+
+OTHER_NAMES = {"--from": "from_"}
+"""Options whose name is a word of Python."""
+
+BESIDE = {"Study.sweeping", "quell.sweep", "quell.quantities"}
+"""What Python has besides, all of it about axes and names of maps."""
+
+
+def offered() -> dict[str, Any]:
+    """Verbs that Python offers: methods that answer with a result, and functions of the package."""
+    verbs = {
+        name: method
+        for name, method in vars(quell.Study).items()
+        if not name.startswith("_") and inspect.isfunction(method) and "results." in str(method.__annotations__.get("return"))
+    }
+    functions = {
+        name: it for name, it in vars(quell).items() if inspect.isfunction(it) and name in quell.__all__
+    }
+    return {**verbs, **{name: it for name, it in functions.items() if f"quell.{name}" not in BESIDE}}
+
+
+def help_of(*arguments: str) -> str:
+    """What --help says."""
+    done = subprocess.run([command(), *arguments, "--help"], capture_output=True, text=True, check=True)
+    return done.stdout
+
+
+def verbs_of_the_command_line() -> list[str]:
+    """Verbs as --help lists them."""
+    listed = help_of().split("Commands:\n")[1].split("\n\n")[0]
+    found = re.findall(r"^  (\w+) ", listed, flags=re.MULTILINE)
+    return [verb for verb in found if verb != "help"]
+
+
+def test_the_verbs_are_the_same() -> None:
+    assert sorted(offered()) == sorted(verbs_of_the_command_line())
+
+
+@pytest.mark.parametrize("verb", sorted(offered()))
+def test_the_options_are_the_same(verb: str) -> None:
+    options = set(re.findall(r"^\s+(?:-\w, )?(--[a-z-]+)", help_of(verb), flags=re.MULTILINE))
+    wanted = {OTHER_NAMES.get(it, it[2:].replace("-", "_")) for it in options - set(ELSEWHERE)}
+    given = set(inspect.signature(offered()[verb]).parameters) - {"self"}
+    python_only = {
+        "map": {"axes", "store", "progress", "client"},
+        "simulate": {"samples"},
+        "bifurcation": {"progress"},
+        "basins": {"progress"},
+        "reproduce": {"names"},
+    }
+    assert wanted <= given, f"Python lacks {wanted - given}"
+    assert given - wanted <= python_only.get(verb, set()), f"the command line lacks {given - wanted}"
+
+
+BELT = str(STUDIES / "stribeck-belt.toml")
+SI = str(STUDIES / "squealing-pad-si.toml")
+DISC = str(STUDIES / "which-dither-frequency.toml")
+QUICK = {"solver.settle": 100, "solver.record_periods": 10}
+CASES: list[tuple[str, str, list[str], Any]] = [
+    ("check", BELT, [], lambda study: study.check()),
+    ("check", DISC, [], lambda study: study.check()),
+    ("cite", BELT, [], lambda study: study.cite()),
+    ("friction", BELT, ["--at", "0.05,0,0.1"], lambda study: study.friction([0.05, 0.0, 0.1])),
+    ("friction", SI, [], lambda study: study.friction()),
+    ("stability", BELT, [], lambda study: study.stability()),
+    ("stability", SI, [], lambda study: study.stability()),
+    ("stability", DISC, [], lambda study: study.stability()),
+    ("simulate", BELT, ["--until", "20", "--events"], lambda study: study.simulate(20)),
+    ("response", BELT, ["--set", "solver.settle=100", "--set", "solver.record_periods=10"],
+     lambda study: study.set(QUICK).response()),
+    ("orbit", BELT, [], lambda study: study.orbit()),
+    ("thresholds", BELT, ["--parameter", "dither.amplitude", "--from", "0.3", "--to", "0.6"],
+     lambda study: study.thresholds("dither.amplitude", 0.3, 0.6)),
+    ("thresholds", BELT, ["--parameter", "dither.amplitude", "--from", "0.45", "--to", "0.55", "--along",
+      "belt.belt_velocity", "--between", "0.045:0.055"],
+     lambda study: study.thresholds("dither.amplitude", 0.45, 0.55, along="belt.belt_velocity", between=(0.045, 0.055))),
+    ("bifurcation", BELT, ["--parameter", "dither.amplitude", "--from", "0.45", "--to", "0.55", "--points", "3", "--up"],
+     lambda study: study.bifurcation("dither.amplitude", 0.45, 0.55, points=3, up=True)),
+    ("basins", BELT, ["--displacement", "0:0.5", "--velocity", "-0.2:0.2", "--grid", "4x3"],
+     lambda study: study.basins(displacement=(0, 0.5), velocity=(-0.2, 0.2), grid=(4, 3))),
+    ("modes", DISC, [], lambda study: study.modes()),
+    ("resonances", DISC, ["--speeds", "0:0.9"], lambda study: study.resonances(speeds=(0, 0.9))),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("verb", "path", "options", "call"), CASES, ids=lambda it: it if isinstance(it, str) else "")
+def test_the_answers_are_the_same(verb: str, path: str, options: list[str], call: Any, cli: Any) -> None:
+    assert call(quell.Study.from_toml(path)).facts == cli(verb, path, *options)
+
+
+def test_cases_are_of_every_verb_of_a_study() -> None:
+    functions = {"schema", "reproduce", "map"}
+    assert {case[0] for case in CASES} == set(offered()) - functions
+
+
+def test_the_schema_is_the_same(cli: Any) -> None:
+    assert quell.schema() == cli("schema")
+
+
+def test_a_map_is_the_same(cli: Any) -> None:
+    study = quell.Study.from_toml(BELT)
+    axes = ["--set", "sweep[0].parameter=dither.amplitude", "--set", "sweep[0].values=[0.1, 0.3, 0.9]"]
+    axes += ["--set", "sweep[1].parameter=belt.belt_velocity", "--set", "sweep[1].values=[0.05, 0.2]"]
+    there = cli("map", BELT, "--quantity", "growth,verdict,critical-amplitude", *axes)
+    asked = ["growth", "verdict", "critical-amplitude"]
+    here = study.map(asked, {"dither.amplitude": [0.1, 0.3, 0.9], "belt.belt_velocity": [0.05, 0.2]})
+    assert here["growth"].values.tolist() == there["growth"]
+    assert here.words("verdict").tolist() == there["verdict"]
+    assert here.words("growth_status").tolist() == there["growth_status"]
+    assert {name: value for name, value in there.items() if name in here.facts} == here.facts
+
+
+def test_reproduce_writes_the_same_files(cli: Any, tmp_path: Any) -> None:
+    quell.reproduce("2.2", out=tmp_path / "python")
+    cli("reproduce", "2.2", "--out", str(tmp_path / "cli"))
+    names = sorted(path.name for path in (tmp_path / "python").iterdir())
+    assert names and names == sorted(path.name for path in (tmp_path / "cli").iterdir())
+    # Reports tell how long it took.
+    for name in (it for it in names if it.startswith("figure")):
+        assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "cli" / name).read_bytes()
+    with pytest.raises(quell.StudyError, match="2.3"):
+        quell.reproduce("2.33", out=tmp_path)

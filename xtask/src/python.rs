@@ -1,0 +1,140 @@
+//! `cargo xtask python`: the wheel, in an environment of its own, and the tests of Python.
+//!
+//! Nothing is needed but Python 3.11 or newer with `venv`, and cargo. The environment lies in
+//! `target/python`; its packages are pinned in `tests/requirements.txt` and installed once, until
+//! that list or the interpreter changes. The wheel is built by the profile of `cargo test`, whose
+//! artefacts it shares, and installed as a user would install it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The crate of the wheel.
+const CRATE: &str = "crates/quell-python";
+
+/// Packages of the tests.
+const REQUIREMENTS: &str = "crates/quell-python/tests/requirements.txt";
+
+/// Interpreters that are tried, in order.
+const INTERPRETERS: &[&str] = &["python3", "python"];
+
+/// What an interpreter is asked: whether it is new enough, and which one it is.
+const PROBE: &str = "import sys, venv; assert sys.version_info >= (3, 11); print(sys.version)";
+
+/// Builds the wheel, installs it, runs the tests.
+///
+/// # Errors
+/// What failed, and its exit status.
+pub(crate) fn run(root: &Path) -> Result<(), String> {
+    let root = root.canonicalize().map_err(|why| format!("{}: {why}", root.display()))?;
+    let place = root.join("target").join("python");
+    let python = environment(&root, &place)?;
+    let wheel = wheel(&root, &place, &python)?;
+    let install = ["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"];
+    command(Command::new(&python).args(install).arg(&wheel))?;
+    let program = root.join("target/debug").join(format!("quell{}", std::env::consts::EXE_SUFFIX));
+    if !program.is_file() {
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        command(Command::new(cargo).args(["build", "--package", "quell-cli"]).current_dir(&root))?;
+    }
+    let tests = Command::new(&python)
+        .args(["-m", "pytest"])
+        .current_dir(root.join(CRATE))
+        .env("QUELL_CLI", program)
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .status();
+    match tests {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(format!("pytest: {status}")),
+        Err(why) => Err(format!("pytest: {why}")),
+    }
+}
+
+/// The interpreter of the environment, with everything the tests need.
+fn environment(root: &Path, place: &Path) -> Result<PathBuf, String> {
+    let requirements = root.join(REQUIREMENTS);
+    let list = fs::read_to_string(&requirements)
+        .map_err(|why| format!("{}: {why}", requirements.display()))?;
+    let (interpreter, version) = INTERPRETERS
+        .iter()
+        .find_map(|name| Some((*name, answer(Command::new(name).args(["-c", PROBE]))?)))
+        .ok_or("no Python 3.11 or newer with venv: install one (python3, python3-venv)")?;
+    let folder = place.join("environment");
+    let python = if cfg!(windows) {
+        folder.join("Scripts").join("python.exe")
+    } else {
+        folder.join("bin").join("python")
+    };
+    let stamp = folder.join("quell-requirements");
+    let wanted = format!("{version}{list}");
+    if fs::read_to_string(&stamp).is_ok_and(|there| there == wanted) {
+        return Ok(python);
+    }
+    command(Command::new(interpreter).args(["-m", "venv", "--clear"]).arg(&folder))?;
+    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"];
+    command(Command::new(&python).args(install).arg(&requirements))?;
+    fs::write(&stamp, wanted).map_err(|why| format!("{}: {why}", stamp.display()))?;
+    Ok(python)
+}
+
+/// Builds the wheel; its path.
+fn wheel(root: &Path, place: &Path, python: &Path) -> Result<PathBuf, String> {
+    let wheels = place.join("wheels");
+    if wheels.exists() {
+        fs::remove_dir_all(&wheels).map_err(|why| format!("{}: {why}", wheels.display()))?;
+    }
+    let mut maturin = Command::new(python);
+    maturin.args(["-m", "maturin", "build", "--quiet", "--profile", "dev", "--out"]).arg(&wheels);
+    command(maturin.arg("--interpreter").arg(python).current_dir(root.join(CRATE)))?;
+    let built = wheels.read_dir().map_err(|why| format!("{}: {why}", wheels.display()))?;
+    let paths: Vec<PathBuf> = built.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    match paths.as_slice() {
+        [wheel] => Ok(wheel.clone()),
+        others => Err(format!("maturin built {} wheels, not one", others.len())),
+    }
+}
+
+/// What a program prints, where it ends well.
+fn answer(program: &mut Command) -> Option<String> {
+    let output = program.output().ok().filter(|output| output.status.success())?;
+    String::from_utf8(output.stdout).ok()
+}
+
+/// Runs a program that has to end well.
+fn command(program: &mut Command) -> Result<(), String> {
+    let told = program.get_program().to_string_lossy().into_owned();
+    let words: Vec<_> =
+        program.get_args().map(|word| word.to_string_lossy().into_owned()).collect();
+    match program.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(format!("{told} {}: {status}", words.join(" "))),
+        Err(why) => Err(format!("{told}: {why}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn packages_of_the_tests_are_pinned() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(REQUIREMENTS);
+        let list = fs::read_to_string(path).expect("requirements");
+        let lines = list.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
+        let mut count = 0;
+        for line in lines {
+            let package = line.split(';').next().unwrap_or_default();
+            assert!(package.contains("=="), "{line} is not pinned");
+            count += 1;
+        }
+        assert!(count > 5);
+    }
+
+    #[test]
+    fn what_fails_is_told_with_its_arguments() {
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let told = command(Command::new(cargo).arg("no-such-chore")).expect_err("no such chore");
+        assert!(told.contains("no-such-chore"), "{told}");
+        assert!(command(&mut Command::new("no-such-program")).is_err());
+    }
+}
