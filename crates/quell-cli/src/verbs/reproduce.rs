@@ -22,7 +22,7 @@ pub(crate) struct Arguments {
     /// Directory for the report, pictures, data and tables; it is made if it is missing
     #[arg(long, value_name = "DIR", default_value = "reproduction")]
     out: PathBuf,
-    /// Coarser grids of the maps: a look in less than a minute
+    /// Coarser grids of the maps: a quicker look
     #[arg(long)]
     quick: bool,
     /// Prints one JSON object on standard output and nothing else

@@ -266,7 +266,7 @@ pub enum Pace {
     /// As their study files say.
     #[default]
     Full,
-    /// At most a few points along each axis of a map: a look in less than a minute.
+    /// At most a few points along each axis of a map: a quicker look; claims are measured in full.
     Quick,
 }
 

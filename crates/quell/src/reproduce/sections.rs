@@ -12,6 +12,7 @@ use quell_model::Direction;
 
 use super::product::{Cell, Product, Table};
 use super::source::{Source, failed, law_name, letter, parameters, short, values, waveform_name};
+use crate::cite::Task;
 use crate::complaint::Failure;
 use crate::plot::{
     Axis, Figure, Legend, Line, Marker, Panel, Points, Role, Rule, SharedLegend, Sharing, Size,
@@ -228,6 +229,7 @@ fn of_waveforms(source: &Source, blocks: &[Columns]) -> Result<Product, Failure>
         .size(Size::Frame(150.0, 118.0));
     let study = blocks[0].study.clone();
     Ok(Product::new(figure, caption(source, blocks), &study)
+        .by(&[Task::Simulate, Task::Stability])
         .table(summary)
         .table(sections)
         .table(Table::of_columns("history", histories)))
