@@ -64,6 +64,7 @@ impl Moments {
 pub(super) struct Sums([f64; 6]);
 
 impl Sums {
+    #[inline(always)]
     pub(super) fn add(&mut self, weight: f64, x: f64, v: f64) {
         let terms = [1.0, x, v, x * x, x * v, v * v];
         for (sum, term) in self.0.iter_mut().zip(terms) {

@@ -68,6 +68,21 @@ impl Segment<'_> {
         values
     }
 
+    /// Velocity x′ at N moments, as [`Segment::displacements_at`].
+    #[inline(always)]
+    pub(crate) fn velocities_at<const N: usize>(&self, since: &[f64; N]) -> [f64; N] {
+        let mut values = [0.0_f64; N];
+        for &coefficient in self.slip.iter().rev() {
+            for moment in 0..N {
+                values[moment] = values[moment].mul_add(since[moment], coefficient);
+            }
+        }
+        for value in &mut values {
+            *value = self.belt_velocity - self.unit * *value;
+        }
+        values
+    }
+
     /// Slip velocity v_r = v₀ − x′ at `since` after its start.
     pub fn slip_velocity(&self, since: f64) -> f64 {
         self.unit * value_of(self.slip, since)

@@ -33,6 +33,9 @@ const TRANSIENT: usize = 900;
 /// States of a settled section that are drawn.
 const SETTLED: usize = 400;
 
+/// Most periods of a run.
+const MOST_PERIODS: u64 = 40_000;
+
 /// Closeness of a threshold, relative.
 const CLOSENESS: f64 = 1e-5;
 
@@ -78,7 +81,8 @@ fn local(name: &str, scene: &Scene<'_>) -> Result<Verdict, Failure> {
 /// Where the run from the start of the study ends.
 fn ends(name: &str, study: &Study, scene: &Scene<'_>) -> Result<Settled, Failure> {
     let start = run::start(study)?;
-    settle(scene, start, Patience::SWEEP).map_err(|why| failed(name, &why))
+    let patience = Patience { periods: MOST_PERIODS, ..Patience::SWEEP };
+    settle(scene, start, patience).map_err(|why| failed(name, &why))
 }
 
 /// Amplitudes between neighbouring columns at which something changes.
