@@ -72,7 +72,7 @@ fn rest_and_squeal_coexist_below_the_local_threshold() {
         (2.5, true, false),
         (4.3, true, false),
         (4.34, false, false),
-        (9.5, false, false),
+        (9.89, false, false),
         (9.91, true, true),
     ] {
         let belt = decreasing(amplitude);

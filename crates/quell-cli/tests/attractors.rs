@@ -67,6 +67,17 @@ fn the_quiet_response_is_lost_just_above_its_threshold() {
     assert!((jump["before"].as_f64().expect("before") - 4.3).abs() < 1e-9, "{jump}");
     assert!((jump["after"].as_f64().expect("after") - 4.4).abs() < 1e-9, "{jump}");
     assert!(found["hysteresis"].is_null() && found["why"]["hysteresis"].is_string());
+    let found = swept(STUDY, ["9.87", "9.93", "4"], &["--down"]);
+    let jump = &found["jumps"][0];
+    assert_eq!(
+        (jump["direction"].as_str(), jump["becomes"].as_str()),
+        (Some("down"), Some("not quiet"))
+    );
+    assert!((jump["before"].as_f64().expect("before") - 9.91).abs() < 1e-9, "{jump}");
+    // Born small, and growing with the distance from the threshold.
+    let size = |k: usize| found["down"][k]["peak_to_peak"].as_f64().expect("a size");
+    let quiet = size(1);
+    assert!(size(2) - quiet < 0.05 && size(3) > size(2), "{} {} {quiet}", size(2), size(3));
 }
 
 #[test]
@@ -155,7 +166,7 @@ fn numbers_and_pictures_are_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name).display().to_string();
     let (csv, svg) = (path("up.csv"), path("up.svg"));
-    let found = swept(STUDY, ["8", "9", "3"], &["--up", "--save", &csv, "--plot", &svg]);
+    let found = swept(STUDY, ["9.6", "10.2", "4"], &["--up", "--save", &csv, "--plot", &svg]);
     let points = found["up"].as_array().expect("points");
     let states: usize =
         points.iter().map(|it| it["section_velocity"].as_array().map_or(0, Vec::len)).sum();
