@@ -62,7 +62,7 @@ fn sweeps_up_and_down_differ_where_responses_coexist() {
 
 #[test]
 fn the_quiet_response_is_lost_just_above_its_threshold() {
-    let found = swept(STUDY, ["4.2", "4.8", "7"], &["--up"]);
+    let found = swept(STUDY, ["0", "4.8", "49"], &["--up"]);
     let jump = &found["jumps"][0];
     assert!((jump["before"].as_f64().expect("before") - 4.3).abs() < 1e-9, "{jump}");
     assert!((jump["after"].as_f64().expect("after") - 4.4).abs() < 1e-9, "{jump}");
@@ -113,7 +113,9 @@ fn basins_have_shares_with_bounds() {
     assert_eq!((&quiet["quiet"], &quiet["kind"]), (&true.into(), &"period-1".into()));
     assert_eq!(found["local_verdict"], "stable");
     let fraction = number(quiet, "fraction");
-    assert!(0.1 < fraction && fraction < 0.9, "{fraction}");
+    // A grid of 41 × 31 starts over the same window gives 4.2 %.
+    let within = number(quiet, "fraction_low")..number(quiet, "fraction_high");
+    assert!(within.contains(&0.042), "{within:?}");
     assert!(number(quiet, "fraction_low") < fraction && fraction < number(quiet, "fraction_high"));
     let sum: f64 = attractors.iter().map(|it| number(it, "fraction")).sum();
     assert!((sum - 1.0).abs() < 1e-12 && number(&found["unknown"], "starts") == 0.0, "{found}");
@@ -226,7 +228,7 @@ fn what_is_wrong_is_said_at_once() {
         "--to",
         "1",
     ];
-    assert_eq!(keys(&without), ["--from", "--to"]);
+    assert_eq!(keys(&without), ["--parameter"]);
     let basins = ["basins", STUDY, "--displacement", "1:-1", "--velocity", "x", "--grid", "big"];
     assert_eq!(keys(&basins), ["--displacement", "--velocity", "--grid"]);
     assert_eq!(keys(&["basins", STUDY, "--grid", "1x9"]), ["--grid"]);

@@ -224,7 +224,7 @@ fn files_are_written_whole_into_a_new_directory() {
         "id=\"figure-2.6\"",
         "Corrections applied",
         "Equations used",
-        "law = \"stribeck\"",
+        "law = &quot;stribeck&quot;",
         "Run time",
     ] {
         assert!(page.contains(inside), "{inside}");

@@ -308,7 +308,8 @@ fn orbit_of(
         multipliers: multipliers_of(&variation.matrix),
         events: variation.events.clone(),
         damping: variation.damping,
-        least_slip: variation.least,
+        // A run stays on its side of v_r = 0: what is below is rounding at an event.
+        least_slip: variation.least.map(|(least, time)| (least.max(0.0), time)),
         stick_fraction: variation.stuck / period,
         slip_sign: end.slip_sign,
         is_free: false,

@@ -36,12 +36,25 @@ impl Varied {
     ) -> Result<Self, Vec<Complaint>> {
         let address = address(option, path).map_err(|complaint| vec![*complaint])?;
         let mut complaints = Vec::new();
+        let mut lacking: Vec<String> = Vec::new();
         let studies = [("--from", from), ("--to", to)].map(|(end, value)| {
-            let changed = study.with(path, value);
-            changed
-                .map_err(|wrong| complaints.extend(wrong.into_iter().map(|it| told(it, end))))
-                .ok()
+            let wrong = match study.with(path, value) {
+                Ok(study) => return Some(study),
+                Err(wrong) => wrong,
+            };
+            for complaint in wrong {
+                if complaint.fault == Fault::Value {
+                    complaints.push(told(complaint, end));
+                } else if !lacking.contains(&complaint.to_string()) {
+                    lacking.push(complaint.to_string());
+                }
+            }
+            None
         });
+        if !lacking.is_empty() {
+            let allowed = format!("a number that this study has: {}", lacking.join("; "));
+            complaints.push(Complaint::option(option, path, allowed));
+        }
         if from.is_nan() || to.is_nan() || from >= to {
             complaints.push(Complaint::option("--to", to, format!("a number above --from {from}")));
         }
@@ -101,10 +114,7 @@ fn address(option: &'static str, path: &str) -> Result<Address, Box<Complaint>> 
 
 /// A complaint about a study at an end of the range, told of that option.
 fn told(complaint: Complaint, option: &'static str) -> Complaint {
-    let allowed = match complaint.fault {
-        Fault::Value => format!("such that {} is {}", complaint.key, complaint.allowed),
-        _ => format!("allowed for this study: {complaint}"),
-    };
+    let allowed = format!("such that {} is {}", complaint.key, complaint.allowed);
     Complaint {
         fault: Fault::Value,
         key: option.to_owned(),
