@@ -62,10 +62,13 @@ def draw(series, states):
         label = {0: "1 µs", 1: "10 µs", 2: "100 µs", 3: "1 ms", 4: "10 ms", 5: "100 ms", 6: "1 s"}[power]
         out.append(f'<path d="M{LEFT} {y:.1f}H{RIGHT}" stroke="#ddd"/>')
         out.append(f'<text x="{LEFT - 6}" y="{y + 4:.1f}" text-anchor="end">{label}</text>')
+    labelled = 0.0
     for n in states:
         x, _ = place(n, values[0])
         out.append(f'<path d="M{x:.1f} {BOTTOM}v5" stroke="black"/>')
-        out.append(f'<text x="{x:.1f}" y="{BOTTOM + 19}" text-anchor="middle" font-size="11">{n}</text>')
+        if x - labelled > 26:
+            labelled = x
+            out.append(f'<text x="{x:.1f}" y="{BOTTOM + 19}" text-anchor="middle" font-size="11">{n}</text>')
     out.append(f'<path d="M{LEFT} {TOP}V{BOTTOM}H{RIGHT}" fill="none" stroke="black"/>')
     middle = (LEFT + RIGHT) / 2
     out.append(f'<text x="{middle}" y="{HEIGHT - 12}" text-anchor="middle">states (twice the coordinates of the modes)</text>')
