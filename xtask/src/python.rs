@@ -2,8 +2,8 @@
 //!
 //! Nothing is needed but Python 3.11 or newer with `venv`, and cargo. The environment lies in
 //! `target/python`; its packages are pinned in `tests/requirements.txt` and installed once, until
-//! that list or the interpreter changes. The wheel is built by the profile of `cargo test`, whose
-//! artefacts it shares, and installed as a user would install it.
+//! that list or the interpreter changes. The wheel is built by the profile of `cargo test`
+//! and installed as a user would install it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
