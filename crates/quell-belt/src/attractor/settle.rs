@@ -22,16 +22,18 @@ use super::watch::Watch;
 use crate::orbit::Verdict;
 use crate::simulation::{FinalState, Run, Stalled, Start, simulate_many};
 
-/// Slow turns of 2π in a block: enough for the bump's averages.
+/// Slow turns of 2π in a block: the bump's averages over fewer still show where a block begins and ends.
 const TURNS: f64 = 20.0;
 
 /// Fewest periods of the strobe in a block.
 const FEWEST: usize = 64;
 
-/// Distance from the quiet response, relative to F, that counts as being there.
+/// Distance from the quiet response, relative to F, that counts as being there: a thousandth of the smallest vibration
+/// that the figures show, and far above what rounding leaves. Another attractor nearer than this would be missed.
 const NEAR: f64 = 1e-6;
 
-/// Relative difference of a measured rate and the multipliers' that counts as alike.
+/// Relative difference of a measured rate and the multipliers' that counts as alike: twice in a row, in a decay far enough
+/// in that its curvature no longer shows. Wider, a run on its way elsewhere could pass; narrower, it only takes longer.
 const ALIKE: f64 = 0.05;
 
 /// Displacement of a start on an unstable response, relative to F: far above rounding, far below any response.

@@ -8,6 +8,7 @@ use quell::run::thresholds::Protocol;
 use quell::{Complaint, Failure, Study, picture};
 use quell_model::units::Quantity;
 
+use super::range::finite;
 use crate::answer::Answer;
 use crate::arguments::{Complaints, PlotArguments, StudyArguments};
 use crate::table::Table;
@@ -108,8 +109,7 @@ fn table(study: &Study, found: &Orbit) -> String {
 
 /// Two numbers x,v.
 pub(super) fn state(option: &'static str, text: &str) -> Result<(f64, f64), Failure> {
-    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|it| it.is_finite());
-    text.split_once(',').and_then(|(x, v)| Some((number(x)?, number(v)?))).ok_or_else(|| {
+    text.split_once(',').and_then(|(x, v)| Some((finite(x)?, finite(v)?))).ok_or_else(|| {
         let allowed = "two finite numbers x,v: displacement and velocity, such as 0.3,0";
         Complaint::option(option, text, allowed).into()
     })

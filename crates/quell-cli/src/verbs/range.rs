@@ -3,10 +3,14 @@
 use quell::{Complaint, quantity};
 use quell_model::units::{Quantity, Scales};
 
+/// A finite number, if the text is one.
+pub(crate) fn finite(text: &str) -> Option<f64> {
+    text.trim().parse().ok().filter(|it: &f64| it.is_finite())
+}
+
 /// A finite number in the numbers of the equations, or of the SI key that is varied.
 pub(crate) fn number(option: &'static str, text: &str) -> Result<f64, Box<Complaint>> {
-    let found = text.trim().parse::<f64>().ok().filter(|it| it.is_finite());
-    found.ok_or_else(|| {
+    finite(text).ok_or_else(|| {
         Box::new(Complaint::option(option, text, "a finite number in the unit of the parameter"))
     })
 }

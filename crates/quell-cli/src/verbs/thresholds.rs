@@ -10,6 +10,7 @@ use quell::run::thresholds::{
 use quell::{Complaint, Failure, Study, picture};
 
 use super::orbit::state;
+use super::range::finite;
 use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, Outputs, Plot, PlotArguments, StudyArguments};
 use crate::table::figure;
@@ -150,9 +151,8 @@ fn text_of_curves(done: &Curves) -> String {
 
 /// Two numbers C:D, the second one above the first.
 fn window(text: &str) -> Result<(f64, f64), Failure> {
-    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|it| it.is_finite());
     text.split_once(':')
-        .and_then(|(from, to)| Some((number(from)?, number(to)?)))
+        .and_then(|(from, to)| Some((finite(from)?, finite(to)?)))
         .filter(|(from, to)| from < to)
         .ok_or_else(|| {
             let allowed = "two finite numbers C:D, the second above the first, such as 0.05:1.5";
@@ -161,7 +161,7 @@ fn window(text: &str) -> Result<(f64, f64), Failure> {
 }
 
 fn number(option: &'static str, text: &str) -> Result<f64, Failure> {
-    text.trim().parse::<f64>().ok().filter(|it| it.is_finite()).ok_or_else(|| {
+    finite(text).ok_or_else(|| {
         Complaint::option(option, text, "a finite number in the numbers of the equations").into()
     })
 }

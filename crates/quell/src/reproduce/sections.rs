@@ -27,13 +27,14 @@ const SHOWN: [f64; 2] = [80.0, 300.0];
 /// Samples per dither period.
 const SAMPLES_PER_PERIOD: f64 = 12.0;
 
-/// Periods of the section from the start of the run.
+/// Periods of the section from the start of the run, as far as a grey trail shows where it goes.
 const TRANSIENT: usize = 900;
 
 /// States of a settled section that are drawn.
 const SETTLED: usize = 400;
 
-/// Most periods of a run.
+/// Most periods of a run. With fewer a run that is still settling counts as
+/// vibrating and shows no settled section; with more, one at a threshold only takes longer to say so.
 const MOST_PERIODS: u64 = 40_000;
 
 /// Closeness of a threshold, relative.
