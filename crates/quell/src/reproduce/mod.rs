@@ -6,6 +6,7 @@
 //! | file | what |
 //! |---|---|
 //! | `source` | study files of the entries, their cases |
+//! | `shared` | measurements that several entries need, made once |
 //! | `product`, `write` | pictures, tables of data, and their files |
 //! | `laws`, `waveforms`, `effective_friction`, `stability_map`, `responses`, `sections`, `efficiency_map`, `measured_friction` | the kinds of figures |
 //! | `disc` | tables and figures of chapter 5 |
@@ -36,10 +37,13 @@ mod product;
 mod report;
 mod responses;
 mod sections;
+mod shared;
 mod source;
 mod stability_map;
 mod waveforms;
 mod write;
+
+use shared::Shared;
 
 pub use product::{Cell, Column, Product, Table};
 pub use source::Source;
@@ -163,17 +167,24 @@ impl Entry {
         (self.make)(&Source { most_points: Some(most_points), ..self.source() })
     }
 
-    /// The product at this pace.
-    fn at(&self, pace: Pace) -> Result<Product, Failure> {
-        match pace {
-            Pace::Full => self.product(),
-            Pace::Quick => self.coarse_product(QUICK_POINTS),
-        }
+    /// The product at this pace, with what the run has measured already.
+    fn at(&self, pace: Pace, shared: &Shared) -> Result<Product, Failure> {
+        let most_points = match pace {
+            Pace::Full => None,
+            Pace::Quick => Some(QUICK_POINTS),
+        };
+        (self.make)(&Source { most_points, shared: shared.clone(), ..self.source() })
     }
 
     /// Its name and study file.
     pub fn source(&self) -> Source {
-        Source { name: self.name, about: self.about, text: self.study, most_points: None }
+        Source {
+            name: self.name,
+            about: self.about,
+            text: self.study,
+            most_points: None,
+            shared: Shared::default(),
+        }
     }
 
     /// What its files are called, without extension.
@@ -313,6 +324,7 @@ pub fn run(
     progress: impl Fn(Step) + Sync,
 ) -> Result<Reproduction, Failure> {
     write::prepare(directory)?;
+    let shared = Shared::default();
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<(usize, Result<Written, Failure>)>> = Mutex::new(Vec::new());
     // The claims take longest and use one thread: whoever begins with them ends with the others.
@@ -322,7 +334,7 @@ pub fn run(
         while let Some(&place) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
             let entry = &entries[place];
             progress(Step::Begun(entry));
-            let outcome = one(entry, directory, pace);
+            let outcome = one(entry, directory, pace, &shared);
             match &outcome {
                 Ok(written) => progress(Step::Done(written)),
                 Err(_) => next.store(entries.len(), Ordering::Relaxed),
@@ -348,9 +360,9 @@ pub fn run(
     Ok(Reproduction { written, report, table })
 }
 
-fn one(entry: &Entry, directory: &Path, pace: Pace) -> Result<Written, Failure> {
+fn one(entry: &Entry, directory: &Path, pace: Pace, shared: &Shared) -> Result<Written, Failure> {
     let began = Instant::now();
-    let product = entry.at(pace)?;
+    let product = entry.at(pace, shared)?;
     let files = write::product(&product, &entry.stem(), directory)?;
     Ok(Written { entry: *entry, files, product, elapsed: began.elapsed() })
 }

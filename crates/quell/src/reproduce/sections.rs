@@ -4,11 +4,12 @@
 //! amplitude, and between which amplitudes either of them changes, bisected to `CLOSENESS`.
 
 use std::fmt::Write as _;
+use std::sync::Arc;
 
 use quell_belt::attractor::{Attractor, Outcome, Patience, Scene, Settled, measure, settle};
 use quell_belt::orbit::Verdict;
 use quell_belt::simulation::{Sample, Sampler, simulate};
-use quell_model::Direction;
+use quell_model::{Direction, Waveform};
 
 use super::product::{Cell, Product, Table};
 use super::source::{Source, failed, law_name, letter, parameters, short, values, waveform_name};
@@ -41,6 +42,7 @@ const MOST_PERIODS: u64 = 40_000;
 const CLOSENESS: f64 = 1e-5;
 
 /// One column of a figure.
+#[derive(Debug)]
 pub(super) struct Case {
     /// D.
     pub(super) amplitude: f64,
@@ -96,6 +98,7 @@ pub(super) struct Change {
 }
 
 /// The columns of a figure with one waveform, and what changes between them.
+#[derive(Debug)]
 pub(super) struct Columns {
     pub(super) study: Study,
     pub(super) cases: Vec<Case>,
@@ -152,17 +155,20 @@ fn changes(
 
 /// One waveform: that of the study.
 pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
-    of_waveforms(source, &[Columns::of(source.name, source.study()?)?])
+    of_waveforms(source, &[source.shared.columns(source.name, &source.study()?)?])
 }
 
 /// Figure 4.11: square as its caption says, and sine, which its text describes.
 pub(super) fn square_and_sine(source: &Source) -> Result<Product, Failure> {
-    let square = Columns::of(source.name, source.study()?)?;
-    let sine = Columns::of(source.name, source.changed(&["dither.waveform=sine"])?)?;
+    let of = |waveform: Waveform| {
+        let study = source.changed(&[&format!("dither.waveform={}", waveform.name())])?;
+        source.shared.columns(source.name, &study)
+    };
+    let [square, sine] = [of(Waveform::Square)?, of(Waveform::Sine)?];
     of_waveforms(source, &[square, sine])
 }
 
-fn of_waveforms(source: &Source, blocks: &[Columns]) -> Result<Product, Failure> {
+fn of_waveforms(source: &Source, blocks: &[Arc<Columns>]) -> Result<Product, Failure> {
     let several = blocks.len() > 1;
     let mut panels = Vec::new();
     let mut histories: Vec<(String, &'static str, Vec<f64>)> = Vec::new();
@@ -339,7 +345,7 @@ fn count(steps: f64) -> usize {
     steps.floor().max(1.0) as usize + 1
 }
 
-fn caption(source: &Source, blocks: &[Columns]) -> String {
+fn caption(source: &Source, blocks: &[Arc<Columns>]) -> String {
     let study = &blocks[0].study;
     let belt = study.belt();
     let dither = belt.dithers()[0];

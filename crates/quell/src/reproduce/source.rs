@@ -4,11 +4,12 @@ use std::fmt::Display;
 
 use quell_model::{LawKind, Waveform};
 
+use super::shared::Shared;
 use crate::complaint::Failure;
 use crate::study::{Axis, Change, Study, Sweep};
 
 /// An entry's name and study file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct Source {
     /// Name: `2.3`.
     pub name: &'static str,
@@ -18,6 +19,8 @@ pub struct Source {
     pub text: &'static str,
     /// Most points along an axis of its sweeps, where they shall be fewer than the file says.
     pub most_points: Option<usize>,
+    /// What other entries of the run have measured.
+    pub(super) shared: Shared,
 }
 
 impl Source {

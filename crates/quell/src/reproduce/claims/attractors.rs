@@ -4,7 +4,7 @@ use quell_belt::attractor::{Patience, Scene, gather, settle_many};
 use quell_belt::simulation::Start;
 use quell_model::{Direction, LawKind, Waveform};
 
-use super::super::sections::{Change, Columns};
+use super::super::sections::{Case, Change, Columns};
 use super::super::source::failed;
 use super::chapter2::{LIGHT, belt, source};
 use super::sheet::{Sheet, digits, list};
@@ -54,43 +54,36 @@ const TANGENTIAL: [Printed; 4] = [
     },
 ];
 
-/// Figures 2.10, 2.11, 3.12, 3.13.
-pub(super) fn tangential(sheet: &mut Sheet) -> Result<(), Failure> {
-    for printed in &TANGENTIAL {
-        let name = printed.figure;
-        let columns = Columns::of(name, source(name)?.study()?)?;
-        columns_claim(sheet, name, name, &columns, printed.stable);
-        borders(sheet, printed, &columns);
-        let place = format!("Figure {name}");
-        for (which, (change, averaged)) in columns.local.iter().zip(printed.averaged).enumerate() {
-            let (word, claim) = [("unstable", "lower"), ("stable again", "upper")][which.min(1)];
-            let statement = format!(
-                "the response is {word} from D_T = (averaging as printed, exact Floquet threshold as measured)"
-            );
-            sheet.number(
-                &format!("{name}-local-{claim}"),
-                &place,
-                &statement,
-                averaged,
-                &[change.amplitude],
-            );
-        }
-        let frequencies: Vec<f64> = columns
-            .cases
-            .iter()
-            .filter(|case| !case.quiet)
-            .filter_map(super::super::sections::Case::frequency)
-            .collect();
-        sheet
-            .number(
-                &format!("{name}-period-10"),
-                &place,
-                "the unstable response is close to period-10: its low frequency is at or near ω₀",
-                "1.0",
-                &frequencies,
-            )
-            .note("turns of the section a period, times R");
+/// Figures 2.10, 2.11, 3.12, 3.13: the claims of one.
+pub(super) fn tangential(sheet: &mut Sheet, figure: &str) -> Result<(), Failure> {
+    let printed = TANGENTIAL
+        .iter()
+        .find(|printed| printed.figure == figure)
+        .ok_or_else(|| failed("claims", &format!("nothing is printed about figure {figure}")))?;
+    let columns = sheet.shared.columns(figure, &source(figure)?.study()?)?;
+    columns_claim(sheet, figure, figure, &columns, printed.stable);
+    borders(sheet, printed, &columns);
+    let place = format!("Figure {figure}");
+    for ((change, averaged), (word, claim)) in columns
+        .local
+        .iter()
+        .zip(printed.averaged)
+        .zip([("unstable", "lower"), ("stable again", "upper")])
+    {
+        let name = format!("{figure}-local-{claim}");
+        let statement = format!(
+            "the response is {word} from D_T = (averaging as printed, exact Floquet threshold as measured)"
+        );
+        sheet.number(&name, &place, &statement, averaged, &[change.amplitude]);
     }
+    let vibrating = columns.cases.iter().filter(|case| !case.quiet);
+    let frequencies: Vec<f64> = vibrating.filter_map(Case::frequency).collect();
+    let name = format!("{figure}-period-10");
+    let statement =
+        "the unstable response is close to period-10: its low frequency is at or near ω₀";
+    sheet
+        .number(&name, &place, statement, "1.0", &frequencies)
+        .note("turns of the section a period, times R");
     Ok(())
 }
 
@@ -152,43 +145,40 @@ fn borders(sheet: &mut Sheet, printed: &Printed, columns: &Columns) {
     }
 }
 
-/// Figure 4.11 with the waveform of its caption and with a sine.
-pub(super) fn normal(sheet: &mut Sheet) -> Result<(), Failure> {
-    let source = source("4.11")?;
-    for waveform in ["square", "sine"] {
-        let study = source.changed(&[&format!("dither.waveform={waveform}")])?;
-        let columns = Columns::of("4.11", study)?;
-        let stem = format!("4.11-{waveform}");
-        columns_claim(sheet, &stem, &format!("4.11, {waveform}"), &columns, &[0.0, 0.6, 0.95]);
-        let spreads: Vec<f64> = columns.cases.iter().map(spread).collect();
-        let thresholds: Vec<f64> = columns.local.iter().map(|change| change.amplitude).collect();
-        let statement = "from rest it is stable at D_N = 0.6, unstable from 0.7, and nearly stable at 0.9 to 0.95";
-        // Peak of the section where the text calls it unstable, against what is left at its end.
-        let pattern = spreads.len() == 6
-            && spreads[1] < 1e-6
-            && spreads[2] > 0.01
-            && spreads[3] > 0.01
-            && spreads[5] < 0.2 * spreads[2];
-        sheet
-            .statement(
-                [&format!("{stem}-pattern"), &format!("Figure 4.11, {waveform}"), statement],
-                format!("size of the section {}", list(&spreads)),
-                &spreads,
-                pattern,
-            )
-            .note(format!("the quiet response changes stability at D_N = {}", list(&thresholds)));
-    }
+/// Figure 4.11 with a waveform: that of its caption, or a sine.
+pub(super) fn normal(sheet: &mut Sheet, waveform: Waveform) -> Result<(), Failure> {
+    let waveform = waveform.name();
+    let study = source("4.11")?.changed(&[&format!("dither.waveform={waveform}")])?;
+    let columns = sheet.shared.columns("4.11", &study)?;
+    let stem = format!("4.11-{waveform}");
+    columns_claim(sheet, &stem, &format!("4.11, {waveform}"), &columns, &[0.0, 0.6, 0.95]);
+    let spreads: Vec<f64> = columns.cases.iter().filter_map(spread).collect();
+    let thresholds: Vec<f64> = columns.local.iter().map(|change| change.amplitude).collect();
+    let statement =
+        "from rest it is stable at D_N = 0.6, unstable from 0.7, and nearly stable at 0.9 to 0.95";
+    // Peak of the section where the text calls it unstable, against what is left at its end.
+    let pattern = spreads.len() == 6
+        && spreads[1] < 1e-6
+        && spreads[2] > 0.01
+        && spreads[3] > 0.01
+        && spreads[5] < 0.2 * spreads[2];
+    sheet
+        .statement(
+            [&format!("{stem}-pattern"), &format!("Figure 4.11, {waveform}"), statement],
+            format!("size of the section {}", list(&spreads)),
+            &spreads,
+            pattern,
+        )
+        .note(format!("the quiet response changes stability at D_N = {}", list(&thresholds)));
     Ok(())
 }
 
-/// Extent of a settled section along x.
-fn spread(case: &super::super::sections::Case) -> f64 {
-    let states = case.attractor.as_ref().map_or(&[][..], |it| it.section.as_slice());
-    let (low, high) =
-        states.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (x, _)| {
-            (low.min(*x), high.max(*x))
-        });
-    if low <= high { high - low } else { f64::NAN }
+/// Extent along x of the section of a response, where the run ended on one.
+fn spread(case: &Case) -> Option<f64> {
+    let displacements = case.attractor.as_ref()?.section.iter().map(|(x, _)| *x);
+    let (low, high) = displacements
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    (low <= high).then_some(high - low)
 }
 
 /// "Multiple solutions have not been encountered", normal dither: 11 × 9 starts, x from −1 to 1.5, x′ from −1 to 1.

@@ -4,10 +4,12 @@
 //! measured values by the rules of [`Verdict`], never from words. The verdict on record stands in [`LEDGER`]; a test holds
 //! every claim to it, so that none changes unseen.
 
+use quell_model::Waveform;
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};
 
 use super::product::{Cell, Product, Table};
+use super::shared::Shared;
 use super::source::Source;
 use crate::complaint::Failure;
 
@@ -47,8 +49,12 @@ const SECTIONS: &[Section] = &[
     chapter4::effective_friction,
     chapter4::stability_maps,
     isocline::normal,
-    attractors::tangential,
-    attractors::normal,
+    |sheet| attractors::tangential(sheet, "2.10"),
+    |sheet| attractors::tangential(sheet, "2.11"),
+    |sheet| attractors::tangential(sheet, "3.12"),
+    |sheet| attractors::tangential(sheet, "3.13"),
+    |sheet| attractors::normal(sheet, Waveform::Square),
+    |sheet| attractors::normal(sheet, Waveform::Sine),
     attractors::other_starts,
     chapter4::formulas,
     chapter5::tables,
@@ -64,10 +70,15 @@ const SECTIONS: &[Section] = &[
 /// # Errors
 /// [`Failure`] if a run stops or an average has no value.
 pub fn measure() -> Result<Vec<Claim>, Failure> {
+    measure_with(&Shared::default())
+}
+
+/// The same, with what figures have measured already.
+fn measure_with(shared: &Shared) -> Result<Vec<Claim>, Failure> {
     let sections: Result<Vec<Vec<Claim>>, Failure> = SECTIONS
         .par_iter()
         .map(|section| {
-            let mut sheet = Sheet::default();
+            let mut sheet = Sheet { shared: shared.clone(), ..Sheet::default() };
             section(&mut sheet).map(|()| sheet.claims)
         })
         .collect();
@@ -75,8 +86,8 @@ pub fn measure() -> Result<Vec<Claim>, Failure> {
 }
 
 /// The table as a product.
-pub(super) fn product(_: &Source) -> Result<Product, Failure> {
-    let claims = measure()?;
+pub(super) fn product(source: &Source) -> Result<Product, Failure> {
+    let claims = measure_with(&source.shared)?;
     let columns = ["claim", "where", "statement", "printed", "measured", "verdict", "note"]
         .map(|name| (name, "1"));
     let mut table = Table::new("", &columns);

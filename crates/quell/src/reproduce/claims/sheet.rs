@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::super::shared::Shared;
 use super::ledger::{self, Expected};
 
 /// What becomes of a claim.
@@ -105,6 +106,8 @@ pub struct Claim {
 /// Claims under construction.
 #[derive(Debug, Default)]
 pub(super) struct Sheet {
+    /// What figures have measured already.
+    pub(super) shared: Shared,
     /// Those finished.
     pub(super) claims: Vec<Claim>,
 }
