@@ -57,12 +57,36 @@ fn copy(from: &Path, to: &Path) -> Result<(), String> {
             copy(&path, &target)?;
         } else if path.extension().is_some_and(|extension| extension == "md") {
             let text = fs::read_to_string(&path).map_err(|why| failed(&path, why))?;
-            fs::write(&target, typeset(&text)).map_err(|why| failed(&target, why))?;
+            fs::write(&target, typeset(&inward(&text))).map_err(|why| failed(&target, why))?;
         } else {
             fs::copy(&path, &target).map_err(|why| failed(&path, why))?;
         }
     }
     Ok(())
+}
+
+/// A page whose links to files of the repository are words: the site does not hold them.
+fn inward(page: &str) -> String {
+    let mut inward = String::new();
+    let mut rest = page;
+    while let Some((before, after)) = rest.split_once("](") {
+        let (target, end) = after.split_once(')').unwrap_or((after, ""));
+        let outward = target.starts_with("../") && target.contains("crates/");
+        match before.rfind('[') {
+            Some(open) if outward => {
+                inward += &before[..open];
+                inward += &before[open + 1..];
+            }
+            _ => {
+                inward += before;
+                inward += "](";
+                inward += target;
+                inward.push(')');
+            }
+        }
+        rest = end;
+    }
+    inward + rest
 }
 
 /// A page with `v_m` and `e^{γ−w}` lowered and raised; code and links stay as they are.
@@ -129,7 +153,17 @@ fn group(letters: &[char]) -> (String, usize) {
 
 #[cfg(test)]
 mod tests {
-    use super::typeset;
+    use super::{inward, typeset};
+
+    #[test]
+    fn links_out_of_the_book_become_words() {
+        assert_eq!(
+            inward(
+                "| [a_test](../../../crates/q/tests/e.rs) | [x](theory/y.md) | ![p](../r/f.svg)\n"
+            ),
+            "| a_test | [x](theory/y.md) | ![p](../r/f.svg)\n"
+        );
+    }
 
     #[test]
     fn symbols_are_typeset_and_names_are_not() {

@@ -210,6 +210,84 @@ fn dither_is_halved_in_the_complex_form() {
     assert!(largest(1.30) < 0.0 && largest(1.45) > 0.0, "{} {}", largest(1.30), largest(1.45));
 }
 
+/// Text before (5.30): of a friction that alternates between ±F_θ only the fundamental is kept, as F_θ cos Rτ; it is 4/π of that. The
+/// exact monodromy under the whole square wave has the threshold of α = 4/π, π/4 of the printed one.
+#[test]
+fn first_harmonic_of_a_reversed_friction() {
+    let wave = |theta: f64| theta.cos().signum() * theta.cos() / PI;
+    let first =
+        integrate(wave, 0.0, 2.0 * PI, &[0.5 * PI, 1.5 * PI], &QuadratureOptions::default());
+    close(first.expect("converges").value, 4.0 / PI, 1e-12);
+    let largest = |friction: f64, rate: &dyn Fn(&Disc) -> f64, amplitude: f64| {
+        let dither = Dither::Tangential { amplitude, frequency_ratio: 2.7 };
+        let speeds = (0..=30).map(|k| 0.318 + 4e-4 * f64::from(k));
+        let discs = speeds.map(|speed| disc(0.1, friction / 0.1, 0.0, dither, speed));
+        discs.map(|disc| rate(&disc)).fold(f64::MIN, f64::max)
+    };
+    let (below, above) = (0.115, 0.119);
+    assert!(largest(below, &reversing, 1.0) < 0.0 && largest(above, &reversing, 1.0) > 0.0);
+    assert!(largest(below, &growth, 4.0 / PI) < 0.0 && largest(above, &growth, 4.0 / PI) > 0.0);
+    assert!(largest(above, &growth, 1.0) < 0.0, "as printed the tongue begins later");
+    assert!(largest(0.151, &growth, 1.0) > 0.0, "at 0.149");
+}
+
+/// Growth rate under friction that is +f for a quarter period, −f for a half, +f for a quarter.
+fn reversing(disc: &Disc) -> f64 {
+    let system = System::new(disc);
+    let period = 2.0 * PI / system.frequency_ratio().expect("dither");
+    let (mean, swing) = system.modulation();
+    assert_eq!(mean, 0.0);
+    let friction =
+        |sign: f64| -> Vec<f64> { system.friction().iter().map(|f| sign * swing * f).collect() };
+    let forward = exponential(&system.state_matrix(&friction(1.0)), 0.25 * period);
+    let back = exponential(&system.state_matrix(&friction(-1.0)), 0.5 * period);
+    let monodromy = forward.times(&back).times(&forward);
+    let multipliers = eigenvalues(&monodromy).expect("finite");
+    multipliers.iter().map(|z| z.norm()).fold(0.0, f64::max).ln() / period
+}
+
+/// e^{At} by its series and squaring.
+fn exponential(a: &Matrix, time: f64) -> Matrix {
+    const SQUARINGS: i32 = 12;
+    let step = time * f64::powi(0.5, SQUARINGS);
+    let (mut sum, mut term) = (Matrix::identity(a.rows()), Matrix::identity(a.rows()));
+    for k in 1..16 {
+        let mut next = Matrix::zeros(a.rows(), a.rows());
+        next.add_scaled(step / f64::from(k), &term.times(a));
+        term = next;
+        sum.add_scaled(1.0, &term);
+    }
+    for _ in 0..SQUARINGS {
+        sum = sum.times(&sum);
+    }
+    sum
+}
+
+/// Captions of chapter 5 give m, c/ω_cr, k/ω_cr², F_θ/(r₀ω_cr²) as pure numbers; each is a mass. The same numbers on a plate of
+/// twice the mass are half the load, and the growth is another.
+#[test]
+fn loads_are_ratios_to_the_mass_of_the_plate() {
+    let rate = |strength: f64| growth(&disc(strength, 1.5, 0.0, Dither::None, 0.12));
+    let (one, half) = (rate(0.1), rate(0.05));
+    assert!(one > 0.0 && (half / one - 1.0).abs() > 0.1, "{one} {half}");
+}
+
+/// "The tongues of Ω₁ and Ω₄ begin at f = 10⁻⁴ and 3·10⁻⁵": without modal damping they are there for every f, with growth ~ f⁴.
+#[test]
+fn revived_tongues_have_no_threshold() {
+    let largest = |friction: f64| {
+        let rates = (0..=120).map(|k| {
+            let speed = 0.1922 * (1.0 - 4e-4 * f64::from(k));
+            growth(&disc(0.3, friction / 0.3, 0.0, TANGENTIAL, speed))
+        });
+        rates.fold(f64::MIN, f64::max)
+    };
+    // 3·10⁻⁵ is f = 0.3.
+    let (small, large) = (largest(0.1), largest(0.2));
+    assert!(small > 0.0, "{small}");
+    assert!((12.0..20.0).contains(&(large / small)), "f⁴: {}", large / small);
+}
+
 /// Table 5.1 leaves Ω = 0 out, where the cosine and sine of one mode meet: an exponent stays imaginary whatever the load.
 #[test]
 fn standstill_is_a_meeting() {

@@ -3,7 +3,8 @@
 //! μ̄(v) = ⟨μ(v − s)(1 + ν)⟩ (2.21, 3.19, 4.28): v the slow slip velocity, s the fast slip velocity and ν the fast part of
 //! the normal load, both zero-mean ([`FastMotion`]). The print has μ(v_r + αG) in places, which only waveforms with
 //! s(θ + π) = −s(θ) forgive. The slope keeps s frozen: that is what decides stability (with normal dither s depends on v, and
-//! differentiating through it is wrong).
+//! differentiating through it is wrong; the limit R → ∞ differs from the frozen slope at a threshold beyond α_N² only, see
+//! `tests/averaging_errata.rs`).
 //!
 //! | motion | how | relative error of μ̄, μ̄′ |
 //! |---|---|---|

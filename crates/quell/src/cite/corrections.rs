@@ -70,9 +70,10 @@ pub const CORRECTIONS: &[Correction] = &[
         proof: motion("forced_amplitude_grows_as_the_ratio_falls"),
     },
     Correction {
-        equations: "(2.21), (3.19)",
-        printed: "μ̄(v_r) = ⟨μ(v_r + αG)⟩",
-        right: "⟨μ(v_r − αG)⟩, for x′ = Z′ + αG; antiperiodic waveforms alone forgive the printed sign",
+        equations: "(2.22), (3.19)",
+        printed: "μ̄(v_r) = ⟨μ(v_r + αG)⟩, v_r the slip velocity",
+        right: "as (2.21), (3.18) use it the argument is Ż − v₀, and it is exact; of the slip v₀ − Ż it is ⟨μ(v_r − αG)⟩, which \
+                antiperiodic waveforms alone forgive",
         tasks: AVERAGING,
         bears: TANGENTIAL,
         proof: belt("sign_of_the_fast_motion"),
@@ -80,14 +81,14 @@ pub const CORRECTIONS: &[Correction] = &[
     Correction {
         equations: "(2.27)",
         printed: "E = M₁/M₀, no record stated",
-        right: "a settling time is discarded, the mean removed, a Hann window applied; with the mean left in, E > 1 always; E is \
-                undefined where the undithered run settles to steady sliding",
+        right: "a settling time is discarded, the mean removed, a Hann window applied; with the mean left in, E is the ratio of the mean \
+                displacements, above 1 in every case tried; E is undefined where the undithered run settles to steady sliding",
         tasks: RESPONSE,
         bears: BELT,
         proof: motion("efficiency_needs_the_mean_removed"),
     },
     Correction {
-        equations: "text of figures 2.7, 2.10",
+        equations: "text of figures 2.7, 2.10, and after (3.60)",
         printed: "decreasing law, v₀ > v₂: the undithered system is stable",
         right: "only locally: a stick-slip cycle coexists with stable sliding far above v₂",
         tasks: STABILITY,
@@ -95,7 +96,7 @@ pub const CORRECTIONS: &[Correction] = &[
         proof: motion("a_cycle_coexists_with_stable_sliding"),
     },
     Correction {
-        equations: "text of figure 2.7, (3.61)",
+        equations: "text of figure 2.10",
         printed: "stable again from α = 0.98 at v₀ = 1",
         right: "α = v₀ exactly, by a jump of the criterion; 0.98 is a point of a plotting grid",
         tasks: STABILITY,
@@ -105,15 +106,15 @@ pub const CORRECTIONS: &[Correction] = &[
     Correction {
         equations: "caption of figure 2.11",
         printed: "v₀ = 1.0",
-        right: "v₀ = 1.5, as its text says: the responses shown belong to it",
+        right: "v₀ = 1.5, as its text says: from rest D = 6.5 settles and 14 does not, at v₀ = 1.0 it is the reverse",
         tasks: &[],
         bears: Bears::Nothing,
-        proof: Proof::Reading,
+        proof: motion("figure_2_11_is_at_one_and_a_half"),
     },
     Correction {
         equations: "(3.9), (3.10), (3.15), (4.18)",
         printed: "brackets and factors in the wrong place",
-        right: "(3.9) goes into (3.1); the brace of (3.10) closes behind F; (3.15) lacks α_T in its 2ζ term; in (4.18) \
+        right: "(3.9) goes into (3.1); the brace of (3.10) closes behind F; (3.15) lacks α_T in its 2ζ term and a + before O(); in (4.18) \
                 α_N(μ − (εφ₁′ + ε²φ₂′)μ′)",
         tasks: &[],
         bears: Bears::Nothing,
@@ -144,8 +145,8 @@ pub const CORRECTIONS: &[Correction] = &[
         proof: belt("effective_decreasing_triangle"),
     },
     Correction {
-        equations: "text after (3.40), (4.32)",
-        printed: "μ̄′ ≥ 0 inside |v_r| ≤ αG_max, always",
+        equations: "text after (3.41)",
+        printed: "μ̄′ ≥ 0 inside |v_r| ≤ αG_max (of triangle and square it is said for the chosen values only)",
         right: "for Stribeck only up to (μ_s − μ_m)/μ_s = √6/π (sine), √0.4 (triangle), 1 (square)",
         tasks: STABILITY,
         bears: with(LawKind::Stribeck),
@@ -208,12 +209,22 @@ pub const CORRECTIONS: &[Correction] = &[
         proof: belt("fast_motion_under_normal_dither_separates"),
     },
     Correction {
-        equations: "(4.32) with (4.28)",
+        equations: "(4.24), (4.28), (4.32)",
         printed: "2ζ + F dμ̄/dv_r, φ′ varying with v_r",
-        right: "2ζ + F⟨μ′(v₀ − φ′)⟩ with φ′ frozen; the total derivative is 16 % off the exact threshold",
+        right: "2ζ + F⟨μ′(v₀ − φ′)⟩ with φ′ frozen, right up to α_N²; the limit R → ∞ is 2ζ + ⟨(μ′/μ)(2ζφ′ + Z)⟩; the total \
+                derivative is 16 % off, because (4.24) drops the large load on the next order of the velocity",
         tasks: STABILITY,
         bears: NORMAL,
         proof: belt("fast_motion_stays_frozen_in_the_slope"),
+    },
+    Correction {
+        equations: "(4.24)",
+        printed: "the load α_N R g meets the fast velocity φ′ alone",
+        right: "it meets the next order of the velocity too, −α_N⟨gμ′p⟩, a term of order one: the criterion for R → ∞ is \
+                2ζ + ⟨(μ′/μ)(2ζφ′ + Z)⟩",
+        tasks: STABILITY,
+        bears: NORMAL,
+        proof: belt("limit_of_high_frequency_under_normal_dither"),
     },
     Correction {
         equations: "(4.34), (4.36), (4.38), (4.40), (4.42)",
@@ -221,7 +232,7 @@ pub const CORRECTIONS: &[Correction] = &[
         right: "they hold μ(v₀): not so until μ is taken at the tip v₀ = α^L G_max",
         tasks: STABILITY,
         bears: NORMAL,
-        proof: belt("everywhere_stable_amplitudes"),
+        proof: belt("stable_everywhere_needs_the_tip"),
     },
     Correction {
         equations: "(4.38)",
@@ -238,7 +249,8 @@ pub const CORRECTIONS: &[Correction] = &[
     Correction {
         equations: "figure 4.11",
         printed: "square normal dither: stable at D_N = 0.6, unstable from 0.7, stable at 0.9",
-        right: "that is the sine: the square is unstable for 0.5538 < D_N < 0.6147 only, the sine for 0.7103 < D_N < 0.9654",
+        right: "most likely the sine, whose pattern it is: the square is unstable for 0.5538 < D_N < 0.6147 only, the sine for \
+                0.7103 < D_N < 0.9654",
         tasks: STABILITY,
         bears: NORMAL,
         proof: motion("figure_4_11_shows_the_sine"),
@@ -276,7 +288,7 @@ pub const CORRECTIONS: &[Correction] = &[
         proof: disc("normalisation_of_real_and_complex_modes"),
     },
     Correction {
-        equations: "text of tables 5.1, 5.2",
+        equations: "captions of tables 5.1, 5.2 and figures 5.3–5.15",
         printed: "b/a = 0.05, r₀/a = 0.5",
         right: "b/a = 0.5: all thirteen printed speeds come out; the load cannot then sit at r₀/a = 0.5, which is the clamp",
         tasks: MODES,
@@ -309,6 +321,31 @@ pub const CORRECTIONS: &[Correction] = &[
         proof: disc("indices_of_the_double_sum"),
     },
     Correction {
+        equations: "text before (5.30), (5.30), (5.32)",
+        printed: "F_θ cos Rτ as the fundamental of a friction that alternates between ±F_θ",
+        right: "the fundamental of that square wave is (4/π)F_θ cos Rτ: every threshold under tangential dither is printed 4/π too \
+                high; α = 4/π mends it",
+        tasks: MOTION,
+        bears: Bears::Disc(DiscKind::Tangential),
+        proof: disc("first_harmonic_of_a_reversed_friction"),
+    },
+    Correction {
+        equations: "(5.23), (5.32), captions of chapter 5",
+        printed: "0 < α < 1 although the figures use α = 1; no α in (5.32) although captions give one; N_t for N_r",
+        right: "0 ≤ α ≤ 1 and f α cos Rτ; N_r",
+        tasks: &[],
+        bears: Bears::Nothing,
+        proof: Proof::Reading,
+    },
+    Correction {
+        equations: "captions of figures 5.3–5.15",
+        printed: "m, c/ω_cr, k/ω_cr², F_θ/(r₀ω_cr²) as pure numbers",
+        right: "each has the unit of a mass: the number that decides is its ratio to M_p, the mass of the plate over its modes' norm",
+        tasks: MOTION,
+        bears: Bears::Disc(DiscKind::Any),
+        proof: disc("loads_are_ratios_to_the_mass_of_the_plate"),
+    },
+    Correction {
         equations: "(5.39)–(5.66)",
         printed: "R of (5.7) in the complex form",
         right: "complex modes need half of R² for l ≠ 0: with (5.7) put in literally every coupling is doubled",
@@ -317,7 +354,7 @@ pub const CORRECTIONS: &[Correction] = &[
         proof: disc("normalisation_of_real_and_complex_modes"),
     },
     Correction {
-        equations: "(5.40)–(5.51)",
+        equations: "(5.40)–(5.51), (5.53)",
         printed: "α e^{iRτ} + α* e^{−iRτ} for α cos Rτ",
         right: "α cos Rτ is α/2 in the complex form",
         tasks: RESONANCES,
@@ -335,8 +372,8 @@ pub const CORRECTIONS: &[Correction] = &[
     Correction {
         equations: "(5.56), table 5.2",
         printed: "eight dither-induced instabilities",
-        right: "places only: waves that meet head-on, or with l = 0, share their damping; of the eight only the first three can be \
-                unstable",
+        right: "places only: waves that meet head-on share their damping, a wave with l = 0 is coupled one way only; of the eight \
+                only the first three can be unstable",
         tasks: RESONANCES,
         bears: Bears::Disc(DiscKind::Dithered),
         proof: disc("only_three_of_eight_can_be_unstable"),
@@ -344,10 +381,19 @@ pub const CORRECTIONS: &[Correction] = &[
     Correction {
         equations: "text after (5.56)",
         printed: "neither normal nor tangential dither suppresses the undithered instabilities",
-        right: "tangential dither does, at first order: they are driven by the mean friction, which it takes away",
+        right: "tangential dither does, at first order: they are driven by the mean friction, which it takes away (its own (5.66) \
+                and conclusion say so)",
         tasks: RESONANCES,
         bears: Bears::Disc(DiscKind::Tangential),
         proof: disc("tangential_dither_takes_the_first_tongues_away"),
+    },
+    Correction {
+        equations: "text of figures 5.9–5.12",
+        printed: "without modal damping the tongues of Ω₁ and Ω₄ begin at f = 10⁻⁴ and 3·10⁻⁵",
+        right: "they have no threshold: of second order in f, there for every f > 0, their growth goes with f⁴",
+        tasks: MOTION,
+        bears: Bears::Disc(DiscKind::Tangential),
+        proof: disc("revived_tongues_have_no_threshold"),
     },
     Correction {
         equations: "axes of figures 5.3–5.15",

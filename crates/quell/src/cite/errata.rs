@@ -13,7 +13,9 @@ has a test that computes the printed form and the right one and holds both again
 definition, exact eigenvalues, an exact orbit. What carries no number (a bracket, a word) is told and not tested.
 
 The text used is an optical reading of the print: a lost sign in an exponent may be the reading's fault and not the author's. \
-Everything else that was checked is right as printed; the table of claims lists it.
+Held to quadrature and right as printed: (3.20b), (3.27), (3.29)–(3.31), (3.37), (3.38b), (3.39), (3.41)–(3.43), (3.49)–(3.52), \
+(3.53b), (3.54)–(3.62), (4.21)–(4.23), (A.3), (A.4), (B.6), (B.10b), (C.3)–(C.7); and (4.33), (4.37), (4.39)–(4.42) as what they \
+are, α_T replaced by μ(v₀)α_N.
 
 The same list is behind `quell cite`, which tells what of it bears on a study, and behind the report of `quell reproduce`.
 

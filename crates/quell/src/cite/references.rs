@@ -69,6 +69,36 @@ pub const WILSON_1927: Source = Source {
     reference: "E. B. Wilson: Probable inference, the law of succession, and statistical inference. \
                 Journal of the American Statistical Association 22(158), 209–212, 1927",
 };
+/// Frequencies and shapes of annular plates.
+pub const VOGEL_SKINNER_1965: Source = Source {
+    key: "vogel1965",
+    reference: "S. M. Vogel, D. W. Skinner: Natural frequencies of transversely vibrating uniform \
+                annular plates. Journal of Applied Mechanics 32, 926–931, 1965",
+};
+/// A disc under a moving mass, spring and damper.
+pub const IWAN_STAHL_1973: Source = Source {
+    key: "iwan1973",
+    reference: "W. D. Iwan, K. J. Stahl: The response of an elastic disk with a moving mass system. \
+                Journal of Applied Mechanics 40(2), 445–451, 1973",
+};
+/// The same with the follower force of friction.
+pub const CHAN_1994: Source = Source {
+    key: "chan1994",
+    reference: "S. N. Chan, J. E. Mottershead, M. P. Cartmell: Parametric resonances at subcritical \
+                speeds in discs with rotating frictional loads. Proceedings of the Institution of \
+                Mechanical Engineers, Part C 208(6), 417–425, 1994",
+};
+/// Multiple scales and parametric excitation.
+pub const NAYFEH_MOOK_1979: Source = Source {
+    key: "nayfeh1979",
+    reference: "A. H. Nayfeh, D. T. Mook: Nonlinear Oscillations. Wiley, New York, 1979",
+};
+/// Splittings whose exponents are of fourth order.
+pub const TAKAHASHI_IMADA_1984: Source = Source {
+    key: "takahashi1984",
+    reference: "M. Takahashi, M. Imada: Monte Carlo calculation of quantum systems. II. Higher order \
+                correction. Journal of the Physical Society of Japan 53, 3765–3769, 1984",
+};
 
 /// Every source that can be cited.
 pub const SOURCES: &[Source] = &[
@@ -82,4 +112,9 @@ pub const SOURCES: &[Source] = &[
     DAS_SAIKI_SANDER_YORKE_2017,
     MENCK_2013,
     WILSON_1927,
+    VOGEL_SKINNER_1965,
+    IWAN_STAHL_1973,
+    CHAN_1994,
+    NAYFEH_MOOK_1979,
+    TAKAHASHI_IMADA_1984,
 ];
