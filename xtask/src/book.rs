@@ -117,7 +117,8 @@ fn symbols(text: &str) -> String {
     let mut at = 0;
     while at < letters.len() {
         let letter = |back: usize| at.checked_sub(back).map(|place| letters[place]);
-        let symbol = letter(1).is_some_and(|it| it.is_alphabetic() && !it.is_ascii_alphabetic())
+        let symbol = letter(1)
+            .is_some_and(|it| it == '∂' || it.is_alphabetic() && !it.is_ascii_alphabetic())
             || letter(1).is_some_and(|it| it.is_ascii_alphabetic())
                 && !letter(2).is_some_and(|it| it.is_ascii_alphabetic());
         let tag = match letters[at] {
@@ -130,7 +131,7 @@ fn symbols(text: &str) -> String {
         if inner.is_empty() {
             typeset.push(letters[at]);
         } else {
-            let _ = write!(typeset, "<{tag}>{inner}</{tag}>");
+            let _ = write!(typeset, "<{tag}>{}</{tag}>", symbols(&inner));
         }
         at += 1 + length;
     }
@@ -142,6 +143,9 @@ fn group(letters: &[char]) -> (String, usize) {
     let close = match letters.first() {
         Some('{') => '}',
         Some('(') => ')',
+        Some(letter) if letter.is_alphabetic() && !letter.is_ascii() => {
+            return (letter.to_string(), 1);
+        }
         _ => {
             let count = letters.iter().take_while(|letter| letter.is_ascii_alphanumeric()).count();
             return (letters[..count].iter().collect(), count);
@@ -168,6 +172,10 @@ mod tests {
     #[test]
     fn symbols_are_typeset_and_names_are_not() {
         assert_eq!(typeset("αG_max, 2v_mζ\n"), "αG<sub>max</sub>, 2v<sub>m</sub>ζ\n");
+        assert_eq!(
+            typeset("∂_θ²φ, e^(i w_j τ)\n"),
+            "∂<sub>θ</sub>²φ, e<sup>i w<sub>j</sub> τ</sup>\n"
+        );
         assert_eq!(
             typeset("e^{γ−w}, α^L, e^(−w)\n"),
             "e<sup>γ−w</sup>, α<sup>L</sup>, e<sup>−w</sup>\n"
