@@ -1,10 +1,13 @@
 //! Claims of chapter 5: the disc. Printed f is in units of 10⁻⁴ of the consistent one; see `reproduce::disc`.
 
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
 use quell_disc::boundaries::{Marginal, boundaries};
 use quell_disc::partition::crossings;
 use quell_disc::resonance::{Resonance, Waves};
 use quell_disc::{Disc, Dither, Load, dithered};
 use quell_numerics::floquet::Effort;
+use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
 use super::super::disc::{
     FRICTION_PER_PRINTED, PRINTED_INDUCED, PRINTED_UNDITHERED, STRENGTH_PER_PRINTED, study,
@@ -239,6 +242,19 @@ fn largest(disc: &Disc, speeds: [f64; 2], frictions: &[f64]) -> Result<f64, Fail
 
 /// Tangential dither.
 pub(super) fn tangential(sheet: &mut Sheet) -> Result<(), Failure> {
+    let reversed = |theta: f64| theta.cos().signum() * theta.cos() / PI;
+    let breaks = [FRAC_PI_2, 3.0 * FRAC_PI_2];
+    let fundamental = integrate(reversed, 0.0, TAU, &breaks, &QuadratureOptions::default())
+        .map_err(|why| failed("claims", &why))?
+        .value;
+    let words = [
+        "5.30-fundamental",
+        "(5.30)",
+        "fundamental of a friction that alternates between ±F_θ, in F_θ",
+    ];
+    sheet.formula(words, 1.0, fundamental).note(
+        "it is 4/π: thresholds under tangential dither are printed 27 % too high; α = 4/π mends them",
+    );
     for (size, present) in [(0.1, true), (0.3, false)] {
         let disc = disc([1, 2], size, 0.0, TANGENTIAL)?;
         let mut rates = Vec::new();

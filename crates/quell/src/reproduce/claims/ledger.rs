@@ -167,13 +167,13 @@ pub const LEDGER: &[(&str, Expected)] = &[
     (
         "4.11-square-columns",
         Expected::NotReproduced(
-            "the figure shows a sine: under a square the response is unstable for 0.5538 < D_N < 0.6147 only",
+            "most likely drawn with a sine: under a square the response is unstable for 0.5538 < D_N < 0.6147 only",
         ),
     ),
     (
         "4.11-square-pattern",
         Expected::NotReproduced(
-            "the figure shows a sine: under a square the response is unstable for 0.5538 < D_N < 0.6147 only",
+            "most likely drawn with a sine: under a square the response is unstable for 0.5538 < D_N < 0.6147 only",
         ),
     ),
     (
@@ -209,6 +209,7 @@ pub const LEDGER: &[(&str, Expected)] = &[
     ("5.7-peak-0.7", Expected::Reproduced),
     ("5.7-peak-0.88", Expected::Reproduced),
     ("5.7-not-suppressed", Expected::Reproduced),
+    ("5.30-fundamental", Expected::FormulaWrong),
     ("5.9-fourth-0.1", Expected::Reproduced),
     ("5.9-fourth-0.3", Expected::Reproduced),
     ("5.14-vanish-0.0001", Expected::Reproduced),
