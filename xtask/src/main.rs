@@ -4,6 +4,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 mod book;
+mod coverage;
 mod layers;
 mod licences;
 mod manifest;
@@ -15,6 +16,7 @@ const USAGE: &str = "usage: cargo xtask CHORE
 
 chores:
   book      the book with its pictures, in target/book
+  coverage  the lines that no test reaches, in target/coverage
   layers    dependency arrows and confined dependencies against the table of layers
   licences  licences of all dependencies against the accepted ones
   package   every crate packed for publication, in order
@@ -27,6 +29,7 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let done = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["book"] => book::run(&root),
+        ["coverage"] => coverage::run(&root),
         ["layers"] => layers::run(&root),
         ["licences"] => licences::run(&root),
         ["package"] => package::run(&root),
