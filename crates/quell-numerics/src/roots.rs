@@ -73,7 +73,7 @@ pub enum RootError {
         /// The point.
         at: f64,
     },
-    /// More steps than [`MAX_STEPS`] were needed.
+    /// [`MAX_STEPS`] evaluations were not enough.
     TooManySteps {
         /// Lower end of the last bracket.
         lower: f64,
@@ -231,6 +231,44 @@ pub fn minimise(
     Err(RootError::TooManySteps { lower: low, upper: high })
 }
 
+/// [`find_root`] of a function that can fail itself.
+///
+/// # Errors
+/// The first failure of `f`, which ends the search; inside, what [`find_root`] says.
+pub fn try_find_root<E>(
+    mut f: impl FnMut(f64) -> Result<f64, E>,
+    a: f64,
+    b: f64,
+    closeness: Closeness,
+) -> Result<Result<Root, RootError>, E> {
+    let mut failure = None;
+    let found = find_root(|x| kept(f(x), &mut failure), a, b, closeness);
+    failure.map_or(Ok(found), Err)
+}
+
+/// [`minimise`] of a function that can fail itself.
+///
+/// # Errors
+/// The first failure of `f`, which ends the search; inside, what [`minimise`] says.
+pub fn try_minimise<E>(
+    mut f: impl FnMut(f64) -> Result<f64, E>,
+    a: f64,
+    b: f64,
+    closeness: Closeness,
+) -> Result<Result<Minimum, RootError>, E> {
+    let mut failure = None;
+    let found = minimise(|x| kept(f(x), &mut failure), a, b, closeness);
+    failure.map_or(Ok(found), Err)
+}
+
+/// A value, or not a number, which ends a search, with the failure put aside.
+fn kept<E>(value: Result<f64, E>, failure: &mut Option<E>) -> f64 {
+    value.unwrap_or_else(|why| {
+        *failure = Some(why);
+        f64::NAN
+    })
+}
+
 fn number(y: f64, at: f64) -> Result<f64, RootError> {
     if y.is_nan() || at.is_nan() { Err(RootError::NotANumber { at }) } else { Ok(y) }
 }
@@ -288,6 +326,31 @@ mod tests {
             find_root(|x| (x - 0.5).sqrt(), 0.0, 1.0, coarse),
             Err(RootError::NotANumber { .. })
         ));
+    }
+
+    /// A failure half-way is told, and nothing is asked after it; where there is none the search is the plain one.
+    #[test]
+    fn failures_of_the_function_are_told() {
+        let c = Closeness { absolute: 1e-6, relative: 0.0 };
+        for last in 1..4 {
+            let mut asked = 0;
+            let mut failing = |x: f64| {
+                asked += 1;
+                if asked < last { Ok(x * x - 0.3) } else { Err(asked) }
+            };
+            assert_eq!(try_find_root(&mut failing, 0.0, 1.0, c), Err(last));
+            asked = 0;
+            let mut failing = |x: f64| {
+                asked += 1;
+                if asked < last { Ok(x * x - 0.3) } else { Err(asked) }
+            };
+            assert_eq!(try_minimise(&mut failing, -1.0, 1.0, c), Err(last));
+        }
+        let f = |x: f64| x * x - 0.3;
+        let sure = |x: f64| Ok::<f64, ()>(f(x));
+        assert_eq!(try_find_root(sure, 0.0, 1.0, c), Ok(find_root(f, 0.0, 1.0, c)));
+        assert_eq!(try_find_root(sure, 1.0, 2.0, c), Ok(find_root(f, 1.0, 2.0, c)));
+        assert_eq!(try_minimise(sure, -1.0, 1.0, c), Ok(minimise(f, -1.0, 1.0, c)));
     }
 
     #[test]

@@ -10,6 +10,8 @@
 //! (4.33)–(4.42). [`unstable_bands`] finds the bands of any belt, with any dithers, from the criterion itself; the closed
 //! forms ([`closed_band`]) are its check and its fast form. A law without closed forms has its edge searched for.
 
+use std::fmt;
+
 use quell_model::friction::SlidingLaw;
 use quell_model::{Belt, Friction, Waveform};
 use quell_numerics::special::ln;
@@ -28,7 +30,8 @@ pub enum CriticalVelocity {
     StableEverywhere,
     /// Stable above this belt velocity, unstable below.
     Above(f64),
-    /// Unstable at every belt velocity: the law falls for ever and there is no damping.
+    /// Unstable at every belt velocity looked at (closed forms: all, where there is no damping; other laws: up to 365 v_m,
+    /// where it is the fastest of them that decides).
     UnstableEverywhere,
 }
 
@@ -43,53 +46,78 @@ pub struct Band {
     pub upper: Option<f64>,
 }
 
+/// Why there is no band of unstable belt velocities.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoBand {
+    /// Every belt velocity beyond the fast velocity is stable.
+    Stable,
+    /// An average is not a number.
+    Failed(AveragingError),
+}
+
+impl fmt::Display for NoBand {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Stable => f.write_str("every belt velocity beyond the fast velocity is stable"),
+            Self::Failed(why) => why.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for NoBand {}
+
 /// Belt velocity above which undithered steady sliding is (locally) stable.
-#[must_use]
+///
+/// # Errors
+/// [`AveragingError`] from a quadrature, for a law without closed forms.
 pub fn undithered_critical_velocity(
     law: &Friction,
     damping_ratio: f64,
     normal_load: f64,
-) -> CriticalVelocity {
-    let v = outer_edge(law, damping_ratio, normal_load, Waveform::Sine, 0.0);
-    match v {
+) -> Result<CriticalVelocity, AveragingError> {
+    Ok(match outer_edge(law, damping_ratio, normal_load, Waveform::Sine, 0.0)? {
         None => CriticalVelocity::UnstableEverywhere,
         Some(v) if v > 0.0 => CriticalVelocity::Above(v),
         Some(_) => CriticalVelocity::StableEverywhere,
-    }
+    })
 }
 
-/// Unstable band under one tangential dither of amplitude ratio α ≥ 0 in the limit of high frequency; none where α stabilises
-/// every belt velocity. Instability below αG_max, which steep laws can show, is [`unstable_bands`]'s business.
-#[must_use]
+/// Unstable band under one tangential dither of amplitude ratio α ≥ 0 in the limit of high frequency. Instability below
+/// αG_max, which steep laws can show, is [`unstable_bands`]'s business.
+///
+/// # Errors
+/// [`NoBand::Stable`] where α stabilises every belt velocity; [`NoBand::Failed`] where a quadrature does.
 pub fn closed_band(
     law: &Friction,
     damping_ratio: f64,
     normal_load: f64,
     waveform: Waveform,
     alpha: f64,
-) -> Option<Band> {
+) -> Result<Band, NoBand> {
     let lower = alpha * waveform.peak_integral();
     let upper = outer_edge(law, damping_ratio, normal_load, waveform, alpha);
+    let upper = upper.map_err(NoBand::Failed)?;
     let lower_crossing = (alpha > 0.0).then_some(Crossing::Jump);
-    upper.is_none_or(|upper| upper > lower).then_some(Band { lower, lower_crossing, upper })
+    let is_there = upper.is_none_or(|upper| upper > lower);
+    is_there.then_some(Band { lower, lower_crossing, upper }).ok_or(NoBand::Stable)
 }
 
 /// Root of the outer criterion in v₀, continued below the corner; 0 where the criterion is positive at every velocity,
-/// none where it is never positive.
+/// none where it is not positive at the last one looked at.
 fn outer_edge(
     law: &Friction,
     damping_ratio: f64,
     normal_load: f64,
     waveform: Waveform,
     alpha: f64,
-) -> Option<f64> {
+) -> Result<Option<f64>, AveragingError> {
     let vm = law.velocity_scale();
     let ratio = alpha / vm;
-    match law {
+    Ok(match law {
         Friction::Stribeck(law) => {
             let difference = law.static_coefficient() - law.minimum_coefficient();
             if difference == 0.0 {
-                return Some(0.0);
+                return Ok(Some(0.0));
             }
             let kappa = 4.0 * vm * damping_ratio / (3.0 * normal_load * difference);
             let square = 1.0 - kappa - waveform.mean_square_integral() * ratio * ratio;
@@ -98,10 +126,10 @@ fn outer_edge(
         Friction::Decreasing(law) => {
             let difference = law.static_coefficient() - law.minimum_coefficient();
             if difference == 0.0 {
-                return Some(0.0);
+                return Ok(Some(0.0));
             }
             if damping_ratio == 0.0 {
-                return None;
+                return Ok(None);
             }
             let corner = alpha * waveform.peak_integral();
             let scaled = scaled_mean_exponential(waveform, ratio);
@@ -109,19 +137,19 @@ fn outer_edge(
                 corner - vm * ln(2.0 * vm * damping_ratio / (normal_load * difference * scaled));
             Some(edge.max(0.0))
         }
-        law => searched_edge(law, damping_ratio, normal_load, waveform, alpha),
-    }
+        law => searched_edge(law, damping_ratio, normal_load, waveform, alpha)?,
+    })
 }
 
 /// The same for a law without closed forms: the last place beyond the corner where the criterion becomes positive, on a
-/// grid up to 400 v_m beyond. None also where a quadrature fails: nothing is promised then.
+/// grid up to 365 v_m beyond.
 fn searched_edge(
     law: &Friction,
     damping_ratio: f64,
     normal_load: f64,
     waveform: Waveform,
     alpha: f64,
-) -> Option<f64> {
+) -> Result<Option<f64>, AveragingError> {
     let wave = FastWave::Integral(waveform);
     let corner = alpha * waveform.peak_integral();
     let value = |v: f64| -> Result<f64, AveragingError> {
@@ -131,11 +159,11 @@ fn searched_edge(
     };
     let beyond = (0..260).map(|k| libm::exp(-20.0 + 0.1 * f64::from(k)));
     let points: Vec<f64> = beyond.map(|share| corner + law.velocity_scale() * share).collect();
-    let changes = sign_changes(value, &points, &[]).ok()?;
-    match changes.last() {
+    let changes = sign_changes(value, &points, &[])?;
+    Ok(match changes.last() {
         Some(last) => last.becomes_positive.then_some(last.place),
-        None => (value(points[0]).ok()? >= 0.0).then_some(0.0),
-    }
+        None => (value(points[0])? >= 0.0).then_some(0.0),
+    })
 }
 
 /// Every band of belt velocities 0 < v₀ in which averaged steady sliding of `belt` is unstable, its dithers held; the belt

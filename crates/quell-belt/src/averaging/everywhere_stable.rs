@@ -16,7 +16,7 @@
 
 use quell_model::friction::SlidingLaw;
 use quell_model::{Direction, Friction};
-use quell_numerics::roots::{Closeness, minimise};
+use quell_numerics::roots::{Closeness, minimise, try_minimise};
 
 use super::criterion::Criterion;
 use super::edges::{CriticalVelocity, undithered_critical_velocity};
@@ -50,7 +50,7 @@ pub enum NeverStable {
     NoDamping,
     /// Slow sliding below the fast velocity stays unstable at any amplitude.
     InnerRegion,
-    /// No root up to 10⁶ v_m.
+    /// No root up to 10⁶ v_m, or with damping no belt velocity up to 365 v_m from which on sliding is stable without dither.
     OffScale,
 }
 
@@ -66,16 +66,18 @@ pub fn everywhere_stable_amplitude(
     direction: Direction,
 ) -> Result<EverywhereStable, AveragingError> {
     let case = Case { law, damping_ratio, normal_load, wave };
-    let tangential = match undithered_critical_velocity(law, damping_ratio, normal_load) {
+    let tangential = match undithered_critical_velocity(law, damping_ratio, normal_load)? {
         CriticalVelocity::StableEverywhere => EverywhereStable::Always,
         CriticalVelocity::UnstableEverywhere => {
-            EverywhereStable::Never { why: NeverStable::NoDamping }
+            let damped = damping_ratio > 0.0;
+            let why = if damped { NeverStable::OffScale } else { NeverStable::NoDamping };
+            EverywhereStable::Never { why }
         }
         CriticalVelocity::Above(_) => case.tangential()?,
     };
     match (direction, tangential) {
         (Direction::Normal, EverywhereStable::From { amplitude_ratio, error }) => {
-            let normal = case.normal(amplitude_ratio);
+            let normal = case.normal(amplitude_ratio)?;
             let error = normal * (error / amplitude_ratio + 4.0 * f64::EPSILON);
             Ok(EverywhereStable::From { amplitude_ratio: normal, error })
         }
@@ -120,19 +122,10 @@ impl Case<'_> {
         if worst.1 == 0 {
             return Ok(worst.0);
         }
-        let mut failure = None;
-        let value = |v: f64| {
-            self.criterion(alpha, v).unwrap_or_else(|error| {
-                failure.get_or_insert(error);
-                f64::INFINITY
-            })
-        };
+        let value = |v: f64| self.criterion(alpha, v);
         let closeness = Closeness { absolute: 0.0, relative: 1e-8 };
-        let bottom = minimise(value, place(worst.1 - 1), place(worst.1 + 1), closeness);
-        match failure {
-            Some(error) => Err(error),
-            None => Ok(bottom.map_or(worst.0, |bottom| bottom.value.min(worst.0))),
-        }
+        let bottom = try_minimise(value, place(worst.1 - 1), place(worst.1 + 1), closeness)?;
+        Ok(bottom.map_or(worst.0, |bottom| bottom.value.min(worst.0)))
     }
 
     fn tangential(&self) -> Result<EverywhereStable, AveragingError> {
@@ -177,47 +170,51 @@ impl Case<'_> {
         Ok(changes.last().filter(|c| c.becomes_positive).map(|c| (c.place, c.error)))
     }
 
-    /// Largest α/μ(v₀) between the tip and the velocity from which on sliding is stable without dither, for a law without
-    /// closed forms: on a grid of velocities, refined at the best one.
-    fn searched_normal(&self, tip: f64, end: f64) -> f64 {
-        const VELOCITIES: u32 = 24;
+    /// Largest α/μ(v₀) between the tip and the velocity from which on sliding is stable without dither, for a law or a
+    /// wave without closed forms: on a grid of velocities, refined at the best one.
+    fn searched_normal(&self, tip: f64, end: f64) -> Result<f64, AveragingError> {
+        const VELOCITIES: usize = 24;
         const AMPLITUDES: u32 = 32;
         let peak = self.wave.peak();
         // −α/μ(v₀), α the largest unstable one whose corner lies below v₀.
-        let ratio = |v: f64| {
+        let ratio = |v: f64| -> Result<f64, AveragingError> {
             let place = |k: u32| v / peak * (1.0 - 1e-12) * f64::from(k) / f64::from(AMPLITUDES);
             let points: Vec<f64> = (1..=AMPLITUDES).map(place).collect();
-            let changes = sign_changes(|alpha| self.criterion(alpha, v), &points, &[]);
-            let last = changes.ok().and_then(|changes| changes.last().map(|last| last.place));
-            -last.unwrap_or(0.0) / self.law.coefficient(v)
+            let changes = sign_changes(|alpha| self.criterion(alpha, v), &points, &[])?;
+            Ok(-changes.last().map_or(0.0, |last| last.place) / self.law.coefficient(v))
         };
-        let place = |k: u32| tip + (end - tip) * f64::from(k) / f64::from(VELOCITIES);
-        let best = (1..VELOCITIES).min_by(|&i, &j| ratio(place(i)).total_cmp(&ratio(place(j))));
-        let Some(best) = best else { return 0.0 };
+        let place = |k: usize| tip + (end - tip) * k as f64 / VELOCITIES as f64;
+        let mut best = (0.0, 1);
+        for k in 1..VELOCITIES {
+            let value = ratio(place(k))?;
+            if value < best.0 {
+                best = (value, k);
+            }
+        }
         let closeness = Closeness { absolute: 0.0, relative: 1e-6 };
-        minimise(ratio, place(best - 1), place(best + 1), closeness)
-            .map_or(0.0, |bottom| -bottom.value)
+        let bottom = try_minimise(ratio, place(best.1 - 1), place(best.1 + 1), closeness)?;
+        Ok(-bottom.map_or(best.0, |bottom| bottom.value.min(best.0)))
     }
 
     /// Largest unstable α_N from the largest unstable α at each belt velocity.
-    fn normal(&self, tangential: f64) -> f64 {
+    fn normal(&self, tangential: f64) -> Result<f64, AveragingError> {
         let tip = tangential * self.wave.peak();
         let at_tip = tangential / self.law.coefficient(tip);
         let CriticalVelocity::Above(end) =
-            undithered_critical_velocity(self.law, self.damping_ratio, self.normal_load)
+            undithered_critical_velocity(self.law, self.damping_ratio, self.normal_load)?
         else {
-            return at_tip;
+            return Ok(at_tip);
         };
         let law = match self.law {
             // Its coefficient falls slower than its largest unstable α does.
-            Friction::Decreasing(_) => return at_tip,
+            Friction::Decreasing(_) => return Ok(at_tip),
             Friction::Stribeck(law) => law,
-            _ => return self.searched_normal(tip, end).max(at_tip),
+            _ => return Ok(self.searched_normal(tip, end)?.max(at_tip)),
         };
         // Stribeck beyond the tip: the outer root α(v₀) falls; α/μ could still rise where μ falls steeply.
         let (wave, gain) = self.wave.canonical();
         let FastWave::Integral(waveform) = wave else {
-            return at_tip;
+            return Ok(self.searched_normal(tip, end)?.max(at_tip));
         };
         let mean_square = gain * gain * waveform.mean_square_integral();
         let ratio = |v: f64| {
@@ -225,6 +222,6 @@ impl Case<'_> {
             -square.max(0.0).sqrt() / law.coefficient(v)
         };
         let closeness = Closeness { absolute: 0.0, relative: 1e-9 };
-        minimise(ratio, tip, end, closeness).map_or(at_tip, |best| at_tip.max(-best.value))
+        Ok(minimise(ratio, tip, end, closeness).map_or(at_tip, |best| at_tip.max(-best.value)))
     }
 }

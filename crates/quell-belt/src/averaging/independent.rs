@@ -199,6 +199,8 @@ impl Context<'_> {
                 let mut e = single(self.law, *wave, *amplitude, v)?;
                 e.coefficient *= base;
                 e.slope *= base;
+                e.coefficient_error *= base.abs();
+                e.slope_error *= base.abs();
                 e
             }
             Level::Sampled(signal) => mean(self.law, signal, base, v)?,

@@ -51,7 +51,7 @@ mod wave;
 pub use criterion::{Criterion, UndecidedBecause, Verdict, criterion};
 pub use critical_amplitudes::{Becomes, CriticalAmplitude, critical_amplitudes};
 pub use edges::{
-    Band, CriticalVelocity, closed_band, undithered_critical_velocity, unstable_bands,
+    Band, CriticalVelocity, NoBand, closed_band, undithered_critical_velocity, unstable_bands,
 };
 pub use effective::{AveragingError, Effective, Side, effective, effective_by_quadrature};
 pub use everywhere_stable::{EverywhereStable, NeverStable, everywhere_stable_amplitude};

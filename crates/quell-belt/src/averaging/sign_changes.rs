@@ -7,7 +7,7 @@
 //!
 //! A change is a jump when the function does not become small on both sides of it.
 
-use quell_numerics::roots::{Closeness, find_root, minimise};
+use quell_numerics::roots::{Closeness, try_find_root, try_minimise};
 
 /// How a function changes its sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,19 +95,9 @@ fn smooth_stretch<E>(
         if !dips || (next > 0.0) != (values[i] > 0.0) {
             continue;
         }
-        let mut failure = None;
-        let depth = |x: f64| match f(x) {
-            Ok(y) => sign * y,
-            Err(error) => {
-                failure.get_or_insert(error);
-                f64::INFINITY
-            }
-        };
+        let depth = |x: f64| Ok(sign * f(x)?);
         let closeness = Closeness { absolute: 0.0, relative: 1e-9 };
-        let bottom = minimise(depth, points[i - 1], points[i + 1], closeness);
-        if let Some(error) = failure {
-            return Err(error);
-        }
+        let bottom = try_minimise(depth, points[i - 1], points[i + 1], closeness)?;
         if let Ok(bottom) = bottom
             && bottom.value < 0.0
         {
@@ -125,27 +115,14 @@ fn locate<E>(
     b: f64,
     becomes_positive: bool,
 ) -> Result<SignChange, E> {
-    let mut failure = None;
-    let mut value = |x: f64| match f(x) {
-        Ok(y) => y,
-        Err(error) => {
-            failure.get_or_insert(error);
-            f64::NAN
-        }
-    };
-    let root = find_root(&mut value, a, b, Closeness::default());
+    let root = try_find_root(&mut *f, a, b, Closeness::default())?;
     let place = root.map_or(a.midpoint(b), |root| root.location);
     let error = root.map_or(b - a, |root| root.width.max(4.0 * f64::EPSILON * place.abs()));
     // Across a root the values nearby shrink with the distance; across a jump they do not.
     let near = 1e-9 * place.abs();
-    let step = |x: f64, value: &mut dyn FnMut(f64) -> f64| value(x.clamp(a, b));
-    let (wide, narrow) = (
-        step(place + 8.0 * near, &mut value) - step(place - 8.0 * near, &mut value),
-        step(place + near, &mut value) - step(place - near, &mut value),
-    );
-    if let Some(error) = failure {
-        return Err(error);
-    }
+    let mut value = |x: f64| f(x.clamp(a, b));
+    let wide = value(place + 8.0 * near)? - value(place - 8.0 * near)?;
+    let narrow = value(place + near)? - value(place - near)?;
     let crossing = if narrow.abs() > 0.5 * wide.abs() { Crossing::Jump } else { Crossing::Root };
     Ok(SignChange { place, error, crossing, becomes_positive })
 }

@@ -6,7 +6,7 @@
 //! the triangle, (3.47), (4.35), where it is wrong.
 
 use quell_belt::averaging::{
-    AveragingOptions, EverywhereStable, FastWave, Response, closed_band,
+    AveragingOptions, EverywhereStable, FastWave, NoBand, Response, closed_band,
     everywhere_stable_amplitude, unstable_bands,
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
@@ -248,10 +248,14 @@ impl Plane<'_> {
         };
         for k in 0..=POINTS {
             let alpha = end * f64::from(k) / f64::from(POINTS);
-            if let Some(band) = closed_band(self.law(), damping_ratio, load, self.waveform, alpha) {
-                region.lower.push(self.along(alpha, band.lower));
-                // Without an upper edge the band leaves the plane.
-                region.upper.push(self.along(alpha, band.upper.unwrap_or(10.0 * self.reach.1)));
+            match closed_band(self.law(), damping_ratio, load, self.waveform, alpha) {
+                Ok(band) => {
+                    region.lower.push(self.along(alpha, band.lower));
+                    // Without an upper edge the band leaves the plane.
+                    region.upper.push(self.along(alpha, band.upper.unwrap_or(10.0 * self.reach.1)));
+                }
+                Err(NoBand::Stable) => {}
+                Err(why) => return Err(failed("figure", &why)),
             }
         }
         if let Some(tip) = region.tip.filter(|_| end < self.largest()) {

@@ -102,7 +102,7 @@ fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, Stri
             NeverStable::InnerRegion => {
                 "slow belts stay unstable at any amplitude: the law falls too steeply"
             }
-            NeverStable::OffScale => "there is none up to 10¹² v_m",
+            NeverStable::OffScale => "there is none up to 10⁶ v_m",
         }
         .to_owned()),
     }
