@@ -179,7 +179,7 @@ fn thresholds_from_rest() {
         let belt =
             tangential(Waveform::Sine, 1.0).with("dither.phase", phase * quarter).expect("valid");
         let range = (expected - 0.11, expected + 0.09);
-        let found = switches(&belt, "dither.amplitude", range, 2, 2e-4, |_| Some(Start::REST))
+        let found = switches(&belt, "dither.amplitude", range, 2, 2e-4, |_| Ok(Some(Start::REST)))
             .expect("runs");
         assert_eq!(found.len(), 1, "{found:?}");
         assert_eq!(found[0].becomes, Reached::Elsewhere);

@@ -12,7 +12,7 @@
 use std::f64::consts::TAU;
 
 use quell_model::Belt;
-use quell_numerics::roots::{Closeness, find_root};
+use quell_numerics::roots::{Closeness, try_find_root};
 
 use super::{NoOrbit, Orbit, TOLERANCE, orbit_at};
 use crate::simulation::{EventKind, EventRecorder, Start, VelocitySection, simulate};
@@ -74,8 +74,8 @@ pub fn cycles(belt: &Belt) -> Result<Vec<Orbit>, NoOrbit> {
         let (lower, below) = (size(k), growth(size(k))?);
         if below * above < 0.0 {
             let closeness = Closeness { absolute: 0.0, relative: 1e-14 };
-            let root = find_root(|at| growth(at).unwrap_or(f64::NAN), lower, upper, closeness);
-            if let Ok(root) = root
+            // A change of sign of finite values has a place: the search itself has nothing to complain about.
+            if let Ok(root) = try_find_root(growth, lower, upper, closeness)?
                 && let Some(turn) = turn(belt, lowest(root.location))?
             {
                 let start = lowest(root.location);

@@ -172,6 +172,11 @@ pub enum NoOrbit {
         /// Share of the amplitude up to which there is one.
         share: f64,
     },
+    /// The response that sliding becomes could not be followed until the dither has its amplitude.
+    LostOnTheWay {
+        /// Share of the amplitude up to which it was followed.
+        share: f64,
+    },
     /// The run does not come back to itself within this number of common periods.
     NoPeriod {
         /// The number.
@@ -213,6 +218,10 @@ impl fmt::Display for NoOrbit {
                 f,
                 "the response that sliding becomes ends when the dither has {share:.7} of its amplitude: \
                  there is none beyond; look near a state, or for what a run ends on"
+            ),
+            Self::LostOnTheWay { share } => write!(
+                f,
+                "the response that sliding becomes could not be followed beyond {share:.7} of the dither's amplitude"
             ),
             Self::NoPeriod { most } => write!(
                 f,
@@ -328,7 +337,7 @@ fn multipliers_of(matrix: &Matrix) -> [(f64, f64); 2] {
 /// amplitudes at once in at least `steps` steps, around folds and through touches of v_r = 0.
 ///
 /// # Errors
-/// [`NoOrbit`]: where the branch ends before the amplitudes are reached, or is lost.
+/// [`NoOrbit::Ends`] where the branch ends before the amplitudes are reached, [`NoOrbit::LostOnTheWay`] where it is lost.
 pub fn from_sliding(belt: &Belt, steps: u32) -> Result<Orbit, NoOrbit> {
     let forced = Forced { belt, setting: Setting::Share, periods: 1 };
     let period = forced.period_of(belt)?;
@@ -341,9 +350,9 @@ pub fn from_sliding(belt: &Belt, steps: u32) -> Result<Orbit, NoOrbit> {
     }
     match branch.end {
         End::Window { at: 1.0 } => {}
-        End::Lost { why: Some(why), .. } => return Err(why.into()),
-        End::Touch { at } | End::Lost { at, .. } | End::TooLong { at } => {
-            return Err(NoOrbit::Ends { share: at });
+        End::Touch { at } => return Err(NoOrbit::Ends { share: at }),
+        End::Lost { at } | End::TooLong { at } => {
+            return Err(NoOrbit::LostOnTheWay { share: at });
         }
         End::Window { .. } | End::Closed => return Err(NoOrbit::Ends { share: 0.0 }),
     }

@@ -242,32 +242,29 @@ pub struct Switch {
 }
 
 /// Values of `path` between `from` and `to` at which runs from `start` (a state for each belt) begin or cease to
-/// end on the response of sliding: `steps` values are tried, and each change is bisected to `closeness`
+/// end on the response of sliding (and where there is no start, because nothing is there to be quenched): `steps` values are tried, and each change is bisected to `closeness`
 /// relative. A pair of changes between two neighbouring values is missed.
 ///
 /// # Errors
-/// [`NoThresholds`] where an orbit is not found or a value not allowed.
+/// [`NoThresholds`] where an orbit or a start is not found or a value not allowed.
 pub fn switches(
     belt: &Belt,
     path: &str,
     (from, to): (f64, f64),
     steps: u32,
     closeness: f64,
-    start: impl Fn(&Belt) -> Option<Start>,
+    start: impl Fn(&Belt) -> Result<Option<Start>, NoOrbit>,
 ) -> Result<Vec<Switch>, NoThresholds> {
     let ends = |value: f64| -> Result<Reached, NoThresholds> {
         let belt = belt.with(path, value).map_err(|_| NoThresholds::Invalid { value })?;
-        let Some(start) = start(&belt) else { return Ok(Reached::Sliding) };
         let lost = |why| NoThresholds::Lost { at: value, why };
+        let Some(start) = start(&belt).map_err(lost)? else { return Ok(Reached::Sliding) };
         let orbit = match quiet(&belt, 8) {
             Ok(orbit) => orbit,
             // Where sliding becomes no response there is nothing to be quenched to.
-            Err(
-                NoOrbit::NotConverged { .. }
-                | NoOrbit::Ends { .. }
-                | NoOrbit::Degenerate { .. }
-                | NoOrbit::Another { .. },
-            ) => return Ok(Reached::Elsewhere),
+            Err(NoOrbit::Ends { .. } | NoOrbit::Degenerate { .. } | NoOrbit::Another { .. }) => {
+                return Ok(Reached::Elsewhere);
+            }
             Err(why) => return Err(lost(why)),
         };
         reached(&belt, &orbit, start).map_err(|why| lost(NoOrbit::Stalled(why)))

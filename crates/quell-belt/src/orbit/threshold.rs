@@ -219,7 +219,7 @@ pub fn along(
 }
 
 /// A branch in the terms of the belt.
-fn told(branch: &Branch<Signature, NoOrbit>, from: f64, to: f64) -> Local {
+fn told(branch: &Branch<Signature>, from: f64, to: f64) -> Local {
     let mut thresholds = Vec::new();
     let mut changes = Vec::new();
     for passage in &branch.passages {
@@ -248,7 +248,7 @@ fn told(branch: &Branch<Signature, NoOrbit>, from: f64, to: f64) -> Local {
             }
         }
         End::Touch { at } => Ending::Touch { at: *at },
-        End::Lost { at, .. } | End::TooLong { at } => Ending::Lost { at: *at },
+        End::Lost { at } | End::TooLong { at } => Ending::Lost { at: *at },
     };
     Local { thresholds, changes, branch: places.collect(), ending }
 }
@@ -277,7 +277,9 @@ pub fn local_thresholds(
 ) -> Result<Vec<Threshold>, NoThresholds> {
     let found = local(belt, path, from, to, steps)?;
     match found.ending {
-        Ending::Lost { at } => Err(NoThresholds::Lost { at, why: NoOrbit::Ends { share: 1.0 } }),
+        Ending::Lost { at } => {
+            Err(NoThresholds::Lost { at, why: NoOrbit::LostOnTheWay { share: 1.0 } })
+        }
         _ => Ok(found.thresholds),
     }
 }

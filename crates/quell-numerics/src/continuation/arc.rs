@@ -44,20 +44,6 @@ pub(super) struct Solved<K> {
     pub(super) derivative: Matrix,
 }
 
-/// Why a step failed.
-pub(super) enum NoStep<E> {
-    /// Corrections did not come to an end.
-    NotConverged,
-    /// The equations have no mismatch there.
-    Failed(E),
-}
-
-impl<E> From<E> for NoStep<E> {
-    fn from(why: E) -> Self {
-        Self::Failed(why)
-    }
-}
-
 fn product(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
@@ -83,43 +69,42 @@ pub(super) fn cosine(a: &[f64], b: &[f64]) -> f64 {
     product(a, b)
 }
 
-/// The solution on the hyperplane through `predicted` orthogonal to `normal`.
+/// The solution on the hyperplane through `predicted` orthogonal to `normal`; `None` where corrections do not come to an
+/// end, or the equations have no mismatch on the way.
 pub(super) fn corrected<S: System>(
     system: &S,
     predicted: &[f64],
     normal: &[f64],
     before: Option<&Matrix>,
-) -> Result<Solved<S::Known>, NoStep<S::Error>> {
+) -> Option<Solved<S::Known>> {
     let mut unknowns = predicted.to_vec();
     let mut derivative: Option<Matrix> = None;
     let mut last = f64::INFINITY;
     for _ in 0..MOST_CORRECTIONS {
-        let (mismatch, known) = system.mismatch(&unknowns)?;
+        let (mismatch, known) = system.mismatch(&unknowns).ok()?;
         let residual = super::shooting::largest(&mismatch);
         if !residual.is_finite() {
-            return Err(NoStep::NotConverged);
+            return None;
         }
         let nearby = derivative.as_ref().or(before);
-        let slope = system.derivative(&unknowns, &known, nearby, normal)?;
+        let slope = system.derivative(&unknowns, &known, nearby, normal).ok()?;
         let off: Vec<f64> = unknowns.iter().zip(predicted).map(|(u, p)| u - p).collect();
         let aside = product(normal, &off);
         let solved = residual <= SOLVED || (residual <= NEARLY_SOLVED && residual > 0.5 * last);
         if solved && aside.abs() < 1e-9 {
-            return Ok(Solved { unknowns, residual, known, derivative: slope });
+            return Some(Solved { unknowns, residual, known, derivative: slope });
         }
         last = residual;
         let n = mismatch.len();
         let bordered = bordered(&slope, normal);
         let right = Matrix::from_fn(n + 1, 1, |i, _| if i < n { -mismatch[i] } else { -aside });
-        let Some(step) = bordered.solve(&right).filter(Matrix::is_finite) else {
-            return Err(NoStep::NotConverged);
-        };
+        let step = bordered.solve(&right).filter(Matrix::is_finite)?;
         for (entry, change) in unknowns.iter_mut().zip(step.as_slice()) {
             *entry += change;
         }
         derivative = Some(slope);
     }
-    Err(NoStep::NotConverged)
+    None
 }
 
 /// The tangent at a solution, towards `way`.

@@ -9,7 +9,7 @@
 
 use num_complex::Complex64;
 
-use super::arc::{self, NoStep, Solved, System, cosine, distance, tangent};
+use super::arc::{self, Solved, System, cosine, distance, tangent};
 use super::branch::NUDGE;
 use super::threshold::{Kind, confirmed, test};
 use super::{Family, Image, multipliers};
@@ -184,11 +184,8 @@ fn leaves<S>(here: &Place<S>, length: f64) -> Option<(f64, usize, f64)> {
 
 impl<F: Family> Equations<'_, F> {
     fn at(&self, predicted: &[f64], normal: &[f64]) -> Option<Place<F::Signature>> {
-        let Solved { unknowns, residual, known, derivative } =
-            match arc::corrected(self, predicted, normal, None) {
-                Ok(solved) => solved,
-                Err(NoStep::NotConverged | NoStep::Failed(_)) => return None,
-            };
+        let solved = arc::corrected(self, predicted, normal, None)?;
+        let Solved { unknowns, residual, known, derivative } = solved;
         let multipliers = multipliers(&known.derivative)?;
         let tangent = tangent(&derivative, normal)?;
         Some(Place { unknowns, tangent, image: known, residual, multipliers })

@@ -116,6 +116,7 @@ pub(super) fn refused(why: NoOrbit) -> Failure {
         | NoOrbit::Degenerate { .. }
         | NoOrbit::Another { .. }
         | NoOrbit::Ends { .. }
+        | NoOrbit::LostOnTheWay { .. }
         | NoOrbit::NoPeriod { .. }
         | NoOrbit::Invalid { .. } => {
             return Failure::Failed { key: "orbit".to_owned(), why: why.to_string() };

@@ -7,6 +7,7 @@ use quell_belt::orbit::reached::{Reached, Switch, ramped, switches};
 pub use quell_belt::orbit::threshold::{Change, Ending, Kind, Local, Threshold};
 use quell_belt::orbit::threshold::{NoThresholds, local};
 use quell_belt::simulation::Start;
+use quell_belt::start::NoSquealingStart;
 use serde_json::{Value as Json, json};
 
 use super::orbit::refused;
@@ -121,12 +122,18 @@ pub fn run(study: &Study, question: Question) -> Result<Thresholds, Failure> {
     let mut protocols = Vec::new();
     for &protocol in &question.protocols {
         let initial = protocol.initial();
-        let start = |belt: &quell_model::Belt| -> Option<Start> {
-            let start = initial.resolve(belt, study.solver()).ok()?;
+        let start = |belt: &quell_model::Belt| -> Result<Option<Start>, NoOrbit> {
+            let start = match initial.resolve(belt, study.solver()) {
+                Ok(start) => start,
+                Err(NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest) => {
+                    return Ok(None);
+                }
+                Err(NoSquealingStart::Stalled(why)) => return Err(NoOrbit::Stalled(why)),
+            };
             // Without dither there is nothing to grow.
             match ramped(belt, start, question.ramp) {
-                Err(NoOrbit::NoDither) => Some(start),
-                ramped => ramped.ok(),
+                Err(NoOrbit::NoDither) => Ok(Some(start)),
+                ramped => ramped.map(Some),
             }
         };
         let found = switches(belt, path, (from, to), TRIED, CLOSENESS, start)

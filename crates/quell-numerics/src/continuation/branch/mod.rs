@@ -91,8 +91,8 @@ pub struct Passage<S> {
 }
 
 /// How a walk along a branch ends.
-#[derive(Clone, Debug)]
-pub enum End<E> {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
     /// At an end of the window.
     Window {
         /// Which value.
@@ -107,10 +107,8 @@ pub enum End<E> {
     },
     /// The branch was lost.
     Lost {
-        /// The last parameter.
+        /// The last parameter: beyond it steps became too short.
         at: f64,
-        /// Why, where there is a reason other than that steps became too short.
-        why: Option<NotClosed<E>>,
     },
     /// After as many points as were allowed.
     TooLong {
@@ -121,18 +119,17 @@ pub enum End<E> {
 
 /// A branch with what was passed on it, in order.
 #[derive(Clone, Debug)]
-pub struct Branch<S, E> {
+pub struct Branch<S> {
     /// Points.
     pub points: Vec<Point<S>>,
     /// Thresholds and borders of signatures.
     pub passages: Vec<Passage<S>>,
     /// How it ended.
-    pub end: End<E>,
+    pub end: End,
 }
 
 /// A branch of a family, or why there is none.
-pub type Followed<F> =
-    Result<Branch<<F as Family>::Signature, <F as Family>::Error>, NotClosed<<F as Family>::Error>>;
+pub type Followed<F> = Result<Branch<<F as Family>::Signature>, NotClosed<<F as Family>::Error>>;
 
 /// The branch through a fixed point near `state` at `parameter`, followed upwards or downwards through its window.
 ///
@@ -210,7 +207,7 @@ pub fn follow<F: Family>(
                 // A corner that no step turns around: the branch may go on beyond it.
                 let beyond =
                     if looked { None } else { walk.beyond(&here, here.tangent[n].signum()) };
-                let Some(next) = beyond else { break End::Lost { at, why: None } };
+                let Some(next) = beyond else { break End::Lost { at } };
                 looked = true;
                 length = distance(&next.unknowns, &here.unknowns).max(10.0 * options.shortest);
                 let error = length * (options.to - options.from).abs();

@@ -2,9 +2,7 @@
 
 use num_complex::Complex64;
 
-use super::super::arc::{
-    self, NoStep, Solved, System, between, cosine, direction, distance, tangent,
-};
+use super::super::arc::{self, Solved, System, between, cosine, direction, distance, tangent};
 use super::super::threshold::Kind;
 use super::super::{Family, Image, modulus, multipliers, unstable};
 use super::{Follow, Passage, Point, Side};
@@ -124,11 +122,8 @@ impl<F: Family> Walk<'_, F> {
         before: Option<&Matrix>,
     ) -> Found<F> {
         let system = Closing { walk: self, held };
-        let solved = arc::corrected(&system, predicted, normal, before);
-        let Solved { unknowns, residual, known, derivative } = match solved {
-            Ok(solved) => solved,
-            Err(NoStep::NotConverged | NoStep::Failed(_)) => return None,
-        };
+        let solved = arc::corrected(&system, predicted, normal, before)?;
+        let Solved { unknowns, residual, known, derivative } = solved;
         let multipliers = multipliers(&known.derivative)?;
         let tangent = tangent(&derivative, normal)?;
         Some(Place { unknowns, tangent, derivative, image: known, residual, multipliers })
