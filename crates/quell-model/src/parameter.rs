@@ -211,7 +211,9 @@ pub const DITHER_FREQUENCY_RATIO: Parameter = Parameter {
     symbol: "R",
     about: "dither frequency over natural frequency",
     quantity: Quantity::FrequencyRatio,
-    bounds: Bounds::POSITIVE,
+    // Time of a run and memory of its record grow with R: beyond this a slow period alone takes minutes, and the response
+    // differs from the limit of high frequency by less than 10⁻¹⁰.
+    bounds: Bounds { lower: 0.0, lower_included: false, upper: 1e5 },
     si: &[si("frequency_hz", "Hz")],
 };
 

@@ -167,18 +167,38 @@ fn weights(decimation: usize) -> Vec<[f64; FOLDS]> {
     let m = decimation;
     let mut kernel = vec![1.0];
     for _ in 0..FOLDS {
-        let mut next = vec![0.0; kernel.len() + m - 1];
-        for (k, &value) in kernel.iter().enumerate() {
-            for slot in &mut next[k..k + m] {
-                *slot += value / m as f64;
-            }
-        }
-        kernel = next;
+        kernel = running_mean(&kernel, m);
     }
     // A sample at place r of cell c stands m·(p − 1 − i) + r samples after the start of the kernel of
     // the cell numbered c + i.
     let at = |place: usize, i: usize| kernel.get(m * (FOLDS - 1 - i) + place).copied();
     (0..m).map(|r| core::array::from_fn(|i| at(r, i).unwrap_or(0.0))).collect()
+}
+
+/// Means of m neighbours at a time, with zeros on both sides.
+///
+/// A window lies in two blocks of m numbers: its sum is that from its start to the end of the first and that from the start
+/// of the second, all of one sign, so that nothing cancels as in differences of sums from the beginning.
+fn running_mean(values: &[f64], m: usize) -> Vec<f64> {
+    let windows = values.len() + m - 1;
+    let mut to_end = vec![0.0; windows + m - 1];
+    to_end[m - 1..windows].copy_from_slice(values);
+    let mut from_start = to_end.clone();
+    for k in 1..from_start.len() {
+        if !k.is_multiple_of(m) {
+            from_start[k] += from_start[k - 1];
+        }
+    }
+    for k in (1..to_end.len()).rev() {
+        if !k.is_multiple_of(m) {
+            to_end[k - 1] += to_end[k];
+        }
+    }
+    let sum = |k: usize| {
+        let first = if k.is_multiple_of(m) { 0.0 } else { to_end[k] };
+        first + from_start[k + m - 1]
+    };
+    (0..windows).map(|k| sum(k) / m as f64).collect()
 }
 
 /// [sin(mθ/2)/(m sin(θ/2))]^p.
@@ -307,6 +327,20 @@ mod tests {
         assert!((lines.halves[0] - of(first)).abs() < 1e-9, "{lines:?}, {}", of(first));
         assert!((lines.halves[1] - of(second)).abs() < 1e-9, "{lines:?}, {}", of(second));
         assert!(lines.whole > 0.1);
+    }
+
+    #[test]
+    fn running_means_are_sums_of_their_windows() {
+        let values: Vec<f64> = (0..37).map(|k| f64::from(k * k % 11)).collect();
+        for m in [1, 2, 5, 36, 37, 50] {
+            let found = running_mean(&values, m);
+            assert_eq!(found.len(), values.len() + m - 1);
+            for (k, mean) in found.iter().enumerate() {
+                // Whole numbers: sums are exact in any order.
+                let window = (k + 1).saturating_sub(m)..=k.min(values.len() - 1);
+                assert_eq!(*mean, values[window].iter().sum::<f64>() / m as f64, "{m} {k}");
+            }
+        }
     }
 
     #[test]
