@@ -8,6 +8,7 @@ use quell::run::map::run as map;
 use quell::study::DiscStudy;
 use quell::sweep::{Grid, Plan, Quantity, Running, System};
 use quell::{Change, Complaint, Subject};
+use quell_numerics::floquet::Effort;
 use serde_json::Value as Json;
 
 const PLATE: &str = "schema = 1\n[disc]\ninner_radius_ratio = 0.5\n[disc.load]\nradius_ratio = 0.75\n\
@@ -230,4 +231,34 @@ fn the_answer_of_each_run_is_one_object_with_its_names() {
     let without = PLATE.replace("[disc.load]", "without = [\"follower-force\"]\n[disc.load]");
     let quiet = stability::run(&good(&without)).expect("finite");
     assert!(quiet.changes.is_err() && quiet.growth.rate <= 0.0);
+}
+
+/// First-order theory calls R from 3.05 to 6 clear; the exact exponents grow from 4.4 on.
+#[test]
+fn a_clear_frequency_is_verified_by_the_exact_equations() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/which-dither-frequency.toml");
+    let text = fs::read_to_string(&path).expect("a study");
+    let study = good(&text);
+    let question =
+        resonances::Question { clear: Some((0.25..=0.9, 2.0..=6.0)), ..Default::default() };
+    let started = std::time::Instant::now();
+    let found = resonances::run(&study, question).expect("an answer");
+    println!("{:?}", started.elapsed());
+    let clear = found.clear.as_ref().expect("asked");
+    let (ratio, _) = clear.suggestion.as_ref().expect("a frequency");
+    let verified = clear.verified.expect("exponents");
+    assert!(verified.is_clear() && verified.growth.rate < 0.0, "{verified:?}");
+    assert!((3.1..4.4).contains(ratio) && *ratio == verified.frequency_ratio, "{ratio}");
+    let rate = found.json()["clear"]["verified_growth_rate"].as_f64();
+    assert_eq!(rate, Some(verified.growth.rate));
+    let growth = |ratio: f64, speed: f64| {
+        let disc = study.disc().with("dither.frequency_ratio", ratio).expect("valid");
+        let disc = disc.at_speed(speed).expect("valid");
+        quell_disc::dithered::growth(&disc, Effort::default()).expect("finite").rate
+    };
+    let largest = |ratio: f64| {
+        (0..=1300).map(|k| growth(ratio, 0.25 + 5e-4 * f64::from(k))).fold(f64::MIN, f64::max)
+    };
+    assert!(largest(*ratio) <= verified.growth.rate + 1e-9, "{}", largest(*ratio));
+    assert!(largest(4.523_287) > 1e-3);
 }

@@ -157,6 +157,23 @@ fn text(study: &DiscStudy, done: &Resonances) -> String {
             None => text.push_str("  none\n"),
             Some((ratio, nearby)) => {
                 let _ = writeln!(text, "  best away from the others: R = {}", figure(*ratio));
+                let _ = match &clear.verified {
+                    Some(it) if it.is_clear() => writeln!(
+                        text,
+                        "  verified: by the exact equations nothing grows there, the largest rate is {}",
+                        figure(it.growth.rate)
+                    ),
+                    Some(it) => writeln!(
+                        text,
+                        "  not clear by the exact equations, the least growth of all: up to {} at Ω = {}",
+                        figure(it.growth.rate),
+                        figure(it.speed)
+                    ),
+                    None => writeln!(
+                        text,
+                        "  not verified: exponents cannot be computed with such numbers"
+                    ),
+                };
                 for nearby in nearby.iter().filter(|nearby| nearby.reaches_in) {
                     let resonance = &nearby.resonance;
                     let growth =

@@ -25,6 +25,7 @@ mod pair;
 mod places;
 mod threshold;
 mod tongue;
+mod verified;
 mod wave;
 mod waves;
 
@@ -33,5 +34,6 @@ mod tests;
 
 pub use clear::{Blocked, Clearance, ClearanceError, Nearby, clear_frequencies, within};
 pub use tongue::{Coupling, Resonance, Tongue};
+pub use verified::{Verified, verified_frequency};
 pub use wave::{Direction, Wave};
 pub use waves::{Order, WaveError, Waves};

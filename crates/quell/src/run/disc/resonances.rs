@@ -5,8 +5,8 @@ use std::ops::RangeInclusive;
 
 pub use quell_disc::resonance::Order;
 use quell_disc::resonance::{
-    Blocked, Clearance, ClearanceError, Nearby, Resonance, Tongue, WaveError, Waves,
-    clear_frequencies, within,
+    Blocked, Clearance, ClearanceError, Nearby, Resonance, Tongue, Verified, WaveError, Waves,
+    clear_frequencies, verified_frequency, within,
 };
 use quell_disc::system::Contributions;
 use quell_model::units::Quantity;
@@ -42,9 +42,11 @@ pub struct Clear {
     pub frequencies: RangeInclusive<f64>,
     /// Intervals, and what blocks the rest.
     pub clearance: Clearance,
-    /// The middle of the widest interval, and what lies in the range of speeds there, original tongues as the second order
-    /// has them.
+    /// The best frequency by the exact exponents, or where they cannot be computed the middle of the widest interval; and what
+    /// lies in the range of speeds there, original tongues as the second order has them.
     pub suggestion: Option<(f64, Vec<Nearby>)>,
+    /// The largest growth rate of the exact equations at that frequency over the range of speeds.
+    pub verified: Option<Verified>,
 }
 
 /// Resonances of a study's disc.
@@ -98,13 +100,14 @@ pub fn run(study: &DiscStudy, question: Question) -> Result<Resonances, Failure>
                 })?;
             let widest =
                 clearance.clear.iter().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
+            let verified = verified_frequency(study.disc(), &clearance, speeds.clone());
             let suggestion = widest.and_then(|[from, to]| {
-                let ratio = 0.5 * (from + to);
+                let ratio = verified.map_or(0.5 * (from + to), |it| it.frequency_ratio);
                 let there = waves.with_dither_frequency(ratio).ok()?;
                 Some((ratio, within(&there, speeds.clone())))
             });
             let (speeds, frequencies) = (speeds.clone(), frequencies.clone());
-            Some(Clear { speeds, frequencies, clearance, suggestion })
+            Some(Clear { speeds, frequencies, clearance, suggestion, verified })
         }
     };
     let speeds = question.speeds.clone();
@@ -223,22 +226,33 @@ impl Resonances {
                 "blocked": clear.clearance.blocked.iter().map(blocked).collect::<Vec<_>>(),
                 "original_suppressed": clear.clearance.original_suppressed,
                 "suggestion": clear.suggestion.as_ref().map(|(ratio, _)| *ratio),
+                "verified_growth_rate": clear.verified.map(|it| it.growth.rate),
             });
-            match &clear.suggestion {
-                Some((_, nearby)) => {
-                    let nearby: Vec<Json> = nearby
-                        .iter()
-                        .map(|nearby| {
-                            let mut object = meeting(&nearby.resonance);
-                            object["reaches_in"] = nearby.reaches_in.into();
-                            object
-                        })
-                        .collect();
-                    inner["there"] = nearby.into();
-                }
-                None => {
-                    inner["why"] = json!({ "suggestion": "no frequency of the range is clear" });
-                }
+            let mut why = Map::new();
+            if clear.suggestion.is_none() {
+                why.insert("suggestion".to_owned(), "no frequency of the range is clear".into());
+            }
+            if clear.verified.is_none() {
+                let reason = if clear.suggestion.is_none() {
+                    "no frequency of the range is clear"
+                } else {
+                    "exponents cannot be computed with such numbers"
+                };
+                why.insert("verified_growth_rate".to_owned(), reason.into());
+            }
+            if !why.is_empty() {
+                inner["why"] = Json::Object(why);
+            }
+            if let Some((_, nearby)) = &clear.suggestion {
+                let nearby: Vec<Json> = nearby
+                    .iter()
+                    .map(|nearby| {
+                        let mut object = meeting(&nearby.resonance);
+                        object["reaches_in"] = nearby.reaches_in.into();
+                        object
+                    })
+                    .collect();
+                inner["there"] = nearby.into();
             }
             object["clear"] = inner;
         }
