@@ -26,6 +26,9 @@ use quell_numerics::eigen::Tridiagonal;
 
 use crate::disc::Disc;
 
+/// Largest H: time grows with its square, and at this one ten modes take a minute or two.
+pub const MOST_HARMONICS: usize = 200;
+
 /// Points over [0, R/2] for each free wave.
 const POINTS_PER_WAVE: usize = 40;
 
@@ -54,6 +57,13 @@ pub enum NoPartition {
     Loads(usize),
     /// No dither.
     Undithered,
+    /// The dither is so slow beside the waves that this many harmonics would be needed, more than [`MOST_HARMONICS`].
+    TooManyHarmonics {
+        /// Their number.
+        harmonics: usize,
+    },
+    /// Eigenvalues failed at every ω.
+    Eigenvalues,
 }
 
 /// The tridiagonal operator of a disc.
@@ -110,10 +120,9 @@ impl Operator<'_> {
         }
     }
 
-    /// Eigenvalues 1/factor at ρ = iω.
-    fn inverse_factors(&self, omega: f64) -> Vec<Complex64> {
-        // Not finite on a pole: no crossing is seen there.
-        self.matrix(omega).eigenvalues().unwrap_or_default()
+    /// Eigenvalues 1/factor at ρ = iω; `None` where they fail, as on a pole: no crossing is seen there.
+    fn inverse_factors(&self, omega: f64) -> Option<Vec<Complex64>> {
+        self.matrix(omega).eigenvalues().ok()
     }
 
     /// The eigenvalue at ρ = iω that is `guess` but for `gap`: by Newton's method, or the nearest of all.
@@ -179,7 +188,7 @@ fn real_ones(values: &[Complex64], frequency: f64, found: &mut Vec<Crossing>) {
 /// Every positive factor on the load's friction at which an exponent is imaginary, in rising order.
 ///
 /// # Errors
-/// [`NoPartition`] for other than one load, and without dither.
+/// [`NoPartition`] for other than one load, without dither, for a dither too slow, and where eigenvalues fail throughout.
 pub fn crossings(disc: &Disc) -> Result<Vec<Crossing>, NoPartition> {
     if disc.loads().len() != 1 {
         return Err(NoPartition::Loads(disc.loads().len()));
@@ -192,17 +201,26 @@ pub fn crossings(disc: &Disc) -> Result<Vec<Crossing>, NoPartition> {
         .map(|mode| (mode.diameters as f64).mul_add(disc.speed().abs(), mode.ratio))
         .fold(0.0, f64::max);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
-    let harmonics = (2.0 * fastest / ratio).ceil() as usize + 6;
+    let harmonics = ((2.0 * fastest / ratio).ceil() as usize).saturating_add(6);
+    if harmonics > MOST_HARMONICS {
+        return Err(NoPartition::TooManyHarmonics { harmonics });
+    }
     let operator = Operator { disc, mean, half_amplitude: 0.5 * amplitude, ratio, harmonics };
     let waves: usize =
         disc.modes().iter().map(|mode| if mode.diameters == 0 { 2 } else { 4 }).sum();
     let points = POINTS_PER_WAVE * waves;
     let at = |k: usize| 0.5 * ratio * (k as f64 / points as f64);
     let mut found = Vec::new();
-    let mut before = operator.inverse_factors(at(0));
+    let mut any = false;
+    let mut known = |k: usize| {
+        let values = operator.inverse_factors(at(k));
+        any |= values.is_some();
+        values.unwrap_or_default()
+    };
+    let mut before = known(0);
     real_ones(&before, at(0), &mut found);
     for k in 0..points {
-        let after = operator.inverse_factors(at(k + 1));
+        let after = known(k + 1);
         for &value in &before {
             let Some(next) = nearest(&after, value) else { continue };
             if (value.im < 0.0) != (next.im < 0.0) && value.re.max(next.re) > 0.0 {
@@ -210,6 +228,9 @@ pub fn crossings(disc: &Disc) -> Result<Vec<Crossing>, NoPartition> {
             }
         }
         before = after;
+    }
+    if !any {
+        return Err(NoPartition::Eigenvalues);
     }
     real_ones(&before, at(points), &mut found);
     found.sort_by(|a, b| a.factor.total_cmp(&b.factor));

@@ -289,4 +289,11 @@ fn crossings_of_the_partition_are_marginal() {
     }
     let plain = disc("1,2", 0.0, Load::new(0.1, 0.1, 0.1, 1.0), Dither::None, 0.3);
     assert_eq!(crossings(&plain), Err(NoPartition::Undithered));
+    // A dither a hundred times slower than the waves is refused, where it would take hours.
+    let slow = Dither::Normal { amplitude: 0.8, frequency_ratio: 0.01 };
+    let slow = disc("1,2", 0.0, Load::new(0.1, 0.1, 0.1, 1.0), slow, 0.3);
+    assert!(matches!(crossings(&slow), Err(NoPartition::TooManyHarmonics { harmonics: 200.. })));
+    // Stiffnesses whose squares overflow have no eigenvalues at any frequency: that is not "no boundary".
+    let vast = disc("1,2", 0.0, Load::new(0.1, 0.1, 1e308, 1e308), NORMAL, 0.3);
+    assert_eq!(crossings(&vast), Err(NoPartition::Eigenvalues));
 }

@@ -38,7 +38,9 @@ fn modes(of: &Value, damping: f64) -> Vec<Mode> {
 fn growth_rates_without_dither() {
     let reference = reference("disc_eigenvalues.json");
     let mut marginal = 0;
-    for point in reference["points"].as_array().expect("a list") {
+    let points = reference["points"].as_array().expect("a list");
+    assert!(points.len() >= 27, "{}", points.len());
+    for point in points {
         let model = &reference["models"][point["model"].as_str().expect("a name")];
         let [m, c, k, f] = ["m", "c", "k", "f"].map(|key| number(&point[key]));
         let modes = modes(model, number(&point["xi"]));
@@ -70,7 +72,9 @@ fn growth_rates_without_dither() {
 fn growth_rates_with_dither() {
     let models = reference("disc_eigenvalues.json");
     let points = reference("disc_floquet.json");
-    for point in points["points"].as_array().expect("a list") {
+    let points = points["points"].as_array().expect("a list");
+    assert!(points.len() >= 21, "{}", points.len());
+    for point in points {
         let model = &models["models"][point["model"].as_str().expect("a name")];
         let [strength, friction] = [number(&point["m=c=k"]), number(&point["f"])];
         let (amplitude, frequency_ratio) = (number(&point["alpha"]), number(&point["R"]));

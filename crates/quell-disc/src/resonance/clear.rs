@@ -157,9 +157,14 @@ pub fn within(waves: &Waves, speeds: RangeInclusive<f64>) -> Vec<Nearby> {
     if let Some(frequency) = first.dither_frequency() {
         for family in first.families(1).iter().filter(|family| family.slope != 0.0) {
             let speed = (family.offset + f64::from(family.h) * frequency) / family.slope;
-            let reaches_in = reaches(&first, family, &speeds, frequency);
-            if reaches_in || speeds.contains(&speed) {
+            let inside = speeds.contains(&speed);
+            let mut reaches_in = reaches(&first, family, &speeds, frequency);
+            if reaches_in || inside {
                 let resonance = first.resonance(&Waves::place_of(family, speed));
+                // A wave that grows alone has no band: it grows wherever it is.
+                if matches!(resonance.tongue, Tongue::WaveUnstable { .. }) {
+                    reaches_in = inside;
+                }
                 found.push(Nearby { resonance, reaches_in });
             }
         }

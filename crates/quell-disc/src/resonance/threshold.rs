@@ -79,9 +79,9 @@ impl Waves {
                 Band::Outside => return None,
                 Band::Between(..) => {
                     let closeness = Closeness { absolute: 0.0, relative: 1e-14 };
-                    return find_root(excess, last, friction, closeness)
-                        .ok()
-                        .map(|root| root.location);
+                    // Where growth at the tip is rounding on both sides the friction that has the band serves.
+                    let root = find_root(excess, last, friction, closeness);
+                    return Some(root.map_or(friction, |root| root.location));
                 }
                 Band::Nowhere => last = friction,
             }

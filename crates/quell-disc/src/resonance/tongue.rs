@@ -83,8 +83,6 @@ pub struct Resonance {
     pub sum: bool,
     /// Harmonic h of the dither, w₁ = w₂ + hR; 0 undithered.
     pub harmonic: i32,
-    /// |l₁ − l₂|: the larger, the more damping of the plate a tongue withstands.
-    pub diameter_difference: f64,
     /// What the meeting does.
     pub coupling: Coupling,
     /// Smallest friction f with a tongue, the other values as given; `None` where there is none.
@@ -133,7 +131,6 @@ impl Waves {
 
     /// Everything about one meeting.
     pub(super) fn resonance(&self, place: &Place) -> Resonance {
-        let [first, second] = place.signed();
         let coupling = self.coupling(place);
         let tongue =
             if coupling == Coupling::Destabilising { self.tongue(place) } else { Tongue::Absent };
@@ -142,7 +139,6 @@ impl Waves {
             waves: place.waves,
             sum: place.conjugate,
             harmonic: place.h,
-            diameter_difference: (first.l - second.l).abs(),
             coupling,
             threshold: self.threshold(place, coupling),
             tongue,
@@ -160,7 +156,7 @@ impl Waves {
         }
     }
 
-    fn coupling(&self, place: &Place) -> Coupling {
+    pub(super) fn coupling(&self, place: &Place) -> Coupling {
         let [first, second] = place.signed();
         let touched = self.coupling_squared(first.mode) * self.coupling_squared(second.mode) > 0.0;
         let (mean, half) = self.friction_parts(1.0);
@@ -184,7 +180,7 @@ impl Waves {
         }
     }
 
-    fn tongue(&self, place: &Place) -> Tongue {
+    pub(super) fn tongue(&self, place: &Place) -> Tongue {
         let [first, second] = place.signed();
         let slope = first.l - second.l;
         let pair = self.pair(place);
@@ -203,19 +199,6 @@ impl Waves {
                 }
             }
         }
-    }
-
-    /// Larger growth rate of the pair of waves of a resonance at a speed near it, from the slow 2 × 2 system.
-    #[must_use]
-    pub fn pair_growth(&self, resonance: &Resonance, speed: f64) -> f64 {
-        let place = Place {
-            waves: resonance.waves,
-            conjugate: resonance.sum,
-            h: resonance.harmonic,
-            speed: resonance.speed,
-        };
-        let [first, second] = place.signed();
-        self.pair(&place).growth((first.l - second.l) * (speed - resonance.speed))
     }
 
     /// A place of a family at a speed, whatever the dither's frequency would have to be.

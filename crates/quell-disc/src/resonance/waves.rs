@@ -107,10 +107,11 @@ impl Waves {
         Self { order, ..self }
     }
 
-    /// The same with another friction f; a negative one counts as 0.
+    /// The same with another friction f, which must not be negative.
     #[must_use]
     pub fn with_friction(&self, friction: f64) -> Self {
-        let load = Load { friction: friction.max(0.0), ..self.load.clone() };
+        debug_assert!(friction >= 0.0, "friction {friction} < 0");
+        let load = Load { friction, ..self.load.clone() };
         Self { load, ..self.clone() }
     }
 
@@ -142,20 +143,6 @@ impl Waves {
     #[must_use]
     pub fn growth_rate(&self, wave: &Wave, speed: f64) -> f64 {
         self.self_term(&SignedWave::new(wave, false), speed, &[]).re
-    }
-
-    /// Friction f at which a backward wave by itself becomes unstable, c(β/l + Ω) + 2ξβ²/(l g²); `None` where it does
-    /// not: forward and axisymmetric waves, waves with a node at the load, and under tangential dither, whose mean is zero.
-    #[must_use]
-    pub fn friction_limit(&self, wave: &Wave, speed: f64) -> Option<f64> {
-        let mode = &self.modes[wave.mode];
-        let (mean, _) = self.friction_parts(1.0);
-        let l = wave.signed_diameters();
-        let g2 = self.coupling_squared(wave.mode);
-        (l > 0.0 && g2 > 0.0 && mean > 0.0).then(|| {
-            self.load.damping * (mode.ratio / l + speed)
-                + 2.0 * mode.damping * mode.ratio * mode.ratio / (l * g2)
-        })
     }
 
     /// Frequency R of the dither, where there is one.

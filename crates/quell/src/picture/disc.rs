@@ -188,7 +188,8 @@ pub fn tongues(
     };
     let count = waves.undithered(from..=to).len() + waves.dithered(from..=to).len();
     let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new(); 2 * count];
-    for &friction in frictions {
+    // The theory is about friction that is not negative.
+    for &friction in frictions.iter().filter(|it| **it >= 0.0) {
         let at = waves.with_friction(friction);
         let still = at.clone().with_order(order).undithered(from..=to);
         for (index, resonance) in still.iter().chain(&at.dithered(from..=to)).enumerate() {

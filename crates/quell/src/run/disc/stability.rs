@@ -2,7 +2,7 @@
 
 use quell_disc::boundaries::{Marginal, NoBoundary, boundaries};
 use quell_disc::dithered::DitheredDisc;
-use quell_disc::partition::{NoPartition, crossings};
+use quell_disc::partition::{MOST_HARMONICS, NoPartition, crossings};
 use quell_disc::system::Contributions;
 use quell_disc::{Dither, Growth, Verdict, undithered};
 use quell_numerics::floquet::Effort;
@@ -107,6 +107,11 @@ fn shaken(study: &DiscStudy) -> Result<Vec<Change>, String> {
             format!("boundaries by D-partition are known for one load, and there are {count}")
         }
         NoPartition::Undithered => "there is no dither".to_owned(),
+        NoPartition::TooManyHarmonics { harmonics } => format!(
+            "the dither is too slow beside the waves: a D-partition would need {harmonics} harmonics, more than \
+             {MOST_HARMONICS}; `quell map` over disc.load.friction shows the boundaries"
+        ),
+        NoPartition::Eigenvalues => "eigenvalues failed at every frequency: numbers are too large".to_owned(),
     })?;
     let change = |crossing: &quell_disc::partition::Crossing| Change {
         friction: sign * crossing.factor,
