@@ -96,16 +96,21 @@ impl Bounds {
 
 impl fmt::Display for Bounds {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // The shortest form that is the number: no run of zeros.
+        let short = |value: f64| {
+            let text = format!("{value:?}");
+            text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
+        };
         match (self.lower.is_finite(), self.upper.is_finite()) {
             (false, false) => write!(f, "a finite number"),
             (true, false) => {
                 let sign = if self.lower_included { "≥" } else { ">" };
-                write!(f, "a finite number {sign} {}", self.lower)
+                write!(f, "a finite number {sign} {}", short(self.lower))
             }
-            (false, true) => write!(f, "a finite number ≤ {}", self.upper),
+            (false, true) => write!(f, "a finite number ≤ {}", short(self.upper)),
             (true, true) => {
                 let open = if self.lower_included { '[' } else { '(' };
-                write!(f, "a number in {open}{}, {}]", self.lower, self.upper)
+                write!(f, "a number in {open}{}, {}]", short(self.lower), short(self.upper))
             }
         }
     }

@@ -536,3 +536,47 @@ fn axes_are_added_one_after_the_other_and_take_the_place_of_others() {
     assert_eq!(other.changes(), told);
     assert!(study.sweeping(&[]).expect("valid").sweeps().is_empty());
 }
+
+/// A key that another law has is told with the keys of this law: itself is no suggestion.
+#[test]
+fn a_key_of_another_law_is_told_with_its_law() {
+    let formula = ["friction.law=expression", "friction.coefficient=0.3*exp(-v)"];
+    for (changes, key, law) in [
+        (&formula[..], "friction.minimum_coefficient", "expression"),
+        (&["friction.coefficient=0.3"], "friction.coefficient", "stribeck"),
+        (&["friction.terms=2"], "friction.terms", "stribeck"),
+        (&["friction.constants.a=1"], "friction.constants", "stribeck"),
+    ] {
+        let told = complaints(GOOD, changes);
+        let found = told.iter().find(|it| it.key == key).unwrap_or_else(|| panic!("{told:?}"));
+        assert_eq!((found.fault, &found.suggestion), (Fault::Unknown, &None), "{found}");
+        let (keys, whose) = found.allowed.split_once(" for ").expect("whose keys");
+        assert_eq!(whose, format!("law = \"{law}\""));
+        let name = key.trim_start_matches("friction.");
+        assert!(keys.starts_with("law") && keys.split(", ").all(|it| it != name), "{keys}");
+    }
+    let told = complaints(GOOD, &["friction.minimum_coeficient=0.3"]);
+    assert!(told[0].suggestion.is_some(), "{told:?}");
+}
+
+#[test]
+fn a_table_is_set_key_by_key() {
+    for (change, key, example) in [
+        ("belt=3", "belt", "belt.damping_ratio"),
+        ("friction={}", "friction", "friction.law"),
+        ("dither[0]=1", "dither[0]", "dither.direction"),
+    ] {
+        let told = complaints(GOOD, &[change]);
+        assert_eq!((told.len(), told[0].fault, told[0].key.as_str()), (1, Fault::Value, key));
+        assert!(told[0].allowed.contains(&format!("key by key, such as {example}")), "{}", told[0]);
+    }
+}
+
+#[test]
+fn bounds_are_told_without_runs_of_zeros() {
+    use quell_model::parameter::Bounds;
+    let told = |lower, upper| Bounds { lower, lower_included: true, upper }.to_string();
+    assert_eq!(told(1e-300, f64::INFINITY), "a finite number ≥ 1e-300");
+    assert_eq!(told(0.0, 1e30), "a number in [0, 1e30]");
+    assert_eq!(told(-0.5, 20000.0), "a number in [-0.5, 20000]");
+}

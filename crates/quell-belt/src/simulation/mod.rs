@@ -107,7 +107,7 @@ impl Stalled {
 
 impl fmt::Display for Stalled {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the integration stopped at τ = {}: {}", self.time, self.why)
+        write!(f, "the integration stopped at τ = {:?}: {}", self.time, self.why)
     }
 }
 

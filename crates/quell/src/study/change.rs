@@ -68,8 +68,23 @@ impl Change {
             let allowed = format!("[{first}] is not built yet");
             return Box::new(self.complaint(Fault::NotBuilt, allowed));
         }
+        if let Some(section) = self.table_itself() {
+            let example = vocabulary::keys_of(section)
+                .find(|key| !matches!(key.role, Role::Scale(_)))
+                .map_or_else(|| vocabulary::join(section.path(), "a"), Key::path);
+            let allowed = format!("set key by key, such as {example}: it is a table");
+            return Box::new(self.complaint(Fault::Value, allowed));
+        }
         let complaint = self.complaint(Fault::Unknown, "the keys that `quell schema` lists");
         Box::new(complaint.suggesting(nearest))
+    }
+
+    /// The table that the path names, where it names a table and no key of it.
+    fn table_itself(&self) -> Option<Section> {
+        let path = self.path.trim();
+        let name = path.strip_suffix(']').and_then(|path| path.split_once('['));
+        let name = name.map_or(path, |(name, _)| name);
+        Section::ALL.iter().copied().find(|section| section.path() == name && !name.is_empty())
     }
 
     fn complaint(&self, fault: Fault, allowed: impl Into<String>) -> Complaint {

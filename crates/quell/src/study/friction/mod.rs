@@ -74,24 +74,49 @@ fn numeric(
     }
 }
 
+/// The table of the constants of a formula.
+const CONSTANTS: &str = "constants";
+
 /// Complains about keys that no law, or not this law, has.
 fn unknown_keys(reader: &mut Reader, table: &Table, kind: Option<LawKind>) {
     for (name, node) in table.iter() {
-        let own = name == "constants" && kind.is_none_or(|kind| kind == LawKind::Expression);
-        let known = vocabulary::key(Section::Friction, name).is_some_and(|key| match key.role {
-            Role::Number(parameter) | Role::Twin(parameter, _) => kind.is_none_or(|kind| {
-                kind.parameters().iter().any(|known| known.path == parameter.path)
-            }),
-            Role::Coefficient => {
-                kind.is_none_or(|kind| matches!(kind, LawKind::Expression | LawKind::Samples))
-            }
-            Role::Speeds { .. } | Role::Terms | Role::Text => {
-                kind.is_none_or(|kind| kind == LawKind::Samples)
-            }
-            _ => true,
-        });
-        if !own && !known {
+        let key = vocabulary::key(Section::Friction, name);
+        if key.is_none() && name != CONSTANTS {
             reader.unknown_key(Section::Friction, "friction", name, node);
+            continue;
         }
+        let Some(kind) = kind else { continue };
+        let has = key.map_or(kind == LawKind::Expression, |key| belongs(key.role, kind));
+        if !has {
+            let constants = (kind == LawKind::Expression).then_some(CONSTANTS);
+            let keys = reader.keys_there(Section::Friction);
+            let keys: Vec<&str> = keys
+                .filter(|key| belongs(key.role, kind))
+                .map(|key| key.name)
+                .chain(constants)
+                .collect();
+            // It is a key, only not one of this law: there is no nearer one to suggest.
+            let allowed = format!("{} for law = \"{}\"", keys.join(", "), kind.name());
+            let key = vocabulary::join("friction", name);
+            reader.complain(Complaint::new(
+                Fault::Unknown,
+                key,
+                node.origin,
+                node.given(),
+                allowed,
+            ));
+        }
+    }
+}
+
+/// Whether a law has a key that takes this.
+fn belongs(role: Role, kind: LawKind) -> bool {
+    match role {
+        Role::Number(parameter) | Role::Twin(parameter, _) => {
+            kind.parameters().iter().any(|known| known.path == parameter.path)
+        }
+        Role::Coefficient => matches!(kind, LawKind::Expression | LawKind::Samples),
+        Role::Speeds { .. } | Role::Terms | Role::Text => kind == LawKind::Samples,
+        _ => true,
     }
 }

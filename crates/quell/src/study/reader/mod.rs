@@ -11,7 +11,7 @@ use serde_json::Value as Json;
 
 use super::mirror::{Node, Table, Value, given_number};
 use super::suggest;
-use super::vocabulary::{self, Role, Section, join};
+use super::vocabulary::{self, Key, Role, Section, join};
 use crate::complaint::{Complaint, Fault, Origin};
 
 mod numbers;
@@ -94,6 +94,7 @@ impl Reader {
         self.complaints.sort_by_key(|complaint| complaint.origin.line().unwrap_or(usize::MAX));
         self.complaints
     }
+
     /// Complains about keys that a table does not have.
     pub(super) fn unknown_keys(
         &mut self,
@@ -114,25 +115,25 @@ impl Reader {
     pub(super) fn unknown_key(&mut self, section: Section, prefix: &str, name: &str, node: &Node) {
         let index =
             prefix.split_once('[').and_then(|(_, rest)| rest.trim_end_matches(']').parse().ok());
-        let si = matches!(self.units, Units::Si(_));
-        let there: Vec<&str> = vocabulary::keys_of(section)
-            .filter(|key| match key.role {
-                Role::Number(parameter) => !si || parameter.si.is_empty(),
-                Role::Twin(..) | Role::Scale(_) => si,
-                Role::Speeds { si: in_si } => in_si == si,
-                _ => true,
-            })
-            .map(|key| key.name)
-            .collect();
-        let complaint = Complaint::new(
-            Fault::Unknown,
-            join(prefix, name),
-            node.origin,
-            node.given(),
-            there.join(", "),
-        );
-        let nearest = suggest::path(section.path(), name, index);
-        self.complain(complaint.suggesting(nearest.map(|path| self.in_system(path))));
+        let there: Vec<&str> = self.keys_there(section).map(|key| key.name).collect();
+        let key = join(prefix, name);
+        let nearest = suggest::path(section.path(), name, index).map(|path| self.in_system(path));
+        // A key that is there is never the way out of its own complaint.
+        let nearest = nearest.filter(|path| *path != key);
+        let complaint =
+            Complaint::new(Fault::Unknown, key, node.origin, node.given(), there.join(", "));
+        self.complain(complaint.suggesting(nearest));
+    }
+
+    /// The keys of a table in the system of this study.
+    pub(super) fn keys_there(&self, section: Section) -> impl Iterator<Item = &'static Key> {
+        let si = self.is_si();
+        vocabulary::keys_of(section).filter(move |key| match key.role {
+            Role::Number(parameter) => !si || parameter.si.is_empty(),
+            Role::Twin(..) | Role::Scale(_) => si,
+            Role::Speeds { si: in_si } => in_si == si,
+            _ => true,
+        })
     }
 
     /// The path that gives the same number in the system of this study.
