@@ -243,6 +243,8 @@ fn bad_arguments_are_refused() {
         (&["simulate", "study.toml", "--until", "nan"], "--until"),
         (&["simulate", "study.toml", "--until", "inf"], "--until"),
         (&["simulate", "study.toml", "--until", "soon"], "--until"),
+        (&["simulate", "study.toml", "--until", "1e308"], "--until"),
+        (&["simulate", "si.toml", "--until", "1e308h"], "--until"),
         (&["simulate", "study.toml", "--until", "0.5s"], "--until"),
         (&["simulate", "study.toml"], "--until"),
         (&["simulate", "--until", "1"], "<STUDY>"),
@@ -288,7 +290,7 @@ fn nothing_is_computed_before_the_output_is_tried() {
     fs::create_dir(place.folder.join("folder.csv")).expect("a folder");
     // A run of this length would not end today.
     let errors =
-        place.refused(&["simulate", "study.toml", "--until", "1e12", "--save", "folder.csv"]);
+        place.refused(&["simulate", "study.toml", "--until", "1e9", "--save", "folder.csv"]);
     assert_eq!(errors[0]["key"], "--save");
     assert_eq!(errors[0]["value"], "folder.csv");
 }
@@ -371,6 +373,8 @@ fn devices_are_written_not_replaced() {
     place.good(&["simulate", "study.toml", "--until", "5", "--save", "/dev/null"]);
     let kind = fs::metadata("/dev/null").expect("there").file_type();
     assert!(kind.is_char_device());
+    place.good(&["response", "study.toml", "--save", "/dev/null"]);
+    assert!(!Path::new("/dev/null_spectrum.csv").exists(), "both tables go to the device");
     if Path::new("/dev/full").exists() {
         let (object, status) =
             place.json(&["simulate", "study.toml", "--until", "5", "--save", "/dev/full"]);
@@ -385,6 +389,24 @@ fn devices_are_written_not_replaced() {
     }
     // Endless files are no studies.
     place.refused(&["check", "/dev/zero"]);
+}
+
+/// Whoever reads the pipe sees one stream with both tables, and its end.
+#[cfg(unix)]
+#[test]
+fn named_pipes_are_opened_once() {
+    let place = Place::new("named_pipes");
+    let made = Command::new("mkfifo").arg(place.folder.join("numbers")).status();
+    assert!(made.expect("mkfifo runs").success());
+    let path = place.folder.join("numbers");
+    let reader = std::thread::spawn(move || fs::read_to_string(path).expect("read to its end"));
+    let before = place.files();
+    let answer = place.good(&["response", "study.toml", "--save", "numbers"]);
+    assert_eq!(answer["saved"].as_array().map(Vec::len), Some(2), "{answer}");
+    let told = reader.join().expect("read");
+    let names = told.lines().filter(|line| line.starts_with(char::is_alphabetic));
+    assert_eq!(names.count(), 2, "{told}");
+    assert_eq!(place.files(), before);
 }
 
 #[cfg(unix)]

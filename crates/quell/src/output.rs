@@ -18,8 +18,8 @@ pub struct Output {
     given: PathBuf,
     /// The file itself, links followed.
     path: PathBuf,
-    /// Whether it is a device or pipe.
-    special: bool,
+    /// A device or pipe, opened once: whoever reads a pipe sees its end when it is closed.
+    special: Option<File>,
 }
 
 impl Output {
@@ -43,16 +43,25 @@ impl Output {
             let list: Vec<String> = extensions.iter().map(|name| format!(".{name}")).collect();
             return Err(complaint(format!("the file name must end in {}", list.join(" or "))));
         }
-        let mut output = Self { given: path.to_owned(), path: path.to_owned(), special };
-        output.probe().map_err(|error| complaint(format!("cannot be written: {error}")))?;
+        let mut output = Self { given: path.to_owned(), path: path.to_owned(), special: None };
+        output.probe(special).map_err(|error| complaint(format!("cannot be written: {error}")))?;
         Ok(output)
     }
 
-    /// Another file beside this one: `name.csv` → `name_part.csv`.
+    /// Another file beside this one: `name.csv` → `name_part.csv`. Beside a device or pipe there is none: it takes both.
     ///
     /// # Errors
     /// A complaint that names `option` and the path.
     pub fn beside(&self, part: &str, option: &'static str) -> Result<Self, Box<Complaint>> {
+        if let Some(file) = &self.special {
+            let file = file.try_clone().map_err(|error| {
+                let given = self.given.display().to_string();
+                let allowed = format!("cannot be written: {error}");
+                Complaint::new(Fault::Path, option, Origin::Argument(option), given, allowed)
+            })?;
+            let (given, path) = (self.given.clone(), self.path.clone());
+            return Ok(Self { given, path, special: Some(file) });
+        }
         let stem = self.given.file_stem().and_then(|stem| stem.to_str()).unwrap_or("quell");
         let extension =
             self.given.extension().and_then(|extension| extension.to_str()).unwrap_or("csv");
@@ -71,11 +80,8 @@ impl Output {
     /// # Errors
     /// [`Failure::Failed`] with the path; nothing is left behind then.
     pub fn write(self, bytes: &[u8]) -> Result<PathBuf, Failure> {
-        let written = if self.special {
-            OpenOptions::new()
-                .write(true)
-                .open(&self.path)
-                .and_then(|mut file| file.write_all(bytes).and_then(|()| file.flush()))
+        let written = if let Some(mut file) = self.special.as_ref() {
+            file.write_all(bytes).and_then(|()| file.flush())
         } else {
             let temporary = self.temporary();
             let written = fill(&temporary, bytes).and_then(|()| fs::rename(&temporary, &self.path));
@@ -92,9 +98,10 @@ impl Output {
     }
 
     /// Tries what [`Output::write`] will do.
-    fn probe(&mut self) -> io::Result<()> {
-        if self.special {
-            return OpenOptions::new().write(true).open(&self.path).map(drop);
+    fn probe(&mut self, special: bool) -> io::Result<()> {
+        if special {
+            self.special = Some(OpenOptions::new().write(true).open(&self.path)?);
+            return Ok(());
         }
         if self.path.is_dir() {
             return Err(io::Error::other("it is a directory"));

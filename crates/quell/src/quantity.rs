@@ -3,6 +3,7 @@
 //! A plain number is one of the equations; a number with a unit needs a study in SI.
 
 use quell_model::units::{Quantity, Scales};
+use serde_json::Value as Json;
 
 use crate::complaint::Complaint;
 
@@ -89,7 +90,37 @@ pub fn parse(
             quantity.scaled_unit()
         )));
     };
-    Ok(scales.from_si(quantity, number * size))
+    let found = scales.from_si(quantity, number * size);
+    if found.is_finite() { Ok(found) } else { Err(complaint(wanted())) }
+}
+
+/// Longest time τ of a run: 10⁹ slow periods and more take days, and nobody waits for longer ones.
+pub const MOST_TIME: f64 = 1e9;
+
+/// Reads how long a run lasts.
+///
+/// # Errors
+/// As [`parse`], and where nobody could wait for it.
+pub fn duration(
+    text: &str,
+    scales: Option<Scales>,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    let time = parse(text, Quantity::Time, scales, option)?;
+    bearable(time, text, option)
+}
+
+/// Refuses a time τ, told as it was given, that nobody could wait for.
+pub(crate) fn bearable(
+    time: f64,
+    given: impl Into<Json>,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    if (0.0..=MOST_TIME).contains(&time) {
+        return Ok(time);
+    }
+    let allowed = format!("a time from 0, where a run starts, to τ = {MOST_TIME:e}");
+    Err(Box::new(Complaint::option(option, given, allowed)))
 }
 
 #[cfg(test)]
@@ -106,7 +137,7 @@ mod tests {
         assert_eq!(time("3s"), Ok(30.0));
         assert_eq!(time("3000 ms"), Ok(30.0));
         assert_eq!(time("-1e0s"), Ok(-10.0));
-        for wrong in ["", "s", "fast", "3m", "nan", "inf", "infs", "1e999", "--json"] {
+        for wrong in ["", "s", "fast", "3m", "nan", "inf", "infs", "1e999", "1e308h", "--json"] {
             assert!(time(wrong).is_err(), "{wrong}");
         }
         assert_eq!(parse("50mm/s", Quantity::Velocity, scales, "--at").ok(), Some(0.005));

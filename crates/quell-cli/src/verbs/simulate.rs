@@ -55,15 +55,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 fn until(text: &str, study: Option<&Study>) -> Result<f64, Box<Complaint>> {
     // Of a study that could not be read it is not known whether it is in SI.
     let scales = study.map_or_else(|| Scales::new(1.0, 1.0).ok(), Study::scales);
-    let time = quantity::parse(text, Quantity::Time, scales, "--until")?;
-    if time < 0.0 {
-        return Err(Box::new(Complaint::option(
-            "--until",
-            text,
-            "a time ≥ 0: a run starts at τ = 0",
-        )));
-    }
-    Ok(time)
+    quantity::duration(text, scales, "--until")
 }
 
 fn warnings(done: &Simulation) -> Vec<String> {

@@ -4,8 +4,7 @@ use quell::dataset::Dataset;
 use quell::picture;
 use quell::plot::Figure;
 use quell::run::simulate::{MOST_SAMPLES, Options, Simulation, run as simulate};
-use quell::{Complaint, Failure, Study, Subject, quantity};
-use quell_model::units::Quantity;
+use quell::{Failure, Study, Subject, quantity};
 use serde_json::Value as Json;
 
 use crate::answer::{Answer, NativeAnswer};
@@ -62,11 +61,7 @@ pub(crate) fn run(
     samples: bool,
 ) -> Result<NativeAnswer, Failure> {
     let study = belt(subject)?.clone();
-    let time = quantity::parse(until, Quantity::Time, study.scales(), "until")?;
-    if time < 0.0 {
-        let allowed = "a time ≥ 0: a run starts at τ = 0";
-        return Err(Complaint::option("until", until, allowed).into());
-    }
+    let time = quantity::duration(until, study.scales(), "until")?;
     let done = simulate(&study, time, Options { events, samples, undithered: false })?;
     Ok(NativeAnswer::new(Trajectory { study, until: time, done }))
 }
