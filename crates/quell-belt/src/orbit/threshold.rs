@@ -38,6 +38,17 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// Every kind, in the order of the codes in files: a new one is added at the end.
+    pub const ALL: [Self; 7] = [
+        Self::NeimarkSacker,
+        Self::Hopf,
+        Self::Flip,
+        Self::Fold,
+        Self::Grazing,
+        Self::Branching,
+        Self::Signature,
+    ];
+
     /// Word in outputs.
     pub fn name(self) -> &'static str {
         match self {

@@ -57,15 +57,7 @@ pub fn thresholds(study: &Study, done: &Thresholds) -> Figure {
         .with(Region::across_y(Role::Unstable, 1.0, f64::INFINITY).label("unstable"))
         .with(Rule::horizontal(1.0))
         .with(Line::pieces(Role::Exact, pieces));
-    for kind in [
-        Kind::NeimarkSacker,
-        Kind::Hopf,
-        Kind::Flip,
-        Kind::Fold,
-        Kind::Branching,
-        Kind::Grazing,
-        Kind::Signature,
-    ] {
+    for kind in Kind::ALL {
         let places: Vec<(f64, f64)> = done
             .local
             .thresholds
@@ -124,10 +116,8 @@ pub fn curves(study: &Study, done: &Curves) -> Figure {
             panel = panel.with(Line::pieces(Role::Averaged, pieces).style(style).label(label));
         }
     }
-    for (number, kind) in [Kind::NeimarkSacker, Kind::Grazing, Kind::Fold, Kind::Flip, Kind::Hopf]
-        .into_iter()
-        .enumerate()
-    {
+    let mut others = 0;
+    for kind in Kind::ALL {
         let pieces: Vec<Vec<(f64, f64)>> = done
             .curves
             .iter()
@@ -135,7 +125,12 @@ pub fn curves(study: &Study, done: &Curves) -> Figure {
             .map(|curve| curve.points.iter().map(|it| place((it.along, it.value))).collect())
             .collect();
         if !pieces.is_empty() {
-            let role = if number == 0 { Role::Exact } else { Role::Series(number - 1) };
+            let role = if kind == Kind::NeimarkSacker {
+                Role::Exact
+            } else {
+                others += 1;
+                Role::Series(others - 1)
+            };
             panel = panel.with(Line::pieces(role, pieces).label(format!("exact: {}", words(kind))));
         }
     }

@@ -9,6 +9,7 @@ use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
 use super::thresholds::{Kind, known, told};
+use super::varied::{ascending, unable};
 use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
 use crate::study::Study;
@@ -27,15 +28,15 @@ const AVERAGED: u32 = 120;
 pub struct Question {
     /// Path of the parameter whose thresholds are followed.
     pub parameter: String,
-    /// Its window.
+    /// Its window, first and last value in the numbers of the equations.
     pub window: (f64, f64),
     /// Path of the parameter along which they are followed.
     pub along: String,
-    /// Its window.
+    /// Its window, likewise.
     pub between: (f64, f64),
 }
 
-/// A boundary of averaging in the same plane: (second parameter, amplitude).
+/// A boundary of averaging in the same plane: (second parameter, amplitude), both in the numbers of the equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Averaged {
     /// Whether the fast motion is the oscillator's own instead of its limit R → ∞.
@@ -67,16 +68,23 @@ pub fn run(study: &Study, question: Question) -> Result<Curves, Failure> {
         let allowed = "another parameter than --parameter";
         return Err(Complaint::option("--along", question.along.as_str(), allowed).into());
     }
-    for (option, path, window) in [
-        ("--from", &question.parameter, question.window),
-        ("--between", &question.along, question.between),
-    ] {
-        for value in [window.0, window.1] {
-            if belt.with(path, value).is_err() {
-                let allowed = format!("values that {path} can take");
-                return Err(Complaint::option(option, value, allowed).into());
-            }
-        }
+    let (from, to) = question.window;
+    let ends = [("--from", from), ("--to", to)];
+    let across = [("--between", question.between.0), ("--between", question.between.1)];
+    let mut wrong: Vec<Complaint> = ends
+        .into_iter()
+        .flat_map(|end| unable(belt, &question.parameter, end))
+        .chain(across.into_iter().flat_map(|end| unable(belt, &question.along, end)))
+        .collect();
+    wrong.extend(ascending(from, to).err().map(|complaint| *complaint));
+    let (first, last) = question.between;
+    if first.is_nan() || last.is_nan() || first >= last {
+        let given = format!("{first}:{last}");
+        let allowed = "two numbers, the second above the first";
+        wrong.push(Complaint::option("--between", given, allowed));
+    }
+    if !wrong.is_empty() {
+        return Err(wrong.into());
     }
     let plane = Plane {
         path: &question.parameter,
@@ -218,15 +226,8 @@ impl Curves {
         let quantity = |path: &str| {
             study.belt().parameter(path).map_or(Quantity::Ratio, |parameter| parameter.quantity)
         };
-        let kinds: Vec<Kind> = self.curves.iter().map(|curve| curve.kind).collect();
-        let words = [Kind::NeimarkSacker, Kind::Hopf, Kind::Flip, Kind::Fold, Kind::Grazing];
-        let code = |kind: Kind| {
-            words
-                .iter()
-                .position(|it| *it == kind)
-                .and_then(|it| u8::try_from(it).ok())
-                .unwrap_or(0)
-        };
+        let numbered = || (0_u8..).zip(Kind::ALL);
+        let code = |kind: Kind| numbered().filter(move |it| it.1 == kind).map(|it| it.0);
         let each = |of: &dyn Fn(&CurvePoint) -> f64| -> Vec<f64> {
             self.curves.iter().flat_map(|curve| &curve.points).map(of).collect()
         };
@@ -238,13 +239,9 @@ impl Curves {
         let codes: Vec<u8> = self
             .curves
             .iter()
-            .zip(&kinds)
-            .flat_map(|(curve, kind)| vec![code(*kind); curve.points.len()])
+            .flat_map(|curve| curve.points.iter().flat_map(move |_| code(curve.kind)))
             .collect();
-        let names = words
-            .iter()
-            .enumerate()
-            .filter_map(|(index, kind)| Some((u8::try_from(index).ok()?, kind.name())));
+        let names = numbered().map(|(code, kind)| (code, kind.name()));
         let (parameter, along) = (self.question.parameter.as_str(), self.question.along.as_str());
         let numbers = (0..self.points()).map(|it| it as f64).collect();
         let mut dataset = Dataset::new(study, "thresholds")
