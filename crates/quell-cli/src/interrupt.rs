@@ -15,7 +15,7 @@ pub(crate) fn flag() -> &'static AtomicBool {
         if STOP.swap(true, Ordering::Relaxed) {
             process::exit(1);
         }
-        answer::tell("\nstopping: running chunks are finished; once more ends at once\n");
+        answer::tell("\nstopping after what is running; once more ends at once\n");
     });
     &STOP
 }

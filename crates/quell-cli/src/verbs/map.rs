@@ -152,7 +152,7 @@ fn drawable(grid: &Grid) -> Result<(), Box<Complaint>> {
         return Ok(());
     }
     let allowed = format!(
-        "--plot draws one panel for each point of the axes before the last two, at most {}; this study          has {panels}: save the map and draw it from there",
+        "--plot draws one panel for each point of the axes before the last two, at most {}; this study has {panels}: save the map and draw it from there",
         picture::MOST_PANELS
     );
     let origin = Origin::Argument("--plot");

@@ -6,6 +6,7 @@ use quell_model::Belt;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
+use super::digits;
 use super::orbit::refused;
 use crate::complaint::Failure;
 use crate::fields::Fields;
@@ -118,7 +119,6 @@ pub(super) fn unknown(why: &NoOrbit) -> String {
 
 /// A number of the study in words.
 pub(super) fn number(study: &Study, unit: &str, value: f64) -> String {
-    let text = format!("{value:.6}");
-    let text = text.trim_end_matches('0').trim_end_matches('.').to_owned();
+    let text = digits(value);
     if study.scales().is_some() && unit != "1" { format!("{text} {unit}") } else { text }
 }

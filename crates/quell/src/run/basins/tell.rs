@@ -23,23 +23,42 @@ fn percent(share: Share) -> String {
     format!("{} % ({} to {} %)", digits(share.fraction), digits(share.low), digits(share.high))
 }
 
+fn plural(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
+}
+
 impl Portrait {
     /// Whether starts end on the response of sliding, in one sentence.
     pub fn sentence(&self) -> String {
         let count = self.gathered.labels.len();
+        let unknown = self.gathered.unknown();
+        let known = count - unknown;
+        if known == 0 {
+            let nowhere = match count {
+                1 => "where the start ends is not known".to_owned(),
+                _ => format!("where {count} starts end is not known"),
+            };
+            return match &self.local {
+                Ok(verdict) => format!("The quiet response is {}; {nowhere}.", verdict.name()),
+                Err(why) => format!("W{}; {why}.", &nowhere[1..]),
+            };
+        }
+        let starts = if unknown == 0 {
+            format!("{count} start{}", plural(count))
+        } else {
+            format!("{known} start{} whose end is known", plural(known))
+        };
         let others = self.gathered.basins.iter().filter(|basin| !basin.attractor.quiet).count();
         let elsewhere = match others {
             0 => String::new(),
-            1 => "; the others end on one more attractor".to_owned(),
+            1 if unknown == 0 => "; the others end on one more attractor".to_owned(),
+            1 => "; one more attractor was met".to_owned(),
+            _ if unknown > 0 => format!("; {others} more attractors were met"),
             _ => format!("; the others end on {others} more attractors"),
         };
-        let unknown = match self.gathered.unknown() {
-            0 => String::new(),
-            unknown => format!(" Of {unknown} starts the end is not known."),
-        };
         let told = match (&self.local, self.quiet()) {
-            (Ok(Verdict::Stable), Some(share)) if share.starts == count => {
-                format!("The quiet response is stable, and every one of {count} starts reaches it.")
+            (Ok(Verdict::Stable), Some(share)) if share.starts == known => {
+                format!("The quiet response is stable, and every one of {starts} reaches it.")
             }
             (Ok(Verdict::Stable), Some(share)) => {
                 format!(
@@ -48,19 +67,27 @@ impl Portrait {
                 )
             }
             (Ok(Verdict::Stable), None) => {
-                format!("The quiet response is stable, but none of {count} starts reaches it.")
+                format!("The quiet response is stable, but none of {starts} reaches it.")
             }
             (Ok(verdict), _) => format!(
-                "The quiet response is {}: no start stays on it; {count} starts end on {} attractor{}.",
+                "The quiet response is {}: no start stays on it; {starts} end{} on {} attractor{}.",
                 verdict.name(),
+                if known == 1 { "s" } else { "" },
                 self.gathered.basins.len(),
-                if self.gathered.basins.len() == 1 { "" } else { "s" }
+                plural(self.gathered.basins.len())
             ),
             (Err(why), _) => {
-                format!("{count} starts end on {} attractors; {why}.", self.gathered.basins.len())
+                let basins = self.gathered.basins.len();
+                let end = if known == 1 { "ends" } else { "end" };
+                format!("{starts} {end} on {basins} attractor{}; {why}.", plural(basins))
             }
         };
-        told + &unknown
+        match unknown {
+            0 => told,
+            unknown => {
+                format!("{told} Of {unknown} start{} the end is not known.", plural(unknown))
+            }
+        }
     }
 
     /// Place of the attractor on which each start ends, null where that is not known.
@@ -344,4 +371,33 @@ fn put_portrait(fields: &mut Fields, portrait: &Portrait, section: bool) {
     let mut unknown = Fields::new(scales);
     put_share(&mut unknown, portrait.unknown);
     fields.nested("unknown", unknown);
+}
+
+#[cfg(test)]
+mod tests {
+    use quell_belt::attractor::{Basins as Gathered, Unsettled};
+
+    use super::*;
+
+    /// Where no end is known nothing is said about whether starts reach the quiet response.
+    #[test]
+    fn unknown_ends_reach_nothing() {
+        let labels = vec![Label::Unsettled(Unsettled::Moving); 3];
+        let gathered = Gathered { basins: Vec::new(), labels };
+        let share = Share::of(Layout::Sample { count: 3, seed: 1 }, &[true; 3]);
+        let mut portrait = Portrait {
+            value: None,
+            period: 1.0,
+            local: Ok(Verdict::Stable),
+            gathered,
+            shares: Vec::new(),
+            unknown: share,
+        };
+        assert_eq!(
+            portrait.sentence(),
+            "The quiet response is stable; where 3 starts end is not known."
+        );
+        portrait.local = Err("it was not found".to_owned());
+        assert_eq!(portrait.sentence(), "Where 3 starts end is not known; it was not found.");
+    }
 }
