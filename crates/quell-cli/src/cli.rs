@@ -107,9 +107,11 @@ fn complaint(error: &clap::Error) -> Complaint {
         .unwrap_or("command line");
     let text = error.render().to_string();
     let first = text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_owned();
-    // The names of missing arguments follow on the next line.
+    // The names of missing arguments follow, one a line.
     let message = if first.ends_with(':') {
-        format!("{first} {}", text.lines().nth(1).unwrap_or_default().trim())
+        let names = text.lines().skip(1).take_while(|line| !line.trim().is_empty());
+        let names: Vec<&str> = names.map(str::trim).collect();
+        format!("{first} {}", names.join(", "))
     } else {
         first
     };

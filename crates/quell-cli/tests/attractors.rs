@@ -232,6 +232,14 @@ fn what_is_wrong_is_said_at_once() {
     let basins = ["basins", STUDY, "--displacement", "1:-1", "--velocity", "x", "--grid", "big"];
     assert_eq!(keys(&basins), ["--displacement", "--velocity", "--grid"]);
     assert_eq!(keys(&["basins", STUDY, "--grid", "1x9"]), ["--grid"]);
+    let over = ["--over", "dither.amplitude", "--from", "0", "--to", "1", "--points", "100000"];
+    let many = [&["basins", STUDY, "--grid", "3000x3000"], &over[..]].concat();
+    assert_eq!(keys(&many), ["--points"]);
+    let (told, status) = quell(&["basins", STUDY, "--points", "5"]);
+    assert!(status == 2 && told.to_string().contains("--over <PATH>"), "{told}");
+    let (told, _) = quell(&without);
+    let message = told["errors"][0]["message"].as_str().expect("a message");
+    assert!(message.contains("dither") && !message.contains("change:"), "{message}");
     assert_eq!(keys(&["basins", STUDY, "--sample", "0"]), ["--sample"]);
     assert_eq!(keys(&["basins", STUDY, "--set", "belt.belt_velocity=0"]), ["belt.belt_velocity"]);
 }

@@ -8,6 +8,9 @@ use serde_json::Value as Json;
 /// Decreasing law, v₀ = 1, ζ = 0.005, sine tangential dither with R = 10, D = 6.
 const STUDY: &str = "studies/can-dither-make-it-worse.toml";
 
+/// The belt of the decreasing law without dither.
+const WITHOUT: &str = "studies/does-it-squeal.toml";
+
 fn quell(arguments: &[&str]) -> (Json, i32) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let done = Command::new(env!("CARGO_BIN_EXE_quell"))
@@ -215,5 +218,37 @@ fn wrong_questions_are_told() {
     ] {
         let (told, status) = quell(&[&["thresholds", STUDY], arguments].concat());
         assert_eq!((status, told["errors"][0]["key"].as_str()), (2, Some(key)), "{told}");
+    }
+}
+
+/// Nothing that is asked is silently left out, and what is refused is told with its value.
+#[test]
+fn options_that_say_nothing_together_are_refused() {
+    let range = ["--parameter", "dither.amplitude", "--from", "1", "--to", "2"];
+    let below = ["--parameter", "dither.amplitude", "--from=-1", "--to", "2"];
+    for (arguments, key, told) in [
+        ([&["thresholds", STUDY], &range[..], &["--ramp", "5"]].concat(), "--ramp", "--from-rest"),
+        ([&["thresholds", STUDY], &range[..], &["--ramp", "nan"]].concat(), "--ramp", "nan"),
+        ([&["thresholds", STUDY], &range[..], &["--ramp", "1e308"]].concat(), "--ramp", "1e308"),
+        ([&["thresholds", STUDY], &range[..], &["--save", "x.csv"]].concat(), "--save", "--along"),
+        (
+            [&["thresholds", STUDY], &below[..]].concat(),
+            "--from",
+            "--from = -1: must be such that dither.amplitude is a finite number ≥ 0",
+        ),
+        (vec!["orbit", STUDY, "--from-rest", "--near", "0.1,0"], "--from-rest", "--near"),
+        (vec!["orbit", STUDY, "--periods", "2", "--start", "0,0"], "--periods", "--start"),
+        (vec!["orbit", WITHOUT, "--periods", "2"], "--periods", "without dither"),
+        (
+            vec!["orbit", STUDY, "--set", "belt.belt_velocity=9", "--from-squeal"],
+            "--from-squeal",
+            "another start is needed",
+        ),
+    ] {
+        let (object, status) = quell(&arguments);
+        let error = &object["errors"][0];
+        let message = error["message"].as_str().unwrap_or_default();
+        assert_eq!((status, error["key"].as_str()), (2, Some(key)), "{object}");
+        assert!(message.contains(told) && !message.contains("null"), "{message}");
     }
 }

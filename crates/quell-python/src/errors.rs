@@ -21,6 +21,11 @@ const WORDS: &[(&str, &str)] = &[
         "or on the command line: --set sweep[0].parameter=dither.amplitude --set 'sweep[0].values=[0.1, 0.2]'",
         "or axes={\"dither.amplitude\": [0.1, 0.2]}",
     ),
+    (
+        "--from-rest, --from-sliding, --from-squeal or --start",
+        "from_rest, from_sliding, from_squeal or start",
+    ),
+    ("--clear and --frequency", "clear and frequency"),
     ("--quantity", "quantity"),
     ("--save", "store"),
     ("--plot", "plot"),

@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
-use quell::run::basins::{Layout, Over, Question as Window};
-use quell::run::bifurcation::Question as Range;
+use quell::run::basins::{Layout, Question as Window};
+use quell::run::bifurcation::Question as Sweep;
+use quell::run::varied::Range;
 use quell::study::mirror::{Node, Table};
 use quell::{Change, Complaint, DiscStudy, Failure, Fault, Origin, Study, Subject};
 
@@ -260,7 +261,8 @@ impl NativeStudy {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<NativeAnswer> {
         let ((from, to), (up, down)) = (range, ways);
-        let question = Range { parameter, from, to, points, up, down };
+        let range = Range { parameter, from, to, points };
+        let question = Sweep { range, up, down };
         bifurcation::run(py, self.subject(), question, progress)
     }
 
@@ -281,7 +283,7 @@ impl NativeStudy {
             (_, Some((count, seed))) => Layout::Sample { count, seed },
             ((columns, rows), None) => Layout::Grid { columns, rows },
         };
-        let over = over.map(|(parameter, from, to, points)| Over { parameter, from, to, points });
+        let over = over.map(|(parameter, from, to, points)| Range { parameter, from, to, points });
         let question = Window { displacement, velocity, layout, over };
         basins::run(py, self.subject(), question, threads, progress)
     }

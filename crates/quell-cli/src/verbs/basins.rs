@@ -4,13 +4,14 @@ use std::fmt::Write as _;
 
 use clap::Args;
 use quell::run::attractor::words;
-use quell::run::basins::{Basins, Layout, Over, Portrait, Question, run as basins};
+use quell::run::basins::{Basins, Layout, Portrait, Question, run as basins};
+use quell::run::varied::Range;
 use quell::sweep::Running;
 use quell::{Complaint, Failure, Fault, Origin, Study, picture};
 use quell_model::units::Quantity;
 
 use super::map::threads;
-use super::range::{count, number, range};
+use super::numbers::{count, number, range};
 use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
 use crate::interrupt;
@@ -47,7 +48,13 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "B", requires = "over", allow_hyphen_values = true)]
     to: Option<String>,
     /// Number of its values
-    #[arg(long, value_name = "N", default_value = "41", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "N",
+        requires = "over",
+        default_value = "41",
+        allow_hyphen_values = true
+    )]
     points: String,
     /// Number of threads; all there are by default
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
@@ -102,7 +109,7 @@ fn question(
             let parameter = parameter.clone();
             from.zip(to)
                 .zip(points)
-                .map(|((from, to), points)| Some(Over { parameter, from, to, points }))
+                .map(|((from, to), points)| Some(Range { parameter, from, to, points }))
         }
     };
     Some(Question {

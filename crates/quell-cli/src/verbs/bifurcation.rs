@@ -5,10 +5,11 @@ use std::fmt::Write as _;
 use clap::Args;
 use quell::run::attractor::words;
 use quell::run::bifurcation::{Bifurcation, Branch, Question, run as bifurcation};
+use quell::run::varied::Range;
 use quell::sweep::Running;
 use quell::{Failure, Study, picture};
 
-use super::range::{count, number};
+use super::numbers::{VariedArguments, count};
 use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
 use crate::interrupt;
@@ -20,15 +21,8 @@ use crate::table::figure;
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Path of the parameter, such as dither.amplitude
-    #[arg(long, value_name = "PATH")]
-    parameter: String,
-    /// Smallest value
-    #[arg(long, value_name = "A", allow_hyphen_values = true)]
-    from: String,
-    /// Largest value
-    #[arg(long, value_name = "B", allow_hyphen_values = true)]
-    to: String,
+    #[command(flatten)]
+    varied: VariedArguments,
     /// Number of values
     #[arg(long, value_name = "N", default_value = "101", allow_hyphen_values = true)]
     points: String,
@@ -48,21 +42,14 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read());
-    let from = complaints.take(number("--from", &arguments.from));
-    let to = complaints.take(number("--to", &arguments.to));
+    let ends = arguments.varied.ends(&mut complaints);
     let points = complaints.take(count("--points", &arguments.points));
     let output = complaints.take(arguments.output.prepare(&[]));
     let plot = complaints.take(arguments.plot.prepare());
     let ((study, points), ((from, to), (output, plot))) =
-        complaints.finish(study.zip(points).zip(from.zip(to).zip(output.zip(plot))))?;
-    let question = Question {
-        parameter: arguments.parameter.clone(),
-        from,
-        to,
-        points,
-        up: arguments.up,
-        down: arguments.down,
-    };
+        complaints.finish(study.zip(points).zip(ends.zip(output.zip(plot))))?;
+    let range = Range { parameter: arguments.varied.parameter.clone(), from, to, points };
+    let question = Question { range, up: arguments.up, down: arguments.down };
     let bar = Bar::new();
     let running = Running { threads: None, stop: interrupt::flag(), progress: &bar };
     let done = bifurcation(&study, &question, running)?;

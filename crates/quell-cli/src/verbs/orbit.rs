@@ -5,13 +5,16 @@ use std::fmt::Write as _;
 use clap::Args;
 use quell::run::orbit::{Orbit, Response, Wanted, run as orbit};
 use quell::run::thresholds::Protocol;
-use quell::{Complaint, Failure, Study, picture};
+use quell::{Failure, Study, picture};
 use quell_model::units::Quantity;
 
-use super::range::finite;
+use super::numbers::state;
 use crate::answer::Answer;
 use crate::arguments::{Complaints, PlotArguments, StudyArguments};
 use crate::table::Table;
+
+/// Options that ask for the response on which a run ends, which has its own state and number of periods.
+const STARTS: [&str; 4] = ["from_rest", "from_sliding", "from_squeal", "start"];
 
 /// Computes the periodic response to dither and whether it is stable, exactly
 #[derive(Debug, Args)]
@@ -19,10 +22,10 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
     /// Looks near this state x,v at τ = 0; by default for what sliding becomes under dither, without dither for the limit cycle
-    #[arg(long, value_name = "X,V", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,V", conflicts_with_all = STARTS, allow_hyphen_values = true)]
     near: Option<String>,
     /// Common periods of the dithers in one period of the response
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_name = "N", conflicts_with_all = STARTS, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     periods: u32,
     /// Looks for the response on which a run from rest ends, of whatever number of periods
     #[arg(long, group = "run")]
@@ -62,8 +65,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         complaints.take(arguments.start.as_deref().map(|it| state("--start", it)).transpose());
     let plot = complaints.take(arguments.plot.prepare());
     let (study, ((near, start), plot)) = complaints.finish(study.zip(near.zip(start).zip(plot)))?;
-    let after = arguments.after(start);
-    let found = orbit(&study, Wanted { near, periods: arguments.periods, after })?;
+    let periods = arguments.periods;
+    let wanted = match (arguments.after(start), near) {
+        (Some(protocol), _) => Wanted::After(protocol),
+        (None, Some(state)) => Wanted::Near { state, periods },
+        (None, None) => Wanted::OfSliding { periods },
+    };
+    let found = orbit(&study, wanted)?;
     let mut object = found.json(&study);
     plot.try_write(|| picture::periodic_response(&study, &found), &mut object)?;
     Ok(Answer::new(arguments.study.json, || object, || text(&study, &found)))
@@ -105,12 +113,4 @@ fn table(study: &Study, found: &Orbit) -> String {
     table.number("stick fraction", Quantity::Ratio, found.stick_fraction);
     table.number("residual", Quantity::Displacement, found.residual);
     table.text()
-}
-
-/// Two numbers x,v.
-pub(super) fn state(option: &'static str, text: &str) -> Result<(f64, f64), Failure> {
-    text.split_once(',').and_then(|(x, v)| Some((finite(x)?, finite(v)?))).ok_or_else(|| {
-        let allowed = "two finite numbers x,v: displacement and velocity, such as 0.3,0";
-        Complaint::option(option, text, allowed).into()
-    })
 }

@@ -1,13 +1,13 @@
 //! `quell resonances`: where waves of a disc meet, and which dither frequency keeps speeds clear.
 
 use std::fmt::Write as _;
-use std::ops::RangeInclusive;
 
 use clap::{Args, ValueEnum};
 use quell::picture;
 use quell::run::disc::resonances::{Order, Question, Resonances, run as resonances};
-use quell::{Complaint, DiscStudy, Failure, Fault, Origin};
+use quell::{DiscStudy, Failure};
 
+use super::numbers::window;
 use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
 use crate::table::figure;
@@ -47,7 +47,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = complaints.take(arguments.study.read_disc());
     let output = complaints.take(arguments.output.prepare(&[]));
     let plot = complaints.take(arguments.plot.prepare());
-    let question = complaints.take(question(arguments));
+    let question = question(arguments, &mut complaints);
     let ((study, question), (output, plot)) =
         complaints.finish(study.zip(question).zip(output.zip(plot)))?;
 
@@ -59,49 +59,29 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     Ok(answer.warning(study.warnings().to_vec()))
 }
 
-fn question(arguments: &Arguments) -> Result<Question, Vec<Complaint>> {
-    let mut wrong = Vec::new();
-    let mut range = |text: &str, option| match parse(text, option) {
-        Ok(range) => Some(range),
-        Err(complaint) => {
-            wrong.push(*complaint);
-            None
-        }
+fn question(arguments: &Arguments, complaints: &mut Complaints) -> Option<Question> {
+    let speeds = complaints.take(window("--speeds", &arguments.speeds));
+    let mut range = |option, text: &Option<String>| {
+        complaints.take(text.as_deref().map(|text| window(option, text)).transpose())
     };
-    let speeds = range(&arguments.speeds, "--speeds");
-    let clear = arguments.clear.as_deref().map(|text| range(text, "--clear"));
-    let frequency = arguments.frequency.as_deref().map(|text| range(text, "--frequency"));
-    if let Some(Some(frequency)) = &frequency
-        && *frequency.start() <= 0.0
-    {
-        let allowed = "frequencies above 0";
-        let text = arguments.frequency.clone().unwrap_or_default();
-        wrong.push(Complaint::option("--frequency", text, allowed));
-    }
+    let clear = range("--clear", &arguments.clear);
+    let frequency = range("--frequency", &arguments.frequency);
     let order = match arguments.order {
         Expansion::First => Order::First,
         Expansion::Second => Order::Second,
     };
-    match speeds {
-        Some(speeds) if wrong.is_empty() => {
-            Ok(Question { speeds, order, clear: clear.flatten().zip(frequency.flatten()) })
-        }
-        _ => Err(wrong),
-    }
+    complaints.take(Question::new(speeds?, order, clear?, frequency?))
 }
 
-/// `0.2:0.9`.
-fn parse(text: &str, option: &'static str) -> Result<RangeInclusive<f64>, Box<Complaint>> {
-    let ends = text.split_once(':').and_then(|(from, to)| {
-        Some((from.trim().parse::<f64>().ok()?, to.trim().parse::<f64>().ok()?))
-    });
-    match ends {
-        Some((from, to)) if from.is_finite() && to.is_finite() && from <= to => Ok(from..=to),
-        _ => {
-            let allowed = "FROM:TO, two numbers of which the first is not larger, such as 0.2:0.9";
-            let origin = Origin::Argument(option);
-            Err(Box::new(Complaint::new(Fault::Value, option, origin, text, allowed)))
-        }
+/// Growth in ω_ref that is rounding alone: rates are differences of numbers of order 1.
+const NO_GROWTH: f64 = 1e-12;
+
+/// What a wave does without the other one of its pair.
+fn by_itself(growth: f64) -> String {
+    if growth.abs() <= NO_GROWTH {
+        "a wave of it is undamped by itself".to_owned()
+    } else {
+        format!("a wave of it grows by itself with {}", figure(growth))
     }
 }
 
@@ -127,9 +107,7 @@ fn text(study: &DiscStudy, done: &Resonances) -> String {
                         figure(growth)
                     )
                 }
-                (None, Some(growth)) => {
-                    format!("a wave of it grows by itself with {}", figure(growth))
-                }
+                (None, Some(growth)) => by_itself(growth),
                 _ if resonance.can_be_unstable() => match resonance.threshold {
                     Some(threshold) => format!("a tongue from f* = {}", figure(threshold)),
                     None => "no tongue".to_owned(),
@@ -176,10 +154,11 @@ fn text(study: &DiscStudy, done: &Resonances) -> String {
                 };
                 for nearby in nearby.iter().filter(|nearby| nearby.reaches_in) {
                     let resonance = &nearby.resonance;
-                    let growth =
-                        resonance.tongue.peak_growth().map_or_else(String::new, |growth| {
-                            format!(", growth up to {}", figure(growth))
-                        });
+                    let growth = match (resonance.tongue.edges(), resonance.tongue.peak_growth()) {
+                        (_, None) => String::new(),
+                        (Some(_), Some(growth)) => format!(", growth up to {}", figure(growth)),
+                        (None, Some(growth)) => format!(", {}", by_itself(growth)),
+                    };
                     let place = figure(resonance.speed);
                     let _ =
                         writeln!(text, "  left there: Ω = {place}, {}{growth}", resonance.label());
@@ -194,4 +173,15 @@ fn text(study: &DiscStudy, done: &Resonances) -> String {
         let _ = writeln!(text, "{words}");
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_is_no_growth() {
+        assert!(by_itself(-3.469447e-18).contains("undamped"));
+        assert!(by_itself(1e-3).contains("grows by itself with 0.001"));
+    }
 }

@@ -7,10 +7,9 @@ use quell::run::curves::{Curves, Question as CurveQuestion, run as curves};
 use quell::run::thresholds::{
     Ending, Protocol, Question, Thresholds, becomes, run as thresholds, side,
 };
-use quell::{Complaint, Failure, Study, picture};
+use quell::{Complaint, Failure, Fault, Origin, Study, picture, quantity};
 
-use super::orbit::state;
-use super::range::finite;
+use super::numbers::{VariedArguments, state, window};
 use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, Outputs, Plot, PlotArguments, StudyArguments};
 use crate::table::figure;
@@ -20,15 +19,8 @@ use crate::table::figure;
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Path of the parameter, such as dither.amplitude
-    #[arg(long, value_name = "PATH")]
-    parameter: String,
-    /// First value
-    #[arg(long, value_name = "A", allow_hyphen_values = true)]
-    from: String,
-    /// Last value
-    #[arg(long, value_name = "B", allow_hyphen_values = true)]
-    to: String,
+    #[command(flatten)]
+    varied: VariedArguments,
     /// Also for runs from rest
     #[arg(long)]
     from_rest: bool,
@@ -42,8 +34,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "X,V", allow_hyphen_values = true)]
     start: Option<String>,
     /// Lets the dither of these runs grow over this time τ, in steps of its period, instead of switching it on
-    #[arg(long, value_name = "T", default_value_t = 0.0, allow_hyphen_values = true)]
-    ramp: f64,
+    #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
+    ramp: String,
     /// Follows each local threshold as a curve along a second parameter, such as belt.belt_velocity
     #[arg(long, value_name = "PATH", requires = "between", conflicts_with_all = ["from_rest", "from_sliding", "from_squeal", "start", "ramp"])]
     along: Option<String>,
@@ -60,34 +52,29 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read());
-    let from = complaints.take(number("--from", &arguments.from));
-    let to = complaints.take(number("--to", &arguments.to));
-    let between = complaints.take(arguments.between.as_deref().map(window).transpose());
-    let start =
-        complaints.take(arguments.start.as_deref().map(|it| state("--start", it)).transpose());
+    let range = arguments.varied.ends(&mut complaints);
+    let between = arguments.between.as_deref().map(|it| window("--between", it));
+    let between = complaints.take(between.transpose());
+    let start = arguments.start.as_deref().map(|it| state("--start", it));
+    let start = complaints.take(start.transpose());
+    let ramp = complaints.take(quantity::duration(&arguments.ramp, None, "--ramp"));
     let outputs = complaints.take(arguments.output.prepare(&[]));
     let plot = complaints.take(arguments.plot.prepare());
-    if let Some((from, to)) = from.zip(to)
-        && from >= to
-    {
-        let allowed = format!("a number above --from {from}");
-        complaints.take::<()>(Err(Complaint::option("--to", to, allowed)));
-    }
     if arguments.output.saves() && arguments.along.is_none() {
-        let allowed = "together with --along: curves are saved as CSV";
-        complaints.take::<()>(Err(Complaint::option("--save", "", allowed)));
+        let (key, allowed) = ("--save", "--save is for the curves of --along: give both");
+        let complaint = Complaint::new(Fault::Usage, key, Origin::Whole, key, allowed);
+        complaints.take::<()>(Err(complaint));
     }
-    let range = from.zip(to);
-    let files = outputs.zip(plot);
-    let (study, ((range, start), (between, (outputs, plot)))) =
-        complaints.finish(study.zip(range.zip(start).zip(between.zip(files))))?;
+    let (begun, files) = (start.zip(ramp), outputs.zip(plot));
+    let (study, ((range, begun), (between, (outputs, plot)))) =
+        complaints.finish(study.zip(range.zip(begun).zip(between.zip(files))))?;
     match arguments.along.clone().zip(between) {
         Some((along, between)) => {
-            let parameter = arguments.parameter.clone();
+            let parameter = arguments.varied.parameter.clone();
             let question = CurveQuestion { parameter, window: range, along, between };
             followed(arguments, &study, question, outputs, plot)
         }
-        None => on_a_line(arguments, &study, range, start, plot),
+        None => on_a_line(arguments, &study, range, begun, plot),
     }
 }
 
@@ -96,7 +83,7 @@ fn on_a_line(
     arguments: &Arguments,
     study: &Study,
     (from, to): (f64, f64),
-    start: Option<(f64, f64)>,
+    (start, ramp): (Option<(f64, f64)>, f64),
     plot: Plot,
 ) -> Result<Answer, Failure> {
     let flags = [
@@ -107,8 +94,8 @@ fn on_a_line(
     let mut protocols: Vec<Protocol> =
         flags.into_iter().filter(|(asked, _)| *asked).map(|(_, protocol)| protocol).collect();
     protocols.extend(start.map(|(x, v)| Protocol::From(x, v)));
-    let parameter = arguments.parameter.clone();
-    let question = Question { parameter, from, to, protocols, ramp: arguments.ramp };
+    let parameter = arguments.varied.parameter.clone();
+    let question = Question { parameter, from, to, protocols, ramp };
     let done = thresholds(study, question)?;
     let mut object = done.json();
     plot.write(|| picture::thresholds(study, &done), &mut object)?;
@@ -147,23 +134,6 @@ fn text_of_curves(done: &Curves) -> String {
         }
     }
     text
-}
-
-/// Two numbers C:D, the second one above the first.
-fn window(text: &str) -> Result<(f64, f64), Failure> {
-    text.split_once(':')
-        .and_then(|(from, to)| Some((finite(from)?, finite(to)?)))
-        .filter(|(from, to)| from < to)
-        .ok_or_else(|| {
-            let allowed = "two finite numbers C:D, the second above the first, such as 0.05:1.5";
-            Complaint::option("--between", text, allowed).into()
-        })
-}
-
-fn number(option: &'static str, text: &str) -> Result<f64, Failure> {
-    finite(text).ok_or_else(|| {
-        Complaint::option(option, text, "a finite number in the numbers of the equations").into()
-    })
 }
 
 fn text(done: &Thresholds) -> String {

@@ -322,6 +322,11 @@ class Study:
         asked = [name for name, wanted in flags.items() if wanted]
         if len(asked) + (start is not None) > 1:
             arguments.wrong.append(complaint("start", start, "one start alone", "conflict"))
+        if asked or start is not None:
+            for name, given, default in (("near", near, None), ("periods", periods, 1)):
+                if given != default:
+                    allowed = "given without a start: a run finds its response by itself"
+                    arguments.wrong.append(complaint(name, given, allowed, "conflict"))
         arguments.done()
         return results.Orbit(self, self._native.orbit(state, count, asked, begin))
 
@@ -531,7 +536,7 @@ class Study:
         over: str | None = None,
         from_: float | None = None,
         to: float | None = None,
-        points: int = 41,
+        points: int | None = None,
         threads: int | None = None,
         progress: Callable[[int, int], object] | None = None,
     ) -> results.Basins:
@@ -546,7 +551,7 @@ class Study:
         sample, seed :
             So many random states in place of a grid, and which ones.
         over, from_, to, points :
-            Follows the shares over a parameter between two values.
+            Follows the shares over a parameter between two values; 41 of them by default.
         threads :
             Number of threads; all there are by default.
         progress :
@@ -569,13 +574,13 @@ class Study:
         ]
         states = None if sample is None else arguments.whole("sample", sample, 0, 10**7)
         which = arguments.whole("seed", seed, 0, 2**63 - 1)
-        count = arguments.whole("points", points, 0, 2**31)
+        count = arguments.whole("points", 41 if points is None else points, 0, 2**31)
         along = None
         if over is not None:
             path = arguments.text("over", over, "path of a number, such as dither.amplitude")
             along = (path, arguments.number("from_", from_), arguments.number("to", to), count)
-        elif from_ is not None or to is not None:
-            arguments.wrong.append(complaint("over", None, "given together with from_ and to", "conflict"))
+        elif from_ is not None or to is not None or points is not None:
+            arguments.wrong.append(complaint("over", None, "given together with from_, to and points", "conflict"))
         workers = None if threads is None else arguments.whole("threads", threads, 1, 1024)
         arguments.done()
         drawn = None if states is None else (states, which)

@@ -34,7 +34,11 @@ pub(crate) fn run(
     start: Option<(f64, f64)>,
 ) -> Result<NativeAnswer, Failure> {
     let study = belt(subject)?.clone();
-    let after = protocols(after, start).into_iter().next();
-    let done = orbit(&study, Wanted { near, periods, after })?;
+    let wanted = match (protocols(after, start).into_iter().next(), near) {
+        (Some(protocol), _) => Wanted::After(protocol),
+        (None, Some(state)) => Wanted::Near { state, periods },
+        (None, None) => Wanted::OfSliding { periods },
+    };
+    let done = orbit(&study, wanted)?;
     Ok(NativeAnswer::new(Found { study, done }))
 }

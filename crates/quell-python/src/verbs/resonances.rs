@@ -5,8 +5,7 @@ use quell::picture;
 use quell::plot::Figure;
 use quell::run::disc::resonances::{Order, Question, Resonances, run as resonances};
 use quell::{DiscStudy, Failure, Subject};
-use serde_json::{Value as Json, json};
-use std::ops::RangeInclusive;
+use serde_json::Value as Json;
 
 use super::refused;
 use crate::answer::{Answer, NativeAnswer};
@@ -44,39 +43,12 @@ pub(crate) fn run(
     frequency: Option<(f64, f64)>,
 ) -> Result<NativeAnswer, Failure> {
     let study = disc(subject)?.clone();
-    let mut wrong = Vec::new();
-    let mut range = |argument, (from, to): (f64, f64)| -> RangeInclusive<f64> {
-        if !(from.is_finite() && to.is_finite() && from <= to) {
-            let allowed = "two numbers of which the first is not larger";
-            wrong.push(refused(argument, json!([from, to]), allowed));
-        }
-        from..=to
-    };
-    let speeds = range("speeds", speeds);
-    let clear = clear.map(|it| range("clear", it));
-    let frequency = frequency.map(|it| range("frequency", it));
     let order = match order {
-        "second" => Order::Second,
         "first" => Order::First,
-        other => {
-            wrong.push(refused("order", other, "\"first\" or \"second\""));
-            Order::First
-        }
+        "second" => Order::Second,
+        other => return Err(refused("order", other, "\"first\" or \"second\"")),
     };
-    if frequency.as_ref().is_some_and(|range| *range.start() <= 0.0) {
-        wrong.push(refused("frequency", Json::Null, "frequencies above 0"));
-    }
-    if clear.is_some() != frequency.is_some() {
-        wrong.push(refused("clear", Json::Null, "given together with frequency"));
-    }
-    if !wrong.is_empty() {
-        let complaints = wrong.into_iter().filter_map(|failure| match failure {
-            Failure::Wrong(complaints) => Some(complaints),
-            Failure::Failed { .. } => None,
-        });
-        return Err(Failure::Wrong(complaints.flatten().collect()));
-    }
-    let question = Question { speeds, order, clear: clear.zip(frequency) };
+    let question = Question::new(speeds, order, clear, frequency)?;
     let done = resonances(&study, question)?;
     Ok(NativeAnswer::new(Found { study, done }))
 }

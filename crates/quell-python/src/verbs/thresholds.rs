@@ -8,7 +8,6 @@ use quell::run::thresholds::{Protocol, Question, Thresholds, run as thresholds};
 use quell::{Failure, Study, Subject};
 use serde_json::Value as Json;
 
-use super::refused;
 use crate::answer::{Answer, NativeAnswer};
 use crate::study::belt;
 
@@ -62,7 +61,6 @@ pub(crate) fn run(
     ramp: f64,
 ) -> Result<NativeAnswer, Failure> {
     let study = belt(subject)?.clone();
-    ascending(from, to)?;
     let done = thresholds(&study, Question { parameter, from, to, protocols, ramp })?;
     Ok(NativeAnswer::new(OnALine { study, done }))
 }
@@ -76,18 +74,6 @@ pub(crate) fn run_along(
     between: (f64, f64),
 ) -> Result<NativeAnswer, Failure> {
     let study = belt(subject)?.clone();
-    ascending(window.0, window.1)?;
-    if between.0 >= between.1 {
-        let allowed = "two numbers, the second above the first";
-        return Err(refused("between", vec![between.0, between.1], allowed));
-    }
     let done = curves(&study, Plane { parameter, window, along, between })?;
     Ok(NativeAnswer::new(InAPlane { study, done }))
-}
-
-fn ascending(from: f64, to: f64) -> Result<(), Failure> {
-    if from < to {
-        return Ok(());
-    }
-    Err(refused("to", to, &format!("a number above from_ = {from}")))
 }

@@ -12,7 +12,7 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::attractor::{number, put, put_section, scene, unknown, words};
-use super::varied::Varied;
+use super::varied::{Range, Varied};
 use super::{failed, start, start_in_words};
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
@@ -29,14 +29,8 @@ const APART_AT_LEAST: f64 = 1e-4;
 /// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// Path of the parameter.
-    pub parameter: String,
-    /// First value.
-    pub from: f64,
-    /// Last value, above the first.
-    pub to: f64,
-    /// Number of values.
-    pub points: usize,
+    /// The parameter and its values.
+    pub range: Range,
     /// Whether it is swept up.
     pub up: bool,
     /// Whether it is swept down.
@@ -117,8 +111,7 @@ pub fn run(
     question: &Question,
     running: Running<'_>,
 ) -> Result<Bifurcation, Failure> {
-    let Question { parameter, from, to, points, .. } = question;
-    let varied = Varied::new(study, "--parameter", parameter, (*from, *to), *points)?;
+    let varied = Varied::new(study, "--parameter", &question.range)?;
     // Both where none is asked for.
     let (up, down) =
         if question.up || question.down { (question.up, question.down) } else { (true, true) };

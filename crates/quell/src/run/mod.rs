@@ -32,13 +32,21 @@ use crate::study::{InitialState, Study};
 /// # Errors
 /// A complaint where a squealing start is asked for and there is none.
 pub fn start(study: &Study) -> Result<Start, Failure> {
-    study.initial().resolve(study.belt(), study.solver()).map_err(|why| match why {
+    resolved(study, study.initial(), |why| {
+        let allowed = format!("another state: {why}");
+        Complaint::new(Fault::Value, "belt.initial.state", Origin::Whole, "squealing", allowed)
+    })
+}
+
+/// The numbers of a state; `refused` complains where it is the limit cycle and there is none.
+fn resolved(
+    study: &Study,
+    initial: InitialState,
+    refused: impl FnOnce(NoSquealingStart) -> Complaint,
+) -> Result<Start, Failure> {
+    initial.resolve(study.belt(), study.solver()).map_err(|why| match why {
         NoSquealingStart::Stalled(stalled) => failed(stalled),
-        NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest => {
-            let allowed = format!("another state: {why}");
-            let key = "belt.initial.state";
-            Complaint::new(Fault::Value, key, Origin::Whole, "squealing", allowed).into()
-        }
+        NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest => refused(why).into(),
     })
 }
 
@@ -58,17 +66,33 @@ pub fn start_in_words(study: &Study) -> String {
 
 /// A quantity in a sentence: six digits, in SI where the study is.
 fn in_words(study: &Study, quantity: Quantity, value: f64) -> String {
-    let digits = |value: f64| {
-        let text = format!("{value:.5e}");
-        text.parse::<f64>()
-            .map_or(text, |rounded| format!("{rounded:?}").trim_end_matches(".0").to_owned())
-    };
     match study.scales().zip(quantity.si_unit()) {
         Some((scales, (unit, _))) => format!("{} {unit}", digits(scales.to_si(quantity, value))),
         None => digits(value),
     }
 }
 
+/// Six significant digits, without zeros that say nothing.
+fn digits(value: f64) -> String {
+    let text = format!("{value:.5e}");
+    text.parse::<f64>()
+        .map_or(text, |rounded| format!("{rounded:?}").trim_end_matches(".0").to_owned())
+}
+
 fn failed(stalled: Stalled) -> Failure {
     Failure::Failed { key: "simulation".to_owned(), why: stalled.to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_numbers_are_told_as_they_are() {
+        for (value, told) in
+            [(1e-8, "1e-8"), (4.3224, "4.3224"), (20.0, "20"), (0.0, "0"), (1234567.0, "1234570")]
+        {
+            assert_eq!(digits(value), told);
+        }
+    }
 }

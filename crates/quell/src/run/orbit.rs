@@ -6,12 +6,11 @@ use quell_belt::orbit::reached::orbit_reached;
 use quell_belt::orbit::{NoOrbit, from_sliding, near};
 pub use quell_belt::orbit::{Orbit, Verdict};
 use quell_belt::simulation::{EventKind, Start};
-use quell_belt::start::NoSquealingStart;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
 use super::thresholds::Protocol;
-use super::{failed, in_words};
+use super::{failed, in_words, resolved};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::fields::Fields;
 use crate::study::Study;
@@ -23,15 +22,28 @@ const STEPS: u32 = 8;
 const MOST_PERIODS: u32 = 200;
 
 /// Which periodic response is looked for.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Wanted {
-    /// Near this state (x, x′) at τ = 0; by default the one that sliding becomes. Without dither the cycle whose lowest point
-    /// is nearest to it.
-    pub near: Option<(f64, f64)>,
-    /// Common periods of the dithers in a period of the response.
-    pub periods: u32,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Wanted {
+    /// The one that sliding becomes; without dither the limit cycle.
+    OfSliding {
+        /// Common periods of the dithers in a period of the response.
+        periods: u32,
+    },
+    /// One near a state. Without dither the cycle whose lowest point is nearest to it.
+    Near {
+        /// Displacement x and velocity x′ at τ = 0.
+        state: (f64, f64),
+        /// Common periods of the dithers in a period of the response.
+        periods: u32,
+    },
     /// The one on which a run from here ends, of whatever number of periods.
-    pub after: Option<Protocol>,
+    After(Protocol),
+}
+
+impl Default for Wanted {
+    fn default() -> Self {
+        Self::OfSliding { periods: 1 }
+    }
 }
 
 /// What was found.
@@ -60,19 +72,18 @@ pub fn run(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
     if belt.dithers().is_empty() {
         return undithered(study, wanted);
     }
-    let periods = wanted.periods.max(1);
-    let found = match (wanted.after, wanted.near) {
-        (Some(protocol), _) => {
+    let found = match wanted {
+        Wanted::After(protocol) => {
             let start = protocol.start(study)?;
             orbit_reached(belt, start, MOST_PERIODS)
         }
-        (None, Some((displacement, velocity))) => {
-            near(belt, Start { time: 0.0, displacement, velocity }, periods)
+        Wanted::Near { state: (displacement, velocity), periods } => {
+            near(belt, Start { time: 0.0, displacement, velocity }, periods.max(1))
         }
-        (None, None) if periods > 1 => {
+        Wanted::OfSliding { periods: 0 | 1 } => from_sliding(belt, STEPS),
+        Wanted::OfSliding { periods } => {
             from_sliding(belt, STEPS).and_then(|orbit| near(belt, orbit.start, periods))
         }
-        (None, None) => from_sliding(belt, STEPS),
     };
     found.map(Response::from).map_err(refused)
 }
@@ -80,14 +91,20 @@ pub fn run(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
 /// The limit cycles of an undithered belt.
 fn undithered(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
     let belt = study.belt();
+    if let Wanted::OfSliding { periods } | Wanted::Near { periods, .. } = wanted
+        && periods > 1
+    {
+        let allowed = "1: without dither there are no periods of it to count";
+        return Err(Complaint::option("--periods", periods, allowed).into());
+    }
     let cycles = cycles(belt).map_err(refused)?;
     let slope = belt.friction().slope(belt.belt_velocity()) * belt.normal_load();
     // e^−(2ζ + μ′F)/2 is the modulus of both multipliers over unit time.
     let radius = (-0.5 * (2.0 * belt.damping_ratio() + slope)).exp();
-    let orbit = match (wanted.after, wanted.near) {
-        (Some(Protocol::Sliding), _) => None,
-        (Some(_), _) | (None, None) => cycles.first(),
-        (None, Some((x, v))) => {
+    let orbit = match wanted {
+        Wanted::After(Protocol::Sliding) => None,
+        Wanted::After(_) | Wanted::OfSliding { .. } => cycles.first(),
+        Wanted::Near { state: (x, v), .. } => {
             let off = |it: &&Orbit| (it.start.displacement - x).hypot(it.start.velocity - v);
             cycles.iter().min_by(|a, b| off(a).total_cmp(&off(b)))
         }
@@ -98,11 +115,10 @@ fn undithered(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
 impl Protocol {
     /// The state at τ = 0.
     pub(super) fn start(self, study: &Study) -> Result<Start, Failure> {
-        self.initial().resolve(study.belt(), study.solver()).map_err(|why| match why {
-            NoSquealingStart::Stalled(stalled) => failed(stalled),
-            NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest => {
-                Complaint::option("--from-squeal", "", format!("another start: {why}")).into()
-            }
+        resolved(study, self.initial(), |why| {
+            let key = "--from-squeal";
+            let allowed = format!("another start is needed: {why}");
+            Complaint::new(Fault::Conflict, key, Origin::Argument(key), Json::Null, allowed)
         })
     }
 }

@@ -11,7 +11,10 @@ use quell_belt::start::NoSquealingStart;
 use serde_json::{Value as Json, json};
 
 use super::orbit::refused;
+use super::varied::{ascending, unable};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::quantity::bearable;
+use crate::study::mirror::given_number;
 use crate::study::{InitialState, Study};
 
 /// Least number of values between which an orbit is followed.
@@ -62,9 +65,9 @@ impl Protocol {
 pub struct Question {
     /// Path of the parameter.
     pub parameter: String,
-    /// First value.
+    /// First value, a number of the equations.
     pub from: f64,
-    /// Last value.
+    /// Last value, above the first.
     pub to: f64,
     /// Protocols besides the local thresholds.
     pub protocols: Vec<Protocol>,
@@ -106,6 +109,23 @@ pub(super) fn told(why: NoThresholds, path: &str, option: &'static str) -> Failu
     }
 }
 
+/// Refuses a question that has no answer.
+fn refuse(study: &Study, question: &Question) -> Result<(), Failure> {
+    let &Question { from, to, ramp, .. } = question;
+    known(study, "--parameter", &question.parameter)?;
+    let ends = [("--from", from), ("--to", to)];
+    let mut wrong: Vec<Complaint> =
+        ends.into_iter().flat_map(|end| unable(study.belt(), &question.parameter, end)).collect();
+    wrong.extend(ascending(from, to).err().map(|complaint| *complaint));
+    wrong.extend(bearable(ramp, given_number(ramp), "--ramp").err().map(|complaint| *complaint));
+    if ramp > 0.0 && question.protocols.is_empty() {
+        let allowed = "given together with --from-rest, --from-sliding, --from-squeal or --start: it is the dither of their runs";
+        let origin = Origin::Argument("--ramp");
+        wrong.push(Complaint::new(Fault::Conflict, "--ramp", origin, ramp, allowed));
+    }
+    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
+}
+
 /// Thresholds of a study's belt.
 ///
 /// # Errors
@@ -113,10 +133,7 @@ pub(super) fn told(why: NoThresholds, path: &str, option: &'static str) -> Failu
 pub fn run(study: &Study, question: Question) -> Result<Thresholds, Failure> {
     let belt = study.belt();
     let path = question.parameter.as_str();
-    known(study, "--parameter", path)?;
-    if !(question.ramp.is_finite() && question.ramp >= 0.0) {
-        return Err(Complaint::option("--ramp", question.ramp, "a time, 0 or more").into());
-    }
+    refuse(study, &question)?;
     let (from, to) = (question.from, question.to);
     let local = local(belt, path, from, to, STEPS).map_err(|why| told(why, path, "--from"))?;
     let mut protocols = Vec::new();

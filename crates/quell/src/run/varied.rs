@@ -1,11 +1,27 @@
 //! One number of a study varied over a range: `--parameter PATH --from A --to B --points N`.
 
+use quell_model::Belt;
+
 use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::mirror::given_number;
 use crate::study::vocabulary::{Address, resolve};
 use crate::study::{Study, suggest};
 
 /// Most values of a range.
 pub const MOST_VALUES: usize = 100_000;
+
+/// A number of a study and the range of its values, as they are asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Range {
+    /// Path of the number.
+    pub parameter: String,
+    /// First value, in the unit of the key.
+    pub from: f64,
+    /// Last value, above the first.
+    pub to: f64,
+    /// Number of values, both ends included.
+    pub points: usize,
+}
 
 /// One number of a study and the values it takes, in rising order.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +34,7 @@ pub struct Varied {
     pub symbol: Option<&'static str>,
     /// Unit of the values.
     pub unit: &'static str,
-    /// The values.
+    /// The values, in that unit, at equal steps from the first to the last.
     pub values: Vec<f64>,
 }
 
@@ -27,13 +43,8 @@ impl Varied {
     ///
     /// # Errors
     /// Every complaint about the path, the ends and the number of values at once.
-    pub fn new(
-        study: &Study,
-        option: &'static str,
-        path: &str,
-        (from, to): (f64, f64),
-        points: usize,
-    ) -> Result<Self, Vec<Complaint>> {
+    pub fn new(study: &Study, option: &'static str, range: &Range) -> Result<Self, Vec<Complaint>> {
+        let &Range { parameter: ref path, from, to, points } = range;
         let address = address(option, path).map_err(|complaint| vec![*complaint])?;
         let mut complaints = Vec::new();
         let mut lacking: Vec<String> = Vec::new();
@@ -45,19 +56,21 @@ impl Varied {
             for complaint in wrong {
                 if complaint.fault == Fault::Value {
                     complaints.push(told(complaint, end));
-                } else if !lacking.contains(&complaint.to_string()) {
-                    lacking.push(complaint.to_string());
+                } else {
+                    // Where it was written says nothing: it is this option.
+                    let said = Complaint { origin: Origin::Whole, ..complaint }.to_string();
+                    if !lacking.contains(&said) {
+                        lacking.push(said);
+                    }
                 }
             }
             None
         });
         if !lacking.is_empty() {
             let allowed = format!("a number that this study has: {}", lacking.join("; "));
-            complaints.push(Complaint::option(option, path, allowed));
+            complaints.push(Complaint::option(option, path.as_str(), allowed));
         }
-        if from.is_nan() || to.is_nan() || from >= to {
-            complaints.push(Complaint::option("--to", to, format!("a number above --from {from}")));
-        }
+        complaints.extend(ascending(from, to).err().map(|complaint| *complaint));
         if !(2..=MOST_VALUES).contains(&points) {
             let allowed = format!("a whole number from 2 to {MOST_VALUES}");
             complaints.push(Complaint::option("--points", points, allowed));
@@ -67,7 +80,7 @@ impl Varied {
             && from < to
         {
             let allowed = "a number of the belt, of its friction or of a dither: this one changes none of them";
-            complaints.push(Complaint::option(option, path, allowed));
+            complaints.push(Complaint::option(option, path.as_str(), allowed));
         }
         if !complaints.is_empty() {
             return Err(complaints);
@@ -77,7 +90,7 @@ impl Varied {
             if k == points - 1 { to } else { from + (to - from) * k as f64 / last }
         };
         Ok(Self {
-            path: path.to_owned(),
+            path: path.clone(),
             about: address.key.about,
             symbol: address.key.parameter().map(|parameter| parameter.symbol),
             unit: address.key.unit_in_words(),
@@ -97,6 +110,28 @@ impl Varied {
     pub fn name(&self) -> String {
         self.path.replace(['.', '['], "_").replace(']', "")
     }
+}
+
+/// Refuses a range whose last value is not above the first.
+pub(super) fn ascending(from: f64, to: f64) -> Result<(), Box<Complaint>> {
+    if from < to {
+        return Ok(());
+    }
+    let allowed = format!("a number above --from {from}");
+    Err(Box::new(Complaint::option("--to", given_number(to), allowed)))
+}
+
+/// Complaints about a value that a number of the equations cannot take.
+pub(super) fn unable(
+    belt: &Belt,
+    path: &str,
+    (option, value): (&'static str, f64),
+) -> impl Iterator<Item = Complaint> {
+    let refused = belt.with(path, value).err().unwrap_or_default();
+    refused.into_iter().map(move |it| {
+        let allowed = format!("such that {} is {}", it.key, it.allowed);
+        Complaint::option(option, given_number(value), allowed)
+    })
 }
 
 fn address(option: &'static str, path: &str) -> Result<Address, Box<Complaint>> {

@@ -22,7 +22,7 @@ use rayon::prelude::*;
 use super::attractor::{scene, unknown};
 use super::bifurcation::stopped;
 use super::failed;
-use super::varied::Varied;
+use super::varied::{Range, Varied};
 use crate::complaint::{Complaint, Failure};
 use crate::study::Study;
 use crate::sweep::Running;
@@ -32,19 +32,6 @@ pub use starts::{Layout, MOST_STARTS, Starts, Window};
 
 /// Starts of one piece of work: enough to fill the lanes of a processor several times.
 const CHUNK: usize = 128;
-
-/// A parameter over which the shares are followed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Over {
-    /// Path of the parameter.
-    pub parameter: String,
-    /// First value.
-    pub from: f64,
-    /// Last value, above the first.
-    pub to: f64,
-    /// Number of values.
-    pub points: usize,
-}
 
 /// What is asked.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,7 +43,7 @@ pub struct Question {
     /// How starts are laid out.
     pub layout: Layout,
     /// A parameter over which the shares are followed.
-    pub over: Option<Over>,
+    pub over: Option<Range>,
 }
 
 /// The basins at one value of the parameter, or of the study as it is.
@@ -93,9 +80,7 @@ pub struct Basins {
 /// Complaints about the question; [`Failure::Failed`] if there are no threads or the work is stopped.
 pub fn run(study: &Study, question: &Question, running: Running<'_>) -> Result<Basins, Failure> {
     let belt = study.belt();
-    let varied = question.over.as_ref().map(|over| {
-        Varied::new(study, "--over", &over.parameter, (over.from, over.to), over.points)
-    });
+    let varied = question.over.as_ref().map(|over| Varied::new(study, "--over", over));
     let starts = Starts::new(belt, question.displacement, question.velocity, question.layout);
     let (varied, starts) = match (varied.transpose(), starts) {
         (Ok(varied), Ok(starts)) => (varied, starts),
@@ -105,6 +90,9 @@ pub fn run(study: &Study, question: &Question, running: Running<'_>) -> Result<B
             return Err(complaints.into());
         }
     };
+    if let Some(varied) = &varied {
+        all_of(varied, &starts)?;
+    }
     let studies = match &varied {
         None => vec![(None, study.clone())],
         Some(varied) => {
@@ -127,6 +115,16 @@ pub fn run(study: &Study, question: &Question, running: Running<'_>) -> Result<B
     let portraits = pool.install(|| portraits(&studies, &starts, running));
     running.progress.end();
     Ok(Basins { starts, varied, portraits: portraits? })
+}
+
+/// Every value has every start, and all of them are kept.
+fn all_of(varied: &Varied, starts: &Starts) -> Result<(), Failure> {
+    let (values, starts) = (varied.values.len(), starts.states().len());
+    if values.checked_mul(starts).is_some_and(|all| all <= MOST_STARTS) {
+        return Ok(());
+    }
+    let allowed = format!("such that values times starts ({starts}) are at most {MOST_STARTS}");
+    Err(Complaint::option("--points", values, allowed).into())
 }
 
 /// A belt at rest without dither holds the mass wherever friction can: its attractors are a continuum.

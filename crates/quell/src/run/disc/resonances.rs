@@ -27,6 +27,49 @@ pub struct Question {
     pub clear: Option<(RangeInclusive<f64>, RangeInclusive<f64>)>,
 }
 
+impl Question {
+    /// Checks what is asked: ends of ranges of speeds and of dither frequencies.
+    ///
+    /// # Errors
+    /// Every complaint at once.
+    pub fn new(
+        speeds: (f64, f64),
+        order: Order,
+        clear: Option<(f64, f64)>,
+        frequency: Option<(f64, f64)>,
+    ) -> Result<Self, Vec<Complaint>> {
+        let mut wrong = Vec::new();
+        let mut range = |option, least: f64, (from, to): (f64, f64)| {
+            if !(from.is_finite() && to.is_finite() && from <= to) {
+                let allowed = "two numbers of which the first is not larger";
+                wrong.push(Complaint::option(option, format!("{from}:{to}"), allowed));
+            } else if from <= least {
+                let allowed = "frequencies above 0";
+                wrong.push(Complaint::option(option, format!("{from}:{to}"), allowed));
+            }
+            from..=to
+        };
+        let speeds = range("--speeds", f64::NEG_INFINITY, speeds);
+        let wanted = clear.map(|it| range("--clear", f64::NEG_INFINITY, it));
+        let frequencies = frequency.map(|it| range("--frequency", 0.0, it));
+        for (option, one, other) in
+            [("--clear", clear, frequency.is_none()), ("--frequency", frequency, clear.is_none())]
+        {
+            if let Some((from, to)) = one
+                && other
+            {
+                let allowed = "--clear and --frequency are given together";
+                let (origin, given) = (Origin::Argument(option), format!("{from}:{to}"));
+                wrong.push(Complaint::new(Fault::Conflict, option, origin, given, allowed));
+            }
+        }
+        if !wrong.is_empty() {
+            return Err(wrong);
+        }
+        Ok(Self { speeds, order, clear: wanted.zip(frequencies) })
+    }
+}
+
 impl Default for Question {
     fn default() -> Self {
         Self { speeds: 0.0..=1.0, order: Order::First, clear: None }
