@@ -1,4 +1,4 @@
-//! Any text is a study or has complaints.
+//! Any text is a study, the same one when it is checked again from its mirror, or has complaints.
 #![no_main]
 
 use std::path::Path;
@@ -7,7 +7,16 @@ use libfuzzer_sys::fuzz_target;
 use quell::Subject;
 
 fuzz_target!(|text: &str| {
-    if let Err(complaints) = Subject::parse(text, &[], Path::new("")) {
-        assert!(complaints.iter().all(|complaint| !complaint.allowed.is_empty()));
+    match Subject::parse(text, &[], Path::new("")) {
+        Ok(study) => {
+            let again = study.at([]).expect("valid without its axes");
+            assert_eq!(again.settings(), study.settings());
+        }
+        Err(complaints) => {
+            for complaint in complaints {
+                assert!(!complaint.allowed.is_empty());
+                assert_ne!(complaint.suggestion.as_ref(), Some(&complaint.key));
+            }
+        }
     }
 });

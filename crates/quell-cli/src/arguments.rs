@@ -1,6 +1,6 @@
 //! Arguments that several verbs share, and complaints gathered from all of them.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use quell::dataset::Dataset;
@@ -8,7 +8,7 @@ use quell::output::Output;
 use quell::picture::{self, EXTENSIONS};
 use quell::plot::Figure;
 use quell::study::mirror::Node;
-use quell::{Change, Complaint, DiscStudy, Failure, Fault, Origin, Study, Subject};
+use quell::{Change, Complaint, DiscStudy, Failure, Study, Subject};
 use serde_json::Value as Json;
 
 /// The study and its changes.
@@ -31,32 +31,16 @@ pub(crate) struct StudyArguments {
 impl StudyArguments {
     /// Reads and checks the study of a belt.
     pub(crate) fn read(&self) -> Result<Study, Failure> {
-        self.read_by(Study::read)
+        Ok(self.read_any()?.the_belt()?.clone())
     }
 
     /// Reads and checks the study of a disc.
     pub(crate) fn read_disc(&self) -> Result<DiscStudy, Failure> {
-        match self.read_any()? {
-            Subject::Disc(study) => Ok(study),
-            Subject::Belt(_) => {
-                let allowed =
-                    "a disc study: this verb is about a disc ([disc]), and the study is of a belt";
-                let path = self.study.display().to_string();
-                let key = "disc";
-                Err(Complaint::new(Fault::Missing, key, Origin::Whole, path, allowed).into())
-            }
-        }
+        Ok(self.read_any()?.the_disc()?.clone())
     }
 
     /// Reads and checks the study, of whatever it is about.
     pub(crate) fn read_any(&self) -> Result<Subject, Failure> {
-        self.read_by(Subject::read)
-    }
-
-    fn read_by<S>(
-        &self,
-        reader: impl FnOnce(&Path, &[Change]) -> Result<S, Failure>,
-    ) -> Result<S, Failure> {
         let mut complaints = Complaints::default();
         let mut changes: Vec<Change> = self
             .set
@@ -67,7 +51,7 @@ impl StudyArguments {
             path: "solver.tolerance".to_owned(),
             node: Node::from_argument(text, "--tolerance"),
         }));
-        let study = complaints.take(reader(&self.study, &changes));
+        let study = complaints.take(Subject::read(&self.study, &changes));
         complaints.finish(study)
     }
 }

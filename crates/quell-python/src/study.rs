@@ -9,7 +9,7 @@ use quell::run::basins::{Layout, Question as Window};
 use quell::run::bifurcation::Question as Sweep;
 use quell::run::varied::Range;
 use quell::study::mirror::{Node, Table};
-use quell::{Change, Complaint, DiscStudy, Failure, Fault, Origin, Study, Subject};
+use quell::{Change, Complaint, Failure, Subject};
 
 use crate::answer::NativeAnswer;
 use crate::verbs::map::Asked;
@@ -77,24 +77,6 @@ fn sweeping(subject: Subject, axes: Option<&[Axis]>) -> Result<Subject, Vec<Comp
 
 fn change((path, value): &(String, String)) -> Change {
     Change { path: path.trim().to_owned(), node: Node::from_argument(value, "set") }
-}
-
-/// The belt of a study, for a verb that is about belts.
-pub(crate) fn belt(subject: &Subject) -> Result<&Study, Failure> {
-    subject.belt().ok_or_else(|| {
-        let allowed = "a belt study: this verb is about a belt ([belt], [friction]), and the study is of a disc";
-        Complaint::new(Fault::Conflict, "disc", Origin::Whole, serde_json::Value::Null, allowed).into()
-    })
-}
-
-/// The disc of a study, for a verb that is about discs.
-pub(crate) fn disc(subject: &Subject) -> Result<&DiscStudy, Failure> {
-    subject.disc().ok_or_else(|| {
-        let allowed =
-            "a disc study: this verb is about a disc ([disc]), and the study is of a belt";
-        Complaint::new(Fault::Missing, "disc", Origin::Whole, serde_json::Value::Null, allowed)
-            .into()
-    })
 }
 
 #[pymethods]

@@ -13,7 +13,6 @@ use serde_json::Value as Json;
 use super::map::{Counter, Watched};
 use crate::answer::{Answer, NativeAnswer};
 use crate::call;
-use crate::study::belt;
 
 struct Found {
     study: Study,
@@ -49,7 +48,7 @@ pub(crate) fn run(
     let counter = Arc::new(Counter::default());
     let watched = Watched::new(&counter, progress);
     let work = move || {
-        let study = belt(&subject)?.clone();
+        let study = subject.the_belt()?.clone();
         let done = basins(&study, &question, counter.running(threads))?;
         Ok(NativeAnswer::new(Found { study, done }))
     };

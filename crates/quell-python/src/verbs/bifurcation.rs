@@ -13,7 +13,6 @@ use serde_json::Value as Json;
 use super::map::{Counter, Watched};
 use crate::answer::{Answer, NativeAnswer};
 use crate::call;
-use crate::study::belt;
 
 struct Swept {
     study: Study,
@@ -48,7 +47,7 @@ pub(crate) fn run(
     let counter = Arc::new(Counter::default());
     let watched = Watched::new(&counter, progress);
     let work = move || {
-        let study = belt(&subject)?.clone();
+        let study = subject.the_belt()?.clone();
         let done = bifurcation(&study, &question, counter.running(None))?;
         Ok(NativeAnswer::new(Swept { study, done }))
     };

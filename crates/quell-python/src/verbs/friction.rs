@@ -9,7 +9,6 @@ use serde_json::Value as Json;
 
 use super::refused;
 use crate::answer::{Answer, NativeAnswer};
-use crate::study::belt;
 
 struct Curve {
     study: Study,
@@ -32,7 +31,7 @@ impl Answer for Curve {
 
 /// Answers.
 pub(crate) fn run(subject: &Subject, at: Option<Vec<f64>>) -> Result<NativeAnswer, Failure> {
-    let study = belt(subject)?.clone();
+    let study = subject.the_belt()?.clone();
     let at = at.unwrap_or_else(|| grid(study.belt()));
     if let Some(wrong) = at.iter().find(|v| !v.is_finite()) {
         return Err(refused("at", wrong.to_string(), "finite slip velocities"));

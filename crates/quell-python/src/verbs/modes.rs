@@ -8,7 +8,6 @@ use quell::{DiscStudy, Failure, Subject};
 use serde_json::Value as Json;
 
 use crate::answer::{Answer, NativeAnswer};
-use crate::study::disc;
 
 struct Found {
     study: DiscStudy,
@@ -35,7 +34,7 @@ impl Answer for Found {
 
 /// Answers.
 pub(crate) fn run(subject: &Subject) -> Result<NativeAnswer, Failure> {
-    let study = disc(subject)?.clone();
+    let study = subject.the_disc()?.clone();
     let done = modes(&study);
     Ok(NativeAnswer::new(Found { study, done }))
 }

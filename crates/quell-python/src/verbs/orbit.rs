@@ -8,7 +8,6 @@ use serde_json::Value as Json;
 
 use super::thresholds::protocols;
 use crate::answer::{Answer, NativeAnswer};
-use crate::study::belt;
 
 struct Found {
     study: Study,
@@ -33,7 +32,7 @@ pub(crate) fn run(
     after: &[String],
     start: Option<(f64, f64)>,
 ) -> Result<NativeAnswer, Failure> {
-    let study = belt(subject)?.clone();
+    let study = subject.the_belt()?.clone();
     let wanted = match (protocols(after, start).into_iter().next(), near) {
         (Some(protocol), _) => Wanted::After(protocol),
         (None, Some(state)) => Wanted::Near { state, periods },

@@ -9,7 +9,6 @@ use serde_json::Value as Json;
 
 use super::refused;
 use crate::answer::{Answer, NativeAnswer};
-use crate::study::disc;
 
 struct Found {
     study: DiscStudy,
@@ -42,7 +41,7 @@ pub(crate) fn run(
     clear: Option<(f64, f64)>,
     frequency: Option<(f64, f64)>,
 ) -> Result<NativeAnswer, Failure> {
-    let study = disc(subject)?.clone();
+    let study = subject.the_disc()?.clone();
     let order = match order {
         "first" => Order::First,
         "second" => Order::Second,

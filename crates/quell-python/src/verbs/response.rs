@@ -8,7 +8,6 @@ use quell::{Failure, Study, Subject};
 use serde_json::Value as Json;
 
 use crate::answer::{Answer, NativeAnswer};
-use crate::study::belt;
 
 struct Measured {
     study: Study,
@@ -38,7 +37,7 @@ impl Answer for Measured {
 
 /// Answers.
 pub(crate) fn run(subject: &Subject) -> Result<NativeAnswer, Failure> {
-    let study = belt(subject)?.clone();
+    let study = subject.the_belt()?.clone();
     let done = response(&study)?;
     Ok(NativeAnswer::new(Measured { study, done }))
 }

@@ -8,7 +8,6 @@ use quell::{Failure, Study, Subject, quantity};
 use serde_json::Value as Json;
 
 use crate::answer::{Answer, NativeAnswer};
-use crate::study::belt;
 
 struct Trajectory {
     study: Study,
@@ -60,7 +59,7 @@ pub(crate) fn run(
     events: bool,
     samples: bool,
 ) -> Result<NativeAnswer, Failure> {
-    let study = belt(subject)?.clone();
+    let study = subject.the_belt()?.clone();
     let time = quantity::duration(until, study.scales(), "until")?;
     let done = simulate(&study, time, Options { events, samples, undithered: false })?;
     Ok(NativeAnswer::new(Trajectory { study, until: time, done }))

@@ -9,7 +9,6 @@ use quell::{Failure, Study, Subject};
 use serde_json::Value as Json;
 
 use crate::answer::{Answer, NativeAnswer};
-use crate::study::belt;
 
 struct OnALine {
     study: Study,
@@ -60,7 +59,7 @@ pub(crate) fn run(
     protocols: Vec<Protocol>,
     ramp: f64,
 ) -> Result<NativeAnswer, Failure> {
-    let study = belt(subject)?.clone();
+    let study = subject.the_belt()?.clone();
     let done = thresholds(&study, Question { parameter, from, to, protocols, ramp })?;
     Ok(NativeAnswer::new(OnALine { study, done }))
 }
@@ -73,7 +72,7 @@ pub(crate) fn run_along(
     along: String,
     between: (f64, f64),
 ) -> Result<NativeAnswer, Failure> {
-    let study = belt(subject)?.clone();
+    let study = subject.the_belt()?.clone();
     let done = curves(&study, Plane { parameter, window, along, between })?;
     Ok(NativeAnswer::new(InAPlane { study, done }))
 }

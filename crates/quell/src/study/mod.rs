@@ -26,6 +26,7 @@ mod file;
 mod friction;
 pub mod mirror;
 mod reader;
+mod revision;
 mod solver;
 mod subject;
 pub mod suggest;
@@ -82,23 +83,10 @@ impl Study {
     /// # Errors
     /// Every complaint at once.
     pub fn parse_in(text: &str, changes: &[Change], folder: &Path) -> Result<Self, Vec<Complaint>> {
-        let mut mirror = Table::parse(text)?;
-        let refused: Vec<Complaint> = changes
-            .iter()
-            .filter_map(|change| change.apply(&mut mirror).err())
-            .map(|complaint| *complaint)
-            .collect();
-        match Self::check(mirror, text, folder, None) {
-            Ok(mut study) if refused.is_empty() => {
-                study.changes = changes.iter().map(Change::to_string).collect();
-                Ok(study)
-            }
-            Ok(_) => Err(refused),
-            Err(mut complaints) => {
-                complaints.extend(refused);
-                Err(complaints)
-            }
-        }
+        revision::changed(text, changes, |mirror, told| {
+            let study = Self::check(mirror, text, folder, None)?;
+            Ok(Self { changes: told, ..study })
+        })
     }
 
     /// The same study with one number changed, by any path of the file, SI twins included.
@@ -119,15 +107,7 @@ impl Study {
     /// Every value of the study after its changes as `path = value`, in the order of paths;
     /// neither title nor axes. Two studies with equal settings compute the same.
     pub fn settings(&self) -> Vec<(String, String)> {
-        let mut settings = Vec::new();
-        for (name, node) in
-            self.mirror.iter().filter(|(name, _)| !matches!(*name, "title" | "sweep"))
-        {
-            node.leaves(name, &mut settings);
-        }
-        settings.extend(self.measured.iter().map(|measured| measured.settings()));
-        settings.sort();
-        settings
+        revision::settings(&self.mirror, self.measured.iter().map(|measured| measured.settings()))
     }
 
     /// The samples of a measured law.
@@ -144,17 +124,8 @@ impl Study {
         &self,
         numbers: impl IntoIterator<Item = (&'a str, f64)>,
     ) -> Result<Self, Vec<Complaint>> {
-        let mut mirror = self.mirror.clone();
-        mirror.remove("sweep");
-        let mut changes = self.changes.clone();
-        for (path, value) in numbers {
-            let change = Change::number(path, value, "[[sweep]]");
-            change.apply(&mut mirror).map_err(|complaint| vec![*complaint])?;
-            changes.push(change.to_string());
-        }
-        let mut study = self.check_again(mirror)?;
-        study.changes = changes;
-        Ok(study)
+        let (mirror, changes) = revision::at(&self.mirror, &self.changes, numbers)?;
+        Ok(Self { changes, ..self.check_again(mirror)? })
     }
 
     /// The same study with these axes in place of its own.
@@ -183,11 +154,7 @@ impl Study {
         let mut reader = Reader::new(&mirror);
         let title = root(&mut reader, &mirror, ROOT);
         if let Some(node) = mirror.get("disc") {
-            let allowed = "this verb is about a belt ([belt], [friction]); a disc study has the verbs check, modes, \
-                           stability, resonances and map";
-            let complaint =
-                Complaint::new(Fault::Conflict, "disc", node.origin, Json::Null, allowed);
-            reader.complain(complaint);
+            reader.complain(subject::not_of_a_belt(node.origin));
             return Err(reader.into_complaints());
         }
         let belt = belt::read(&mut reader, &mirror);
@@ -219,45 +186,8 @@ impl Study {
             measured: measured.map(Arc::new),
             changes: Vec::new(),
         };
-        study.check_sweeps()?;
+        revision::ends_valid(&study.mirror, &study.sweeps, |number| study.at(number))?;
         Ok(study)
-    }
-
-    /// Whether the study is valid at the ends of every axis.
-    fn check_sweeps(&self) -> Result<(), Vec<Complaint>> {
-        let mut bare = self.clone();
-        bare.mirror.remove("sweep");
-        let mut complaints = Vec::new();
-        for (index, sweep) in self.sweeps.iter().enumerate() {
-            for value in sweep.axis.extremes() {
-                let Err(wrong) = bare.with(&sweep.path, value) else {
-                    continue;
-                };
-                let entry = match self.mirror.get("sweep").map(|node| &node.value) {
-                    Some(Value::List(list)) => list.get(index),
-                    _ => None,
-                };
-                let origin = entry.map_or(Origin::Whole, |node| node.origin);
-                let key = format!("sweep[{index}].parameter");
-                complaints.extend(wrong.into_iter().map(|mut complaint| {
-                    complaint.allowed = match complaint.fault {
-                        Fault::Value => format!(
-                            "a path and values that make valid studies; {} = {value} must be {}",
-                            complaint.key, complaint.allowed
-                        ),
-                        _ => complaint.allowed,
-                    };
-                    Complaint {
-                        key: key.clone(),
-                        origin,
-                        value: sweep.path.clone().into(),
-                        ..complaint
-                    }
-                }));
-            }
-        }
-        complaints.dedup_by(|a, b| a.key == b.key && a.fault == b.fault && a.allowed == b.allowed);
-        if complaints.is_empty() { Ok(()) } else { Err(complaints) }
     }
 
     /// Title, if the file gives one.

@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use quell_model::units::Scales;
+use serde_json::Value as Json;
 
 use super::disc::DiscStudy;
 use super::mirror::Table;
 use super::{Change, Study, Sweep, file};
-use crate::complaint::{Complaint, Failure};
+use crate::complaint::{Complaint, Failure, Fault, Origin};
 
 /// A checked study of a belt or of a disc.
 #[derive(Clone, Debug)]
@@ -55,6 +56,26 @@ impl Subject {
             Self::Belt(_) => None,
             Self::Disc(study) => Some(study),
         }
+    }
+
+    /// The belt's study, for a verb that is about belts.
+    ///
+    /// # Errors
+    /// A complaint where it is of a disc.
+    pub fn the_belt(&self) -> Result<&Study, Box<Complaint>> {
+        self.belt().ok_or_else(|| Box::new(not_of_a_belt(Origin::Whole)))
+    }
+
+    /// The disc's study, for a verb that is about discs.
+    ///
+    /// # Errors
+    /// A complaint where it is of a belt.
+    pub fn the_disc(&self) -> Result<&DiscStudy, Box<Complaint>> {
+        self.disc().ok_or_else(|| {
+            let allowed =
+                "a disc study: this verb is about a disc ([disc]), and the study is of a belt";
+            Box::new(Complaint::new(Fault::Missing, "disc", Origin::Whole, Json::Null, allowed))
+        })
     }
 
     /// The study with its numbers set and no axes: see [`Study::at`].
@@ -126,6 +147,13 @@ impl Subject {
     pub fn scales(&self) -> Option<Scales> {
         self.belt().and_then(Study::scales)
     }
+}
+
+/// What a verb that is about belts says of a study of a disc.
+pub(super) fn not_of_a_belt(origin: Origin) -> Complaint {
+    let allowed = "a study of a disc, and this verb is about a belt ([belt], [friction]); about a disc are check, cite, \
+                   modes, stability, resonances and map";
+    Complaint::new(Fault::Conflict, "disc", origin, Json::Null, allowed)
 }
 
 impl From<&Study> for Subject {

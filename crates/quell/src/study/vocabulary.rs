@@ -131,21 +131,6 @@ impl Choice {
             Self::Contribution => Contribution::ALL.iter().map(|part| part.name()).collect(),
         }
     }
-
-    /// What each word means, in the same order; empty where the words say it.
-    pub fn abouts(self) -> Vec<&'static str> {
-        match self {
-            Self::State => vec![
-                "displacement and velocity zero",
-                "steady sliding without dither",
-                "on the limit cycle of the belt without dither",
-            ],
-            Self::Law => LawKind::ALL.iter().map(|law| law.about()).collect(),
-            Self::Direction => vec!["along the belt, on the mass", "on the normal load"],
-            Self::Waveform | Self::Contribution => Vec::new(),
-            Self::Spacing => vec!["equal steps", "equal ratios"],
-        }
-    }
 }
 
 /// What a key takes.

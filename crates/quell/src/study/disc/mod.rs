@@ -3,6 +3,7 @@
 //! Modes are computed from the plate, listed as `[[disc.mode]]`, or read from a CSV file; loads are one `[disc.load]` or
 //! several `[[disc.load]]`; `without` switches contributions off; `[dither]` modulates every load's friction.
 
+mod body;
 mod loads;
 mod modes;
 mod modes_file;
@@ -13,24 +14,24 @@ use std::sync::Arc;
 
 use quell_disc::plate::PlateMaterial;
 use quell_disc::system::{Contribution, Contributions};
-use quell_disc::{Disc, Dither, Load, Mode};
+use quell_disc::{Disc, Dither};
 use quell_model::Direction;
 use quell_model::parameter::DITHER_FREQUENCY_RATIO;
-use quell_model::parameter::disc::{DISC_DITHER_AMPLITUDE, MODAL_DAMPING};
+use quell_model::parameter::disc::DISC_DITHER_AMPLITUDE;
 use serde_json::Value as Json;
 
 use super::change::Change;
-use super::mirror::{Node, Table, Value};
+use super::mirror::{Table, Value};
 use super::reader::{Found, Reader};
 use super::sweep::{self, Sweep};
-use super::vocabulary::{Choice, Section, join};
-use super::{file, root};
-use crate::complaint::{Complaint, Failure, Fault, Origin};
+use super::vocabulary::{Choice, join};
+use super::{revision, root};
+use crate::complaint::{Complaint, Fault, Origin};
 
 pub use modes::{Listed, ModeSource};
 pub use plate::PlateModes;
 
-use loads::Pad;
+use body::Body;
 
 /// Tables and keys of a disc study outside any table.
 const ROOT: &[&str] = &["schema", "title", "disc", "dither", "sweep"];
@@ -59,36 +60,14 @@ struct Common {
 }
 
 impl DiscStudy {
-    /// Reads and checks a study file (`-` is standard input) after changing it.
-    ///
-    /// # Errors
-    /// Every complaint at once.
-    pub fn read(path: &Path, changes: &[Change]) -> Result<Self, Failure> {
-        let text = file::text(path)?;
-        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        Self::parse(&text, changes, &folder).map_err(Failure::Wrong)
-    }
-
     /// Checks the text of a study after changing it; a file of modes is looked for in `folder`.
     ///
     /// # Errors
     /// Every complaint at once.
     pub fn parse(text: &str, changes: &[Change], folder: &Path) -> Result<Self, Vec<Complaint>> {
-        let mut mirror = Table::parse(text)?;
-        let refused: Vec<Complaint> = changes
-            .iter()
-            .filter_map(|change| change.apply(&mut mirror).err())
-            .map(|complaint| *complaint)
-            .collect();
-        let told = changes.iter().map(Change::to_string).collect();
-        match Self::check(mirror, text, folder, told, None) {
-            Ok(study) if refused.is_empty() => Ok(study),
-            Ok(_) => Err(refused),
-            Err(mut complaints) => {
-                complaints.extend(refused);
-                Err(complaints)
-            }
-        }
+        revision::changed(text, changes, |mirror, told| {
+            Self::check(mirror, text, folder, told, None)
+        })
     }
 
     /// The study at one point of a map: its numbers set through the same path as `--set`, in order, and no axes.
@@ -99,15 +78,8 @@ impl DiscStudy {
         &self,
         numbers: impl IntoIterator<Item = (&'a str, f64)>,
     ) -> Result<Self, Vec<Complaint>> {
-        let mut mirror = self.common.mirror.clone();
-        mirror.remove("sweep");
-        let mut changes = self.common.changes.clone();
-        for (path, value) in numbers {
-            let change = Change::number(path, value, "[[sweep]]");
-            change.apply(&mut mirror).map_err(|complaint| vec![*complaint])?;
-            changes.push(change.to_string());
-        }
         let common = &self.common;
+        let (mirror, changes) = revision::at(&common.mirror, &common.changes, numbers)?;
         Self::check(mirror, &common.text, &common.folder, changes, Some(&common.source))
     }
 
@@ -205,38 +177,8 @@ impl DiscStudy {
             changes,
         };
         let study = Self { disc, parts, common: Arc::new(common) };
-        study.check_sweeps()?;
+        revision::ends_valid(&study.common.mirror, study.sweeps(), |number| study.at(number))?;
         Ok(study)
-    }
-
-    /// Whether the study is valid at the ends of every axis.
-    fn check_sweeps(&self) -> Result<(), Vec<Complaint>> {
-        let mut complaints = Vec::new();
-        for (index, sweep) in self.sweeps().iter().enumerate() {
-            for value in sweep.axis.extremes() {
-                let Err(wrong) = self.at([(sweep.path.as_str(), value)]) else { continue };
-                let entry = match self.common.mirror.get("sweep").map(|node| &node.value) {
-                    Some(Value::List(list)) => list.get(index),
-                    _ => None,
-                };
-                let origin = entry.map_or(Origin::Whole, |node| node.origin);
-                complaints.extend(wrong.into_iter().map(|complaint| {
-                    let allowed = format!(
-                        "a path and values that make valid studies; {} = {value} must be {}",
-                        complaint.key, complaint.allowed
-                    );
-                    Complaint {
-                        key: format!("sweep[{index}].parameter"),
-                        origin,
-                        value: sweep.path.clone().into(),
-                        allowed,
-                        ..complaint
-                    }
-                }));
-            }
-        }
-        complaints.dedup_by(|a, b| a.key == b.key && a.fault == b.fault && a.allowed == b.allowed);
-        if complaints.is_empty() { Ok(()) } else { Err(complaints) }
     }
 
     /// Title, if the file gives one.
@@ -298,23 +240,18 @@ impl DiscStudy {
     /// Every value of the study after its changes as `path = value`, in the order of paths, and the modes of a file with it;
     /// neither title nor axes.
     pub fn settings(&self) -> Vec<(String, String)> {
-        let mut settings = Vec::new();
-        let nodes =
-            self.common.mirror.iter().filter(|(name, _)| !matches!(*name, "title" | "sweep"));
-        for (name, node) in nodes {
-            node.leaves(name, &mut settings);
-        }
-        if let ModeSource::File { .. } = self.common.source {
-            for (index, mode) in self.disc.modes().iter().enumerate() {
-                let numbers = format!(
-                    "{} {:?} {:?} {:?}",
-                    mode.diameters, mode.ratio, mode.shape_at_load, mode.damping
-                );
-                settings.push((format!("disc.modes_file[{index}]"), numbers));
-            }
-        }
-        settings.sort();
-        settings
+        let listed = match self.common.source {
+            ModeSource::File { .. } => self.disc.modes(),
+            _ => &[],
+        };
+        let modes = listed.iter().enumerate().map(|(index, mode)| {
+            let numbers = format!(
+                "{} {:?} {:?} {:?}",
+                mode.diameters, mode.ratio, mode.shape_at_load, mode.damping
+            );
+            (format!("disc.modes_file[{index}]"), numbers)
+        });
+        revision::settings(&self.common.mirror, modes)
     }
 
     /// Hertz of a frequency of one ω_ref, where material or listed frequencies tell it.
@@ -327,67 +264,6 @@ impl DiscStudy {
             ModeSource::List(listed) | ModeSource::File { listed, .. } => listed.reference_hz,
         }
     }
-}
-
-/// What `[disc]` says.
-struct Body {
-    source: ModeSource,
-    material: Option<PlateMaterial>,
-    modes: Vec<Mode>,
-    loads: Vec<Load>,
-    radii: Vec<Option<f64>>,
-    speed: f64,
-    parts: Contributions,
-    warnings: Vec<String>,
-}
-
-impl Body {
-    fn read(
-        reader: &mut Reader,
-        table: &Table,
-        header: Origin,
-        folder: &Path,
-        known: Option<&ModeSource>,
-    ) -> Option<Self> {
-        reader.unknown_keys(table, Section::Disc, "disc", &["mode", "load"]);
-        let damping = reader.optional(table, "disc", MODAL_DAMPING, None).or(0.0);
-        let parts = without(reader, table);
-        let pads = loads::read(reader, table);
-        let material = plate::material(reader, table, header);
-        let source = modes::read(reader, table, header, folder, known);
-        let (pads, source) = (pads?, source?);
-        let (damping, parts, material) = (damping?, parts?, material?);
-        let radii: Vec<Option<f64>> = pads.iter().map(|pad| pad.radius).collect();
-        let (modes, shapes, warnings) = modes::at_loads(reader, &source, &pads, damping)?;
-        let speed = pads.iter().find_map(|pad| pad.speed.map(|(speed, _)| speed)).unwrap_or(0.0);
-        let loads = pads
-            .into_iter()
-            .zip(shapes)
-            .map(|(Pad { load, .. }, shapes)| Load { shapes, ..load })
-            .collect();
-        let material = material.map(|(material, _)| material);
-        Some(Self { source, material, modes, loads, radii, speed, parts, warnings })
-    }
-}
-
-/// `without = ["damper", …]`.
-fn without(reader: &mut Reader, table: &Table) -> Option<Contributions> {
-    let mut parts = Contributions::ALL;
-    let Some(node) = table.get("without") else { return Some(parts) };
-    let one = [node.clone()];
-    let list: &[Node] = match &node.value {
-        Value::List(list) => list,
-        _ => &one,
-    };
-    let mut right = true;
-    for (index, node) in list.iter().enumerate() {
-        let key = format!("disc.without[{index}]");
-        match reader.choice(&key, node, Choice::Contribution).and_then(Contribution::from_name) {
-            Some(part) => parts = parts.without(part),
-            None => right = false,
-        }
-    }
-    right.then_some(parts)
 }
 
 /// `[dither]` of a disc.

@@ -1,0 +1,77 @@
+//! `[disc]` itself: its modes, its loads, and the parts of the equations that are left out.
+
+use std::path::Path;
+
+use quell_disc::plate::PlateMaterial;
+use quell_disc::system::{Contribution, Contributions};
+use quell_disc::{Load, Mode};
+use quell_model::parameter::disc::MODAL_DAMPING;
+
+use super::super::mirror::{Node, Table, Value};
+use super::super::reader::Reader;
+use super::super::vocabulary::{Choice, Section};
+use super::loads::Pad;
+use super::modes::{self, ModeSource};
+use super::{loads, plate};
+use crate::complaint::Origin;
+
+/// What `[disc]` says.
+pub(super) struct Body {
+    pub(super) source: ModeSource,
+    pub(super) material: Option<PlateMaterial>,
+    pub(super) modes: Vec<Mode>,
+    pub(super) loads: Vec<Load>,
+    pub(super) radii: Vec<Option<f64>>,
+    pub(super) speed: f64,
+    pub(super) parts: Contributions,
+    pub(super) warnings: Vec<String>,
+}
+
+impl Body {
+    pub(super) fn read(
+        reader: &mut Reader,
+        table: &Table,
+        header: Origin,
+        folder: &Path,
+        known: Option<&ModeSource>,
+    ) -> Option<Self> {
+        reader.unknown_keys(table, Section::Disc, "disc", &["mode", "load"]);
+        let damping = reader.optional(table, "disc", MODAL_DAMPING, None).or(0.0);
+        let parts = without(reader, table);
+        let pads = loads::read(reader, table);
+        let material = plate::material(reader, table, header);
+        let source = modes::read(reader, table, header, folder, known);
+        let (pads, source) = (pads?, source?);
+        let (damping, parts, material) = (damping?, parts?, material?);
+        let radii: Vec<Option<f64>> = pads.iter().map(|pad| pad.radius).collect();
+        let (modes, shapes, warnings) = modes::at_loads(reader, &source, &pads, damping)?;
+        let speed = pads.iter().find_map(|pad| pad.speed.map(|(speed, _)| speed)).unwrap_or(0.0);
+        let loads = pads
+            .into_iter()
+            .zip(shapes)
+            .map(|(Pad { load, .. }, shapes)| Load { shapes, ..load })
+            .collect();
+        let material = material.map(|(material, _)| material);
+        Some(Self { source, material, modes, loads, radii, speed, parts, warnings })
+    }
+}
+
+/// `without = ["damper", …]`.
+fn without(reader: &mut Reader, table: &Table) -> Option<Contributions> {
+    let mut parts = Contributions::ALL;
+    let Some(node) = table.get("without") else { return Some(parts) };
+    let one = [node.clone()];
+    let list: &[Node] = match &node.value {
+        Value::List(list) => list,
+        _ => &one,
+    };
+    let mut right = true;
+    for (index, node) in list.iter().enumerate() {
+        let key = format!("disc.without[{index}]");
+        match reader.choice(&key, node, Choice::Contribution).and_then(Contribution::from_name) {
+            Some(part) => parts = parts.without(part),
+            None => right = false,
+        }
+    }
+    right.then_some(parts)
+}
