@@ -61,9 +61,7 @@ pub use error::PlotError;
 pub use field::Field;
 pub use figure::{Figure, Legend, Panel, Place, SharedLegend, Sharing, Size};
 pub use isoline::{Isoline, isolines};
-pub use layer::{
-    Direction, Fill, Layer, Line, Marker, Note, NoteAnchor, Points, Region, Rule, Shape,
-};
+pub use layer::{Direction, Fill, Layer, Line, Marker, Note, Points, Region, Rule, Shape};
 pub use map_layers::{Contours, Gap, Grid};
 pub use palette::{LineStyle, Role};
 pub use shades::Palette;

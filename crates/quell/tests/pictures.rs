@@ -2,10 +2,12 @@
 
 use std::fs;
 
+use quell::Complaint;
+use quell::output::Output;
+use quell::picture::{EXTENSIONS, write};
 use quell::plot::{
     Axis, Colouring, Contours, Field, Figure, Fill, Grid, Legend, Line, LineStyle, Marker, Note,
-    Palette, Panel, PlotError, Points, Region, Role, Rule, Shading, SharedLegend, Sharing, Size,
-    Spread, Tint,
+    Palette, Panel, Points, Region, Role, Rule, Shading, SharedLegend, Sharing, Size, Spread, Tint,
 };
 
 fn axes() -> Panel {
@@ -57,30 +59,35 @@ fn strokes<'a>(svg: &'a str, colour: &str) -> Vec<&'a str> {
 const BLUE: &str = "#0072b2";
 const GREY: &str = "#808080";
 
+fn output(path: &std::path::Path) -> Result<Output, Box<Complaint>> {
+    Output::prepare(path, "--plot", EXTENSIONS)
+}
+
 #[test]
 fn an_unknown_extension_is_refused_before_anything_is_written() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for name in ["picture.pdf", "picture", "picture.svg.txt"] {
-        let path = folder.path().join(name);
-        let refused = Figure::single(axes()).write(&path);
-        assert!(matches!(refused, Err(PlotError::UnknownExtension { .. })), "{name}");
-        assert!(Figure::check_path(&path).is_err());
+        let refused = output(&folder.path().join(name)).expect_err(name);
+        assert!(refused.to_string().contains(".svg or .png"), "{refused}");
+    }
+    for name in ["A.SVG", "a.Png"] {
+        assert!(output(&folder.path().join(name)).is_ok(), "{name}");
     }
     assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 0);
-    assert!(Figure::check_path("A.SVG").is_ok() && Figure::check_path("a.Png").is_ok());
 }
 
 #[test]
 fn a_path_that_cannot_be_written_is_an_error_and_leaves_nothing() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let missing = folder.path().join("no/such/folder/a.svg");
-    let refused = Figure::single(axes()).write(&missing);
-    assert!(matches!(&refused, Err(PlotError::Write { path, .. }) if *path == missing));
-    // A folder of the file's name stands in the way of the rename.
+    assert!(output(&missing).is_err());
     let taken = folder.path().join("taken.svg");
+    let prepared = output(&taken).expect("free");
+    // Meanwhile a folder of the file's name stands in the way of the rename.
     fs::create_dir(&taken).expect("a folder");
     fs::write(taken.join("content"), "kept").expect("a file");
-    assert!(matches!(Figure::single(axes()).write(&taken), Err(PlotError::Write { .. })));
+    let refused = write(&Figure::single(axes()), prepared).expect_err("a folder is there");
+    assert!(refused.to_string().contains("taken.svg"), "{refused}");
     let left: Vec<_> = fs::read_dir(folder.path()).expect("the folder").collect();
     assert_eq!(left.len(), 1, "{left:?}");
 }
@@ -91,8 +98,9 @@ fn files_hold_what_the_memory_holds() {
     let figure = rich();
     let (svg, png) = (folder.path().join("a.svg"), folder.path().join("a.png"));
     fs::write(&svg, "older").expect("a file");
-    figure.write(&svg).expect("an SVG");
-    figure.write(&png).expect("a PNG");
+    for path in [&svg, &png] {
+        write(&figure, output(path).expect("writable")).expect("written");
+    }
     assert_eq!(fs::read_to_string(&svg).expect("the SVG"), figure.to_svg());
     let bytes = fs::read(&png).expect("the PNG");
     assert!(bytes.starts_with(b"\x89PNG\r\n"));
@@ -144,7 +152,6 @@ fn a_break_is_not_bridged() {
         strokes(&svg, BLUE)[0].matches('M').count()
     };
     assert_eq!(count(Line::new(Role::Dithered, jump())), 1);
-    assert_eq!(count(Line::new(Role::Dithered, jump()).broken_at_jumps(0.5)), 2);
     assert_eq!(count(Line::pieces(Role::Dithered, [wave(50), wave(50), wave(50)])), 3);
     let hole = jump().map(|(x, y)| (x, if x == 70.0 { f64::INFINITY } else { y }));
     assert_eq!(count(Line::new(Role::Dithered, hole)), 2);

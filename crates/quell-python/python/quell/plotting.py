@@ -32,18 +32,7 @@ HATCHES = ("////", "\\\\\\\\", "xxxx", "....", "++++")
 MARKERS = {
     "disc": "o",
     "circle": "o",
-    "square": "s",
-    "triangle": "^",
-    "diamond": "D",
-    "plus": "+",
     "cross": "x",
-}
-NOTE_PLACES = {
-    "centre": ((0, 0), "center", "center"),
-    "right": ((4, 0), "left", "center"),
-    "left": ((-4, 0), "right", "center"),
-    "above": ((0, 4), "center", "bottom"),
-    "below": ((0, -4), "center", "top"),
 }
 
 
@@ -280,7 +269,7 @@ class Drawing:
     def points(self, layer: dict[str, Any], order: float) -> None:
         """Separate points."""
         open_circle = layer["marker"] == "circle"
-        strokes = layer["marker"] in ("circle", "plus", "cross")
+        strokes = layer["marker"] in ("circle", "cross")
         self.axes.plot(
             layer["points"][0],
             layer["points"][1],
@@ -344,14 +333,11 @@ class Drawing:
 
     def note(self, layer: dict[str, Any], order: float) -> None:
         """A text at a point."""
-        offset, across, along = NOTE_PLACES[layer["anchor"]]
         self.axes.annotate(
             text(layer["text"]),
             tuple(layer["at"]),
-            xytext=offset,
-            textcoords="offset points",
-            ha=across,
-            va=along,
+            ha="center",
+            va="center",
             color=layer["colour"],
             fontsize=self.sizes["note"] * POINT,
             zorder=order + 1.0,

@@ -11,7 +11,7 @@ use super::axis::{Axis, Scale};
 use super::canvas::Rectangle;
 use super::colouring::{Colouring, Spread};
 use super::figure::{Figure, Legend, Panel, Place, SharedLegend};
-use super::layer::{Direction, Layer, Line, Marker, Note, NoteAnchor, Points, Region, Rule, Shape};
+use super::layer::{Direction, Layer, Line, Marker, Note, Points, Region, Rule, Shape};
 use super::map_layers::{Contours, Grid};
 use super::palette::{Colour, FAINT, FRAME, GAP, LineStyle, Role};
 
@@ -127,10 +127,6 @@ fn points(it: &Points) -> Json {
         "marker": match it.marker {
             Marker::Disc => "disc",
             Marker::Circle => "circle",
-            Marker::Square => "square",
-            Marker::Triangle => "triangle",
-            Marker::Diamond => "diamond",
-            Marker::Plus => "plus",
             Marker::Cross => "cross",
         },
         "size": it.size,
@@ -176,13 +172,6 @@ fn note(it: &Note) -> Json {
         "text": it.text,
         "at": [it.at.0, it.at.1],
         "colour": hex(it.role.map_or(FRAME, Role::colour)),
-        "anchor": match it.anchor {
-            NoteAnchor::Centre => "centre",
-            NoteAnchor::Right => "right",
-            NoteAnchor::Left => "left",
-            NoteAnchor::Above => "above",
-            NoteAnchor::Below => "below",
-        },
     })
 }
 

@@ -6,7 +6,7 @@ use super::arrange::{LABEL_GAP, LegendPlan, NUMBER_GAP, PanelPlan, Plan, arrange
 use super::axis::Mapping;
 use super::canvas::{Canvas, Rectangle, Setting, Stroke, path};
 use super::figure::{Figure, Panel};
-use super::layer::{Layer, Note, NoteAnchor, Region, Rule, Shape};
+use super::layer::{Layer, Note, Region, Rule, Shape};
 use super::obstacles::{Obstacles, rule_ends};
 use super::palette::{Colour, FAINT, FRAME, Role};
 use super::typeset::Label;
@@ -332,17 +332,10 @@ pub(super) fn note_area(
     frame: Rectangle,
     sizes: Sizes,
 ) -> Option<Rectangle> {
-    const GAP: f64 = 6.0;
     let at = (x.pixel(note.at.0)?, y.pixel(note.at.1)?);
     let size = f64::from(sizes.note);
     let (width, height) = (Label::parse(&note.text).width(size, false), 0.95 * size);
-    let (left, top) = match note.anchor {
-        NoteAnchor::Centre => (at.0 - 0.5 * width, at.1 - 0.5 * height),
-        NoteAnchor::Right => (at.0 + GAP, at.1 - 0.5 * height),
-        NoteAnchor::Left => (at.0 - GAP - width, at.1 - 0.5 * height),
-        NoteAnchor::Above => (at.0 - 0.5 * width, at.1 - GAP - height),
-        NoteAnchor::Below => (at.0 - 0.5 * width, at.1 + GAP),
-    };
+    let (left, top) = (at.0 - 0.5 * width, at.1 - 0.5 * height);
     let inner = frame.grown(-4.0);
     let left = left.min(inner.right - width).max(inner.left);
     let top = top.min(inner.bottom - height).max(inner.top);

@@ -2,27 +2,11 @@
 
 use std::error::Error;
 use std::fmt;
-use std::io;
-use std::path::PathBuf;
 
 /// Why a picture could not be made or written.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum PlotError {
-    /// The file name says neither `.svg` nor `.png`.
-    UnknownExtension {
-        /// The path as it was given.
-        path: PathBuf,
-        /// Its extension, if it has one.
-        extension: Option<String>,
-    },
-    /// The file could not be written; nothing was left at `path`, and what stood there still does.
-    Write {
-        /// The path as it was given.
-        path: PathBuf,
-        /// What the file system said.
-        source: io::Error,
-    },
     /// The picture is too large, or of no size, for a pixel image.
     PixelSize {
         /// Width asked for (pixels).
@@ -45,19 +29,6 @@ pub enum PlotError {
 impl fmt::Display for PlotError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::UnknownExtension { path, extension: Some(extension) } => write!(
-                out,
-                "cannot tell the picture's kind from '{}': extension '.{extension}' is not known, use .svg or .png",
-                path.display()
-            ),
-            Self::UnknownExtension { path, extension: None } => write!(
-                out,
-                "cannot tell the picture's kind from '{}': it has no extension, use .svg or .png",
-                path.display()
-            ),
-            Self::Write { path, source } => {
-                write!(out, "cannot write the picture '{}': {source}", path.display())
-            }
             Self::PixelSize { width, height } => {
                 write!(out, "a picture of {width} by {height} pixels cannot be made")
             }
@@ -70,9 +41,8 @@ impl fmt::Display for PlotError {
 impl Error for PlotError {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         match self {
-            Self::Write { source, .. } => Some(source),
             Self::Raster { source } => Some(source.as_ref()),
-            Self::UnknownExtension { .. } | Self::PixelSize { .. } | Self::Field { .. } => None,
+            Self::PixelSize { .. } | Self::Field { .. } => None,
         }
     }
 }

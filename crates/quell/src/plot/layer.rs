@@ -48,22 +48,6 @@ impl Line {
         Self { role, pieces: whole, style: None, width: None, label: String::new() }
     }
 
-    /// Opens the curve wherever y changes by more than `jump` between neighbours.
-    #[must_use]
-    pub fn broken_at_jumps(mut self, jump: f64) -> Self {
-        self.pieces = self
-            .pieces
-            .into_iter()
-            .flat_map(|piece| {
-                piece
-                    .chunk_by(|before, after| (after.1 - before.1).abs() <= jump)
-                    .map(<[(f64, f64)]>::to_vec)
-                    .collect::<Vec<_>>()
-            })
-            .collect();
-        self
-    }
-
     /// Text in the legend.
     #[must_use]
     pub fn label(mut self, label: impl Into<String>) -> Self {
@@ -94,14 +78,6 @@ pub enum Marker {
     Disc,
     /// Open circle.
     Circle,
-    /// Filled square.
-    Square,
-    /// Filled triangle.
-    Triangle,
-    /// Filled diamond.
-    Diamond,
-    /// Upright cross.
-    Plus,
     /// Diagonal cross.
     Cross,
 }
@@ -312,22 +288,6 @@ impl Rule {
     }
 }
 
-/// Where a note stands with respect to its point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum NoteAnchor {
-    /// Centred on the point.
-    #[default]
-    Centre,
-    /// Right of the point.
-    Right,
-    /// Left of the point.
-    Left,
-    /// Above the point.
-    Above,
-    /// Below the point.
-    Below,
-}
-
 /// A text at a point of the data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Note {
@@ -335,8 +295,6 @@ pub struct Note {
     pub at: (f64, f64),
     /// The text.
     pub text: String,
-    /// Where it stands.
-    pub anchor: NoteAnchor,
     /// Colour of this role in place of black.
     pub role: Option<Role>,
 }
@@ -345,14 +303,7 @@ impl Note {
     /// A text centred on (x, y).
     #[must_use]
     pub fn new(x: f64, y: f64, text: impl Into<String>) -> Self {
-        Self { at: (x, y), text: text.into(), anchor: NoteAnchor::Centre, role: None }
-    }
-
-    /// Where the text stands with respect to its point.
-    #[must_use]
-    pub fn anchor(mut self, anchor: NoteAnchor) -> Self {
-        self.anchor = anchor;
-        self
+        Self { at: (x, y), text: text.into(), role: None }
     }
 
     /// Prints in the colour of this role.

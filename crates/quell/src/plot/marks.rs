@@ -37,23 +37,6 @@ pub(super) fn markers(
             }
             canvas.end_group();
         }
-        Marker::Square => {
-            let corners = [(-0.88, -0.88), (0.88, -0.88), (0.88, 0.88), (-0.88, 0.88)];
-            canvas.fill(path(&shape(&corners), true), colour, 1.0);
-        }
-        Marker::Triangle => {
-            let corners = [(0.0, -1.15), (1.0, 0.6), (-1.0, 0.6)];
-            canvas.fill(path(&shape(&corners), true), colour, 1.0);
-        }
-        Marker::Diamond => {
-            let corners = [(0.0, -1.2), (1.0, 0.0), (0.0, 1.2), (-1.0, 0.0)];
-            canvas.fill(path(&shape(&corners), true), colour, 1.0);
-        }
-        Marker::Plus => {
-            let mut strokes = shape(&[(-1.0, 0.0), (1.0, 0.0)]);
-            strokes.extend(shape(&[(0.0, -1.0), (0.0, 1.0)]));
-            canvas.stroke(path(&strokes, false), &outline);
-        }
         Marker::Cross => {
             let mut strokes = shape(&[(-0.85, -0.85), (0.85, 0.85)]);
             strokes.extend(shape(&[(-0.85, 0.85), (0.85, -0.85)]));

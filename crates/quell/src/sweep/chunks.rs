@@ -35,11 +35,6 @@ impl Chunks {
         &self.chunk
     }
 
-    /// Number of points of a whole chunk.
-    pub fn chunk_points(&self) -> usize {
-        self.chunk.iter().product()
-    }
-
     /// Number of chunks.
     pub fn len(&self) -> usize {
         self.counts().product()
@@ -97,14 +92,15 @@ mod tests {
             (vec![4, 4], 1000),
         ] {
             let chunks = Chunks::new(&shape, most);
-            assert!(chunks.chunk_points() <= most);
+            let whole: usize = chunks.chunk_shape().iter().product();
+            assert!(whole <= most);
             let total: usize = shape.iter().product();
             let mut seen = vec![0; total];
             for number in 0..chunks.len() {
                 let points = chunks.points(number);
                 assert!(!points.is_empty());
                 for (position, index) in points {
-                    assert!(position < chunks.chunk_points());
+                    assert!(position < whole);
                     seen[index] += 1;
                 }
             }
