@@ -1,5 +1,6 @@
 //! Short tables for people: what, value, unit, and the same in SI.
 
+use quell::quantity::unit_of;
 use quell_model::units::{Quantity, Scales};
 
 /// Digits of a number in a table.
@@ -20,12 +21,7 @@ impl Table {
 
     /// A row of a quantity.
     pub(crate) fn number(&mut self, label: &str, quantity: Quantity, value: f64) {
-        let unit = match (quantity, self.scales) {
-            (Quantity::Displacement | Quantity::Velocity | Quantity::Force, Some(_)) => {
-                quantity.scaled_unit().replacen("length", "m", 1)
-            }
-            _ => quantity.scaled_unit().to_owned(),
-        };
+        let unit = unit_of(quantity, self.scales.is_some());
         let unit = if unit == "1" { String::new() } else { unit };
         let si = match (self.scales, quantity.si_unit()) {
             (Some(scales), Some((unit, _))) if quantity != Quantity::Displacement => {

@@ -4,6 +4,7 @@
 //! (`time`, `time_s`). `units` names the unit of every field; `why` says for every null why
 //! it is one.
 
+use crate::quantity::unit_of;
 use quell_model::units::{Quantity, Scales};
 use serde_json::{Map, Value as Json};
 
@@ -170,13 +171,7 @@ impl Fields {
         quantity: Quantity,
         twin: Option<&(String, f64, &'static str)>,
     ) {
-        let unit = match (quantity, self.scales) {
-            // The lengths of a study in SI are metres.
-            (Quantity::Displacement | Quantity::Velocity | Quantity::Force, Some(_)) => {
-                quantity.scaled_unit().replacen("length", "m", 1)
-            }
-            _ => quantity.scaled_unit().to_owned(),
-        };
+        let unit = unit_of(quantity, self.scales.is_some());
         self.units.insert(name.to_owned(), unit.into());
         if let Some((key, _, unit)) = twin {
             self.units.insert(key.clone(), (*unit).into());

@@ -45,6 +45,12 @@ fn units(quantity: Quantity) -> &'static [(&'static str, f64)] {
     }
 }
 
+/// Unit of a quantity in the numbers of the equations. The lengths of a study in SI are metres.
+pub fn unit_of(quantity: Quantity, si: bool) -> String {
+    let unit = quantity.scaled_unit();
+    if si { unit.replacen("length", "m", 1) } else { unit.to_owned() }
+}
+
 /// Reads a quantity into the number of the equations.
 ///
 /// # Errors

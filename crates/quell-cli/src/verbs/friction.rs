@@ -58,8 +58,7 @@ fn velocities(texts: &[String], study: Option<&Study>, complaints: &mut Complain
 }
 
 fn text(study: &Study, curve: &FrictionCurve) -> String {
-    let unit =
-        if study.scales().is_some() { "m (velocity/ω₀)" } else { "length (velocity/ω₀)" };
+    let unit = quantity::unit_of(Quantity::Velocity, study.scales().is_some());
     let mut text = String::new();
     for (label, words) in law::words(study) {
         let _ = writeln!(text, "{}: {words}", label.trim());

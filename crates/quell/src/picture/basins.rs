@@ -8,6 +8,7 @@ use super::bifurcation::{axis, stretches};
 use super::caption::caption;
 use super::map::{Map, MapAxis, MapKind, map_panel};
 use super::ruler::Ruler;
+use super::{undrawable, with_unstable};
 use crate::complaint::Failure;
 use crate::plot::{
     Axis, Figure, Layer, Legend, Line, Marker, Panel, Points, Region, Role, SharedLegend, Size,
@@ -103,10 +104,7 @@ pub(crate) fn plane(study: &Study, done: &Basins, portrait: &Portrait) -> Result
         reasons: vec![UNKNOWN.to_owned()],
         over,
     };
-    let panel = map_panel(&picture, false);
-    let panel =
-        panel.map_err(|why| Failure::Failed { key: "--plot".to_owned(), why: why.to_string() })?;
-    Ok(panel.legend(Legend::Above))
+    Ok(map_panel(&picture, false).map_err(undrawable)?.legend(Legend::Above))
 }
 
 /// The quiet response is blue, the largest other one red.
@@ -123,7 +121,6 @@ fn role(basins: &[Basin], place: usize) -> Role {
 fn shares(done: &Basins) -> Panel {
     let Some(varied) = &done.varied else { return Panel::default() };
     let up = Axis::new("share of starts that fall quiet").between(0.0, 1.0);
-    let mut panel = Panel::new(axis(varied), up);
     let points = |which: fn(Share) -> f64| -> Vec<(f64, f64)> {
         let of = |it: &Portrait| Some((it.value?, it.quiet().map_or(0.0, which)));
         done.portraits.iter().filter_map(of).collect()
@@ -133,11 +130,7 @@ fn shares(done: &Basins) -> Panel {
         .iter()
         .filter_map(|it| Some((it.value?, it.local == Ok(Verdict::Unstable))))
         .collect();
-    for (number, (from, to)) in stretches(&local).into_iter().enumerate() {
-        let label = if number == 0 { "quiet response unstable" } else { "" };
-        panel = panel.with(Region::across_x(Role::Undecided, from, to).label(label));
-    }
-    panel
+    with_unstable(Panel::new(axis(varied), up), stretches(&local))
         .with(
             Region::between(Role::Dithered, points(|share| share.low), points(|share| share.high))
                 .label("bounds"),

@@ -7,9 +7,8 @@ use quell_model::units::Quantity;
 use super::caption::caption_of_run;
 use super::ruler::Ruler;
 use super::sweep::labelled;
-use crate::plot::{
-    Axis, Figure, Line, Marker, Panel, Points, Region, Role, SharedLegend, Sharing, Size,
-};
+use super::with_unstable;
+use crate::plot::{Axis, Figure, Line, Marker, Panel, Points, Role, SharedLegend, Sharing, Size};
 use crate::run::bifurcation::{Bifurcation, Branch, Direction};
 use crate::run::varied::Varied;
 use crate::study::Study;
@@ -58,15 +57,7 @@ pub fn bifurcation(study: &Study, done: &Bifurcation) -> Figure {
     );
     let count = attractors().count().max(1);
     let each = (MOST_STATES / count).max(STATES);
-    let panel = |up: Axis| {
-        let mut panel = Panel::new(axis(&done.varied), up);
-        for (number, (from, to)) in unstable(done).into_iter().enumerate() {
-            let region = Region::across_x(Role::Undecided, from, to);
-            let label = if number == 0 { "quiet response unstable" } else { "" };
-            panel = panel.with(region.label(label));
-        }
-        panel
-    };
+    let panel = |up: Axis| with_unstable(Panel::new(axis(&done.varied), up), unstable(done));
     let mut section = panel(ruler.axis("section displacement", "x"));
     let mut size = panel(ruler.axis("peak-to-peak", "").from(0.0));
     let mut frequency = panel(Axis::new("slow frequency").symbol("ω/ω_0"));

@@ -5,6 +5,7 @@ use quell_disc::resonance::{Order, Waves};
 use quell_disc::{Disc, Dither};
 
 use super::caption::caption_of_disc;
+use super::undrawable;
 use crate::complaint::Failure;
 use crate::plot::{
     Axis, Colouring, Contours, Field, Figure, Grid, Layer, Legend, Line, LineStyle, Marker,
@@ -41,10 +42,7 @@ pub fn modes(study: &DiscStudy, done: &Modes) -> Result<Figure, Failure> {
                     Ok(shape(mode, plate.plate.inner_radius_ratio())?.title(title))
                 })
                 .collect();
-            let panels = panels.map_err(|why| Failure::Failed {
-                key: "--plot".to_owned(),
-                why: why.to_string(),
-            })?;
+            let panels = panels.map_err(undrawable)?;
             let columns = panels.len().min(4);
             Figure::grid(columns, panels)
                 .sharing_x(Sharing::All)

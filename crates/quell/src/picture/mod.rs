@@ -30,7 +30,8 @@ pub use thresholds::{curves, thresholds};
 
 use crate::complaint::Failure;
 use crate::output::Output;
-use crate::plot::Figure;
+use crate::plot::{Figure, Line, Panel, PlotError, Region, Role};
+use crate::study::Study;
 
 /// Kinds of pictures that can be written.
 pub const EXTENSIONS: &[&str] = &["svg", "png"];
@@ -41,11 +42,33 @@ pub const EXTENSIONS: &[&str] = &["svg", "png"];
 /// [`Failure::Failed`] where it cannot be drawn or written.
 pub fn write(figure: &Figure, output: Output) -> Result<String, Failure> {
     let bytes = if output.extension() == "png" {
-        figure
-            .to_png()
-            .map_err(|why| Failure::Failed { key: "--plot".to_owned(), why: why.to_string() })?
+        figure.to_png().map_err(undrawable)?
     } else {
         figure.to_svg().into_bytes()
     };
     output.write(&bytes).map(|path| path.display().to_string())
+}
+
+/// Why there is no picture.
+#[expect(clippy::needless_pass_by_value, reason = "the last word on an error, for `map_err`")]
+fn undrawable(why: PlotError) -> Failure {
+    Failure::Failed { key: "--plot".to_owned(), why: why.to_string() }
+}
+
+/// A panel with the stretches of a parameter in which the quiet response is unstable.
+fn with_unstable(panel: Panel, stretches: Vec<(f64, f64)>) -> Panel {
+    stretches.into_iter().enumerate().fold(panel, |panel, (number, (from, to))| {
+        let label = if number == 0 { "quiet response unstable" } else { "" };
+        panel.with(Region::across_x(Role::Undecided, from, to).label(label))
+    })
+}
+
+/// A panel with a curve without dither beside one with it, or of a study without dither its one curve.
+fn both(panel: Panel, study: &Study, curve: impl Fn(Role, bool) -> Line) -> Panel {
+    if study.belt().dithers().is_empty() {
+        return panel.with(curve(Role::Exact, true));
+    }
+    panel
+        .with(curve(Role::Undithered, false).label("without dither"))
+        .with(curve(Role::Dithered, true).label("with dither"))
 }

@@ -7,10 +7,11 @@ use quell_belt::simulation::Sample;
 use quell_model::units::Quantity;
 use quell_numerics::spectrum::Spectrum;
 
+use super::both;
 use super::caption::caption_of_run;
 use super::ruler::Ruler;
 use super::simulate::time_axis;
-use crate::plot::{Figure, Line, Panel, Role, Rule, SharedLegend};
+use crate::plot::{Figure, Line, Panel, Rule, SharedLegend};
 use crate::run::response::Steady;
 use crate::study::Study;
 
@@ -36,9 +37,10 @@ fn record(study: &Study, done: &Steady) -> Panel {
     };
     let with = end(&done.response.record.samples);
     let without = end(&done.response.undithered_record.samples);
-    let both = || with.iter().chain(&without);
-    let time = Ruler::of(study, Quantity::Time, both().map(|sample| sample.time));
-    let place = Ruler::of(study, Quantity::Displacement, both().map(|sample| sample.displacement));
+    let samples = || with.iter().chain(&without);
+    let time = Ruler::of(study, Quantity::Time, samples().map(|sample| sample.time));
+    let place =
+        Ruler::of(study, Quantity::Displacement, samples().map(|sample| sample.displacement));
     let curve = |samples: &[Sample], role| {
         let points = samples
             .iter()
@@ -46,12 +48,7 @@ fn record(study: &Study, done: &Steady) -> Panel {
         Line::new(role, points.collect::<Vec<_>>())
     };
     let panel = Panel::new(time_axis(study, &time), place.axis("displacement", "x"));
-    if study.belt().dithers().is_empty() {
-        return panel.with(curve(&with, Role::Exact));
-    }
-    panel
-        .with(curve(&without, Role::Undithered).label("without dither"))
-        .with(curve(&with, Role::Dithered).label("with dither"))
+    both(panel, study, |role, dithered| curve(if dithered { &with } else { &without }, role))
 }
 
 fn spectrum(study: &Study, done: &Steady) -> Panel {
@@ -84,10 +81,5 @@ fn spectrum(study: &Study, done: &Steady) -> Panel {
     }
     let panel = Panel::new(rate.axis("frequency", symbol).between(0.0, rate.place(end)), vertical)
         .with(Rule::vertical(rate.place(BAND_END)).label("band of $E$"));
-    if study.belt().dithers().is_empty() {
-        return panel.with(curve(with, Role::Exact));
-    }
-    panel
-        .with(curve(without, Role::Undithered).label("without dither"))
-        .with(curve(with, Role::Dithered).label("with dither"))
+    both(panel, study, |role, dithered| curve(if dithered { with } else { without }, role))
 }

@@ -7,6 +7,7 @@
 use quell_belt::averaging::{Becomes, Response};
 
 use super::map::{self, Map as Picture, MapAxis, MapKind};
+use super::undrawable;
 use crate::complaint::Failure;
 use crate::plot::{
     Axis, Figure, Layer, Legend, Line, LineStyle, Panel, PlotError, Role, Size, Spread,
@@ -45,8 +46,7 @@ pub fn sweep(done: &Map) -> Result<Figure, Failure> {
         }
         _ => map::map(&picture(done, shown[0])),
     };
-    let figure =
-        figure.map_err(|why| Failure::Failed { key: "--plot".to_owned(), why: why.to_string() })?;
+    let figure = figure.map_err(undrawable)?;
     let title = plan.grid().study().title().unwrap_or_default();
     let caption = match plan.grid().study() {
         Subject::Belt(study) => super::caption::caption_of_run(study),

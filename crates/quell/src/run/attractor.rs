@@ -1,7 +1,7 @@
 //! Attractors in outcomes: their names in JSON and in sentences, for `bifurcation` and `basins`.
 
 use quell_belt::attractor::{Attractor, Kind, Scene};
-use quell_belt::orbit::NoOrbit;
+use quell_belt::orbit::{NoOrbit, Verdict};
 use quell_model::Belt;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
@@ -121,4 +121,40 @@ pub(super) fn unknown(why: &NoOrbit) -> String {
 pub(super) fn number(study: &Study, unit: &str, value: f64) -> String {
     let text = digits(value);
     if study.scales().is_some() && unit != "1" { format!("{text} {unit}") } else { text }
+}
+
+/// Words of the column `kind`.
+pub(super) const KINDS: [(u8, &str); 6] = [
+    (0, "period-1"),
+    (1, "locked"),
+    (2, "quasi-periodic"),
+    (3, "unclassified"),
+    (4, "unsettled"),
+    (5, "limit-cycle"),
+];
+
+/// Words of the column `local_verdict`.
+pub(super) const VERDICTS: [(u8, &str); 4] =
+    [(0, "stable"), (1, "unstable"), (2, "undecided"), (3, "unknown")];
+
+/// Code of the column `kind`.
+pub(super) fn kind_code(attractor: Option<&Attractor>) -> u8 {
+    match attractor.map(|it| it.kind) {
+        Some(Kind::Periodic { periods: 1, .. }) => 0,
+        Some(Kind::Periodic { .. }) => 1,
+        Some(Kind::QuasiPeriodic) => 2,
+        Some(Kind::Unclassified) => 3,
+        Some(Kind::Cycle) => 5,
+        None => 4,
+    }
+}
+
+/// Code of the column `local_verdict`.
+pub(super) fn verdict_code(local: &Result<Verdict, String>) -> u8 {
+    match local {
+        Ok(Verdict::Stable) => 0,
+        Ok(Verdict::Unstable) => 1,
+        Ok(Verdict::Undecided) => 2,
+        Err(_) => 3,
+    }
 }

@@ -11,9 +11,11 @@ use quell_belt::simulation::Start;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::attractor::{number, put, put_section, scene, unknown, words};
+use super::attractor::{
+    KINDS, VERDICTS, kind_code, number, put, put_section, scene, unknown, verdict_code, words,
+};
 use super::varied::{Range, Varied};
-use super::{failed, start, start_in_words};
+use super::{failed, start, start_in_words, stopped};
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
@@ -148,11 +150,6 @@ pub fn run(
     swept?;
     let hysteresis = hysteresis(study, &branches);
     Ok(Bifurcation { varied, branches, hysteresis })
-}
-
-/// What a stopped verb says.
-pub(super) fn stopped(verb: &str) -> Failure {
-    Failure::Failed { key: verb.to_owned(), why: "stopped; nothing is kept".to_owned() }
 }
 
 /// The response at one value, and the state with which the next one begins.
@@ -369,12 +366,7 @@ impl Bifurcation {
                         u8::from(branch.direction == Direction::Down),
                         kind_code(attractor),
                         u8::from(point.quiet()),
-                        match point.local {
-                            Ok(Verdict::Stable) => 0,
-                            Ok(Verdict::Unstable) => 1,
-                            Ok(Verdict::Undecided) => 2,
-                            Err(_) => 3,
-                        },
+                        verdict_code(&point.local),
                     ];
                     codes.iter_mut().zip(code).for_each(|(column, code)| column.push(code));
                 }
@@ -406,33 +398,6 @@ impl Bifurcation {
             .array("locking_periods", Quantity::Count, q)
             .array("frequency", Quantity::FrequencyRatio, frequency)
             .array("periods_to_settle", Quantity::Count, settle)
-    }
-}
-
-/// Words of the column `kind`.
-pub(super) const KINDS: [(u8, &str); 6] = [
-    (0, "period-1"),
-    (1, "locked"),
-    (2, "quasi-periodic"),
-    (3, "unclassified"),
-    (4, "unsettled"),
-    (5, "limit-cycle"),
-];
-
-/// Words of the column `local_verdict`.
-const VERDICTS: [(u8, &str); 4] =
-    [(0, "stable"), (1, "unstable"), (2, "undecided"), (3, "unknown")];
-
-/// Code of the column `kind`.
-pub(super) fn kind_code(attractor: Option<&Attractor>) -> u8 {
-    use quell_belt::attractor::Kind;
-    match attractor.map(|it| it.kind) {
-        Some(Kind::Periodic { periods: 1, .. }) => 0,
-        Some(Kind::Periodic { .. }) => 1,
-        Some(Kind::QuasiPeriodic) => 2,
-        Some(Kind::Unclassified) => 3,
-        Some(Kind::Cycle) => 5,
-        None => 4,
     }
 }
 

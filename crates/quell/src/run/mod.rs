@@ -79,6 +79,18 @@ fn digits(value: f64) -> String {
         .map_or(text, |rounded| format!("{rounded:?}").trim_end_matches(".0").to_owned())
 }
 
+/// What a stopped verb says.
+fn stopped(verb: &str) -> Failure {
+    Failure::Failed { key: verb.to_owned(), why: "stopped; nothing is kept".to_owned() }
+}
+
+/// So many values at equal steps, both ends included and exact.
+fn evenly((from, to): (f64, f64), count: usize) -> Vec<f64> {
+    let last = count.saturating_sub(1);
+    let value = |k: usize| from + (to - from) * k as f64 / last as f64;
+    (0..count).map(|k| if k == last { to } else { value(k) }).collect()
+}
+
 fn failed(stalled: Stalled) -> Failure {
     Failure::Failed { key: "simulation".to_owned(), why: stalled.to_string() }
 }

@@ -2,6 +2,7 @@
 
 use quell_model::Belt;
 
+use super::evenly;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::mirror::given_number;
 use crate::study::vocabulary::{Address, resolve};
@@ -85,16 +86,12 @@ impl Varied {
         if !complaints.is_empty() {
             return Err(complaints);
         }
-        let last = (points - 1) as f64;
-        let value = |k: usize| {
-            if k == points - 1 { to } else { from + (to - from) * k as f64 / last }
-        };
         Ok(Self {
             path: path.clone(),
             about: address.key.about,
             symbol: address.key.parameter().map(|parameter| parameter.symbol),
             unit: address.key.unit_in_words(),
-            values: (0..points).map(value).collect(),
+            values: evenly((from, to), points),
         })
     }
 

@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::plan::Plan;
 use super::sheet::Data;
@@ -39,6 +40,23 @@ pub struct Running<'a> {
     pub progress: &'a dyn Progress,
 }
 
+impl Running<'_> {
+    /// The threads.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] if none could be started.
+    pub(crate) fn pool(&self) -> Result<ThreadPool, Failure> {
+        let mut pool = ThreadPoolBuilder::new();
+        if let Some(threads) = self.threads {
+            pool = pool.num_threads(threads);
+        }
+        pool.build().map_err(|why| Failure::Failed {
+            key: "--threads".to_owned(),
+            why: format!("no threads could be started: {why}"),
+        })
+    }
+}
+
 /// Computes the chunks `todo` of a plan in any order and hands each to `keep`, until it is
 /// stopped.
 ///
@@ -50,14 +68,7 @@ pub(crate) fn run(
     running: Running<'_>,
     keep: impl Fn(usize, Vec<Data>) -> Result<(), Failure> + Sync,
 ) -> Result<(), Failure> {
-    let mut pool = rayon::ThreadPoolBuilder::new();
-    if let Some(threads) = running.threads {
-        pool = pool.num_threads(threads);
-    }
-    let pool = pool.build().map_err(|why| Failure::Failed {
-        key: "--threads".to_owned(),
-        why: format!("no threads could be started: {why}"),
-    })?;
+    let pool = running.pool()?;
     pool.install(|| {
         // One chunk at a time: whoever is free takes the next.
         todo.par_iter().with_max_len(1).try_for_each(|&number| {

@@ -10,6 +10,7 @@ use quell_model::units::{self, Scales};
 use super::evaluate::Results;
 use super::quantity::{Kind, Quantity, Variable};
 use super::status::Status;
+use crate::quantity::unit_of;
 use crate::study::Subject;
 
 /// Bits of the NaN that stands for an unknown number; the code of its state is added.
@@ -222,8 +223,7 @@ fn whole(value: f64) -> u8 {
 /// Unit of a variable in the numbers of the equations; the lengths of a study in SI are metres.
 fn unit(kind: Kind, si: bool) -> String {
     match kind {
-        Kind::Number(quantity) if si => quantity.scaled_unit().replacen("length", "m", 1),
-        Kind::Number(quantity) => quantity.scaled_unit().to_owned(),
+        Kind::Number(quantity) => unit_of(quantity, si),
         Kind::Rate => "ω₀".to_owned(),
         Kind::DiscRate => "ω_ref".to_owned(),
         Kind::Word { .. } => String::new(),

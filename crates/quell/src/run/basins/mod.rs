@@ -20,9 +20,8 @@ use quell_belt::simulation::Stalled;
 use rayon::prelude::*;
 
 use super::attractor::{scene, unknown};
-use super::bifurcation::stopped;
-use super::failed;
 use super::varied::{Range, Varied};
+use super::{failed, stopped};
 use crate::complaint::{Complaint, Failure};
 use crate::study::Study;
 use crate::sweep::Running;
@@ -103,14 +102,7 @@ pub fn run(study: &Study, question: &Question, running: Running<'_>) -> Result<B
     for (_, study) in &studies {
         moves(study)?;
     }
-    let mut pool = rayon::ThreadPoolBuilder::new();
-    if let Some(threads) = running.threads {
-        pool = pool.num_threads(threads);
-    }
-    let pool = pool.build().map_err(|why| Failure::Failed {
-        key: "--threads".to_owned(),
-        why: format!("no threads could be started: {why}"),
-    })?;
+    let pool = running.pool()?;
     running.progress.begin(studies.len() * starts.states().len(), 0);
     let portraits = pool.install(|| portraits(&studies, &starts, running));
     running.progress.end();

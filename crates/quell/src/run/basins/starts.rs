@@ -3,6 +3,7 @@
 use quell_belt::simulation::Start;
 use quell_model::Belt;
 
+use super::super::evenly;
 use crate::complaint::Complaint;
 
 /// Most starts of one portrait.
@@ -33,12 +34,12 @@ impl Default for Layout {
     }
 }
 
-/// Displacements and velocities between which starts lie.
+/// Displacements and velocities between which starts lie, in the numbers of the equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
-    /// x.
+    /// Least and largest displacement x, a length.
     pub displacement: (f64, f64),
-    /// x′.
+    /// Least and largest velocity x′, a length per τ.
     pub velocity: (f64, f64),
 }
 
@@ -153,13 +154,6 @@ fn states(window: Window, layout: Layout) -> Vec<Start> {
             (0..count).map(|_| at(between(window.displacement), between(window.velocity))).collect()
         }
     }
-}
-
-fn evenly((from, to): (f64, f64), count: usize) -> Vec<f64> {
-    let last = (count - 1) as f64;
-    (0..count)
-        .map(|k| if k + 1 == count { to } else { from + (to - from) * k as f64 / last })
-        .collect()
 }
 
 /// A number of [0, 1) by SplitMix64 (Steele, Lea, Flood, 2014): a handful of lines whose bits no release of another package

@@ -7,7 +7,7 @@ use quell_belt::orbit::Verdict;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
-use super::super::attractor::{number, put, put_section, words};
+use super::super::attractor::{VERDICTS, number, put, put_section, verdict_code, words};
 use super::super::in_words;
 use super::{Basins, Layout, Portrait, Share};
 use crate::dataset::{Array, Dataset};
@@ -262,23 +262,15 @@ impl Basins {
                     portraits.iter().map(value).collect::<Vec<f64>>()
                 };
                 let quiet = |which: fn(Share) -> f64| of(&|it| it.quiet().map_or(0.0, which));
-                let verdicts: Vec<u8> = portraits
-                    .iter()
-                    .map(|it| match it.local {
-                        Ok(Verdict::Stable) => 0,
-                        Ok(Verdict::Unstable) => 1,
-                        Ok(Verdict::Undecided) => 2,
-                        Err(_) => 3,
-                    })
-                    .collect();
-                let words = vec![(0, "stable"), (1, "unstable"), (2, "undecided"), (3, "unknown")];
+                let verdicts: Vec<u8> =
+                    portraits.iter().map(|it| verdict_code(&it.local)).collect();
                 let (name, unit) = varied
                     .as_ref()
                     .map_or((String::new(), ""), |varied| (varied.name(), varied.unit));
                 Dataset::new(study, "basins")
                     .fact(facts)
                     .with_axis(Array::new(name, unit, of(&|it| it.value.unwrap_or(f64::NAN))))
-                    .with(Array::of_words("local_verdict", words, &verdicts))
+                    .with(Array::of_words("local_verdict", VERDICTS.to_vec(), &verdicts))
                     .array("quiet_fraction", Quantity::Ratio, quiet(|share| share.fraction))
                     .array("quiet_fraction_low", Quantity::Ratio, quiet(|share| share.low))
                     .array(
