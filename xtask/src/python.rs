@@ -33,10 +33,9 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     let install = ["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"];
     command(Command::new(&python).args(install).arg(&wheel))?;
     let program = root.join("target/debug").join(format!("quell{}", std::env::consts::EXE_SUFFIX));
-    if !program.is_file() {
-        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        command(Command::new(cargo).args(["build", "--package", "quell-cli"]).current_dir(&root))?;
-    }
+    // Whatever lies there may be older than the sources: cargo knows.
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    command(Command::new(cargo).args(["build", "--package", "quell-cli"]).current_dir(&root))?;
     let tests = Command::new(&python)
         .args(["-m", "pytest"])
         .current_dir(root.join(CRATE))

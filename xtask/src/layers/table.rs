@@ -66,6 +66,7 @@ pub(crate) const CONFINED: &[Confined] = &[
     confined("toml",       &["quell", "xtask"],     false, "study files are read in one place; xtask reads manifests"),
     confined("zarrs",      &["quell"],              false, "stores are written in one place, atomically"),
     confined("kuva",       &["quell"],              false, "plots are made from datasets, in the front door"),
+    confined("png",        &["quell"],              false, "plots are made from datasets, in the front door"),
     confined("resvg",      &["quell"],              false, "plots are made from datasets, in the front door"),
     confined("clap",       &["quell-cli"],          false, "arguments of a command line concern the command line alone"),
     confined("indicatif",  &["quell-cli"],          false, "progress bars concern the command line alone"),
