@@ -122,3 +122,25 @@ def test_import_is_quick_and_brings_little_along() -> None:
         assert modules == "[]"
         runs.append(float(seconds))
     assert min(runs) < 0.3, runs
+
+
+@pytest.mark.parametrize(
+    ("call", "key"),
+    [
+        (lambda belt: belt.orbit(from_rest=True, near=(0.1, 0.0)), "near"),
+        (lambda belt: belt.orbit(start=(0.0, 0.0), periods=2), "periods"),
+        (lambda belt: belt.thresholds("dither.amplitude", 0.3, 0.6, ramp=5.0), "ramp"),
+        (lambda belt: belt.basins(points=5), "over"),
+    ],
+)
+def test_what_would_be_left_out_is_refused(call: Any, key: str, belt: quell.Belt) -> None:
+    with pytest.raises(quell.StudyError) as refused:
+        call(belt)
+    assert [(it["key"], it["fault"]) for it in refused.value.errors] == [(key, "conflict")]
+    assert "--" not in str(refused.value)
+
+
+def test_times_that_nobody_could_wait_for_are_refused(belt: quell.Belt) -> None:
+    for call in (lambda: belt.simulate(1e308), lambda: belt.thresholds("dither.amplitude", 0.3, 0.6, from_rest=True, ramp=1e99)):
+        with pytest.raises(quell.StudyError, match="1e9"):
+            call()

@@ -45,6 +45,20 @@ def test_every_public_name_says_what_it_is() -> None:
                     assert value.__doc__, f"{name}.{member}"
 
 
+def test_every_fact_of_a_result_says_what_it_is() -> None:
+    tree = ast.parse(Path(quell.results.__file__ or "").read_text(encoding="utf-8"))
+    classes = [node for node in tree.body if isinstance(node, ast.ClassDef)]
+    facts = 0
+    for it in classes:
+        for node, behind in zip(it.body, [*it.body[1:], None], strict=True):
+            if isinstance(node, ast.AnnAssign):
+                facts += 1
+                told = isinstance(behind, ast.Expr) and isinstance(behind.value, ast.Constant)
+                assert told, f"{it.name}.{ast.unparse(node.target)}"
+    # Those of Result alone would be three.
+    assert facts > 30
+
+
 def test_the_example_for_a_cluster_calls_what_there_is() -> None:
     tree = ast.parse((ROOT / "docs" / "dask-jobqueue.py").read_text(encoding="utf-8"))
     calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]

@@ -25,11 +25,13 @@ from collections.abc import Iterable
 from typing import Any
 
 from . import _quell, results
+from ._arguments import Arguments
+from ._axes import Axes, Axis
 from ._belt import Belt, Decreasing, Dither, Expression, Friction, Initial, Samples, Solver, Stribeck
 from ._disc import Disc, Load, Mode
 from ._errors import Complaint, QuellError, RunError, StudyError
 from ._quell import __version__
-from ._study import Arguments, Axes, Axis, Study
+from ._study import Study
 
 __all__ = [
     "Axis",

@@ -8,8 +8,9 @@ from typing import Any, Literal
 
 import numpy.typing as npt
 
-from ._study import Axes, Study, axes_tables
-from ._tables import Table, Unknown
+from ._axes import Axes, axes_tables
+from ._study import Study
+from ._tables import Table, Unknown, given
 
 __all__ = ["Belt", "Decreasing", "Dither", "Expression", "Friction", "Initial", "Samples", "Solver", "Stribeck"]
 
@@ -51,14 +52,7 @@ class Stribeck(Friction):
         reference_velocity_m_per_s: float | None = None,
         **unknown: Unknown,
     ) -> None:
-        super().__init__(
-            "stribeck",
-            static_coefficient=static_coefficient,
-            minimum_coefficient=minimum_coefficient,
-            reference_velocity=reference_velocity,
-            reference_velocity_m_per_s=reference_velocity_m_per_s,
-            **unknown,
-        )
+        super().__init__("stribeck", **given(locals()))
 
 
 class Decreasing(Friction):
@@ -83,14 +77,7 @@ class Decreasing(Friction):
         reference_velocity_m_per_s: float | None = None,
         **unknown: Unknown,
     ) -> None:
-        super().__init__(
-            "decreasing",
-            static_coefficient=static_coefficient,
-            minimum_coefficient=minimum_coefficient,
-            reference_velocity=reference_velocity,
-            reference_velocity_m_per_s=reference_velocity_m_per_s,
-            **unknown,
-        )
+        super().__init__("decreasing", **given(locals()))
 
 
 class Expression(Friction):
@@ -116,13 +103,7 @@ class Expression(Friction):
         static_coefficient: float | None = None,
         **unknown: Unknown,
     ) -> None:
-        super().__init__(
-            "expression",
-            coefficient=coefficient,
-            constants=constants,
-            static_coefficient=static_coefficient,
-            **unknown,
-        )
+        super().__init__("expression", **given(locals()))
 
 
 class Samples(Friction):
@@ -153,16 +134,7 @@ class Samples(Friction):
         terms: int | None = None,
         **unknown: Unknown,
     ) -> None:
-        super().__init__(
-            "samples",
-            slip_velocity=slip_velocity,
-            coefficient=coefficient,
-            slip_velocity_m_per_s=slip_velocity_m_per_s,
-            file=file,
-            static_coefficient=static_coefficient,
-            terms=terms,
-            **unknown,
-        )
+        super().__init__("samples", **given(locals()))
 
 
 class Dither(Table):
@@ -199,17 +171,7 @@ class Dither(Table):
         frequency_hz: float | None = None,
         **unknown: Unknown,
     ) -> None:
-        super().__init__(
-            direction=direction,
-            waveform=waveform,
-            amplitude=amplitude,
-            frequency_ratio=frequency_ratio,
-            phase=phase,
-            amplitude_n=amplitude_n,
-            amplitude_n_rms=amplitude_n_rms,
-            frequency_hz=frequency_hz,
-            **unknown,
-        )
+        super().__init__(**given(locals()))
 
 
 class Initial(Table):
@@ -238,14 +200,7 @@ class Initial(Table):
         velocity_m_per_s: float | None = None,
         **unknown: Unknown,
     ) -> None:
-        super().__init__(
-            state=state,
-            displacement=displacement,
-            velocity=velocity,
-            displacement_m=displacement_m,
-            velocity_m_per_s=velocity_m_per_s,
-            **unknown,
-        )
+        super().__init__(**given(locals()))
 
 
 class Solver(Table):
@@ -272,9 +227,7 @@ class Solver(Table):
         record_periods: int | None = None,
         **unknown: Unknown,
     ) -> None:
-        super().__init__(
-            tolerance=tolerance, settle=settle, settle_s=settle_s, record_periods=record_periods, **unknown
-        )
+        super().__init__(**given(locals()))
 
 
 class Belt(Study):
@@ -332,17 +285,7 @@ class Belt(Study):
         belt_velocity_m_per_s: float | None = None,
         **unknown: Unknown,
     ) -> None:
-        belt = Table(
-            damping_ratio=damping_ratio,
-            normal_load=normal_load,
-            belt_velocity=belt_velocity,
-            mass_kg=mass_kg,
-            stiffness_n_per_m=stiffness_n_per_m,
-            damping_n_s_per_m=damping_n_s_per_m,
-            normal_force_n=normal_force_n,
-            belt_velocity_m_per_s=belt_velocity_m_per_s,
-            **unknown,
-        )
+        belt = Table(**given(locals(), "friction", "dither", "initial", "solver", "axes", "title"))
         if initial is not None:
             belt.given["initial"] = start(initial)
         self._build(

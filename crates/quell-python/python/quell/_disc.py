@@ -6,9 +6,10 @@ import os
 from collections.abc import Iterable
 from typing import Literal
 
+from ._axes import Axes, axes_tables
 from ._belt import Dither, several
-from ._study import Axes, Study, axes_tables
-from ._tables import Table, Unknown
+from ._study import Study
+from ._tables import Table, Unknown, given
 
 __all__ = ["Disc", "Load", "Mode"]
 
@@ -42,16 +43,7 @@ class Load(Table):
         speed: float | None = None,
         **unknown: Unknown,
     ) -> None:
-        super().__init__(
-            radius_ratio=radius_ratio,
-            angle_deg=angle_deg,
-            mass=mass,
-            damping=damping,
-            stiffness=stiffness,
-            friction=friction,
-            speed=speed,
-            **unknown,
-        )
+        super().__init__(**given(locals()))
 
 
 class Mode(Table):
@@ -81,14 +73,7 @@ class Mode(Table):
         damping: float | None = None,
         **unknown: Unknown,
     ) -> None:
-        super().__init__(
-            diameters=diameters,
-            ratio=ratio,
-            frequency_hz=frequency_hz,
-            shape_at_load=shape_at_load,
-            damping=damping,
-            **unknown,
-        )
+        super().__init__(**given(locals()))
 
 
 class Disc(Study):
@@ -149,21 +134,8 @@ class Disc(Study):
         title: str | None = None,
         **unknown: Unknown,
     ) -> None:
-        disc = Table(
-            inner_radius_ratio=inner_radius_ratio,
-            poisson_ratio=poisson_ratio,
-            modal_damping=modal_damping,
-            radial_modes=radial_modes,
-            nodal_diameters=nodal_diameters,
-            reference_frequency=reference_frequency,
-            modes_file=modes_file,
-            without=several(without),
-            youngs_modulus_pa=youngs_modulus_pa,
-            density_kg_per_m3=density_kg_per_m3,
-            thickness_m=thickness_m,
-            outer_radius_m=outer_radius_m,
-            **unknown,
-        )
+        keys = given(locals(), "mode", "load", "dither", "axes", "title")
+        disc = Table(**{**keys, "without": several(without)})
         modes = [mode] if isinstance(mode, Table) else several(mode)
         for name, inner in (("mode", modes), ("load", several(load))):
             if inner is not None:

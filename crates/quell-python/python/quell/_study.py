@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, TypeVar, Union, overload
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _toml, results
-from ._errors import Complaint, StudyError, complaint
+from ._arguments import Arguments, changes_of
+from ._axes import Axes, Axis, axes_tables
+from ._errors import StudyError, complaint
 from ._quell import NativeStudy
-from ._tables import Table, Unknown
+from ._tables import Table
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -20,123 +22,6 @@ if TYPE_CHECKING:
 __all__ = ["Axis", "Study"]
 
 Self = TypeVar("Self", bound="Study")
-Numbers = Union["npt.ArrayLike", Sequence[float]]
-
-
-class Axis(Table):
-    """One axis of a map: ``Axis("dither.amplitude", 0.05, 1.0, 100)`` or ``Axis("dither.amplitude", values=[…])``.
-
-    Parameters
-    ----------
-    parameter :
-        Path of the number that is varied, SI twins included, such as ``belt.belt_velocity``.
-    from_, to, points :
-        Both ends included, in the unit of the parameter. An axis of a disc's speed gets further points beside
-        every meeting of waves.
-    values :
-        The values themselves instead, in any order.
-    spacing :
-        "linear" (equal steps) or "log" (equal ratios).
-    """
-
-    _path = "sweep"
-
-    def __init__(
-        self,
-        parameter: str | None = None,
-        from_: float | None = None,
-        to: float | None = None,
-        points: int | None = None,
-        *,
-        values: Numbers | None = None,
-        spacing: Literal["linear", "log"] | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        given = None if values is None else np.asarray(values, dtype=object).tolist()
-        super().__init__(
-            parameter=parameter, to=to, points=points, values=given, spacing=spacing, **unknown
-        )
-        if from_ is not None:
-            self.given["from"] = from_
-
-
-Axes = Union[Mapping[str, "Numbers | Axis"], Iterable[Axis], Axis]
-
-
-def axes_tables(axes: Axes | None) -> list[Any] | None:
-    """Axes as tables; what is none is left for the reader to refuse."""
-    if axes is None:
-        return None
-    if isinstance(axes, Table):
-        return [axes]
-    if isinstance(axes, Mapping):
-        return [
-            values if isinstance(values, Table) else Axis(path, values=values)
-            for path, values in axes.items()
-        ]
-    if isinstance(axes, Iterable) and not isinstance(axes, (str, bytes)):
-        return list(axes)
-    return [axes]
-
-
-class Arguments:
-    """Takes arguments of a method and gathers complaints about them."""
-
-    def __init__(self) -> None:
-        self.wrong: list[Complaint] = []
-
-    def number(self, name: str, given: object, allowed: str = "a finite number") -> float:
-        """A finite number."""
-        try:
-            if isinstance(given, (str, bytes, bool)):
-                raise TypeError
-            value = float(given)  # type: ignore[arg-type]
-        except (TypeError, ValueError, OverflowError):
-            value = float("nan")
-        if not np.isfinite(value):
-            self.wrong.append(complaint(name, given, allowed))
-        return value
-
-    def whole(self, name: str, given: object, least: int, most: int) -> int:
-        """A whole number between two others."""
-        if isinstance(given, (int, np.integer)) and not isinstance(given, bool) and least <= given <= most:
-            return int(given)
-        self.wrong.append(complaint(name, given, f"a whole number from {least} to {most}"))
-        return least
-
-    def pair(self, name: str, given: Any, allowed: str) -> tuple[float, float]:
-        """Two finite numbers."""
-        try:
-            first, second = given
-            pair = (float(first), float(second))
-        except (TypeError, ValueError, OverflowError):
-            pair = (float("nan"), float("nan"))
-        if not np.isfinite(pair).all():
-            self.wrong.append(complaint(name, given, allowed))
-        return pair
-
-    def path(self, name: str, given: object) -> str:
-        """A path."""
-        try:
-            found = os.fspath(given)  # type: ignore[call-overload]
-        except TypeError:
-            found = None
-        if not isinstance(found, str):
-            self.wrong.append(complaint(name, given, "a path", "path"))
-            return ""
-        return found
-
-    def text(self, name: str, given: object, allowed: str) -> str:
-        """A string."""
-        if not isinstance(given, str):
-            self.wrong.append(complaint(name, given, allowed))
-            return ""
-        return given.encode("utf-8", "replace").decode("utf-8")
-
-    def done(self) -> None:
-        """Raises where anything was wrong."""
-        if self.wrong:
-            raise StudyError(self.wrong)
 
 
 class Study:
@@ -646,16 +531,3 @@ class Study:
 def study_of(parts: Any) -> Study:
     """A study from what pickle kept of it."""
     return Study._of(NativeStudy.parse(parts))
-
-
-def changes_of(changes: object, arguments: Arguments) -> list[tuple[str, str]]:
-    """Changes as pairs of path and value."""
-    if changes is None:
-        return []
-    if not isinstance(changes, Mapping):
-        arguments.wrong.append(complaint("set", changes, "a dict of paths and values"))
-        return []
-    return [
-        (arguments.text("set", path, "a path such as belt.belt_velocity"), _toml.value(value))
-        for path, value in changes.items()
-    ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NoReturn
 
-__all__ = ["Table"]
+__all__ = ["Table", "given"]
 
 
 class Table:
@@ -33,3 +33,10 @@ class Table:
 
 Unknown = NoReturn
 """Keys that no table has: a type checker refuses them, and at run time the nearest right key is named."""
+
+
+def given(names: dict[str, Any], *beside: str) -> dict[str, Any]:
+    """The arguments of an ``__init__`` by name, as ``given(locals())`` in its first line; those ``beside`` left out."""
+    left_out = {"self", "__class__", "unknown", *beside}
+    known = {name: value for name, value in names.items() if name not in left_out}
+    return {**known, **names.get("unknown", {})}

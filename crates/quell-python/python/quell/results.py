@@ -202,6 +202,7 @@ class Check(Result):
 
     verb = "check"
     system: Literal["dimensionless", "si"]
+    """What its numbers are: those of the equations, or SI beside them."""
 
 
 class Citations(Result):
@@ -211,6 +212,7 @@ class Citations(Result):
     sources: list[dict[str, Any]]
     """``key``, ``reference``, and ``used``: for what."""
     corrections: list[dict[str, Any]]
+    """Where the print of a source is wrong, and what is right."""
 
 
 class FrictionCurve(Result):
@@ -244,6 +246,7 @@ class Stability(Result):
 
     verb = "stability"
     verdict: Verdict
+    """Whether small motions die out."""
     criterion: float | None
     """Belt: 2ζ + Fμ̄′ (2.26), stable where positive."""
     critical_amplitudes: list[dict[str, Any]] | None
@@ -261,6 +264,7 @@ class Simulation(Result):
     events: list[dict[str, Any]]
     """``time``, ``kind`` ("stick", "release", "reversal"), ``slip_sign``, ``displacement`` of every event."""
     event_count: int
+    """Number of events, kept or not."""
 
 
 class Response(Result):
@@ -268,18 +272,27 @@ class Response(Result):
 
     verb = "response"
     amplitude: float
-    """Largest spectral amplitude below 2 ω₀: a length."""
+    """Largest spectral amplitude with 0 < ω ≤ 1.9 ω₀: a length."""
     undithered_amplitude: float
+    """The same without dither."""
     efficiency: float | None
     """E = amplitude over undithered amplitude (2.27)."""
     stick_fraction: float
+    """Share of the time in which the mass sticks to the belt."""
     settled: bool
+    """Whether both halves of the record have the same amplitude."""
     undithered_settled: bool
+    """The same without dither."""
     mean_friction: float
+    """Mean friction force over k: a length."""
     mean_friction_undithered: float
+    """The same without dither."""
     dither_power: float | None
+    """Mean power of tangential dither over kω₀: a length squared."""
     dither_stroke: float | None
+    """Stroke of the fast motion that tangential dither makes: a length."""
     minimum_normal_load: float
+    """Least normal force over k: a length."""
     peaks: list[dict[str, float]]
     """Peaks of the spectrum: ``frequency`` (ω₀), ``amplitude``."""
 
@@ -289,13 +302,21 @@ class Orbit(Result):
 
     verb = "orbit"
     displacement: float
+    """x at τ = 0: a length."""
     velocity: float
-    period: float
+    """x′ at τ = 0: a length per τ."""
+    period: float | None
+    """Period, in τ; none where there is no orbit."""
     verdict: Verdict
+    """Whether small changes of it die out."""
     stick_episodes: int
+    """Sticks in a period."""
     reversals: int
+    """Reversals of slip in a period."""
     stick_fraction: float
+    """Share of the period in which the mass sticks."""
     residual: float
+    """How far the state is from itself after a period: a length."""
 
     @property
     def multipliers(self) -> npt.NDArray[np.complex128]:
@@ -309,8 +330,16 @@ class Thresholds(Result):
 
     verb = "thresholds"
     parameter: str
+    """Path of the parameter."""
     local: list[dict[str, Any]]
-    """``value`` with its ``error``, ``kind`` ("neimark-sacker", "grazing", "fold", "flip"), ``was``, ``becomes``."""
+    """``value`` with its ``error``, ``kind``, ``was``, ``becomes``, and the state ``displacement``, ``velocity``.
+
+    Kinds are "neimark-sacker", "hopf", "flip", "fold", "grazing", "branching", "signature".
+    """
+    signature_changes: list[dict[str, Any]]
+    """``value`` at which the events of a period change, ``below`` and ``above``: what they are there."""
+    covered: bool
+    """Whether the response was followed over the whole range."""
 
 
 class ThresholdCurves(Result):
@@ -318,7 +347,9 @@ class ThresholdCurves(Result):
 
     verb = "thresholds"
     parameter: str
+    """Path of the parameter whose thresholds are followed."""
     along: str
+    """Path of the parameter along which they are."""
     curves: list[dict[str, Any]]
     """``kind``, ``value`` (n,), ``along`` (n,), ``multiplier_modulus`` (n,), ``ends`` of each curve."""
 
@@ -327,12 +358,41 @@ class Bifurcation(Result):
     """The response along a parameter, swept up and down."""
 
     verb = "bifurcation"
+    parameter: str
+    """Path of the parameter."""
+    unit: str
+    """Unit of its values."""
+    start: str
+    """Where the first sweep begins."""
+    jumps: list[dict[str, Any]]
+    """``direction``, ``before`` and ``after``: values between which the quiet response is left or reached; ``becomes``."""
+    hysteresis: list[list[float]] | None
+    """First and last value of each stretch in which up and down differ; none where one way alone was swept.
+
+    A direction that was swept, ``up`` or ``down``, is a list of its points: ``value``, ``local_verdict``, ``settled``,
+    ``quiet``, ``kind``, ``periods``, ``rotation_number``, ``section_displacement`` (n,), …
+    """
 
 
 class Basins(Result):
     """The responses that starts of a window end on, and the share of each."""
 
     verb = "basins"
+    starts: int
+    """Number of starts."""
+    window_displacement: list[float]
+    """Least and largest x of the starts: lengths."""
+    window_velocity: list[float]
+    """Least and largest x′ of the starts: lengths per τ."""
+    layout: dict[str, Any]
+    """``grid``: displacements and velocities; or ``sample`` and ``seed``."""
+    error_meaning: str
+    """What the bounds of the shares are.
+
+    Without a parameter: ``quiet_fraction``, ``local_verdict``, ``attractors`` (each with ``words``, ``fraction``,
+    ``fraction_low``, ``fraction_high``, …), ``unknown`` and ``ends``, the place of the attractor of each start. Over a
+    parameter: ``portraits``, a list of these by ``value``.
+    """
 
 
 class Modes(Result):
@@ -350,6 +410,7 @@ class Resonances(Result):
 
     verb = "resonances"
     undithered: list[dict[str, Any]]
+    """Meetings that need no dither, as ``dithered``."""
     dithered: list[dict[str, Any]]
     """``speed``, ``waves``, ``can_be_unstable``, ``threshold``, ``edges``, ``peak_growth`` of each meeting."""
 
@@ -359,7 +420,9 @@ class Map(Result, Mapping[str, Any]):
 
     verb = "map"
     shape: list[int]
+    """Number of values of each axis."""
     points: int
+    """Number of points."""
     resumed_points: int
     """Points that were in the store already."""
 
@@ -383,7 +446,9 @@ class Shard(Result):
     chunks: int
     """Chunks of this shard."""
     computed_chunks: int
+    """Chunks of it that were computed now."""
     computed_points: int
+    """Points of these."""
     there_chunks: int
     """Chunks that the store had already."""
     left_chunks: int
