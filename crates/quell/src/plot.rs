@@ -53,6 +53,7 @@ mod shades;
 mod stretches;
 mod thin;
 mod ticks;
+mod tspan;
 mod typeset;
 
 pub use axis::{Axis, Range, Scale};

@@ -8,7 +8,8 @@ use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 
 use super::fonts::FAMILY;
 use super::palette::{Colour, FRAME};
-use super::typeset::{Label, Tags};
+use super::tspan::Tags;
+use super::typeset::Label;
 
 /// Stands for the picture's own name in identifiers until its contents are known.
 const PICTURE_NAME: &str = "quell-picture";

@@ -5,16 +5,11 @@
 //! macron after a letter), `\word` prints the word upright (`\ln`), and `-` prints as a minus sign.
 //! A dollar without a partner prints as itself. Greek letters are typed as they are: `$τ$`, `$ω_0$`.
 //!
-//! kuva prints one style per text, so each run is wrapped into private-use characters on the way in,
-//! and these become `<tspan>` elements on the way out ([`Tags::resolve`]).
-
-use std::fmt::Write as _;
+//! How a look becomes elements of the picture: [`super::tspan`].
 
 use super::fonts::{self, Face};
+use super::tspan::{Pen, Tags};
 
-const FIRST_TAG: u32 = 0xE000;
-const LAST_TAG: u32 = 0xF000;
-const CLOSE: char = '\u{F8FF}';
 /// Size of a subscript or superscript, as a share of the text's.
 const SMALL: f64 = 0.72;
 /// How far they are lowered (em of the text, downwards).
@@ -24,14 +19,8 @@ const RAISED: f64 = -0.36;
 /// Size of a subscript within a superscript, and how far it is raised.
 const SMALLER: f64 = 0.55;
 const RAISED_LESS: f64 = -0.24;
-/// The bar over a letter: a macron moved back over it, higher over a tall letter (em of the text).
-const BAR: &str = "¯";
-const BAR_OVER_TALL: f64 = -0.16;
-/// Letters in italics lean to the right by this at the height of the bar (em).
-const LEAN: f64 = 0.06;
-
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-enum Level {
+pub(super) enum Level {
     #[default]
     Base,
     Lowered,
@@ -41,7 +30,7 @@ enum Level {
 
 impl Level {
     /// Size as a share of the text's.
-    fn share(self) -> f64 {
+    pub(super) fn share(self) -> f64 {
         match self {
             Self::Base => 1.0,
             Self::Lowered | Self::Raised => SMALL,
@@ -61,10 +50,10 @@ impl Level {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-struct Look {
-    italic: bool,
-    barred: bool,
-    level: Level,
+pub(super) struct Look {
+    pub(super) italic: bool,
+    pub(super) barred: bool,
+    pub(super) level: Level,
 }
 
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -77,12 +66,6 @@ struct Run {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Label {
     runs: Vec<Run>,
-}
-
-/// What each private-use character stands for in one picture.
-#[derive(Debug, Default)]
-pub(super) struct Tags {
-    opening: Vec<String>,
 }
 
 impl Label {
@@ -124,7 +107,7 @@ impl Label {
 
     /// The text for kuva, with looks as private-use characters.
     pub(super) fn encode(&self, tags: &mut Tags) -> String {
-        let mut pen = Pen { tags, text: String::new(), depth: 0.0, aside: 0.0 };
+        let mut pen = Pen::new(tags);
         for run in &self.runs {
             // kuva reads `$…$` and `\$` itself; a dollar that is left here is to print.
             let printed = run.text.replace('$', "\\$");
@@ -134,7 +117,7 @@ impl Label {
                 pen.put(&printed, run.look, run.look.level.depth());
             }
         }
-        pen.text
+        pen.into_text()
     }
 
     /// The text for a page of HTML.
@@ -234,42 +217,6 @@ impl Label {
     }
 }
 
-/// Writes runs one after the other and knows where the last one left off.
-struct Pen<'a> {
-    tags: &'a mut Tags,
-    text: String,
-    /// Depth of the base line now (em of the text).
-    depth: f64,
-    /// Way to go before the next run (em of the text).
-    aside: f64,
-}
-
-impl Pen<'_> {
-    fn put(&mut self, printed: &str, look: Look, depth: f64) {
-        let (down, aside) = (depth - self.depth, std::mem::take(&mut self.aside));
-        self.depth = depth;
-        if look == Look::default() && down == 0.0 && aside == 0.0 {
-            self.text.push_str(printed);
-        } else {
-            self.text.push(self.tags.open(look, down, aside));
-            self.text.push_str(printed);
-            self.text.push(CLOSE);
-        }
-    }
-
-    fn put_barred(&mut self, letter: char, look: Look) {
-        let letter_text = letter.to_string();
-        let face = if look.italic { Face::Oblique } else { Face::Regular };
-        let lean = if look.italic { LEAN } else { 0.0 };
-        let (own, bar) = (fonts::width(&letter_text, face), fonts::width(BAR, Face::Regular));
-        self.put(&letter_text, look, 0.0);
-        let tall = letter.is_uppercase() || "bdfhkltβδζθλξφψ".contains(letter);
-        self.aside = lean - 0.5 * (own + bar);
-        self.put(BAR, Look::default(), if tall { BAR_OVER_TALL } else { 0.0 });
-        self.aside = 0.5 * (own - bar) - lean;
-    }
-}
-
 /// The letters of `{…}` or the one letter at `at`, and where the text goes on.
 fn group(letters: &[char], at: usize) -> (Vec<char>, usize) {
     match letters.get(at) {
@@ -297,53 +244,6 @@ fn is_slanted(letter: char) -> bool {
     letter.is_ascii_alphabetic()
         || ('α'..='ω').contains(&letter)
         || matches!(letter, 'ϕ' | 'ϵ' | 'ϑ')
-}
-
-impl Tags {
-    /// The character for a look that starts so far below and right of the last run (em of the text).
-    fn open(&mut self, look: Look, down: f64, aside: f64) -> char {
-        let mut tag = String::from("<tspan");
-        if look.italic {
-            tag.push_str(" font-style=\"italic\"");
-        }
-        let share = look.level.share();
-        if look.level != Level::Base {
-            let _ = write!(tag, " font-size=\"{:.0}%\"", 100.0 * share);
-        }
-        if aside != 0.0 {
-            let _ = write!(tag, " dx=\"{:.3}em\"", aside / share);
-        }
-        if down != 0.0 {
-            let _ = write!(tag, " dy=\"{:.3}em\"", down / share);
-        }
-        tag.push('>');
-        let index = self.opening.iter().position(|known| *known == tag).unwrap_or_else(|| {
-            self.opening.push(tag);
-            self.opening.len() - 1
-        });
-        // There are no more than a few dozen different looks.
-        u32::try_from(index)
-            .ok()
-            .and_then(|index| char::from_u32(FIRST_TAG + index))
-            .unwrap_or(CLOSE)
-    }
-
-    /// Puts the elements in place of the private-use characters.
-    pub(super) fn resolve(&self, svg: &str) -> String {
-        let mut resolved = String::with_capacity(svg.len() + 1024);
-        for letter in svg.chars() {
-            match u32::from(letter) {
-                code @ FIRST_TAG..=LAST_TAG => {
-                    if let Some(tag) = self.opening.get((code - FIRST_TAG) as usize) {
-                        resolved.push_str(tag);
-                    }
-                }
-                _ if letter == CLOSE => resolved.push_str("</tspan>"),
-                _ => resolved.push(letter),
-            }
-        }
-        resolved
-    }
 }
 
 /// Breaks a text into labels no wider than `room` pixels, at spaces outside of `$…$`.
@@ -385,6 +285,7 @@ pub(super) fn number(value: f64, decimals: usize) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::tspan::BAR;
     use super::*;
 
     fn looks(source: &str) -> Vec<(String, Look)> {

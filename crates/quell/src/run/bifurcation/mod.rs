@@ -1,0 +1,207 @@
+//! `bifurcation`: the response along a parameter, swept up and down with the state carried over.
+//!
+//! At each value the run goes on from where the last one ended (on a closed orbit from its exact state), until a growth rate says
+//! that it has settled. Sweeping down begins where sweeping up ended. Where the two differ, responses coexist.
+
+mod tell;
+
+use std::sync::atomic::Ordering;
+
+use quell_belt::attractor::{Attractor, Patience, Unsettled, measure, settle};
+use quell_belt::orbit::Verdict;
+use quell_belt::simulation::Start;
+
+use super::attractor::{scene, unknown};
+use super::varied::{Range, Varied};
+use super::{failed, start, stopped};
+use crate::complaint::Failure;
+use crate::study::Study;
+use crate::sweep::Running;
+
+/// Relative difference of size beyond which the two directions show different responses.
+const APART: f64 = 0.02;
+
+/// The same relative to F, for responses without slow motion.
+const APART_AT_LEAST: f64 = 1e-4;
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// The parameter and its values.
+    pub range: Range,
+    /// Whether it is swept up.
+    pub up: bool,
+    /// Whether it is swept down.
+    pub down: bool,
+}
+
+/// Which way a parameter is swept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Direction {
+    /// To larger values.
+    Up,
+    /// To smaller values.
+    Down,
+}
+
+impl Direction {
+    /// Word in outputs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Up => "up",
+            Self::Down => "down",
+        }
+    }
+}
+
+/// The response at one value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// The parameter.
+    pub value: f64,
+    /// Period of the section, τ.
+    pub period: f64,
+    /// Whether the response of sliding is stable here, whether or not the sweep is on it; or why that is not known.
+    pub local: Result<Verdict, String>,
+    /// What the sweep is on; or why it has not settled.
+    pub response: Result<Attractor, Unsettled>,
+    /// Periods until it had settled.
+    pub periods: u64,
+}
+
+/// A sweep in one direction, in the order of the sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Branch {
+    /// Which way.
+    pub direction: Direction,
+    /// Its points.
+    pub points: Vec<Point>,
+}
+
+/// Two neighbouring values of a branch between which the quiet response is left or reached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jump {
+    /// The last value before.
+    pub before: f64,
+    /// The first value after.
+    pub after: f64,
+    /// Whether the sweep is on the quiet response afterwards.
+    pub to_quiet: bool,
+}
+
+/// Sweeps of one parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bifurcation {
+    /// The parameter and its values.
+    pub varied: Varied,
+    /// The sweeps that were asked for, up before down.
+    pub branches: Vec<Branch>,
+    /// First and last value of each stretch in which the two directions show different responses.
+    pub hysteresis: Vec<(f64, f64)>,
+}
+
+/// Sweeps the belt of a study.
+///
+/// # Errors
+/// Complaints about the question or the start; [`Failure::Failed`] if the engine stops or the work is stopped.
+pub fn run(
+    study: &Study,
+    question: &Question,
+    running: Running<'_>,
+) -> Result<Bifurcation, Failure> {
+    let varied = Varied::new(study, "--parameter", &question.range)?;
+    // Both where none is asked for.
+    let (up, down) =
+        if question.up || question.down { (question.up, question.down) } else { (true, true) };
+    let count = varied.values.len();
+    let asked = [(up, Direction::Up), (down, Direction::Down)].into_iter().filter(|it| it.0);
+    let directions: Vec<Direction> = asked.map(|it| it.1).collect();
+    running.progress.begin(count * directions.len(), 0);
+    let mut branches: Vec<Branch> = Vec::new();
+    let mut state: Option<Start> = None;
+    let swept = directions.into_iter().try_for_each(|direction| {
+        let mut values = varied.values.clone();
+        if direction == Direction::Down {
+            values.reverse();
+        }
+        let mut found = Vec::with_capacity(count);
+        for value in values {
+            if running.stop.load(Ordering::Relaxed) {
+                return Err(stopped("bifurcation"));
+            }
+            let at = varied.study_at(study, value)?;
+            let begun = match state {
+                Some(state) => state,
+                None => start(&at)?,
+            };
+            let (point, end) = point(&at, value, begun)?;
+            found.push(point);
+            state = Some(end);
+            running.progress.advance(1);
+        }
+        branches.push(Branch { direction, points: found });
+        Ok(())
+    });
+    running.progress.end();
+    swept?;
+    let hysteresis = hysteresis(study, &branches);
+    Ok(Bifurcation { varied, branches, hysteresis })
+}
+
+/// The response at one value, and the state with which the next one begins.
+fn point(study: &Study, value: f64, begun: Start) -> Result<(Point, Start), Failure> {
+    let scene = scene(study.belt())?;
+    let patience = Patience { tolerance: study.solver().tolerance, ..Patience::SWEEP };
+    let settled = settle(&scene, begun, patience).map_err(failed)?;
+    let attractor = measure(&scene, &settled).map_err(failed)?;
+    let end = attractor.as_ref().map_or(settled.state, |attractor| attractor.state);
+    let response = attractor.ok_or_else(|| settled.why().unwrap_or(Unsettled::Moving));
+    let local = scene.quiet.as_ref().map(|quiet| quiet.verdict).map_err(unknown);
+    let period = scene.strobe.period;
+    Ok((Point { value, period, local, response, periods: settled.periods }, end))
+}
+
+/// Stretches in which both directions were swept and show different responses.
+fn hysteresis(study: &Study, branches: &[Branch]) -> Vec<(f64, f64)> {
+    let [up, down] = branches else { return Vec::new() };
+    let scale = study.belt().normal_load();
+    let mut stretches: Vec<(f64, f64)> = Vec::new();
+    let mut open = false;
+    for (one, other) in up.points.iter().zip(down.points.iter().rev()) {
+        let apart = match (&one.response, &other.response) {
+            (Ok(one), Ok(other)) => {
+                let most = one.size().max(other.size());
+                (one.size() - other.size()).abs() > APART * most + APART_AT_LEAST * scale
+            }
+            _ => false,
+        };
+        match (apart, stretches.last_mut()) {
+            (true, Some(last)) if open => last.1 = one.value,
+            (true, _) => stretches.push((one.value, one.value)),
+            (false, _) => {}
+        }
+        open = apart;
+    }
+    stretches
+}
+
+impl Point {
+    /// Whether the sweep is on the response of sliding.
+    pub fn quiet(&self) -> bool {
+        self.response.as_ref().is_ok_and(|attractor| attractor.quiet)
+    }
+}
+
+impl Branch {
+    /// Where the quiet response is left or reached.
+    pub fn jumps(&self) -> Vec<Jump> {
+        let changes = self.points.windows(2).filter(|pair| pair[0].quiet() != pair[1].quiet());
+        changes
+            .map(|pair| Jump {
+                before: pair[0].value,
+                after: pair[1].value,
+                to_quiet: pair[1].quiet(),
+            })
+            .collect()
+    }
+}

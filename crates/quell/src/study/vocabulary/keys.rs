@@ -1,0 +1,127 @@
+//! Every key, made from the registry of parameters and from lists of what takes no number of it.
+
+use quell_model::LawKind;
+use quell_model::parameter::{self, Parameter};
+
+use super::{Choice, Key, Role, Section};
+
+/// Every key, table by table.
+pub(super) fn all() -> Vec<Key> {
+    let mut keys = words();
+    keys.extend(numbers());
+    keys.extend(own_law());
+    keys.extend(disc());
+    keys.extend(axis());
+    keys.sort_by_key(|key| Section::ALL.iter().position(|section| *section == key.section));
+    keys
+}
+
+/// Keys that take words.
+fn words() -> Vec<Key> {
+    use Section::{Dither, Friction, Initial, Root};
+    let word =
+        |section, name, choice, about| Key { section, name, role: Role::Choice(choice), about };
+    let root = |name, role, about| Key { section: Root, name, role, about };
+    vec![
+        root("schema", Role::Schema, "version of the study file"),
+        root("title", Role::Text, "what the study is about"),
+        word(Initial, "state", Choice::State, "a named state"),
+        word(Friction, "law", Choice::Law, "the friction law"),
+        word(Dither, "direction", Choice::Direction, "where the force acts"),
+        word(Dither, "waveform", Choice::Waveform, "shape of the force in time"),
+    ]
+}
+
+/// Keys that take a number of the registry, in the numbers of the equations or in SI.
+fn numbers() -> Vec<Key> {
+    let scales = parameter::SCALES.iter().map(|scale| Key {
+        section: Section::Belt,
+        name: scale.key(),
+        role: Role::Scale(*scale),
+        about: scale.about,
+    });
+    let mut keys: Vec<Key> = scales.collect();
+    let mut parameters = parameter::BELT.to_vec();
+    // The disc's dither has the keys of the belt's.
+    let own = |parameter: &&Parameter| parameter.table() == "disc";
+    parameters.extend(parameter::disc::DISC.iter().filter(own));
+    for parameter in LawKind::ALL.iter().flat_map(|law| law.parameters()) {
+        if !parameters.iter().any(|known| known.path == parameter.path) {
+            parameters.push(*parameter);
+        }
+    }
+    for parameter in parameters {
+        let table = parameter.path.strip_suffix(parameter.key()).unwrap_or_default();
+        let at = |section: &&Section| section.path() == table.trim_end_matches('.');
+        let section = Section::ALL.iter().find(at).copied().unwrap_or(Section::Root);
+        let about = parameter.about;
+        keys.push(Key { section, name: parameter.key(), role: Role::Number(parameter), about });
+        keys.extend(parameter.si.iter().map(|&twin| Key {
+            section,
+            name: twin.key,
+            role: Role::Twin(parameter, twin),
+            about,
+        }));
+    }
+    keys
+}
+
+/// Keys of a friction law of one's own.
+fn own_law() -> Vec<Key> {
+    let key = |name, role, about| Key { section: Section::Friction, name, role, about };
+    vec![
+        key(
+            "coefficient",
+            Role::Coefficient,
+            "formula of the coefficient in the slip velocity v, or measured coefficients",
+        ),
+        key(
+            "file",
+            Role::Text,
+            "CSV file of measured slip speeds and coefficients, beside the study",
+        ),
+        key("slip_velocity", Role::Speeds { si: false }, "measured slip speeds"),
+        key("slip_velocity_m_per_s", Role::Speeds { si: true }, "measured slip speeds"),
+        key(
+            "terms",
+            Role::Terms,
+            "number of exponentials of the fit, the best where it is not given",
+        ),
+    ]
+}
+
+/// Keys of a disc that take no number of the registry.
+fn disc() -> Vec<Key> {
+    let key = |name, role, about| Key { section: Section::Disc, name, role, about };
+    vec![
+        key(
+            "reference_frequency",
+            Role::Reference,
+            "what frequencies and speeds are measured in: \"critical\", the lowest critical speed of these modes, \
+             or a frequency parameter k²",
+        ),
+        key(
+            "modes_file",
+            Role::Text,
+            "CSV file of modes, beside the study, instead of computed ones",
+        ),
+        key(
+            "without",
+            Role::Choices(Choice::Contribution),
+            "parts of the equations that are left out",
+        ),
+    ]
+}
+
+/// Keys of an axis.
+fn axis() -> Vec<Key> {
+    let key = |name, role, about| Key { section: Section::Sweep, name, role, about };
+    vec![
+        key("parameter", Role::Text, "path of the number that is varied"),
+        key("from", Role::AxisNumber, "first value"),
+        key("to", Role::AxisNumber, "last value"),
+        key("points", Role::AxisPoints, "number of values, both ends included"),
+        key("values", Role::AxisValues, "the values themselves, instead of from, to and points"),
+        key("spacing", Role::Choice(Choice::Spacing), "how the values lie between the ends"),
+    ]
+}

@@ -1,0 +1,35 @@
+//! Lists of words that keys take.
+
+use quell_disc::system::Contribution;
+use quell_model::{Direction, LawKind, Waveform};
+
+/// A list of words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Choice {
+    /// Initial states.
+    State,
+    /// Friction laws.
+    Law,
+    /// Directions of dither.
+    Direction,
+    /// Waveforms of dither.
+    Waveform,
+    /// Spacings of an axis.
+    Spacing,
+    /// Parts of the disc's equations.
+    Contribution,
+}
+
+impl Choice {
+    /// The words.
+    pub fn names(self) -> Vec<&'static str> {
+        match self {
+            Self::State => vec!["rest", "sliding", "squealing"],
+            Self::Law => LawKind::ALL.iter().map(|law| law.name()).collect(),
+            Self::Direction => Direction::ALL.iter().map(|direction| direction.name()).collect(),
+            Self::Waveform => Waveform::ALL.iter().map(|waveform| waveform.name()).collect(),
+            Self::Spacing => vec!["linear", "log"],
+            Self::Contribution => Contribution::ALL.iter().map(|part| part.name()).collect(),
+        }
+    }
+}
