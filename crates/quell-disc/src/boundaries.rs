@@ -11,6 +11,8 @@
 //! exactly, linear in c, without a grid. A mode with w = 0 is out of the force's reach: iω stays an eigenvalue for every f. Such
 //! are the modes at the speeds of table 5.1 and at Ω = 0, vertical lines of the map.
 
+use std::fmt;
+
 use quell_numerics::eigen::{Decomposition, EigenError};
 
 use crate::disc::Disc;
@@ -51,6 +53,25 @@ pub enum NoBoundary {
     /// Eigenvalues cannot be computed.
     Eigenvalues(EigenError),
 }
+
+impl fmt::Display for NoBoundary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Loads(count) => {
+                write!(f, "exact boundaries are known for one load, and there are {count}")
+            }
+            Self::DampedModes => {
+                f.write_str("exact boundaries are known for a disc without modal damping")
+            }
+            Self::Unstable => {
+                f.write_str("the disc grows even without damper and friction at this speed")
+            }
+            Self::Eigenvalues(why) => why.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for NoBoundary {}
 
 /// Boundaries at the disc's speed, sorted by frequency. The disc's own friction and dither play no part.
 ///

@@ -21,6 +21,8 @@
 //! Limits: crossings that come and go within one step of ω are missed (`POINTS_PER_WAVE`); near poles of T, at ξ = 0 close to a
 //! coincidence, they can be that close.
 
+use std::fmt;
+
 use num_complex::Complex64;
 use quell_numerics::eigen::Tridiagonal;
 
@@ -65,6 +67,27 @@ pub enum NoPartition {
     /// Eigenvalues failed at every ω.
     Eigenvalues,
 }
+
+impl fmt::Display for NoPartition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Loads(count) => {
+                write!(f, "boundaries by D-partition are known for one load, and there are {count}")
+            }
+            Self::Undithered => f.write_str("there is no dither"),
+            Self::TooManyHarmonics { harmonics } => write!(
+                f,
+                "the dither is too slow beside the waves: a D-partition would need {harmonics} harmonics, more than \
+                 {MOST_HARMONICS}"
+            ),
+            Self::Eigenvalues => {
+                f.write_str("eigenvalues failed at every frequency: numbers are too large")
+            }
+        }
+    }
+}
+
+impl std::error::Error for NoPartition {}
 
 /// The tridiagonal operator of a disc.
 struct Operator<'a> {

@@ -220,7 +220,7 @@ fn first_harmonic_of_a_reversed_friction() {
     close(first.expect("converges").value, 4.0 / PI, 1e-12);
     let largest = |friction: f64, rate: &dyn Fn(&Disc) -> f64, amplitude: f64| {
         let dither = Dither::Tangential { amplitude, frequency_ratio: 2.7 };
-        let speeds = (0..=30).map(|k| 0.318 + 4e-4 * f64::from(k));
+        let speeds = (0..=30).map(|k| 0.3182 + 4e-4 * f64::from(k));
         let discs = speeds.map(|speed| disc(0.1, friction / 0.1, 0.0, dither, speed));
         discs.map(|disc| rate(&disc)).fold(f64::MIN, f64::max)
     };

@@ -7,6 +7,8 @@
 //! search for modulus 1, or differences that straddle the touch, are wrong by up to 3·10⁻⁴.
 //! Multipliers at a touch are one-sided: those of pure slip, and those of the orbit with contact events found just beyond.
 
+use std::fmt;
+
 use quell_model::Belt;
 use quell_numerics::continuation::branch::{Branch, End, Follow, Passage, Side, follow};
 use quell_numerics::continuation::threshold::Kind as Event;
@@ -181,6 +183,18 @@ pub enum NoThresholds {
         why: NoOrbit,
     },
 }
+
+impl fmt::Display for NoThresholds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Invalid { value } => write!(f, "the parameter cannot be {value}"),
+            Self::Start(why) => why.fmt(f),
+            Self::Lost { at, why } => write!(f, "the response was lost beyond {at}: {why}"),
+        }
+    }
+}
+
+impl std::error::Error for NoThresholds {}
 
 /// Thresholds of the response that sliding becomes at the value `from`, followed to the value `to` in at least `steps`
 /// steps.

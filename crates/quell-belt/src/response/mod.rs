@@ -81,6 +81,8 @@ impl fmt::Display for Undefined {
     }
 }
 
+impl std::error::Error for Undefined {}
+
 /// A steady response. Lengths in the study's length, frequencies in ω₀.
 #[derive(Clone, Debug)]
 pub struct Response {

@@ -2,7 +2,7 @@
 
 use quell_disc::boundaries::{Marginal, NoBoundary, boundaries};
 use quell_disc::dithered::DitheredDisc;
-use quell_disc::partition::{MOST_HARMONICS, NoPartition, crossings};
+use quell_disc::partition::{NoPartition, crossings};
 use quell_disc::system::Contributions;
 use quell_disc::{Dither, Growth, Verdict, undithered};
 use quell_numerics::floquet::Effort;
@@ -76,23 +76,16 @@ fn still(study: &DiscStudy) -> (Result<Vec<Change>, String>, bool) {
         }
         Err(why) => {
             let why = match why {
-                NoBoundary::Loads(count) => {
-                    format!("exact boundaries are known for one load, and there are {count}")
-                }
-                NoBoundary::DampedModes => {
-                    "exact boundaries are known for a disc without modal damping; `quell map` over \
-                     disc.load.friction shows them for any"
-                        .to_owned()
-                }
-                NoBoundary::Unstable => {
-                    "the disc grows even without damper and friction at this speed".to_owned()
-                }
-                NoBoundary::Eigenvalues(why) => why.to_string(),
+                NoBoundary::DampedModes => format!("{why}; {MAP}"),
+                _ => why.to_string(),
             };
             (Err(why), false)
         }
     }
 }
+
+/// What shows the boundaries that have no exact way.
+const MAP: &str = "`quell map` over disc.load.friction shows them for any";
 
 /// Boundaries under dither.
 fn shaken(study: &DiscStudy) -> Result<Vec<Change>, String> {
@@ -103,15 +96,8 @@ fn shaken(study: &DiscStudy) -> Result<Vec<Change>, String> {
     let sign = if friction < 0.0 { -1.0 } else { 1.0 };
     let unit = if sign < 0.0 { unit.with_friction_times(-1.0).unwrap_or(unit) } else { unit };
     let found = crossings(&unit).map_err(|why| match why {
-        NoPartition::Loads(count) => {
-            format!("boundaries by D-partition are known for one load, and there are {count}")
-        }
-        NoPartition::Undithered => "there is no dither".to_owned(),
-        NoPartition::TooManyHarmonics { harmonics } => format!(
-            "the dither is too slow beside the waves: a D-partition would need {harmonics} harmonics, more than \
-             {MOST_HARMONICS}; `quell map` over disc.load.friction shows the boundaries"
-        ),
-        NoPartition::Eigenvalues => "eigenvalues failed at every frequency: numbers are too large".to_owned(),
+        NoPartition::TooManyHarmonics { .. } => format!("{why}; {MAP}"),
+        _ => why.to_string(),
     })?;
     let change = |crossing: &quell_disc::partition::Crossing| Change {
         friction: sign * crossing.factor,
