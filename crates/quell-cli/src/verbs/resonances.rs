@@ -4,7 +4,9 @@ use std::fmt::Write as _;
 
 use clap::{Args, ValueEnum};
 use quell::picture;
-use quell::run::disc::resonances::{Order, Question, Resonances, run as resonances};
+use quell::run::disc::resonances::{
+    Clear, Order, Question, Resonance, Resonances, run as resonances,
+};
 use quell::{DiscStudy, Failure};
 
 use super::numbers::window;
@@ -98,80 +100,82 @@ fn text(study: &DiscStudy, done: &Resonances) -> String {
             text.push_str("  none\n");
         }
         for resonance in list {
-            let tongue = match (resonance.tongue.edges(), resonance.tongue.peak_growth()) {
-                (Some([from, to]), Some(growth)) => {
-                    format!(
-                        "tongue {} to {}, growth up to {}",
-                        figure(from),
-                        figure(to),
-                        figure(growth)
-                    )
-                }
-                (None, Some(growth)) => by_itself(growth),
-                _ if resonance.can_be_unstable() => match resonance.threshold {
-                    Some(threshold) => format!("a tongue from f* = {}", figure(threshold)),
-                    None => "no tongue".to_owned(),
-                },
-                _ => "cannot be unstable".to_owned(),
-            };
-            let _ = writeln!(
-                text,
-                "  Ω = {:<9}  {}: {tongue}",
-                figure(resonance.speed),
-                resonance.label()
-            );
+            let (speed, label) = (figure(resonance.speed), resonance.label());
+            let _ = writeln!(text, "  Ω = {speed:<9}  {label}: {}", tongue(resonance));
         }
     }
     if let Some(clear) = &done.clear {
-        let (from, to) = (figure(*clear.speeds.start()), figure(*clear.speeds.end()));
-        let _ = writeln!(
-            text,
-            "Dither frequencies R that keep {from} to {to} clear of tongues that dither makes:"
-        );
-        for [from, to] in &clear.clearance.clear {
-            let _ = writeln!(text, "  {} to {}", figure(*from), figure(*to));
+        text += &clearance(clear);
+    }
+    text
+}
+
+/// What becomes of a meeting.
+fn tongue(resonance: &Resonance) -> String {
+    match (resonance.tongue.edges(), resonance.tongue.peak_growth()) {
+        (Some([from, to]), Some(growth)) => {
+            let (from, to, growth) = (figure(from), figure(to), figure(growth));
+            format!("tongue {from} to {to}, growth up to {growth}")
         }
-        match &clear.suggestion {
-            None => text.push_str("  none\n"),
-            Some((ratio, nearby)) => {
-                let _ = writeln!(text, "  best away from the others: R = {}", figure(*ratio));
-                let _ = match &clear.verified {
-                    Some(it) if it.is_clear() => writeln!(
-                        text,
-                        "  verified: by the exact equations nothing grows there, the largest rate is {}",
-                        figure(it.growth.rate)
-                    ),
-                    Some(it) => writeln!(
-                        text,
-                        "  not clear by the exact equations, the least growth of all: up to {} at Ω = {}",
-                        figure(it.growth.rate),
-                        figure(it.speed)
-                    ),
-                    None => writeln!(
-                        text,
-                        "  not verified: exponents cannot be computed with such numbers"
-                    ),
+        (None, Some(growth)) => by_itself(growth),
+        _ if resonance.can_be_unstable() => match resonance.threshold {
+            Some(threshold) => format!("a tongue from f* = {}", figure(threshold)),
+            None => "no tongue".to_owned(),
+        },
+        _ => "cannot be unstable".to_owned(),
+    }
+}
+
+/// What the exact equations say of the best dither frequency.
+fn verified(clear: &Clear) -> String {
+    match &clear.verified {
+        Some(it) if it.is_clear() => format!(
+            "verified: by the exact equations nothing grows there, the largest rate is {}",
+            figure(it.growth.rate)
+        ),
+        Some(it) => format!(
+            "not clear by the exact equations, the least growth of all: up to {} at Ω = {}",
+            figure(it.growth.rate),
+            figure(it.speed)
+        ),
+        None => "not verified: exponents cannot be computed with such numbers".to_owned(),
+    }
+}
+
+/// Which dither frequencies keep the speeds clear.
+fn clearance(clear: &Clear) -> String {
+    let mut text = String::new();
+    let (from, to) = (figure(*clear.speeds.start()), figure(*clear.speeds.end()));
+    let _ = writeln!(
+        text,
+        "Dither frequencies R that keep {from} to {to} clear of tongues that dither makes:"
+    );
+    for [from, to] in &clear.clearance.clear {
+        let _ = writeln!(text, "  {} to {}", figure(*from), figure(*to));
+    }
+    match &clear.suggestion {
+        None => text.push_str("  none\n"),
+        Some((ratio, nearby)) => {
+            let _ = writeln!(text, "  best away from the others: R = {}", figure(*ratio));
+            let _ = writeln!(text, "  {}", verified(clear));
+            for nearby in nearby.iter().filter(|nearby| nearby.reaches_in) {
+                let resonance = &nearby.resonance;
+                let growth = match (resonance.tongue.edges(), resonance.tongue.peak_growth()) {
+                    (_, None) => String::new(),
+                    (Some(_), Some(growth)) => format!(", growth up to {}", figure(growth)),
+                    (None, Some(growth)) => format!(", {}", by_itself(growth)),
                 };
-                for nearby in nearby.iter().filter(|nearby| nearby.reaches_in) {
-                    let resonance = &nearby.resonance;
-                    let growth = match (resonance.tongue.edges(), resonance.tongue.peak_growth()) {
-                        (_, None) => String::new(),
-                        (Some(_), Some(growth)) => format!(", growth up to {}", figure(growth)),
-                        (None, Some(growth)) => format!(", {}", by_itself(growth)),
-                    };
-                    let place = figure(resonance.speed);
-                    let _ =
-                        writeln!(text, "  left there: Ω = {place}, {}{growth}", resonance.label());
-                }
+                let place = figure(resonance.speed);
+                let _ = writeln!(text, "  left there: Ω = {place}, {}{growth}", resonance.label());
             }
         }
-        let words = if clear.clearance.original_suppressed {
-            "Tangential dither takes the tongues without dither away at first order."
-        } else {
-            "Normal dither leaves the tongues without dither as they are."
-        };
-        let _ = writeln!(text, "{words}");
     }
+    let words = if clear.clearance.original_suppressed {
+        "Tangential dither takes the tongues without dither away at first order."
+    } else {
+        "Normal dither leaves the tongues without dither as they are."
+    };
+    let _ = writeln!(text, "{words}");
     text
 }
 

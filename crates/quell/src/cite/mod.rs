@@ -309,8 +309,8 @@ mod tests {
         assert!(told("decreasing", "triangle", "tangential").contains("(3.38a)"));
         assert!(!told("decreasing", "sine", "tangential").contains("(3.38a)"));
         assert!(!told("stribeck", "triangle", "tangential").contains("(3.53a)"));
-        assert!(told("stribeck", "sine", "normal").contains("(4.32) with (4.28)"));
-        assert!(!told("stribeck", "sine", "tangential").contains("(4.32) with (4.28)"));
+        assert!(told("stribeck", "sine", "normal").contains("(4.24), (4.28), (4.32)"));
+        assert!(!told("stribeck", "sine", "tangential").contains("(4.24), (4.28), (4.32)"));
     }
 
     #[test]

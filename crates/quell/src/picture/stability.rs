@@ -1,8 +1,8 @@
 //! The criterion of averaged stability over the amplitude of the first dither.
 
 use quell_belt::averaging::{AveragingOptions, criterion};
-use quell_model::Direction;
 use quell_model::units::Quantity;
+use quell_model::{Belt, Direction};
 
 use super::caption::caption;
 use super::ruler::Ruler;
@@ -25,48 +25,15 @@ pub fn stability(study: &Study, done: &Stability) -> Figure {
         .map(|critical| critical.amplitude)
         .collect();
     let own = belt.dithers().first().map_or(0.0, |dither| dither.amplitude);
-    let mut end = 1.5 * critical.iter().copied().fold(own, f64::max);
-    if end == 0.0 {
-        let rate = belt.dithers().first().map_or(1.0, |dither| dither.frequency_ratio);
-        end = 2.0 * belt.friction().velocity_scale() * rate;
-    }
-    if belt.dithers().first().is_some_and(|dither| dither.direction == Direction::Normal) {
-        end = end.min(belt.normal_load());
-    }
+    let end = last_amplitude(belt, critical.iter().copied().fold(own, f64::max));
     let force = Ruler::new(study, Quantity::Force, end);
     let value = |amplitude: f64| {
         let changed = belt.with(&belt.dither_path(0, "amplitude"), amplitude).ok()?;
         let found = criterion(&changed, AveragingOptions::default()).ok()?;
         Some((force.place(amplitude), found.value))
     };
-    let mut bounds: Vec<f64> =
-        critical.iter().copied().filter(|amplitude| *amplitude < end).collect();
-    bounds.insert(0, 0.0);
-    bounds.push(end);
-    let pieces: Vec<Vec<(f64, f64)>> = bounds
-        .windows(2)
-        .map(|ends| {
-            let inside = |k: u32| {
-                // Both ends lie just inside: at a jump the value belongs to one side.
-                let share = (f64::from(k) / f64::from(POINTS)).clamp(1e-9, 1.0 - 1e-9);
-                ends[0] + (ends[1] - ends[0]) * share
-            };
-            (0..=POINTS).filter_map(|k| value(inside(k))).collect()
-        })
-        .collect();
-    let lowest = pieces.iter().flatten().map(|point| point.1).fold(0.0, f64::min);
-    // Beyond a jump the criterion falls from infinity: the picture shows where it comes to.
-    let low_of =
-        |piece: &Vec<(f64, f64)>| piece.iter().map(|point| point.1).fold(f64::INFINITY, f64::min);
-    let levels = pieces.iter().map(low_of).filter(|level| level.is_finite());
-    let highest = 2.0 * levels.fold(0.5 * lowest.abs(), f64::max);
-    let span = highest - lowest;
-    let vertical = Axis::new("criterion").symbol("2ζ + F\\bar{μ}′");
-    let vertical = if span > 0.0 {
-        vertical.between(lowest - 0.08 * span, highest + 0.08 * span)
-    } else {
-        vertical
-    };
+    let pieces = between(&critical, end, value);
+    let vertical = upwards(&pieces);
     let symbol = if study.scales().is_some() { "A" } else { "D" };
     let mut panel =
         Panel::new(force.axis("dither amplitude", symbol).between(0.0, force.place(end)), vertical)
@@ -84,4 +51,51 @@ pub fn stability(study: &Study, done: &Stability) -> Figure {
     Figure::single(panel)
         .title(study.title().unwrap_or_default())
         .caption(format!("{}.", caption(study)))
+}
+
+/// Where the picture ends, beyond the largest amplitude of which there is something to tell.
+fn last_amplitude(belt: &Belt, largest: f64) -> f64 {
+    let dither = belt.dithers().first();
+    let end = if largest > 0.0 {
+        1.5 * largest
+    } else {
+        let rate = dither.map_or(1.0, |dither| dither.frequency_ratio);
+        2.0 * belt.friction().velocity_scale() * rate
+    };
+    match dither {
+        Some(dither) if dither.direction == Direction::Normal => end.min(belt.normal_load()),
+        _ => end,
+    }
+}
+
+/// The curve in pieces, open at each critical amplitude.
+fn between(
+    critical: &[f64],
+    end: f64,
+    value: impl Fn(f64) -> Option<(f64, f64)>,
+) -> Vec<Vec<(f64, f64)>> {
+    let inside = critical.iter().copied().filter(|amplitude| *amplitude < end);
+    let bounds: Vec<f64> = [0.0].into_iter().chain(inside).chain([end]).collect();
+    let piece = |ends: &[f64]| {
+        let inside = |k: u32| {
+            // Both ends lie just inside: at a jump the value belongs to one side.
+            let share = (f64::from(k) / f64::from(POINTS)).clamp(1e-9, 1.0 - 1e-9);
+            ends[0] + (ends[1] - ends[0]) * share
+        };
+        (0..=POINTS).filter_map(|k| value(inside(k))).collect()
+    };
+    bounds.windows(2).map(piece).collect()
+}
+
+/// The axis of the criterion.
+fn upwards(pieces: &[Vec<(f64, f64)>]) -> Axis {
+    let lowest = pieces.iter().flatten().map(|point| point.1).fold(0.0, f64::min);
+    // Beyond a jump the criterion falls from infinity: the picture shows where it comes to.
+    let low_of =
+        |piece: &Vec<(f64, f64)>| piece.iter().map(|point| point.1).fold(f64::INFINITY, f64::min);
+    let levels = pieces.iter().map(low_of).filter(|level| level.is_finite());
+    let highest = 2.0 * levels.fold(0.5 * lowest.abs(), f64::max);
+    let span = highest - lowest;
+    let axis = Axis::new("criterion").symbol("2ζ + F\\bar{μ}′");
+    if span > 0.0 { axis.between(lowest - 0.08 * span, highest + 0.08 * span) } else { axis }
 }

@@ -55,19 +55,7 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
     let undithered = history(source, &study, &study.belt().undithered(), step)?;
     let mut histories =
         vec![("time".to_owned(), "1/ω0", undithered.iter().map(|s| s.time).collect())];
-    let mut push = |name: &str, samples: &[Sample]| {
-        histories.push((
-            format!("{name}_displacement"),
-            "length",
-            samples.iter().map(|s| s.displacement).collect(),
-        ));
-        histories.push((
-            format!("{name}_velocity"),
-            "length (velocity/ω0)",
-            samples.iter().map(|s| s.velocity).collect(),
-        ));
-    };
-    push("undithered", &undithered);
+    histories.extend(columns_of("undithered", &undithered));
     let top = dither.frequency_ratio * 1.25;
     let shown = |response: &Response| {
         response.record.spectrum.frequencies().take_while(|ω| *ω <= top).count()
@@ -90,35 +78,12 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
     for (index, case) in cases.iter().enumerate() {
         let samples = history(source, &case.study, case.study.belt(), step)?;
         let name = letter(index);
-        push(&name.to_string(), &samples);
+        histories.extend(columns_of(&name.to_string(), &samples));
         let amplitudes = &case.response.record.spectrum.amplitudes()[..shown(first)];
         spectra.push((format!("{name}_amplitude"), "length", amplitudes.to_vec()));
-        let symbol = if dither.direction == Direction::Normal { "D_N" } else { "D_T" };
-        let efficiency = match &case.response.efficiency {
-            Ok(ratio) => format!(", $E$ = {ratio:.2}"),
-            Err(_) => String::new(),
-        };
-        let title = format!("({name}) ${symbol}$ = {}{efficiency}", case.amplitude);
-        let pair = |value: fn(&Sample) -> f64| {
-            let curve = |role, samples: &[Sample]| {
-                Line::new(role, samples.iter().map(|s| (s.time, value(s))).collect::<Vec<_>>())
-            };
-            [
-                curve(Role::Dithered, &samples).width(1.0).label("with dither"),
-                curve(Role::Undithered, &undithered).label("without dither"),
-            ]
-        };
-        rows[0].push(
-            Panel::new(time_axis(), Axis::new("displacement").symbol("x"))
-                .title(title)
-                .with_all(pair(|s| s.displacement)),
-        );
-        let belt_velocity = case.study.belt().belt_velocity();
-        rows[1].push(
-            Panel::new(time_axis(), Axis::new("velocity").symbol("x′").up_to(1.7 * belt_velocity))
-                .with_all(pair(|s| s.velocity))
-                .with(Rule::horizontal(belt_velocity).label("$v_0$")),
-        );
+        let [displacement, velocity] = histories_of(case, name, &samples, &undithered);
+        rows[0].push(displacement);
+        rows[1].push(velocity);
         rows[2].push(spectrum_panel(case, top));
     }
     let figure =
@@ -137,6 +102,44 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
 pub(super) fn fundamental(spectrum: &Spectrum) -> Option<f64> {
     let peaks = spectrum.peaks(1e-3).into_iter().filter(|peak| peak.frequency <= BAND_END);
     peaks.max_by(|a, b| a.amplitude.total_cmp(&b.amplitude)).map(|peak| peak.frequency)
+}
+
+/// Displacement and velocity of a run as columns of a table.
+pub(super) fn columns_of(name: &str, samples: &[Sample]) -> [(String, &'static str, Vec<f64>); 2] {
+    let column = |value: fn(&Sample) -> f64| samples.iter().map(value).collect();
+    [
+        (format!("{name}_displacement"), "length", column(|s| s.displacement)),
+        (format!("{name}_velocity"), "length (velocity/ω0)", column(|s| s.velocity)),
+    ]
+}
+
+/// Displacement and velocity of a case beside those without dither.
+fn histories_of(case: &Case, name: char, samples: &[Sample], undithered: &[Sample]) -> [Panel; 2] {
+    let belt = case.study.belt();
+    let symbol = if belt.dithers()[0].direction == Direction::Normal { "D_N" } else { "D_T" };
+    let efficiency = match &case.response.efficiency {
+        Ok(ratio) => format!(", $E$ = {ratio:.2}"),
+        Err(_) => String::new(),
+    };
+    let title = format!("({name}) ${symbol}$ = {}{efficiency}", case.amplitude);
+    let pair = |value: fn(&Sample) -> f64| {
+        let curve = |role, samples: &[Sample]| {
+            Line::new(role, samples.iter().map(|s| (s.time, value(s))).collect::<Vec<_>>())
+        };
+        [
+            curve(Role::Dithered, samples).width(1.0).label("with dither"),
+            curve(Role::Undithered, undithered).label("without dither"),
+        ]
+    };
+    let velocity = Axis::new("velocity").symbol("x′").up_to(1.7 * belt.belt_velocity());
+    [
+        Panel::new(time_axis(), Axis::new("displacement").symbol("x"))
+            .title(title)
+            .with_all(pair(|s| s.displacement)),
+        Panel::new(time_axis(), velocity)
+            .with_all(pair(|s| s.velocity))
+            .with(Rule::horizontal(belt.belt_velocity()).label("$v_0$")),
+    ]
 }
 
 fn time_axis() -> Axis {

@@ -12,6 +12,7 @@ use quell_belt::simulation::{Sample, Sampler, simulate};
 use quell_model::{Direction, Waveform};
 
 use super::product::{Cell, Product, Table};
+use super::responses::columns_of;
 use super::source::{Source, failed, law_name, letter, parameters, short, values, waveform_name};
 use crate::cite::Task;
 use crate::complaint::Failure;
@@ -172,17 +173,7 @@ fn of_waveforms(source: &Source, blocks: &[Arc<Columns>]) -> Result<Product, Fai
     let several = blocks.len() > 1;
     let mut panels = Vec::new();
     let mut histories: Vec<(String, &'static str, Vec<f64>)> = Vec::new();
-    let mut sections = Table::new(
-        "section",
-        &[
-            ("waveform", "word"),
-            ("case", "word"),
-            ("amplitude", "length (force/k)"),
-            ("part", "word"),
-            ("displacement", "length"),
-            ("velocity", "length (velocity/ω0)"),
-        ],
-    );
+    let mut sections = Table::new("section", SECTION);
     let mut summary = Table::new("", SUMMARY);
     let columns = blocks.first().map_or(1, |block| block.cases.len());
     for block in blocks {
@@ -194,24 +185,10 @@ fn of_waveforms(source: &Source, blocks: &[Arc<Columns>]) -> Result<Product, Fai
             let transient = strobe(source, case)?;
             let prefix = if several { format!("{waveform}_{name}") } else { name.to_string() };
             if histories.is_empty() {
-                histories.push((
-                    "time".to_owned(),
-                    "1/ω0",
-                    samples.iter().map(|s| s.time).collect(),
-                ));
+                let time = samples.iter().map(|s| s.time).collect();
+                histories.push(("time".to_owned(), "1/ω0", time));
             }
-            let column =
-                |value: fn(&Sample) -> f64| samples.iter().map(value).collect::<Vec<f64>>();
-            histories.push((
-                format!("{prefix}_displacement"),
-                "length",
-                column(|s| s.displacement),
-            ));
-            histories.push((
-                format!("{prefix}_velocity"),
-                "length (velocity/ω0)",
-                column(|s| s.velocity),
-            ));
+            histories.extend(columns_of(&prefix, &samples));
             let settled = case.attractor.as_ref().map_or(&[][..], |it| it.section.as_slice());
             for (part, states) in [("from rest", transient.as_slice()), ("settled", settled)] {
                 for &(x, v) in states {
@@ -245,6 +222,16 @@ fn of_waveforms(source: &Source, blocks: &[Arc<Columns>]) -> Result<Product, Fai
         .table(sections)
         .table(Table::of_columns("history", histories)))
 }
+
+/// Columns of the table of sections.
+const SECTION: &[(&str, &str)] = &[
+    ("waveform", "word"),
+    ("case", "word"),
+    ("amplitude", "length (force/k)"),
+    ("part", "word"),
+    ("displacement", "length"),
+    ("velocity", "length (velocity/ω0)"),
+];
 
 const SUMMARY: &[(&str, &str)] = &[
     ("waveform", "word"),

@@ -18,11 +18,11 @@ const CORNER: i32 = 16;
 /// Friction at one slip velocity.
 #[derive(Clone, Debug)]
 pub struct Point {
-    /// v_r.
+    /// Slip velocity v_r: a length per τ.
     pub slip_velocity: f64,
-    /// μ, or why there is no one value.
+    /// μ with the sign of v_r, dimensionless; or why there is no one value.
     pub coefficient: Result<f64, String>,
-    /// μ̄ and its slope, or why there are none.
+    /// μ̄, dimensionless, and its slope per unit of v_r; or why there are none.
     pub effective: Result<Effective, String>,
 }
 

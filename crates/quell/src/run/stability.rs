@@ -140,7 +140,6 @@ impl Averaged {
     }
 
     fn put(&self, study: &Study, fields: &mut Fields) {
-        let scales = study.scales();
         let told = |why: &AveragingError| why.to_string();
         let value = |field: fn(&Criterion) -> f64| self.criterion.as_ref().map(field).map_err(told);
         fields
@@ -156,27 +155,7 @@ impl Averaged {
         let one_sided =
             self.criterion.as_ref().is_ok_and(|found| found.effective.side == Side::Outer);
         fields.plain("one_sided", one_sided);
-        match &self.critical_amplitudes {
-            Ok(found) => {
-                let items = found.iter().map(|critical| {
-                    let mut inner = Fields::new(scales);
-                    inner
-                        .number("amplitude_ratio", Quantity::Velocity, critical.amplitude_ratio)
-                        .number("amplitude", Quantity::Force, critical.amplitude)
-                        .plain("kind", kind(critical.crossing))
-                        .plain("becomes", becomes(critical.becomes))
-                        .number("amplitude_ratio_error", Quantity::Velocity, critical.error)
-                        .plain("contact_stays_closed", critical.contact_stays_closed);
-                    inner
-                });
-                fields.list("critical_amplitudes", items);
-            }
-            Err(why) => {
-                fields
-                    .plain("critical_amplitudes", Json::Null)
-                    .why("critical_amplitudes", told(why));
-            }
-        }
+        self.put_critical(fields);
         let frequency_ratio =
             study.belt().dithers().first().map_or(0.0, |dither| dither.frequency_ratio);
         let ratio = &self.everywhere_stable;
@@ -185,30 +164,60 @@ impl Averaged {
             Quantity::Force,
             ratio.clone().map(|ratio| ratio * frequency_ratio),
         );
-        match &self.unstable_bands {
-            Ok(bands) => {
-                let items = bands.iter().map(|band| {
-                    let mut inner = Fields::new(scales);
-                    let no_end = || "instability has no upper end".to_owned();
-                    inner.number("lower", Quantity::Velocity, band.lower).known(
-                        "upper",
-                        Quantity::Velocity,
-                        band.upper.ok_or_else(no_end),
-                    );
-                    match band.lower_crossing {
-                        Some(crossing) => inner.plain("lower_kind", kind(crossing)),
-                        None => inner.plain("lower_kind", "rest"),
-                    };
-                    inner
-                });
-                fields.list("unstable_belt_velocities", items);
-            }
+        self.put_bands(fields);
+    }
+
+    /// The amplitudes at which the verdict changes.
+    fn put_critical(&self, fields: &mut Fields) {
+        let name = "critical_amplitudes";
+        let found = match &self.critical_amplitudes {
+            Ok(found) => found,
             Err(why) => {
-                fields
-                    .plain("unstable_belt_velocities", Json::Null)
-                    .why("unstable_belt_velocities", told(why));
+                fields.plain(name, Json::Null).why(name, why.to_string());
+                return;
             }
-        }
+        };
+        let scales = fields.scales();
+        let items = found.iter().map(|critical| {
+            let mut inner = Fields::new(scales);
+            inner
+                .number("amplitude_ratio", Quantity::Velocity, critical.amplitude_ratio)
+                .number("amplitude", Quantity::Force, critical.amplitude)
+                .plain("kind", kind(critical.crossing))
+                .plain("becomes", becomes(critical.becomes))
+                .number("amplitude_ratio_error", Quantity::Velocity, critical.error)
+                .plain("contact_stays_closed", critical.contact_stays_closed);
+            inner
+        });
+        fields.list(name, items);
+    }
+
+    /// The belt velocities of instability.
+    fn put_bands(&self, fields: &mut Fields) {
+        let name = "unstable_belt_velocities";
+        let bands = match &self.unstable_bands {
+            Ok(bands) => bands,
+            Err(why) => {
+                fields.plain(name, Json::Null).why(name, why.to_string());
+                return;
+            }
+        };
+        let scales = fields.scales();
+        let items = bands.iter().map(|band| {
+            let mut inner = Fields::new(scales);
+            let no_end = || "instability has no upper end".to_owned();
+            inner.number("lower", Quantity::Velocity, band.lower).known(
+                "upper",
+                Quantity::Velocity,
+                band.upper.ok_or_else(no_end),
+            );
+            match band.lower_crossing {
+                Some(crossing) => inner.plain("lower_kind", kind(crossing)),
+                None => inner.plain("lower_kind", "rest"),
+            };
+            inner
+        });
+        fields.list(name, items);
     }
 }
 

@@ -43,23 +43,23 @@ impl Computation {
 /// The numbers of a steady response that a map can show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Steady {
-    /// E = M₁/M₀ (2.27).
+    /// E = M₁/M₀ (2.27), dimensionless.
     pub efficiency: Result<f64, Undefined>,
-    /// M.
+    /// M, the largest spectral amplitude with 0 < ω ≤ 1.9: a length.
     pub amplitude: f64,
-    /// M of the undithered run.
+    /// M of the undithered run: a length.
     pub undithered_amplitude: f64,
     /// Share of the record spent in stick.
     pub stick_fraction: f64,
     /// Whether both runs settled, as far as E needs them to.
     pub settled: bool,
-    /// Mean friction force over k.
+    /// Mean friction force over k: a length.
     pub mean_friction: f64,
-    /// Mean power of tangential dither over kω₀.
+    /// Mean power of tangential dither over kω₀: a length squared.
     pub dither_power: Option<f64>,
-    /// Peak-to-peak displacement at the dither frequencies.
+    /// Peak-to-peak displacement at the dither frequencies: a length.
     pub dither_stroke: Option<f64>,
-    /// Smallest normal load.
+    /// Smallest normal load over k: a length.
     pub minimum_normal_load: f64,
 }
 

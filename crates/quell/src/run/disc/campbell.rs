@@ -23,11 +23,11 @@ pub fn usual_end(study: &DiscStudy) -> f64 {
 /// Frequency and growth against speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Campbell {
-    /// Speeds Ω.
+    /// Speeds Ω in ω_ref, rising.
     pub speeds: Vec<f64>,
-    /// For each speed, (|Im ρ|, Re ρ) of every motion, no conjugates.
+    /// For each speed, (|Im ρ|, Re ρ) in ω_ref of every motion, no conjugates.
     pub motions: Vec<Vec<(f64, f64)>>,
-    /// Largest growth rate under dither, where there is dither.
+    /// For each speed, the largest growth rate under dither, in ω_ref; where there is dither.
     pub dithered: Option<Vec<f64>>,
 }
 

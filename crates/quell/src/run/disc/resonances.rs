@@ -3,11 +3,11 @@
 
 use std::ops::RangeInclusive;
 
-pub use quell_disc::resonance::Order;
 use quell_disc::resonance::{
-    Blocked, Clearance, ClearanceError, Nearby, Resonance, Tongue, Verified, WaveError, Waves,
+    Blocked, Clearance, ClearanceError, Nearby, Tongue, Verified, WaveError, Waves,
     clear_frequencies, verified_frequency, within,
 };
+pub use quell_disc::resonance::{Order, Resonance};
 use quell_disc::system::Contributions;
 use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
