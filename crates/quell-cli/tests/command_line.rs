@@ -1,10 +1,13 @@
 //! The real binary: exit statuses, one JSON object and nothing else, nothing left behind.
 
+mod place;
+
 use std::fs;
 use std::io::Read;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::path::Path;
+use std::process::{Command, Stdio};
 
+use place::Place;
 use serde_json::Value as Json;
 
 const STUDY: &str = r#"schema = 1
@@ -60,87 +63,9 @@ const VERBS: &[&[&str]] = &[
     &["response"],
 ];
 
-/// A fresh folder with a study in it.
-struct Place {
-    folder: PathBuf,
-}
-
-impl Place {
-    fn new(name: &str) -> Self {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-        // A run before this one may have left it.
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder).expect("a folder for tests");
-        let place = Self { folder };
-        place.write("study.toml", STUDY.as_bytes());
-        place.write("si.toml", SI.as_bytes());
-        place
-    }
-
-    fn write(&self, name: &str, bytes: &[u8]) {
-        fs::write(self.folder.join(name), bytes).expect("a file for tests");
-    }
-
-    fn quell(&self, arguments: &[&str]) -> Output {
-        self.command(arguments).output().expect("quell runs")
-    }
-
-    fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_quell"));
-        command.current_dir(&self.folder).args(arguments).stdin(Stdio::null());
-        command
-    }
-
-    /// Runs a verb with `--json`; the object, the exit status, and silence on standard error
-    /// where it is told to be silent.
-    fn json(&self, arguments: &[&str]) -> (Json, i32) {
-        let mut with = arguments.to_vec();
-        with.push("--json");
-        let output = self.quell(&with);
-        let text = String::from_utf8(output.stdout).expect("UTF-8");
-        let object: Json =
-            serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
-        assert!(object.is_object(), "{text}");
-        (object, output.status.code().expect("an exit status"))
-    }
-
-    fn good(&self, arguments: &[&str]) -> Json {
-        let (object, status) = self.json(arguments);
-        assert_eq!(status, 0, "{arguments:?}: {object}");
-        assert_eq!(object["ok"], true);
-        object
-    }
-
-    /// Runs a verb that must be refused, both ways; the complaints.
-    fn refused(&self, arguments: &[&str]) -> Vec<Json> {
-        let before = self.files();
-        let output = self.quell(arguments);
-        let told = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {told}");
-        assert!(output.stdout.is_empty(), "{arguments:?}");
-        assert!(told.contains("error"), "{arguments:?}: {told}");
-        assert!(!told.contains("panicked"), "{told}");
-        let (object, status) = self.json(arguments);
-        assert_eq!((status, &object["ok"]), (2, &Json::Bool(false)), "{arguments:?}");
-        assert_eq!(self.files(), before, "{arguments:?}");
-        let errors = object["errors"].as_array().expect("errors").clone();
-        assert!(!errors.is_empty());
-        for error in &errors {
-            for field in ["key", "line", "value", "allowed", "suggestion"] {
-                assert!(error.get(field).is_some(), "{error}");
-            }
-        }
-        errors
-    }
-
-    fn files(&self) -> Vec<String> {
-        let entries = fs::read_dir(&self.folder).expect("a folder");
-        let mut names: Vec<String> = entries
-            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
-            .collect();
-        names.sort();
-        names
-    }
+/// A fresh folder with these studies.
+fn place(name: &str) -> Place {
+    Place::with(name, &[("study.toml", STUDY), ("si.toml", SI)])
 }
 
 /// Every null has its reason.
@@ -173,7 +98,7 @@ fn nulls_have_reasons(object: &Json) {
 
 #[test]
 fn every_verb_answers_with_one_object() {
-    let place = Place::new("answers");
+    let place = place("answers");
     for study in ["study.toml", "si.toml"] {
         for verb in VERBS {
             let mut arguments = verb.to_vec();
@@ -190,7 +115,7 @@ fn every_verb_answers_with_one_object() {
 
 #[test]
 fn bad_studies_are_refused_by_every_verb() {
-    let place = Place::new("bad_studies");
+    let place = place("bad_studies");
     let with = |from: &str, to: &str| STUDY.replace(from, to).into_bytes();
     let cases: Vec<(&str, Vec<u8>, &str)> = vec![
         ("apart", with("\"tangential\"", "\"normal\""), "dither.amplitude"),
@@ -235,7 +160,7 @@ fn bad_studies_are_refused_by_every_verb() {
 
 #[test]
 fn bad_arguments_are_refused() {
-    let place = Place::new("bad_arguments");
+    let place = place("bad_arguments");
     let cases: &[(&[&str], &str)] = &[
         (&["simulate", "study.toml", "--until", "-1"], "--until"),
         (&["simulate", "study.toml", "--until=-0.5s"], "--until"),
@@ -286,7 +211,7 @@ fn bad_arguments_are_refused() {
 
 #[test]
 fn nothing_is_computed_before_the_output_is_tried() {
-    let place = Place::new("unwritable");
+    let place = place("unwritable");
     fs::create_dir(place.folder.join("folder.csv")).expect("a folder");
     // A run of this length would not end today.
     let errors =
@@ -297,7 +222,7 @@ fn nothing_is_computed_before_the_output_is_tried() {
 
 #[test]
 fn a_saved_trajectory_is_whole_and_reads_back() {
-    let place = Place::new("save");
+    let place = place("save");
     place.write("x.csv", b"what was there before");
     let object = place.good(&["simulate", "study.toml", "--until", "20", "--save", "x.csv"]);
     assert_eq!(object["saved"][0], "x.csv");
@@ -326,7 +251,7 @@ fn a_saved_trajectory_is_whole_and_reads_back() {
 
 #[test]
 fn pictures_are_drawn_whole_or_not_at_all() {
-    let place = Place::new("pictures");
+    let place = place("pictures");
     let before = place.files();
     for verb in &VERBS[2..] {
         for study in ["study.toml", "si.toml"] {
@@ -369,7 +294,7 @@ fn pictures_are_drawn_whole_or_not_at_all() {
 #[test]
 fn devices_are_written_not_replaced() {
     use std::os::unix::fs::FileTypeExt;
-    let place = Place::new("devices");
+    let place = place("devices");
     place.good(&["simulate", "study.toml", "--until", "5", "--save", "/dev/null"]);
     let kind = fs::metadata("/dev/null").expect("there").file_type();
     assert!(kind.is_char_device());
@@ -395,7 +320,7 @@ fn devices_are_written_not_replaced() {
 #[cfg(unix)]
 #[test]
 fn named_pipes_are_opened_once() {
-    let place = Place::new("named_pipes");
+    let place = place("named_pipes");
     let made = Command::new("mkfifo").arg(place.folder.join("numbers")).status();
     assert!(made.expect("mkfifo runs").success());
     let path = place.folder.join("numbers");
@@ -412,7 +337,7 @@ fn named_pipes_are_opened_once() {
 #[cfg(unix)]
 #[test]
 fn links_are_followed_not_replaced() {
-    let place = Place::new("links");
+    let place = place("links");
     place.write("real.csv", b"");
     std::os::unix::fs::symlink("real.csv", place.folder.join("link.csv")).expect("a link");
     place.good(&["friction", "study.toml", "--save", "link.csv"]);
@@ -422,7 +347,7 @@ fn links_are_followed_not_replaced() {
 
 #[test]
 fn a_closed_pipe_is_no_panic() {
-    let place = Place::new("pipe");
+    let place = place("pipe");
     let mut child = place
         .command(&["friction", "study.toml", "--json"])
         .stdout(Stdio::piped())
@@ -438,7 +363,7 @@ fn a_closed_pipe_is_no_panic() {
 
 #[test]
 fn a_study_comes_from_standard_input() {
-    let place = Place::new("stdin");
+    let place = place("stdin");
     let file = fs::File::open(place.folder.join("study.toml")).expect("there");
     let output = place.command(&["check", "-", "--json"]).stdin(file).output().expect("quell runs");
     assert_eq!(output.status.code(), Some(0));
@@ -446,7 +371,7 @@ fn a_study_comes_from_standard_input() {
 
 #[test]
 fn changes_and_units_reach_the_engine() {
-    let place = Place::new("changes");
+    let place = place("changes");
     let changed = place.good(&[
         "check",
         "study.toml",
@@ -486,7 +411,7 @@ fn changes_and_units_reach_the_engine() {
 
 #[test]
 fn fields_have_the_names_scripts_rely_on() {
-    let place = Place::new("names");
+    let place = place("names");
     let friction = place.good(&["friction", "study.toml", "--at", "0,0.1"]);
     for name in ["slip_velocity", "coefficient", "effective_coefficient", "effective_slope"] {
         assert_eq!(friction[name].as_array().map(Vec::len), Some(2), "{name}");
@@ -527,7 +452,7 @@ fn fields_have_the_names_scripts_rely_on() {
 /// 4.322392624 and 9.900214849; sharper averaging is within 4·10⁻⁵ of them, plain averaging within 1 %.
 #[test]
 fn averaging_finds_the_known_thresholds() {
-    let place = Place::new("thresholds");
+    let place = place("thresholds");
     let at = |amplitude: &str| {
         let amplitude = format!("dither.amplitude={amplitude}");
         let law = "friction.law=decreasing";
@@ -581,7 +506,7 @@ fn averaging_finds_the_known_thresholds() {
 /// threshold does not.
 #[test]
 fn dither_past_its_threshold_quenches() {
-    let place = Place::new("quench");
+    let place = place("quench");
     let quenched = place.good(&[
         "response",
         "study.toml",
@@ -600,7 +525,7 @@ fn dither_past_its_threshold_quenches() {
 
 #[test]
 fn help_version_and_schema_are_answers() {
-    let place = Place::new("help");
+    let place = place("help");
     for arguments in [&["--help"][..], &["--version"], &["simulate", "--help"]] {
         let output = place.quell(arguments);
         assert_eq!(output.status.code(), Some(0), "{arguments:?}");

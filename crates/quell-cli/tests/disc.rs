@@ -1,9 +1,10 @@
 //! The real binary on studies of a disc: names in JSON, exit statuses, files that read back.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+mod place;
 
+use std::fs;
+
+use place::Place;
 use serde_json::Value as Json;
 
 const STUDY: &str = r#"schema = 1
@@ -35,79 +36,47 @@ to = 0.6
 points = 6
 "#;
 
-struct Place {
-    folder: PathBuf,
+/// A fresh folder with these studies.
+fn place(name: &str) -> Place {
+    Place::with(name, &[("disc.toml", STUDY), ("map.toml", &format!("{STUDY}{AXES}"))])
 }
 
-impl Place {
-    fn new(name: &str) -> Self {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-        // A run before this one may have left it.
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder).expect("a folder for tests");
-        let place = Self { folder };
-        place.write("disc.toml", STUDY);
-        place.write("map.toml", &format!("{STUDY}{AXES}"));
-        place
-    }
+/// Standard output, standard error, exit status.
+fn quell(place: &Place, arguments: &[&str]) -> (String, String, i32) {
+    let output = place.quell(arguments);
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
+    (text(output.stdout), text(output.stderr), output.status.code().expect("a status"))
+}
 
-    fn write(&self, name: &str, text: &str) {
-        fs::write(self.folder.join(name), text).expect("a file for tests");
-    }
-
-    /// Standard output, standard error, exit status.
-    fn quell(&self, arguments: &[&str]) -> (String, String, i32) {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_quell"));
-        command.current_dir(&self.folder).args(arguments).stdin(Stdio::null());
-        let output = command.output().expect("quell runs");
-        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
-        (text(output.stdout), text(output.stderr), output.status.code().expect("a status"))
-    }
-
-    fn good(&self, arguments: &[&str]) -> Json {
-        let (text, told, status) = self.quell(&[arguments, &["--json"]].concat());
-        assert_eq!(status, 0, "{arguments:?}: {text} {told}");
-        let object: Json = serde_json::from_str(&text).expect("one object");
-        assert_eq!(object["ok"], true, "{object}");
-        // For people too, in words.
-        let (words, _, status) = self.quell(arguments);
-        assert!(status == 0 && words.lines().count() > 1, "{words}");
-        object
-    }
-
-    fn refused(&self, arguments: &[&str]) -> Vec<Json> {
-        let (text, told, status) = self.quell(arguments);
-        assert_eq!((status, text.as_str()), (2, ""), "{arguments:?}: {told}");
-        assert!(told.contains("error") && !told.contains("panicked"), "{told}");
-        let (text, _, status) = self.quell(&[arguments, &["--json"]].concat());
-        assert_eq!(status, 2);
-        let object: Json = serde_json::from_str(&text).expect("one object");
-        assert_eq!(object["ok"], false);
-        object["errors"].as_array().expect("errors").clone()
-    }
+/// The answer of a verb, which it has for people too.
+fn good(place: &Place, arguments: &[&str]) -> Json {
+    let object = place.good(arguments);
+    let (words, _, status) = quell(place, arguments);
+    assert!(status == 0 && words.lines().count() > 1, "{words}");
+    object
 }
 
 #[test]
 fn every_verb_answers_with_its_names() {
-    let place = Place::new("disc-verbs");
-    assert_eq!(place.good(&["check", "disc.toml"])["disc"]["modes"], 3);
+    let place = place("disc-verbs");
+    assert_eq!(good(&place, &["check", "disc.toml"])["disc"]["modes"], 3);
     assert!(
-        place.good(&["cite", "disc.toml"])["corrections"].as_array().expect("a list").len() > 4
+        good(&place, &["cite", "disc.toml"])["corrections"].as_array().expect("a list").len() > 4
     );
-    let modes = place.good(&["modes", "disc.toml"]);
+    let modes = good(&place, &["modes", "disc.toml"]);
     for name in ["radial", "diameters", "frequency_parameter", "ratio", "shape_at_load"] {
         assert!(modes["modes"][1][name].is_number(), "{name}");
     }
     assert_eq!(modes["critical_mode"]["diameters"], 2);
-    let stability = place.good(&["stability", "disc.toml"]);
+    let stability = good(&place, &["stability", "disc.toml"]);
     assert_eq!(stability["verdict"], "stable");
     for name in ["growth_rate", "growth_rate_error", "frequency"] {
         assert!(stability[name].is_number(), "{name}");
     }
     // On a line of table 5.1 and Ω = 0 a motion is out of the load's reach.
-    let marginal = place.good(&["stability", "disc.toml", "--set", "disc.load.speed=0"]);
+    let marginal = good(&place, &["stability", "disc.toml", "--set", "disc.load.speed=0"]);
     assert_eq!(marginal["verdict"], "undecided");
-    let resonances = place.good(&["resonances", "disc.toml"]);
+    let resonances = good(&place, &["resonances", "disc.toml"]);
     assert_eq!(resonances["undithered"].as_array().expect("a list").len(), 7);
     assert_eq!(resonances["dithered"].as_array().expect("a list").len(), 8);
     for name in ["speed", "waves", "can_be_unstable", "threshold", "edges", "peak_growth"] {
@@ -117,12 +86,12 @@ fn every_verb_answers_with_its_names() {
 
 #[test]
 fn a_clear_frequency_is_found_and_kept() {
-    let place = Place::new("disc-clear");
+    let place = place("disc-clear");
     let set = ["--set", "disc.load.friction=0.25"];
     let asked =
         [&["resonances", "disc.toml", "--clear", "0.25:0.6", "--frequency", "2:6"], &set[..]]
             .concat();
-    let found = place.good(&asked);
+    let found = good(&place, &asked);
     let clear = &found["clear"];
     assert_eq!(clear["original_suppressed"], true);
     let ratio = clear["suggestion"].as_f64().expect("a frequency");
@@ -141,7 +110,7 @@ fn a_clear_frequency_is_found_and_kept() {
     assert_eq!(left(clear), 0, "{clear}");
     let mut wider = asked.clone();
     wider[3] = "0.2:0.6";
-    let wider = &place.good(&wider)["clear"];
+    let wider = &good(&place, &wider)["clear"];
     assert_eq!(left(wider), 0, "{wider}");
     for clear in [clear, wider] {
         assert!(clear["verified_growth_rate"].as_f64().is_some_and(|rate| rate < 0.0), "{clear}");
@@ -152,7 +121,7 @@ fn a_clear_frequency_is_found_and_kept() {
             (format!("dither.frequency_ratio={ratio}"), format!("disc.load.speed={speed}"));
         let there =
             [&["stability", "disc.toml", "--set", &ratio, "--set", &speed], &set[..]].concat();
-        assert_eq!(place.good(&there)["verdict"], "stable", "{there:?}");
+        assert_eq!(good(&place, &there)["verdict"], "stable", "{there:?}");
     }
     for (arguments, key) in [
         (["--clear", "0.6:0.2", "--frequency", "2:6"], "--clear"),
@@ -162,7 +131,7 @@ fn a_clear_frequency_is_found_and_kept() {
         let errors = place.refused(&[&["resonances", "disc.toml"], &arguments[..]].concat());
         assert_eq!(errors[0]["key"], key);
     }
-    place.write("plain.toml", STUDY.split("[dither]").next().expect("a part"));
+    place.write("plain.toml", STUDY.split("[dither]").next().expect("a part").as_bytes());
     let errors =
         place.refused(&["resonances", "plain.toml", "--clear", "0.2:0.6", "--frequency", "2:6"]);
     assert_eq!(errors[0]["key"], "dither");
@@ -170,18 +139,18 @@ fn a_clear_frequency_is_found_and_kept() {
 
 #[test]
 fn modes_written_and_read_back_give_the_same_exponent() {
-    let place = Place::new("disc-modes");
-    place.good(&["modes", "disc.toml", "--save", "modes.csv", "--plot", "modes.png"]);
+    let place = place("disc-modes");
+    good(&place, &["modes", "disc.toml", "--save", "modes.csv", "--plot", "modes.png"]);
     place.write(
         "read.toml",
-        &STUDY.replace("inner_radius_ratio = 0.5", "modes_file = \"modes.csv\""),
+        STUDY.replace("inner_radius_ratio = 0.5", "modes_file = \"modes.csv\""),
     );
     let rate =
-        |study: &str| place.good(&["stability", study])["growth_rate"].as_f64().expect("a rate");
+        |study: &str| good(&place, &["stability", study])["growth_rate"].as_f64().expect("a rate");
     assert!((rate("disc.toml") - rate("read.toml")).abs() <= 1e-12);
     assert!(fs::metadata(place.folder.join("modes.png")).expect("a picture").len() > 5000);
     let text = fs::read_to_string(place.folder.join("modes.csv")).expect("text");
-    place.write("modes.csv", &text.replace("diameters", "diametres"));
+    place.write("modes.csv", text.replace("diameters", "diametres"));
     let errors = place.refused(&["check", "read.toml"]);
     assert!(
         errors[0]["allowed"].as_str().expect("text").contains("column diameters"),
@@ -191,27 +160,30 @@ fn modes_written_and_read_back_give_the_same_exponent() {
 
 #[test]
 fn maps_of_a_disc_are_kept_and_drawn() {
-    let place = Place::new("disc-map");
-    let map = place.good(&[
-        "map",
-        "map.toml",
-        "--quantity",
-        "growth,verdict",
-        "--save",
-        "map.csv",
-        "--plot",
-        "map.png",
-    ]);
+    let place = place("disc-map");
+    let map = good(
+        &place,
+        &[
+            "map",
+            "map.toml",
+            "--quantity",
+            "growth,verdict",
+            "--save",
+            "map.csv",
+            "--plot",
+            "map.png",
+        ],
+    );
     assert_eq!(map["axes"][1]["values"].as_array().expect("values").len(), 6);
     assert!(map["axes"][0]["values"].as_array().expect("values").len() > 40);
     assert!(map["growth"][0][0].is_number() && map["growth_verdict_status"].is_array());
     let errors = place.refused(&["map", "map.toml", "--quantity", "efficiency"]);
     assert!(errors[0]["allowed"].as_str().expect("text").contains("growth"), "{errors:?}");
     let store = ["map", "map.toml", "--quantity", "growth", "--save", "map.zarr"];
-    let first = place.good(&store[..4]);
-    let (_, told, status) = place.quell(&store);
+    let first = good(&place, &store[..4]);
+    let (_, told, status) = quell(&place, &store);
     assert_eq!(status, 0, "{told}");
-    let (text, told, status) = place.quell(&[&store[..], &["--resume", "--json"]].concat());
+    let (text, told, status) = quell(&place, &[&store[..], &["--resume", "--json"]].concat());
     assert_eq!(status, 0, "{told}");
     let again: Json = serde_json::from_str(&text).expect("one object");
     assert_eq!(again["growth"], first["growth"]);
@@ -219,7 +191,7 @@ fn maps_of_a_disc_are_kept_and_drawn() {
 
 #[test]
 fn what_cannot_be_is_refused_and_the_clamp_is_warned_of() {
-    let place = Place::new("disc-bad");
+    let place = place("disc-bad");
     for (change, key) in [
         ("disc.inner_radius_ratio=1", "disc.inner_radius_ratio"),
         ("disc.load.radius_ratio=0.4", "disc.load.radius_ratio"),
@@ -239,14 +211,14 @@ fn what_cannot_be_is_refused_and_the_clamp_is_warned_of() {
     let errors = place.refused(&[&["stability", "disc.toml"], &normal[..]].concat());
     assert_eq!(errors[0]["key"], "dither.amplitude");
     let (_, told, status) =
-        place.quell(&["stability", "disc.toml", "--set", "disc.load.radius_ratio=0.5"]);
+        quell(&place, &["stability", "disc.toml", "--set", "disc.load.radius_ratio=0.5"]);
     assert!(status == 0 && told.contains("warning") && told.contains("nothing couples"), "{told}");
     for verb in [&["friction"][..], &["response"], &["simulate", "--until", "10"]] {
         let errors = place.refused(&[verb, &["disc.toml"]].concat());
         assert_eq!(errors[0]["key"], "disc", "{errors:?}");
     }
     place.write("belt.toml", "schema = 1\n[belt]\ndamping_ratio = 0.01\nnormal_load = 1\nbelt_velocity = 0.1\n\
-        [friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2\nreference_velocity = 0.2\n");
+        [friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2\nreference_velocity = 0.2\n".as_bytes());
     let errors = place.refused(&["modes", "belt.toml"]);
     assert_eq!(errors[0]["key"], "disc");
 }
