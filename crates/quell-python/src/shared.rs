@@ -10,7 +10,7 @@ use quell::sweep::Shard;
 use crate::answer::NativeAnswer;
 use crate::study::NativeStudy;
 use crate::verbs::map::{Counter, Done, Watched, plan};
-use crate::{call, errors};
+use crate::{call, convert, errors};
 
 /// A map in a store that other processes may write at the same time.
 #[pyclass(name = "NativeShared", module = "quell._quell", frozen)]
@@ -51,15 +51,28 @@ impl NativeShared {
         call::run(py, move || Ok(inner.missing()))
     }
 
-    /// Shard `k/n` as (k, n), before there is a store.
+    /// Refuses what is no shard `k/n`, before there is a store.
     #[staticmethod]
-    fn shard(py: Python<'_>, text: &str) -> PyResult<(usize, usize)> {
-        read(py, text).map(|shard| (shard.number(), shard.of()))
+    fn check_shard(py: Python<'_>, text: &str) -> PyResult<()> {
+        read(py, text).map(drop)
     }
 
-    /// Chunks of shard `k/n`.
-    fn chunks_of(&self, py: Python<'_>, text: &str) -> PyResult<Vec<usize>> {
-        Ok(read(py, text)?.chunks(self.inner.plan().chunks()))
+    /// Computes shard `k/n`: (facts, warnings, seconds).
+    #[pyo3(signature = (text, threads, progress))]
+    fn compute_shard(
+        &self,
+        py: Python<'_>,
+        text: &str,
+        threads: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(Py<PyAny>, Vec<String>, f64)> {
+        let (inner, shard) = (Arc::clone(&self.inner), read(py, text)?);
+        let counter = Arc::new(Counter::default());
+        let watched = Watched::new(&counter, progress);
+        let work = move || inner.compute_shard(shard, counter.running(threads));
+        let done = call::watched(py, work, watched)?;
+        let facts = convert::to_python(py, &done.json(self.inner.path()))?;
+        Ok((facts, done.warnings(), done.part.elapsed.as_secs_f64()))
     }
 
     /// Computes those of the chunks that the store does not have: (computed, there, damaged, points, seconds).

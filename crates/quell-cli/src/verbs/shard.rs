@@ -3,10 +3,9 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use quell::run::map::{Part, Shared};
+use quell::run::map::{Sharded, Shared};
 use quell::sweep::{Plan, Running, Shard};
 use quell::{Complaint, Failure, Fault, Origin};
-use serde_json::json;
 
 use crate::answer::Answer;
 use crate::interrupt;
@@ -33,36 +32,16 @@ pub(super) fn run(
     json: bool,
 ) -> Result<Answer, Failure> {
     let shared = Shared::open(path, plan)?;
-    let chunks = shard.chunks(shared.plan().chunks());
     let bar = Bar::new();
     let running = Running { threads, stop: interrupt::flag(), progress: &bar };
-    let part = shared.compute(&chunks, running)?;
-    let left = shared.unrecorded()?;
-    let mut shards: Vec<usize> = left.iter().map(|&chunk| shard.number_of(chunk)).collect();
-    shards.sort_unstable();
-    shards.dedup();
-    let object = || {
-        json!({
-            "ok": true,
-            "shard": { "number": shard.number(), "of": shard.of() },
-            "chunks": chunks.len(),
-            "computed_chunks": part.computed,
-            "there_chunks": part.there,
-            "damaged_chunks": part.damaged,
-            "computed_points": part.points,
-            "map_chunks": shared.plan().chunks().len(),
-            "left_chunks": left.len(),
-            "left_shards": shards,
-            "saved": [path.display().to_string()],
-        })
-    };
-    let answer = Answer::new(json, object, || text(shard, &shared, part, (left.len(), &shards)));
-    Ok(answer.warning(warnings(part)))
+    let done = shared.compute_shard(shard, running)?;
+    let answer = Answer::new(json, || done.json(path), || text(&done, path));
+    Ok(answer.warning(done.warnings()))
 }
 
-fn text(shard: Shard, shared: &Shared, part: Part, (left, shards): (usize, &[usize])) -> String {
-    let path = shared.path().display();
-    let all = shared.plan().chunks().len();
+fn text(done: &Sharded, path: &Path) -> String {
+    let Sharded { shard, part, .. } = done;
+    let (path, all) = (path.display(), done.map_chunks);
     let mut text = format!("Shard {} of {} of {path}\n", shard.number(), shard.of());
     let own = part.computed + part.there;
     let seconds = part.elapsed.as_secs_f64();
@@ -75,17 +54,12 @@ fn text(shard: Shard, shared: &Shared, part: Part, (left, shards): (usize, &[usi
         let _ = write!(text, ", {} were there", part.there);
     }
     text.push('\n');
-    if left == 0 {
+    if done.left == 0 {
         text += "  the map is whole: the same command with --resume instead of --shard reads it\n";
     } else {
-        let numbers: Vec<String> = shards.iter().map(usize::to_string).collect();
-        let _ = writeln!(text, "  {left} chunks are left, of the shards {}", numbers.join(","));
+        let numbers: Vec<String> = done.left_shards.iter().map(usize::to_string).collect();
+        let (left, numbers) = (done.left, numbers.join(","));
+        let _ = writeln!(text, "  {left} chunks are left, of the shards {numbers}");
     }
     text
-}
-
-fn warnings(part: Part) -> Vec<String> {
-    let told =
-        format!("{} chunks of the store were cut short or changed, and done again", part.damaged);
-    if part.damaged > 0 { vec![told] } else { Vec::new() }
 }

@@ -64,26 +64,10 @@ def compute_shard(
     """Computes one part of a map into a store that other processes share: ``map`` with ``shard``."""
     from ._quell import NativeShared
 
-    number, of = NativeShared.shard(shard)
+    NativeShared.check_shard(shard)
     here = NativeShared.open(study._native, quantities, store)
-    chunks = here.chunks_of(shard)
-    computed, there, damaged, points, seconds = here.compute(chunks, threads, progress)
-    left = here.unrecorded()
-    facts = {
-        "ok": True,
-        "shard": {"number": number, "of": of},
-        "chunks": len(chunks),
-        "computed_chunks": computed,
-        "there_chunks": there,
-        "damaged_chunks": damaged,
-        "computed_points": points,
-        "map_chunks": len(here.points()),
-        "left_chunks": len(left),
-        "left_shards": sorted({chunk % of + 1 for chunk in left}),
-        "saved": [store],
-        "seconds": seconds,
-        "warnings": [],
-    }
+    facts, warnings, seconds = here.compute_shard(shard, threads, progress)
+    facts = {**facts, "seconds": seconds, "warnings": warnings}
     return results.Shard(study, facts)
 
 

@@ -3,7 +3,7 @@
 use quell_model::Direction;
 use quell_model::units::Quantity;
 
-use super::ruler::words;
+use super::ruler::{short, words};
 use crate::run::start_in_words;
 use crate::study::disc::ModeSource;
 use crate::study::{DiscStudy, Study};
@@ -14,7 +14,7 @@ pub(super) fn caption(study: &Study) -> String {
     let law = belt.friction().kind();
     let mut parts = vec![
         format!("{} law", capitalised(law.name())),
-        format!("$ζ$ = {}", words_of_ratio(belt.damping_ratio())),
+        format!("$ζ$ = {}", short(belt.damping_ratio())),
     ];
     let load = if study.scales().is_some() { "N_0" } else { "F" };
     let velocity = if study.scales().is_some() { "V_0" } else { "v_0" };
@@ -68,16 +68,16 @@ pub(super) fn caption_of_disc(study: &DiscStudy) -> String {
         _ => parts.push(format!("{} given modes", disc.modes().len())),
     }
     if let Some(damping) = disc.get("disc.modal_damping") {
-        parts.push(format!("$ξ$ = {}", words_of_ratio(damping)));
+        parts.push(format!("$ξ$ = {}", short(damping)));
     }
     for (load, radius) in disc.loads().iter().zip(study.radii()) {
         let place = radius.map_or_else(String::new, |radius| format!(" at $r_0$/$a$ = {radius}"));
         parts.push(format!(
             "load $m$ = {}, $c$ = {}, $k$ = {}, $f$ = {}{place}",
-            words_of_ratio(load.mass),
-            words_of_ratio(load.damping),
-            words_of_ratio(load.stiffness),
-            words_of_ratio(load.friction)
+            short(load.mass),
+            short(load.damping),
+            short(load.stiffness),
+            short(load.friction)
         ));
     }
     match disc.dither() {
@@ -94,11 +94,6 @@ pub(super) fn caption_of_disc(study: &DiscStudy) -> String {
         parts.push(format!("without {}", without.join(", ")));
     }
     format!("{}.", parts.join(", "))
-}
-
-fn words_of_ratio(value: f64) -> String {
-    let text = format!("{value:.3e}");
-    text.parse::<f64>().map_or(text, |rounded| rounded.to_string())
 }
 
 fn capitalised(word: &str) -> String {

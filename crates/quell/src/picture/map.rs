@@ -7,6 +7,7 @@
 
 use std::ops::Range;
 
+use super::ruler::short;
 use crate::plot::{
     Axis, Colouring, Contours, Field, Figure, Fill, Grid, Layer, Legend, Line, Palette, Panel,
     PlotError, Region, Role, Rule, Shading, SharedLegend, Sharing, Size, Spread, Tint,
@@ -148,12 +149,6 @@ fn heading(others: &[MapAxis], number: usize) -> String {
     parts.reverse();
     let letter = char::from(b'a' + u8::try_from(number % 26).unwrap_or(0));
     format!("({letter}) {}", parts.join(", "))
-}
-
-/// A number with at most four digits.
-fn short(value: f64) -> String {
-    let text = format!("{value:.3e}");
-    text.parse::<f64>().map_or(text, |rounded| rounded.to_string())
 }
 
 /// Places of the values in rising order, and the values in that order.

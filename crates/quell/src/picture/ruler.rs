@@ -55,10 +55,15 @@ impl Ruler {
 
     /// A value with its unit.
     pub(super) fn words(&self, value: f64) -> String {
-        let text = format!("{:.3e}", self.place(value));
-        let number = text.parse::<f64>().map_or(text, |rounded| rounded.to_string());
+        let number = short(self.place(value));
         if self.unit.is_empty() { number } else { format!("{number} {}", self.unit) }
     }
+}
+
+/// Four significant digits.
+pub(super) fn short(value: f64) -> String {
+    let text = format!("{value:.3e}");
+    text.parse::<f64>().map_or(text, |rounded| rounded.to_string())
 }
 
 /// A value of a study with its unit, for captions and labels.

@@ -13,10 +13,12 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
+use serde_json::{Value as Json, json};
+
 use super::{Map, put, same_program};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::store::{Found, Store};
-use crate::sweep::{self, Plan, Running};
+use crate::sweep::{self, Plan, Running, Shard};
 
 /// A map in a store that other processes may write at the same time.
 #[derive(Debug)]
@@ -38,6 +40,50 @@ pub struct Part {
     pub points: usize,
     /// How long it took.
     pub elapsed: Duration,
+}
+
+/// A shard that was computed, and what is left of the map.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sharded {
+    /// Which one.
+    pub shard: Shard,
+    /// Number of its chunks.
+    pub chunks: usize,
+    /// What was done.
+    pub part: Part,
+    /// Number of chunks of the whole map.
+    pub map_chunks: usize,
+    /// Chunks of the whole map that are not there yet.
+    pub left: usize,
+    /// The shards, of as many, that have them, rising.
+    pub left_shards: Vec<usize>,
+}
+
+impl Sharded {
+    /// As JSON, beside the path of the store.
+    pub fn json(&self, path: &Path) -> Json {
+        json!({
+            "ok": true,
+            "shard": { "number": self.shard.number(), "of": self.shard.of() },
+            "chunks": self.chunks,
+            "computed_chunks": self.part.computed,
+            "there_chunks": self.part.there,
+            "damaged_chunks": self.part.damaged,
+            "computed_points": self.part.points,
+            "map_chunks": self.map_chunks,
+            "left_chunks": self.left,
+            "left_shards": self.left_shards,
+            "saved": [path.display().to_string()],
+        })
+    }
+
+    /// What a reader should know.
+    pub fn warnings(&self) -> Vec<String> {
+        let damaged = self.part.damaged;
+        let told =
+            format!("{damaged} chunks of the store were cut short or changed, and done again");
+        if damaged > 0 { vec![told] } else { Vec::new() }
+    }
 }
 
 impl Shared {
@@ -130,6 +176,22 @@ impl Shared {
             Err(Failure::Failed { why, .. }) => Err(self.incomplete(&why, left, chunks.len())),
             Err(wrong) => Err(wrong),
         }
+    }
+
+    /// Computes a shard: [`Shared::compute`] of its chunks, and a look at what is left.
+    ///
+    /// # Errors
+    /// Those of [`Shared::compute`] and [`Shared::unrecorded`].
+    pub fn compute_shard(&self, shard: Shard, running: Running<'_>) -> Result<Sharded, Failure> {
+        let chunks = shard.chunks(self.plan.chunks());
+        let part = self.compute(&chunks, running)?;
+        let left = self.unrecorded()?;
+        let mut left_shards: Vec<usize> =
+            left.iter().map(|&chunk| shard.number_of(chunk)).collect();
+        left_shards.sort_unstable();
+        left_shards.dedup();
+        let map_chunks = self.plan.chunks().len();
+        Ok(Sharded { shard, chunks: chunks.len(), part, map_chunks, left: left.len(), left_shards })
     }
 
     /// Reads the whole map back.
