@@ -15,6 +15,7 @@ use super::varied::{ascending, unable};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::quantity::bearable;
 use crate::study::mirror::given_number;
+use crate::study::vocabulary::{join, resolve};
 use crate::study::{InitialState, Study};
 
 /// Least number of values between which an orbit is followed.
@@ -92,7 +93,16 @@ pub(super) fn known(study: &Study, option: &'static str, path: &str) -> Result<(
         return Ok(());
     }
     let allowed = "a number of the equations that this study has, such as dither.amplitude or belt.belt_velocity";
-    Err(Complaint::new(Fault::Value, option, Origin::Argument(option), path, allowed).into())
+    // A key in SI, or a slip of the pen: its number of the equations.
+    let near = match resolve(path) {
+        Ok(address) => address.key.parameter().map(|parameter| {
+            let table = path.rsplit_once('.').map_or("", |(table, _)| table);
+            join(table, parameter.key())
+        }),
+        Err(nearest) => nearest,
+    };
+    let near = near.filter(|near| study.belt().get(near).is_some());
+    Err(Complaint::option(option, path, allowed).suggesting(near).into())
 }
 
 /// Why there are no thresholds, as it is told.

@@ -151,7 +151,7 @@ impl Subject {
 
 /// What a verb that is about belts says of a study of a disc.
 pub(super) fn not_of_a_belt(origin: Origin) -> Complaint {
-    let allowed = "a study of a disc, and this verb is about a belt ([belt], [friction]); about a disc are check, cite, \
+    let allowed = "this verb is about a belt ([belt], [friction]), and the study is of a disc, which has the verbs check, cite, \
                    modes, stability, resonances and map";
     Complaint::new(Fault::Conflict, "disc", origin, Json::Null, allowed)
 }
