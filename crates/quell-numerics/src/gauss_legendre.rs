@@ -40,6 +40,15 @@ impl GaussLegendre {
         }
         Self { nodes, weights }
     }
+
+    /// The same rule on [0, 1] as tables: the first N nodes and weights, zeros where the rule has fewer.
+    #[must_use]
+    pub fn on_unit_interval<const N: usize>(&self) -> [[f64; N]; 2] {
+        let table = |values: &[f64], map: fn(f64) -> f64| {
+            core::array::from_fn(|k| values.get(k).map_or(0.0, |value| map(*value)))
+        };
+        [table(&self.nodes, |node| 0.5 * (1.0 + node)), table(&self.weights, |w| 0.5 * w)]
+    }
 }
 
 /// Pₙ(x) and Pₙ₋₁(x), n ≥ 1.
@@ -85,6 +94,13 @@ mod tests {
             }
             assert!(rule.nodes.windows(2).all(|pair| pair[0] < pair[1]));
         }
+    }
+
+    #[test]
+    fn on_the_unit_interval() {
+        let [nodes, weights] = GaussLegendre::new(6).on_unit_interval::<6>();
+        let power: f64 = nodes.iter().zip(weights).map(|(x, w)| w * x.powi(11)).sum();
+        assert!((power - 1.0 / 12.0).abs() < 1e-16 && nodes.iter().all(|x| (0.0..1.0).contains(x)));
     }
 
     /// P₅(x) = (63x⁵ − 70x³ + 15x)/8.

@@ -16,8 +16,8 @@ pub struct LeastSquares {
 /// Columns whose rest is below this share of their length depend on the others.
 const DEPENDENT: f64 = 1e-13;
 
-/// Solves for columns of one length; `None` where there are more columns than rows or they depend
-/// on one another.
+/// Solves for the columns of A, each as long as `data`, b; the solution has one number a column. `None` where the lengths
+/// differ, where there are more columns than rows, and where columns depend on one another to 10⁻¹³ of their length.
 pub fn least_squares(columns: &[Vec<f64>], data: &[f64]) -> Option<LeastSquares> {
     let (rows, count) = (data.len(), columns.len());
     if count > rows || columns.iter().any(|column| column.len() != rows) {

@@ -5,7 +5,7 @@
 //! * [`polynomial`]: first root of a Taylor step, isolated or proven absent; step length;
 //! * [`quadrature`], [`gauss_legendre`], [`roots`], [`special`], [`bessel`], [`spectrum`]: integrals, scalar roots and minima,
 //!   special functions, spectra;
-//! * [`symmetric`]: eigenvalues of symmetric pencils;
+//! * [`symmetric`], [`least_squares`]: eigenvalues of symmetric pencils, fits of a few columns;
 //! * [`continuation`]: fixed points of period maps by shooting, their branches, thresholds and curves of thresholds.
 
 pub mod bessel;

@@ -14,6 +14,33 @@ const NEARLY_SOLVED: f64 = 1e-9;
 /// Corrections of one step.
 const MOST_CORRECTIONS: u32 = 12;
 
+/// A corrected point off the predicted one by more than this share of the step is not believed.
+pub(super) const NEAR: f64 = 0.1;
+
+/// Least cosine of the turn of a step.
+pub(super) const TURN: f64 = 0.9;
+
+/// Points before a way may close.
+const CLOSING: usize = 8;
+
+/// The value at a share of a window; its ends exactly.
+pub(super) fn value((from, to): (f64, f64), share: f64) -> f64 {
+    if share == 1.0 { to } else { (to - from).mul_add(share, from) }
+}
+
+/// Whether a way of so many points is back where it began: nearer than a part of the last step, in the same direction. Each
+/// of the two is a point and its tangent.
+pub(super) fn closes(
+    points: usize,
+    last_step: f64,
+    here: (&[f64], &[f64]),
+    begin: (&[f64], &[f64]),
+) -> bool {
+    points > CLOSING
+        && distance(here.0, begin.0) < 0.6 * last_step
+        && cosine(here.1, begin.1) > TURN
+}
+
 /// N equations for N + 1 unknowns, all scaled.
 pub(super) trait System {
     /// What is known beside the mismatch.

@@ -9,7 +9,7 @@
 
 use num_complex::Complex64;
 
-use super::arc::{self, Solved, System, cosine, distance, tangent};
+use super::arc::{self, NEAR, Solved, System, TURN, cosine, distance, tangent};
 use super::branch::NUDGE;
 use super::threshold::{Kind, confirmed, test};
 use super::{Family, Image, multipliers};
@@ -91,10 +91,8 @@ impl<F: Family> Equations<'_, F> {
     fn unscaled(&self, unknowns: &[f64]) -> (Vec<f64>, [f64; 2]) {
         let n = unknowns.len() - 2;
         let state = unknowns[..n].iter().map(|it| it * self.family.scale()).collect();
-        let value = |(from, to): (f64, f64), share: f64| {
-            if share == 1.0 { to } else { (to - from).mul_add(share, from) }
-        };
-        (state, [value(self.trace.first, unknowns[n]), value(self.trace.second, unknowns[n + 1])])
+        let Trace { first, second, .. } = self.trace;
+        (state, [arc::value(first, unknowns[n]), arc::value(second, unknowns[n + 1])])
     }
 
     /// The test at an image; a distance is a length.
@@ -163,11 +161,11 @@ struct Place<S> {
     multipliers: Vec<Complex64>,
 }
 
-/// A corrected point off the predicted one by more than this share of the step is not believed.
-const NEAR: f64 = 0.1;
-
-/// Least cosine of the turn of a step.
-const TURN: f64 = 0.9;
+impl<S> Place<S> {
+    fn with_tangent(&self) -> (&[f64], &[f64]) {
+        (&self.unknowns, &self.tangent)
+    }
+}
 
 /// The share of a step at which it leaves a window first, and through which coordinate and end.
 fn leaves<S>(here: &Place<S>, length: f64) -> Option<(f64, usize, f64)> {
@@ -259,10 +257,8 @@ impl<F: Family> Equations<'_, F> {
                         length = (2.0 * way).min(self.trace.longest);
                     }
                     here = next;
-                    let closes = points.len() > 8
-                        && distance(&here.unknowns, &begin.unknowns) < 0.6 * way
-                        && cosine(&here.tangent, &begin.tangent) > TURN;
-                    if closes {
+                    let (now, first) = (here.with_tangent(), begin.with_tangent());
+                    if arc::closes(points.len(), way, now, first) {
                         return (points, CurveEnd::Closed);
                     }
                 }
@@ -274,7 +270,8 @@ impl<F: Family> Equations<'_, F> {
 }
 
 /// The curve of a threshold of a kind through a fixed point that has it, on the piece of `signature`, in both directions
-/// to the borders of the windows. `None` where the point is not one of the curve.
+/// to the borders of the windows. State and both parameters are unscaled, in the order of [`Trace`]'s windows; they are the guess
+/// of Newton's method. `None` where it finds no point of the curve from there.
 pub fn trace<F: Family>(
     family: &F,
     kind: Kind,

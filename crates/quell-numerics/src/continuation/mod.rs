@@ -28,6 +28,7 @@ use std::fmt::Debug;
 use num_complex::Complex64;
 
 use crate::eigen::eigenvalues;
+pub use crate::eigen::modulus;
 use crate::matrix::Matrix;
 
 /// A map of a state over one period, which depends on parameters.
@@ -104,9 +105,9 @@ fn of_two(a: f64, b: f64, c: f64, d: f64) -> [Complex64; 2] {
     [Complex64::new(large, 0.0), Complex64::new(small, 0.0)]
 }
 
-/// |λ|, by libm.
-pub fn modulus(multiplier: Complex64) -> f64 {
-    libm::hypot(multiplier.re, multiplier.im)
+/// Largest modulus of multipliers in their order; 0 of none.
+pub fn spectral_radius(multipliers: &[Complex64]) -> f64 {
+    multipliers.first().map_or(0.0, |&it| modulus(it))
 }
 
 /// Number of multipliers outside the unit circle.

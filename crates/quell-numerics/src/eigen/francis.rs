@@ -97,34 +97,45 @@ fn of_two(x: f64, y: f64, w: f64, shift: f64) -> [Complex64; 2] {
     }
 }
 
-/// One implicit double-shift step on rows `start`…`last`.
+/// Where the bulge of a double-shift step may start and its first column: two consecutive small subdiagonal entries let it start
+/// further down than at `start`.
 #[inline(always)]
-fn sweep(a: &mut [f64], n: usize, start: usize, last: usize, (x, y, w): (f64, f64, f64)) {
-    let stride = n;
+fn start_of_bulge(
+    a: &[f64],
+    stride: usize,
+    start: usize,
+    last: usize,
+    (x, y, w): (f64, f64, f64),
+) -> (usize, [f64; 3]) {
     let at = |i: usize, j: usize| i * stride + j;
-    // Two consecutive small subdiagonal entries let the bulge start further down.
     let mut m = last - 2;
-    let (mut p, mut q, mut r);
     loop {
         let z = a[at(m, m)];
         let (dx, dy) = (x - z, y - z);
-        p = dx.mul_add(dy, -w) / a[at(m + 1, m)] + a[at(m, m + 1)];
-        q = a[at(m + 1, m + 1)] - z - dx - dy;
-        r = a[at(m + 2, m + 1)];
+        let mut p = dx.mul_add(dy, -w) / a[at(m + 1, m)] + a[at(m, m + 1)];
+        let mut q = a[at(m + 1, m + 1)] - z - dx - dy;
+        let mut r = a[at(m + 2, m + 1)];
         let size = 1.0 / (p.abs() + q.abs() + r.abs());
         p *= size;
         q *= size;
         r *= size;
         if m == start {
-            break;
+            return (m, [p, q, r]);
         }
         let small = a[at(m, m - 1)].abs() * (q.abs() + r.abs());
         let large = p.abs() * (a[at(m - 1, m - 1)].abs() + z.abs() + a[at(m + 1, m + 1)].abs());
         if small <= f64::EPSILON * large {
-            break;
+            return (m, [p, q, r]);
         }
         m -= 1;
     }
+}
+
+/// One implicit double-shift step on rows `start`…`last`.
+#[inline(always)]
+fn sweep(a: &mut [f64], stride: usize, start: usize, last: usize, shifts: (f64, f64, f64)) {
+    let at = |i: usize, j: usize| i * stride + j;
+    let (m, [mut p, mut q, mut r]) = start_of_bulge(a, stride, start, last, shifts);
     for k in m..last {
         let three = k + 1 != last;
         let mut size = 1.0;

@@ -103,16 +103,6 @@ impl ConstantFlow {
         Ok(flow)
     }
 
-    /// Rank r of the periodic part: Φ is r × r. One where U and V were empty.
-    pub fn rank(&self) -> usize {
-        self.rank
-    }
-
-    /// Number of states.
-    pub fn size(&self) -> usize {
-        self.size
-    }
-
     /// Whether kicks are nilpotent (VᵀU = 0), and splittings therefore of fourth order in the exponents.
     pub fn is_nilpotent(&self) -> bool {
         self.nilpotent

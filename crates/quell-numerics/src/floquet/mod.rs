@@ -63,7 +63,7 @@ pub struct Exponent {
     pub growth_rate: f64,
     /// Bound on its error.
     pub error: f64,
-    /// Its frequency, between 0 and half of the periodic part's: exponents are known up to multiples of i·2π/T.
+    /// Its frequency |Im ρ| in radians per unit of time, from 0 to π/T: exponents are known up to multiples of i·2π/T.
     pub frequency: f64,
     /// Steps a period of the finest map used.
     pub steps: usize,
@@ -93,11 +93,6 @@ impl Floquet {
         let count = count.next_power_of_two();
         let levels = [count, 2 * count].map(|count| Steps::new(&flow, period, count));
         Self { flow, period, levels }
-    }
-
-    /// The constant flow.
-    pub fn flow(&self) -> &ConstantFlow {
-        &self.flow
     }
 
     /// Steps a period of the first level.

@@ -131,12 +131,6 @@ impl Spectrum {
         index as f64 * self.spacing
     }
 
-    /// Step between lines, in radians per unit of time.
-    #[must_use]
-    pub fn spacing(&self) -> f64 {
-        self.spacing
-    }
-
     /// Angular frequencies of all lines, from 0 to the Nyquist frequency.
     pub fn frequencies(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
         (0..self.amplitudes.len()).map(|j| self.frequency(j))

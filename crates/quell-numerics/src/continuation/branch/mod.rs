@@ -16,11 +16,11 @@ mod walk;
 use num_complex::Complex64;
 
 use super::Family;
-use super::arc::{cosine, distance};
+use super::arc::{self, cosine, distance};
 use super::shooting::{NotClosed, Shooting, fixed_point};
 use super::threshold::{Kind, SMOOTH};
 pub(super) use walk::NUDGE;
-use walk::{Found, Place, Step, TURN, Walk};
+use walk::{Found, Place, Step, Walk};
 
 /// How a branch is followed. Steps are in scaled coordinates, in which the window of the parameter has width 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -183,10 +183,8 @@ pub fn follow<F: Family>(
                 }
                 points.push(walk.point(&next));
                 before = Some(std::mem::replace(&mut here, *next));
-                let closes = points.len() > 8
-                    && distance(&here.unknowns, &begin.unknowns) < 0.6 * way
-                    && cosine(&here.tangent, &begin.tangent) > TURN;
-                if closes {
+                let (now, first) = (here.with_tangent(), begin.with_tangent());
+                if arc::closes(points.len(), way, now, first) {
                     break End::Closed;
                 }
             }
@@ -204,14 +202,10 @@ pub fn follow<F: Family>(
             }
             Step::Failed if length > options.shortest => length *= 0.4,
             Step::Failed => {
-                // A corner that no step turns around: the branch may go on beyond it.
-                let beyond =
-                    if looked { None } else { walk.beyond(&here, here.tangent[n].signum()) };
-                let Some(next) = beyond else { break End::Lost { at } };
+                let over = if looked { None } else { over_a_corner(&walk, &here, &mut passages) };
+                let Some((next, way)) = over else { break End::Lost { at } };
                 looked = true;
-                length = distance(&next.unknowns, &here.unknowns).max(10.0 * options.shortest);
-                let error = length * (options.to - options.from).abs();
-                passages.push(walk.passage(Kind::Border, &here, error, &here, Some(&next)));
+                length = way;
                 points.push(walk.point(&next));
                 before = None;
                 here = next;
@@ -219,6 +213,19 @@ pub fn follow<F: Family>(
         }
     };
     Ok(Branch { points, passages, end })
+}
+
+/// Beyond a corner that no step turns around, where the branch goes on there: the place and the way to it.
+fn over_a_corner<F: Family>(
+    walk: &Walk<'_, F>,
+    here: &Place<F::Signature>,
+    out: &mut Vec<Passage<F::Signature>>,
+) -> Option<(Place<F::Signature>, f64)> {
+    let Follow { from, to, shortest, .. } = walk.follow;
+    let next = walk.beyond(here, here.tangent.last()?.signum())?;
+    let way = distance(&next.unknowns, &here.unknowns).max(10.0 * shortest);
+    out.push(walk.passage(Kind::Border, here, way * (to - from).abs(), here, Some(&next)));
+    Some((next, way))
 }
 
 /// Pairs of thresholds inside a dip of a test function.

@@ -2,9 +2,11 @@
 
 use num_complex::Complex64;
 
-use super::super::arc::{self, Solved, System, between, cosine, direction, distance, tangent};
+use super::super::arc::{
+    self, NEAR, Solved, System, TURN, between, cosine, direction, distance, tangent,
+};
 use super::super::threshold::Kind;
-use super::super::{Family, Image, modulus, multipliers, unstable};
+use super::super::{Family, Image, multipliers, spectral_radius, unstable};
 use super::{Follow, Passage, Point, Side};
 use crate::matrix::Matrix;
 
@@ -23,9 +25,13 @@ impl<S: Clone> Place<S> {
     pub(super) fn side(&self) -> Side<S> {
         Side {
             unstable: unstable(&self.multipliers),
-            radius: self.multipliers.first().map_or(0.0, |&it| modulus(it)),
+            radius: spectral_radius(&self.multipliers),
             signature: self.image.signature.clone(),
         }
+    }
+
+    pub(super) fn with_tangent(&self) -> (&[f64], &[f64]) {
+        (&self.unknowns, &self.tangent)
     }
 
     pub(super) fn parameter(&self) -> f64 {
@@ -88,12 +94,6 @@ pub(super) struct Walk<'a, F: Family> {
     pub(super) follow: Follow,
 }
 
-/// A corrected point off the predicted one by more than this share of the step is not believed.
-const NEAR: f64 = 0.1;
-
-/// Least cosine of the turn of a step.
-pub(super) const TURN: f64 = 0.9;
-
 pub(super) type Found<F> = Option<Place<<F as Family>::Signature>>;
 
 impl<F: Family> Walk<'_, F> {
@@ -106,7 +106,7 @@ impl<F: Family> Walk<'_, F> {
     /// The parameter of a scaled one; the ends of the window exactly.
     pub(super) fn value(&self, share: f64) -> f64 {
         let Follow { from, to, .. } = self.follow;
-        if share == 1.0 { to } else { (to - from).mul_add(share, from) }
+        arc::value((from, to), share)
     }
 
     pub(super) fn scaled(&self, state: &[f64], share: f64) -> Vec<f64> {

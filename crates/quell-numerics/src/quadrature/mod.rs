@@ -17,7 +17,11 @@
 //! (QAGP without extrapolation). Nodes and weights were computed anew to 34 digits; the tests check
 //! their exactness on polynomials up to degree 31 (Kronrod) and 19 (Gauss).
 
+mod rule;
+
 use std::collections::BinaryHeap;
+
+use rule::{Panel, panel};
 
 /// Value of an integral, the bound on its error that was reached, and what it cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -109,124 +113,8 @@ impl core::fmt::Display for QuadratureError {
 
 impl core::error::Error for QuadratureError {}
 
-/// Nodes in (0, 1) of the 21-point Kronrod rule, outermost first; odd places are the Gauss nodes.
-const NODES: [f64; 10] = [
-    0.9956571630258080807355272806890028,
-    0.9739065285171717200779640120844521,
-    0.9301574913557082260012071800595083,
-    0.865063366688984510732096688423493,
-    0.7808177265864168970637175783450424,
-    0.6794095682990244062343273651148736,
-    0.5627571346686046833390000992726941,
-    0.4333953941292471907992659431657842,
-    0.2943928627014601981311266031038656,
-    0.14887433898163121088482600112972,
-];
-/// Kronrod weights of [`NODES`].
-const KRONROD: [f64; 10] = [
-    0.01169463886737187427806439606219205,
-    0.03255816230796472747881897245938976,
-    0.05475589657435199603138130024458018,
-    0.07503967481091995276704314091619001,
-    0.09312545458369760553506546508336634,
-    0.109387158802297641899210590325805,
-    0.1234919762620658510779581098310742,
-    0.1347092173114733259280540017718067,
-    0.1427759385770600807970942731387171,
-    0.147739104901338491374841515972068,
-];
-/// Kronrod weight of the centre.
-const KRONROD_CENTRE: f64 = 0.1494455540029169056649364683898212;
-/// Gauss weights of the odd places of [`NODES`].
-const GAUSS: [f64; 5] = [
-    0.06667134430868813759356880989333179,
-    0.1494513491505805931457763396576973,
-    0.2190863625159820439955349342281632,
-    0.2692667193099963550912269215694694,
-    0.2955242247147528701738929946513383,
-];
-
 /// Agreement of a panel with its halves, relative to ∫|f|, at which an error that does not shrink is noise.
 const NOISE: f64 = 1e-10;
-
-/// One panel with its Kronrod value, its error estimate and ∫|f|.
-#[derive(Debug, Clone, Copy)]
-struct Panel {
-    from: f64,
-    to: f64,
-    value: f64,
-    error: f64,
-    floor: f64,
-}
-
-impl Panel {
-    /// Whether bisection could still lower the error.
-    fn can_improve(&self) -> bool {
-        let middle = self.from.midpoint(self.to);
-        self.error > self.floor && middle > self.from && middle < self.to
-    }
-}
-
-impl PartialEq for Panel {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-impl Eq for Panel {}
-impl PartialOrd for Panel {
-    fn partial_cmp(&self, other: &Self) -> Option<core::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for Panel {
-    /// Largest error first; ties by place, so that the order of work is always the same.
-    fn cmp(&self, other: &Self) -> core::cmp::Ordering {
-        self.error.total_cmp(&other.error).then(other.from.total_cmp(&self.from))
-    }
-}
-
-/// Applies the pair of rules to one panel.
-fn panel(f: &mut impl FnMut(f64) -> f64, from: f64, to: f64) -> Result<Panel, QuadratureError> {
-    let centre = from.midpoint(to);
-    let half = 0.5 * (to - from);
-    let mut below = [0.0; 10];
-    let mut above = [0.0; 10];
-    let mut finite = |x: f64| {
-        let y = f(x);
-        if y.is_finite() { Ok(y) } else { Err(QuadratureError::IntegrandNotFinite { at: x }) }
-    };
-    let middle = finite(centre)?;
-    for (i, node) in NODES.iter().enumerate() {
-        below[i] = finite(centre - half * node)?;
-        above[i] = finite(centre + half * node)?;
-    }
-    let mut kronrod = KRONROD_CENTRE * middle;
-    let mut magnitude = KRONROD_CENTRE * middle.abs();
-    let mut gauss = 0.0;
-    for i in 0..10 {
-        kronrod += KRONROD[i] * (below[i] + above[i]);
-        magnitude += KRONROD[i] * (below[i].abs() + above[i].abs());
-        if i % 2 == 1 {
-            gauss += GAUSS[i / 2] * (below[i] + above[i]);
-        }
-    }
-    let mean = 0.5 * kronrod;
-    let mut spread = KRONROD_CENTRE * (middle - mean).abs();
-    for i in 0..10 {
-        spread += KRONROD[i] * ((below[i] - mean).abs() + (above[i] - mean).abs());
-    }
-    let scale = half.abs();
-    let difference = (kronrod - gauss).abs() * scale;
-    let spread = spread * scale;
-    let floor = 4.0 * f64::EPSILON * magnitude * scale;
-    let estimate = if spread > 0.0 && difference > 0.0 {
-        let ratio = 200.0 * difference / spread;
-        spread * f64::min(1.0, ratio * ratio.sqrt())
-    } else {
-        difference
-    };
-    Ok(Panel { from, to, value: kronrod * half, error: estimate.max(floor), floor })
-}
 
 /// Sum that carries its rounding along (Neumaier).
 #[derive(Default)]
@@ -250,6 +138,38 @@ impl CompensatedSum {
     }
 }
 
+/// Sums of the values and of the errors of all panels.
+fn summed(open: &BinaryHeap<Panel>, done: &[Panel]) -> (f64, f64) {
+    // The heap's inner order is a function of the work done, hence the same everywhere.
+    let mut value = CompensatedSum::default();
+    let mut error = 0.0;
+    for p in open.iter().chain(done) {
+        value.add(p.value);
+        error += p.error;
+    }
+    (value.total(), error)
+}
+
+/// Panels to begin with: `count` equal ones between neighbouring break points.
+fn first_panels(low: f64, high: f64, breaks: &[f64], count: usize) -> Vec<[f64; 2]> {
+    let mut cuts: Vec<f64> = breaks.iter().copied().filter(|b| *b > low && *b < high).collect();
+    cuts.push(low);
+    cuts.push(high);
+    cuts.sort_unstable_by(f64::total_cmp);
+    cuts.dedup();
+    let count = count.max(1);
+    let panels = cuts.windows(2).flat_map(|pair| {
+        let (first, last) = (pair[0], pair[1]);
+        let edge = move |i: usize| match i {
+            0 => first,
+            i if i == count => last,
+            i => first + (last - first) * (i as f64 / count as f64),
+        };
+        (0..count).map(move |i| [edge(i), edge(i + 1)])
+    });
+    panels.filter(|[from, to]| to > from).collect()
+}
+
 /// Adaptive integral of `f` from `from` to `to` (either order), cut at those of `breaks` that lie between them.
 ///
 /// The integrand is never evaluated at an end or at a break point.
@@ -269,14 +189,7 @@ pub fn integrate(
             return Err(QuadratureError::NotFinite { limit });
         }
     }
-    let (low, high) = if from <= to { (from, to) } else { (to, from) };
     let sign = if from <= to { 1.0 } else { -1.0 };
-    let mut cuts: Vec<f64> = breaks.iter().copied().filter(|b| *b > low && *b < high).collect();
-    cuts.push(low);
-    cuts.push(high);
-    cuts.sort_unstable_by(f64::total_cmp);
-    cuts.dedup();
-
     let mut open: BinaryHeap<Panel> = BinaryHeap::new();
     let mut done: Vec<Panel> = Vec::new();
     let mut evaluations = 0;
@@ -287,29 +200,13 @@ pub fn integrate(
             done.push(p);
         }
     };
-    for pair in cuts.windows(2) {
-        let count = options.panels.max(1);
-        let edge = |i: usize| match i {
-            0 => pair[0],
-            i if i == count => pair[1],
-            i => pair[0] + (pair[1] - pair[0]) * (i as f64 / count as f64),
-        };
-        for i in 0..count {
-            if edge(i + 1) > edge(i) {
-                evaluations += 21;
-                place(panel(&mut f, edge(i), edge(i + 1))?, &mut open, &mut done);
-            }
-        }
+    for [from, to] in first_panels(from.min(to), from.max(to), breaks, options.panels) {
+        evaluations += 21;
+        place(panel(&mut f, from, to)?, &mut open, &mut done);
     }
     let total = |open: &BinaryHeap<Panel>, done: &[Panel], evaluations: usize| {
-        // The heap's inner order is a function of the work done, hence the same everywhere.
-        let mut value = CompensatedSum::default();
-        let mut error = 0.0;
-        for p in open.iter().chain(done) {
-            value.add(p.value);
-            error += p.error;
-        }
-        Integral { value: sign * value.total(), error, evaluations }
+        let (value, error) = summed(open, done);
+        Integral { value: sign * value, error, evaluations }
     };
     let mut running: f64 = open.iter().chain(&done).map(|p| p.value).sum();
     let mut running_error: f64 = open.iter().chain(&done).map(|p| p.error).sum();
@@ -349,6 +246,7 @@ pub fn integrate(
 
 #[cfg(test)]
 mod tests {
+    use super::rule::{GAUSS, NODES};
     use super::*;
     use core::f64::consts::PI;
 
