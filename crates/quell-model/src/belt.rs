@@ -7,7 +7,7 @@ use crate::dither::{Direction, Dither};
 use crate::friction::Friction;
 use crate::parameter::{
     BELT_VELOCITY, DAMPING_RATIO, DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE,
-    NORMAL_LOAD, Parameter,
+    NORMAL_LOAD, Parameter, indexed, split_index,
 };
 
 /// Mass, spring, damper, contact, friction law and dither, in the numbers of the equations.
@@ -125,6 +125,28 @@ impl Belt {
         self.friction.coefficient(self.belt_velocity) * self.normal_load
     }
 
+    /// Σ D g(Rτ + φ) of the dithers of one direction at the time τ.
+    #[inline]
+    pub fn dither_force(&self, direction: Direction, time: f64) -> f64 {
+        self.dithers_along(direction)
+            .map(|it| {
+                it.amplitude * it.waveform.value(f64::mul_add(it.frequency_ratio, time, it.phase))
+            })
+            .sum()
+    }
+
+    /// N = F + Σ D_N g_N(R_Nτ + φ) at the time τ.
+    #[inline]
+    pub fn normal_load_at(&self, time: f64) -> f64 {
+        self.normal_load + self.dither_force(Direction::Normal, time)
+    }
+
+    /// 2ζ + μ′N: the rate at which areas of nearby states shrink in slip, for a slope of friction and a normal load.
+    #[inline]
+    pub fn damping_rate(&self, slope: f64, normal_load: f64) -> f64 {
+        slope.mul_add(normal_load, 2.0 * self.damping_ratio)
+    }
+
     /// Value of a parameter by its path (`belt.damping_ratio`, `friction.…`, `dither.…`,
     /// `dither[1].…`), or `None` if there is no such number here.
     pub fn get(&self, path: &str) -> Option<f64> {
@@ -192,11 +214,7 @@ impl Belt {
 
     /// Path of a parameter of dither `index`, as the study file names it.
     pub fn dither_path(&self, index: usize, key: &str) -> String {
-        if self.dithers.len() > 1 {
-            format!("dither[{index}].{key}")
-        } else {
-            format!("dither.{key}")
-        }
+        indexed("dither", index, self.dithers.len(), key)
     }
 
     fn place(&self, path: &str) -> Option<Place> {
@@ -212,14 +230,7 @@ impl Belt {
         if self.friction.get(path).is_some() {
             return Some(Place::Law);
         }
-        let rest = path.strip_prefix("dither")?;
-        let (index, key) = match rest.strip_prefix('[') {
-            Some(rest) => {
-                let (index, key) = rest.split_once("].")?;
-                (index.parse().ok()?, key)
-            }
-            None => (0, rest.strip_prefix('.')?),
-        };
+        let (index, key) = split_index(path, "dither")?;
         let parameter = [DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE]
             .into_iter()
             .find(|parameter| parameter.key() == key)?;

@@ -1,7 +1,9 @@
 //! Dither: a fast force added to the system.
 
 use crate::Invalid;
-use crate::parameter::{DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE};
+use crate::parameter::{
+    DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE, indexed, split_index,
+};
 use crate::waveform::Waveform;
 
 /// Direction of a dither force.
@@ -62,8 +64,8 @@ impl Dither {
         .into_iter()
         .filter_map(|(parameter, value)| parameter.check(value).err())
         .map(|mut complaint| {
-            if count > 1 {
-                complaint.key = complaint.key.replacen("dither", &format!("dither[{index}]"), 1);
+            if let Some((_, key)) = split_index(&complaint.key, "dither") {
+                complaint.key = indexed("dither", index, count, key);
             }
             complaint
         })

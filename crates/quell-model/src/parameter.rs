@@ -10,6 +10,23 @@ use std::fmt;
 use crate::Invalid;
 use crate::units::Quantity;
 
+/// Path of the key of entry `index` of a list of `count` tables, as a study file names it: without index where there is one.
+pub fn indexed(table: &str, index: usize, count: usize, key: &str) -> String {
+    if count > 1 { format!("{table}[{index}].{key}") } else { format!("{table}.{key}") }
+}
+
+/// Index and key of such a path; `None` where it is no path of the table.
+pub fn split_index<'a>(path: &'a str, table: &str) -> Option<(usize, &'a str)> {
+    let rest = path.strip_prefix(table)?;
+    match rest.strip_prefix('[') {
+        Some(rest) => {
+            let (index, key) = rest.split_once("].")?;
+            Some((index.parse().ok()?, key))
+        }
+        None => Some((0, rest.strip_prefix('.')?)),
+    }
+}
+
 /// A named number of a study.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {

@@ -97,11 +97,6 @@ impl Scales {
         self.mass_kg
     }
 
-    /// Stiffness k, N/m.
-    pub fn stiffness_n_per_m(&self) -> f64 {
-        self.stiffness_n_per_m
-    }
-
     /// SI value of one unit of a quantity of the equations.
     pub fn si_per_unit(&self, quantity: Quantity) -> f64 {
         let omega = self.angular_frequency();

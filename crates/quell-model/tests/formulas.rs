@@ -104,6 +104,14 @@ fn noise_is_smoothed_and_its_size_told() {
     assert!((law.coefficient(100.0) - fit.limit).abs() < 1e-12 && (0.2..0.3).contains(&fit.limit));
 }
 
+#[test]
+fn a_unit_of_velocity_is_finite_and_positive() {
+    for unit in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let wrong = Expression::new("0.4", &[], None, unit).expect_err("no unit");
+        assert_eq!(wrong[0].key, "velocity_unit");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
 

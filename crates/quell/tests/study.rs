@@ -110,7 +110,7 @@ const WRONG: &[(&str, &str, Said)] = &[
     (
         "frequency_ratio = 10",
         "frequency_ratio = 0",
-        (Fault::Value, "dither.frequency_ratio", Some(16), "> 0", None),
+        (Fault::Value, "dither.frequency_ratio", Some(16), "(0, 100000]", None),
     ),
     (
         "amplitude = 0.4",
@@ -277,7 +277,7 @@ phse = 1
             (Fault::Value, "friction.minimum_coefficient", Some(11), "at most", None),
             (Fault::Value, "friction.reference_velocity", Some(12), "> 0", None),
             (Fault::Value, "dither[1].amplitude", Some(21), "≥ 0", None),
-            (Fault::Value, "dither[1].frequency_ratio", Some(22), "> 0", None),
+            (Fault::Value, "dither[1].frequency_ratio", Some(22), "(0, 100000]", None),
             (Fault::Unknown, "dither[1].phse", Some(23), "phase", Some("dither[1].phase")),
         ],
     );

@@ -1,6 +1,6 @@
 //! Friction laws.
 //!
-//! A law is one file that implements [`SlidingLaw`], and one line in the list at the end of
+//! A law is one file that implements [`SlidingLaw`], and one name in the list `laws!(…)` of
 //! this one. Its formula is written once, as a recurrence for Taylor coefficients
 //! ([`BranchSeries`]): the engine, its SIMD lanes, values, slopes and plots all use it.
 //! μ is odd; at v_r = 0 it is set-valued in [−μ_s, μ_s] (the static level is apart from

@@ -24,6 +24,7 @@ use crate::parameter::{Parameter, STATIC_COEFFICIENT};
 mod program;
 mod series;
 mod syntax;
+mod tree;
 
 use program::Program;
 pub use series::{ExpressionConstants, ExpressionSeries};
@@ -73,7 +74,7 @@ impl Expression {
     /// Under `friction.coefficient`: what is wrong with the text and at which character; a formula that is
     /// not smooth, not finite or negative somewhere, with the place; one that differs between the
     /// directions of slip. Under `friction.constants.…` and `friction.static_coefficient`: a value that
-    /// cannot be used.
+    /// cannot be used. Under `velocity_unit`: one that is not finite or not above 0.
     pub fn new(
         text: &str,
         constants: &[(String, f64)],
@@ -81,6 +82,10 @@ impl Expression {
         velocity_unit: f64,
     ) -> Result<Self, Vec<Invalid>> {
         let mut complaints = Vec::new();
+        if !(velocity_unit.is_finite() && velocity_unit > 0.0) {
+            let allowed = "a finite velocity above 0";
+            complaints.push(Invalid::new("velocity_unit", velocity_unit, allowed));
+        }
         for (index, (name, value)) in constants.iter().enumerate() {
             let path = format!("{CONSTANTS}.{name}");
             let twice = constants[..index].iter().any(|(known, _)| known == name);
@@ -160,11 +165,6 @@ impl Expression {
     /// Names and values of the constants, in order.
     pub fn named(&self) -> impl Iterator<Item = (&str, f64)> {
         self.names.iter().map(String::as_str).zip(self.named.iter().copied())
-    }
-
-    /// The static level, where it was given.
-    pub fn given_static(&self) -> Option<f64> {
-        self.given_static
     }
 
     /// Velocity of the equations that one unit of v means.

@@ -4,7 +4,7 @@
 //! nothing, for every step takes its arguments as a x + b. The structure depends on the text alone, never
 //! on the value of a constant: runs that differ in those go side by side.
 
-use super::syntax::{Function, Tree};
+use super::tree::{Function, Tree};
 
 /// Most series that a formula may need.
 pub(super) const MOST_SLOTS: usize = 32;

@@ -1,4 +1,4 @@
-//! The text of a formula and its tree.
+//! From the text of a formula to its tree.
 //!
 //! Grammar: numbers, names, `+ − * / ^` with their usual precedence (`^` from the right, before a sign:
 //! −v^2 = −(v²)), parentheses, and functions of one argument. Why a parser of our own: published
@@ -6,104 +6,17 @@
 
 use std::fmt;
 
+use super::tree::{Function, Tree};
+
 /// Most characters of a formula.
 pub const LONGEST: usize = 1000;
 
 /// Deepest nesting of parentheses, signs and powers.
 const DEEPEST: usize = 50;
 
-/// A function of one argument.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Function {
-    Abs,
-    Sign,
-    Exp,
-    Log,
-    Sqrt,
-    Sin,
-    Cos,
-    Tanh,
-    Sech,
-    Atan,
-}
-
-impl Function {
-    /// Names in a formula.
-    const NAMES: &'static [(&'static str, Self)] = &[
-        ("abs", Self::Abs),
-        ("sign", Self::Sign),
-        ("exp", Self::Exp),
-        ("log", Self::Log),
-        ("ln", Self::Log),
-        ("sqrt", Self::Sqrt),
-        ("sin", Self::Sin),
-        ("cos", Self::Cos),
-        ("tanh", Self::Tanh),
-        ("sech", Self::Sech),
-        ("atan", Self::Atan),
-    ];
-
-    fn named(name: &str) -> Option<Self> {
-        Self::NAMES.iter().find(|(known, _)| *known == name).map(|(_, function)| *function)
-    }
-
-    /// Its value at a number.
-    pub(super) fn value(self, x: f64) -> f64 {
-        match self {
-            Self::Abs => x.abs(),
-            Self::Sign if x == 0.0 => 0.0,
-            Self::Sign => 1f64.copysign(x),
-            Self::Exp => libm::exp(x),
-            Self::Log => libm::log(x),
-            Self::Sqrt => libm::sqrt(x),
-            Self::Sin => libm::sin(x),
-            Self::Cos => libm::cos(x),
-            Self::Tanh => libm::tanh(x),
-            Self::Sech => 1.0 / libm::cosh(x),
-            Self::Atan => libm::atan(x),
-        }
-    }
-}
-
 /// Functions that have a kink or a jump of their own.
 const NOT_SMOOTH: &[&str] =
     &["min", "max", "floor", "ceil", "round", "mod", "if", "step", "heaviside", "clamp"];
-
-/// A formula as a tree.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Tree {
-    Number(f64),
-    /// The slip velocity.
-    Velocity,
-    /// A named constant, by its place in the list of names.
-    Constant(usize),
-    Negative(Box<Tree>),
-    Sum(Box<Tree>, Box<Tree>),
-    Difference(Box<Tree>, Box<Tree>),
-    Product(Box<Tree>, Box<Tree>),
-    Quotient(Box<Tree>, Box<Tree>),
-    Power(Box<Tree>, Box<Tree>),
-    Call(Function, Box<Tree>),
-}
-
-impl Tree {
-    /// Its value where it has no slip velocity in it.
-    pub(super) fn value(&self, constants: &[f64]) -> f64 {
-        let of = |tree: &Self| tree.value(constants);
-        match self {
-            Self::Number(number) => *number,
-            Self::Velocity => f64::NAN,
-            Self::Constant(index) => constants.get(*index).copied().unwrap_or(f64::NAN),
-            Self::Negative(x) => -of(x),
-            Self::Sum(x, y) => of(x) + of(y),
-            Self::Difference(x, y) => of(x) - of(y),
-            Self::Product(x, y) => of(x) * of(y),
-            Self::Quotient(x, y) => of(x) / of(y),
-            Self::Power(x, y) => libm::pow(of(x), of(y)),
-            Self::Call(function, x) => function.value(of(x)),
-        }
-    }
-}
 
 /// What is wrong with the text of a formula, and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
