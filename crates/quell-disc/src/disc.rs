@@ -1,11 +1,11 @@
 //! The disc under its loads, valid by construction.
 
 use quell_model::Invalid;
-use quell_model::parameter::DITHER_FREQUENCY_RATIO;
 use quell_model::parameter::disc::{
     DISC_DITHER_AMPLITUDE, DISC_SPEED, LOAD_DAMPING, LOAD_FRICTION, LOAD_MASS, LOAD_STIFFNESS,
     MODAL_DAMPING,
 };
+use quell_model::parameter::{DITHER_FREQUENCY_RATIO, split_index};
 
 use crate::mode::{Load, Mode};
 
@@ -170,14 +170,6 @@ impl Disc {
         Self { dither: Dither::None, ..self.clone() }
     }
 
-    /// The same disc with another dither.
-    ///
-    /// # Errors
-    /// A dither out of bounds.
-    pub fn with_dither(&self, dither: Dither) -> Result<Self, Vec<Invalid>> {
-        Self::new(self.modes.clone(), self.loads.clone(), dither, self.speed)
-    }
-
     /// Value of a parameter by its path: `disc.load.speed`, `disc.modal_damping` (where all modes
     /// agree), `disc.load.mass`, `disc.load[1].friction`, `dither.amplitude`,
     /// `dither.frequency_ratio`; `None` if there is no such number here.
@@ -228,14 +220,7 @@ impl Disc {
                 }
             };
         }
-        let rest = path.strip_prefix("disc.load")?;
-        let (index, key) = match rest.strip_prefix('[') {
-            Some(rest) => {
-                let (index, key) = rest.split_once("].")?;
-                (index.parse().ok()?, key)
-            }
-            None => (0, rest.strip_prefix('.')?),
-        };
+        let (index, key) = split_index(path, "disc.load")?;
         if key == DISC_SPEED.key() {
             return Some(&mut self.speed);
         }

@@ -1,11 +1,11 @@
 //! A mode of the disc and a load that rotates over it.
 
 use quell_model::Invalid;
-use quell_model::parameter::Parameter;
 use quell_model::parameter::disc::{
     LOAD_ANGLE, LOAD_DAMPING, LOAD_FRICTION, LOAD_MASS, LOAD_STIFFNESS, MODE_DAMPING,
     MODE_DIAMETERS, MODE_RATIO, MODE_SHAPE_AT_LOAD,
 };
+use quell_model::parameter::{Parameter, indexed};
 
 /// A mode R(r)·(A cos qφ + B sin qφ) of the plate at rest, φ counted from the first load.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,28 +49,13 @@ impl Load {
     pub fn at_angle(self, angle: f64) -> Self {
         Self { angle, ..self }
     }
-
-    /// The same load with every strength times `weight`: a point of a distributed pad.
-    #[must_use]
-    pub fn weighted(&self, weight: f64) -> Self {
-        Self {
-            mass: weight * self.mass,
-            damping: weight * self.damping,
-            stiffness: weight * self.stiffness,
-            friction: weight * self.friction,
-            ..self.clone()
-        }
-    }
 }
 
 /// A complaint about entry `index` of `count`, its key with the index where there are several.
 fn complain(parameter: &Parameter, value: f64, index: usize, count: usize) -> Option<Invalid> {
     parameter.check(value).err().map(|mut complaint| {
-        if count > 1 {
-            let table = parameter.path.strip_suffix(parameter.key()).unwrap_or_default();
-            let table = table.trim_end_matches('.');
-            complaint.key = format!("{table}[{index}].{}", parameter.key());
-        }
+        let (table, key) = parameter.path.rsplit_once('.').unwrap_or(("", parameter.path));
+        complaint.key = indexed(table, index, count, key);
         complaint
     })
 }

@@ -139,7 +139,8 @@ fn damping_that_turns_with_the_load_would_shake_a_free_disc() {
 #[test]
 fn two_opposite_half_pads_split_into_even_and_odd_diameters() {
     let whole = Load::new(0.3, 0.2, 0.25, 0.4);
-    let pads = vec![whole.weighted(0.5), whole.weighted(0.5).at_angle(PI)];
+    let half = Load::new(0.15, 0.1, 0.125, 0.2);
+    let pads = vec![half.clone(), half.at_angle(PI)];
     for set in ["1,2", "2,5"] {
         for speed in [0.05, 0.3, 0.85] {
             let split = |odd: usize| {
@@ -165,7 +166,10 @@ fn two_opposite_half_pads_split_into_even_and_odd_diameters() {
             }
             // The same under dither: the larger of the two growth rates.
             for dither in [NORMAL, TANGENTIAL] {
-                let growth = |disc: &Disc| of(&disc.with_dither(dither).expect("valid"));
+                let growth = |disc: &Disc| {
+                    let (modes, loads) = (disc.modes().to_vec(), disc.loads().to_vec());
+                    of(&Disc::new(modes, loads, dither, disc.speed()).expect("valid"))
+                };
                 let (both, even, odd) = (growth(&both), growth(&split(0)), growth(&split(1)));
                 let gap = (both.rate - even.rate.max(odd.rate)).abs();
                 let bound = both.error + even.error + odd.error;
@@ -293,7 +297,7 @@ fn crossings_of_the_partition_are_marginal() {
     let slow = Dither::Normal { amplitude: 0.8, frequency_ratio: 0.01 };
     let slow = disc("1,2", 0.0, Load::new(0.1, 0.1, 0.1, 1.0), slow, 0.3);
     assert!(matches!(crossings(&slow), Err(NoPartition::TooManyHarmonics { harmonics: 200.. })));
-    // Stiffnesses whose squares overflow have no eigenvalues at any frequency: that is not "no boundary".
-    let vast = disc("1,2", 0.0, Load::new(0.1, 0.1, 1e308, 1e308), NORMAL, 0.3);
+    // A friction whose square overflows leaves no eigenvalues at any frequency: that is not "no boundary".
+    let vast = disc("1,2", 0.0, Load::new(0.1, 0.1, 0.1, 1e200), NORMAL, 0.3);
     assert_eq!(crossings(&vast), Err(NoPartition::Eigenvalues));
 }

@@ -22,19 +22,23 @@ pub use dimension::{PlateMaterial, PlateMaterialError};
 pub use mode_set::{ModeSet, ModeSetError, Reference};
 pub use shape::RadialShape;
 
+use quell_model::parameter::disc as parameter;
 use quell_numerics::roots::{Closeness, find_root};
 
 use characteristic::eliminate;
 use ritz::{ACCURACY, TrialSpace};
 
 /// Bounds of the ratio of radii b/a: below, the plate is a full disc with a pinhole, above, a ring that no plate theory serves.
-pub const INNER_RADIUS_RATIO: [f64; 2] = [0.01, 0.95];
+pub const INNER_RADIUS_RATIO: [f64; 2] =
+    [parameter::INNER_RADIUS_RATIO.bounds.lower, parameter::INNER_RADIUS_RATIO.bounds.upper];
 
 /// Largest number of nodal diameters: beyond, Y and K at a small inner radius come near the end of the range of `f64`.
-pub const MOST_DIAMETERS: u32 = 40;
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+pub const MOST_DIAMETERS: u32 = parameter::NODAL_DIAMETERS.bounds.upper as u32;
 
 /// Largest number of radial modes per number of nodal diameters.
-pub const MOST_RADIAL: usize = 40;
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+pub const MOST_RADIAL: usize = parameter::RADIAL_MODES.bounds.upper as usize;
 
 /// A thin annular plate, clamped inside and free outside, in units of its outer radius.
 #[derive(Debug, Clone, Copy, PartialEq)]

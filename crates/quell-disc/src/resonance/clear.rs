@@ -11,7 +11,7 @@
 
 use core::ops::RangeInclusive;
 
-use quell_numerics::roots::{Closeness, minimise};
+use quell_numerics::roots::{Closeness, minimise, quadratic};
 
 use super::pair::Band;
 use super::places::Family;
@@ -204,10 +204,7 @@ fn grown_speeds(waves: &Waves, family: &Family, speeds: &RangeInclusive<f64>) ->
     let (low, centre, high) = (excess(start), excess(middle), excess(end));
     let (slope, bend) = (0.5 * (high - low), 0.5 * (high + low) - centre);
     let mut cuts = vec![-1.0];
-    let discriminant = slope * slope - 4.0 * bend * centre;
-    if discriminant > 0.0 {
-        let large = -0.5 * (slope + libm::copysign(libm::sqrt(discriminant), slope));
-        let mut roots = [large / bend, centre / large];
+    if let Some(mut roots) = quadratic(centre, slope, bend) {
         roots.sort_by(f64::total_cmp);
         cuts.extend(roots.into_iter().filter(|x| x.abs() < 1.0));
     }

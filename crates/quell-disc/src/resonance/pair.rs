@@ -13,6 +13,7 @@
 //! in Im y.
 
 use num_complex::Complex64;
+use quell_numerics::roots::quadratic;
 
 /// The slow system of a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,9 +71,7 @@ impl Pair {
         if discriminant <= ROUNDING * (q1 * q1 + (4.0 * q2 * q0).abs()) {
             return Band::Nowhere;
         }
-        // The root without cancellation, and the other from the product of the two.
-        let large = -0.5 * (q1 + libm::copysign(libm::sqrt(discriminant), q1));
-        let (x, y) = (large / q2, q0 / large);
+        let Some([x, y]) = quadratic(q0, q1, q2) else { return Band::Nowhere };
         if x <= y { Band::Between(x, y) } else { Band::Between(y, x) }
     }
 

@@ -258,7 +258,8 @@ fn single_waves() {
 /// Normal dither whose friction makes a backward wave grow alone: its meetings inside the range reach in, those outside do not.
 #[test]
 fn a_wave_that_grows_alone_reaches_into_the_range() {
-    let dither = Dither::Normal { amplitude: 0.5, frequency_ratio: 2.7 };
+    // Backward waves meet backward ones at a sum of frequencies: 2·2 + 4Ω = 6.
+    let dither = Dither::Normal { amplitude: 0.5, frequency_ratio: 6.0 };
     let waves = waves_of(&modes(1e-3), &load(0.1, 3.0), dither);
     let found = within(&waves, 0.2..=0.9);
     let alone = |it: &&Nearby| {

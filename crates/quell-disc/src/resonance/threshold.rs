@@ -9,7 +9,7 @@
 //! An undithered pair of an undamped plate has its tip at f = 0. With ξ > 0 the tip is where the discriminant of the pair's
 //! quadratic vanishes; it is bracketed on a logarithmic grid of friction (no closed form for unequal waves) and located to rounding.
 
-use quell_numerics::roots::{Closeness, find_root};
+use quell_numerics::roots::{Closeness, find_root, quadratic};
 
 use super::pair::Band;
 use super::places::Place;
@@ -50,12 +50,7 @@ impl Waves {
         let square = b1 * b2 * (mean * mean - half * half);
         let linear = -mean * (a1 * b2 + a2 * b1);
         let constant = a1 * a2;
-        let discriminant = linear * linear - 4.0 * square * constant;
-        if discriminant < 0.0 {
-            return None;
-        }
-        let large = -0.5 * (linear + libm::copysign(libm::sqrt(discriminant), linear));
-        let roots = [large / square, constant / large];
+        let roots = quadratic(constant, linear, square)?;
         roots.into_iter().filter(|root| *root > 0.0 && root.is_finite()).reduce(f64::min)
     }
 
