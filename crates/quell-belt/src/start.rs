@@ -71,6 +71,16 @@ impl InitialState {
     }
 }
 
+/// The state in which the mass leaves the belt without dither, whatever came before: x = μ_sF − 2ζv₀, x′ = v₀.
+pub(crate) fn released(belt: &Belt) -> Start {
+    let threshold = belt.friction().static_coefficient() * belt.normal_load();
+    Start {
+        time: 0.0,
+        displacement: threshold - 2.0 * belt.damping_ratio() * belt.belt_velocity(),
+        velocity: belt.belt_velocity(),
+    }
+}
+
 /// A state on the undithered limit cycle.
 ///
 /// Once the mass sticks it releases at x = μ_sF − 2ζv₀, x′ = v₀, whatever came before: if it
@@ -80,12 +90,7 @@ fn squealing(belt: &Belt, solver: &Solver) -> Result<Start, NoSquealingStart> {
         return Err(NoSquealingStart::BeltAtRest);
     }
     let belt = belt.undithered();
-    let threshold = belt.friction().static_coefficient() * belt.normal_load();
-    let release = Start {
-        time: 0.0,
-        displacement: threshold - 2.0 * belt.damping_ratio() * belt.belt_velocity(),
-        velocity: belt.belt_velocity(),
-    };
+    let release = released(&belt);
     let run = |from: Start, length: f64, observer: &mut (EventRecorder, Sampler)| {
         simulate(&belt, from, from.time + length, solver.tolerance, observer)
             .map_err(NoSquealingStart::Stalled)

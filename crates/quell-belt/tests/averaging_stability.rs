@@ -200,6 +200,27 @@ fn everywhere_stable() {
     assert_eq!(never(&decreasing, 0.3), EverywhereStable::Always);
 }
 
+/// Normal dither on a Stribeck law so steep that the largest α/μ(v₀) lies beyond the tip: the search under the oscillator's
+/// response finds, for fast dither, what the closed form says; at the tip alone it would be smaller.
+#[test]
+fn steep_laws_are_searched_beyond_the_tip() {
+    let steep = LawKind::Stribeck.build(&[0.4, 0.008, 0.2]).expect("valid");
+    let (waveform, frequency_ratio) = (Waveform::Square, 1e4);
+    let limit = FastWave::Integral(waveform);
+    let own = FastWave::Oscillator { waveform, frequency_ratio };
+    let found = |wave: FastWave, direction: Direction| match everywhere_stable_amplitude(
+        &steep, 0.001, 1.0, wave, direction,
+    ) {
+        Ok(EverywhereStable::From { amplitude_ratio, .. }) => amplitude_ratio,
+        other => panic!("{wave:?} {direction:?}: {other:?}"),
+    };
+    let tangential = found(limit, Direction::Tangential);
+    let at_tip = tangential / steep.coefficient(tangential * waveform.peak_integral());
+    let closed = found(limit, Direction::Normal);
+    assert!(closed > 1.01 * at_tip, "{closed} {at_tip}");
+    close(found(own, Direction::Normal), closed, 1e-4);
+}
+
 /// α^L means what it says: just above it no belt velocity is unstable, just below the tip is; also for the
 /// oscillator's response and for normal dither.
 #[test]

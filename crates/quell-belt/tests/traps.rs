@@ -147,7 +147,7 @@ fn watching_changes_no_bit() {
     };
     let alone = bits(&mut || watched(&belt, &mut ()));
     let mut sampler = Sampler::new(0.0, 0.001, 300_000);
-    let mut strobe = Sampler::strobe(10.0, 0.0, 0.0, 300.0);
+    let mut strobe = Sampler::new(0.0, 0.2 * PI, 478);
     let mut section = VelocitySection::upward(0.0);
     assert_eq!(alone, bits(&mut || watched(&belt, &mut sampler)));
     assert_eq!(alone, bits(&mut || watched(&belt, &mut strobe)));

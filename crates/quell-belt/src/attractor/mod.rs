@@ -34,6 +34,6 @@ mod watch;
 pub use basin::{Basin, Basins, Label, gather};
 pub use measure::{Attractor, Kind, measure};
 pub use quiet::Quiet;
-pub use rotation::{Ratio, Rotation, simplest_fraction};
+pub use rotation::{Ratio, Rotation};
 pub use settle::{Outcome, Patience, Settled, Unsettled, settle, settle_many};
 pub use strobe::{Scene, Strobe};

@@ -10,13 +10,10 @@
 use quell_model::Belt;
 
 use super::strobe::Strobe;
-use crate::orbit::{Matrix, NoOrbit, Orbit, Verdict, from_sliding};
+use crate::orbit::{Matrix, NoOrbit, Orbit, Verdict, from_sliding, multipliers_of};
 
 /// Steps of the dither from nothing to its amplitude.
 const STEPS: u32 = 8;
-
-/// Multipliers this near to modulus 1 leave the verdict open, as for orbits.
-const UNDECIDED: f64 = 1e-9;
 
 /// The response that sliding becomes.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,7 +40,7 @@ impl Quiet {
             return Ok(Self::of_orbit(&from_sliding(belt, STEPS)?));
         }
         let slope = belt.friction().slope(belt.belt_velocity());
-        let damping = slope.mul_add(belt.normal_load(), 2.0 * belt.damping_ratio());
+        let damping = belt.damping_rate(slope, belt.normal_load());
         let matrix = flow(0.5 * damping, strobe.period);
         let radius = radius(&matrix);
         Ok(Self::new((belt.steady_sliding(), 0.0), &matrix, radius))
@@ -62,12 +59,7 @@ impl Quiet {
             let unit = libm::copysign(libm::sqrt(squared), c);
             [c / unit, (d - a) / unit, -b / unit]
         });
-        let verdict = match radius {
-            radius if radius > 1.0 + UNDECIDED => Verdict::Unstable,
-            radius if radius < 1.0 - UNDECIDED => Verdict::Stable,
-            _ => Verdict::Undecided,
-        };
-        Self { displacement, velocity, radius, verdict, form }
+        Self { displacement, velocity, radius, verdict: Verdict::of(radius), form }
     }
 
     /// Distance of a state of the section.
@@ -101,13 +93,10 @@ fn flow(delta: f64, t: f64) -> Matrix {
     [[fall * (even + delta * odd), fall * odd], [-fall * odd, fall * (even - delta * odd)]]
 }
 
-/// Spectral radius of a 2 × 2 matrix.
-fn radius([[a, b], [c, d]]: &Matrix) -> f64 {
-    let discriminant = 0.25 * (a - d) * (a - d) + b * c;
-    if discriminant < 0.0 {
-        return libm::sqrt(a * d - b * c);
-    }
-    (0.5 * (a + d)).abs() + libm::sqrt(discriminant)
+/// Spectral radius of a period map.
+fn radius(matrix: &Matrix) -> f64 {
+    let [(re, im), _] = multipliers_of(matrix);
+    libm::hypot(re, im)
 }
 
 #[cfg(test)]

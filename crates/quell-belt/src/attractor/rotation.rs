@@ -76,34 +76,6 @@ fn divisor(mut a: u64, mut b: u64) -> u64 {
     a
 }
 
-/// The fraction of least denominator within `error` of a value, up to the denominator `most`.
-pub fn simplest_fraction(value: f64, error: f64, most: u32) -> Option<Ratio> {
-    let whole = value.floor();
-    #[expect(clippy::cast_possible_truncation, reason = "checked to be small")]
-    let base = (whole.abs() < 1e9).then_some(whole as i64)?;
-    let rest = value - whole;
-    // Down the tree of Stern and Brocot between 0/1 and 1/1: it meets fractions by rising denominator along the way.
-    let (mut low, mut high) = ((0_i64, 1_i64), (1_i64, 1_i64));
-    let found = |(p, q): (i64, i64)| (p as f64 / q as f64 - rest).abs() <= error;
-    let ratio =
-        |(p, q): (i64, i64)| Some(Ratio { turns: p + base * q, periods: u32::try_from(q).ok()? });
-    for end in [low, high] {
-        if found(end) {
-            return ratio(end);
-        }
-    }
-    loop {
-        let middle = (low.0 + high.0, low.1 + high.1);
-        if middle.1 > i64::from(most) {
-            return None;
-        }
-        if found(middle) {
-            return ratio(middle);
-        }
-        if (middle.0 as f64) < rest * middle.1 as f64 { low = middle } else { high = middle }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -128,16 +100,5 @@ mod tests {
         let twice: Vec<(f64, f64)> = (0..26).map(|k| point(f64::from(k) / 13.0)).collect();
         let found = Rotation::of_orbit(&twice, [1.0, 0.0]);
         assert_eq!(found.ratio, Some(Ratio { turns: 1, periods: 13 }));
-    }
-
-    #[test]
-    fn the_simplest_fraction_within_an_error() {
-        let found = |value, error| simplest_fraction(value, error, 500);
-        assert_eq!(found(5.0 / 68.0, 1e-9), Some(Ratio { turns: 5, periods: 68 }));
-        assert_eq!(found(0.1, 1e-12), Some(Ratio { turns: 1, periods: 10 }));
-        assert_eq!(found(0.1 + 1e-3, 2e-3), Some(Ratio { turns: 1, periods: 10 }));
-        assert_eq!(found(-0.25, 1e-9), Some(Ratio { turns: -1, periods: 4 }));
-        assert_eq!(found(0.5_f64.sqrt(), 1e-9), None);
-        assert_eq!(found(3.0, 1e-9), Some(Ratio { turns: 3, periods: 1 }));
     }
 }

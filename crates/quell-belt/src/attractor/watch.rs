@@ -7,7 +7,7 @@
 
 use std::sync::LazyLock;
 
-use quell_model::{Belt, Direction};
+use quell_model::Belt;
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::gauss_legendre::GaussLegendre;
 
@@ -26,11 +26,8 @@ const BESIDE: f64 = 1e-5;
 /// of them, for a slow motion may be a hundred times smaller than the forced one and is what is asked for.
 const STATES: usize = 6;
 
-static STATES_RULE: LazyLock<([f64; STATES], [f64; STATES])> = LazyLock::new(|| {
-    let rule = GaussLegendre::new(STATES);
-    let of = |values: &[f64], map: fn(f64) -> f64| std::array::from_fn(|k| map(values[k]));
-    (of(&rule.nodes, |node| 0.5 * (1.0 + node)), of(&rule.weights, |weight| 0.5 * weight))
-});
+static STATES_RULE: LazyLock<[[f64; STATES]; 2]> =
+    LazyLock::new(|| GaussLegendre::new(STATES).on_unit_interval());
 
 /// Watches a block that starts at τ = 0.
 pub(super) struct Watch<'a> {
@@ -41,8 +38,6 @@ pub(super) struct Watch<'a> {
     pub(super) stuck: f64,
     /// Number of times that the mass began to stick.
     pub(super) sticks: u64,
-    /// Number of reversals.
-    pub(super) reversals: u64,
     contraction: Option<Contraction<'a>>,
 }
 
@@ -55,7 +50,6 @@ impl<'a> Watch<'a> {
             sums: Sums::default(),
             stuck: 0.0,
             sticks: 0,
-            reversals: 0,
             contraction: None,
         }
     }
@@ -102,7 +96,6 @@ impl Observer for Watch<'_> {
         match event.kind {
             EventKind::Stick => self.sticks += 1,
             EventKind::Reversal => {
-                self.reversals += 1;
                 if let Some(contraction) = &mut self.contraction {
                     contraction.reversed = true;
                 }
@@ -124,7 +117,7 @@ impl Work for Average<'_, '_> {
 
     #[inline(always)]
     fn run(self) {
-        let (nodes, weights) = &*STATES_RULE;
+        let [nodes, weights] = &*STATES_RULE;
         let h = self.segment.duration();
         let since = nodes.map(|node| node * h);
         let x = self.segment.displacements_at(&since);
@@ -176,12 +169,8 @@ impl<'a> Contraction<'a> {
     /// 2ζ + μ′(v_r)N.
     fn rate(&self, segment: &Segment<'_>, since: f64) -> f64 {
         let time = segment.clock().time() + since;
-        let normal = self.belt.dithers_along(Direction::Normal).map(|it| {
-            it.amplitude * it.waveform.value(f64::mul_add(it.frequency_ratio, time, it.phase))
-        });
-        let load = self.belt.normal_load() + normal.sum::<f64>();
         let slope = self.belt.friction().slope(segment.slip_velocity(since).abs());
-        f64::mul_add(slope, load, 2.0 * self.belt.damping_ratio())
+        self.belt.damping_rate(slope, self.belt.normal_load_at(time))
     }
 
     fn add(&mut self, time: f64, amount: f64, duration: f64) {

@@ -12,7 +12,7 @@
 
 use std::fmt;
 
-use quell_model::friction::SlidingLaw;
+use quell_model::friction::{SlidingLaw, Stribeck};
 use quell_model::{Belt, Friction, Waveform};
 use quell_numerics::special::ln;
 
@@ -102,6 +102,12 @@ pub fn closed_band(
     is_there.then_some(Band { lower, lower_crossing, upper }).ok_or(NoBand::Stable)
 }
 
+/// κ = 4v_mζ/(3F(μ_s − μ_m)): damping over the steepest fall of the Stribeck law, which stabilises every velocity from 1 on.
+pub(super) fn kappa(law: &Stribeck, damping_ratio: f64, normal_load: f64) -> f64 {
+    let difference = law.static_coefficient() - law.minimum_coefficient();
+    4.0 * law.velocity_scale() * damping_ratio / (3.0 * normal_load * difference)
+}
+
 /// Root of the outer criterion in v₀, continued below the corner; 0 where the criterion is positive at every velocity,
 /// none where it is not positive at the last one looked at.
 fn outer_edge(
@@ -119,8 +125,9 @@ fn outer_edge(
             if difference == 0.0 {
                 return Ok(Some(0.0));
             }
-            let kappa = 4.0 * vm * damping_ratio / (3.0 * normal_load * difference);
-            let square = 1.0 - kappa - waveform.mean_square_integral() * ratio * ratio;
+            let square = 1.0
+                - kappa(law, damping_ratio, normal_load)
+                - waveform.mean_square_integral() * ratio * ratio;
             Some(vm * square.max(0.0).sqrt())
         }
         Friction::Decreasing(law) => {

@@ -19,7 +19,7 @@ use quell_model::{Direction, Friction};
 use quell_numerics::roots::{Closeness, minimise, try_minimise};
 
 use super::criterion::Criterion;
-use super::edges::{CriticalVelocity, undithered_critical_velocity};
+use super::edges::{CriticalVelocity, kappa, undithered_critical_velocity};
 use super::effective::{AveragingError, single};
 use super::sign_changes::sign_changes;
 use super::wave::FastWave;
@@ -157,8 +157,7 @@ impl Case<'_> {
     fn outer(&self) -> Result<Option<(f64, f64)>, AveragingError> {
         let vm = self.law.velocity_scale();
         if let (Friction::Stribeck(law), FastWave::Integral(waveform)) = (self.law, self.wave) {
-            let difference = law.static_coefficient() - law.minimum_coefficient();
-            let kappa = 4.0 * vm * self.damping_ratio / (3.0 * self.normal_load * difference);
+            let kappa = kappa(law, self.damping_ratio, self.normal_load);
             let peak = waveform.peak_integral();
             let alpha =
                 vm * ((1.0 - kappa) / (peak * peak + waveform.mean_square_integral())).sqrt();

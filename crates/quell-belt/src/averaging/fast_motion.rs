@@ -210,36 +210,11 @@ impl FastMotion {
     ) -> Result<Self, AveragingError> {
         let acting: Vec<&Dither> = dithers.iter().filter(|d| d.amplitude > 0.0).collect();
         let (level, slope) = friction_level(law, &acting, v, options)?;
-        let mut groups = Vec::new();
-        for members in commensurate_groups(&acting) {
-            let mut group = PeriodicMotion::default();
-            for (dither, harmonic) in members {
-                let wave = fast_wave(dither, options.response)?;
-                let (harmonic, phase) = (harmonic, dither.phase);
-                let alpha = dither.amplitude_ratio();
-                match dither.direction {
-                    Direction::Tangential => {
-                        group.tangential.push(SlipTerm { wave, amplitude: alpha, harmonic, phase });
-                    }
-                    Direction::Normal => {
-                        let amplitude = alpha * level;
-                        group.normal.push(SlipTerm { wave, amplitude, harmonic, phase });
-                        group.load.push(LoadTerm {
-                            waveform: dither.waveform,
-                            amplitude: dither.amplitude / normal_load,
-                            harmonic,
-                            phase,
-                        });
-                    }
-                }
-            }
-            if options.normal_order == NormalOrder::Second
-                && !group.normal.is_empty()
-                && level != 0.0
-            {
+        let mut groups = grouped(&acting, (level, normal_load), options.response)?;
+        if options.normal_order == NormalOrder::Second && level != 0.0 {
+            for group in groups.iter_mut().filter(|group| !group.normal.is_empty()) {
                 group.distortion = -0.5 * slope / level;
             }
-            groups.push(group);
         }
         Ok(Self::new(groups))
     }
@@ -250,14 +225,17 @@ impl FastMotion {
             Ok(sum
                 + match group.single_term() {
                     Some((wave, amplitude)) => amplitude.abs() * wave.peak(),
-                    None => Signal::new(group)?.range().1,
+                    None => Signal::new(group)?.range()[1],
                 })
         })
     }
 }
 
 /// Shape of the fast slip velocity of a dither.
-pub(super) fn fast_wave(dither: &Dither, response: Response) -> Result<FastWave, AveragingError> {
+///
+/// # Errors
+/// [`AveragingError::NotFast`] where the oscillator's response is asked for at R ≤ 1.
+pub fn fast_wave(dither: &Dither, response: Response) -> Result<FastWave, AveragingError> {
     let (waveform, frequency_ratio) = (dither.waveform, dither.frequency_ratio);
     match response {
         Response::Limit => Ok(FastWave::Integral(waveform)),
@@ -266,6 +244,39 @@ pub(super) fn fast_wave(dither: &Dither, response: Response) -> Result<FastWave,
         }
         Response::Oscillator => Err(AveragingError::NotFast { frequency_ratio }),
     }
+}
+
+/// Groups of dithers of commensurate frequencies, normal ones moved by the friction coefficient `level` under the load.
+fn grouped(
+    dithers: &[&Dither],
+    (level, normal_load): (f64, f64),
+    response: Response,
+) -> Result<Vec<PeriodicMotion>, AveragingError> {
+    let mut groups = Vec::new();
+    for members in commensurate_groups(dithers) {
+        let mut group = PeriodicMotion::default();
+        for (dither, harmonic) in members {
+            let wave = fast_wave(dither, response)?;
+            let (alpha, phase) = (dither.amplitude_ratio(), dither.phase);
+            match dither.direction {
+                Direction::Tangential => {
+                    group.tangential.push(SlipTerm { wave, amplitude: alpha, harmonic, phase });
+                }
+                Direction::Normal => {
+                    let amplitude = alpha * level;
+                    group.normal.push(SlipTerm { wave, amplitude, harmonic, phase });
+                    group.load.push(LoadTerm {
+                        waveform: dither.waveform,
+                        amplitude: dither.amplitude / normal_load,
+                        harmonic,
+                        phase,
+                    });
+                }
+            }
+        }
+        groups.push(group);
+    }
+    Ok(groups)
 }
 
 /// Friction coefficient and slope that drive the motion of the normal dithers at slow slip velocity v.
@@ -286,16 +297,8 @@ fn friction_level(
         }
         return Ok((law.coefficient(v.abs()).copysign(v), law.slope(v.abs())));
     }
-    let mut groups = Vec::new();
-    for members in commensurate_groups(&tangential) {
-        let mut group = PeriodicMotion::default();
-        for (dither, harmonic) in members {
-            let wave = fast_wave(dither, options.response)?;
-            let (amplitude, phase) = (dither.amplitude_ratio(), dither.phase);
-            group.tangential.push(SlipTerm { wave, amplitude, harmonic, phase });
-        }
-        groups.push(group);
-    }
+    // No normal dither is among them: level and load play no part.
+    let groups = grouped(&tangential, (0.0, 1.0), options.response)?;
     let mean = effective(law, &FastMotion::new(groups), v)?;
     Ok((mean.coefficient, mean.slope))
 }

@@ -57,7 +57,7 @@ pub use effective::{AveragingError, Effective, Side, effective, effective_by_qua
 pub use everywhere_stable::{EverywhereStable, NeverStable, everywhere_stable_amplitude};
 pub use fast_motion::{
     AveragingOptions, FastMotion, LoadTerm, MAX_HARMONIC, NormalOrder, PeriodicMotion, Response,
-    SlipTerm,
+    SlipTerm, fast_wave,
 };
 pub use independent::MAX_GROUPS;
 pub use sign_changes::Crossing;

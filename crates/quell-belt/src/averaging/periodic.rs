@@ -91,10 +91,10 @@ impl<'a> Signal<'a> {
         values
     }
 
-    /// Largest and smallest value of s.
-    pub(super) fn range(&self) -> (f64, f64) {
-        self.ends.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), end| {
-            (low.min(end.1), high.max(end.1))
+    /// Smallest and largest value of s.
+    pub(super) fn range(&self) -> [f64; 2] {
+        self.ends.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], end| {
+            [low.min(end.1), high.max(end.1)]
         })
     }
 
@@ -132,7 +132,7 @@ pub(super) fn mean(
     v: f64,
 ) -> Result<Effective, AveragingError> {
     let start = law.coefficient(0.0);
-    let (low, high) = signal.range();
+    let [low, high] = signal.range();
     let rounding = 8.0 * f64::EPSILON * (low.abs() + high.abs());
     let at_corner = (v - high).abs() <= rounding || (v - low).abs() <= rounding;
     // At the corner the outer slope: the touch is no crossing.

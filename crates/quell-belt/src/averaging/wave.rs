@@ -57,16 +57,6 @@ impl FastWave {
         }
     }
 
-    /// Whether the shape arrives at its peak with a slope (a corner, square) or rounded (sine, triangle).
-    ///
-    /// At |v| = α·peak the slope of the effective friction is finite on the inner side for a corner, +∞ for a rounded peak.
-    pub fn has_sharp_peak(self) -> bool {
-        matches!(
-            self,
-            Self::Integral(Waveform::Square) | Self::Oscillator { waveform: Waveform::Square, .. }
-        )
-    }
-
     /// Quarter wave σ(δ), 0 ≤ δ ≤ π/2.
     pub(crate) fn quarter(self, delta: f64) -> f64 {
         match self {

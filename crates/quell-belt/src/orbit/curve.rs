@@ -6,6 +6,7 @@
 
 use quell_model::Belt;
 use quell_numerics::continuation::curve::{Curve as Traced, CurveEnd, Trace, trace};
+use quell_numerics::continuation::spectral_radius;
 
 use super::family::{Forced, Setting, Signature, start_of};
 use super::threshold::{Kind, Local, NoThresholds, Threshold, local};
@@ -188,7 +189,7 @@ fn told(kind: Kind, traced: &Traced) -> ThresholdCurve {
             value: point.parameters[0],
             along: point.parameters[1],
             state: start_of(&point.state),
-            radius: point.multipliers.first().map_or(0.0, |it| libm::hypot(it.re, it.im)),
+            radius: spectral_radius(&point.multipliers),
         })
         .collect();
     ThresholdCurve { kind, points, ends: traced.ends.map(Ending::of) }

@@ -16,6 +16,7 @@ use quell_numerics::roots::{Closeness, try_find_root};
 
 use super::{NoOrbit, Orbit, TOLERANCE, orbit_at};
 use crate::simulation::{EventKind, EventRecorder, Start, VelocitySection, simulate};
+use crate::start::released;
 
 /// Places at which the map is tried.
 const PLACES: u32 = 60;
@@ -42,13 +43,7 @@ pub fn cycles(belt: &Belt) -> Result<Vec<Orbit>, NoOrbit> {
         return Ok(Vec::new());
     }
     let sliding = belt.steady_sliding();
-    let threshold = belt.friction().static_coefficient() * belt.normal_load();
-    let released = Start {
-        time: 0.0,
-        displacement: threshold - 2.0 * belt.damping_ratio() * belt.belt_velocity(),
-        velocity: belt.belt_velocity(),
-    };
-    let Some(outermost) = turn(belt, released)? else { return Ok(Vec::new()) };
+    let Some(outermost) = turn(belt, released(belt))? else { return Ok(Vec::new()) };
     let largest = sliding - outermost.displacement;
     if largest <= 0.0 {
         return Ok(Vec::new());

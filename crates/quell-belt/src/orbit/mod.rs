@@ -13,6 +13,7 @@
 //! * [`cycle`]: the limit cycles of an undithered belt, stable or not;
 //! * [`reached`]: where a run from a given start ends, and on what orbit.
 
+mod collocation;
 pub mod curve;
 pub mod cycle;
 pub mod family;
@@ -79,17 +80,17 @@ pub struct Orbit {
     pub start: Start,
     /// Length in τ: a whole number of common periods of the dithers.
     pub period: f64,
-    /// Mismatch of x and x′ after the period, the larger one.
+    /// Mismatch of x and x′ after the period, the larger one, a length.
     pub residual: f64,
-    /// Derivative of the period map.
+    /// Derivative of the period map: rows (x, x′) at its end, columns (x, x′) at its start.
     pub monodromy: Matrix,
     /// Its eigenvalues (re, im), the larger modulus first.
     pub multipliers: [(f64, f64); 2],
     /// Events of a period in order, with the sign of v_r afterwards: the signature of the orbit.
     pub events: Vec<(EventKind, i8)>,
-    /// ∮(2ζ + μ′N)dτ over slip.
+    /// ∮(2ζ + μ′N)dτ over slip, dimensionless: in pure slip det M = e to minus this.
     pub damping: f64,
-    /// Least |v_r| inside slip and when; `None` for an orbit in stick throughout.
+    /// Least |v_r| inside slip, a velocity ≥ 0, and the τ of it; `None` for an orbit in stick throughout.
     pub least_slip: Option<(f64, f64)>,
     /// Share of the period spent in stick.
     pub stick_fraction: f64,
@@ -326,7 +327,7 @@ fn orbit_of(
 }
 
 /// Multipliers of a period map, the larger modulus first.
-fn multipliers_of(matrix: &Matrix) -> [(f64, f64); 2] {
+pub(crate) fn multipliers_of(matrix: &Matrix) -> [(f64, f64); 2] {
     let found = quell_numerics::continuation::multipliers(&family::matrix_of(matrix));
     let both = found.filter(|found| found.len() == 2).map(|found| [found[0], found[1]]);
     // A matrix that is not finite has none; a run that ended has a finite one.

@@ -11,9 +11,13 @@
 //!
 //! A ramp grows all amplitudes in equal steps, one a common period: the dither's phase goes on through them.
 
-use quell_model::friction::{LawVisitor, SlidingLaw};
-use quell_model::{Belt, Direction};
+use std::sync::LazyLock;
 
+use quell_model::Belt;
+use quell_model::friction::{LawVisitor, SlidingLaw};
+use quell_numerics::gauss_legendre::GaussLegendre;
+
+use super::family::{Forced, Setting};
 use super::threshold::NoThresholds;
 use super::{NoOrbit, Orbit, Verdict, common_period, near, quiet};
 use crate::simulation::{
@@ -101,8 +105,8 @@ struct Areas<'a> {
     touched: bool,
 }
 
-/// Gauss's two nodes on [0, 1]: the sign of an integral over many steps is all that is asked.
-const NODES: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+/// Two nodes on [0, 1]: the sign of an integral over many steps is all that is asked.
+static RULE: LazyLock<[[f64; 2]; 2]> = LazyLock::new(|| GaussLegendre::new(2).on_unit_interval());
 
 impl<'a> Areas<'a> {
     fn new(belt: &'a Belt) -> Self {
@@ -143,13 +147,11 @@ impl LawVisitor for Rate<'_, '_, '_> {
         let h = segment.duration();
         let at = |node: f64| {
             let since = node * h;
-            let load =
-                super::variation::dithers(belt, Direction::Normal, segment.clock().time() + since)
-                    + belt.normal_load();
-            let slope = law.slope(segment.slip_velocity(since).abs());
-            slope.mul_add(load, 2.0 * belt.damping_ratio())
+            let load = belt.normal_load_at(segment.clock().time() + since);
+            belt.damping_rate(law.slope(segment.slip_velocity(since).abs()), load)
         };
-        0.5 * h * NODES.map(at).iter().sum::<f64>()
+        let [nodes, weights] = &*RULE;
+        h * nodes.iter().zip(weights).map(|(node, weight)| weight * at(*node)).sum::<f64>()
     }
 }
 
@@ -168,11 +170,7 @@ pub fn ramped(belt: &Belt, start: Start, over: f64) -> Result<Start, NoOrbit> {
     let mut number = 0.0;
     while number < count {
         let share = (number + 0.5) / count;
-        let step = (0..belt.dithers().len()).try_fold(belt.clone(), |step, index| {
-            let amplitude = share * belt.dithers()[index].amplitude;
-            let path = belt.dither_path(index, "amplitude");
-            step.with(&path, amplitude).map_err(|_| NoOrbit::Invalid { value: amplitude })
-        })?;
+        let step = Forced { belt, setting: Setting::Share, periods: 1 }.belt_at(&[share])?;
         number += 1.0;
         let until = number.mul_add(period, start.time);
         state = simulate(&step, state, until, DEFAULT_TOLERANCE, &mut ())

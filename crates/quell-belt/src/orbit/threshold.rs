@@ -11,6 +11,7 @@ use std::fmt;
 
 use quell_model::Belt;
 use quell_numerics::continuation::branch::{Branch, End, Follow, Passage, Side, follow};
+use quell_numerics::continuation::spectral_radius;
 use quell_numerics::continuation::threshold::Kind as Event;
 
 use super::family::{Forced, Setting, Signature, start_of};
@@ -260,7 +261,7 @@ fn told(branch: &Branch<Signature>, from: f64, to: f64) -> Local {
     let places = branch.points.iter().map(|it| Place {
         value: it.parameter,
         state: start_of(&it.state),
-        radius: it.multipliers.first().map_or(0.0, |it| libm::hypot(it.re, it.im)),
+        radius: spectral_radius(&it.multipliers),
         least_slip: it.distance.is_finite().then_some(it.distance),
         signature: it.signature.clone(),
     });

@@ -5,19 +5,16 @@
 //!   of at most one radian of the fastest dither.
 
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 use quell_model::{Belt, Direction, Dither};
+use quell_numerics::gauss_legendre::GaussLegendre;
 use quell_numerics::roots::{Closeness, minimise};
 
 use crate::simulation::{FinalState, Segment};
 
-/// Nodes and weights of the 8-point Gauss–Legendre rule on [−1, 1] (positive half).
-const GAUSS: [(f64, f64); 4] = [
-    (0.183_434_642_495_649_8, 0.362_683_783_378_361_96),
-    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
-    (0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
-    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
-];
+/// Nodes and weights on [0, 1] of the rule for a stretch.
+static RULE: LazyLock<[[f64; 8]; 2]> = LazyLock::new(|| GaussLegendre::new(8).on_unit_interval());
 
 /// Samples per period of the fastest normal dither in the search for the smallest load.
 const LOAD_SAMPLES: f64 = 64.0;
@@ -104,15 +101,14 @@ impl Meter {
         let duration = segment.duration();
         let start = segment.clock().time();
         let panels = (self.fastest * duration).ceil().max(1.0);
-        let half = 0.5 * duration / panels;
+        let length = duration / panels;
+        let [nodes, weights] = &*RULE;
         let mut work = 0.0;
         let mut panel = 0.0;
         while panel < panels {
-            let middle = (2.0 * panel + 1.0) * half;
-            for (node, weight) in GAUSS {
-                for since in [middle - node * half, middle + node * half] {
-                    work += weight * half * self.force(start + since) * segment.velocity(since);
-                }
+            for (node, weight) in nodes.iter().zip(weights) {
+                let since = (panel + node) * length;
+                work += weight * length * self.force(start + since) * segment.velocity(since);
             }
             panel += 1.0;
         }

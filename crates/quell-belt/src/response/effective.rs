@@ -9,18 +9,15 @@
 //! velocity moves; [`WindowMean::drift`] says how far.
 
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 use quell_model::{Belt, Friction};
+use quell_numerics::gauss_legendre::GaussLegendre;
 
 use crate::simulation::{Observer, Segment, Stalled, Start, simulate};
 
-/// Nodes and weights of the 8-point Gauss–Legendre rule on [−1, 1] (positive half).
-const GAUSS: [(f64, f64); 4] = [
-    (0.183_434_642_495_649_8, 0.362_683_783_378_361_96),
-    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
-    (0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
-    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
-];
+/// Nodes and weights on [0, 1] of the rule for a stretch.
+static RULE: LazyLock<[[f64; 8]; 2]> = LazyLock::new(|| GaussLegendre::new(8).on_unit_interval());
 
 /// Means over one dither period without stick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,18 +102,14 @@ impl EdgeRecorder {
             return;
         }
         let sign = f64::from(segment.slip_sign());
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         let coefficient = |at: f64| {
             // The sign of v_r is the branch's; a rounding of the other sign next to an event is none.
             self.law.coefficient((sign * segment.slip_velocity(at)).max(0.0))
         };
-        let sum: f64 = GAUSS
-            .iter()
-            .map(|&(node, weight)| {
-                weight * (coefficient(middle - half * node) + coefficient(middle + half * node))
-            })
-            .sum();
-        self.now.impulse += sign * half * sum;
+        let [nodes, weights] = &*RULE;
+        let at = |node: &f64| coefficient((to - from).mul_add(*node, from));
+        let mean: f64 = nodes.iter().zip(weights).map(|(node, weight)| weight * at(node)).sum();
+        self.now.impulse += sign * (to - from) * mean;
     }
 
     /// ⟨v_r⟩ of the window that begins at edge `first`.

@@ -9,19 +9,14 @@ use crate::simulation::Sample;
 pub struct Record {
     /// Samples at equal steps; the first at the end of the settling time.
     pub samples: Vec<Sample>,
-    /// Step between samples.
+    /// Step τ between samples.
     pub step: f64,
     /// Spectrum of the displacement.
     pub spectrum: Spectrum,
 }
 
 impl Record {
-    /// When it starts.
-    pub fn first_time(&self) -> f64 {
-        self.samples[0].time
-    }
-
-    /// How long it is.
+    /// How long it is, τ.
     pub fn length(&self) -> f64 {
         self.samples.len() as f64 * self.step
     }

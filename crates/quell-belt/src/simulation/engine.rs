@@ -16,9 +16,10 @@ use quell_numerics::polynomial::first_crossing_after;
 
 use super::clock::Clock;
 use super::event::EventKind;
-use super::forcing::{Forcing, Series, Shape};
+use super::forcing::{Forcing, Shape};
 use super::observer::{Observer, Segment};
 use super::release::Release;
+use super::slip_step::{Next, Root, SlipDue, SlipTaken};
 use super::stick::{Bond, Search};
 use super::transitions::{Contact, PATIENCE};
 use super::{FinalState, ORDER, Run, Stalled};
@@ -63,79 +64,6 @@ pub(super) struct Engine<'a> {
     pub(super) watched: bool,
 }
 
-/// A slip step that is to be taken.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct SlipDue {
-    /// Branch of the law.
-    pub(super) sign: f64,
-    /// Multiplicity of the zero of v_r at the start.
-    pub(super) zeros: usize,
-    /// The next moment that the step may not pass.
-    pub(super) stop: f64,
-}
-
-/// What a run does next.
-pub(super) enum Next {
-    /// A slip step.
-    Slip(SlipDue),
-    /// Nothing: it is over.
-    Over(Result<FinalState, Stalled>),
-}
-
-/// A slip step as the kernel took it.
-pub(super) struct SlipTaken<'s> {
-    /// Length of the step if v_r has no root inside.
-    pub(super) length: f64,
-    /// First root of v_r inside, divided by the known ones at the start.
-    pub(super) root: Root,
-    /// y and w at the end of the step, y at the root where one was found.
-    pub(super) end: (f64, f64),
-    /// Coefficients of y.
-    pub(super) displacement: Column<'s>,
-    /// Coefficients of w.
-    pub(super) slip: Column<'s>,
-}
-
-/// The first root of v_r on a step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Root {
-    /// Proven absent.
-    None,
-    /// After this long.
-    At(f64),
-    /// Left to the scalar search.
-    Unsure,
-}
-
-/// Coefficients of one lane among those of its neighbours.
-#[derive(Clone, Copy)]
-pub(super) struct Column<'s> {
-    /// Coefficient by coefficient, the lanes side by side.
-    pub(super) rows: &'s [f64],
-    /// Number of lanes.
-    pub(super) lanes: usize,
-    /// Which.
-    pub(super) lane: usize,
-}
-
-impl Column<'_> {
-    /// Coefficient k.
-    #[inline(always)]
-    pub(super) fn coefficient(&self, k: usize) -> f64 {
-        self.rows[k * self.lanes + self.lane]
-    }
-
-    /// The coefficients alone.
-    #[inline(always)]
-    fn gathered(&self) -> Series {
-        let mut series = [0.0; ORDER + 1];
-        for (k, coefficient) in series.iter_mut().enumerate() {
-            *coefficient = self.coefficient(k);
-        }
-        series
-    }
-}
-
 impl<'a> Engine<'a> {
     pub(super) fn new<L: SlidingLaw>(run: Run<'a>, law: &L, tolerance: f64) -> Self {
         let Run { belt, start, until, observer } = run;
@@ -146,7 +74,6 @@ impl<'a> Engine<'a> {
         let damping = 2.0 * belt.damping_ratio();
         let slip = (belt.belt_velocity() - start.velocity) / unit;
         let (tangential, normal) = forcings(belt, unit, clock);
-        let fastest = tangential.highest_rate().max(normal.highest_rate()).max(1.0);
         let bond = Bond {
             damper: damping * belt_velocity,
             belt_velocity,
@@ -158,9 +85,9 @@ impl<'a> Engine<'a> {
             damping,
             bond,
             release: Release::of(&bond, (&tangential, &normal), (shapes[0], shapes[1])),
+            longest_step: longest_step(&tangential, &normal),
             tangential,
             normal,
-            longest_step: 0.5 * ORDER as f64 / fastest,
             tolerance: tolerance * load,
             unit,
             belt_velocity: belt.belt_velocity(),
@@ -443,6 +370,12 @@ impl Work for Take<'_, '_, '_> {
             Err(stalled) => Next::Over(Err(stalled)),
         }
     }
+}
+
+/// Longest step of slip: a series of this order stays good for half as many radians of the fastest oscillation.
+#[inline(always)]
+pub(super) fn longest_step(tangential: &Forcing, normal: &Forcing) -> f64 {
+    0.5 * ORDER as f64 / tangential.highest_rate().max(normal.highest_rate()).max(1.0)
 }
 
 /// The dithers of a belt in units of `unit`, tangential and normal, at the moment `clock`.

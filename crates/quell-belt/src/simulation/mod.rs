@@ -26,6 +26,7 @@ mod lanes;
 mod observer;
 mod release;
 mod slip;
+mod slip_step;
 mod stick;
 mod transitions;
 

@@ -23,13 +23,13 @@ pub struct Segment<'a> {
 }
 
 impl Segment<'_> {
-    /// When it starts.
+    /// When it starts, τ.
     #[inline(always)]
     pub fn clock(&self) -> Clock {
         self.clock
     }
 
-    /// How long it lasts.
+    /// How long it lasts, τ.
     #[inline(always)]
     pub fn duration(&self) -> f64 {
         self.duration
@@ -47,7 +47,7 @@ impl Segment<'_> {
         (self.slip, self.unit)
     }
 
-    /// Displacement x at `since` after its start.
+    /// Displacement x at `since` after its start, 0 ≤ `since` ≤ its duration: the series is not good outside.
     pub fn displacement(&self, since: f64) -> f64 {
         self.unit * value_of(self.displacement, since)
     }
@@ -56,12 +56,7 @@ impl Segment<'_> {
     /// the machine's best instructions themselves.
     #[inline(always)]
     pub(crate) fn displacements_at<const N: usize>(&self, since: &[f64; N]) -> [f64; N] {
-        let mut values = [0.0_f64; N];
-        for &coefficient in self.displacement.iter().rev() {
-            for moment in 0..N {
-                values[moment] = values[moment].mul_add(since[moment], coefficient);
-            }
-        }
+        let mut values = horner_at(self.displacement, since);
         for value in &mut values {
             *value *= self.unit;
         }
@@ -71,24 +66,19 @@ impl Segment<'_> {
     /// Velocity x′ at N moments, as [`Segment::displacements_at`].
     #[inline(always)]
     pub(crate) fn velocities_at<const N: usize>(&self, since: &[f64; N]) -> [f64; N] {
-        let mut values = [0.0_f64; N];
-        for &coefficient in self.slip.iter().rev() {
-            for moment in 0..N {
-                values[moment] = values[moment].mul_add(since[moment], coefficient);
-            }
-        }
+        let mut values = horner_at(self.slip, since);
         for value in &mut values {
             *value = self.belt_velocity - self.unit * *value;
         }
         values
     }
 
-    /// Slip velocity v_r = v₀ − x′ at `since` after its start.
+    /// Slip velocity v_r = v₀ − x′ at `since` after its start, within it; 0 in stick.
     pub fn slip_velocity(&self, since: f64) -> f64 {
         self.unit * value_of(self.slip, since)
     }
 
-    /// Velocity x′ at `since` after its start; exactly the belt's in stick.
+    /// Velocity x′ at `since` after its start, within it; exactly the belt's in stick.
     pub fn velocity(&self, since: f64) -> f64 {
         self.belt_velocity - self.slip_velocity(since)
     }
@@ -102,6 +92,18 @@ impl Segment<'_> {
         }
         self.unit * sum * self.duration
     }
+}
+
+/// A Taylor polynomial at N moments, side by side.
+#[inline(always)]
+fn horner_at<const N: usize>(coefficients: &[f64], since: &[f64; N]) -> [f64; N] {
+    let mut values = [0.0_f64; N];
+    for &coefficient in coefficients.iter().rev() {
+        for moment in 0..N {
+            values[moment] = values[moment].mul_add(since[moment], coefficient);
+        }
+    }
+    values
 }
 
 /// A Taylor polynomial at a moment, with the machine's best instructions: observers are called
@@ -228,22 +230,6 @@ impl Sampler {
     /// Time between two samples.
     pub fn step(&self) -> f64 {
         self.step
-    }
-
-    /// The stroboscopic section Rτ = 2πn − φ of a dither, for the periods inside `from`…`to`.
-    pub fn strobe(frequency_ratio: f64, phase: f64, from: f64, to: f64) -> Self {
-        let period = std::f64::consts::TAU / frequency_ratio;
-        let offset = -phase / frequency_ratio;
-        let number = ((from - offset) / period).ceil();
-        let first = offset + number * period;
-        let last = ((to - first) / period).floor();
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a count of periods, not negative by max"
-        )]
-        let count = if last >= 0.0 { last as usize + 1 } else { 0 };
-        Self::new(first, period, count)
     }
 }
 

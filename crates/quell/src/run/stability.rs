@@ -6,11 +6,11 @@
 
 use quell_belt::averaging::{
     AveragingError, AveragingOptions, Band, Becomes, Criterion, CriticalAmplitude, Crossing,
-    EverywhereStable, FastWave, NeverStable, NormalOrder, Response, Side, UndecidedBecause,
-    Verdict, criterion, critical_amplitudes, everywhere_stable_amplitude, unstable_bands,
+    EverywhereStable, NeverStable, NormalOrder, Response, Side, UndecidedBecause, Verdict,
+    criterion, critical_amplitudes, everywhere_stable_amplitude, fast_wave, unstable_bands,
 };
+use quell_model::Belt;
 use quell_model::units::Quantity;
-use quell_model::{Belt, Dither};
 use serde_json::Value as Json;
 
 use super::in_words;
@@ -88,7 +88,7 @@ fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, Stri
         belt.friction(),
         belt.damping_ratio(),
         belt.normal_load(),
-        fast_wave(&dither, options.response),
+        fast_wave(&dither, options.response).map_err(|why| why.to_string())?,
         dither.direction,
     );
     match found.map_err(|why| why.to_string())? {
@@ -105,15 +105,6 @@ fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, Stri
             NeverStable::OffScale => "there is none up to 10⁶ v_m",
         }
         .to_owned()),
-    }
-}
-
-/// Shape of the fast slip velocity of a dither.
-fn fast_wave(dither: &Dither, response: Response) -> FastWave {
-    let Dither { waveform, frequency_ratio, .. } = *dither;
-    match response {
-        Response::Oscillator => FastWave::Oscillator { waveform, frequency_ratio },
-        Response::Limit => FastWave::Integral(waveform),
     }
 }
 

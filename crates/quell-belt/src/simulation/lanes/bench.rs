@@ -5,7 +5,8 @@ use quell_numerics::dispatch::InstructionSet;
 use quell_numerics::lane::{Lane, MOST_LANES};
 
 use super::super::Run;
-use super::super::engine::{Engine, Next, SlipDue};
+use super::super::engine::Engine;
+use super::super::slip_step::{Next, SlipDue};
 use super::board::Board;
 use super::{Outcome, Shapes};
 

@@ -6,9 +6,10 @@ use quell_numerics::lane::{Lane, MOST_LANES, horner};
 
 use super::super::ORDER;
 use super::super::clock::{Clock, after, until};
-use super::super::engine::{Column, Engine, Next, Root, SlipDue, SlipTaken};
+use super::super::engine::Engine;
 use super::super::forcing::Shape;
 use super::super::slip::{Load, SlipEquation, SlipSeries, SlipStart, StepLimits};
+use super::super::slip_step::{Column, Next, Root, SlipDue, SlipTaken};
 use super::bench::Seat;
 use super::rows::{ForcingRows, Row};
 use super::{Outcome, Shapes};

@@ -9,7 +9,7 @@ use quell_model::friction::{LawVisitor, SlidingLaw};
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 
 use super::super::clock::Clock;
-use super::super::engine::forcings;
+use super::super::engine::{forcings, longest_step};
 use super::super::observer::{Observer, Segment};
 use super::super::slip::{DitherSeries, Load, SlipEquation, SlipSeries, SlipStart, StepLimits};
 use super::super::{FinalState, ORDER, Stalled, Start};
@@ -62,7 +62,7 @@ impl<L: SlidingLaw> Work for SlidingBy<'_, '_, L> {
         let unit = law.velocity_scale();
         let mut clock = Clock::at(start.time);
         let (mut tangential, mut normal) = forcings(belt, unit, clock);
-        let fastest = tangential.highest_rate().max(normal.highest_rate()).max(1.0);
+        let longest = longest_step(&tangential, &normal);
         let mut constants = L::constants::<f64>(std::slice::from_ref(law));
         let belt_velocity = belt.belt_velocity() / unit;
         let equation = SlipEquation { damping: 2.0 * belt.damping_ratio(), belt_velocity };
@@ -87,7 +87,7 @@ impl<L: SlidingLaw> Work for SlidingBy<'_, '_, L> {
             let from = SlipStart { sign, displacement, slip, first_slope: 1.0 };
             let limits = StepLimits {
                 tolerance: tolerance * belt.normal_load() / unit,
-                longest: 0.5 * ORDER as f64 / fastest,
+                longest,
                 room: clock.until(stop),
             };
             let length =
