@@ -18,13 +18,19 @@
 //! * square (3.39a), (3.57a): sums of positive terms as printed, e^{−c} sinh w and e^{−c} cosh w in scaled form.
 
 use core::f64::consts::{FRAC_2_PI, FRAC_2_SQRT_PI, FRAC_PI_2, PI};
+use std::sync::LazyLock;
+
 use quell_model::Waveform;
 use quell_model::friction::{Decreasing, SlidingLaw};
+use quell_numerics::gauss_legendre::GaussLegendre;
 use quell_numerics::quadrature::{Integral, QuadratureOptions, integrate};
 use quell_numerics::special::{bessel_i0_scaled, dawson, erf, erfcx, exp, expm1, expm1_over};
 
 use super::effective::{AveragingError, Effective, Side, settled};
 use super::wave::FastWave;
+
+/// Nodes and weights on [0, 1].
+static RULE: LazyLock<[[f64; 16]; 2]> = LazyLock::new(|| GaussLegendre::new(16).on_unit_interval());
 
 /// √π/2.
 const HALF_SQRT_PI: f64 = 1.0 / FRAC_2_SQRT_PI;
@@ -119,7 +125,10 @@ fn triangle(gamma: f64, w: f64, below: f64, sign: f64) -> (f64, f64) {
     let value = if w <= 1.0 {
         // √γ − t₀ without cancellation.
         let length = w / (root + t0);
-        let integral: f64 = gauss_points()
+        let [nodes, weights] = &*RULE;
+        let integral: f64 = nodes
+            .iter()
+            .zip(weights)
             .map(|(x, weight)| {
                 let t = t0 + length * x;
                 // w − (t² − t₀²), the slip at t.
@@ -132,33 +141,6 @@ fn triangle(gamma: f64, w: f64, below: f64, sign: f64) -> (f64, f64) {
         (decay * (far - edge) + HALF_SQRT_PI * erfcx(t0) - dawson(t0)) / (2.0 * root)
     };
     (value, mean(t0, decay))
-}
-
-/// Nodes on [0, 1] and weights of the 16-point Gauss–Legendre rule.
-fn gauss_points() -> impl Iterator<Item = (f64, f64)> {
-    const NODES: [f64; 8] = [
-        0.09501250983763744018531934,
-        0.2816035507792589132304605,
-        0.4580167776572273863424194,
-        0.6178762444026437484466718,
-        0.7554044083550030338951012,
-        0.8656312023878317438804679,
-        0.9445750230732325760779884,
-        0.9894009349916499325961542,
-    ];
-    const WEIGHTS: [f64; 8] = [
-        0.1894506104550684962853967,
-        0.1826034150449235888667637,
-        0.1691565193950025381893121,
-        0.1495959888165767320815017,
-        0.1246289712555338720524763,
-        0.09515851168249278480992511,
-        0.06225352393864789286284384,
-        0.02715245941175409485178057,
-    ];
-    NODES.iter().zip(WEIGHTS).flat_map(|(node, weight)| {
-        [(0.5 - 0.5 * node, 0.5 * weight), (0.5 + 0.5 * node, 0.5 * weight)]
-    })
 }
 
 /// K and J for the sine inside, by quadrature over a quarter wave; `delta` is where s = w.

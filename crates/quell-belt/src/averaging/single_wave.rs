@@ -10,11 +10,17 @@
 //! So the relative accuracy holds for v → 0 too. Assumes that the law is smooth for u > 0 on the scale v_m.
 
 use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
+use std::sync::LazyLock;
+
 use quell_model::Friction;
+use quell_numerics::gauss_legendre::GaussLegendre;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
 use super::effective::{AveragingError, Effective, Side, settled};
 use super::wave::FastWave;
+
+/// Nodes and weights on [0, 1] of the mean slope.
+static RULE: LazyLock<[[f64; 5]; 2]> = LazyLock::new(|| GaussLegendre::new(5).on_unit_interval());
 
 /// Below this fraction of v_m the difference of two coefficients is integrated from the slope.
 const SMALL_SLIP: f64 = 0.05;
@@ -83,11 +89,7 @@ pub(super) fn effective(
 
 /// Mean slope of the law over speeds s − v … s + v.
 fn mean_slope(law: &Friction, s: f64, v: f64) -> f64 {
-    const NODES: [f64; 2] = [0.5384693101056830910363144, 0.9061798459386639927976269];
-    const WEIGHTS: [f64; 2] = [0.4786286704993664680412915, 0.2369268850561890875142640];
-    const CENTRE: f64 = 0.5688888888888888888888889;
-    let pairs: f64 = (0..2)
-        .map(|i| WEIGHTS[i] * (law.slope(s - v * NODES[i]) + law.slope(s + v * NODES[i])))
-        .sum();
-    0.5 * (CENTRE * law.slope(s) + pairs)
+    let [nodes, weights] = &*RULE;
+    let slope = |node: &f64| law.slope((2.0 * v).mul_add(*node, s - v));
+    nodes.iter().zip(weights).map(|(node, weight)| weight * slope(node)).sum()
 }
