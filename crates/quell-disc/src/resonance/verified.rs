@@ -20,11 +20,12 @@ use crate::disc::Disc;
 use crate::dithered;
 use crate::growth::{Growth, Verdict};
 
-/// Frequencies that are tried, over all clear intervals together: each takes some forty exponents of 0.1 to 2 ms.
-const FREQUENCIES: f64 = 48.0;
+/// Frequencies that are tried, over all clear intervals together: each takes some thirty exponents of 0.1 (three modes) to 2 ms
+/// (ten modes), so that an answer takes 0.1 to 3 s.
+const FREQUENCIES: f64 = 32.0;
 
 /// Equal steps of speed: when many frequencies are tried, and when one is looked at closely.
-const STEPS: (u32, u32) = (24, 240);
+const STEPS: (u32, u32) = (16, 240);
 
 /// Points in a tongue when one frequency is looked at closely.
 const IN_A_TONGUE: u32 = 5;
