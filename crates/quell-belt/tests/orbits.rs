@@ -1,8 +1,8 @@
 //! Periodic responses against identities, differences and known thresholds.
 
 use quell_belt::orbit::reached::{Reached, orbit_reached, switches};
-use quell_belt::orbit::threshold::{Kind, Threshold, local_thresholds};
-use quell_belt::orbit::{Orbit, Verdict, from_sliding};
+use quell_belt::orbit::threshold::{Kind, NoThresholds, Threshold, local_thresholds};
+use quell_belt::orbit::{NoOrbit, Orbit, Verdict, from_sliding};
 use quell_belt::simulation::{EventKind, Start, simulate};
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 use serde_json::Value;
@@ -186,4 +186,16 @@ fn thresholds_from_rest() {
         assert_eq!(found[0].becomes, Reached::Elsewhere);
         assert!((found[0].value - expected).abs() < 5e-3, "{phase}: {}", found[0].value);
     }
+}
+
+/// A start that fails is told as lost; where there is none, nothing is there to be quenched.
+#[test]
+fn a_start_that_fails_is_not_quenched() {
+    let belt = tangential(Waveform::Sine, 1.0);
+    let ends = |start: Result<Option<Start>, NoOrbit>| {
+        switches(&belt, "dither.amplitude", (2.0, 3.0), 1, 1e-3, |_| start)
+    };
+    let why = NoOrbit::NoPeriod { most: 3 };
+    assert_eq!(ends(Err(why)), Err(NoThresholds::Lost { at: 2.0, why }));
+    assert_eq!(ends(Ok(None)), Ok(Vec::new()));
 }
