@@ -33,9 +33,10 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     let install = ["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"];
     command(Command::new(&python).args(install).arg(&wheel))?;
     let program = root.join("target/debug").join(format!("quell{}", std::env::consts::EXE_SUFFIX));
-    // Whatever lies there may be older than the sources: cargo knows.
+    // Whatever lies there may be older than the sources: cargo knows. With one package alone it would unite features
+    // in another way, and compile the dependencies again.
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    command(Command::new(cargo).args(["build", "--package", "quell-cli"]).current_dir(&root))?;
+    command(Command::new(cargo).args(["build", "--workspace"]).current_dir(&root))?;
     let tests = Command::new(&python)
         .args(["-m", "pytest"])
         .current_dir(root.join(CRATE))
