@@ -294,6 +294,40 @@ fn links_lead_somewhere() {
     }
 }
 
+/// Examples and benches that a page says to run are there: `--package NAME … --example NAME`.
+#[test]
+fn programs_that_pages_name_are_there() {
+    let mut files = pages();
+    files.extend(
+        ["docs/speed.md", "docs/many-machines.md", "benches/peers/README.md"]
+            .map(|it| root().join(it)),
+    );
+    files.extend(
+        ["compare.py", "compare_disc.py", "plot_cost.py"]
+            .map(|it| root().join("benches/peers").join(it)),
+    );
+    let mut count = 0;
+    for file in files {
+        let text =
+            fs::read_to_string(&file).expect("a file").replace(['"', ',', '`', '[', ']'], " ");
+        let words: Vec<&str> = text.split_whitespace().collect();
+        for (place, pair) in words.windows(2).enumerate() {
+            let folder = match pair[0] {
+                "--example" => "examples",
+                "--bench" => "benches",
+                _ => continue,
+            };
+            let package =
+                words[..place].iter().rposition(|word| matches!(*word, "--package" | "-p"));
+            let package = words[package.expect("a package before it") + 1];
+            let program = root().join(format!("crates/{package}/{folder}/{}.rs", pair[1]));
+            assert!(program.exists(), "{}: {} of {package}", file.display(), pair[1]);
+            count += 1;
+        }
+    }
+    assert!(count >= 5, "{count}");
+}
+
 /// The page of errata is the registry's.
 #[test]
 fn errata_are_those_of_the_registry() {
