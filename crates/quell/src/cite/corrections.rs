@@ -334,7 +334,7 @@ pub const CORRECTIONS: &[Correction] = &[
         printed: "0 < α < 1 although the figures use α = 1; no α in (5.32) although captions give one; N_t for N_r",
         right: "0 ≤ α ≤ 1 and f α cos Rτ; N_r",
         tasks: &[],
-        bears: Bears::Nothing,
+        bears: Bears::Disc(DiscKind::Any),
         proof: Proof::Reading,
     },
     Correction {
