@@ -24,13 +24,14 @@ use crate::growth::{Growth, Verdict};
 /// (ten modes), so that an answer takes 0.1 to 3 s.
 const FREQUENCIES: f64 = 32.0;
 
-/// Equal steps of speed: when many frequencies are tried, and when one is looked at closely.
+/// Equal steps of speed: when many frequencies are tried, and when one is looked at closely. They are for growth that no tongue
+/// of second order tells of; with fewer, a narrower stretch of it is missed, with more an answer takes as much longer.
 const STEPS: (u32, u32) = (16, 240);
 
-/// Points in a tongue when one frequency is looked at closely.
+/// Points in a tongue when one frequency is looked at closely: growth is a hump over a tongue, and minimising needs a bracket.
 const IN_A_TONGUE: u32 = 5;
 
-/// Most frequencies that are looked at closely.
+/// Most frequencies that are looked at closely, some hundreds of exponents each; if all of these grow, the least growth is told.
 const CLOSELY: usize = 8;
 
 /// A dither frequency with the largest growth rate of the exact equations over a range of speeds.
