@@ -3,15 +3,30 @@
 //! cargo-tarpaulin builds with the compiler's own instrumentation and runs the tests of Rust, the command line in processes of
 //! its own included; the table and the list of uncovered lines are made of its lcov file. Lines of lane code that is inlined
 //! everywhere are counted where the compiler left them, so that shares are a guide and the list is what counts.
+//!
+//! cargo-tarpaulin would put counters into every crate. Those in other people's crates slow the tests down and say nothing about
+//! ours, so this program stands between cargo and the compiler ([`compile`]) and takes the counters out of them again.
 
 use std::collections::BTreeMap;
+use std::env;
+use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, ExitCode};
+
+/// Set where cargo calls this program in place of the compiler.
+pub(crate) const COMPILES: &str = "QUELL_COVERAGE_COMPILES";
+
+/// Options of the compiler that only crates that are measured get: counters, and names of variables.
+const MEASURED_ALONE: &[&str] = &["-Cinstrument-coverage", "-Cdebuginfo=2"];
 
 /// Where it works, below the root.
 const FOLDER: &str = "target/coverage";
+
+/// The crate of the lanes. Counters in its inlined operations would be counters in every innermost loop of the others, a
+/// hundred times slower: it is measured by its own tests, alone, and has none when the others are measured.
+const LANES: &str = "quell-numerics";
 
 /// What is not measured: other people's code, tests, and the crates whose tests are Python or chores.
 const EXCLUDED: &[&str] = &[
@@ -37,16 +52,37 @@ struct Share {
 /// # Errors
 /// cargo-tarpaulin is missing or a test failed under it; the report cannot be read or written.
 pub(crate) fn run(root: &Path) -> Result<(), String> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let root = fs::canonicalize(root).map_err(|why| why.to_string())?;
+    let lanes = measure(&root, "lanes", &["--package", LANES])?;
+    let mut packages = vec!["--workspace"];
+    packages.extend([LANES, "quell-python", "xtask"].into_iter().flat_map(|it| ["--exclude", it]));
+    let others = measure(&root, "others", &packages)?;
+    let files = files(&(lanes + &others), &root);
+    let list = root.join(FOLDER).join("uncovered.txt");
+    fs::write(&list, uncovered(&files)).map_err(|why| format!("{}: {why}", list.display()))?;
+    print!("{}", table(&files));
+    eprintln!("coverage: {} names the lines", list.display());
+    Ok(())
+}
+
+/// The lcov report of some crates, made in a folder of its own.
+fn measure(root: &Path, name: &str, packages: &[&str]) -> Result<String, String> {
+    let folder = format!("{FOLDER}/{name}");
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let program = env::current_exe().map_err(|why| format!("this program: {why}"))?;
     let mut command = Command::new(cargo);
-    command.current_dir(root).args(["tarpaulin", "--engine", "llvm", "--workspace"]);
-    command.args(["--exclude", "quell-python", "--exclude", "xtask", "--skip-clean"]);
+    command.env("RUSTC_WRAPPER", program).env(COMPILES, "1");
+    command.current_dir(root).args(["tarpaulin", "--engine", "llvm", "--skip-clean"]);
+    command.args(packages);
     command.args(["--follow-exec", "--timeout", "3600", "--out", "Lcov"]);
-    command.args(["--target-dir", FOLDER, "--output-dir", FOLDER]);
-    command.args(["--objects", &format!("{FOLDER}/debug/quell")]);
+    command.args(["--target-dir", &folder, "--output-dir", &folder]);
+    command.args(["--objects", &format!("{folder}/debug/quell")]);
     for pattern in EXCLUDED {
         command.args(["--exclude-files", pattern]);
     }
+    // Threads that share counters wait for each other's caches: tests and sweeps run on one.
+    command.args(["--implicit-test-threads"]);
+    command.env("RUST_TEST_THREADS", "1").env("RAYON_NUM_THREADS", "1");
     // What is drawn in full takes many times as long with counters in every loop; other tests draw it coarsely.
     command.args(["--", "--skip", "pictures_are_those_of_reproduce"]);
     command.args(["--skip", "figures_and_claims_are_written"]);
@@ -54,16 +90,33 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     if !status.success() {
         return Err(format!("coverage: {status} (`cargo install cargo-tarpaulin` installs it)"));
     }
-    let read =
-        |path: &Path| fs::read_to_string(path).map_err(|why| format!("{}: {why}", path.display()));
-    let report = read(&root.join(FOLDER).join("lcov.info"))?;
-    let root = fs::canonicalize(root).map_err(|why| why.to_string())?;
-    let files = files(&report, &root);
-    let list = root.join(FOLDER).join("uncovered.txt");
-    fs::write(&list, uncovered(&files)).map_err(|why| format!("{}: {why}", list.display()))?;
-    print!("{}", table(&files));
-    eprintln!("coverage: {} names the lines", list.display());
-    Ok(())
+    let report = root.join(folder).join("lcov.info");
+    fs::read_to_string(&report).map_err(|why| format!("{}: {why}", report.display()))
+}
+
+/// The compiler as cargo calls it (its path, its arguments), without counters in crates that are not measured.
+pub(crate) fn compile(arguments: impl Iterator<Item = OsString>) -> ExitCode {
+    let mut arguments: Vec<OsString> = arguments.collect();
+    if arguments.is_empty() {
+        eprintln!("{COMPILES} is set, and no compiler is named");
+        return ExitCode::FAILURE;
+    }
+    let compiler = arguments.remove(0);
+    // cargo sets it for the packages that it was asked for.
+    if env::var_os("CARGO_PRIMARY_PACKAGE").is_none() {
+        arguments.retain(|word| !MEASURED_ALONE.iter().any(|option| word == option));
+    }
+    match Command::new(&compiler).args(arguments).status() {
+        Ok(status) if status.success() => ExitCode::SUCCESS,
+        Ok(status) => {
+            let code = status.code().and_then(|code| u8::try_from(code).ok());
+            code.map_or(ExitCode::FAILURE, ExitCode::from)
+        }
+        Err(why) => {
+            eprintln!("{}: {why}", compiler.display());
+            ExitCode::FAILURE
+        }
+    }
 }
 
 /// Lines of each file, from the root of the project, with how often they ran.

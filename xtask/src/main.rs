@@ -24,6 +24,9 @@ chores:
   test      everything that must hold before a change is merged, tests last";
 
 fn main() -> ExitCode {
+    if std::env::var_os(coverage::COMPILES).is_some() {
+        return coverage::compile(std::env::args_os().skip(1));
+    }
     // xtask lies directly below the root of the workspace.
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let arguments: Vec<String> = std::env::args().skip(1).collect();

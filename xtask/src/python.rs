@@ -29,14 +29,14 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     let root = root.canonicalize().map_err(|why| format!("{}: {why}", root.display()))?;
     let place = root.join("target").join("python");
     let python = environment(&root, &place)?;
+    let program = root.join("target/debug").join(format!("quell{}", std::env::consts::EXE_SUFFIX));
+    // Whatever lies there may be older than the sources: cargo knows. With one package alone it would unite features
+    // in another way, and compile the dependencies again; after the wheel it would compile what the wheel compiled otherwise.
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    command(Command::new(cargo).args(["build", "--workspace"]).current_dir(&root))?;
     let wheel = wheel(&root, &place, &python)?;
     let install = ["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"];
     command(Command::new(&python).args(install).arg(&wheel))?;
-    let program = root.join("target/debug").join(format!("quell{}", std::env::consts::EXE_SUFFIX));
-    // Whatever lies there may be older than the sources: cargo knows. With one package alone it would unite features
-    // in another way, and compile the dependencies again.
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    command(Command::new(cargo).args(["build", "--workspace"]).current_dir(&root))?;
     let tests = Command::new(&python)
         .args(["-m", "pytest"])
         .current_dir(root.join(CRATE))
