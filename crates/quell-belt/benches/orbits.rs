@@ -36,7 +36,7 @@ fn both_curves(belt: &Belt) -> usize {
         along: "belt.belt_velocity",
         between: (0.85, 1.5),
     };
-    let found = curves(belt, plane, 3, 100).expect("curves");
+    let found = curves(belt, plane, 3, 100).expect("curves").curves;
     found.iter().map(|it| it.points.len()).sum()
 }
 

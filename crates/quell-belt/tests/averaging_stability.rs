@@ -318,7 +318,7 @@ fn sharper_thresholds() {
 }
 
 /// Normal dither, decreasing law, ζ = 0.2, v₀ = 0.075: first and second order of φ′ against the limit R → ∞
-/// (derived and held to orbits in `averaging_errata.rs`).
+/// (derived in `averaging_errata.rs`, where exact orbits are extrapolated to it).
 #[test]
 fn normal_dither() {
     let law = law(LawKind::Decreasing);

@@ -25,7 +25,7 @@ fn amplitude_over_belt_velocity() {
         along: "belt.belt_velocity",
         between: (0.85, 1.5),
     };
-    let found = curves(&belt(), plane, 3, 60).expect("curves");
+    let found = curves(&belt(), plane, 3, 60).expect("curves").curves;
     for it in &found {
         println!("{:?} {:?} {} points", it.kind, it.ends, it.points.len());
     }

@@ -1,7 +1,7 @@
 //! Periodic responses against identities, differences and known thresholds.
 
-use quell_belt::orbit::reached::{Reached, orbit_reached, switches};
-use quell_belt::orbit::threshold::{Kind, NoThresholds, Threshold, local_thresholds};
+use quell_belt::orbit::reached::{Reached, Switches, orbit_reached, switches};
+use quell_belt::orbit::threshold::{Kind, Threshold, local_thresholds};
 use quell_belt::orbit::{NoOrbit, Orbit, Verdict, from_sliding};
 use quell_belt::simulation::{EventKind, Start, simulate};
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
@@ -182,20 +182,24 @@ fn thresholds_from_rest() {
         let range = (expected - 0.11, expected + 0.09);
         let found = switches(&belt, "dither.amplitude", range, 2, 2e-4, |_| Ok(Some(Start::REST)))
             .expect("runs");
-        assert_eq!(found.len(), 1, "{found:?}");
-        assert_eq!(found[0].becomes, Reached::Elsewhere);
-        assert!((found[0].value - expected).abs() < 5e-3, "{phase}: {}", found[0].value);
+        assert_eq!((found.first, found.changes.len()), (Reached::Sliding, 1), "{found:?}");
+        let change = found.changes[0];
+        assert_eq!(change.becomes, Reached::Elsewhere);
+        assert!((change.value - expected).abs() < 5e-3, "{phase}: {}", change.value);
     }
 }
 
-/// A start that fails is told as lost; where there is none, nothing is there to be quenched.
+/// A start that fails leaves the end unknown; where there is none, nothing is there to be quenched.
 #[test]
 fn a_start_that_fails_is_not_quenched() {
     let belt = tangential(Waveform::Sine, 1.0);
     let ends = |start: Result<Option<Start>, NoOrbit>| {
-        switches(&belt, "dither.amplitude", (2.0, 3.0), 1, 1e-3, |_| start)
+        switches(&belt, "dither.amplitude", (2.0, 3.0), 1, 1e-3, |_| start).expect("valid")
     };
     let why = NoOrbit::NoPeriod { most: 3 };
-    assert_eq!(ends(Err(why)), Err(NoThresholds::Lost { at: 2.0, why }));
-    assert_eq!(ends(Ok(None)), Ok(Vec::new()));
+    let unknown = vec![(2.0, why), (3.0, why)];
+    let (first, changes) = (Reached::Unknown, Vec::new());
+    assert_eq!(ends(Err(why)), Switches { first, changes, unknown });
+    let (first, changes, unknown) = (Reached::Sliding, Vec::new(), Vec::new());
+    assert_eq!(ends(Ok(None)), Switches { first, changes, unknown });
 }

@@ -16,20 +16,12 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    /// One of the two, as asked for.
-    pub(crate) fn new(
-        json: bool,
-        object: impl FnOnce() -> Json,
-        text: impl FnOnce() -> String,
-    ) -> Self {
-        let output = if json { format!("{}\n", object()) } else { text() };
-        Self { output, warnings: Vec::new() }
-    }
-
-    /// With warnings, which go to standard error.
-    pub(crate) fn warning(mut self, warnings: Vec<String>) -> Self {
-        self.warnings.extend(warnings);
-        self
+    /// One of the two, as asked for. The warnings of the object go to standard error.
+    pub(crate) fn new(json: bool, object: &Json, text: impl FnOnce() -> String) -> Self {
+        let told = object["warnings"].as_array().map_or(&[][..], Vec::as_slice);
+        let warnings = told.iter().filter_map(|it| Some(it.as_str()?.to_owned())).collect();
+        let output = if json { format!("{object}\n") } else { text() };
+        Self { output, warnings }
     }
 
     /// Writes it.

@@ -1,5 +1,6 @@
 //! Short tables for people: what, value, unit, and the same in SI.
 
+use quell::Study;
 use quell::quantity::unit_of;
 use quell_model::units::{Quantity, Scales};
 
@@ -71,6 +72,14 @@ impl Table {
 
 fn is_word(row: &[String; 4]) -> bool {
     row[2].is_empty() && row[3].is_empty() && row[1].parse::<f64>().is_err()
+}
+
+/// A quantity with [`DIGITS`] significant digits, in SI with its unit where the study is.
+pub(crate) fn figure_of(study: &Study, quantity: Quantity, value: f64) -> String {
+    match study.scales().zip(quantity.si_unit()) {
+        Some((scales, (unit, _))) => format!("{} {unit}", figure(scales.to_si(quantity, value))),
+        None => figure(value),
+    }
 }
 
 /// A number with [`DIGITS`] significant digits.

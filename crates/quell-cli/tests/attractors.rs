@@ -1,24 +1,13 @@
 //! The real binary: bifurcation diagrams and basins.
 
-use std::path::Path;
-use std::process::Command;
+#[path = "place/repository.rs"]
+mod repository;
 
+use repository::quell;
 use serde_json::Value as Json;
 
 /// Decreasing law, v₀ = 1, ζ = 0.005, sine tangential dither with R = 10, D = 2.5.
 const STUDY: &str = "studies/will-every-start-fall-quiet.toml";
-
-fn quell(arguments: &[&str]) -> (Json, i32) {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let done = Command::new(env!("CARGO_BIN_EXE_quell"))
-        .args(arguments)
-        .arg("--json")
-        .current_dir(root)
-        .output()
-        .expect("the binary runs");
-    let text = String::from_utf8(done.stdout).expect("text");
-    (serde_json::from_str(&text).expect("one object"), done.status.code().expect("a status"))
-}
 
 fn swept(study: &str, range: [&str; 3], more: &[&str]) -> Json {
     let [from, to, points] = range;
@@ -241,5 +230,7 @@ fn what_is_wrong_is_said_at_once() {
     let message = told["errors"][0]["message"].as_str().expect("a message");
     assert!(message.contains("dither") && !message.contains("change:"), "{message}");
     assert_eq!(keys(&["basins", STUDY, "--sample", "0"]), ["--sample"]);
+    // Of a study that is not there nobody knows whether it is in SI.
+    assert_eq!(keys(&["basins", "studies/nowhere.toml", "--displacement", "0mm:2mm"]).len(), 1);
     assert_eq!(keys(&["basins", STUDY, "--set", "belt.belt_velocity=0"]), ["belt.belt_velocity"]);
 }

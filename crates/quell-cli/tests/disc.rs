@@ -137,6 +137,53 @@ fn a_clear_frequency_is_found_and_kept() {
     assert_eq!(errors[0]["key"], "dither");
 }
 
+/// What no choice of the frequency takes away is told: tongues that reach into the range, and where it cannot be kept clear.
+#[test]
+fn what_a_clear_frequency_leaves_is_told() {
+    let place = place("disc-left");
+    let ask = |speeds: &str, friction: &str| {
+        let set = format!("disc.load.friction={friction}");
+        let asked = ["resonances", "disc.toml", "--clear", speeds, "--frequency", "2:6", "--set"];
+        let asked = [&asked[..], &[set.as_str()]].concat();
+        let clear = place.good(&asked)["clear"].clone();
+        let (words, _, status) = quell(&place, &asked);
+        assert_eq!(status, 0);
+        (clear, words)
+    };
+    let reaching = |clear: &Json| -> Vec<Json> {
+        let there = clear["there"].as_array().expect("a list");
+        there.iter().filter(|it| it["reaches_in"] == true).cloned().collect()
+    };
+    let left = |words: &str| -> Vec<String> {
+        words.lines().filter(|line| line.contains("left there:")).map(str::to_owned).collect()
+    };
+    // Tangential dither takes this tongue away at first order alone: revived at second order it ends at 0.27, and by the exact
+    // equations nothing grows beyond 0.25.
+    let (clear, words) = ask("0.25:0.6", "0.6");
+    let found = reaching(&clear);
+    assert_eq!(found.len(), 1, "{clear}");
+    assert!(clear["there"].as_array().is_some_and(|there| there.len() > 1), "{clear}");
+    assert_eq!((&found[0]["harmonic"], &found[0]["can_be_unstable"]), (&0.into(), &true.into()));
+    let number = |it: &Json| it.as_f64().expect("a number");
+    assert!(number(&found[0]["speed"]) < 0.25 && number(&found[0]["edges"][1]) > 0.25, "{clear}");
+    assert!(number(&clear["verified_growth_rate"]) < 0.0, "{clear}");
+    assert!(words.contains("verified: by the exact equations nothing grows there"), "{words}");
+    let told = left(&words);
+    assert_eq!(told.len(), 1, "{words}");
+    let line = "left there: Ω = 0.1923353, forward (1,1) with forward (1,2), growth up to 0.00";
+    assert!(told[0].trim_start().starts_with(line), "{told:?}");
+    // Nearer to it something grows at whatever frequency.
+    let (clear, words) = ask("0.2:0.9", "0.6");
+    assert!(number(&clear["verified_growth_rate"]) > 0.0, "{clear}");
+    assert!(words.contains("not clear by the exact equations"), "{words}");
+    assert_eq!(left(&words).len(), reaching(&clear).len(), "{words}");
+    // Over all speeds theory has no frequency either.
+    let (clear, words) = ask("0.02:0.9", "0.4");
+    assert!(clear["suggestion"].is_null() && clear["why"]["suggestion"].is_string(), "{clear}");
+    assert!(words.contains("tongues that dither makes:\n  none\n"), "{words}");
+    assert!(!words.contains("left there") && !words.contains("verified"), "{words}");
+}
+
 #[test]
 fn modes_written_and_read_back_give_the_same_exponent() {
     let place = place("disc-modes");

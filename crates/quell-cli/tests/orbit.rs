@@ -1,8 +1,9 @@
 //! The real binary: periodic responses and thresholds.
 
-use std::path::Path;
-use std::process::Command;
+#[path = "place/repository.rs"]
+mod repository;
 
+use repository::quell;
 use serde_json::Value as Json;
 
 /// Decreasing law, v₀ = 1, ζ = 0.005, sine tangential dither with R = 10, D = 6.
@@ -11,17 +12,8 @@ const STUDY: &str = "studies/can-dither-make-it-worse.toml";
 /// The belt of the decreasing law without dither.
 const WITHOUT: &str = "studies/does-it-squeal.toml";
 
-fn quell(arguments: &[&str]) -> (Json, i32) {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let done = Command::new(env!("CARGO_BIN_EXE_quell"))
-        .args(arguments)
-        .arg("--json")
-        .current_dir(root)
-        .output()
-        .expect("the binary runs");
-    let text = String::from_utf8(done.stdout).expect("text");
-    (serde_json::from_str(&text).expect("one object"), done.status.code().expect("a status"))
-}
+/// A pad in SI with sine tangential dither of 4 kN.
+const PAD: &str = "studies/squealing-pad-si.toml";
 
 #[test]
 fn an_orbit_has_its_names() {
@@ -170,6 +162,99 @@ fn steady_sliding_has_a_hopf_bifurcation() {
     assert!((squeal - 2.4999).abs() < 2e-3, "{squeal}");
 }
 
+/// Two states live side by side without dither: what a run from a start ends on is told, not the largest cycle.
+#[test]
+fn an_undithered_run_ends_where_its_start_leads() {
+    let study = "studies/can-it-squeal-although-stable.toml";
+    let ask = |arguments: &[&str]| quell(&[&["orbit", study], arguments].concat());
+    for (start, cycle) in [
+        (&["--from-rest"][..], false),
+        (&["--from-sliding"], false),
+        (&["--from-squeal"], true),
+        (&["--start", "0.29,0"], false),
+        (&["--start", "3,0"], true),
+        (&[], true),
+    ] {
+        let (found, status) = ask(start);
+        assert_eq!(status, 0, "{found}");
+        assert_eq!(found["multipliers"].is_array(), cycle, "{start:?} {found}");
+        // As a run has it.
+        if let ["--start", state] = start {
+            let (x, v) = state.split_once(',').expect("two numbers");
+            let (x, v) =
+                (format!("belt.initial.displacement={x}"), format!("belt.initial.velocity={v}"));
+            let (run, _) = quell(&[
+                "simulate",
+                study,
+                "--set",
+                "belt.initial.state=rest",
+                "--set",
+                &x,
+                "--set",
+                &v,
+                "--until",
+                "2000",
+                "--events",
+            ]);
+            let last = run["events"].as_array().and_then(|events| events.last()?["time"].as_f64());
+            assert_eq!(last.is_some_and(|time| time > 1900.0), cycle, "{state}: {last:?}");
+        }
+    }
+    let (found, status) = ask(&["--set", "belt.belt_velocity=9", "--from-squeal"]);
+    assert_eq!((status, found["errors"][0]["key"].as_str()), (2, Some("--from-squeal")), "{found}");
+    let (found, status) = ask(&["--set", "belt.belt_velocity=0"]);
+    assert_eq!(
+        (status, found["errors"][0]["key"].as_str()),
+        (2, Some("belt.belt_velocity")),
+        "{found}"
+    );
+}
+
+/// In a study in SI a question in newtons and seconds is the one in numbers of the equations.
+#[test]
+fn thresholds_are_asked_in_si() {
+    let ask = |parameter: &str, [from, to]: [f64; 2], ramp: &str| {
+        let range = [from, to].map(|end| end.to_string());
+        let mut arguments = vec!["thresholds", PAD, "--parameter", parameter];
+        arguments.extend(["--from", &range[0], "--to", &range[1], "--from-rest", "--ramp", ramp]);
+        let (found, status) = quell(&arguments);
+        assert_eq!(status, 0, "{found}");
+        found
+    };
+    // Of the study: mass_kg and stiffness_n_per_m.
+    let (mass, stiffness): (f64, f64) = (0.5, 6.1902e8);
+    let range = [5000.0, 6500.0];
+    let found = ask("dither.amplitude_n", range, "0.05s");
+    let second = 1.0 / (stiffness / mass).sqrt();
+    let scaled = ask(
+        "dither.amplitude",
+        range.map(|newtons| newtons / stiffness),
+        &(0.05 / second).to_string(),
+    );
+    assert_eq!(found, scaled);
+    let number = |it: &Json| it.as_f64().expect("a number");
+    let local = &found["local"][0];
+    // Sharper averaging has it at 5790.585 N.
+    assert!((number(&local["value_n"]) / 5790.585 - 1.0).abs() < 1e-4, "{local}");
+    assert_eq!(local["becomes"], "stable");
+    assert_eq!(found["from_rest"].as_array().map(Vec::len), Some(1), "{found}");
+    // A quotient and a product, each rounded, of numbers that were read to their last digit or the one beside it.
+    let close = |si: &Json, value: f64| {
+        assert!((number(si) - value).abs() <= 4.0 * f64::EPSILON * value.abs(), "{si} {value}");
+    };
+    for it in [local, &found["from_rest"][0]] {
+        close(&it["value_n"], number(&it["value"]) * stiffness);
+        close(&it["error_n"], number(&it["error"]) * stiffness);
+    }
+    close(&local["displacement_m"], number(&local["displacement"]));
+    close(&found["from_n"], range[0]);
+    close(&found["to_n"], range[1]);
+    close(&found["ramp_s"], 0.05);
+    for (name, unit) in [("value_n", "N"), ("from_n", "N"), ("displacement_m", "m")] {
+        assert_eq!(found["units"][name], unit);
+    }
+}
+
 #[test]
 fn wrong_questions_are_told() {
     for (arguments, key) in [
@@ -183,6 +268,10 @@ fn wrong_questions_are_told() {
         ),
         (
             &["--parameter", "dither.amplitude", "--from", "1", "--to", "2", "--ramp", "-1"],
+            "--ramp",
+        ),
+        (
+            &["--parameter", "dither.amplitude", "--from", "1", "--to", "2", "--ramp", "0.5s"],
             "--ramp",
         ),
         (
@@ -219,6 +308,11 @@ fn wrong_questions_are_told() {
         let (told, status) = quell(&[&["thresholds", STUDY], arguments].concat());
         assert_eq!((status, told["errors"][0]["key"].as_str()), (2, Some(key)), "{told}");
     }
+    // Of a study that is not there nobody knows whether it is in SI.
+    let nowhere = ["thresholds", "studies/nowhere.toml", "--parameter", "dither.amplitude"];
+    let (told, status) =
+        quell(&[&nowhere[..], &["--from", "1", "--to", "2", "--ramp", "0.5s"]].concat());
+    assert_eq!((status, told["errors"].as_array().map(Vec::len)), (2, Some(1)), "{told}");
 }
 
 /// Nothing that is asked is silently left out, and what is refused is told with its value.
@@ -239,9 +333,9 @@ fn options_that_say_nothing_together_are_refused() {
         (
             vec![
                 "thresholds",
-                "studies/squealing-pad-si.toml",
+                PAD,
                 "--parameter",
-                "dither.amplitude_n",
+                "dither.amplitude_n_rms",
                 "--from",
                 "1",
                 "--to",

@@ -27,11 +27,6 @@ pub(crate) trait Answer: Send + Sync {
     fn figure(&self) -> Option<Result<Figure, Failure>> {
         None
     }
-
-    /// What a reader of the numbers should know.
-    fn warnings(&self) -> Vec<String> {
-        Vec::new()
-    }
 }
 
 /// The answer of a verb.
@@ -60,11 +55,6 @@ impl NativeAnswer {
         convert::to_python(py, &self.inner.json())
     }
 
-    /// What a reader of the numbers should know.
-    fn warnings(&self) -> Vec<String> {
-        self.inner.warnings()
-    }
-
     /// (name, (provenance, axes, arrays)) of every dataset.
     fn datasets(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, Py<PyAny>)>> {
         let inner = Arc::clone(&self.inner);
@@ -89,7 +79,7 @@ impl NativeAnswer {
     fn picture(&self, py: Python<'_>, path: PathBuf) -> PyResult<String> {
         let inner = Self { inner: Arc::clone(&self.inner) };
         call::run(py, move || {
-            let output = Output::prepare(&path, "--plot", EXTENSIONS)?;
+            let output = Output::prepare(&path, "path", EXTENSIONS)?;
             picture::write(&inner.figure()?, output)
         })
     }
@@ -99,7 +89,7 @@ impl NativeAnswer {
         let inner = Arc::clone(&self.inner);
         call::run(py, move || {
             let mut saved = Vec::new();
-            let first = Output::prepare(&path, "--save", &["csv"])?;
+            let first = Output::prepare(&path, "path", &["csv"])?;
             let datasets = inner.datasets();
             if datasets.is_empty() {
                 let allowed = "there is no table of this result";
@@ -110,7 +100,7 @@ impl NativeAnswer {
             }
             let mut outputs = Vec::new();
             for (name, _) in datasets.iter().skip(1) {
-                outputs.push(first.beside(name, "--save")?);
+                outputs.push(first.beside(name, "path")?);
             }
             outputs.insert(0, first);
             for (output, (_, dataset)) in outputs.into_iter().zip(datasets) {

@@ -12,7 +12,7 @@
 //! | `reference` | reference numbers for a self-test |
 //! | `shared` | maps that several processes compute into one store |
 //! | `call` | work without the interpreter's lock; Ctrl-C; panics become errors |
-//! | `convert`, `errors` | JSON, arrays and complaints as Python knows them |
+//! | `convert`, `errors`, `words` | JSON, arrays and complaints as Python knows them |
 
 mod answer;
 mod call;
@@ -22,6 +22,7 @@ mod reference;
 mod shared;
 mod study;
 mod verbs;
+mod words;
 
 use pyo3::prelude::*;
 

@@ -57,7 +57,7 @@ impl NativeShared {
         read(py, text).map(drop)
     }
 
-    /// Computes shard `k/n`: (facts, warnings, seconds).
+    /// Computes shard `k/n`: (facts, seconds).
     #[pyo3(signature = (text, threads, progress))]
     fn compute_shard(
         &self,
@@ -65,14 +65,14 @@ impl NativeShared {
         text: &str,
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<(Py<PyAny>, Vec<String>, f64)> {
+    ) -> PyResult<(Py<PyAny>, f64)> {
         let (inner, shard) = (Arc::clone(&self.inner), read(py, text)?);
         let counter = Arc::new(Counter::default());
         let watched = Watched::new(&counter, progress);
         let work = move || inner.compute_shard(shard, counter.running(threads));
         let done = call::watched(py, work, watched)?;
         let facts = convert::to_python(py, &done.json(self.inner.path()))?;
-        Ok((facts, done.warnings(), done.part.elapsed.as_secs_f64()))
+        Ok((facts, done.part.elapsed.as_secs_f64()))
     }
 
     /// Computes those of the chunks that the store does not have: (computed, there, damaged, points, seconds).

@@ -9,6 +9,7 @@ import threading
 import time
 from typing import Any
 
+import numpy as np
 import pytest
 from conftest import BELT, DITHER
 
@@ -128,9 +129,13 @@ def test_import_is_quick_and_brings_little_along() -> None:
     ("call", "key"),
     [
         (lambda belt: belt.orbit(from_rest=True, near=(0.1, 0.0)), "near"),
+        (lambda belt: belt.orbit(from_rest=True, near=np.array([0.1, 0.0])), "near"),
         (lambda belt: belt.orbit(start=(0.0, 0.0), periods=2), "periods"),
         (lambda belt: belt.thresholds("dither.amplitude", 0.3, 0.6, ramp=5.0), "ramp"),
+        (lambda belt: belt.thresholds("dither.amplitude", 0.3, 0.6, along="belt.belt_velocity", between=(0.04, 0.06), ramp=5.0), "along"),
         (lambda belt: belt.basins(points=5), "over"),
+        (lambda belt: belt.basins(seed=3), "seed"),
+        (lambda belt: belt.basins(sample=10, grid=(4, 3)), "grid"),
     ],
 )
 def test_what_would_be_left_out_is_refused(call: Any, key: str, belt: quell.Belt) -> None:
@@ -138,6 +143,94 @@ def test_what_would_be_left_out_is_refused(call: Any, key: str, belt: quell.Belt
         call(belt)
     assert [(it["key"], it["fault"]) for it in refused.value.errors] == [(key, "conflict")]
     assert "--" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    "given",
+    ["12", b"12", 0.1, True, (True, 0.1), ("0", "1"), {0.1, 0.2}, {0.1: 1.0, 0.2: 2.0}, (0.1,), (0.1, 0.2, 0.3), (0.1, np.inf),
+     np.array([True, False]), np.array([[0.1], [0.2]])],
+)  # fmt: skip
+def test_what_is_no_pair_of_numbers_is_refused(given: Any, belt: quell.Belt, disc: quell.Disc) -> None:
+    calls: list[tuple[Any, str]] = [
+        (lambda: belt.orbit(near=given), "near"),
+        (lambda: belt.thresholds("dither.amplitude", 0.3, 0.6, start=given), "start"),
+        (lambda: belt.basins(displacement=given), "displacement"),
+        (lambda: belt.basins(grid=given), "grid"),
+        (lambda: disc.resonances(speeds=given), "speeds"),
+    ]
+    for call, key in calls:
+        with pytest.raises(quell.StudyError) as refused:
+            call()
+        assert [(it["key"], it["fault"]) for it in refused.value.errors] == [(key, "value")]
+
+
+def test_pairs_are_tuples_lists_or_arrays(belt: quell.Belt) -> None:
+    found = belt.orbit()
+    state = (found.displacement, found.velocity)
+    near = [belt.orbit(near=it).facts for it in (state, list(state), np.array(state))]  # type: ignore[arg-type]
+    assert near[0] == near[1] == near[2]
+
+
+def test_basins_have_a_grid_and_a_seed_by_default(belt: quell.Belt) -> None:
+    window: Any = {"displacement": (0.0, 0.5), "velocity": (-0.2, 0.2)}
+    assert belt.basins(sample=5, **window).facts == belt.basins(sample=5, seed=1, **window).facts
+    assert belt.basins(sample=5, seed=2, **window).facts != belt.basins(sample=5, **window).facts
+
+
+def messages(failed: quell.QuellError) -> list[str]:
+    """Everything that a failure says."""
+    if isinstance(failed, quell.StudyError):
+        return [str(it[part]) for it in failed.errors for part in ("key", "allowed", "message")]
+    return [str(failed)]
+
+
+TANGENTIAL = {"dither.direction": "tangential", "disc.load.friction": 0.25}
+
+WRONG: list[tuple[str, str, Any]] = [
+    ("to", "from_", lambda belt, disc: belt.thresholds("dither.amplitude", 0.6, 0.3)),
+    ("parameter", "", lambda belt, disc: belt.thresholds("dither.colour", 0.3, 0.6)),
+    ("ramp", "from_rest, from_sliding, from_squeal or start", lambda belt, disc: belt.thresholds("dither.amplitude", 0.3, 0.6, ramp=5)),
+    ("between", "", lambda belt, disc: belt.thresholds("dither.amplitude", 0.3, 0.6, along="belt.belt_velocity", between=(2, 1))),
+    ("along", "", lambda belt, disc: belt.thresholds("dither.amplitude", 0.3, 0.6, along="dither.amplitude", between=(1, 2))),
+    ("from_squeal", "another start", lambda belt, disc: belt.set({"belt.belt_velocity": 9}).orbit(from_squeal=True)),
+    ("points", "", lambda belt, disc: belt.bifurcation("dither.amplitude", 0.3, 0.6, points=1)),
+    ("grid", "", lambda belt, disc: belt.basins(grid=(1, 9))),
+    ("sample", "", lambda belt, disc: belt.basins(sample=0)),
+    ("until", "", lambda belt, disc: belt.simulate(-1.0)),
+    ("quantity", "efficiency", lambda belt, disc: belt.map("eficiency", {"dither.amplitude": [0.1]})),
+    ("[[sweep]]", 'axes={"dither.amplitude"', lambda belt, disc: belt.map("efficiency")),
+    ("clear", "clear and frequency are given together", lambda belt, disc: disc.resonances(clear=(0.2, 0.6))),
+    ("clear", "damped", lambda belt, disc: disc.set(TANGENTIAL).resonances(clear=(0.1, 1.0), frequency=(2.0, 6.0))),
+    ("out", "", lambda belt, disc: quell.reproduce("2.2", out=__file__)),
+    ("path", "must end in", lambda belt, disc: belt.simulate(1.0).save("x.xlsx")),
+    ("path", "must end in", lambda belt, disc: belt.cite().save("x.xlsx")),
+]
+"""The argument that is wrong, words that say why, and the call."""
+
+
+@pytest.mark.parametrize(("key", "words", "call"), WRONG)
+def test_failures_name_arguments_not_options(key: str, words: str, call: Any, belt: quell.Belt, disc: quell.Disc) -> None:
+    with pytest.raises(quell.QuellError) as caught:
+        call(belt, disc)
+    failed: Any = caught.value
+    named = [it["key"] for it in failed.errors] if isinstance(failed, quell.StudyError) else [failed.key]
+    assert key in named, named
+    told = messages(failed)
+    assert not [it for it in told if "--" in it]
+    assert any(words in it for it in told), told
+
+
+def test_failures_of_stores_and_pictures_name_arguments(belt: quell.Belt, tmp_path: Any) -> None:
+    axes = {"dither.amplitude": [0.1, 0.2]}
+    belt.map("growth", axes, store=tmp_path / "m.zarr")
+    with pytest.raises(quell.StudyError, match="resume=True goes on with it") as refused:
+        belt.map("growth", axes, store=tmp_path / "m.zarr")
+    assert [it["key"] for it in refused.value.errors] == ["store"] and "--" not in str(refused.value)
+    sliding = quell.Belt(**{**BELT, "damping_ratio": 0.5}).orbit()
+    assert sliding.period is None
+    with pytest.raises(quell.RunError) as failed:
+        sliding.plot()
+    assert failed.value.key == "plot" and "--" not in str(failed.value)
 
 
 def test_times_that_nobody_could_wait_for_are_refused(belt: quell.Belt) -> None:

@@ -86,5 +86,7 @@ def test_shards_of_several_processes_make_the_map(tmp_path: Path) -> None:
     store = tmp_path / "m.zarr"
     parts = [STUDY.map("growth", store=store, shard=f"{k}/2") for k in (2, 1)]
     assert parts[-1].left_chunks == 0 and sum(it.computed_chunks for it in parts) == parts[0].facts["map_chunks"]
+    with pytest.raises(quell.StudyError, match="a shard has no table: read the map with resume=True"):
+        parts[-1].save(tmp_path / "m.csv")
     whole = STUDY.map("growth", store=store, resume=True)
     assert whole.resumed_points == 900

@@ -106,4 +106,6 @@ def test_arguments_of_verbs(one: Any, other: Any, third: Any) -> None:
     # The last argument is refused always: whatever the others are, nothing long begins.
     answered(lambda: belt.basins(grid=one, displacement=other, seed=-1))
     answered(lambda: belt.bifurcation(third, one, other, points=-1))
+    answered(lambda: belt.orbit(near=one, start=other, from_rest=True, periods=0))
+    answered(lambda: belt.thresholds("dither.amplitude", "low", 1.0, start=one, ramp=other, along=third, between=one))
     answered(lambda: quell.Study.from_text(one) if not isinstance(one, str) else None)

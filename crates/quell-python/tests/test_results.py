@@ -47,7 +47,7 @@ def test_every_result_is_a_dataset_and_pickles_and_shows(belt: quell.Belt, disc:
         assert isinstance(dataset, xarray.Dataset), name
         assert dataset.attrs["verb"] == result.verb and dataset.attrs["quell_version"] == quell.__version__
         again = pickle.loads(pickle.dumps(result))
-        assert again.facts == {**result.facts, "warnings": result.warnings}, name
+        assert again.facts == result.facts, name
         assert again.dataset.identical(dataset), name
         assert again.study == result.study
         assert repr(again) and f"quell {result.verb}" in again._repr_html_()
@@ -71,6 +71,22 @@ def test_annotated_facts_are_there(belt: quell.Belt, disc: quell.Disc) -> None:
                 assert isinstance(value, (int, float)), (name, fact, value)
             if hint is bool:
                 assert isinstance(value, bool), (name, fact)
+
+
+def test_an_orbit_has_the_same_fields_where_there_is_none(belt: quell.Belt) -> None:
+    squealing = quell.Study.from_toml(STUDIES / "does-it-squeal.toml")
+    dithered, cycle, sliding = belt.orbit(), squealing.orbit(), squealing.set({"belt.belt_velocity": 3}).orbit()
+    assert cycle.period > 0.0 and sliding.period is None and sliding.cycles == []
+    # Of every answer that has a reason for something; and of a belt without dither.
+    extras = {"why", "cycles"}
+    for found in (cycle, sliding):
+        assert set(found.facts) - extras == set(dithered.facts) - extras
+        assert set(found.units) == set(dithered.units)
+        assert "cycles" in found.facts
+    assert sliding.free_phase is sliding.monodromy is None and sliding.stick_fraction == 0.0
+    assert len(sliding.multipliers) == 0
+    unknown = {name for name, value in sliding.facts.items() if value is None}
+    assert unknown <= set(sliding.why)
 
 
 def test_arrays_have_dimensions_units_and_provenance(belt: quell.Belt) -> None:

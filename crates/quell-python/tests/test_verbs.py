@@ -95,6 +95,8 @@ CASES: list[tuple[str, str, list[str], Any]] = [
     ("orbit", BELT, [], lambda study: study.orbit()),
     ("thresholds", BELT, ["--parameter", "dither.amplitude", "--from", "0.3", "--to", "0.6"],
      lambda study: study.thresholds("dither.amplitude", 0.3, 0.6)),
+    ("thresholds", SI, ["--parameter", "dither.amplitude_n", "--from", "5500", "--to", "6000"],
+     lambda study: study.thresholds("dither.amplitude_n", 5500, 6000)),
     ("thresholds", BELT, ["--parameter", "dither.amplitude", "--from", "0.45", "--to", "0.55", "--along",
       "belt.belt_velocity", "--between", "0.045:0.055"],
      lambda study: study.thresholds("dither.amplitude", 0.45, 0.55, along="belt.belt_velocity", between=(0.045, 0.055))),

@@ -38,6 +38,11 @@ impl Fields {
         self
     }
 
+    /// Null, and why.
+    pub fn unknown(&mut self, name: &str, why: impl Into<String>) -> &mut Self {
+        self.plain(name, Json::Null).why(name, why)
+    }
+
     /// A quantity, with its SI twin in a study in SI.
     pub fn number(&mut self, name: &str, quantity: Quantity, value: f64) -> &mut Self {
         self.known(name, quantity, Ok(value))
@@ -63,8 +68,7 @@ impl Fields {
                 }
             }
             Err(why) => {
-                self.object.insert(name.to_owned(), Json::Null);
-                self.why.insert(name.to_owned(), why.into());
+                self.unknown(name, why);
                 if let Some((key, ..)) = twin {
                     self.object.insert(key, Json::Null);
                 }
@@ -114,8 +118,7 @@ impl Fields {
                 }
             }
             Err(why) => {
-                self.object.insert(name.to_owned(), Json::Null);
-                self.why.insert(name.to_owned(), why.into());
+                self.unknown(name, why);
                 if let Some((key, _)) = twin {
                     self.object.insert(key, Json::Null);
                 }
@@ -142,7 +145,7 @@ impl Fields {
         self
     }
 
-    /// Says why a null that was put by [`Fields::plain`] is one.
+    /// Says why an element of what was put, `name[index]`, is null; [`Fields::unknown`] is for a whole field.
     pub fn why(&mut self, name: &str, why: impl Into<String>) -> &mut Self {
         self.why.insert(name.to_owned(), why.into().into());
         self

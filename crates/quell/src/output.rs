@@ -8,6 +8,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 
@@ -83,13 +84,14 @@ impl Output {
         let written = if let Some(mut file) = self.special.as_ref() {
             file.write_all(bytes).and_then(|()| file.flush())
         } else {
-            let temporary = self.temporary();
-            let written = fill(&temporary, bytes).and_then(|()| fs::rename(&temporary, &self.path));
-            if written.is_err() {
-                // Nothing else to do about a file that cannot be removed either.
-                let _ = fs::remove_file(&temporary);
-            }
-            written
+            self.temporary().and_then(|(temporary, file)| {
+                let written = fill(file, bytes).and_then(|()| fs::rename(&temporary, &self.path));
+                if written.is_err() {
+                    // Nothing else to do about a file that cannot be removed either.
+                    let _ = fs::remove_file(&temporary);
+                }
+                written
+            })
         };
         written.map(|()| self.given.clone()).map_err(|error| Failure::Failed {
             key: self.given.display().to_string(),
@@ -110,22 +112,53 @@ impl Output {
             self.path = self.path.canonicalize()?;
             OpenOptions::new().append(true).open(&self.path)?;
         }
-        let temporary = self.temporary();
-        OpenOptions::new().write(true).create_new(true).open(&temporary)?;
-        fs::remove_file(&temporary)
+        fs::remove_file(self.temporary()?.0)
     }
 
-    /// A name beside the file that no other process uses.
-    fn temporary(&self) -> PathBuf {
+    /// A new file beside the one to be written. No other thread writes it, nor another process, and names that a killed one has
+    /// left are passed over.
+    fn temporary(&self) -> io::Result<(PathBuf, File)> {
+        static FILES: AtomicU64 = AtomicU64::new(0);
         let name = self.path.file_name().map(|name| name.to_string_lossy().into_owned());
-        let name = format!(".{}.{}.part", name.unwrap_or_default(), process::id());
-        self.path.with_file_name(name)
+        let name = name.unwrap_or_default();
+        loop {
+            let number = FILES.fetch_add(1, Ordering::Relaxed);
+            let path = self.path.with_file_name(format!(".{name}.{}.{number}.part", process::id()));
+            match OpenOptions::new().write(true).create_new(true).open(&path) {
+                Err(why) if why.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(why) => return Err(why),
+                Ok(file) => return Ok((path, file)),
+            }
+        }
     }
 }
 
 /// Writes a new file in full, down to the disk.
-fn fill(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut file: File = OpenOptions::new().write(true).create_new(true).open(path)?;
+fn fill(mut file: File, bytes: &[u8]) -> io::Result<()> {
     file.write_all(bytes)?;
     file.sync_all()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Threads that write one path at once do not disturb each other: one of them is last, and its file is whole.
+    #[test]
+    fn writers_of_one_path_leave_one_whole_file() {
+        let folder = tempfile::tempdir().expect("folder");
+        let path = folder.path().join("same.csv");
+        let texts: Vec<String> = (0..8).map(|it| it.to_string().repeat(100_000)).collect();
+        std::thread::scope(|scope| {
+            for text in &texts {
+                scope.spawn(|| {
+                    let output = Output::prepare(&path, "--save", &["csv"]).expect("writable");
+                    output.write(text.as_bytes()).expect("written");
+                });
+            }
+        });
+        let written = fs::read_to_string(&path).expect("there");
+        assert!(texts.contains(&written));
+        assert_eq!(folder.path().read_dir().expect("folder").count(), 1);
+    }
 }

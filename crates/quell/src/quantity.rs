@@ -100,7 +100,7 @@ pub fn parse(
     if found.is_finite() { Ok(found) } else { Err(complaint(wanted())) }
 }
 
-/// Longest time τ of a run: 10⁹ slow periods and more take days, and nobody waits for longer ones.
+/// Longest time τ of a run, 1.6·10⁸ slow periods: nobody waits for longer ones.
 pub const MOST_TIME: f64 = 1e9;
 
 /// Reads how long a run lasts.

@@ -165,7 +165,7 @@ fn tables_of_the_dissertation() {
         places(&found.dithered),
         ["0.325", "0.369", "0.458", "0.536", "0.675", "0.836", "0.879", "0.964"]
     );
-    let json = found.json();
+    let json = found.json(&study);
     for name in ["speed", "waves", "can_be_unstable", "threshold", "edges", "peak_growth"] {
         assert!(json["dithered"][0].get(name).is_some(), "{name}");
     }
@@ -241,16 +241,16 @@ fn a_clear_frequency_is_verified_by_the_exact_equations() {
     let study = good(&text);
     let question =
         resonances::Question { clear: Some((0.25..=0.9, 2.0..=6.0)), ..Default::default() };
-    let started = std::time::Instant::now();
     let found = resonances::run(&study, question).expect("an answer");
-    println!("{:?}", started.elapsed());
     let clear = found.clear.as_ref().expect("asked");
     let (ratio, _) = clear.suggestion.as_ref().expect("a frequency");
     let verified = clear.verified.expect("exponents");
     assert!(verified.is_clear() && verified.growth.rate < 0.0, "{verified:?}");
     assert!((3.1..4.4).contains(ratio) && *ratio == verified.frequency_ratio, "{ratio}");
-    let rate = found.json()["clear"]["verified_growth_rate"].as_f64();
-    assert_eq!(rate, Some(verified.growth.rate));
+    let told = found.json(&study)["clear"].clone();
+    assert_eq!(told["verified_growth_rate"].as_f64(), Some(verified.growth.rate));
+    assert_eq!(told["verified"]["verdict"], "stable");
+    assert_eq!(told["verified"]["speed"].as_f64(), Some(verified.speed));
     let growth = |ratio: f64, speed: f64| {
         let disc = study.disc().with("dither.frequency_ratio", ratio).expect("valid");
         let disc = disc.at_speed(speed).expect("valid");
@@ -261,4 +261,17 @@ fn a_clear_frequency_is_verified_by_the_exact_equations() {
     };
     assert!(largest(*ratio) <= verified.growth.rate + 1e-9, "{}", largest(*ratio));
     assert!(largest(4.523_287) > 1e-3);
+    // One frequency is an interval too, and where it grows the answer says so.
+    let asked = |ratio: f64| {
+        let clear = Some((0.25..=0.9, ratio..=ratio));
+        let question = resonances::Question { clear, ..Default::default() };
+        resonances::run(&study, question).expect("an answer").json(&study)["clear"].clone()
+    };
+    for (ratio, verdict) in [(*ratio, "stable"), (4.523_287, "unstable")] {
+        let told = asked(ratio);
+        assert_eq!(told["suggestion"].as_f64(), Some(ratio));
+        assert_eq!(told["verified"]["verdict"], verdict, "{told}");
+        let rate = told["verified"]["growth_rate"].as_f64();
+        assert_eq!(rate.map(|rate| rate > 0.0), Some(verdict == "unstable"));
+    }
 }

@@ -43,8 +43,8 @@ const NUDGE: f64 = 1e-4;
 const POINT: f64 = 1e-7;
 
 /// Fewest blocks whose quarters are compared, and twice the number between two comparisons. A size that changes by less
-/// than a third of 10⁻³ between two windows of 8 blocks changes by less than 2·10⁻⁷ a period: nearer to a threshold
-/// than that a run is taken for settled.
+/// than a third of 10⁻³ between two windows of 8 blocks changes by less than 7·10⁻⁷ a period (of 64 periods a block, the
+/// fewest): nearer to a threshold than that a run is taken for settled.
 const WINDOWS: usize = 32;
 
 /// How long and how closely.
@@ -268,7 +268,8 @@ impl Course {
             return Some(self.over(Outcome::Quiet, now));
         }
         let sticks = watch.sticks > 0;
-        let forgets = sticks && std::mem::replace(&mut self.stuck, sticks);
+        let stuck_before = std::mem::replace(&mut self.stuck, sticks);
+        let forgets = sticks && stuck_before;
         let still = self.change(patience, now, scale, forgets);
         self.earlier.push(now);
         if let Some(change) = still {
@@ -288,7 +289,8 @@ impl Course {
                 }
             }
         } else {
-            self.watches_area = false;
+            // A comparison of windows is too far from the next one for areas to be watched after it.
+            self.watches_area = self.compares();
         }
         if self.periods >= patience.periods {
             let why = if self.dwelt { Unsettled::Dwelling } else { Unsettled::Moving };
@@ -356,14 +358,22 @@ impl Course {
     /// nearly locked to the dither creeps around its curve for many blocks, and each block sees another part of it: what
     /// does not change then is the average over many of them.
     fn drift(&self) -> Option<f64> {
-        let blocks = self.earlier.len();
-        if blocks < WINDOWS || !blocks.is_multiple_of(WINDOWS / 2) {
+        if !self.compares() {
             return None;
         }
+        let blocks = self.earlier.len();
         let window = blocks / 4;
         let (rest, newest) = self.earlier.split_at(blocks - window);
         let (_, before) = rest.split_at(rest.len() - window);
         Some(Summary::averaged(newest).distance(&Summary::averaged(before)))
+    }
+}
+
+impl Course {
+    /// Whether windows of the blocks that are kept are compared when the next block is over.
+    fn compares(&self) -> bool {
+        let blocks = self.earlier.len();
+        blocks >= WINDOWS && blocks.is_multiple_of(WINDOWS / 2)
     }
 }
 

@@ -17,7 +17,8 @@ use crate::simulation::{Event, EventKind, Observer, Sampler, Segment};
 /// Nodes of a segment: 10⁻⁶ of the rate on steps of the engine, where only its sign and size are asked for.
 const NODES: usize = 5;
 
-static RULE: LazyLock<GaussLegendre> = LazyLock::new(|| GaussLegendre::new(NODES));
+static RULE: LazyLock<[[f64; NODES]; 2]> =
+    LazyLock::new(|| GaussLegendre::new(NODES).on_unit_interval());
 
 /// Share of a segment over which an acceleration at its end is measured.
 const BESIDE: f64 = 1e-5;
@@ -157,9 +158,9 @@ impl<'a> Contraction<'a> {
             self.add(middle, 0.0, h);
             return;
         }
-        let rule = &*RULE;
-        let rates = rule.nodes.iter().map(|node| self.rate(segment, 0.5 * h * (1.0 + node)));
-        let mean = 0.5 * rates.zip(&rule.weights).map(|(rate, w)| rate * w).sum::<f64>();
+        let [nodes, weights] = &*RULE;
+        let rates = nodes.iter().map(|node| self.rate(segment, h * node));
+        let mean = rates.zip(weights).map(|(rate, w)| rate * w).sum::<f64>();
         self.add(middle, h * mean, h);
         if beside > 0.0 {
             self.before = segment.slip_velocity(h - beside) / -beside;

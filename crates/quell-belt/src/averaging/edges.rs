@@ -42,7 +42,7 @@ pub struct Band {
     pub lower: f64,
     /// How stability is lost at the lower edge (for growing v₀); none at v₀ → 0.
     pub lower_crossing: Option<Crossing>,
-    /// Upper edge; none where instability has no upper end.
+    /// Upper edge; none where instability has no upper end, or none within what was looked at.
     pub upper: Option<f64>,
 }
 

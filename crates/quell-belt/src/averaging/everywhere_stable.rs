@@ -33,7 +33,8 @@ pub enum EverywhereStable {
     From {
         /// α^L (α_N^L for normal dither).
         amplitude_ratio: f64,
-        /// Bound on its numerical error.
+        /// Estimate of its numerical error. Where a maximum over belt velocities is searched for on a grid (normal dither under
+        /// a law or a wave without closed forms) one between neighbouring places of the grid is missed, and not in it.
         error: f64,
     },
     /// For no amplitude.
@@ -50,8 +51,10 @@ pub enum NeverStable {
     NoDamping,
     /// Slow sliding below the fast velocity stays unstable at any amplitude.
     InnerRegion,
-    /// No root up to 10⁶ v_m, or with damping no belt velocity up to 365 v_m from which on sliding is stable without dither.
+    /// No root up to 10⁶ v_m.
     OffScale,
+    /// With damping, but without dither no belt velocity up to 365 v_m from which on sliding is stable: amplitudes were not tried.
+    NoEdge,
 }
 
 /// α^L for one dither of the given shape.
@@ -70,20 +73,23 @@ pub fn everywhere_stable_amplitude(
         CriticalVelocity::StableEverywhere => EverywhereStable::Always,
         CriticalVelocity::UnstableEverywhere => {
             let damped = damping_ratio > 0.0;
-            let why = if damped { NeverStable::OffScale } else { NeverStable::NoDamping };
+            let why = if damped { NeverStable::NoEdge } else { NeverStable::NoDamping };
             EverywhereStable::Never { why }
         }
         CriticalVelocity::Above(_) => case.tangential()?,
     };
     match (direction, tangential) {
         (Direction::Normal, EverywhereStable::From { amplitude_ratio, error }) => {
-            let normal = case.normal(amplitude_ratio)?;
-            let error = normal * (error / amplitude_ratio + 4.0 * f64::EPSILON);
+            let (normal, searched) = case.normal(amplitude_ratio)?;
+            let error = normal * (error / amplitude_ratio + searched + 4.0 * f64::EPSILON);
             Ok(EverywhereStable::From { amplitude_ratio: normal, error })
         }
         (_, tangential) => Ok(tangential),
     }
 }
+
+/// Relative closeness of the search for a maximum over belt velocities.
+const SEARCHED: f64 = 1e-6;
 
 /// A law with damping and load under one shape of dither.
 struct Case<'a> {
@@ -190,37 +196,39 @@ impl Case<'_> {
                 best = (value, k);
             }
         }
-        let closeness = Closeness { absolute: 0.0, relative: 1e-6 };
+        let closeness = Closeness { absolute: 0.0, relative: SEARCHED };
         let bottom = try_minimise(ratio, place(best.1 - 1), place(best.1 + 1), closeness)?;
         Ok(-bottom.map_or(best.0, |bottom| bottom.value.min(best.0)))
     }
 
-    /// Largest unstable α_N from the largest unstable α at each belt velocity.
-    fn normal(&self, tangential: f64) -> Result<f64, AveragingError> {
+    /// Largest unstable α_N from the largest unstable α at each belt velocity, and its relative error beyond that of the former.
+    fn normal(&self, tangential: f64) -> Result<(f64, f64), AveragingError> {
         let tip = tangential * self.wave.peak();
         let at_tip = tangential / self.law.coefficient(tip);
         let CriticalVelocity::Above(end) =
             undithered_critical_velocity(self.law, self.damping_ratio, self.normal_load)?
         else {
-            return Ok(at_tip);
+            return Ok((at_tip, 0.0));
         };
+        // The value at a maximum is off by the square of what its place is.
+        let searched = || Ok((self.searched_normal(tip, end)?.max(at_tip), SEARCHED * SEARCHED));
         let law = match self.law {
             // Its coefficient falls slower than its largest unstable α does.
-            Friction::Decreasing(_) => return Ok(at_tip),
+            Friction::Decreasing(_) => return Ok((at_tip, 0.0)),
             Friction::Stribeck(law) => law,
-            _ => return Ok(self.searched_normal(tip, end)?.max(at_tip)),
+            _ => return searched(),
         };
         // Stribeck beyond the tip: the outer root α(v₀) falls; α/μ could still rise where μ falls steeply.
         let (wave, gain) = self.wave.canonical();
-        let FastWave::Integral(waveform) = wave else {
-            return Ok(self.searched_normal(tip, end)?.max(at_tip));
-        };
+        let FastWave::Integral(waveform) = wave else { return searched() };
         let mean_square = gain * gain * waveform.mean_square_integral();
         let ratio = |v: f64| {
             let square = (end - v) * (end + v) / mean_square;
             -square.max(0.0).sqrt() / law.coefficient(v)
         };
         let closeness = Closeness { absolute: 0.0, relative: 1e-9 };
-        Ok(minimise(ratio, tip, end, closeness).map_or(at_tip, |best| at_tip.max(-best.value)))
+        let found = minimise(ratio, tip, end, closeness);
+        let error = closeness.relative * closeness.relative;
+        Ok((found.map_or(at_tip, |best| at_tip.max(-best.value)), error))
     }
 }

@@ -131,11 +131,8 @@ pub(super) fn least_of(
     }
     let lowest = (0..NODES + 2).min_by(|a, b| places[*a].1.total_cmp(&places[*b].1))?;
     let (mut since, mut least) = places[lowest];
-    if lowest == 0 || lowest == NODES + 1 {
-        let inwards = if lowest == 0 { slip.get(1).map_or(0.0, |it| unit * it) } else { 0.0 };
-        if inwards >= 0.0 && lowest == 0 {
-            return Some((least, since));
-        }
+    if lowest == 0 && slip.get(1).is_none_or(|rate| unit * rate >= 0.0) {
+        return Some((least, since));
     }
     let (mut low, mut high) =
         (places[lowest.saturating_sub(1)].0, places[(lowest + 1).min(NODES + 1)].0);

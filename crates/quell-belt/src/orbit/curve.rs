@@ -4,12 +4,14 @@
 //! lies on a curve that is already there is not followed again. A curve that crosses none of the lines is missed.
 //! The scheme is that of [`quell_numerics::continuation::curve`].
 
+use std::fmt;
+
 use quell_model::Belt;
 use quell_numerics::continuation::curve::{Curve as Traced, CurveEnd, Trace, trace};
 use quell_numerics::continuation::spectral_radius;
 
 use super::family::{Forced, Setting, Signature, start_of};
-use super::threshold::{Kind, Local, NoThresholds, Threshold, local};
+use super::threshold::{Ending as BranchEnding, Kind, Local, NoThresholds, Threshold, local};
 use super::{Verdict, near};
 use crate::simulation::Start;
 
@@ -97,44 +99,109 @@ impl Ending {
     }
 }
 
+/// The curves of a plane, and where curves may be missing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurvesFound {
+    /// The curves.
+    pub curves: Vec<ThresholdCurve>,
+    /// Lines that were not searched to their ends.
+    pub open: Vec<OpenLine>,
+}
+
+/// A line across the second parameter that was not searched to its end, or on which a threshold was not followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OpenLine {
+    /// The second parameter.
+    pub along: f64,
+    /// What happened.
+    pub why: Open,
+}
+
+/// Why a line is open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Open {
+    /// The second parameter cannot take the value.
+    Invalid,
+    /// There is nothing to begin with.
+    Begin(NoThresholds),
+    /// The response was lost on the way.
+    Lost {
+        /// The last value of the first parameter at which it was found.
+        at: f64,
+    },
+    /// A threshold is there, but no curve through it was found.
+    NotFollowed {
+        /// Its value of the first parameter.
+        value: f64,
+    },
+}
+
+impl fmt::Display for Open {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Invalid => f.write_str("the parameter cannot take this value"),
+            Self::Begin(why) => why.fmt(f),
+            Self::Lost { at } => write!(f, "the response was lost beyond {at}"),
+            Self::NotFollowed { value } => {
+                write!(f, "no curve was found through the threshold at {value}")
+            }
+        }
+    }
+}
+
+impl fmt::Display for OpenLine {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "at {}: {}", self.along, self.why)
+    }
+}
+
+impl std::error::Error for OpenLine {}
+
 /// Every curve of thresholds that crosses one of `lines` lines across the second parameter, with at least `points` points across
 /// either window.
 ///
 /// # Errors
-/// [`NoThresholds`] where no line has a response of sliding to begin with.
+/// The last line, where none has a response of sliding to begin with.
 pub fn curves(
     belt: &Belt,
     plane: Plane<'_>,
     lines: u32,
     points: u32,
-) -> Result<Vec<ThresholdCurve>, NoThresholds> {
+) -> Result<CurvesFound, OpenLine> {
     let (first, last) = plane.between;
     let lines = lines.max(1);
     let mut found: Vec<ThresholdCurve> = Vec::new();
-    let mut failed = None;
+    let mut open: Vec<OpenLine> = Vec::new();
     let mut begun = false;
     // Lines lie inside the window, so that a curve does not begin on its border.
     for line in 0..lines {
         let place = first + (last - first) * (f64::from(line) + 0.5) / f64::from(lines);
-        let on_line = belt
-            .with(plane.along, place)
-            .map_err(|_| NoThresholds::Invalid { value: place })
-            .and_then(|belt| local(&belt, plane.path, plane.window.0, plane.window.1, STEPS));
+        let on_line = belt.with(plane.along, place).map_err(|_| Open::Invalid).and_then(|belt| {
+            local(&belt, plane.path, plane.window.0, plane.window.1, STEPS).map_err(Open::Begin)
+        });
+        let mut leave = |why: Open| open.push(OpenLine { along: place, why });
         match on_line {
-            Err(why) => failed = Some(why),
-            Ok(Local { thresholds, .. }) => {
+            Err(why) => leave(why),
+            Ok(Local { thresholds, ending, .. }) => {
                 begun = true;
+                if let BranchEnding::Lost { at } = ending {
+                    leave(Open::Lost { at });
+                }
                 for threshold in thresholds {
-                    if !found.iter().any(|it| passes(it, &threshold, place, plane)) {
-                        found.extend(followed(belt, plane, &threshold, place, points));
+                    if found.iter().any(|it| passes(it, &threshold, place, plane)) {
+                        continue;
+                    }
+                    match followed(belt, plane, &threshold, place, points) {
+                        Some(curve) => found.push(curve),
+                        None => leave(Open::NotFollowed { value: threshold.value }),
                     }
                 }
             }
         }
     }
-    match failed {
-        Some(why) if !begun => Err(why),
-        _ => Ok(found),
+    match open.last() {
+        Some(line) if !begun => Err(*line),
+        _ => Ok(CurvesFound { curves: found, open }),
     }
 }
 

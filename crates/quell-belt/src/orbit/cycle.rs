@@ -21,6 +21,12 @@ use crate::start::released;
 /// Places at which the map is tried.
 const PLACES: u32 = 60;
 
+/// Most turns of a run that grows beyond every cycle, until it sticks and is one of the turns after a release.
+const MOST_TURNS: u32 = 100;
+
+/// Sizes this close, relatively, are the same.
+const SAME: f64 = 1e-9;
+
 /// Least size of a cycle that is looked for, relative to the largest possible one.
 const SMALLEST: f64 = 1e-3;
 
@@ -80,6 +86,40 @@ pub fn cycles(belt: &Belt) -> Result<Vec<Orbit>, NoOrbit> {
         (upper, above) = (lower, below);
     }
     Ok(found)
+}
+
+/// The cycle, one of `cycles`, on which an undithered run from a state ends; `None` where it settles to steady sliding.
+///
+/// Turns do not cross: a run whose turns grow comes to the next larger cycle, one whose turns shrink to the next smaller.
+///
+/// # Errors
+/// [`NoOrbit::Stalled`]; [`NoOrbit::NoPeriod`] where turns grow for long beyond every cycle that is known.
+pub fn cycle_reached<'a>(
+    belt: &Belt,
+    cycles: &'a [Orbit],
+    start: Start,
+) -> Result<Option<&'a Orbit>, NoOrbit> {
+    let belt = &belt.undithered();
+    let sliding = belt.steady_sliding();
+    let size_of = |cycle: &Orbit| sliding - cycle.start.displacement;
+    let mut from = start;
+    for _ in 0..MOST_TURNS {
+        let Some(first) = turn(belt, from)? else { return Ok(None) };
+        let size = sliding - first.displacement;
+        if let Some(cycle) = cycles.iter().find(|it| (size_of(it) - size).abs() <= SAME * size) {
+            return Ok(Some(cycle));
+        }
+        from = Start { time: 0.0, displacement: first.displacement, velocity: 0.0 };
+        let Some(second) = turn(belt, from)? else { return Ok(None) };
+        if sliding - second.displacement <= size {
+            return Ok(cycles.iter().find(|cycle| size_of(cycle) < size));
+        }
+        let larger = cycles.iter().rev().find(|cycle| size_of(cycle) > size);
+        if larger.is_some() {
+            return Ok(larger);
+        }
+    }
+    Err(NoOrbit::NoPeriod { most: MOST_TURNS })
 }
 
 /// From a state to the next lowest point; `None` where none comes within the longest possible turn.

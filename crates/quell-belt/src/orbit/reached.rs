@@ -51,6 +51,8 @@ pub enum Reached {
     Elsewhere,
     /// It still came nearer when its time was over.
     Unsettled,
+    /// The start, or the response with which it would be compared, was not found.
+    Unknown,
 }
 
 /// Where the run of a belt from `start` ends. The dither runs on from its phase at `start.time`.
@@ -239,12 +241,24 @@ pub struct Switch {
     pub becomes: Reached,
 }
 
+/// Where the runs of a protocol end over a range of values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Switches {
+    /// At the first value.
+    pub first: Reached,
+    /// Where that changes, in the order of the values.
+    pub changes: Vec<Switch>,
+    /// Values that were tried with [`Reached::Unknown`], and why.
+    pub unknown: Vec<(f64, NoOrbit)>,
+}
+
 /// Values of `path` between `from` and `to` at which runs from `start` (a state for each belt) begin or cease to
-/// end on the response of sliding (and where there is no start, because nothing is there to be quenched): `steps` values are tried, and each change is bisected to `closeness`
-/// relative. A pair of changes between two neighbouring values is missed.
+/// end on the response of sliding (and where there is no start, because nothing is there to be quenched): `steps` values are
+/// tried, and each change is bisected to `closeness` relative; where a third answer lies between two, no further than to it.
+/// A pair of changes between two neighbouring values is missed.
 ///
 /// # Errors
-/// [`NoThresholds`] where an orbit or a start is not found or a value not allowed.
+/// [`NoThresholds::Invalid`] where a value is not allowed.
 pub fn switches(
     belt: &Belt,
     path: &str,
@@ -252,41 +266,54 @@ pub fn switches(
     steps: u32,
     closeness: f64,
     start: impl Fn(&Belt) -> Result<Option<Start>, NoOrbit>,
-) -> Result<Vec<Switch>, NoThresholds> {
-    let ends = |value: f64| -> Result<Reached, NoThresholds> {
-        let belt = belt.with(path, value).map_err(|_| NoThresholds::Invalid { value })?;
-        let lost = |why| NoThresholds::Lost { at: value, why };
-        let Some(start) = start(&belt).map_err(lost)? else { return Ok(Reached::Sliding) };
-        let orbit = match quiet(&belt, 8) {
+) -> Result<Switches, NoThresholds> {
+    let found = |belt: &Belt| -> Result<Reached, NoOrbit> {
+        let Some(start) = start(belt)? else { return Ok(Reached::Sliding) };
+        let orbit = match quiet(belt, 8) {
             Ok(orbit) => orbit,
             // Where sliding becomes no response there is nothing to be quenched to.
             Err(NoOrbit::Ends { .. } | NoOrbit::Degenerate { .. } | NoOrbit::Another { .. }) => {
                 return Ok(Reached::Elsewhere);
             }
-            Err(why) => return Err(lost(why)),
+            Err(why) => return Err(why),
         };
-        reached(&belt, &orbit, start).map_err(|why| lost(NoOrbit::Stalled(why)))
+        reached(belt, &orbit, start).map_err(NoOrbit::Stalled)
+    };
+    let at = |value: f64| {
+        let belt = belt.with(path, value).map_err(|_| NoThresholds::Invalid { value })?;
+        Ok(found(&belt))
+    };
+    let ends = |value: f64| at(value).map(|found| found.unwrap_or(Reached::Unknown));
+    let mut unknown = Vec::new();
+    let mut tried = |value: f64| {
+        at(value).map(|found| {
+            found.unwrap_or_else(|why| {
+                unknown.push((value, why));
+                Reached::Unknown
+            })
+        })
     };
     let value = |k: u32| from + (to - from) * f64::from(k) / f64::from(steps.max(1));
-    let mut found = Vec::new();
-    let mut last = ends(from)?;
+    let mut changes = Vec::new();
+    let first = tried(from)?;
+    let mut last = first;
     for k in 1..=steps.max(1) {
-        let next = ends(value(k))?;
+        let next = tried(value(k))?;
         if next != last {
             let (mut low, mut high) = (value(k - 1), value(k));
             while (high - low).abs() > closeness * high.abs().max(low.abs()) {
                 let middle = 0.5 * (low + high);
                 match ends(middle)? {
                     it if it == last => low = middle,
-                    // Between two answers that are known one that is not says no more than that it lies here.
-                    Reached::Unsettled if next != Reached::Unsettled => break,
-                    _ => high = middle,
+                    it if it == next => high = middle,
+                    // A third answer says no more than that the change lies here.
+                    _ => break,
                 }
             }
             let (value, error) = (0.5 * (low + high), 0.5 * (high - low).abs());
-            found.push(Switch { value, error, becomes: next });
+            changes.push(Switch { value, error, becomes: next });
         }
         last = next;
     }
-    Ok(found)
+    Ok(Switches { first, changes, unknown })
 }

@@ -136,7 +136,7 @@ pub struct Place {
 pub enum Ending {
     /// It covers the interval.
     Covered,
-    /// It turned back, at most at this value, and left the interval where it began.
+    /// It turned back, at most at this value, and left the interval where it began, or was lost on the way.
     TurnedBack {
         /// The furthest value.
         at: f64,
@@ -180,8 +180,6 @@ pub enum NoThresholds {
     Lost {
         /// The last value at which it was found.
         at: f64,
-        /// Why it was not found beyond.
-        why: NoOrbit,
     },
 }
 
@@ -190,7 +188,7 @@ impl fmt::Display for NoThresholds {
         match self {
             Self::Invalid { value } => write!(f, "the parameter cannot be {value}"),
             Self::Start(why) => why.fmt(f),
-            Self::Lost { at, why } => write!(f, "the response was lost beyond {at}: {why}"),
+            Self::Lost { at } => write!(f, "the response was lost beyond {at}"),
         }
     }
 }
@@ -265,16 +263,19 @@ fn told(branch: &Branch<Signature>, from: f64, to: f64) -> Local {
         least_slip: it.distance.is_finite().then_some(it.distance),
         signature: it.signature.clone(),
     });
-    let ending = match &branch.end {
-        End::Window { at } if *at == to => Ending::Covered,
-        End::Window { .. } | End::Closed => {
-            let further = |a: f64, b: f64| if (b - a) * (to - from) > 0.0 { b } else { a };
-            Ending::TurnedBack {
-                at: branch.points.iter().map(|it| it.parameter).fold(from, further),
-            }
+    let beyond = |a: f64, b: f64| (b - a) * (to - from) > 0.0;
+    let further = |a: f64, b: f64| if beyond(a, b) { b } else { a };
+    let passed = branch.passages.iter().map(|it| it.parameter);
+    let furthest = branch.points.iter().map(|it| it.parameter).chain(passed).fold(from, further);
+    let ending = match branch.end {
+        End::Window { at } if at == to => Ending::Covered,
+        End::Window { .. } | End::Closed => Ending::TurnedBack { at: furthest },
+        End::Touch { at } => Ending::Touch { at },
+        // On the way back: what there is of the way there was seen.
+        End::Lost { at } | End::TooLong { at } if beyond(at, furthest) => {
+            Ending::TurnedBack { at: furthest }
         }
-        End::Touch { at } => Ending::Touch { at: *at },
-        End::Lost { at } | End::TooLong { at } => Ending::Lost { at: *at },
+        End::Lost { at } | End::TooLong { at } => Ending::Lost { at },
     };
     Local { thresholds, changes, branch: places.collect(), ending }
 }
@@ -303,9 +304,7 @@ pub fn local_thresholds(
 ) -> Result<Vec<Threshold>, NoThresholds> {
     let found = local(belt, path, from, to, steps)?;
     match found.ending {
-        Ending::Lost { at } => {
-            Err(NoThresholds::Lost { at, why: NoOrbit::LostOnTheWay { share: 1.0 } })
-        }
+        Ending::Lost { at } => Err(NoThresholds::Lost { at }),
         _ => Ok(found.thresholds),
     }
 }

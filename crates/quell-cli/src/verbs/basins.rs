@@ -11,7 +11,7 @@ use quell::{Complaint, Failure, Fault, Origin, Study, picture};
 use quell_model::units::Quantity;
 
 use super::map::threads;
-use super::numbers::{count, number, range};
+use super::numbers::{count, number, range, scales};
 use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
 use crate::interrupt;
@@ -81,8 +81,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut object = done.json(&study);
     output.write(&[done.dataset(&study)], &mut object)?;
     plot.try_write(|| picture::basins(&study, &done), &mut object)?;
-    let answer = Answer::new(arguments.study.json, || object, || text(&study, &done));
-    Ok(answer.warning(done.warnings()))
+    Ok(Answer::new(arguments.study.json, &object, || text(&study, &done)))
 }
 
 fn question(
@@ -90,7 +89,7 @@ fn question(
     study: Option<&Study>,
     complaints: &mut Complaints,
 ) -> Option<Question> {
-    let scales = study.and_then(Study::scales);
+    let scales = scales(study);
     let mut window = |option, text: &Option<String>, quantity| {
         let found = text.as_deref().map(|text| range(option, text, quantity, scales));
         complaints.take(found.transpose())
@@ -150,8 +149,8 @@ fn text(study: &Study, done: &Basins) -> String {
             for portrait in portraits {
                 let value = portrait.value.map_or_else(String::new, figure);
                 let local = portrait.local.as_ref().map_or("unknown", |verdict| verdict.name());
-                let share = portrait.quiet().map_or_else(
-                    || "none".to_owned(),
+                let share = portrait.quiet.map_or_else(
+                    || "unknown".to_owned(),
                     |share| {
                         format!(
                             "{} ({} to {})",

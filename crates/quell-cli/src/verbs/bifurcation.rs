@@ -56,8 +56,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut object = done.json(&study);
     output.write(&[done.dataset(&study)], &mut object)?;
     plot.write(|| picture::bifurcation(&study, &done), &mut object)?;
-    let answer = Answer::new(arguments.study.json, || object, || text(&study, &done));
-    Ok(answer.warning(done.warnings()))
+    Ok(Answer::new(arguments.study.json, &object, || text(&study, &done)))
 }
 
 fn text(study: &Study, done: &Bifurcation) -> String {

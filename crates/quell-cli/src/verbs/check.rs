@@ -24,9 +24,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = match arguments.study.read_any()? {
         Subject::Belt(study) => *study,
         Subject::Disc(study) => {
-            let answer =
-                Answer::new(arguments.study.json, || disc::json(&study), || of_disc(&study));
-            return Ok(answer.warning(study.warnings().to_vec()));
+            return Ok(Answer::new(arguments.study.json, &disc::json(&study), || of_disc(&study)));
         }
     };
     let text = || {
@@ -60,8 +58,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         let title = study.title().map(|title| format!("{title}: ")).unwrap_or_default();
         format!("{title}the study is valid.\n{}", table.text())
     };
-    let answer = Answer::new(arguments.study.json, || Check { study: &study }.json(), text);
-    Ok(answer.warning(law::warnings(&study)))
+    Ok(Answer::new(arguments.study.json, &Check { study: &study }.json(), text))
 }
 
 fn of_disc(study: &DiscStudy) -> String {

@@ -43,5 +43,5 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         }
         text
     };
-    Ok(Answer::new(arguments.study.json, || found.json(), text))
+    Ok(Answer::new(arguments.study.json, &found.json(), text))
 }

@@ -7,8 +7,9 @@ use quell::picture;
 use quell::run::friction::{FrictionCurve, grid, run as friction};
 use quell::run::law;
 use quell::{Complaint, Failure, Study, quantity};
-use quell_model::units::{Quantity, Scales};
+use quell_model::units::Quantity;
 
+use super::numbers::scales;
 use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
 use crate::table::figure;
@@ -41,12 +42,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut object = curve.json(&study);
     outputs.write(&[curve.dataset(&study)], &mut object)?;
     plot.write(|| picture::friction(&study, &curve), &mut object)?;
-    let answer = Answer::new(arguments.study.json, || object, || text(&study, &curve));
-    Ok(answer.warning(law::warnings(&study)))
+    Ok(Answer::new(arguments.study.json, &object, || text(&study, &curve)))
 }
 
 fn velocities(texts: &[String], study: Option<&Study>, complaints: &mut Complaints) -> Vec<f64> {
-    let scales = study.map_or_else(|| Scales::new(1.0, 1.0).ok(), Study::scales);
+    let scales = scales(study);
     texts
         .iter()
         .filter_map(|text| {

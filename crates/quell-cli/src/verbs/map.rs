@@ -37,7 +37,7 @@ pub(crate) struct Arguments {
     resume: bool,
     /// Computes one of N equal parts of the map, K from 1 to N, into the store that --save names,
     /// beside processes that compute the others, in any order, on any machines
-    #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
+    #[arg(long, value_name = "K/N", allow_hyphen_values = true, conflicts_with = "resume")]
     shard: Option<String>,
     /// Number of threads; all there are by default
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
@@ -110,8 +110,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         Keep::Nowhere => {}
     }
     plot.try_write(|| picture::sweep(&done), &mut object)?;
-    let answer = Answer::new(arguments.study.json, || object, || text(&done));
-    Ok(answer.warning(done.warnings()))
+    Ok(Answer::new(arguments.study.json, &object, || text(&done)))
 }
 
 pub(super) fn threads(text: Option<&str>) -> Result<Option<usize>, Box<Complaint>> {

@@ -34,8 +34,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut object = done.json(&study);
     output.write(&[done.dataset(&study)], &mut object)?;
     plot.try_write(|| picture::disc::modes(&study, &done), &mut object)?;
-    let answer = Answer::new(arguments.study.json, || object, || text(&study, &done));
-    Ok(answer.warning(study.warnings().to_vec()))
+    Ok(Answer::new(arguments.study.json, &object, || text(&study, &done)))
 }
 
 fn text(study: &DiscStudy, done: &Modes) -> String {

@@ -1,7 +1,7 @@
-//! Numbers and ranges that several verbs take: `--from`, `--to`, `--points`, `FROM:TO`, `X,V`.
+//! Numbers and ranges that several verbs take: `--from`, `--to`, `--points`, `FROM:TO`, `X,V`, times.
 
 use clap::Args;
-use quell::{Complaint, quantity};
+use quell::{Complaint, Study, quantity};
 use quell_model::units::{Quantity, Scales};
 
 use crate::arguments::Complaints;
@@ -27,6 +27,21 @@ impl VariedArguments {
         let to = complaints.take(number("--to", &self.to));
         from.zip(to)
     }
+}
+
+/// Scales in which quantities of a study are read. Of one that could not be read it is not known whether it is in SI: units
+/// are no fault there.
+pub(super) fn scales(study: Option<&Study>) -> Option<Scales> {
+    study.map_or_else(|| Scales::new(1.0, 1.0).ok(), Study::scales)
+}
+
+/// How long: τ, or a time with its unit in a study in SI.
+pub(super) fn duration(
+    option: &'static str,
+    text: &str,
+    study: Option<&Study>,
+) -> Result<f64, Box<Complaint>> {
+    quantity::duration(text, scales(study), option)
 }
 
 /// A finite number, if the text is one.
@@ -68,9 +83,7 @@ pub(crate) fn range(
 /// `FROM:TO`, two finite numbers.
 pub(crate) fn window(option: &'static str, text: &str) -> Result<(f64, f64), Box<Complaint>> {
     pair(text, ':').ok_or_else(|| {
-        let allowed =
-            "FROM:TO, two finite numbers of which the first is not larger, such as 0.2:0.9";
-        Box::new(Complaint::option(option, text, allowed))
+        Box::new(Complaint::option(option, text, "two finite numbers FROM:TO, such as 0.2:0.9"))
     })
 }
 

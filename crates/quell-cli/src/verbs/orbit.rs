@@ -74,7 +74,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let found = orbit(&study, wanted)?;
     let mut object = found.json(&study);
     plot.try_write(|| picture::periodic_response(&study, &found), &mut object)?;
-    Ok(Answer::new(arguments.study.json, || object, || text(&study, &found)))
+    Ok(Answer::new(arguments.study.json, &object, || text(&study, &found)))
 }
 
 fn text(study: &Study, found: &Response) -> String {

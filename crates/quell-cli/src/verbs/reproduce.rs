@@ -5,9 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use quell::Failure;
-use quell::reproduce::claims::Claim;
-use quell::reproduce::{ENTRIES, Pace, Reproduction, Written, find, run as reproduce};
-use serde_json::{Value as Json, json};
+use quell::reproduce::{ENTRIES, Pace, Reproduction, find, run as reproduce};
 
 use crate::answer::Answer;
 use crate::progress::Entries;
@@ -38,25 +36,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let done = reproduce(&entries, &arguments.out, pace, |step| bar.hear(step));
     bar.end();
     let done = done?;
-    let object = || {
-        let entries: Vec<Json> = done.written.iter().map(Written::json).collect();
-        json!({
-            "ok": true,
-            "directory": arguments.out.display().to_string(),
-            "report": done.report.display().to_string(),
-            "table": done.table.display().to_string(),
-            "quick": arguments.quick,
-            "entries": entries,
-        })
-    };
-    let warnings = done.changed().into_iter().map(unexpected).collect();
-    Ok(Answer::new(arguments.json, object, || text(arguments, &done)).warning(warnings))
-}
-
-/// A verdict that is not the one on record.
-fn unexpected(claim: &Claim) -> String {
-    let expected = claim.expected.map_or("nothing on record", |expected| expected.name());
-    format!("{}: {}, expected: {expected}", claim.name, claim.verdict)
+    let object = done.json(&arguments.out, pace);
+    Ok(Answer::new(arguments.json, &object, || text(arguments, &done)))
 }
 
 fn text(arguments: &Arguments, done: &Reproduction) -> String {

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use clap::{Args, ValueEnum};
 use quell::picture;
 use quell::run::disc::resonances::{
-    Clear, Order, Question, Resonance, Resonances, run as resonances,
+    Clear, Order, Question, Resonance, Resonances, Verdict, run as resonances,
 };
 use quell::{DiscStudy, Failure};
 
@@ -54,11 +54,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         complaints.finish(study.zip(question).zip(output.zip(plot)))?;
 
     let done = resonances(&study, question)?;
-    let mut object = done.json();
+    let mut object = done.json(&study);
     output.write(&[done.dataset(&study)], &mut object)?;
     plot.write(|| picture::disc::resonances(&study, &done), &mut object)?;
-    let answer = Answer::new(arguments.study.json, || object, || text(&study, &done));
-    Ok(answer.warning(study.warnings().to_vec()))
+    Ok(Answer::new(arguments.study.json, &object, || text(&study, &done)))
 }
 
 fn question(arguments: &Arguments, complaints: &mut Complaints) -> Option<Question> {
@@ -129,9 +128,15 @@ fn tongue(resonance: &Resonance) -> String {
 /// What the exact equations say of the best dither frequency.
 fn verified(clear: &Clear) -> String {
     match &clear.verified {
-        Some(it) if it.is_clear() => format!(
+        Some(it) if it.growth.verdict() == Verdict::Stable => format!(
             "verified: by the exact equations nothing grows there, the largest rate is {}",
             figure(it.growth.rate)
+        ),
+        Some(it) if it.growth.verdict() == Verdict::Undecided => format!(
+            "not decided by the exact equations: the largest rate {} at Ω = {} is zero within its error {}",
+            figure(it.growth.rate),
+            figure(it.speed),
+            figure(it.growth.error)
         ),
         Some(it) => format!(
             "not clear by the exact equations, the least growth of all: up to {} at Ω = {}",

@@ -40,8 +40,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         outputs.write(&[done.record(&study), done.spectrum(&study)], &mut object)?;
     }
     plot.write(|| picture::response(&study, &done), &mut object)?;
-    let answer = Answer::new(arguments.study.json, || object, || text(&study, &done));
-    Ok(answer.warning(done.warnings(&study)))
+    Ok(Answer::new(arguments.study.json, &object, || text(&study, &done)))
 }
 
 fn text(study: &Study, done: &Steady) -> String {

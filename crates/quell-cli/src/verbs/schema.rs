@@ -15,5 +15,5 @@ pub(crate) struct Arguments {
 
 /// Answers.
 pub(crate) fn run(arguments: &Arguments) -> Answer {
-    Answer::new(arguments.json, schema, || format!("{:#}\n", schema()))
+    Answer::new(arguments.json, &schema(), || format!("{:#}\n", schema()))
 }

@@ -35,8 +35,7 @@ pub(super) fn run(
     let bar = Bar::new();
     let running = Running { threads, stop: interrupt::flag(), progress: &bar };
     let done = shared.compute_shard(shard, running)?;
-    let answer = Answer::new(json, || done.json(path), || text(&done, path));
-    Ok(answer.warning(done.warnings()))
+    Ok(Answer::new(json, &done.json(path), || text(&done, path)))
 }
 
 fn text(done: &Sharded, path: &Path) -> String {

@@ -4,10 +4,11 @@ use std::fmt::Write as _;
 
 use clap::Args;
 use quell::picture;
-use quell::run::simulate::{MOST_SAMPLES, Options, Simulation, run as simulate};
-use quell::{Complaint, Failure, Study, quantity};
-use quell_model::units::{Quantity, Scales};
+use quell::run::simulate::{Options, Simulation, run as simulate};
+use quell::{Failure, Study};
+use quell_model::units::Quantity;
 
+use super::numbers::duration;
 use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
 use crate::table::{Table, figure};
@@ -33,7 +34,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read());
-    let until = complaints.take(until(&arguments.until, study.as_ref()));
+    let until = complaints.take(duration("--until", &arguments.until, study.as_ref()));
     let outputs = complaints.take(arguments.output.prepare(&[]));
     let plot = complaints.take(arguments.plot.prepare());
     let ((study, until), (outputs, plot)) =
@@ -48,30 +49,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut object = done.json(&study);
     outputs.write(&[done.dataset(&study)], &mut object)?;
     plot.write(|| picture::simulate(&study, &done), &mut object)?;
-    let answer = Answer::new(arguments.study.json, || object, || text(&study, &done));
-    Ok(answer.warning(warnings(&done)))
-}
-
-fn until(text: &str, study: Option<&Study>) -> Result<f64, Box<Complaint>> {
-    // Of a study that could not be read it is not known whether it is in SI.
-    let scales = study.map_or_else(|| Scales::new(1.0, 1.0).ok(), Study::scales);
-    quantity::duration(text, scales, "--until")
-}
-
-fn warnings(done: &Simulation) -> Vec<String> {
-    let mut warnings = Vec::new();
-    if done.coarse {
-        warnings.push(format!(
-            "only {MOST_SAMPLES} samples are kept; they are coarser than the dither deserves"
-        ));
-    }
-    let releases = done.end.near_tangential_releases;
-    if releases > 0 {
-        warnings.push(format!(
-            "{releases} releases hardly crossed the threshold: forward uniqueness is not guaranteed there"
-        ));
-    }
-    warnings
+    Ok(Answer::new(arguments.study.json, &object, || text(&study, &done)))
 }
 
 fn text(study: &Study, done: &Simulation) -> String {

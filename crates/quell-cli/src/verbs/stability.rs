@@ -39,8 +39,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let done = stability(&study);
     let mut object = done.json(&study);
     plot.write(|| picture::stability(&study, &done), &mut object)?;
-    let answer = Answer::new(arguments.study.json, || object, || text(&study, &done));
-    Ok(answer.warning(done.warnings(&study)))
+    Ok(Answer::new(arguments.study.json, &object, || text(&study, &done)))
 }
 
 fn of_disc(study: &DiscStudy, plot: Plot, json: bool) -> Result<Answer, Failure> {
@@ -52,8 +51,7 @@ fn of_disc(study: &DiscStudy, plot: Plot, json: bool) -> Result<Answer, Failure>
         Ok(picture::disc::stability(study, &done, &campbell))
     };
     plot.try_write(figure, &mut object)?;
-    let answer = Answer::new(json, || object, || text_of_disc(study, &done));
-    Ok(answer.warning(study.warnings().to_vec()))
+    Ok(Answer::new(json, &object, || text_of_disc(study, &done)))
 }
 
 fn text_of_disc(study: &DiscStudy, done: &disc::stability::Stability) -> String {
@@ -135,8 +133,13 @@ fn averaged(study: &Study, found: &Averaged) -> String {
         let bands: Vec<String> = bands
             .iter()
             .map(|band| {
-                let upper = band.upper.map_or_else(|| "∞".to_owned(), figure);
-                format!("{} to {upper}", figure(band.lower))
+                let lower = figure(band.lower);
+                match band.upper {
+                    Some(upper) => format!("{lower} to {}", figure(upper)),
+                    None => format!(
+                        "{lower} upwards, no end met up to 200 v_m beyond the fast velocity"
+                    ),
+                }
             })
             .collect();
         let bands = if bands.is_empty() { "none".to_owned() } else { bands.join(", ") };

@@ -5,14 +5,15 @@ use std::fmt::Write as _;
 use clap::Args;
 use quell::run::curves::{Curves, Question as CurveQuestion, run as curves};
 use quell::run::thresholds::{
-    Ending, Protocol, Question, Thresholds, becomes, run as thresholds, side,
+    Ending, Protocol, Question, Thresholds, becomes, quantity_of, run as thresholds, side,
+    value_in_words,
 };
-use quell::{Complaint, Failure, Fault, Origin, Study, picture, quantity};
+use quell::{Complaint, Failure, Fault, Origin, Study, picture};
 
-use super::numbers::{VariedArguments, state, window};
+use super::numbers::{VariedArguments, duration, state, window};
 use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, Outputs, Plot, PlotArguments, StudyArguments};
-use crate::table::figure;
+use crate::table::figure_of;
 
 /// Finds the values of a parameter at which dither begins or ceases to quench, exactly
 #[derive(Debug, Args)]
@@ -33,14 +34,15 @@ pub(crate) struct Arguments {
     /// Also for runs from this state
     #[arg(long, value_name = "X,V", allow_hyphen_values = true)]
     start: Option<String>,
-    /// Lets the dither of these runs grow over this time τ, in steps of its period, instead of switching it on
+    /// Lets the dither of these runs grow over this time, in steps of its period, instead of switching it on: τ, or a time
+    /// such as 0.5s in a study in SI
     #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
     ramp: String,
     /// Follows each local threshold as a curve along a second parameter, such as belt.belt_velocity
     #[arg(long, value_name = "PATH", requires = "between", conflicts_with_all = ["from_rest", "from_sliding", "from_squeal", "start", "ramp"])]
     along: Option<String>,
     /// The window of the second parameter
-    #[arg(long, value_name = "C:D", requires = "along", allow_hyphen_values = true)]
+    #[arg(long, value_name = "FROM:TO", requires = "along", allow_hyphen_values = true)]
     between: Option<String>,
     #[command(flatten)]
     output: OutputArguments,
@@ -57,7 +59,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let between = complaints.take(between.transpose());
     let start = arguments.start.as_deref().map(|it| state("--start", it));
     let start = complaints.take(start.transpose());
-    let ramp = complaints.take(quantity::duration(&arguments.ramp, None, "--ramp"));
+    let ramp = complaints.take(duration("--ramp", &arguments.ramp, study.as_ref()));
     let outputs = complaints.take(arguments.output.prepare(&[]));
     let plot = complaints.take(arguments.plot.prepare());
     if arguments.output.saves() && arguments.along.is_none() {
@@ -72,7 +74,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         Some((along, between)) => {
             let parameter = arguments.varied.parameter.clone();
             let question = CurveQuestion { parameter, window: range, along, between };
-            followed(arguments, &study, question, outputs, plot)
+            followed(arguments, &study, &question, outputs, plot)
         }
         None => on_a_line(arguments, &study, range, begun, plot),
     }
@@ -97,16 +99,16 @@ fn on_a_line(
     let parameter = arguments.varied.parameter.clone();
     let question = Question { parameter, from, to, protocols, ramp };
     let done = thresholds(study, question)?;
-    let mut object = done.json();
+    let mut object = done.json(study);
     plot.write(|| picture::thresholds(study, &done), &mut object)?;
-    Ok(Answer::new(arguments.study.json, || object, || text(&done)))
+    Ok(Answer::new(arguments.study.json, &object, || text(study, &done)))
 }
 
 /// Curves of thresholds in two parameters.
 fn followed(
     arguments: &Arguments,
     study: &Study,
-    question: CurveQuestion,
+    question: &CurveQuestion,
     outputs: Outputs,
     plot: Plot,
 ) -> Result<Answer, Failure> {
@@ -114,33 +116,44 @@ fn followed(
     let mut object = done.json(study);
     outputs.write(&[done.dataset(study)], &mut object)?;
     plot.write(|| picture::curves(study, &done), &mut object)?;
-    Ok(Answer::new(arguments.study.json, || object, || text_of_curves(&done)))
+    Ok(Answer::new(arguments.study.json, &object, || text_of_curves(study, &done)))
 }
 
-fn text_of_curves(done: &Curves) -> String {
-    let mut text = done.sentence() + "\n";
+fn text_of_curves(study: &Study, done: &Curves) -> String {
+    let mut text = done.sentence(study) + "\n";
+    let (parameter, across) = (&done.question.parameter, &done.question.along);
     for curve in &done.curves {
         let [first, last] = curve.ends.map(quell::run::curves::Ending::name);
         let _ =
             writeln!(text, "\n{}, from its end ({first}) to its end ({last}):", curve.kind.name());
-        let _ = writeln!(text, "  {:<14}  {:<14}", done.question.along, done.question.parameter);
+        let _ = writeln!(text, "  {across:<14}  {parameter:<14}");
         let every = curve.points.len().div_ceil(12).max(1);
         let last = curve.points.len().saturating_sub(1);
         for (number, point) in curve.points.iter().enumerate() {
             if number % every == 0 || number == last {
-                let _ =
-                    writeln!(text, "  {:<14}  {:<14}", figure(point.along), figure(point.value));
+                let along = figure_at(study, across, point.along);
+                let value = figure_at(study, parameter, point.value);
+                let _ = writeln!(text, "  {along:<14}  {value:<14}");
             }
         }
     }
     text
 }
 
-fn text(done: &Thresholds) -> String {
+/// A value of a number of the equations, in SI where the study is.
+fn figure_at(study: &Study, path: &str, value: f64) -> String {
+    figure_of(study, quantity_of(study, path), value)
+}
+
+fn text(study: &Study, done: &Thresholds) -> String {
     let question = &done.question;
+    let path = question.parameter.as_str();
+    let figure = |value: f64| figure_at(study, path, value);
+    let whole = |value: f64| value_in_words(study, path, value);
     let mut text = format!(
-        "{} from {} to {}, the response that sliding becomes under dither:\n",
-        question.parameter, question.from, question.to
+        "{path} from {} to {}, the response that sliding becomes under dither:\n",
+        whole(question.from),
+        whole(question.to)
     );
     for threshold in &done.local.thresholds {
         let _ = writeln!(
@@ -156,7 +169,7 @@ fn text(done: &Thresholds) -> String {
         text.push_str("  no local threshold\n");
     }
     if done.local.ending != Ending::Covered {
-        let _ = writeln!(text, "{}", done.sentence());
+        let _ = writeln!(text, "{}", done.sentence(study));
     }
     for change in &done.local.changes {
         let words = |it: &Option<_>| {
@@ -167,12 +180,15 @@ fn text(done: &Thresholds) -> String {
     }
     for (protocol, switches) in &done.protocols {
         let _ = writeln!(text, "runs {}:", protocol.name().replace('_', " "));
-        for switch in switches {
+        let first = becomes(switches.first);
+        if switches.changes.is_empty() {
+            let _ = writeln!(text, "  {first} everywhere");
+        } else {
+            let _ = writeln!(text, "  {:<14}  {first}", figure(question.from));
+        }
+        for switch in &switches.changes {
             let _ =
                 writeln!(text, "  {:<14}  {} above", figure(switch.value), becomes(switch.becomes));
-        }
-        if switches.is_empty() {
-            text.push_str("  the same everywhere\n");
         }
     }
     text

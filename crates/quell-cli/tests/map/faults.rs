@@ -32,7 +32,7 @@ const ASK: &[&str] =
 pub(crate) fn large(name: &str) -> Place {
     let place = Place::new(name);
     let study = STUDY.replace("settle = 5", "settle = 100").replace("periods = 4", "periods = 10");
-    place.write("large.toml", &format!("{study}{LARGE}"));
+    place.write("large.toml", format!("{study}{LARGE}"));
     place
 }
 
@@ -124,7 +124,7 @@ fn two_processes_on_one_store_do_no_harm() {
     let (reference, _) = undisturbed();
     let first = place.begin("two.zarr");
     wait_for("a chunk", || place.records("two.zarr") > 0);
-    let second = place.quell(&ask("two.zarr", &["--resume"]));
+    let second = place.told(&ask("two.zarr", &["--resume"]));
     assert_eq!(second.status, Some(1), "{second:?}");
     assert!(second.errors.contains("another process is writing this store"), "{second:?}");
     let first = Told::of(&first.wait_with_output().expect("it ends"));
@@ -165,7 +165,7 @@ fn damaged_chunks_are_found_and_done_again() {
     let record = reference.keys().filter(|name| name.starts_with(".quell/done/")).nth(3);
     let record = at(record.expect("records enough"));
     fs::write(&record, "{\"files\":{").expect("a record cut short");
-    let told = place.quell(&ask("damaged.zarr", &["--resume"]));
+    let told = place.told(&ask("damaged.zarr", &["--resume"]));
     assert_eq!(told.status, Some(0), "{told:?}");
     assert!(told.errors.contains("4 chunks of the store were cut short or changed"), "{told:?}");
     same(&place.store("damaged.zarr"), reference);
@@ -181,7 +181,7 @@ fn a_store_of_another_study_is_refused_and_left_alone() {
     place.good(&ask("efficiency", &[]));
     let reference = place.store("m.zarr");
     let refused = |arguments: &[&str], word: &str| {
-        let told = place.quell(arguments);
+        let told = place.told(arguments);
         assert_eq!(told.status, Some(2), "{arguments:?}: {told:?}");
         assert!(told.errors.contains(word), "{arguments:?}: {told:?}");
         same(&place.store("m.zarr"), &reference);
@@ -196,14 +196,14 @@ fn a_store_of_another_study_is_refused_and_left_alone() {
         ("values = [0.05", "values = [0.0500000000000001", "belt.belt_velocity runs over"),
     ] {
         assert!(small.contains(from));
-        place.write("small.toml", &small.replace(from, to));
+        place.write("small.toml", small.replace(from, to));
         refused(&ask("efficiency", &["--resume"]), word);
     }
     // What decides no number may change: comments, the title, a value that an axis replaces.
     let edited = small
         .replace("Stribeck belt", "The same belt")
         .replace("amplitude = 0.4\n", "amplitude = 0.7 # an axis\n");
-    place.write("small.toml", &edited);
+    place.write("small.toml", edited);
     assert_eq!(place.good(&ask("efficiency", &["--resume"]))["resumed_points"], 12);
     same(&place.store("m.zarr"), &reference);
     // Another version of Quell may give other bits.
@@ -211,7 +211,7 @@ fn a_store_of_another_study_is_refused_and_left_alone() {
     let text = fs::read_to_string(&identity).expect("what the store is of");
     let version = concat!("\"", env!("CARGO_PKG_VERSION"), "\"");
     fs::write(&identity, text.replacen(version, "\"0.0.9\"", 1)).expect("another version");
-    let told = place.quell(&ask("efficiency", &["--resume"]));
+    let told = place.told(&ask("efficiency", &["--resume"]));
     assert_eq!(told.status, Some(2));
     assert!(told.errors.contains("bits may differ"), "{told:?}");
 }
@@ -224,7 +224,7 @@ fn a_full_disk_is_told_and_survived() {
         return limited(&place, reference);
     };
     // Room for the frame and some chunks.
-    let told = place.quell(&ask("disk/full.zarr", &[]));
+    let told = place.told(&ask("disk/full.zarr", &[]));
     assert_eq!(told.status, Some(1), "{told:?}");
     assert!(told.errors.contains("No space left on device"), "{told:?}");
     assert!(told.errors.contains("--resume"), "{told:?}");
@@ -241,7 +241,7 @@ fn a_full_disk_is_told_and_survived() {
     same(&files(&disk.path.join("full.zarr")), reference);
     // No room even to begin: nothing is left.
     let tiny = Disk::mount(&place.folder.join("tiny"), "size=8k").expect("mounted before");
-    let told = place.quell(&ask("tiny/full.zarr", &[]));
+    let told = place.told(&ask("tiny/full.zarr", &[]));
     assert_eq!(told.status, Some(1), "{told:?}");
     assert!(told.errors.contains("No space left on device"), "{told:?}");
     assert_eq!(fs::read_dir(&tiny.path).expect("a disk").count(), 0, "something half-made is left");
@@ -264,7 +264,7 @@ fn limited(place: &Place, reference: &BTreeMap<String, Vec<u8>>) {
 #[test]
 fn a_store_that_cannot_be_written_is_told_at_once() {
     let place = large("read_only");
-    let below = place.quell(&ask("study.toml/below.zarr", &[]));
+    let below = place.told(&ask("study.toml/below.zarr", &[]));
     assert_eq!(below.status, Some(2), "{below:?}");
     assert!(below.errors.contains("cannot be written: Not a directory"), "{below:?}");
     let Some(disk) = Disk::mount(&place.folder.join("disk"), "size=16m") else {
@@ -278,7 +278,7 @@ fn a_store_that_cannot_be_written_is_told_at_once() {
     let before = files(&disk.path);
     disk.remount("ro");
     for save in ["disk/new.zarr", "disk/begun.zarr"] {
-        let told = place.quell(&ask(save, &["--resume"]));
+        let told = place.told(&ask(save, &["--resume"]));
         assert_eq!(told.status, Some(2), "{told:?}");
         assert!(told.errors.contains("Read-only file system"), "{told:?}");
     }

@@ -1,11 +1,14 @@
 //! A fresh folder with a study in it, and stores compared byte by byte.
 
+#[path = "../place/mod.rs"]
+mod folder;
+
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::path::Path;
+use std::process::Output;
 
-use serde_json::Value as Json;
+pub(crate) use folder::Place;
 
 /// A study whose response is short.
 pub(crate) const STUDY: &str = r#"schema = 1
@@ -33,46 +36,16 @@ record_periods = 4
 pub(crate) const SMALL: &str = "[[sweep]]\nparameter = \"dither.amplitude\"\nfrom = 0.1\nto = 0.9\n\
     points = 3\n[[sweep]]\nparameter = \"belt.belt_velocity\"\nvalues = [0.05, 0.1, 0.15, 0.5]\n";
 
-/// A fresh folder.
-pub(crate) struct Place {
-    pub(crate) folder: PathBuf,
-}
-
 impl Place {
+    /// With the study, and with the study and its axes.
     pub(crate) fn new(name: &str) -> Self {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("map").join(name);
-        // A run before this one may have left it.
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder).expect("a folder for tests");
-        let place = Self { folder };
-        place.write("study.toml", STUDY);
-        place.write("small.toml", &format!("{STUDY}{SMALL}"));
-        place
+        let small = format!("{STUDY}{SMALL}");
+        Self::with(&format!("map/{name}"), &[("study.toml", STUDY), ("small.toml", &small)])
     }
 
-    pub(crate) fn write(&self, name: &str, text: &str) {
-        fs::write(self.folder.join(name), text).expect("a file for tests");
-    }
-
-    pub(crate) fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_quell"));
-        command.current_dir(&self.folder).args(arguments).stdin(Stdio::null());
-        command
-    }
-
-    pub(crate) fn quell(&self, arguments: &[&str]) -> Told {
-        Told::of(&self.command(arguments).output().expect("quell runs"))
-    }
-
-    /// Runs a verb that must succeed, with `--json`.
-    pub(crate) fn good(&self, arguments: &[&str]) -> Json {
-        let mut with = arguments.to_vec();
-        with.push("--json");
-        let told = self.quell(&with);
-        assert_eq!(told.status, Some(0), "{arguments:?}: {told:?}");
-        let object: Json = serde_json::from_str(&told.output).expect("one JSON object");
-        assert_eq!(object["ok"], true);
-        object
+    /// Runs a verb; what it tells people.
+    pub(crate) fn told(&self, arguments: &[&str]) -> Told {
+        Told::of(&self.quell(arguments))
     }
 
     /// Every file of a store but its lock.

@@ -53,7 +53,7 @@ fn a_killed_shard_is_run_again_beside_another() {
     fs::write(place.folder.join("k.zarr/.quell/unfinished/1.0.0"), "half").expect("a file");
     let again = place.shard("k.zarr", "2/2");
     // While shards write, nobody else may write alone.
-    let alone = place.quell(&ask("k.zarr", &["--resume"]));
+    let alone = place.told(&ask("k.zarr", &["--resume"]));
     assert!(
         alone.status == Some(1) && alone.errors.contains("another process is writing"),
         "{alone:?}"
@@ -84,7 +84,7 @@ fn a_shard_says_what_is_left_and_a_later_run_computes_it() {
     let first = fs::read_dir(&path).expect("chunks").next().expect("a chunk").expect("a chunk");
     let chunk = fs::read_dir(first.path()).expect("chunks").next().expect("a chunk").expect("one");
     fs::write(chunk.path(), "short").expect("cut short");
-    let told = place.quell(&ask("left.zarr", &["--shard", "2/4"]));
+    let told = place.told(&ask("left.zarr", &["--shard", "2/4"]));
     assert_eq!(told.status, Some(0), "{told:?}");
     assert!(told.output.contains("Shard 2 of 4 of left.zarr"), "{told:?}");
     assert!(told.output.contains("1 computed") && told.output.contains("shards 1,3,4"), "{told:?}");
@@ -98,7 +98,7 @@ fn a_shard_says_what_is_left_and_a_later_run_computes_it() {
 fn shards_of_another_map_are_refused_whoever_comes_first() {
     let place = Place::new("strangers");
     let small = fs::read_to_string(place.folder.join("small.toml")).expect("a study");
-    place.write("other.toml", &small.replace("= 0.005", "= 0.006"));
+    place.write("other.toml", small.replace("= 0.005", "= 0.006"));
     for round in 0..5 {
         let save = format!("m{round}.zarr");
         let begin = |study: &str, shard: &str| {
@@ -121,7 +121,7 @@ fn a_shard_that_cannot_be_is_refused_at_once() {
     let ask = |more: &[&'static str]| {
         let mut arguments = vec!["map", "small.toml", "--quantity", "verdict"];
         arguments.extend(more);
-        place.quell(&arguments)
+        place.told(&arguments)
     };
     let cases: &[(&[&str], &str)] = &[
         (&["--shard", "1/2"], "name it by --save FILE.zarr"),
@@ -129,6 +129,7 @@ fn a_shard_that_cannot_be_is_refused_at_once() {
         (&["--shard", "3/2", "--save", "m.zarr"], "k from 1 to n"),
         (&["--shard", "-1/2", "--save", "m.zarr"], "k from 1 to n"),
         (&["--shard", "1/2", "--save", "m.zarr", "--plot", "m.svg"], "no whole map"),
+        (&["--shard", "1/1", "--resume", "--save", "m.zarr"], "cannot be used with '--resume'"),
     ];
     for (arguments, word) in cases {
         let told = ask(arguments);

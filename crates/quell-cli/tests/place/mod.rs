@@ -39,8 +39,8 @@ impl Place {
         command
     }
 
-    /// Runs a verb with `--json`; the object, the exit status, and silence on standard error
-    /// where it is told to be silent.
+    /// Runs a verb with `--json`: the object and the exit status. What goes wrong is told in the object, and standard
+    /// error is silent then; beside an answer there may be warnings.
     pub(crate) fn json(&self, arguments: &[&str]) -> (Json, i32) {
         let mut with = arguments.to_vec();
         with.push("--json");
@@ -49,6 +49,7 @@ impl Place {
         let object: Json =
             serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
         assert!(object.is_object(), "{text}");
+        assert!(output.status.success() || output.stderr.is_empty(), "{arguments:?}");
         (object, output.status.code().expect("an exit status"))
     }
 

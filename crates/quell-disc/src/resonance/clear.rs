@@ -141,7 +141,9 @@ pub fn clear_frequencies(
         }
         reached = reached.max(block.to);
     }
-    if reached < *frequencies.end() {
+    // One frequency alone is an interval, too.
+    let alone = frequencies.start() == frequencies.end() && blocked.is_empty();
+    if reached < *frequencies.end() || alone {
         clear.push([reached, *frequencies.end()]);
     }
     Ok(Clearance { clear, blocked, original_suppressed })

@@ -279,7 +279,13 @@ fn clear_intervals() {
     let found = clear_frequencies(&waves, speeds.clone(), 2.0..=6.0).expect("answer");
     assert!(found.original_suppressed);
     assert!(!found.clear.is_empty() && !found.blocked.is_empty(), "{found:?}");
-    println!("{found:?}");
+    // One frequency alone is clear where an interval has it.
+    for frequency in [2.3, 2.7, 3.4, 4.1, 5.2, 5.9] {
+        let one = clear_frequencies(&waves, speeds.clone(), frequency..=frequency).expect("answer");
+        let inside = found.clear.iter().any(|[from, to]| (*from..=*to).contains(&frequency));
+        let expected = if inside { vec![[frequency; 2]] } else { Vec::new() };
+        assert_eq!(one.clear, expected);
+    }
     let grows = |frequency: f64| {
         // The slow system with damping taken at the speed itself, over the range.
         (0..=4000).any(|i| {

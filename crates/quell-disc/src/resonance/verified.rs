@@ -114,7 +114,9 @@ impl Exact<'_> {
         let total: f64 = clear.iter().map(|[from, to]| to - from).sum();
         let mut tried = Vec::new();
         for (interval, [from, to]) in clear.iter().enumerate() {
-            let share = (FREQUENCIES * (to - from) / total).ceil().clamp(1.0, FREQUENCIES);
+            // An interval may be one frequency.
+            let share = if total > 0.0 { (to - from) / total } else { 1.0 };
+            let share = (FREQUENCIES * share).ceil().clamp(1.0, FREQUENCIES);
             let width = (to - from) / share;
             let mut number = 0.5;
             while number < share {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from typing import Any
 
 import numpy as np
@@ -22,12 +22,7 @@ class Arguments:
 
     def number(self, name: str, given: object, allowed: str = "a finite number") -> float:
         """A finite number."""
-        try:
-            if isinstance(given, (str, bytes, bool)):
-                raise TypeError
-            value = float(given)  # type: ignore[arg-type]
-        except (TypeError, ValueError, OverflowError):
-            value = float("nan")
+        value = _number(given)
         if not np.isfinite(value):
             self.wrong.append(complaint(name, given, allowed))
         return value
@@ -40,12 +35,14 @@ class Arguments:
         return least
 
     def pair(self, name: str, given: Any, allowed: str) -> tuple[float, float]:
-        """Two finite numbers."""
+        """Two finite numbers in their order."""
         try:
+            if isinstance(given, (str, bytes, bytearray, Mapping, Set)):
+                raise TypeError
             first, second = given
-            pair = (float(first), float(second))
-        except (TypeError, ValueError, OverflowError):
-            pair = (float("nan"), float("nan"))
+        except (TypeError, ValueError):
+            first = second = None
+        pair = (_number(first), _number(second))
         if not np.isfinite(pair).all():
             self.wrong.append(complaint(name, given, allowed))
         return pair
@@ -72,6 +69,16 @@ class Arguments:
         """Raises where anything was wrong."""
         if self.wrong:
             raise StudyError(self.wrong)
+
+
+def _number(given: object) -> float:
+    """A number as it is; not finite where it is none: neither words, truth values nor lists of one are numbers."""
+    try:
+        if isinstance(given, (str, bytes, bytearray, bool, np.bool_)) or np.ndim(given):  # type: ignore[arg-type]
+            raise TypeError
+        return float(given)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        return float("nan")
 
 
 def changes_of(changes: object, arguments: Arguments) -> list[tuple[str, str]]:

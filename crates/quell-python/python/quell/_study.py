@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _toml, results
 from ._arguments import Arguments, changes_of
-from ._axes import Axes, Axis, axes_tables
+from ._axes import Axes, axes_tables
 from ._errors import StudyError, complaint
 from ._quell import NativeStudy
 from ._tables import Table
@@ -19,7 +19,7 @@ from ._tables import Table
 if TYPE_CHECKING:
     from distributed import Client
 
-__all__ = ["Axis", "Study"]
+__all__ = ["Study"]
 
 Self = TypeVar("Self", bound="Study")
 
@@ -208,8 +208,8 @@ class Study:
         if len(asked) + (start is not None) > 1:
             arguments.wrong.append(complaint("start", start, "one start alone", "conflict"))
         if asked or start is not None:
-            for name, given, default in (("near", near, None), ("periods", periods, 1)):
-                if given != default:
+            for name, given, there in (("near", near, near is not None), ("periods", periods, count != 1)):
+                if there:
                     allowed = "given without a start: a run finds its response by itself"
                     arguments.wrong.append(complaint(name, given, allowed, "conflict"))
         arguments.done()
@@ -253,15 +253,16 @@ class Study:
         Parameters
         ----------
         parameter :
-            Path of a number of the equations, such as ``dither.amplitude``.
+            Path of a number of the equations, such as ``dither.amplitude``; in a study in SI also its key in SI,
+            such as ``dither.amplitude_n``.
         from_, to :
-            The range that is searched (the ``--from`` and ``--to`` of the command line).
+            The range that is searched, in the unit of that key (the ``--from`` and ``--to`` of the command line).
         from_rest, from_sliding, from_squeal, start :
             Also for runs from rest, from steady sliding, from full squeal, from a state (x, x′).
         ramp :
             Lets the dither of these runs grow over this time τ instead of switching it on.
         along, between :
-            Follows each local threshold as a curve along a second parameter, within a window of it.
+            Follows each local threshold as a curve along a second parameter, named likewise, within a window of it.
         """
         arguments = Arguments()
         path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
@@ -274,7 +275,7 @@ class Study:
         asked = [name for name, wanted in flags.items() if wanted]
         if (along is None) != (between is None):
             arguments.wrong.append(complaint("along", along, "given together with between", "conflict"))
-        if along is not None and (asked or start is not None or ramp):
+        if along is not None and (asked or start is not None or time != 0.0):
             arguments.wrong.append(complaint("along", along, "given without starts and ramp", "conflict"))
         arguments.done()
         if second is not None and window is not None:
@@ -415,9 +416,9 @@ class Study:
         *,
         displacement: tuple[float, float] | None = None,
         velocity: tuple[float, float] | None = None,
-        grid: tuple[int, int] = (41, 31),
+        grid: tuple[int, int] | None = None,
         sample: int | None = None,
-        seed: int = 1,
+        seed: int | None = None,
         over: str | None = None,
         from_: float | None = None,
         to: float | None = None,
@@ -432,9 +433,9 @@ class Study:
         displacement, velocity :
             The window, x and x′; about steady sliding by default.
         grid :
-            So many displacements and velocities, from edge to edge.
+            So many displacements and velocities, from edge to edge; (41, 31) by default.
         sample, seed :
-            So many random states in place of a grid, and which ones.
+            So many random states in place of a grid, and which ones; seed 1 by default.
         over, from_, to, points :
             Follows the shares over a parameter between two values; 41 of them by default.
         threads :
@@ -449,16 +450,20 @@ class Study:
             None if velocity is None else arguments.pair("velocity", velocity, two),
         )
         for name, ends in zip(("displacement", "velocity"), window, strict=True):
-            if ends is not None and not ends[0] < ends[1]:
+            if ends is not None and ends[0] >= ends[1]:
                 arguments.wrong.append(complaint(name, list(ends), two))
-        cells = arguments.pair("grid", grid, "two whole numbers, at least 2")
+        cells = arguments.pair("grid", (41, 31) if grid is None else grid, "two whole numbers, at least 2")
         sides = [
             arguments.whole("grid", int(side) if side == int(side) else side, 0, 10**7)
             for side in cells
-            if np.isfinite(side)
+            if np.isfinite(cells).all()
         ]
         states = None if sample is None else arguments.whole("sample", sample, 0, 10**7)
-        which = arguments.whole("seed", seed, 0, 2**63 - 1)
+        which = arguments.whole("seed", 1 if seed is None else seed, 0, 2**63 - 1)
+        if grid is not None and sample is not None:
+            arguments.wrong.append(complaint("grid", grid, "given without sample: it is in place of a grid", "conflict"))
+        if seed is not None and sample is None:
+            arguments.wrong.append(complaint("seed", seed, "given together with sample: it says which states", "conflict"))
         count = arguments.whole("points", 41 if points is None else points, 0, 2**31)
         along = None
         if over is not None:
@@ -496,7 +501,7 @@ class Study:
             A range of speeds that the dither shall keep clear, and the dither frequencies R that may do it.
         """
         arguments = Arguments()
-        two = "two numbers of which the first is not larger"
+        two = "two finite numbers"
         ranges = arguments.pair("speeds", speeds, two)
         wanted = None if clear is None else arguments.pair("clear", clear, two)
         within = None if frequency is None else arguments.pair("frequency", frequency, two)

@@ -66,9 +66,8 @@ def compute_shard(
 
     NativeShared.check_shard(shard)
     here = NativeShared.open(study._native, quantities, store)
-    facts, warnings, seconds = here.compute_shard(shard, threads, progress)
-    facts = {**facts, "seconds": seconds, "warnings": warnings}
-    return results.Shard(study, facts)
+    facts, seconds = here.compute_shard(shard, threads, progress)
+    return results.Shard(study, {**facts, "seconds": seconds})
 
 
 def split(chunks: list[int], threads: int) -> list[list[int]]:

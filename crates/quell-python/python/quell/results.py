@@ -94,7 +94,7 @@ class Result:
     def warnings(self) -> list[str]:
         """What a reader of the numbers should know."""
         found: list[str] = self.facts.get("warnings", [])
-        return found or (self._native.warnings() if self._native else [])
+        return found
 
     @property
     def arrays(self) -> Arrays:
@@ -181,7 +181,7 @@ class Result:
         return {
             "study": self.study,
             "_native": None,
-            "_facts": {**self.facts, "warnings": self.warnings},
+            "_facts": self.facts,
             "_arrays": self.arrays,
             "_description": description,
         }
@@ -286,7 +286,7 @@ class Response(Result):
     mean_friction: float
     """Mean friction force over k: a length."""
     mean_friction_undithered: float
-    """The same without dither."""
+    """Friction force μ(v₀)F of steady sliding without dither, over k: a length."""
     dither_power: float | None
     """Mean power of tangential dither over kω₀: a length squared."""
     dither_stroke: float | None
@@ -301,12 +301,16 @@ class Orbit(Result):
     """A periodic response and its Floquet multipliers."""
 
     verb = "orbit"
+    free_phase: bool | None
+    """Whether it is a limit cycle, whose phase nothing fixes; none where there is no orbit but steady sliding."""
     displacement: float
     """x at τ = 0: a length."""
     velocity: float
     """x′ at τ = 0: a length per τ."""
     period: float | None
     """Period, in τ; none where there is no orbit."""
+    monodromy: list[list[float]] | None
+    """What a small change of x and x′ has become after a period; none where there is no orbit."""
     verdict: Verdict
     """Whether small changes of it die out."""
     stick_episodes: int
@@ -317,6 +321,13 @@ class Orbit(Result):
     """Share of the period in which the mass sticks."""
     residual: float
     """How far the state is from itself after a period: a length."""
+    signature: list[dict[str, Any]]
+    """``kind`` and ``slip_sign`` of the events of a period, in their order."""
+    least_slip_velocity: float | None
+    """Least |v_r| while it slips: a length per τ; none where it sticks throughout.
+
+    Without dither: ``cycles``, every limit cycle, each with all of these.
+    """
 
     @property
     def multipliers(self) -> npt.NDArray[np.complex128]:
@@ -412,7 +423,13 @@ class Resonances(Result):
     undithered: list[dict[str, Any]]
     """Meetings that need no dither, as ``dithered``."""
     dithered: list[dict[str, Any]]
-    """``speed``, ``waves``, ``can_be_unstable``, ``threshold``, ``edges``, ``peak_growth`` of each meeting."""
+    """``speed``, ``waves``, ``can_be_unstable``, ``threshold``, ``edges``, ``peak_growth`` of each meeting.
+
+    Where speeds are to be kept clear: ``clear``, with intervals of R that are ``clear`` and ``blocked``, the best R
+    (``suggestion``) with its ``verified_growth_rate``, what the exact equations say of it (``verified``: ``verdict``,
+    which is "stable" where nothing grows, "unstable" or "undecided", ``growth_rate``, ``growth_rate_error`` and the
+    ``speed`` of it; or None, and ``why``), and the meetings that are ``there``, each with ``reaches_in``.
+    """
 
 
 class Map(Result, Mapping[str, Any]):
@@ -460,3 +477,7 @@ class Shard(Result):
         super().__init__(study, None)
         self._facts = facts
         self._arrays = _dataset.arrays(self.verb, facts, [])
+
+    def save(self, path: str | os.PathLike[str]) -> list[str]:
+        """Refuses: the chunks are in the store, and the table is that of the whole map."""
+        raise StudyError([complaint("save", None, "a shard has no table: read the map with resume=True", "usage")])

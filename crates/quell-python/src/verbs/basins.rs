@@ -31,10 +31,6 @@ impl Answer for Found {
     fn figure(&self) -> Option<Result<Figure, Failure>> {
         Some(picture::basins(&self.study, &self.done))
     }
-
-    fn warnings(&self) -> Vec<String> {
-        self.done.warnings()
-    }
 }
 
 /// Answers.

@@ -31,10 +31,6 @@ impl Answer for Swept {
     fn figure(&self) -> Option<Result<Figure, Failure>> {
         Some(Ok(picture::bifurcation(&self.study, &self.done)))
     }
-
-    fn warnings(&self) -> Vec<String> {
-        self.done.warnings()
-    }
 }
 
 /// Answers.

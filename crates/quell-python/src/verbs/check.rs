@@ -15,10 +15,6 @@ impl Answer for Checked {
     fn json(&self) -> Json {
         json(&self.0)
     }
-
-    fn warnings(&self) -> Vec<String> {
-        self.0.disc().map(|study| study.warnings().to_vec()).unwrap_or_default()
-    }
 }
 
 /// The study as JSON.

@@ -47,10 +47,6 @@ impl Answer for Done {
     fn figure(&self) -> Option<Result<Figure, Failure>> {
         Some(picture::sweep(&self.0))
     }
-
-    fn warnings(&self) -> Vec<String> {
-        self.0.warnings()
-    }
 }
 
 /// How far it is, told between two threads.

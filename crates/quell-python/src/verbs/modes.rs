@@ -26,10 +26,6 @@ impl Answer for Found {
     fn figure(&self) -> Option<Result<Figure, Failure>> {
         Some(picture::disc::modes(&self.study, &self.done))
     }
-
-    fn warnings(&self) -> Vec<String> {
-        self.study.warnings().to_vec()
-    }
 }
 
 /// Answers.

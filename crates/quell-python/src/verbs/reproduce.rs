@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use quell::reproduce::{ENTRIES, Pace, Written, find, run};
-use serde_json::{Value as Json, json};
+use quell::reproduce::{ENTRIES, Pace, find, run};
 
 use crate::{call, convert};
 
@@ -20,15 +19,7 @@ pub(crate) fn reproduce(
         let entries = find(&names)?;
         let pace = if quick { Pace::Quick } else { Pace::Full };
         let done = run(&entries, &out, pace, |_| ())?;
-        let entries: Vec<Json> = done.written.iter().map(Written::json).collect();
-        Ok(json!({
-            "ok": true,
-            "directory": out.display().to_string(),
-            "report": done.report.display().to_string(),
-            "table": done.table.display().to_string(),
-            "quick": quick,
-            "entries": entries,
-        }))
+        Ok(done.json(&out, pace))
     })?;
     convert::to_python(py, &object)
 }

@@ -17,7 +17,7 @@ struct Found {
 
 impl Answer for Found {
     fn json(&self) -> Json {
-        self.done.json()
+        self.done.json(&self.study)
     }
 
     fn datasets(&self) -> Vec<(&'static str, Dataset)> {
@@ -26,10 +26,6 @@ impl Answer for Found {
 
     fn figure(&self) -> Option<Result<Figure, Failure>> {
         Some(Ok(picture::disc::resonances(&self.study, &self.done)))
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        self.study.warnings().to_vec()
     }
 }
 

@@ -29,10 +29,6 @@ impl Answer for Measured {
     fn figure(&self) -> Option<Result<Figure, Failure>> {
         Some(Ok(picture::response(&self.study, &self.done)))
     }
-
-    fn warnings(&self) -> Vec<String> {
-        self.done.warnings(&self.study)
-    }
 }
 
 /// Answers.

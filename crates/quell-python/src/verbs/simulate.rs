@@ -3,7 +3,7 @@
 use quell::dataset::Dataset;
 use quell::picture;
 use quell::plot::Figure;
-use quell::run::simulate::{MOST_SAMPLES, Options, Simulation, run as simulate};
+use quell::run::simulate::{Options, Simulation, run as simulate};
 use quell::{Failure, Study, Subject, quantity};
 use serde_json::Value as Json;
 
@@ -32,23 +32,6 @@ impl Answer for Trajectory {
         let options = Options { events: false, samples: true, undithered: true };
         let both = simulate(&self.study, self.until, options);
         Some(both.map(|both| picture::simulate(&self.study, &both)))
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
-        if self.done.coarse {
-            warnings.push(format!(
-                "only {MOST_SAMPLES} samples are kept; they are coarser than the dither deserves"
-            ));
-        }
-        let releases = self.done.end.near_tangential_releases;
-        if releases > 0 {
-            warnings.push(format!(
-                "{releases} releases hardly crossed the threshold: forward uniqueness is not guaranteed \
-                 there"
-            ));
-        }
-        warnings
     }
 }
 

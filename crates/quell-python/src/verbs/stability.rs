@@ -22,10 +22,6 @@ impl Answer for OfBelt {
     fn figure(&self) -> Option<Result<Figure, Failure>> {
         Some(Ok(picture::stability(&self.study, &self.done)))
     }
-
-    fn warnings(&self) -> Vec<String> {
-        self.done.warnings(&self.study)
-    }
 }
 
 struct OfDisc {
@@ -42,10 +38,6 @@ impl Answer for OfDisc {
         let last = disc::campbell::usual_end(&self.study);
         let campbell = disc::campbell::run(&self.study, last);
         Some(campbell.map(|it| picture::disc::stability(&self.study, &self.done, &it)))
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        self.study.warnings().to_vec()
     }
 }
 

@@ -17,7 +17,7 @@ struct OnALine {
 
 impl Answer for OnALine {
     fn json(&self) -> Json {
-        self.done.json()
+        self.done.json(&self.study)
     }
 
     fn figure(&self) -> Option<Result<Figure, Failure>> {
@@ -73,6 +73,6 @@ pub(crate) fn run_along(
     between: (f64, f64),
 ) -> Result<NativeAnswer, Failure> {
     let study = subject.the_belt()?.clone();
-    let done = curves(&study, Plane { parameter, window, along, between })?;
+    let done = curves(&study, &Plane { parameter, window, along, between })?;
     Ok(NativeAnswer::new(InAPlane { study, done }))
 }

@@ -122,7 +122,7 @@ fn shares(done: &Basins) -> Panel {
     let Some(varied) = &done.varied else { return Panel::default() };
     let up = Axis::new("share of starts that fall quiet").between(0.0, 1.0);
     let points = |which: fn(Share) -> f64| -> Vec<(f64, f64)> {
-        let of = |it: &Portrait| Some((it.value?, it.quiet().map_or(0.0, which)));
+        let of = |it: &Portrait| Some((it.value?, which(it.quiet?)));
         done.portraits.iter().filter_map(of).collect()
     };
     let local: Vec<(f64, bool)> = done

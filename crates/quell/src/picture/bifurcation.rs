@@ -121,10 +121,10 @@ fn line(branch: &Branch, value: impl Fn(&Attractor) -> Option<f64>) -> Vec<Vec<(
             continue;
         };
         match pieces.last_mut() {
-            Some(piece) if before == Some(point.quiet()) => piece.push((point.value, y)),
+            Some(piece) if before == point.quiet() => piece.push((point.value, y)),
             _ => pieces.push(vec![(point.value, y)]),
         }
-        before = Some(point.quiet());
+        before = point.quiet();
     }
     pieces
 }

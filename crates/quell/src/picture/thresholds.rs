@@ -72,7 +72,7 @@ pub fn thresholds(study: &Study, done: &Thresholds) -> Figure {
         }
     }
     for (protocol, switches) in &done.protocols {
-        for switch in switches {
+        for switch in &switches.changes {
             let label =
                 format!("{}: {} above", protocol.name().replace('_', " "), becomes(switch.becomes));
             let rule = Rule::vertical(ruler.place(switch.value)).style(LineStyle::Dashed);
@@ -81,7 +81,7 @@ pub fn thresholds(study: &Study, done: &Thresholds) -> Figure {
     }
     Figure::single(panel.legend(Legend::Above))
         .title(study.title().unwrap_or_default())
-        .caption(format!("{} {}.", done.sentence(), caption(study)))
+        .caption(format!("{} {}.", done.sentence(study), caption(study)))
 }
 
 /// A kind in a legend.
@@ -116,8 +116,7 @@ pub fn curves(study: &Study, done: &Curves) -> Figure {
             panel = panel.with(Line::pieces(Role::Averaged, pieces).style(style).label(label));
         }
     }
-    let mut others = 0;
-    for kind in Kind::ALL {
+    for (number, kind) in Kind::ALL.into_iter().enumerate() {
         let pieces: Vec<Vec<(f64, f64)>> = done
             .curves
             .iter()
@@ -125,17 +124,14 @@ pub fn curves(study: &Study, done: &Curves) -> Figure {
             .map(|curve| curve.points.iter().map(|it| place((it.along, it.value))).collect())
             .collect();
         if !pieces.is_empty() {
-            let role = if kind == Kind::NeimarkSacker {
-                Role::Exact
-            } else {
-                others += 1;
-                Role::Series(others - 1)
-            };
+            // Whatever else is in the picture, a kind has its colour.
+            let role =
+                if kind == Kind::NeimarkSacker { Role::Exact } else { Role::Series(number - 1) };
             panel = panel.with(Line::pieces(role, pieces).label(format!("exact: {}", words(kind))));
         }
     }
     Figure::single(panel.legend(Legend::Above))
         .size(Size::Frame(380.0, 300.0))
         .title(study.title().unwrap_or_default())
-        .caption(format!("{} {}.", done.sentence(), caption(study)))
+        .caption(format!("{} {}.", done.sentence(study), caption(study)))
 }

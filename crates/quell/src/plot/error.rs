@@ -1,9 +1,9 @@
-//! What can go wrong between a figure and its file.
+//! What can go wrong on the way from a figure to a picture.
 
 use std::error::Error;
 use std::fmt;
 
-/// Why a picture could not be made or written.
+/// Why a picture could not be made.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum PlotError {

@@ -310,6 +310,29 @@ impl Reproduction {
         let claims = self.written.iter().flat_map(|done| &done.product.claims);
         claims.filter(|claim| !claim.as_expected()).collect()
     }
+
+    /// Claims whose verdict is not the expected one, in words.
+    pub fn warnings(&self) -> Vec<String> {
+        let told = |claim: &claims::Claim| {
+            let expected = claim.expected.map_or("nothing on record", |expected| expected.name());
+            format!("{}: {}, expected: {expected}", claim.name, claim.verdict)
+        };
+        self.changed().into_iter().map(told).collect()
+    }
+
+    /// As JSON, for what was written into `directory`.
+    pub fn json(&self, directory: &Path, pace: Pace) -> Json {
+        let entries: Vec<Json> = self.written.iter().map(Written::json).collect();
+        json!({
+            "ok": true,
+            "directory": directory.display().to_string(),
+            "report": self.report.display().to_string(),
+            "table": self.table.display().to_string(),
+            "quick": pace == Pace::Quick,
+            "entries": entries,
+            "warnings": self.warnings(),
+        })
+    }
 }
 
 /// Makes `entries` and writes them into `directory`, which is made if it is missing, with a report; two at a time.
@@ -327,7 +350,7 @@ pub fn run(
     let shared = Shared::default();
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<(usize, Result<Written, Failure>)>> = Mutex::new(Vec::new());
-    // The claims take longest and use one thread: whoever begins with them ends with the others.
+    // The claims take longest: whoever begins with them ends with the others.
     let mut order: Vec<usize> = (0..entries.len()).collect();
     order.sort_by_key(|place| entries[*place].name != "claims");
     let work = || {

@@ -4,7 +4,7 @@ use quell_belt::attractor::{Attractor, Kind, Scene};
 use quell_belt::orbit::{NoOrbit, Verdict};
 use quell_model::Belt;
 use quell_model::units::Quantity;
-use serde_json::{Value as Json, json};
+use serde_json::json;
 
 use super::digits;
 use super::orbit::refused;
@@ -97,7 +97,7 @@ pub(super) fn put(fields: &mut Fields, attractor: &Attractor, period: f64) {
             fields.plain("locking", json!({ "turns": ratio.turns, "periods": ratio.periods }));
         }
         None => {
-            fields.plain("locking", Json::Null).why("locking", "it is not locked");
+            fields.unknown("locking", "it is not locked");
         }
     }
 }

@@ -22,13 +22,12 @@ impl Check<'_> {
         let scales = study.scales();
         let belt = study.belt();
         let mut fields = Fields::new(scales);
-        fields
-            .plain("ok", true)
-            .plain("title", study.title().map_or(Json::Null, Json::from))
-            .plain("system", if scales.is_some() { "si" } else { "dimensionless" });
-        if study.title().is_none() {
-            fields.why("title", "the study gives none");
-        }
+        fields.plain("ok", true);
+        match study.title() {
+            Some(title) => fields.plain("title", title),
+            None => fields.unknown("title", "the study gives none"),
+        };
+        fields.plain("system", if scales.is_some() { "si" } else { "dimensionless" });
         let mut inner = Fields::new(scales);
         for (parameter, value) in [
             (DAMPING_RATIO, belt.damping_ratio()),
@@ -63,6 +62,7 @@ impl Check<'_> {
             inner
         });
         fields.list("sweeps", axes.collect::<Vec<_>>());
+        fields.plain("warnings", law::warnings(study));
         fields.finish()
     }
 }

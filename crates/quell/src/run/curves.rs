@@ -4,14 +4,15 @@ use quell_belt::averaging::{
     AveragingOptions, CriticalAmplitude, Response as FastResponse, critical_amplitudes,
 };
 pub use quell_belt::orbit::curve::{CurvePoint, Ending, ThresholdCurve};
-use quell_belt::orbit::curve::{Plane, curves};
+use quell_belt::orbit::curve::{CurvesFound, Open, OpenLine, Plane, curves};
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
-use super::thresholds::{Kind, known, told};
-use super::varied::{ascending, unable};
+use super::thresholds::{Kind, quantity_of, told, value_in_words};
+use super::varied::{Named, ascending};
 use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
+use crate::fields::Fields;
 use crate::study::Study;
 
 /// Lines across the second parameter on which curves are met first.
@@ -26,11 +27,11 @@ const AVERAGED: u32 = 120;
 /// What is asked.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Question {
-    /// Path of the parameter whose thresholds are followed.
+    /// Path of the parameter whose thresholds are followed; its key in SI in a study in SI too.
     pub parameter: String,
-    /// Its window, first and last value in the numbers of the equations.
+    /// Its window, first and last value in the unit of that key.
     pub window: (f64, f64),
-    /// Path of the parameter along which they are followed.
+    /// Path of the parameter along which they are followed, likewise.
     pub along: String,
     /// Its window, likewise.
     pub between: (f64, f64),
@@ -48,24 +49,26 @@ pub struct Averaged {
 /// Curves of thresholds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
-    /// What was asked.
+    /// What was asked, in numbers of the equations.
     pub question: Question,
     /// The curves.
     pub curves: Vec<ThresholdCurve>,
+    /// Lines across the second parameter on which curves may be missing.
+    pub open: Vec<OpenLine>,
     /// Boundaries of averaging, where the first parameter is the amplitude of the first dither.
     pub averaged: Vec<Averaged>,
 }
 
-/// The curves of a study.
+/// The question in numbers of the equations.
 ///
 /// # Errors
-/// A complaint about a parameter or its window; [`Failure::Failed`] where there is no response to begin with.
-pub fn run(study: &Study, question: Question) -> Result<Curves, Failure> {
+/// Every complaint about it at once.
+fn understood(study: &Study, question: &Question) -> Result<Question, Failure> {
     let belt = study.belt();
-    known(study, "--parameter", &question.parameter)?;
-    known(study, "--along", &question.along)?;
-    if question.parameter == question.along {
-        let allowed = "another parameter than --parameter";
+    let parameter = Named::new(study, "--parameter", &question.parameter)?;
+    let along = Named::new(study, "--along", &question.along)?;
+    if parameter.path == along.path {
+        let allowed = "another parameter than the one whose thresholds are followed";
         return Err(Complaint::option("--along", question.along.as_str(), allowed).into());
     }
     let (from, to) = question.window;
@@ -73,8 +76,8 @@ pub fn run(study: &Study, question: Question) -> Result<Curves, Failure> {
     let across = [("--between", question.between.0), ("--between", question.between.1)];
     let mut wrong: Vec<Complaint> = ends
         .into_iter()
-        .flat_map(|end| unable(belt, &question.parameter, end))
-        .chain(across.into_iter().flat_map(|end| unable(belt, &question.along, end)))
+        .flat_map(|end| parameter.unable(belt, end))
+        .chain(across.into_iter().flat_map(|end| along.unable(belt, end)))
         .collect();
     wrong.extend(ascending(from, to).err().map(|complaint| *complaint));
     let (first, last) = question.between;
@@ -86,16 +89,36 @@ pub fn run(study: &Study, question: Question) -> Result<Curves, Failure> {
     if !wrong.is_empty() {
         return Err(wrong.into());
     }
+    let both = |named: &Named, (first, last)| (named.of(first), named.of(last));
+    let (window, between) = (both(&parameter, question.window), both(&along, question.between));
+    Ok(Question { window, between, parameter: parameter.path, along: along.path })
+}
+
+/// The curves of a study.
+///
+/// # Errors
+/// A complaint about a parameter or its window; [`Failure::Failed`] where there is no response to begin with.
+pub fn run(study: &Study, question: &Question) -> Result<Curves, Failure> {
+    let belt = study.belt();
+    let question = understood(study, question)?;
     let plane = Plane {
         path: &question.parameter,
         window: question.window,
         along: &question.along,
         between: question.between,
     };
-    let curves = curves(belt, plane, LINES, POINTS)
-        .map_err(|why| told(why, &question.parameter, "--between"))?;
+    let CurvesFound { curves, open } = curves(belt, plane, LINES, POINTS).map_err(|line| {
+        let (parameter, along) = (&question.parameter, &question.along);
+        match line.why {
+            Open::Begin(why) => told(why, parameter, "--from"),
+            why => Failure::Failed {
+                key: "thresholds".to_owned(),
+                why: format!("on the line {along} = {}: {why}", line.along),
+            },
+        }
+    })?;
     let averaged = averaged(study, &question);
-    Ok(Curves { question, curves, averaged })
+    Ok(Curves { question, curves, open, averaged })
 }
 
 /// The boundaries of averaging; none where the first parameter is no amplitude of the first dither. Where averaging
@@ -149,8 +172,10 @@ impl Curves {
     }
 
     /// What was found in one sentence.
-    pub fn sentence(&self) -> String {
+    pub fn sentence(&self, study: &Study) -> String {
         let Question { parameter, along, between: (first, last), .. } = &self.question;
+        let (first, last) =
+            (value_in_words(study, along, *first), value_in_words(study, along, *last));
         match self.curves.len() {
             0 => format!(
                 "No threshold of {parameter} was met on {LINES} lines across {along} from {first} to {last}."
@@ -165,48 +190,62 @@ impl Curves {
 
     /// As JSON.
     pub fn json(&self, study: &Study) -> Json {
-        let curves: Vec<Json> = self
-            .curves
-            .iter()
-            .map(|curve| {
-                let column = |of: &dyn Fn(&CurvePoint) -> f64| -> Vec<f64> {
-                    curve.points.iter().map(of).collect()
-                };
-                let mut object = json!({
-                    "kind": curve.kind.name(),
-                    "value": column(&|it| it.value),
-                    "along": column(&|it| it.along),
-                    "displacement": column(&|it| it.state.displacement),
-                    "velocity": column(&|it| it.state.velocity),
-                    "multiplier_modulus": column(&|it| it.radius),
-                    "ends": curve.ends.map(Ending::name).to_vec(),
-                });
-                if let Some(ratios) = self.amplitude_ratios(study, curve) {
-                    object["amplitude_ratio"] = ratios.into();
-                }
-                object
-            })
-            .collect();
-        let averaged: Vec<Json> = self
-            .averaged
-            .iter()
-            .map(|it| {
-                let points: Vec<[f64; 2]> =
-                    it.pieces.iter().flatten().map(|(along, value)| [*along, *value]).collect();
-                json!({ "sharper": it.sharper, "points": points })
-            })
-            .collect();
-        json!({
-            "ok": true,
-            "sentence": self.sentence(),
-            "parameter": self.question.parameter,
-            "from": self.question.window.0,
-            "to": self.question.window.1,
-            "along": self.question.along,
-            "between": [self.question.between.0, self.question.between.1],
-            "curves": curves,
-            "averaged": averaged,
-        })
+        let question = &self.question;
+        let value = quantity_of(study, &question.parameter);
+        let along = quantity_of(study, &question.along);
+        let object = || Fields::new(study.scales());
+        let curves = self.curves.iter().map(|curve| {
+            let column = |of: &dyn Fn(&CurvePoint) -> f64| -> Vec<f64> {
+                curve.points.iter().map(of).collect()
+            };
+            let mut inner = object();
+            inner
+                .plain("kind", curve.kind.name())
+                .numbers("value", value, &column(&|it| it.value))
+                .numbers("along", along, &column(&|it| it.along))
+                .numbers(
+                    "displacement",
+                    Quantity::Displacement,
+                    &column(&|it| it.state.displacement),
+                )
+                .numbers("velocity", Quantity::Velocity, &column(&|it| it.state.velocity))
+                .numbers("multiplier_modulus", Quantity::Ratio, &column(&|it| it.radius))
+                .plain("ends", curve.ends.map(Ending::name).to_vec());
+            if let Some(ratios) = self.amplitude_ratios(study, curve) {
+                inner.numbers("amplitude_ratio", Quantity::Velocity, &ratios);
+            }
+            inner
+        });
+        let averaged = self.averaged.iter().map(|it| {
+            let points: Vec<Json> =
+                it.pieces.iter().flatten().map(|(along, value)| json!([along, value])).collect();
+            let mut inner = object();
+            inner.plain("sharper", it.sharper).plain("points", points);
+            inner
+        });
+        let mut fields = object();
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study))
+            .plain("parameter", question.parameter.as_str())
+            .number("from", value, question.window.0)
+            .number("to", value, question.window.1)
+            .plain("along", question.along.as_str())
+            .numbers("between", along, &[question.between.0, question.between.1])
+            .list("curves", curves)
+            .list("averaged", averaged)
+            .plain("warnings", self.warnings(study));
+        fields.finish()
+    }
+
+    /// Lines on which curves may be missing, in words.
+    pub fn warnings(&self, study: &Study) -> Vec<String> {
+        let along = &self.question.along;
+        let told = |line: &OpenLine| {
+            let place = value_in_words(study, along, line.along);
+            format!("on the line {along} = {place} curves may be missing: {}", line.why)
+        };
+        self.open.iter().map(told).collect()
     }
 
     /// α = D/R of the first dither along a curve, where the first parameter is its amplitude.
@@ -223,9 +262,7 @@ impl Curves {
 
     /// The points of all curves, one after another.
     pub fn dataset(&self, study: &Study) -> Dataset {
-        let quantity = |path: &str| {
-            study.belt().parameter(path).map_or(Quantity::Ratio, |parameter| parameter.quantity)
-        };
+        let quantity = |path: &str| quantity_of(study, path);
         let numbered = || (0_u8..).zip(Kind::ALL);
         let code = |kind: Kind| numbered().filter(move |it| it.1 == kind).map(|it| it.0);
         let each = |of: &dyn Fn(&CurvePoint) -> f64| -> Vec<f64> {
@@ -245,7 +282,7 @@ impl Curves {
         let (parameter, along) = (self.question.parameter.as_str(), self.question.along.as_str());
         let numbers = (0..self.points()).map(|it| it as f64).collect();
         let mut dataset = Dataset::new(study, "thresholds")
-            .fact(self.sentence())
+            .fact(self.sentence(study))
             .with_axis(Array::new("point", "1", numbers))
             .with(Array::new("curve", "1", per_curve(&|number| number as f64)))
             .with(Array::of_words("kind", names.collect(), &codes))

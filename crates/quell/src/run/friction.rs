@@ -138,6 +138,7 @@ impl FrictionCurve {
                 fields.why(&format!("effective_slope[{index}]"), why);
             }
         }
+        fields.plain("warnings", super::law::warnings(study));
         fields.finish()
     }
 

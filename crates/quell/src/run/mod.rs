@@ -50,6 +50,16 @@ fn resolved(
     })
 }
 
+/// Refuses a belt at rest, which holds the mass wherever friction can; `why` that is no answer.
+fn moves(study: &Study, why: &str) -> Result<(), Failure> {
+    let velocity = study.belt().belt_velocity();
+    if velocity > 0.0 {
+        return Ok(());
+    }
+    let (key, allowed) = ("belt.belt_velocity", format!("above 0: {why}"));
+    Err(Complaint::new(Fault::Value, key, Origin::Whole, velocity, allowed).into())
+}
+
 /// The start in words.
 pub fn start_in_words(study: &Study) -> String {
     match study.initial() {

@@ -1,7 +1,7 @@
 //! `orbit`: the periodic response that sliding becomes under dither, one near a given state, or the one on which a run ends,
 //! with its Floquet multipliers; without dither the limit cycles, or steady sliding where there is none.
 
-use quell_belt::orbit::cycle::cycles;
+use quell_belt::orbit::cycle::{cycle_reached, cycles};
 use quell_belt::orbit::reached::orbit_reached;
 use quell_belt::orbit::{NoOrbit, from_sliding, near};
 pub use quell_belt::orbit::{Orbit, Verdict};
@@ -10,7 +10,7 @@ use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
 use super::thresholds::Protocol;
-use super::{failed, in_words, resolved};
+use super::{failed, in_words, moves, resolved};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::fields::Fields;
 use crate::study::Study;
@@ -97,13 +97,18 @@ fn undithered(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
         let allowed = "1: without dither there are no periods of it to count";
         return Err(Complaint::option("--periods", periods, allowed).into());
     }
+    let why = "on a belt at rest the mass may stay anywhere within the reach of friction: there is nothing periodic";
+    moves(study, why)?;
     let cycles = cycles(belt).map_err(refused)?;
     let slope = belt.friction().slope(belt.belt_velocity()) * belt.normal_load();
     // e^−(2ζ + μ′F)/2 is the modulus of both multipliers over unit time.
     let radius = (-0.5 * (2.0 * belt.damping_ratio() + slope)).exp();
     let orbit = match wanted {
         Wanted::After(Protocol::Sliding) => None,
-        Wanted::After(_) | Wanted::OfSliding { .. } => cycles.first(),
+        Wanted::After(protocol) => {
+            cycle_reached(belt, &cycles, protocol.start(study)?).map_err(refused)?
+        }
+        Wanted::OfSliding { .. } => cycles.first(),
         Wanted::Near { state: (x, v), .. } => {
             let off = |it: &&Orbit| (it.start.displacement - x).hypot(it.start.velocity - v);
             cycles.iter().min_by(|a, b| off(a).total_cmp(&off(b)))
@@ -178,7 +183,7 @@ impl Response {
             Some(Verdict::Undecided) | None => "which is at its threshold",
         };
         let cycles = if self.cycles.is_empty() {
-            "and there is no limit cycle: every motion settles there"
+            "and no limit cycle was found"
         } else {
             "beside the limit cycles"
         };
@@ -206,15 +211,19 @@ impl Response {
             .plain("ok", true)
             .plain("sentence", sentence.clone())
             .plain("protocol", "local: 2ζ + μ′(v₀)F of steady sliding")
+            .unknown("free_phase", sentence.clone())
             .number("displacement", Quantity::Displacement, study.belt().steady_sliding())
             .number("velocity", Quantity::Velocity, 0.0)
             .known("period", Quantity::Time, Err(sentence.clone()))
-            .plain("multipliers", Json::Null)
-            .why("multipliers", sentence)
+            .unknown("multipliers", sentence.clone())
+            .unknown("monodromy", sentence)
             .plain("verdict", self.sliding.map_or("undecided", Verdict::name))
             .plain("stick_episodes", 0)
             .plain("reversals", 0)
-            .number("residual", Quantity::Displacement, 0.0);
+            .number("stick_fraction", Quantity::Ratio, 0.0)
+            .number("residual", Quantity::Displacement, 0.0)
+            .plain("signature", Vec::<Json>::new())
+            .number("least_slip_velocity", Quantity::Velocity, study.belt().belt_velocity());
         fields.finish()
     }
 }

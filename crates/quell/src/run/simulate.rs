@@ -177,8 +177,26 @@ impl Simulation {
             .plain("event_count", end.events)
             .plain("steps", end.steps)
             .plain("near_tangential_releases", end.near_tangential_releases)
-            .number("tolerance", Quantity::Ratio, study.solver().tolerance);
+            .number("tolerance", Quantity::Ratio, study.solver().tolerance)
+            .plain("warnings", self.warnings());
         fields.finish()
+    }
+
+    /// What a reader of the numbers should know.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        if self.coarse {
+            warnings.push(format!(
+                "only {MOST_SAMPLES} samples are kept; they are coarser than the dither deserves"
+            ));
+        }
+        let releases = self.end.near_tangential_releases;
+        if releases > 0 {
+            warnings.push(format!(
+                "{releases} releases hardly crossed the threshold: forward uniqueness is not guaranteed there"
+            ));
+        }
+        warnings
     }
 
     /// The sampled trajectory; empty where no samples were asked for.

@@ -103,6 +103,10 @@ fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, Stri
                 "slow belts stay unstable at any amplitude: the law falls too steeply"
             }
             NeverStable::OffScale => "there is none up to 10⁶ v_m",
+            NeverStable::NoEdge => {
+                "without dither sliding is unstable as far as belt velocities were looked at, up to 365 v_m; amplitudes were \
+                 not tried"
+            }
         }
         .to_owned()),
     }
@@ -164,7 +168,7 @@ impl Averaged {
         let found = match &self.critical_amplitudes {
             Ok(found) => found,
             Err(why) => {
-                fields.plain(name, Json::Null).why(name, why.to_string());
+                fields.unknown(name, why.to_string());
                 return;
             }
         };
@@ -189,14 +193,15 @@ impl Averaged {
         let bands = match &self.unstable_bands {
             Ok(bands) => bands,
             Err(why) => {
-                fields.plain(name, Json::Null).why(name, why.to_string());
+                fields.unknown(name, why.to_string());
                 return;
             }
         };
         let scales = fields.scales();
         let items = bands.iter().map(|band| {
             let mut inner = Fields::new(scales);
-            let no_end = || "instability has no upper end".to_owned();
+            let no_end =
+                || "no upper end was met up to 200 v_m beyond the fast velocity".to_owned();
             inner.number("lower", Quantity::Velocity, band.lower).known(
                 "upper",
                 Quantity::Velocity,
@@ -310,7 +315,7 @@ impl Stability {
                 fields.nested("sharper", inner);
             }
             Err(why) => {
-                fields.plain("sharper", Json::Null).why("sharper", why);
+                fields.unknown("sharper", why);
             }
         }
         fields.plain("warnings", self.warnings(study));

@@ -3,19 +3,21 @@
 
 use quell_belt::orbit::NoOrbit;
 pub use quell_belt::orbit::family::Signature;
-use quell_belt::orbit::reached::{Reached, Switch, ramped, switches};
+use quell_belt::orbit::reached::{Reached, Switches, ramped, switches};
 pub use quell_belt::orbit::threshold::{Change, Ending, Kind, Local, Threshold};
 use quell_belt::orbit::threshold::{NoThresholds, local};
 use quell_belt::simulation::Start;
 use quell_belt::start::NoSquealingStart;
-use serde_json::{Value as Json, json};
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
 
+use super::in_words;
 use super::orbit::refused;
-use super::varied::{ascending, unable};
+use super::varied::{Named, ascending};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::fields::Fields;
 use crate::quantity::bearable;
 use crate::study::mirror::given_number;
-use crate::study::vocabulary::{join, resolve};
 use crate::study::{InitialState, Study};
 
 /// Least number of values between which an orbit is followed.
@@ -64,9 +66,9 @@ impl Protocol {
 /// What is asked.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Question {
-    /// Path of the parameter.
+    /// Path of the parameter; its key in SI in a study in SI too.
     pub parameter: String,
-    /// First value, a number of the equations.
+    /// First value, in the unit of that key.
     pub from: f64,
     /// Last value, above the first.
     pub to: f64,
@@ -79,30 +81,25 @@ pub struct Question {
 /// The thresholds of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thresholds {
-    /// What was asked.
+    /// What was asked, in numbers of the equations.
     pub question: Question,
     /// By multipliers, with the branch of responses on which they lie.
     pub local: Local,
     /// By runs from a start.
-    pub protocols: Vec<(Protocol, Vec<Switch>)>,
+    pub protocols: Vec<(Protocol, Switches)>,
 }
 
-/// Refuses a parameter that the study does not have.
-pub(super) fn known(study: &Study, option: &'static str, path: &str) -> Result<(), Failure> {
-    if study.belt().get(path).is_some() {
-        return Ok(());
+/// A value of a number of the equations, in SI where the study is.
+pub fn value_in_words(study: &Study, path: &str, value: f64) -> String {
+    if study.scales().is_none() {
+        return value.to_string();
     }
-    let allowed = "a number of the equations that this study has, such as dither.amplitude or belt.belt_velocity";
-    // A key in SI, or a slip of the pen: its number of the equations.
-    let near = match resolve(path) {
-        Ok(address) => address.key.parameter().map(|parameter| {
-            let table = path.rsplit_once('.').map_or("", |(table, _)| table);
-            join(table, parameter.key())
-        }),
-        Err(nearest) => nearest,
-    };
-    let near = near.filter(|near| study.belt().get(near).is_some());
-    Err(Complaint::option(option, path, allowed).suggesting(near).into())
+    in_words(study, quantity_of(study, path), value)
+}
+
+/// What a number of the equations measures.
+pub fn quantity_of(study: &Study, path: &str) -> Quantity {
+    study.belt().parameter(path).map_or(Quantity::Ratio, |parameter| parameter.quantity)
 }
 
 /// Why there are no thresholds, as it is told.
@@ -112,20 +109,23 @@ pub(super) fn told(why: NoThresholds, path: &str, option: &'static str) -> Failu
             Complaint::option(option, value, format!("values that {path} can take")).into()
         }
         NoThresholds::Start(why) => refused(why),
-        NoThresholds::Lost { at, why } => Failure::Failed {
+        NoThresholds::Lost { at } => Failure::Failed {
             key: "thresholds".to_owned(),
-            why: format!("the response was lost beyond {path} = {at}: {why}"),
+            why: format!("the response was lost beyond {path} = {at}"),
         },
     }
 }
 
-/// Refuses a question that has no answer.
-fn refuse(study: &Study, question: &Question) -> Result<(), Failure> {
-    let &Question { from, to, ramp, .. } = question;
-    known(study, "--parameter", &question.parameter)?;
+/// The question in numbers of the equations.
+///
+/// # Errors
+/// Every complaint about it at once.
+fn understood(study: &Study, question: Question) -> Result<Question, Failure> {
+    let Question { from, to, ramp, .. } = question;
+    let named = Named::new(study, "--parameter", &question.parameter)?;
     let ends = [("--from", from), ("--to", to)];
     let mut wrong: Vec<Complaint> =
-        ends.into_iter().flat_map(|end| unable(study.belt(), &question.parameter, end)).collect();
+        ends.into_iter().flat_map(|end| named.unable(study.belt(), end)).collect();
     wrong.extend(ascending(from, to).err().map(|complaint| *complaint));
     wrong.extend(bearable(ramp, given_number(ramp), "--ramp").err().map(|complaint| *complaint));
     if ramp > 0.0 && question.protocols.is_empty() {
@@ -133,7 +133,11 @@ fn refuse(study: &Study, question: &Question) -> Result<(), Failure> {
         let origin = Origin::Argument("--ramp");
         wrong.push(Complaint::new(Fault::Conflict, "--ramp", origin, ramp, allowed));
     }
-    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
+    if !wrong.is_empty() {
+        return Err(wrong.into());
+    }
+    let (from, to) = (named.of(from), named.of(to));
+    Ok(Question { parameter: named.path, from, to, ..question })
 }
 
 /// Thresholds of a study's belt.
@@ -142,8 +146,8 @@ fn refuse(study: &Study, question: &Question) -> Result<(), Failure> {
 /// A complaint about the parameter or its range; [`Failure::Failed`] where there is no response to begin with.
 pub fn run(study: &Study, question: Question) -> Result<Thresholds, Failure> {
     let belt = study.belt();
+    let question = understood(study, question)?;
     let path = question.parameter.as_str();
-    refuse(study, &question)?;
     let (from, to) = (question.from, question.to);
     let local = local(belt, path, from, to, STEPS).map_err(|why| told(why, path, "--from"))?;
     let mut protocols = Vec::new();
@@ -176,6 +180,7 @@ pub fn becomes(reached: Reached) -> &'static str {
         Reached::Sliding => "quenched",
         Reached::Elsewhere => "not quenched",
         Reached::Unsettled => "unsettled",
+        Reached::Unknown => "unknown",
     }
 }
 
@@ -186,9 +191,10 @@ pub fn side(verdict: Option<quell_belt::orbit::Verdict>) -> &'static str {
 
 impl Thresholds {
     /// Whether and how far the response was followed, in one sentence.
-    pub fn sentence(&self) -> String {
+    pub fn sentence(&self, study: &Study) -> String {
         let path = &self.question.parameter;
-        let (from, to) = (self.question.from, self.question.to);
+        let told = |value: f64| value_in_words(study, path, value);
+        let (from, to) = (told(self.question.from), told(self.question.to));
         match self.local.ending {
             Ending::Covered => {
                 format!(
@@ -196,72 +202,98 @@ impl Thresholds {
                 )
             }
             Ending::TurnedBack { at } => format!(
-                "The response that sliding becomes turns back at {path} = {at}: there is none of it beyond, \
-                 and what a run ends on there is another one."
+                "The response that sliding becomes turns back at {path} = {}: there is none of it beyond, \
+                 and what a run ends on there is another one.",
+                told(at)
             ),
             Ending::Touch { at } => format!(
-                "The response that sliding becomes ends at {path} = {at}, where it touches v_r = 0: there is none beyond."
+                "The response that sliding becomes ends at {path} = {}, where it touches v_r = 0: there is none beyond.",
+                told(at)
             ),
             Ending::Lost { at } => {
-                format!("The response that sliding becomes was lost beyond {path} = {at}.")
+                format!("The response that sliding becomes was lost beyond {path} = {}.", told(at))
             }
         }
     }
 
     /// As JSON.
-    pub fn json(&self) -> Json {
-        let local: Vec<Json> = self
-            .local
-            .thresholds
-            .iter()
-            .map(|it| {
-                json!({
-                    "value": it.value,
-                    "error": it.error,
-                    "kind": it.kind.name(),
-                    "was": side(it.was),
-                    "becomes": side(it.becomes),
-                    "displacement": it.state.displacement,
-                    "velocity": it.state.velocity,
-                })
-            })
-            .collect();
+    pub fn json(&self, study: &Study) -> Json {
+        let question = &self.question;
+        let quantity = quantity_of(study, &question.parameter);
+        let object = || Fields::new(study.scales());
+        let local = self.local.thresholds.iter().map(|it| {
+            let mut inner = object();
+            inner
+                .number("value", quantity, it.value)
+                .number("error", quantity, it.error)
+                .plain("kind", it.kind.name())
+                .plain("was", side(it.was))
+                .plain("becomes", side(it.becomes))
+                .number("displacement", Quantity::Displacement, it.state.displacement)
+                .number("velocity", Quantity::Velocity, it.state.velocity);
+            inner
+        });
         let words = |signature: Option<&Signature>| {
             signature.map_or_else(|| "none".to_owned(), Signature::words)
         };
-        let changes: Vec<Json> = self
-            .local
-            .changes
-            .iter()
-            .map(|it| {
-                json!({
-                    "value": it.value,
-                    "below": words(it.below.as_ref()),
-                    "above": words(it.above.as_ref()),
-                })
-            })
-            .collect();
-        let mut object = json!({
-            "ok": true,
-            "sentence": self.sentence(),
-            "parameter": self.question.parameter,
-            "from": self.question.from,
-            "to": self.question.to,
-            "covered": self.local.ending == Ending::Covered,
-            "local": local,
-            "signature_changes": changes,
+        let changes = self.local.changes.iter().map(|it| {
+            let mut inner = object();
+            inner
+                .number("value", quantity, it.value)
+                .plain("below", words(it.below.as_ref()))
+                .plain("above", words(it.above.as_ref()));
+            inner
         });
-        if self.question.ramp > 0.0 {
-            object["ramp"] = self.question.ramp.into();
+        let mut fields = object();
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study))
+            .plain("parameter", question.parameter.as_str())
+            .number("from", quantity, question.from)
+            .number("to", quantity, question.to)
+            .plain("covered", self.local.ending == Ending::Covered)
+            .list("local", local)
+            .list("signature_changes", changes);
+        if question.ramp > 0.0 {
+            fields.number("ramp", Quantity::Time, question.ramp);
         }
+        let mut first = object();
         for (protocol, switches) in &self.protocols {
-            object[protocol.name()] = switches
-                .iter()
-                .map(|it| {
-                    json!({ "value": it.value, "error": it.error, "becomes": becomes(it.becomes) })
-                })
-                .collect();
+            first.plain(protocol.name(), becomes(switches.first));
+            let switches = switches.changes.iter().map(|it| {
+                let mut inner = object();
+                inner
+                    .number("value", quantity, it.value)
+                    .number("error", quantity, it.error)
+                    .plain("becomes", becomes(it.becomes));
+                inner
+            });
+            fields.list(protocol.name(), switches);
         }
-        object
+        if !self.protocols.is_empty() {
+            fields.nested("at_from", first);
+        }
+        fields.plain("warnings", self.warnings(study));
+        fields.finish()
+    }
+
+    /// Values at which it is not known where runs end, in words.
+    pub fn warnings(&self, study: &Study) -> Vec<String> {
+        let path = &self.question.parameter;
+        let told = |(protocol, switches): &(Protocol, Switches)| {
+            let (value, why) = switches.unknown.first()?;
+            let value = value_in_words(study, path, *value);
+            let runs = protocol.name().replace('_', " ");
+            let count = switches.unknown.len();
+            let others = if count > 1 {
+                format!(", and at {} more of {} values", count - 1, TRIED + 1)
+            } else {
+                String::new()
+            };
+            Some(format!(
+                "where the run {runs} ends at {path} = {value} is not known: {why}{others}"
+            ))
+        };
+        self.protocols.iter().filter_map(told).collect()
     }
 }

@@ -5,7 +5,7 @@ use quell_model::Belt;
 use super::evenly;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::mirror::given_number;
-use crate::study::vocabulary::{Address, resolve};
+use crate::study::vocabulary::{Address, Role, join, resolve};
 use crate::study::{Study, suggest};
 
 /// Most values of a range.
@@ -118,17 +118,67 @@ pub(super) fn ascending(from: f64, to: f64) -> Result<(), Box<Complaint>> {
     Err(Box::new(Complaint::option("--to", given_number(to), allowed)))
 }
 
-/// Complaints about a value that a number of the equations cannot take.
-pub(super) fn unable(
-    belt: &Belt,
-    path: &str,
-    (option, value): (&'static str, f64),
-) -> impl Iterator<Item = Complaint> {
-    let refused = belt.with(path, value).err().unwrap_or_default();
-    refused.into_iter().map(move |it| {
-        let allowed = format!("such that {} is {}", it.key, it.allowed);
-        Complaint::option(option, given_number(value), allowed)
-    })
+/// A number of the equations that a study has, named by its own key or, in a study in SI, by its twin.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Named {
+    /// Path of the number of the equations, such as `dither.amplitude`.
+    pub(super) path: String,
+    /// Values of the named key that make one of the equations: 1, or the unit in SI.
+    per_unit: f64,
+}
+
+impl Named {
+    /// What `path` names; `option` is how it was given.
+    ///
+    /// # Errors
+    /// A complaint with the nearest key that does name a number of this study.
+    pub(super) fn new(
+        study: &Study,
+        option: &'static str,
+        path: &str,
+    ) -> Result<Self, Box<Complaint>> {
+        let belt = study.belt();
+        if belt.get(path).is_some() {
+            return Ok(Self { path: path.to_owned(), per_unit: 1.0 });
+        }
+        let near = match resolve(path) {
+            Ok(address) => address.key.parameter().map(|parameter| {
+                let table = path.trim().rsplit_once('.').map_or("", |(table, _)| table);
+                (join(table, parameter.key()), address.key.role)
+            }),
+            Err(nearest) => nearest.map(|path| (path, Role::Text)),
+        };
+        let near = near.filter(|(near, _)| belt.get(near).is_some());
+        match (near, study.scales()) {
+            (Some((path, Role::Twin(parameter, twin))), Some(scales)) if !twin.rms => {
+                Ok(Self { path, per_unit: scales.si_per_unit(parameter.quantity) })
+            }
+            (near, _) => {
+                let allowed =
+                    "a number that this study has, such as dither.amplitude or belt.belt_velocity";
+                let near = near.map(|(path, _)| path);
+                Err(Box::new(Complaint::option(option, path, allowed).suggesting(near)))
+            }
+        }
+    }
+
+    /// A value of the named key as a number of the equations.
+    pub(super) fn of(&self, given: f64) -> f64 {
+        given / self.per_unit
+    }
+
+    /// Complaints about the value of an option that the number cannot take.
+    pub(super) fn unable(
+        &self,
+        belt: &Belt,
+        (option, given): (&'static str, f64),
+    ) -> impl Iterator<Item = Complaint> {
+        let refused = belt.with(&self.path, self.of(given)).err().unwrap_or_default();
+        refused.into_iter().map(move |it| {
+            let allowed = format!("such that {} is {}", it.key, it.allowed);
+            Complaint::option(option, given_number(given), allowed)
+        })
+    }
 }
 
 fn address(option: &'static str, path: &str) -> Result<Address, Box<Complaint>> {

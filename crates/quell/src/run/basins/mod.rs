@@ -21,7 +21,7 @@ use rayon::prelude::*;
 
 use super::attractor::{scene, unknown};
 use super::varied::{Range, Varied};
-use super::{failed, stopped};
+use super::{failed, moves, stopped};
 use crate::complaint::{Complaint, Failure};
 use crate::study::Study;
 use crate::sweep::Running;
@@ -58,6 +58,9 @@ pub struct Portrait {
     pub gathered: Gathered,
     /// The share of each attractor.
     pub shares: Vec<Share>,
+    /// The share of starts that end on the response of sliding; none where no end is known. Its upper bound counts starts in
+    /// of which the end is not known.
+    pub quiet: Option<Share>,
     /// The share of starts of which the end is not known.
     pub unknown: Share,
 }
@@ -100,7 +103,9 @@ pub fn run(study: &Study, question: &Question, running: Running<'_>) -> Result<B
         }
     };
     for (_, study) in &studies {
-        moves(study)?;
+        let why = "on a belt at rest the mass may stay anywhere within the reach of friction, and these ends are \
+                   no separate attractors";
+        moves(study, why)?;
     }
     let pool = running.pool()?;
     running.progress.begin(studies.len() * starts.states().len(), 0);
@@ -117,19 +122,6 @@ fn all_of(varied: &Varied, starts: &Starts) -> Result<(), Failure> {
     }
     let allowed = format!("such that values times starts ({starts}) are at most {MOST_STARTS}");
     Err(Complaint::option("--points", values, allowed).into())
-}
-
-/// A belt at rest without dither holds the mass wherever friction can: its attractors are a continuum.
-fn moves(study: &Study) -> Result<(), Failure> {
-    let belt = study.belt();
-    if belt.belt_velocity() > 0.0 {
-        return Ok(());
-    }
-    let allowed = "above 0: on a belt at rest the mass may stay anywhere within the reach of friction, and these ends are \
-                   no separate attractors";
-    let key = "belt.belt_velocity";
-    let origin = crate::complaint::Origin::Whole;
-    Err(Complaint::new(crate::complaint::Fault::Value, key, origin, 0.0, allowed).into())
 }
 
 /// The portrait of each study. Chunks of starts are handed to whoever is free; each run depends on itself alone.
@@ -171,27 +163,35 @@ fn portraits(
 
 impl Portrait {
     fn new(value: Option<f64>, scene: &Scene<'_>, starts: &Starts, gathered: Gathered) -> Self {
-        let share = |holds: &dyn Fn(&Label) -> bool| {
-            let inside: Vec<bool> = gathered.labels.iter().map(holds).collect();
-            Share::of(starts.layout(), &inside)
+        let layout = starts.layout();
+        let inside = |holds: &dyn Fn(&Label) -> bool| -> Vec<bool> {
+            gathered.labels.iter().map(holds).collect()
         };
         let shares = (0..gathered.basins.len())
-            .map(|place| share(&|label| *label == Label::Attractor(place)))
+            .map(|place| Share::of(layout, &inside(&|label| *label == Label::Attractor(place))))
             .collect();
-        let unknown_share = share(&|label| !matches!(label, Label::Attractor(_)));
+        let open = inside(&|label| !matches!(label, Label::Attractor(_)));
+        let ends_quiet = |label: &Label| match label {
+            Label::Attractor(place) => gathered.basins[*place].attractor.quiet,
+            Label::Unsettled(_) | Label::Stalled(_) => false,
+        };
+        let known = open.contains(&false);
+        let quiet = known.then(|| Share::between(layout, &inside(&ends_quiet), &open));
+        let unknown_share = Share::of(layout, &open);
         Self {
             value,
             period: scene.strobe.period,
             local: scene.quiet.as_ref().map(|quiet| quiet.verdict).map_err(unknown),
             shares,
+            quiet,
             unknown: unknown_share,
             gathered,
         }
     }
 
-    /// The share of starts that end on the response of sliding.
-    pub fn quiet(&self) -> Option<Share> {
-        let place = self.gathered.basins.iter().position(|basin| basin.attractor.quiet)?;
-        self.shares.get(place).copied()
+    /// Whether a start is known to end elsewhere than on the response of sliding.
+    fn leaves(&self) -> bool {
+        self.quiet
+            .is_some_and(|share| share.starts + self.unknown.starts < self.gathered.labels.len())
     }
 }

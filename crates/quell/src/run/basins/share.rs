@@ -39,9 +39,10 @@ impl Share {
         Self { starts, fraction, low, high }
     }
 
-    /// The share where none of `count` starts lies inside.
-    pub(super) fn none(layout: Layout, count: usize) -> Self {
-        Self::of(layout, &vec![false; count])
+    /// The share of the starts that are `surely` inside, where others are only `perhaps`: the upper bound counts them in.
+    pub(super) fn between(layout: Layout, surely: &[bool], perhaps: &[bool]) -> Self {
+        let all: Vec<bool> = surely.iter().zip(perhaps).map(|(a, b)| *a || *b).collect();
+        Self { high: Self::of(layout, &all).high, ..Self::of(layout, surely) }
     }
 
     /// Half the distance of the bounds.

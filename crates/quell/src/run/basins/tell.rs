@@ -56,7 +56,8 @@ impl Portrait {
             _ if unknown > 0 => format!("; {others} more attractors were met"),
             _ => format!("; the others end on {others} more attractors"),
         };
-        let told = match (&self.local, self.quiet()) {
+        let reached = self.quiet.filter(|share| share.starts > 0);
+        let told = match (&self.local, reached) {
             (Ok(Verdict::Stable), Some(share)) if share.starts == known => {
                 format!("The quiet response is stable, and every one of {starts} reaches it.")
             }
@@ -153,26 +154,26 @@ impl Basins {
                         .value
                         .map_or_else(String::new, |value| number(study, varied.unit, value))
                 };
-                let fraction =
-                    |portrait: &&Portrait| portrait.quiet().map_or(0.0, |share| share.fraction);
                 let ends: Vec<String> =
                     portraits.first().into_iter().chain(portraits.last()).map(value).collect();
                 let mut text = format!("Over {path} from {}", ends.join(" to "));
-                let least = portraits.iter().min_by(|a, b| fraction(a).total_cmp(&fraction(b)));
-                let most = portraits.iter().max_by(|a, b| fraction(a).total_cmp(&fraction(b)));
-                if let (Some(least), Some(most)) = (least, most) {
+                let known =
+                    || portraits.iter().filter_map(|it| Some((it, 100.0 * it.quiet?.fraction)));
+                let least = known().min_by(|a, b| a.1.total_cmp(&b.1));
+                let most = known().max_by(|a, b| a.1.total_cmp(&b.1));
+                if let (Some((least, low)), Some((most, high))) = (least, most) {
                     let _ = write!(
                         text,
-                        " the share of starts that reach the quiet response lies between {:.1} % (at {}) and {:.1} % (at {})",
-                        100.0 * fraction(&least),
+                        " the share of starts that reach the quiet response lies between {low:.1} % (at {}) and {high:.1} % (at {})",
                         value(least),
-                        100.0 * fraction(&most),
                         value(most)
                     );
+                } else {
+                    text.push_str(" no end of any start is known");
                 }
                 let only_local = portraits
                     .iter()
-                    .filter(|it| it.local == Ok(Verdict::Stable) && fraction(it) < 1.0)
+                    .filter(|it| it.local == Ok(Verdict::Stable) && it.leaves())
                     .count();
                 if only_local > 0 {
                     let _ = write!(
@@ -261,7 +262,7 @@ impl Basins {
                 let of = |value: &dyn Fn(&Portrait) -> f64| {
                     portraits.iter().map(value).collect::<Vec<f64>>()
                 };
-                let quiet = |which: fn(Share) -> f64| of(&|it| it.quiet().map_or(0.0, which));
+                let quiet = |which: fn(Share) -> f64| of(&|it| it.quiet.map_or(f64::NAN, which));
                 let verdicts: Vec<u8> =
                     portraits.iter().map(|it| verdict_code(&it.local)).collect();
                 let (name, unit) = varied
@@ -273,17 +274,7 @@ impl Basins {
                     .with(Array::of_words("local_verdict", VERDICTS.to_vec(), &verdicts))
                     .array("quiet_fraction", Quantity::Ratio, quiet(|share| share.fraction))
                     .array("quiet_fraction_low", Quantity::Ratio, quiet(|share| share.low))
-                    .array(
-                        "quiet_fraction_high",
-                        Quantity::Ratio,
-                        of(&|it| {
-                            // None of so many: the upper bound is that of no start inside.
-                            it.quiet().map_or_else(
-                                || Share::none(self.starts.layout(), it.gathered.labels.len()).high,
-                                |share| share.high,
-                            )
-                        }),
-                    )
+                    .array("quiet_fraction_high", Quantity::Ratio, quiet(|share| share.high))
                     .array("unknown_fraction", Quantity::Ratio, of(&|it| it.unknown.fraction))
                     .array("attractors", Quantity::Count, of(&|it| it.gathered.basins.len() as f64))
             }
@@ -338,15 +329,23 @@ impl Basins {
     }
 }
 
+/// One of the numbers of a share.
+type PartOfShare = fn(Share) -> f64;
+
 fn put_portrait(fields: &mut Fields, portrait: &Portrait, section: bool) {
     match &portrait.local {
         Ok(verdict) => fields.plain("local_verdict", verdict.name()),
-        Err(why) => fields.plain("local_verdict", Json::Null).why("local_verdict", why.as_str()),
+        Err(why) => fields.unknown("local_verdict", why.as_str()),
     };
-    match portrait.quiet() {
-        Some(share) => fields.number("quiet_fraction", Quantity::Ratio, share.fraction),
-        None => fields.number("quiet_fraction", Quantity::Ratio, 0.0),
-    };
+    let shares: [(&str, PartOfShare); 3] = [
+        ("quiet_fraction", |share| share.fraction),
+        ("quiet_fraction_low", |share| share.low),
+        ("quiet_fraction_high", |share| share.high),
+    ];
+    for (name, which) in shares {
+        let unknown = || "where its starts end is not known".to_owned();
+        fields.known(name, Quantity::Ratio, portrait.quiet.map(which).ok_or_else(unknown));
+    }
     let scales = fields.scales();
     let attractors = portrait.gathered.basins.iter().zip(&portrait.shares).map(|(basin, share)| {
         let mut inner = Fields::new(scales);
@@ -369,7 +368,12 @@ fn put_portrait(fields: &mut Fields, portrait: &Portrait, section: bool) {
 mod tests {
     use quell_belt::attractor::{Basins as Gathered, Unsettled};
 
+    use super::super::Starts;
     use super::*;
+    use crate::run::varied::{Range, Varied};
+
+    const STUDY: &str = "schema = 1\n[belt]\ndamping_ratio = 0.1\nnormal_load = 1\nbelt_velocity = 1\n\
+        [friction]\nlaw = \"decreasing\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.3\nreference_velocity = 0.2\n";
 
     /// Where no end is known nothing is said about whether starts reach the quiet response.
     #[test]
@@ -383,13 +387,43 @@ mod tests {
             local: Ok(Verdict::Stable),
             gathered,
             shares: Vec::new(),
+            quiet: None,
             unknown: share,
         };
         assert_eq!(
             portrait.sentence(),
             "The quiet response is stable; where 3 starts end is not known."
         );
+        let at = |value: f64| Portrait { value: Some(value), ..portrait.clone() };
+        let range = Range { parameter: "belt.belt_velocity".into(), from: 1.0, to: 2.0, points: 2 };
+        let study = Study::parse(STUDY, &[]).expect("valid");
+        let varied = Varied::new(&study, "--over", &range).expect("valid");
+        let starts = Starts::new(study.belt(), None, None, Layout::Sample { count: 3, seed: 1 });
+        let found = Basins {
+            starts: starts.expect("valid"),
+            varied: Some(varied),
+            portraits: vec![at(1.0), at(2.0)],
+        };
+        let told = found.sentence(&study);
+        assert!(told.ends_with(" no end of any start is known."), "{told}");
+        let json = found.json(&study);
+        for name in ["quiet_fraction", "quiet_fraction_low", "quiet_fraction_high"] {
+            assert!(json["portraits"][0][name].is_null(), "{json}");
+            assert!(json["why"][format!("portraits[0].{name}")].is_string(), "{json}");
+        }
+        assert!(!found.dataset(&study).csv().contains("NaN"));
         portrait.local = Err("it was not found".to_owned());
         assert_eq!(portrait.sentence(), "Where 3 starts end is not known; it was not found.");
+    }
+
+    /// Starts that may end anywhere are in the upper bound alone.
+    #[test]
+    fn unknown_ends_widen_the_share() {
+        let layout = Layout::Sample { count: 4, seed: 1 };
+        let surely = [true, false, false, false];
+        let without = Share::of(layout, &surely);
+        let with = Share::between(layout, &surely, &[false, true, true, false]);
+        assert_eq!((with.starts, with.fraction, with.low), (1, without.fraction, without.low));
+        assert_eq!(with.high, Share::of(layout, &[true, true, true, false]).high);
     }
 }

@@ -78,7 +78,7 @@ pub struct Branch {
     pub points: Vec<Point>,
 }
 
-/// Two neighbouring values of a branch between which the quiet response is left or reached.
+/// Two neighbouring values of a branch at which the response is known, between which the quiet response is left or reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jump {
     /// The last value before.
@@ -96,7 +96,8 @@ pub struct Bifurcation {
     pub varied: Varied,
     /// The sweeps that were asked for, up before down.
     pub branches: Vec<Branch>,
-    /// First and last value of each stretch in which the two directions show different responses.
+    /// First and last value of each stretch in which the two directions show different responses; nothing is said where one of
+    /// them has not settled.
     pub hysteresis: Vec<(f64, f64)>,
 }
 
@@ -186,22 +187,20 @@ fn hysteresis(study: &Study, branches: &[Branch]) -> Vec<(f64, f64)> {
 }
 
 impl Point {
-    /// Whether the sweep is on the response of sliding.
-    pub fn quiet(&self) -> bool {
-        self.response.as_ref().is_ok_and(|attractor| attractor.quiet)
+    /// Whether the sweep is on the response of sliding; none where it has not settled.
+    pub fn quiet(&self) -> Option<bool> {
+        self.response.as_ref().ok().map(|attractor| attractor.quiet)
     }
 }
 
 impl Branch {
     /// Where the quiet response is left or reached.
     pub fn jumps(&self) -> Vec<Jump> {
-        let changes = self.points.windows(2).filter(|pair| pair[0].quiet() != pair[1].quiet());
+        let known: Vec<(f64, bool)> =
+            self.points.iter().filter_map(|point| Some((point.value, point.quiet()?))).collect();
+        let changes = known.windows(2).filter(|pair| pair[0].1 != pair[1].1);
         changes
-            .map(|pair| Jump {
-                before: pair[0].value,
-                after: pair[1].value,
-                to_quiet: pair[1].quiet(),
-            })
+            .map(|pair| Jump { before: pair[0].0, after: pair[1].0, to_quiet: pair[1].1 })
             .collect()
     }
 }

@@ -24,7 +24,11 @@ impl Bifurcation {
             let (Some(first), Some(last)) = (branch.points.first(), branch.points.last()) else {
                 continue;
             };
-            let quiet = |point: &Point| if point.quiet() { "quiet" } else { "not quiet" };
+            let quiet = |point: &Point| match point.quiet() {
+                Some(true) => "quiet",
+                Some(false) => "not quiet",
+                None => "unsettled",
+            };
             let mut parts = vec![format!(
                 "Sweeping {path} {way}, the response is {} at {}",
                 quiet(first),
@@ -43,7 +47,12 @@ impl Bifurcation {
         }
         if self.branches.len() == 2 {
             sentences.push(match self.hysteresis.as_slice() {
-                [] => "Both directions show the same responses: no hysteresis.".to_owned(),
+                [] if self.has_settled() => {
+                    "Both directions show the same responses: no hysteresis.".to_owned()
+                }
+                [] => {
+                    "Both directions show the same responses wherever both have settled.".to_owned()
+                }
                 stretches => {
                     let parts: Vec<String> = stretches
                         .iter()
@@ -54,6 +63,11 @@ impl Bifurcation {
             });
         }
         sentences.join(" ")
+    }
+
+    /// Whether every point has.
+    fn has_settled(&self) -> bool {
+        self.branches.iter().flat_map(|branch| &branch.points).all(|point| point.response.is_ok())
     }
 
     /// Points that have not settled, in words.
@@ -93,9 +107,7 @@ impl Bifurcation {
                 inner.plain("value", point.value);
                 match &point.local {
                     Ok(verdict) => inner.plain("local_verdict", verdict.name()),
-                    Err(why) => {
-                        inner.plain("local_verdict", Json::Null).why("local_verdict", why.as_str())
-                    }
+                    Err(why) => inner.unknown("local_verdict", why.as_str()),
                 };
                 inner.plain("settled", point.response.is_ok());
                 inner.plain("periods_to_settle", point.periods);
@@ -106,7 +118,7 @@ impl Bifurcation {
                         put_section(&mut inner, attractor);
                     }
                     Err(why) => {
-                        inner.plain("kind", Json::Null).why("kind", why.about());
+                        inner.unknown("kind", why.about());
                     }
                 }
                 inner
@@ -130,8 +142,7 @@ impl Bifurcation {
                 self.hysteresis.iter().map(|(from, to)| vec![*from, *to].into()).collect();
             fields.plain("hysteresis", pairs);
         } else {
-            let fields = fields.plain("hysteresis", Json::Null);
-            fields.why("hysteresis", "it takes both directions to show it");
+            fields.unknown("hysteresis", "it takes both directions to show it");
         }
         fields.plain("warnings", self.warnings());
         fields.finish()
@@ -168,7 +179,7 @@ impl Bifurcation {
                     let code = [
                         u8::from(branch.direction == Direction::Down),
                         kind_code(attractor),
-                        u8::from(point.quiet()),
+                        point.quiet().map_or(2, u8::from),
                         verdict_code(&point.local),
                     ];
                     codes.iter_mut().zip(code).for_each(|(column, code)| column.push(code));
@@ -188,7 +199,7 @@ impl Bifurcation {
             .with(Array::of_words("direction", vec![(0, "up"), (1, "down")], &direction))
             .with(Array::new(self.varied.name(), self.varied.unit, value))
             .with(Array::of_words("kind", KINDS.to_vec(), &kind))
-            .with(Array::of_words("quiet", vec![(0, "no"), (1, "yes")], &quiet))
+            .with(Array::of_words("quiet", vec![(0, "no"), (1, "yes"), (2, "unknown")], &quiet))
             .with(Array::of_words("local_verdict", VERDICTS.to_vec(), &local))
             .array("section_displacement", Quantity::Displacement, x)
             .array("section_velocity", Quantity::Velocity, v)
@@ -209,5 +220,49 @@ fn periods(attractor: &Attractor) -> Option<f64> {
     match attractor.kind {
         Kind::Periodic { periods, .. } => Some(f64::from(periods)),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use quell_belt::attractor::Unsettled;
+    use quell_belt::orbit::Verdict;
+
+    use super::super::Branch;
+    use super::*;
+    use crate::run::varied::{Range, Varied};
+
+    const STUDY: &str = "schema = 1\n[belt]\ndamping_ratio = 0.1\nnormal_load = 1\nbelt_velocity = 1\n\
+        [friction]\nlaw = \"decreasing\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.3\nreference_velocity = 0.2\n\
+        [[dither]]\ndirection = \"tangential\"\nwaveform = \"sine\"\namplitude = 1\nfrequency_ratio = 10\n";
+
+    /// A point that has not settled is neither quiet nor not: no jump begins or ends there, and no hysteresis is denied.
+    #[test]
+    fn what_has_not_settled_says_nothing() {
+        let study = Study::parse(STUDY, &[]).expect("valid");
+        let range = Range { parameter: "dither.amplitude".into(), from: 1.0, to: 2.0, points: 2 };
+        let varied = Varied::new(&study, "--parameter", &range).expect("valid");
+        let point = |value: f64| Point {
+            value,
+            period: 1.0,
+            local: Ok(Verdict::Stable),
+            response: Err(Unsettled::Moving),
+            periods: 7,
+        };
+        let branch =
+            |direction, values: [f64; 2]| Branch { direction, points: values.map(point).to_vec() };
+        let branches = vec![branch(Direction::Up, [1.0, 2.0]), branch(Direction::Down, [2.0, 1.0])];
+        let found = Bifurcation { varied, branches, hysteresis: Vec::new() };
+        let told = found.sentence(&study);
+        assert!(
+            told.contains("the response is unsettled at 1") && !told.contains("no hysteresis"),
+            "{told}"
+        );
+        let json = found.json(&study);
+        assert_eq!(json["jumps"].as_array().map(Vec::len), Some(0));
+        assert!(json["up"][0]["kind"].is_null() && json["why"]["up[0].kind"].is_string());
+        assert_eq!(found.warnings().len(), 4);
+        let table = found.dataset(&study).csv();
+        assert_eq!(table.matches("unknown").count(), 4, "{table}");
     }
 }

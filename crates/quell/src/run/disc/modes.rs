@@ -160,6 +160,7 @@ impl Modes {
                 "plate_mass_kg": "kg",
             },
             "why": why,
+            "warnings": study.warnings(),
         });
         if study.disc().loads().is_empty() {
             object["why"]["modes[].shape_at_load"] =

@@ -3,12 +3,14 @@
 
 use std::ops::RangeInclusive;
 
+pub use quell_disc::Verdict;
 use quell_disc::resonance::{
     Blocked, Clearance, ClearanceError, Nearby, Tongue, Verified, WaveError, Waves,
     clear_frequencies, verified_frequency, within,
 };
 pub use quell_disc::resonance::{Order, Resonance};
 use quell_disc::system::Contributions;
+use quell_model::parameter::{Bounds, DITHER_FREQUENCY_RATIO};
 use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
 
@@ -39,19 +41,21 @@ impl Question {
         frequency: Option<(f64, f64)>,
     ) -> Result<Self, Vec<Complaint>> {
         let mut wrong = Vec::new();
-        let mut range = |option, least: f64, (from, to): (f64, f64)| {
+        let mut range = |option, bounds: Bounds, (from, to): (f64, f64)| {
+            let told = || format!("{from}:{to}");
             if !(from.is_finite() && to.is_finite() && from <= to) {
                 let allowed = "two numbers of which the first is not larger";
-                wrong.push(Complaint::option(option, format!("{from}:{to}"), allowed));
-            } else if from <= least {
-                let allowed = "frequencies above 0";
-                wrong.push(Complaint::option(option, format!("{from}:{to}"), allowed));
+                wrong.push(Complaint::option(option, told(), allowed));
+            } else if !(bounds.contains(from) && bounds.contains(to)) {
+                let allowed = format!("two numbers FROM:TO, each {bounds}");
+                wrong.push(Complaint::option(option, told(), allowed));
             }
             from..=to
         };
-        let speeds = range("--speeds", f64::NEG_INFINITY, speeds);
-        let wanted = clear.map(|it| range("--clear", f64::NEG_INFINITY, it));
-        let frequencies = frequency.map(|it| range("--frequency", 0.0, it));
+        let speeds = range("--speeds", Bounds::FINITE, speeds);
+        let wanted = clear.map(|it| range("--clear", Bounds::FINITE, it));
+        let frequencies =
+            frequency.map(|it| range("--frequency", DITHER_FREQUENCY_RATIO.bounds, it));
         for (option, one, other) in
             [("--clear", clear, frequency.is_none()), ("--frequency", frequency, clear.is_none())]
         {
@@ -144,11 +148,14 @@ pub fn run(study: &DiscStudy, question: Question) -> Result<Resonances, Failure>
             let widest =
                 clearance.clear.iter().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
             let verified = verified_frequency(study.disc(), &clearance, speeds.clone());
-            let suggestion = widest.and_then(|[from, to]| {
+            let suggestion = widest.map(|[from, to]| {
                 let ratio = verified.map_or(0.5 * (from + to), |it| it.frequency_ratio);
-                let there = waves.with_dither_frequency(ratio).ok()?;
-                Some((ratio, within(&there, speeds.clone())))
+                let there = waves
+                    .with_dither_frequency(ratio)
+                    .map_err(|why| refuse("--frequency", why.to_string()))?;
+                Ok::<_, Failure>((ratio, within(&there, speeds.clone())))
             });
+            let suggestion = suggestion.transpose()?;
             let (speeds, frequencies) = (speeds.clone(), frequencies.clone());
             Some(Clear { speeds, frequencies, clearance, suggestion, verified })
         }
@@ -249,7 +256,7 @@ impl Resonances {
     }
 
     /// As JSON.
-    pub fn json(&self) -> Json {
+    pub fn json(&self, study: &DiscStudy) -> Json {
         let (start, end) = (self.question.speeds.start(), self.question.speeds.end());
         let mut object = json!({
             "ok": true,
@@ -260,6 +267,7 @@ impl Resonances {
             "units": {
                 "speed": "ω_ref", "edges": "ω_ref", "width": "ω_ref", "peak_growth": "ω_ref", "threshold": "1 (f*)",
             },
+            "warnings": study.warnings(),
         });
         if let Some(clear) = &self.clear {
             let mut inner = json!({
@@ -270,6 +278,16 @@ impl Resonances {
                 "original_suppressed": clear.clearance.original_suppressed,
                 "suggestion": clear.suggestion.as_ref().map(|(ratio, _)| *ratio),
                 "verified_growth_rate": clear.verified.map(|it| it.growth.rate),
+                "verified": clear.verified.map(|it| json!({
+                    "verdict": it.growth.verdict().name(),
+                    "growth_rate": it.growth.rate,
+                    "growth_rate_error": it.growth.error,
+                    "speed": it.speed,
+                })),
+                "units": {
+                    "speeds": "ω_ref", "frequencies": "ω_ref", "clear": "ω_ref", "suggestion": "ω_ref",
+                    "verified_growth_rate": "ω_ref", "growth_rate": "ω_ref", "growth_rate_error": "ω_ref", "speed": "ω_ref",
+                },
             });
             let mut why = Map::new();
             if clear.suggestion.is_none() {
@@ -281,7 +299,9 @@ impl Resonances {
                 } else {
                     "exponents cannot be computed with such numbers"
                 };
-                why.insert("verified_growth_rate".to_owned(), reason.into());
+                for name in ["verified_growth_rate", "verified"] {
+                    why.insert(name.to_owned(), reason.into());
+                }
             }
             if !why.is_empty() {
                 inner["why"] = Json::Object(why);

@@ -28,7 +28,8 @@ pub struct Stability {
     pub growth: Growth,
     /// Of the same without dither.
     pub undithered: Growth,
-    /// Frictions ≥ 0 at which a motion is marginal, the rest as given, ascending; or why they are not known.
+    /// Frictions of the load's own sign, ≥ 0 where it has none, at which a motion is marginal, the rest as given, ascending; or why
+    /// they are not known.
     pub changes: Result<Vec<Change>, String>,
     /// Whether a motion is out of the load's reach, and marginal at any friction.
     pub out_of_reach: bool,
@@ -62,17 +63,17 @@ fn still(study: &DiscStudy) -> (Result<Vec<Change>, String>, bool) {
     match boundaries(study.disc()) {
         Ok(found) => {
             let out_of_reach = found.iter().any(|boundary| boundary.friction == Marginal::Always);
-            let mut changes: Vec<Change> = found
+            let sign = sign_of_friction(study);
+            let changes: Vec<Change> = found
                 .iter()
                 .filter_map(|boundary| match boundary.friction {
-                    Marginal::At(friction) if friction >= 0.0 => {
+                    Marginal::At(friction) if sign * friction >= 0.0 => {
                         Some(Change { friction, frequency: boundary.frequency })
                     }
                     _ => None,
                 })
                 .collect();
-            changes.sort_by(|a, b| a.friction.total_cmp(&b.friction));
-            (Ok(changes), out_of_reach)
+            (Ok(ascending(changes)), out_of_reach)
         }
         Err(why) => {
             let why = match why {
@@ -90,10 +91,9 @@ const MAP: &str = "`quell map` over disc.load.friction shows them for any";
 /// Boundaries under dither.
 fn shaken(study: &DiscStudy) -> Result<Vec<Change>, String> {
     let disc = study.disc();
-    let friction = disc.loads().first().map_or(0.0, |load| load.friction);
     // The partition tells factors on the friction: of one, not of none.
     let unit = disc.with("disc.load.friction", 1.0).map_err(|_| "there is no load".to_owned())?;
-    let sign = if friction < 0.0 { -1.0 } else { 1.0 };
+    let sign = sign_of_friction(study);
     let unit = if sign < 0.0 { unit.with_friction_times(-1.0).unwrap_or(unit) } else { unit };
     let found = crossings(&unit).map_err(|why| match why {
         NoPartition::TooManyHarmonics { .. } => format!("{why}; {MAP}"),
@@ -103,7 +103,18 @@ fn shaken(study: &DiscStudy) -> Result<Vec<Change>, String> {
         friction: sign * crossing.factor,
         frequency: crossing.frequency,
     };
-    Ok(found.iter().map(change).collect())
+    Ok(ascending(found.iter().map(change).collect()))
+}
+
+/// −1 where the first load's friction is negative, else 1.
+fn sign_of_friction(study: &DiscStudy) -> f64 {
+    let friction = study.disc().loads().first().map_or(0.0, |load| load.friction);
+    if friction < 0.0 { -1.0 } else { 1.0 }
+}
+
+fn ascending(mut changes: Vec<Change>) -> Vec<Change> {
+    changes.sort_by(|a, b| a.friction.total_cmp(&b.friction));
+    changes
 }
 
 impl Stability {
@@ -162,6 +173,7 @@ impl Stability {
             }
         };
         object["out_of_reach"] = self.out_of_reach.into();
+        object["warnings"] = study.warnings().into();
         object["units"] = json!({
             "growth_rate": "ω_ref", "growth_rate_error": "ω_ref", "frequency": "ω_ref", "speed": "ω_ref", "friction": "1",
         });

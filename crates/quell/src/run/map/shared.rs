@@ -74,6 +74,7 @@ impl Sharded {
             "left_chunks": self.left,
             "left_shards": self.left_shards,
             "saved": [path.display().to_string()],
+            "warnings": self.warnings(),
         })
     }
 

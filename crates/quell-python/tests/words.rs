@@ -1,0 +1,80 @@
+//! Words of the command line become those of Python. The file is compiled alone: a test cannot be linked with Python.
+
+#[path = "../src/words.rs"]
+mod words;
+
+use words::{in_python, key_in_python};
+
+#[test]
+fn options_are_named_as_arguments() {
+    for (text, told) in [
+        ("a number above --from 2", "a number above from_ 2"),
+        (
+            "given together with --from-rest, --from-sliding, --from-squeal or --start: it is",
+            "given together with from_rest, from_sliding, from_squeal or start: it is",
+        ),
+        ("--clear and --frequency are given together", "clear and frequency are given together"),
+        ("name it by --save", "name it by store"),
+        ("(--ramp)", "(ramp)"),
+        ("--ramp-", "ramp-"),
+        ("", ""),
+    ] {
+        assert_eq!(in_python(text), told);
+    }
+}
+
+#[test]
+fn ways_are_those_of_python() {
+    for (text, told) in [
+        (
+            "exists already: --resume goes on with it; or choose another name",
+            "exists already: resume=True goes on with it; or choose another name",
+        ),
+        (
+            "stopped; 3 of 4 chunks are kept, 1 are left: the same command with --resume goes on",
+            "stopped; 3 of 4 chunks are kept, 1 are left: the same call with resume=True goes on",
+        ),
+        (
+            "stopped; nothing is kept: --save FILE.zarr keeps what is done, and --resume goes on",
+            "stopped; nothing is kept: store=\"FILE.zarr\" keeps what is done, and resume=True goes on",
+        ),
+        ("the keys that `quell schema` lists", "the keys that quell.schema() lists"),
+        (
+            "several loads; `quell stability` and `quell map --quantity growth` take any number of loads",
+            "several loads; `stability()` and `map(\"growth\")` take any number of loads",
+        ),
+    ] {
+        assert_eq!(in_python(text), told);
+    }
+}
+
+#[test]
+fn code_paths_and_dashes_stay() {
+    for text in [
+        "`quell map --quantity verdict` shows it",
+        "`a` and `--resume`",
+        "folder/--save and well--known",
+        "a -- b",
+        "---",
+        "--Save",
+        "x′ ≥ 0 – τ",
+    ] {
+        assert_eq!(in_python(text), text);
+    }
+}
+
+#[test]
+fn keys_that_are_options_are_arguments() {
+    for (key, told) in [
+        ("--from", "from_"),
+        ("--from-rest", "from_rest"),
+        ("--threads", "threads"),
+        ("--save", "store"),
+        ("dither.amplitude", "dither.amplitude"),
+        ("sweep[0].values", "sweep[0].values"),
+        ("--", "--"),
+        ("--m.zarr", "--m.zarr"),
+    ] {
+        assert_eq!(key_in_python(key), told);
+    }
+}
