@@ -173,3 +173,31 @@ fn equal_eigenvalues_are_no_trouble() {
         assert!(gap <= found.error && found.error < 1e-9, "spring {spring}: {gap:e} {found:?}");
     }
 }
+
+/// A constant part with one eigenvector for two equal eigenvalues has no modal coordinates: the same system, split between
+/// constant part and kicks so that it has, gives the same exponents.
+#[test]
+fn a_defective_constant_part_is_no_trouble() {
+    // y″ + 2cy′ + (k + s(t))y = 0; at k = c² the constant part is defective.
+    let damping = 0.15;
+    let growth = |spring: f64| {
+        let a = Matrix::from_fn(2, 2, |i, j| match (i, j) {
+            (0, 1) => 1.0,
+            (1, 0) => -spring,
+            (1, 1) => -2.0 * damping,
+            _ => 0.0,
+        });
+        let u = Matrix::from_fn(2, 1, |i, _| i as f64);
+        let v = Matrix::from_fn(2, 1, |i, _| 1.0 - i as f64);
+        let force = |phase: Phase, to: &mut Matrix| {
+            to[(0, 0)] = spring - (1.0 + 0.8 * phase.cosine);
+        };
+        let flow = ConstantFlow::new(&a, &u, &v).expect("finite");
+        Floquet::new(flow, 3.0).growth(&force, Effort::default()).expect("finite")
+    };
+    let (defective, modal) = (growth(damping * damping), growth(1.0));
+    assert!(modal.growth_rate > 0.02, "in the first tongue: {modal:?}");
+    let gap = (defective.growth_rate - modal.growth_rate).abs();
+    assert!(gap <= defective.error + modal.error, "{gap:e} {defective:?} {modal:?}");
+    assert!(defective.error < 1e-6 && modal.error < 1e-6, "{defective:?} {modal:?}");
+}

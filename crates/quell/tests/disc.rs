@@ -84,6 +84,58 @@ fn what_is_wrong_is_told_with_its_place() {
     assert_eq!(told[0].suggestion.as_deref(), Some("disc.load.damping"));
 }
 
+/// What is wrong about the material, the reference, axes and dither of a disc.
+#[test]
+fn what_is_wrong_about_a_plate_is_told_with_its_place() {
+    let disc = |keys: &str| PLATE.replace("= 0.5\n", &format!("= 0.5\n{keys}"));
+    let metal = "youngs_modulus_pa = 1.1e11\ndensity_kg_per_m3 = 7200\n";
+    let axis = "[[sweep]]\nparameter = \"disc.load.speed\"\nfrom = 0.1\nto = 1\npoints = 3\n";
+    for (text, key, line, allowed) in [
+        (disc(metal), "disc.thickness_m", Some(2), "hertz and rpm need"),
+        (disc(metal), "disc.outer_radius_m", Some(2), "hertz and rpm need"),
+        (
+            disc(&format!("{metal}thickness_m = 0.5\nouter_radius_m = 0.1\n")),
+            "disc.thickness_m",
+            Some(6),
+            "below disc.outer_radius_m = 0.1",
+        ),
+        (
+            disc("reference_frequency = \"highest\"\n"),
+            "disc.reference_frequency",
+            Some(4),
+            "\"critical\", or",
+        ),
+        (disc("reference_frequency = 0\n"), "disc.reference_frequency", Some(4), "> 0"),
+        (
+            disc("nodal_diameters = 0\n"),
+            "disc.nodal_diameters",
+            Some(4),
+            "at least 1, or disc.reference_frequency",
+        ),
+        (
+            format!("{PLATE}{}", DITHER.replace("\"normal\"", "\"normal\"\nwaveform = \"square\"")),
+            "dither.waveform",
+            Some(13),
+            "\"sine\", the waveform of a disc",
+        ),
+        (format!("{PLATE}{axis}{axis}"), "sweep[1].parameter", Some(16), "sweep[0] varies"),
+        (format!("sweep = 3\n{PLATE}"), "sweep", Some(1), "tables [[sweep]]"),
+    ] {
+        let told = parse(&text).err().unwrap_or_else(|| panic!("{key} is accepted"));
+        let found = told.iter().find(|complaint| complaint.key == key);
+        let found = found.unwrap_or_else(|| panic!("{key}: {told:#?}"));
+        assert_eq!(found.origin.line(), line, "{found}");
+        assert!(found.allowed.contains(allowed), "{found}");
+    }
+    let thin = "thickness_m = 0.002\nouter_radius_m = 0.1\nreference_frequency = 20.5\n";
+    let study = good(&disc(&format!("{metal}{thin}")));
+    // k² of the reference, in hertz: f = k²/(2πa²)·√(D/ρh), D = Eh³/(12(1 − ν²)).
+    let rigidity = 1.1e11 * 0.002_f64.powi(3) / (12.0 * (1.0 - 0.3 * 0.3));
+    let hertz = 20.5 / (std::f64::consts::TAU * 0.01) * (rigidity / (7200.0 * 0.002)).sqrt();
+    let found = study.reference_hz().expect("a material");
+    assert!((found / hertz - 1.0).abs() < 1e-12, "{found} {hertz}");
+}
+
 #[test]
 fn a_load_at_the_clamp_is_warned_of() {
     assert!(good(PLATE).warnings().is_empty());

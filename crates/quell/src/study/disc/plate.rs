@@ -1,6 +1,6 @@
 //! The plate of `[disc]`, its modes and its material.
 
-use quell_disc::plate::{ModeSet, Plate, PlateMaterial, Reference};
+use quell_disc::plate::{ModeSet, ModeSetError, Plate, PlateMaterial, Reference};
 use quell_model::parameter::Bounds;
 use quell_model::parameter::disc::{
     DENSITY, INNER_RADIUS_RATIO, NODAL_DIAMETERS, OUTER_RADIUS, POISSON_RATIO, RADIAL_MODES,
@@ -61,7 +61,13 @@ pub(super) fn read(
             let origin = node.map_or(header, |node| node.origin);
             let given = node.map_or(Json::Null, Node::given);
             let key = "disc.nodal_diameters";
-            let allowed = why.to_string();
+            let allowed = match why {
+                ModeSetError::NoCriticalSpeed => {
+                    "at least 1, or disc.reference_frequency a number: without a nodal diameter no mode has a critical speed"
+                        .to_owned()
+                }
+                why => format!("such that all modes can be computed: {why}"),
+            };
             reader.complain(Complaint::new(Fault::Value, key, origin, given, allowed));
             None
         }
@@ -119,9 +125,11 @@ pub(super) fn material(
         });
     match PlateMaterial::new(modulus?, density?, thickness?, radius?) {
         Ok(material) => Some(Some((material, origin))),
-        Err(why) => {
+        Err(_) => {
             let node = table.get(THICKNESS.key())?;
-            reader.wrong(THICKNESS.path, node, why.to_string());
+            // Each is positive already: what is left is a plate as thick as it is wide.
+            let allowed = format!("a thickness below {} = {}", OUTER_RADIUS.path, radius?);
+            reader.wrong(THICKNESS.path, node, allowed);
             None
         }
     }

@@ -1,0 +1,215 @@
+//! What each verb draws is what it answers: the numbers of its picture against those of its JSON.
+
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use quell::picture::{basins as draw_basins, curves as draw_curves, disc, periodic_response};
+use quell::plot::Figure;
+use quell::run::basins::{self, Layout};
+use quell::run::curves;
+use quell::run::disc::{campbell, modes, resonances, stability};
+use quell::run::orbit::{self, Wanted};
+use quell::run::thresholds::{self, Protocol};
+use quell::run::varied::Range;
+use quell::sweep::Running;
+use quell::{Change, DiscStudy, Study, picture};
+use serde_json::Value as Json;
+
+fn path(name: &str) -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("studies").join(name)
+}
+
+fn belt(name: &str, changes: &[&str]) -> Study {
+    let changes: Vec<Change> =
+        changes.iter().map(|text| Change::parse(text, "--set").expect("a change")).collect();
+    Study::read(&path(name), &changes).expect("a study")
+}
+
+/// Layers of a kind in a panel.
+fn layers<'a>(figure: &'a Json, panel: usize, kind: &str) -> Vec<&'a Json> {
+    let all = figure["panels"][panel]["layers"].as_array().expect("layers");
+    all.iter().filter(|layer| layer["kind"] == kind).collect()
+}
+
+/// Points (x, y) of a layer, all pieces of a line together.
+fn places(layer: &Json) -> Vec<(f64, f64)> {
+    let pieces = match layer["kind"].as_str() {
+        Some("line") => layer["pieces"].as_array().expect("pieces").clone(),
+        _ => vec![layer["points"].clone()],
+    };
+    let column = |piece: &Json, which: usize| -> Vec<f64> {
+        piece[which].as_array().expect("a column").iter().filter_map(Json::as_f64).collect()
+    };
+    pieces.iter().flat_map(|piece| column(piece, 0).into_iter().zip(column(piece, 1))).collect()
+}
+
+fn numbers(list: &Json, name: &str) -> Vec<f64> {
+    let list = list.as_array().expect("a list");
+    list.iter().map(|it| it[name].as_f64().expect("a number")).collect()
+}
+
+#[test]
+fn thresholds_are_marked_where_they_are() {
+    let study = belt("can-dither-make-it-worse.toml", &[]);
+    let question = thresholds::Question {
+        parameter: "dither.amplitude".into(),
+        from: 4.0,
+        to: 10.5,
+        protocols: vec![Protocol::Sliding],
+        ramp: 0.0,
+    };
+    let done = thresholds::run(&study, question).expect("an answer");
+    let (answer, figure) = (done.json(&study), picture::thresholds(&study, &done).described());
+    let marked: Vec<f64> =
+        layers(&figure, 0, "points").iter().flat_map(|it| places(it)).map(|it| it.0).collect();
+    let mut found = numbers(&answer["local"], "value");
+    assert!(found.len() >= 2);
+    found.sort_by(f64::total_cmp);
+    let mut sorted = marked.clone();
+    sorted.sort_by(f64::total_cmp);
+    assert_eq!(sorted, found);
+    // The modulus passes 1 there.
+    let modulus = places(layers(&figure, 0, "line")[0]);
+    let around = |value: f64| {
+        let (low, high) = (value - 0.3, value + 0.3);
+        let near = modulus.iter().filter(|it| (low..high).contains(&it.0)).map(|it| it.1);
+        near.clone().fold(f64::MAX, f64::min) < 1.0 && near.fold(0.0, f64::max) > 1.0
+    };
+    assert!(found.iter().all(|value| around(*value)), "{found:?}");
+    let switches = numbers(&answer["from_sliding"], "value");
+    let rules: Vec<f64> = layers(&figure, 0, "rule")
+        .iter()
+        .filter(|it| it["vertical"] == true)
+        .filter_map(|it| it["value"].as_f64())
+        .collect();
+    assert_eq!(rules, switches);
+}
+
+#[test]
+fn curves_of_thresholds_are_drawn_point_by_point() {
+    let study = belt("can-dither-make-it-worse.toml", &[]);
+    let question = curves::Question {
+        parameter: "dither.amplitude".into(),
+        window: (0.1, 16.0),
+        along: "belt.belt_velocity".into(),
+        between: (0.85, 1.5),
+    };
+    let done = curves::run(&study, &question).expect("an answer");
+    let (answer, figure) = (done.json(&study), draw_curves(&study, &done).described());
+    let drawn = layers(&figure, 0, "line");
+    for kind in ["neimark-sacker", "grazing"] {
+        let label = match kind {
+            "grazing" => "exact: grazing",
+            _ => "exact: Neimark–Sacker",
+        };
+        let line = drawn.iter().find(|it| it["label"] == label).unwrap_or_else(|| panic!("{kind}"));
+        let expected: Vec<(f64, f64)> = answer["curves"]
+            .as_array()
+            .expect("curves")
+            .iter()
+            .filter(|curve| curve["kind"] == kind)
+            .flat_map(|curve| {
+                let column = |name: &str| -> Vec<f64> {
+                    let values = curve[name].as_array().expect("a column");
+                    values.iter().filter_map(Json::as_f64).collect()
+                };
+                column("along").into_iter().zip(column("value"))
+            })
+            .collect();
+        assert!(expected.len() > 50 && places(line) == expected, "{kind}");
+    }
+    assert!(drawn.iter().any(|it| it["label"] == "averaged"));
+    assert_eq!(answer["warnings"].as_array().map(Vec::len), Some(0), "{}", answer["warnings"]);
+}
+
+#[test]
+fn an_orbit_closes_and_its_multipliers_are_drawn() {
+    for (name, closed) in
+        [("can-dither-make-it-worse.toml", 1e-9), ("can-it-squeal-although-stable.toml", 1e-9)]
+    {
+        let study = belt(name, &[]);
+        let found = orbit::run(&study, Wanted::default()).expect("an orbit");
+        let figure = periodic_response(&study, &found).expect("a picture").described();
+        let curve = places(layers(&figure, 0, "line")[0]);
+        let (first, last) = (curve[0], curve[curve.len() - 1]);
+        assert!((first.0 - last.0).hypot(first.1 - last.1) < closed, "{first:?} {last:?}");
+        let multipliers = places(layers(&figure, 1, "points")[0]);
+        assert_eq!(multipliers, found.orbit.expect("an orbit").multipliers.to_vec());
+    }
+    let quiet = belt("does-it-squeal.toml", &["belt.belt_velocity=9"]);
+    let found = orbit::run(&quiet, Wanted::default()).expect("sliding");
+    let refused = periodic_response(&quiet, &found).expect_err("no orbit").to_string();
+    assert!(refused.contains("no limit cycle was found"), "{refused}");
+}
+
+fn portraits(study: &Study, layout: Layout, over: Option<Range>) -> (Json, Figure) {
+    let never = AtomicBool::new(false);
+    let running = Running { threads: Some(2), stop: &never, progress: &() };
+    let question = basins::Question { displacement: None, velocity: None, layout, over };
+    let done = basins::run(study, &question, running).expect("basins");
+    (done.json(study), draw_basins(study, &done).expect("a picture"))
+}
+
+#[test]
+fn basins_show_every_start_and_every_share() {
+    let study = belt("will-every-start-fall-quiet.toml", &[]);
+    let layout = Layout::Sample { count: 24, seed: 3 };
+    let (answer, figure) = portraits(&study, layout, None);
+    let attractors = answer["attractors"].as_array().expect("attractors").len();
+    let figure = figure.described();
+    let starts: usize =
+        layers(&figure, 0, "points").iter().take(attractors).map(|it| places(it).len()).sum();
+    let unknown = answer["unknown"]["starts"].as_u64().expect("a count");
+    assert_eq!(starts as u64 + unknown, 24);
+    let over = Range { parameter: "dither.amplitude".into(), from: 5.0, to: 10.5, points: 3 };
+    let (answer, figure) = portraits(&study, Layout::Sample { count: 8, seed: 3 }, Some(over));
+    let figure = figure.described();
+    let line = places(layers(&figure, 0, "line")[0]);
+    let shares = numbers(&answer["portraits"], "quiet_fraction");
+    assert_eq!(line.iter().map(|it| it.1).collect::<Vec<_>>(), shares);
+}
+
+#[test]
+fn a_disc_is_drawn_with_its_own_place() {
+    let text = fs::read_to_string(path("which-dither-frequency.toml")).expect("a study");
+    let study = DiscStudy::parse(&text, &[], Path::new("")).expect("a disc");
+    let answer = stability::run(&study).expect("finite");
+    let speeds = campbell::run(&study, 1.0).expect("finite");
+    let figure = disc::stability(&study, &answer, &speeds).described();
+    let at = (study.disc().speed(), answer.growth.rate);
+    let own = layers(&figure, 1, "points");
+    assert!(own.iter().any(|it| places(it) == [at]), "{at:?}");
+    // Under dither a line of its own, through the same place.
+    let line = places(layers(&figure, 1, "line")[0]);
+    let beside = line.windows(2).find(|pair| (pair[0].0..=pair[1].0).contains(&at.0));
+    let beside = beside.expect("speeds around it");
+    let (low, high) = (beside[0].1.min(beside[1].1), beside[0].1.max(beside[1].1));
+    assert!((low - 1e-3..=high + 1e-3).contains(&at.1), "{beside:?} {at:?}");
+
+    let found = resonances::run(&study, resonances::Question::default()).expect("one load");
+    let figure = disc::resonances(&study, &found).described();
+    let rules = layers(&figure, 0, "rule");
+    let own = rules.iter().find(|it| it["label"] == "this study").expect("its friction");
+    assert_eq!(own["value"], 0.25);
+    let dotted: Vec<f64> = rules
+        .iter()
+        .filter(|it| it["vertical"] == true)
+        .filter_map(|it| it["value"].as_f64())
+        .collect();
+    let stable = found.undithered.iter().chain(&found.dithered).filter(|it| !it.can_be_unstable());
+    assert_eq!(dotted, stable.map(|it| it.speed).collect::<Vec<_>>());
+
+    let listed = DiscStudy::parse(
+        "schema = 1\n[disc]\n[[disc.mode]]\ndiameters = 1\nratio = 1\nshape_at_load = 1\n\
+         [[disc.mode]]\ndiameters = 2\nratio = 1.5\nshape_at_load = 1.2\n",
+        &[],
+        Path::new(""),
+    )
+    .expect("modes");
+    let figure = disc::modes(&listed, &modes::run(&listed)).expect("a picture").described();
+    let rows = modes::run(&listed).rows;
+    let rows: Vec<(f64, f64)> = rows.iter().map(|it| (it.diameters as f64, it.ratio)).collect();
+    assert_eq!(places(layers(&figure, 0, "points")[0]), rows);
+    assert_eq!(rows.len(), 2);
+}
