@@ -123,14 +123,12 @@ pub(super) fn material(
                 None
             }
         });
-    match PlateMaterial::new(modulus?, density?, thickness?, radius?) {
-        Ok(material) => Some(Some((material, origin))),
-        Err(_) => {
-            let node = table.get(THICKNESS.key())?;
-            // Each is positive already: what is left is a plate as thick as it is wide.
-            let allowed = format!("a thickness below {} = {}", OUTER_RADIUS.path, radius?);
-            reader.wrong(THICKNESS.path, node, allowed);
-            None
-        }
+    if let Ok(material) = PlateMaterial::new(modulus?, density?, thickness?, radius?) {
+        return Some(Some((material, origin)));
     }
+    let node = table.get(THICKNESS.key())?;
+    // Each is positive already: what is left is a plate as thick as it is wide.
+    let allowed = format!("a thickness below {} = {}", OUTER_RADIUS.path, radius?);
+    reader.wrong(THICKNESS.path, node, allowed);
+    None
 }
