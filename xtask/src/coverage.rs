@@ -83,9 +83,8 @@ fn measure(root: &Path, name: &str, packages: &[&str]) -> Result<String, String>
     // Threads that share counters wait for each other's caches: tests and sweeps run on one.
     command.args(["--implicit-test-threads"]);
     command.env("RUST_TEST_THREADS", "1").env("RAYON_NUM_THREADS", "1");
-    // What is drawn in full takes many times as long with counters in every loop; other tests draw it coarsely.
+    // Pictures drawn in full take many times as long; another test draws them coarsely.
     command.args(["--", "--skip", "pictures_are_those_of_reproduce"]);
-    command.args(["--skip", "figures_and_claims_are_written"]);
     let status = command.status().map_err(|why| format!("cargo tarpaulin: {why}"))?;
     if !status.success() {
         return Err(format!("coverage: {status} (`cargo install cargo-tarpaulin` installs it)"));

@@ -3,7 +3,7 @@
 #[path = "place/repository.rs"]
 mod repository;
 
-use repository::quell;
+use repository::{quell, words};
 use serde_json::Value as Json;
 
 /// Decreasing law, v₀ = 1, ζ = 0.005, sine tangential dither with R = 10, D = 2.5.
@@ -150,6 +150,19 @@ fn basins_without_dither_and_over_a_parameter() {
     let verdicts: Vec<&str> =
         portraits.iter().filter_map(|it| it["local_verdict"].as_str()).collect();
     assert_eq!(verdicts, ["stable", "unstable", "stable"]);
+    // The table for people has the same rows.
+    let rows: Vec<Vec<String>> = words(&arguments)
+        .lines()
+        .skip_while(|line| !line.contains("share of starts that reach it"))
+        .skip(1)
+        .take(3)
+        .map(|line| line.split_whitespace().map(str::to_owned).collect())
+        .collect();
+    for (row, (verdict, share)) in rows.iter().zip(verdicts.iter().zip(&shares)) {
+        assert_eq!(row[1], *verdict, "{rows:?}");
+        assert!((row[2].parse::<f64>().expect("a share") - share).abs() < 1e-6, "{rows:?}");
+    }
+    assert_eq!(rows.len(), 3);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 #[path = "place/repository.rs"]
 mod repository;
 
-use repository::quell;
+use repository::{quell, words};
 use serde_json::Value as Json;
 
 /// Decreasing law, v₀ = 1, ζ = 0.005, sine tangential dither with R = 10, D = 6.
@@ -210,6 +210,39 @@ fn an_undithered_run_ends_where_its_start_leads() {
     );
 }
 
+/// Where the response of sliding is lost, thresholds that were found stay, and where runs end beyond is told to be unknown.
+#[test]
+fn what_cannot_be_followed_does_not_take_the_rest_along() {
+    let (found, status) = quell(&[
+        "thresholds",
+        "studies/own-friction-law.toml",
+        "--parameter",
+        "dither.amplitude",
+        "--from",
+        "0.8",
+        "--to",
+        "2",
+        "--from-rest",
+    ]);
+    assert_eq!(status, 0, "{found}");
+    assert_eq!(found["covered"], false);
+    let local = found["local"][0]["value"].as_f64().expect("a threshold");
+    assert!((local - 0.990_450_5).abs() < 1e-6, "{local}");
+    assert_eq!(found["at_from"]["from_rest"], "not quenched");
+    let ends: Vec<&str> = found["from_rest"]
+        .as_array()
+        .expect("changes")
+        .iter()
+        .filter_map(|it| it["becomes"].as_str())
+        .collect();
+    assert_eq!(ends, ["quenched", "unknown"]);
+    let warning = found["warnings"][0].as_str().expect("a warning");
+    assert!(
+        warning.contains("from rest") && warning.contains("could not be followed"),
+        "{warning}"
+    );
+}
+
 /// In a study in SI a question in newtons and seconds is the one in numbers of the equations.
 #[test]
 fn thresholds_are_asked_in_si() {
@@ -250,6 +283,19 @@ fn thresholds_are_asked_in_si() {
     close(&found["from_n"], range[0]);
     close(&found["to_n"], range[1]);
     close(&found["ramp_s"], 0.05);
+    let told = words(&[
+        "thresholds",
+        PAD,
+        "--parameter",
+        "dither.amplitude_n",
+        "--from",
+        "5000",
+        "--to",
+        "6500",
+    ]);
+    assert!(told.starts_with("dither.amplitude from 5000 N to 6500 N,"), "{told}");
+    let newtons = format!("{:.3} N", number(&local["value_n"]));
+    assert!(told.contains(&newtons), "{newtons}: {told}");
     for (name, unit) in [("value_n", "N"), ("from_n", "N"), ("displacement_m", "m")] {
         assert_eq!(found["units"][name], unit);
     }

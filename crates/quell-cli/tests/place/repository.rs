@@ -5,15 +5,25 @@ use std::process::Command;
 
 use serde_json::Value as Json;
 
-/// Runs a verb with `--json`: the object and the exit status.
-pub(crate) fn quell(arguments: &[&str]) -> (Json, i32) {
+fn run(arguments: &[&str]) -> (String, i32) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let done = Command::new(env!("CARGO_BIN_EXE_quell"))
         .args(arguments)
-        .arg("--json")
         .current_dir(root)
         .output()
         .expect("the binary runs");
-    let text = String::from_utf8(done.stdout).expect("text");
-    (serde_json::from_str(&text).expect("one object"), done.status.code().expect("a status"))
+    (String::from_utf8(done.stdout).expect("text"), done.status.code().expect("a status"))
+}
+
+/// Runs a verb with `--json`: the object and the exit status.
+pub(crate) fn quell(arguments: &[&str]) -> (Json, i32) {
+    let (text, status) = run(&[arguments, &["--json"]].concat());
+    (serde_json::from_str(&text).expect("one object"), status)
+}
+
+/// Runs a verb: what it tells people.
+pub(crate) fn words(arguments: &[&str]) -> String {
+    let (text, status) = run(arguments);
+    assert_eq!(status, 0, "{text}");
+    text
 }
