@@ -9,6 +9,8 @@
 mod share;
 mod starts;
 mod tell;
+#[cfg(test)]
+mod tests;
 
 use std::sync::atomic::Ordering;
 
