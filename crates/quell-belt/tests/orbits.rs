@@ -189,6 +189,19 @@ fn thresholds_from_rest() {
     }
 }
 
+/// The last step of a walk may be corrected over the end of its window: it ends there all the same. At these amplitudes it did
+/// not, and the response counted as lost.
+#[test]
+fn a_walk_ends_at_the_end_of_its_window() {
+    for amplitude in [9.95, 9.975, 10.0, 10.1, 10.35, 11.6] {
+        let belt =
+            tangential(Waveform::Sine, 1.0).with("dither.amplitude", amplitude).expect("valid");
+        let orbit = from_sliding(&belt, 8).unwrap_or_else(|why| panic!("{amplitude}: {why}"));
+        assert_eq!(orbit.verdict(), Verdict::Stable, "{amplitude}");
+        assert!(orbit.residual < 1e-9, "{amplitude}: {}", orbit.residual);
+    }
+}
+
 /// A start that fails leaves the end unknown; where there is none, nothing is there to be quenched.
 #[test]
 fn a_start_that_fails_is_not_quenched() {

@@ -32,6 +32,7 @@ fn orbits() {
     told(&NoOrbit::Ends { share: 0.75 }, &["0.7500000", "none beyond"]);
     told(&NoOrbit::LostOnTheWay { share: 0.75 }, &["0.7500000", "could not be followed"]);
     told(&NoOrbit::NoPeriod { most: 200 }, &["200 periods"]);
+    told(&NoOrbit::NoLimit, &["no limit cycle that is known"]);
     told(&NoOrbit::Invalid { value: -3.0 }, &["-3"]);
     let stalled = Stalled { time: 12.5, why: "it stood still" };
     told(&NoOrbit::Stalled(stalled), &[stalled.why]);

@@ -210,6 +210,34 @@ fn an_undithered_run_ends_where_its_start_leads() {
     );
 }
 
+/// Whatever the values that are tried first, every change is found.
+#[test]
+fn runs_from_rest_have_both_thresholds_in_any_window() {
+    for (from, to) in [("0.1", "10.1"), ("2.1", "12.1")] {
+        let (found, status) = quell(&[
+            "thresholds",
+            STUDY,
+            "--parameter",
+            "dither.amplitude",
+            "--from",
+            from,
+            "--to",
+            to,
+            "--from-rest",
+        ]);
+        assert_eq!(status, 0, "{found}");
+        let changes = found["from_rest"].as_array().expect("changes");
+        let values: Vec<f64> = changes.iter().filter_map(|it| it["value"].as_f64()).collect();
+        assert!(
+            (values[0] - 2.868).abs() < 5e-3 && (values[1] / 9.900_214_849 - 1.0).abs() < 2e-5,
+            "{found}"
+        );
+        let ends: Vec<&str> = changes.iter().filter_map(|it| it["becomes"].as_str()).collect();
+        assert_eq!(ends, ["not quenched", "quenched"]);
+        assert_eq!(found["warnings"].as_array().map(Vec::len), Some(0));
+    }
+}
+
 /// Where the response of sliding is lost, thresholds that were found stay, and where runs end beyond is told to be unknown.
 #[test]
 fn what_cannot_be_followed_does_not_take_the_rest_along() {
@@ -293,7 +321,7 @@ fn thresholds_are_asked_in_si() {
         "--to",
         "6500",
     ]);
-    assert!(told.starts_with("dither.amplitude from 5000 N to 6500 N,"), "{told}");
+    assert!(told.starts_with("dither.amplitude_n from 5000 N to 6500 N,"), "{told}");
     let newtons = format!("{:.3} N", number(&local["value_n"]));
     assert!(told.contains(&newtons), "{newtons}: {told}");
     for (name, unit) in [("value_n", "N"), ("from_n", "N"), ("displacement_m", "m")] {

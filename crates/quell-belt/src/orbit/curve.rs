@@ -184,7 +184,7 @@ pub fn curves(
             Err(why) => leave(why),
             Ok(Local { thresholds, ending, .. }) => {
                 begun = true;
-                if let BranchEnding::Lost { at } = ending {
+                if let BranchEnding::Lost { at } | BranchEnding::LostTurning { at, .. } = ending {
                     leave(Open::Lost { at });
                 }
                 for threshold in thresholds {

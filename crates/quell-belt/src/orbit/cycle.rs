@@ -93,7 +93,8 @@ pub fn cycles(belt: &Belt) -> Result<Vec<Orbit>, NoOrbit> {
 /// Turns do not cross: a run whose turns grow comes to the next larger cycle, one whose turns shrink to the next smaller.
 ///
 /// # Errors
-/// [`NoOrbit::Stalled`]; [`NoOrbit::NoPeriod`] where turns grow for long beyond every cycle that is known.
+/// [`NoOrbit::Stalled`]; [`NoOrbit::NoLimit`] where turns neither grow nor shrink, grow for long beyond every cycle that is
+/// known, or shrink towards steady sliding that is not stable.
 pub fn cycle_reached<'a>(
     belt: &Belt,
     cycles: &'a [Orbit],
@@ -111,15 +112,30 @@ pub fn cycle_reached<'a>(
         }
         from = Start { time: 0.0, displacement: first.displacement, velocity: 0.0 };
         let Some(second) = turn(belt, from)? else { return Ok(None) };
-        if sliding - second.displacement <= size {
-            return Ok(cycles.iter().find(|cycle| size_of(cycle) < size));
+        let next = sliding - second.displacement;
+        if (next - size).abs() <= SAME * size {
+            return Err(NoOrbit::NoLimit);
+        }
+        if next < size {
+            let smaller = cycles.iter().find(|cycle| size_of(cycle) < size);
+            return if smaller.is_none() && !settles(belt) {
+                Err(NoOrbit::NoLimit)
+            } else {
+                Ok(smaller)
+            };
         }
         let larger = cycles.iter().rev().find(|cycle| size_of(cycle) > size);
         if larger.is_some() {
             return Ok(larger);
         }
     }
-    Err(NoOrbit::NoPeriod { most: MOST_TURNS })
+    Err(NoOrbit::NoLimit)
+}
+
+/// Whether small motions about steady sliding die out: 2ζ + μ′(v₀)F > 0.
+fn settles(belt: &Belt) -> bool {
+    let slope = belt.friction().slope(belt.belt_velocity());
+    2.0 * belt.damping_ratio() + slope * belt.normal_load() > 0.0
 }
 
 /// From a state to the next lowest point; `None` where none comes within the longest possible turn.

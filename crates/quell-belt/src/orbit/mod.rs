@@ -183,6 +183,8 @@ pub enum NoOrbit {
         /// The number.
         most: u32,
     },
+    /// The turns of an undithered run come to no limit cycle that is known, nor to stable steady sliding.
+    NoLimit,
     /// A parameter cannot take this value.
     Invalid {
         /// The value.
@@ -228,6 +230,9 @@ impl fmt::Display for NoOrbit {
                 f,
                 "the run does not come back to itself within {most} periods of the dither: \
                  it is slow, locked at a longer period, or not periodic"
+            ),
+            Self::NoLimit => f.write_str(
+                "the turns of the run come to no limit cycle that is known, nor to stable steady sliding",
             ),
             Self::Invalid { value } => write!(f, "a parameter cannot be {value}"),
             Self::Stalled(stalled) => stalled.fmt(f),

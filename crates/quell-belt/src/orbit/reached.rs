@@ -39,6 +39,9 @@ const NEARER: f64 = 1e-3;
 /// Time for which a run settles before its period is looked for, τ, and how often that is done.
 const SETTLE: (f64, u32) = (2000.0, 6);
 
+/// Half the width of an interval, relative to its place, up to which it is told as a value.
+const NARROW: f64 = 1e-4;
+
 /// Closeness of two states of a run, relative to F, that may be the same of a periodic orbit.
 const AGAIN: f64 = 1e-5;
 
@@ -241,6 +244,13 @@ pub struct Switch {
     pub becomes: Reached,
 }
 
+impl Switch {
+    /// Whether the interval is narrow: nothing but the answers on its two sides was met in it.
+    pub fn is_close(&self) -> bool {
+        self.error <= NARROW * self.value.abs()
+    }
+}
+
 /// Where the runs of a protocol end over a range of values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Switches {
@@ -279,19 +289,13 @@ pub fn switches(
         };
         reached(belt, &orbit, start).map_err(NoOrbit::Stalled)
     };
-    let at = |value: f64| {
-        let belt = belt.with(path, value).map_err(|_| NoThresholds::Invalid { value })?;
-        Ok(found(&belt))
-    };
-    let ends = |value: f64| at(value).map(|found| found.unwrap_or(Reached::Unknown));
     let mut unknown = Vec::new();
     let mut tried = |value: f64| {
-        at(value).map(|found| {
-            found.unwrap_or_else(|why| {
-                unknown.push((value, why));
-                Reached::Unknown
-            })
-        })
+        let belt = belt.with(path, value).map_err(|_| NoThresholds::Invalid { value })?;
+        Ok(found(&belt).unwrap_or_else(|why| {
+            unknown.push((value, why));
+            Reached::Unknown
+        }))
     };
     let value = |k: u32| from + (to - from) * f64::from(k) / f64::from(steps.max(1));
     let mut changes = Vec::new();
@@ -299,21 +303,79 @@ pub fn switches(
     let mut last = first;
     for k in 1..=steps.max(1) {
         let next = tried(value(k))?;
-        if next != last {
-            let (mut low, mut high) = (value(k - 1), value(k));
-            while (high - low).abs() > closeness * high.abs().max(low.abs()) {
-                let middle = 0.5 * (low + high);
-                match ends(middle)? {
-                    it if it == last => low = middle,
-                    it if it == next => high = middle,
-                    // A third answer says no more than that the change lies here.
-                    _ => break,
-                }
-            }
-            let (value, error) = (0.5 * (low + high), 0.5 * (high - low).abs());
-            changes.push(Switch { value, error, becomes: next });
-        }
+        let ends = [(value(k - 1), last), (value(k), next)];
+        bisected(&mut tried, ends, closeness, &mut changes)?;
         last = next;
     }
     Ok(Switches { first, changes, unknown })
+}
+
+/// The changes of the answer between two values at which it is known, in their order. Where a third answer lies between them
+/// both ways to it are searched, unless it is that nothing is known there: the change then lies somewhere between.
+fn bisected(
+    tried: &mut impl FnMut(f64) -> Result<Reached, NoThresholds>,
+    [(mut low, last), (mut high, next)]: [(f64, Reached); 2],
+    closeness: f64,
+    out: &mut Vec<Switch>,
+) -> Result<(), NoThresholds> {
+    if last == next {
+        return Ok(());
+    }
+    while (high - low).abs() > closeness * high.abs().max(low.abs()) {
+        let middle = 0.5 * (low + high);
+        match tried(middle)? {
+            it if it == last => low = middle,
+            it if it == next => high = middle,
+            Reached::Unsettled | Reached::Unknown => break,
+            third => {
+                bisected(tried, [(low, last), (middle, third)], closeness, out)?;
+                return bisected(tried, [(middle, third), (high, next)], closeness, out);
+            }
+        }
+    }
+    let (value, error) = (0.5 * (low + high), 0.5 * (high - low).abs());
+    out.push(Switch { value, error, becomes: next });
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Answers of a parameter by the places where they begin.
+    fn changes(answers: &[(f64, Reached)], closeness: f64) -> Vec<Switch> {
+        let mut tried = |value: f64| {
+            let found = answers.iter().rev().find(|it| it.0 <= value).expect("from 0 on");
+            Ok(found.1)
+        };
+        let ends = [(0.0, answers[0].1), (1.0, answers[answers.len() - 1].1)];
+        let mut found = Vec::new();
+        bisected(&mut tried, ends, closeness, &mut found).expect("valid");
+        found
+    }
+
+    /// A third answer between two is searched for on both sides.
+    #[test]
+    fn every_change_between_two_values_is_found() {
+        use Reached::{Elsewhere, Sliding, Unknown};
+        for (answers, expected) in [
+            (vec![(0.0, Sliding), (0.3, Elsewhere)], vec![(0.3, Elsewhere)]),
+            (
+                vec![(0.0, Sliding), (0.4, Elsewhere), (0.6, Unknown)],
+                vec![(0.4, Elsewhere), (0.6, Unknown)],
+            ),
+            (vec![(0.0, Sliding)], vec![]),
+        ] {
+            let found = changes(&answers, 1e-6);
+            assert_eq!(found.len(), expected.len(), "{found:?}");
+            for (change, (value, becomes)) in found.iter().zip(&expected) {
+                assert!((change.value - value).abs() <= change.error && change.is_close());
+                assert_eq!(change.becomes, *becomes);
+            }
+        }
+        // Where the middle is unknown the change lies somewhere between, and the error says so.
+        let found = changes(&[(0.0, Sliding), (0.4, Unknown), (0.6, Elsewhere)], 1e-6);
+        assert_eq!((found.len(), found[0].error), (1, 0.5));
+        assert!(!found[0].is_close());
+    }
 }

@@ -136,9 +136,16 @@ pub struct Place {
 pub enum Ending {
     /// It covers the interval.
     Covered,
-    /// It turned back, at most at this value, and left the interval where it began, or was lost on the way.
+    /// It turned back, at most at this value, and left the interval where it began.
     TurnedBack {
         /// The furthest value.
+        at: f64,
+    },
+    /// It turned back and was lost: whether it turns again and goes further is not known.
+    LostTurning {
+        /// The furthest value.
+        furthest: f64,
+        /// The last value.
         at: f64,
     },
     /// It touches v_r = 0 with no response beyond.
@@ -271,9 +278,8 @@ fn told(branch: &Branch<Signature>, from: f64, to: f64) -> Local {
         End::Window { at } if at == to => Ending::Covered,
         End::Window { .. } | End::Closed => Ending::TurnedBack { at: furthest },
         End::Touch { at } => Ending::Touch { at },
-        // On the way back: what there is of the way there was seen.
         End::Lost { at } | End::TooLong { at } if beyond(at, furthest) => {
-            Ending::TurnedBack { at: furthest }
+            Ending::LostTurning { furthest, at }
         }
         End::Lost { at } | End::TooLong { at } => Ending::Lost { at },
     };
@@ -304,7 +310,7 @@ pub fn local_thresholds(
 ) -> Result<Vec<Threshold>, NoThresholds> {
     let found = local(belt, path, from, to, steps)?;
     match found.ending {
-        Ending::Lost { at } => Err(NoThresholds::Lost { at }),
+        Ending::Lost { at } | Ending::LostTurning { at, .. } => Err(NoThresholds::Lost { at }),
         _ => Ok(found.thresholds),
     }
 }

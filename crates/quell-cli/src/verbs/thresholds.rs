@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use clap::Args;
 use quell::run::curves::{Curves, Question as CurveQuestion, run as curves};
 use quell::run::thresholds::{
-    Ending, Protocol, Question, Thresholds, becomes, quantity_of, run as thresholds, side,
-    value_in_words,
+    Ending, Protocol, Question, Thresholds, becomes, path_in_words, quantity_of, run as thresholds,
+    side, value_in_words,
 };
 use quell::{Complaint, Failure, Fault, Origin, Study, picture};
 
@@ -126,7 +126,8 @@ fn text_of_curves(study: &Study, done: &Curves) -> String {
         let [first, last] = curve.ends.map(quell::run::curves::Ending::name);
         let _ =
             writeln!(text, "\n{}, from its end ({first}) to its end ({last}):", curve.kind.name());
-        let _ = writeln!(text, "  {across:<14}  {parameter:<14}");
+        let [x, y] = [across, parameter].map(|path| path_in_words(study, path));
+        let _ = writeln!(text, "  {x:<14}  {y:<14}");
         let every = curve.points.len().div_ceil(12).max(1);
         let last = curve.points.len().saturating_sub(1);
         for (number, point) in curve.points.iter().enumerate() {
@@ -147,9 +148,10 @@ fn figure_at(study: &Study, path: &str, value: f64) -> String {
 
 fn text(study: &Study, done: &Thresholds) -> String {
     let question = &done.question;
-    let path = question.parameter.as_str();
-    let figure = |value: f64| figure_at(study, path, value);
-    let whole = |value: f64| value_in_words(study, path, value);
+    let given = question.parameter.as_str();
+    let path = path_in_words(study, given);
+    let figure = |value: f64| figure_at(study, given, value);
+    let whole = |value: f64| value_in_words(study, given, value);
     let mut text = format!(
         "{path} from {} to {}, the response that sliding becomes under dither:\n",
         whole(question.from),
@@ -187,8 +189,13 @@ fn text(study: &Study, done: &Thresholds) -> String {
             let _ = writeln!(text, "  {:<14}  {first}", figure(question.from));
         }
         for switch in &switches.changes {
-            let _ =
-                writeln!(text, "  {:<14}  {} above", figure(switch.value), becomes(switch.becomes));
+            let value = figure(switch.value);
+            let error = if switch.is_close() {
+                String::new()
+            } else {
+                format!(", to ± {}", figure(switch.error))
+            };
+            let _ = writeln!(text, "  {value:<14}  {} above{error}", becomes(switch.becomes));
         }
     }
     text

@@ -115,7 +115,7 @@ impl Exact<'_> {
         let mut tried = Vec::new();
         for (interval, [from, to]) in clear.iter().enumerate() {
             // An interval may be one frequency.
-            let share = if total > 0.0 { (to - from) / total } else { 1.0 };
+            let share = if total > 0.0 { (to - from) / total } else { 0.0 };
             let share = (FREQUENCIES * share).ceil().clamp(1.0, FREQUENCIES);
             let width = (to - from) / share;
             let mut number = 0.5;

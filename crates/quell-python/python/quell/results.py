@@ -350,7 +350,12 @@ class Thresholds(Result):
     signature_changes: list[dict[str, Any]]
     """``value`` at which the events of a period change, ``below`` and ``above``: what they are there."""
     covered: bool
-    """Whether the response was followed over the whole range."""
+    """Whether the response was followed over the whole range.
+
+    With a protocol also ``from_rest``, ``from_sliding``, ``from_squeal`` or ``from_start``: ``value`` with its ``error`` and where
+    runs end above it, ``becomes``: "quenched", "not quenched", "unsettled" or "unknown"; and ``at_from``, where they end at the
+    first value, by protocol.
+    """
 
 
 class ThresholdCurves(Result):
@@ -363,6 +368,8 @@ class ThresholdCurves(Result):
     """Path of the parameter along which they are."""
     curves: list[dict[str, Any]]
     """``kind``, ``value`` (n,), ``along`` (n,), ``multiplier_modulus`` (n,), ``ends`` of each curve."""
+    averaged: list[dict[str, Any]]
+    """Boundaries of averaging: ``sharper``, ``along`` (n,), ``value`` (n,), and both as pairs, ``points``."""
 
 
 class Bifurcation(Result):
@@ -400,7 +407,8 @@ class Basins(Result):
     error_meaning: str
     """What the bounds of the shares are.
 
-    Without a parameter: ``quiet_fraction``, ``local_verdict``, ``attractors`` (each with ``words``, ``fraction``,
+    Without a parameter: ``quiet_fraction`` with its bounds ``quiet_fraction_low`` and ``quiet_fraction_high`` (starts whose end is
+    not known are in the upper one; all three are ``None`` where no end is), ``local_verdict``, ``attractors`` (each with ``words``, ``fraction``,
     ``fraction_low``, ``fraction_high``, …), ``unknown`` and ``ends``, the place of the attractor of each start. Over a
     parameter: ``portraits``, a list of these by ``value``.
     """

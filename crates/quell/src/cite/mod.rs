@@ -282,7 +282,8 @@ impl Sources {
                 })
             })
             .collect();
-        json!({ "ok": true, "sources": sources, "corrections": corrections })
+        let warnings: [&str; 0] = [];
+        json!({ "ok": true, "sources": sources, "corrections": corrections, "warnings": warnings })
     }
 }
 

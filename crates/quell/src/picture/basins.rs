@@ -121,23 +121,31 @@ fn role(basins: &[Basin], place: usize) -> Role {
 fn shares(done: &Basins) -> Panel {
     let Some(varied) = &done.varied else { return Panel::default() };
     let up = Axis::new("share of starts that fall quiet").between(0.0, 1.0);
-    let points = |which: fn(Share) -> f64| -> Vec<(f64, f64)> {
-        let of = |it: &Portrait| Some((it.value?, which(it.quiet?)));
-        done.portraits.iter().filter_map(of).collect()
+    // Broken where no end is known.
+    let pieces: Vec<Vec<(f64, Share)>> = done
+        .portraits
+        .split(|it| it.quiet.is_none())
+        .map(|piece| piece.iter().filter_map(|it| Some((it.value?, it.quiet?))).collect())
+        .filter(|piece: &Vec<_>| !piece.is_empty())
+        .collect();
+    let points = |piece: &[(f64, Share)], which: fn(Share) -> f64| -> Vec<(f64, f64)> {
+        piece.iter().map(|(value, share)| (*value, which(*share))).collect()
     };
+    let shares: Vec<Vec<(f64, f64)>> =
+        pieces.iter().map(|piece| points(piece, |share| share.fraction)).collect();
     let local: Vec<(f64, bool)> = done
         .portraits
         .iter()
         .filter_map(|it| Some((it.value?, it.local == Ok(Verdict::Unstable))))
         .collect();
-    with_unstable(Panel::new(axis(varied), up), stretches(&local))
-        .with(
-            Region::between(Role::Dithered, points(|share| share.low), points(|share| share.high))
-                .label("bounds"),
-        )
-        .with(
-            Line::new(Role::Dithered, points(|share| share.fraction))
-                .label("starts that fall quiet"),
-        )
-        .with(Points::new(Role::Dithered, points(|share| share.fraction)).size(3.5))
+    let mut panel = with_unstable(Panel::new(axis(varied), up), stretches(&local));
+    for (number, piece) in pieces.iter().enumerate() {
+        let (low, high) = (points(piece, |share| share.low), points(piece, |share| share.high));
+        let label = if number == 0 { "bounds" } else { "" };
+        panel = panel.with(Region::between(Role::Dithered, low, high).label(label));
+    }
+    let dots = shares.concat();
+    panel
+        .with(Line::pieces(Role::Dithered, shares).label("starts that fall quiet"))
+        .with(Points::new(Role::Dithered, dots).size(3.5))
 }

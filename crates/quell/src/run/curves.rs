@@ -8,7 +8,7 @@ use quell_belt::orbit::curve::{CurvesFound, Open, OpenLine, Plane, curves};
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
-use super::thresholds::{Kind, quantity_of, told, value_in_words};
+use super::thresholds::{Kind, path_in_words, quantity_of, told, value_in_words};
 use super::varied::{Named, ascending};
 use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
@@ -67,7 +67,7 @@ fn understood(study: &Study, question: &Question) -> Result<Question, Failure> {
     let belt = study.belt();
     let parameter = Named::new(study, "--parameter", &question.parameter)?;
     let along = Named::new(study, "--along", &question.along)?;
-    if parameter.path == along.path {
+    if parameter.is(&along) {
         let allowed = "another parameter than the one whose thresholds are followed";
         return Err(Complaint::option("--along", question.along.as_str(), allowed).into());
     }
@@ -94,6 +94,21 @@ fn understood(study: &Study, question: &Question) -> Result<Question, Failure> {
     Ok(Question { window, between, parameter: parameter.path, along: along.path })
 }
 
+/// What happened on a line across the second parameter.
+fn line_in_words(study: &Study, question: &Question, line: &OpenLine) -> String {
+    let along = path_in_words(study, &question.along);
+    let place = value_in_words(study, &question.along, line.along);
+    let value = |value: f64| value_in_words(study, &question.parameter, value);
+    let why = match line.why {
+        Open::Lost { at } => format!("the response was lost beyond {}", value(at)),
+        Open::NotFollowed { value: at } => {
+            format!("no curve was found through the threshold at {}", value(at))
+        }
+        why @ (Open::Invalid | Open::Begin(_)) => why.to_string(),
+    };
+    format!("on the line {along} = {place}: {why}")
+}
+
 /// The curves of a study.
 ///
 /// # Errors
@@ -107,16 +122,14 @@ pub fn run(study: &Study, question: &Question) -> Result<Curves, Failure> {
         along: &question.along,
         between: question.between,
     };
-    let CurvesFound { curves, open } = curves(belt, plane, LINES, POINTS).map_err(|line| {
-        let (parameter, along) = (&question.parameter, &question.along);
-        match line.why {
-            Open::Begin(why) => told(why, parameter, "--from"),
-            why => Failure::Failed {
+    let CurvesFound { curves, open } =
+        curves(belt, plane, LINES, POINTS).map_err(|line| match line.why {
+            Open::Begin(why) => told(why, &question.parameter, "--from"),
+            _ => Failure::Failed {
                 key: "thresholds".to_owned(),
-                why: format!("on the line {along} = {}: {why}", line.along),
+                why: line_in_words(study, &question, &line),
             },
-        }
-    })?;
+        })?;
     let averaged = averaged(study, &question);
     Ok(Curves { question, curves, open, averaged })
 }
@@ -176,6 +189,7 @@ impl Curves {
         let Question { parameter, along, between: (first, last), .. } = &self.question;
         let (first, last) =
             (value_in_words(study, along, *first), value_in_words(study, along, *last));
+        let (parameter, along) = (path_in_words(study, parameter), path_in_words(study, along));
         match self.curves.len() {
             0 => format!(
                 "No threshold of {parameter} was met on {LINES} lines across {along} from {first} to {last}."
@@ -217,10 +231,14 @@ impl Curves {
             inner
         });
         let averaged = self.averaged.iter().map(|it| {
-            let points: Vec<Json> =
-                it.pieces.iter().flatten().map(|(along, value)| json!([along, value])).collect();
+            let points = || it.pieces.iter().flatten();
+            let pairs: Vec<Json> = points().map(|(along, value)| json!([along, value])).collect();
             let mut inner = object();
-            inner.plain("sharper", it.sharper).plain("points", points);
+            inner
+                .plain("sharper", it.sharper)
+                .plain("points", pairs)
+                .numbers("along", along, &points().map(|it| it.0).collect::<Vec<_>>())
+                .numbers("value", value, &points().map(|it| it.1).collect::<Vec<_>>());
             inner
         });
         let mut fields = object();
@@ -240,10 +258,8 @@ impl Curves {
 
     /// Lines on which curves may be missing, in words.
     pub fn warnings(&self, study: &Study) -> Vec<String> {
-        let along = &self.question.along;
         let told = |line: &OpenLine| {
-            let place = value_in_words(study, along, line.along);
-            format!("on the line {along} = {place} curves may be missing: {}", line.why)
+            format!("curves may be missing {}", line_in_words(study, &self.question, line))
         };
         self.open.iter().map(told).collect()
     }

@@ -139,6 +139,7 @@ pub(super) fn refused(why: NoOrbit) -> Failure {
         | NoOrbit::Ends { .. }
         | NoOrbit::LostOnTheWay { .. }
         | NoOrbit::NoPeriod { .. }
+        | NoOrbit::NoLimit
         | NoOrbit::Invalid { .. } => {
             return Failure::Failed { key: "orbit".to_owned(), why: why.to_string() };
         }
@@ -223,7 +224,8 @@ impl Response {
             .number("stick_fraction", Quantity::Ratio, 0.0)
             .number("residual", Quantity::Displacement, 0.0)
             .plain("signature", Vec::<Json>::new())
-            .number("least_slip_velocity", Quantity::Velocity, study.belt().belt_velocity());
+            .number("least_slip_velocity", Quantity::Velocity, study.belt().belt_velocity())
+            .plain("warnings", Vec::<Json>::new());
         fields.finish()
     }
 }
@@ -255,5 +257,6 @@ pub fn json(study: &Study, orbit: &Orbit) -> Json {
     let stuck = || "the response sticks throughout".to_owned();
     let least = orbit.least_slip.map(|(value, _)| value).ok_or_else(stuck);
     fields.known("least_slip_velocity", Quantity::Velocity, least);
+    fields.plain("warnings", Vec::<Json>::new());
     fields.finish()
 }

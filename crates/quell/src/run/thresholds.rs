@@ -18,6 +18,7 @@ use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::fields::Fields;
 use crate::quantity::bearable;
 use crate::study::mirror::given_number;
+use crate::study::vocabulary::join;
 use crate::study::{InitialState, Study};
 
 /// Least number of values between which an orbit is followed.
@@ -87,6 +88,19 @@ pub struct Thresholds {
     pub local: Local,
     /// By runs from a start.
     pub protocols: Vec<(Protocol, Switches)>,
+}
+
+/// The key of a number of the equations, in SI where the study is.
+pub fn path_in_words(study: &Study, path: &str) -> String {
+    let twin = study
+        .belt()
+        .parameter(path)
+        .filter(|_| study.scales().is_some())
+        .and_then(|parameter| parameter.si.iter().find(|twin| !twin.rms));
+    match (twin, path.rsplit_once('.')) {
+        (Some(twin), Some((table, _))) => join(table, twin.key),
+        _ => path.to_owned(),
+    }
 }
 
 /// A value of a number of the equations, in SI where the study is.
@@ -192,8 +206,9 @@ pub fn side(verdict: Option<quell_belt::orbit::Verdict>) -> &'static str {
 impl Thresholds {
     /// Whether and how far the response was followed, in one sentence.
     pub fn sentence(&self, study: &Study) -> String {
-        let path = &self.question.parameter;
-        let told = |value: f64| value_in_words(study, path, value);
+        let given = &self.question.parameter;
+        let path = path_in_words(study, given);
+        let told = |value: f64| value_in_words(study, given, value);
         let (from, to) = (told(self.question.from), told(self.question.to));
         match self.local.ending {
             Ending::Covered => {
@@ -208,6 +223,11 @@ impl Thresholds {
             ),
             Ending::Touch { at } => format!(
                 "The response that sliding becomes ends at {path} = {}, where it touches v_r = 0: there is none beyond.",
+                told(at)
+            ),
+            Ending::LostTurning { furthest, at } => format!(
+                "The response that sliding becomes turns back at {path} = {} and was lost at {}: whether it goes further is not known.",
+                told(furthest),
                 told(at)
             ),
             Ending::Lost { at } => {
@@ -279,14 +299,15 @@ impl Thresholds {
 
     /// Values at which it is not known where runs end, in words.
     pub fn warnings(&self, study: &Study) -> Vec<String> {
-        let path = &self.question.parameter;
+        let given = &self.question.parameter;
+        let path = path_in_words(study, given);
         let told = |(protocol, switches): &(Protocol, Switches)| {
             let (value, why) = switches.unknown.first()?;
-            let value = value_in_words(study, path, *value);
+            let value = value_in_words(study, given, *value);
             let runs = protocol.name().replace('_', " ");
             let count = switches.unknown.len();
             let others = if count > 1 {
-                format!(", and at {} more of {} values", count - 1, TRIED + 1)
+                format!("; so at {} more values", count - 1)
             } else {
                 String::new()
             };

@@ -162,6 +162,12 @@ impl Named {
         }
     }
 
+    /// Whether both name the same number; an index that is left out is 0.
+    pub(super) fn is(&self, other: &Self) -> bool {
+        let whole = |path: &str| path.replacen("dither.", "dither[0].", 1);
+        whole(&self.path) == whole(&other.path)
+    }
+
     /// A value of the named key as a number of the equations.
     pub(super) fn of(&self, given: f64) -> f64 {
         given / self.per_unit

@@ -163,8 +163,9 @@ pub fn follow<F: Family>(
     let end = loop {
         let at = walk.value(here.unknowns[n]);
         let towards_end = if here.tangent[n] > 0.0 { 1.0 } else { 0.0 };
-        if points.len() > 1 && here.unknowns[n] == towards_end {
-            break End::Window { at };
+        // A step over a border may end a little beyond the window.
+        if points.len() > 1 && (here.unknowns[n] - towards_end) * here.tangent[n] >= 0.0 {
+            break End::Window { at: walk.value(towards_end) };
         }
         if points.len() > options.most_points as usize {
             break End::TooLong { at };

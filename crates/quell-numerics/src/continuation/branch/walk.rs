@@ -199,7 +199,21 @@ impl<F: Family> Walk<'_, F> {
         let Some(mut next) = self.at(&predicted, &normal, held, None) else {
             return Step::Failed;
         };
+        let corrected_past = (next.unknowns[n] - end) * here.tangent[n] > 0.0;
         if reaches {
+            next.unknowns[n] = end;
+        } else if corrected_past {
+            // The correction went over the end of the window: back to the end itself.
+            let share = (end - here.unknowns[n]) / (next.unknowns[n] - here.unknowns[n]);
+            let (one, other) = ((&here.unknowns, &here.tangent), (&next.unknowns, &next.tangent));
+            predicted = between((one.0, one.1), (other.0, other.1), share);
+            predicted[n] = end;
+            normal = vec![0.0; n + 1];
+            normal[n] = here.tangent[n].signum();
+            let Some(at_end) = self.at(&predicted, &normal, held, None) else {
+                return Step::Failed;
+            };
+            next = at_end;
             next.unknowns[n] = end;
         }
         let off = distance(&next.unknowns, &predicted);

@@ -116,10 +116,11 @@ impl Basins {
         match self.starts.layout() {
             Layout::Grid { .. } => {
                 "a grid: each start stands for its cell of the window; the bounds give or take half of each cell beside the border, and \
-                 parts of a basin smaller than a cell are not seen"
+                 parts of a basin smaller than a cell are not seen; starts whose end is not known are in the upper bound of the quiet fraction"
             }
             Layout::Sample { .. } => {
-                "a random sample of the window, evenly spread: the bounds are Wilson's 95 % interval"
+                "a random sample of the window, evenly spread: the bounds are Wilson's 95 % interval; starts whose end is not known are in \
+                 the upper bound of the quiet fraction"
             }
         }
     }
@@ -175,6 +176,14 @@ impl Basins {
                     .iter()
                     .filter(|it| it.local == Ok(Verdict::Stable) && it.leaves())
                     .count();
+                let open = portraits.iter().filter(|it| it.unknown.starts > 0).count();
+                if open > 0 && least.is_some() {
+                    let _ = write!(
+                        text,
+                        "; at {open} of {} values some ends are not known",
+                        portraits.len()
+                    );
+                }
                 if only_local > 0 {
                     let _ = write!(
                         text,

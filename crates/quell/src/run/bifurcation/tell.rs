@@ -50,9 +50,10 @@ impl Bifurcation {
                 [] if self.has_settled() => {
                     "Both directions show the same responses: no hysteresis.".to_owned()
                 }
-                [] => {
+                [] if self.both_settle() => {
                     "Both directions show the same responses wherever both have settled.".to_owned()
                 }
+                [] => "At no value have both directions settled.".to_owned(),
                 stretches => {
                     let parts: Vec<String> = stretches
                         .iter()
@@ -68,6 +69,13 @@ impl Bifurcation {
     /// Whether every point has.
     fn has_settled(&self) -> bool {
         self.branches.iter().flat_map(|branch| &branch.points).all(|point| point.response.is_ok())
+    }
+
+    /// Whether there is a value at which both directions have.
+    fn both_settle(&self) -> bool {
+        let [up, down] = self.branches.as_slice() else { return false };
+        let mut pairs = up.points.iter().zip(down.points.iter().rev());
+        pairs.any(|(one, other)| one.response.is_ok() && other.response.is_ok())
     }
 
     /// Points that have not settled, in words.
@@ -254,10 +262,8 @@ mod tests {
         let branches = vec![branch(Direction::Up, [1.0, 2.0]), branch(Direction::Down, [2.0, 1.0])];
         let found = Bifurcation { varied, branches, hysteresis: Vec::new() };
         let told = found.sentence(&study);
-        assert!(
-            told.contains("the response is unsettled at 1") && !told.contains("no hysteresis"),
-            "{told}"
-        );
+        assert!(told.contains("the response is unsettled at 1"), "{told}");
+        assert!(told.ends_with("At no value have both directions settled."), "{told}");
         let json = found.json(&study);
         assert_eq!(json["jumps"].as_array().map(Vec::len), Some(0));
         assert!(json["up"][0]["kind"].is_null() && json["why"]["up[0].kind"].is_string());

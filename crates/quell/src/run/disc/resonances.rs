@@ -47,7 +47,7 @@ impl Question {
                 let allowed = "two numbers of which the first is not larger";
                 wrong.push(Complaint::option(option, told(), allowed));
             } else if !(bounds.contains(from) && bounds.contains(to)) {
-                let allowed = format!("two numbers FROM:TO, each {bounds}");
+                let allowed = format!("a range whose ends are each {bounds}");
                 wrong.push(Complaint::option(option, told(), allowed));
             }
             from..=to
