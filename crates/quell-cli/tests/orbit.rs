@@ -12,6 +12,14 @@ const STUDY: &str = "studies/can-dither-make-it-worse.toml";
 /// The belt of the decreasing law without dither.
 const WITHOUT: &str = "studies/does-it-squeal.toml";
 
+/// Thresholds of a study that has them.
+fn thresholds(study: &str, parameter: &str, [from, to]: [&str; 2], more: &[&str]) -> Json {
+    let asked = ["thresholds", study, "--parameter", parameter, "--from", from, "--to", to];
+    let (found, status) = quell(&[&asked[..], more].concat());
+    assert_eq!(status, 0, "{found}");
+    found
+}
+
 /// A pad in SI with sine tangential dither of 4 kN.
 const PAD: &str = "studies/squealing-pad-si.toml";
 
@@ -72,21 +80,8 @@ fn the_orbit_on_which_a_run_ends() {
 
 #[test]
 fn thresholds_tell_each_protocol_apart() {
-    let (found, status) = quell(&[
-        "thresholds",
-        STUDY,
-        "--parameter",
-        "dither.amplitude",
-        "--from",
-        "2",
-        "--to",
-        "10.5",
-        "--from-rest",
-        "--from-squeal",
-        "--start",
-        "0,0",
-    ]);
-    assert_eq!(status, 0, "{found}");
+    let protocols = ["--from-rest", "--from-squeal", "--start", "0,0"];
+    let found = thresholds(STUDY, "dither.amplitude", ["2", "10.5"], &protocols);
     let value = |it: &Json| it["value"].as_f64().expect("a value");
     let local = found["local"].as_array().expect("local");
     assert_eq!(local.len(), 2);
@@ -213,19 +208,8 @@ fn an_undithered_run_ends_where_its_start_leads() {
 /// Whatever the values that are tried first, every change is found.
 #[test]
 fn runs_from_rest_have_both_thresholds_in_any_window() {
-    for (from, to) in [("0.1", "10.1"), ("2.1", "12.1")] {
-        let (found, status) = quell(&[
-            "thresholds",
-            STUDY,
-            "--parameter",
-            "dither.amplitude",
-            "--from",
-            from,
-            "--to",
-            to,
-            "--from-rest",
-        ]);
-        assert_eq!(status, 0, "{found}");
+    for range in [["0.1", "10.1"], ["2.1", "12.1"]] {
+        let found = thresholds(STUDY, "dither.amplitude", range, &["--from-rest"]);
         let changes = found["from_rest"].as_array().expect("changes");
         let values: Vec<f64> = changes.iter().filter_map(|it| it["value"].as_f64()).collect();
         assert!(
@@ -241,18 +225,12 @@ fn runs_from_rest_have_both_thresholds_in_any_window() {
 /// Where the response of sliding is lost, thresholds that were found stay, and where runs end beyond is told to be unknown.
 #[test]
 fn what_cannot_be_followed_does_not_take_the_rest_along() {
-    let (found, status) = quell(&[
-        "thresholds",
+    let found = thresholds(
         "studies/own-friction-law.toml",
-        "--parameter",
         "dither.amplitude",
-        "--from",
-        "0.8",
-        "--to",
-        "2",
-        "--from-rest",
-    ]);
-    assert_eq!(status, 0, "{found}");
+        ["0.8", "2"],
+        &["--from-rest"],
+    );
     assert_eq!(found["covered"], false);
     let local = found["local"][0]["value"].as_f64().expect("a threshold");
     assert!((local - 0.990_450_5).abs() < 1e-6, "{local}");
@@ -275,12 +253,8 @@ fn what_cannot_be_followed_does_not_take_the_rest_along() {
 #[test]
 fn thresholds_are_asked_in_si() {
     let ask = |parameter: &str, [from, to]: [f64; 2], ramp: &str| {
-        let range = [from, to].map(|end| end.to_string());
-        let mut arguments = vec!["thresholds", PAD, "--parameter", parameter];
-        arguments.extend(["--from", &range[0], "--to", &range[1], "--from-rest", "--ramp", ramp]);
-        let (found, status) = quell(&arguments);
-        assert_eq!(status, 0, "{found}");
-        found
+        let (from, to) = (from.to_string(), to.to_string());
+        thresholds(PAD, parameter, [&from, &to], &["--from-rest", "--ramp", ramp])
     };
     // Of the study: mass_kg and stiffness_n_per_m.
     let (mass, stiffness): (f64, f64) = (0.5, 6.1902e8);

@@ -367,9 +367,7 @@ impl Course {
         let (_, before) = rest.split_at(rest.len() - window);
         Some(Summary::averaged(newest).distance(&Summary::averaged(before)))
     }
-}
 
-impl Course {
     /// Whether windows of the blocks that are kept are compared when the next block is over.
     fn compares(&self) -> bool {
         let blocks = self.earlier.len();

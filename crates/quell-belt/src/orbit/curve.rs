@@ -136,14 +136,15 @@ pub enum Open {
     },
 }
 
-impl fmt::Display for Open {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Open {
+    /// In words, with values of the first parameter as `value` tells them.
+    pub fn words(&self, value: impl Fn(f64) -> String) -> String {
         match self {
-            Self::Invalid => f.write_str("the parameter cannot take this value"),
-            Self::Begin(why) => why.fmt(f),
-            Self::Lost { at } => write!(f, "the response was lost beyond {at}"),
-            Self::NotFollowed { value } => {
-                write!(f, "no curve was found through the threshold at {value}")
+            Self::Invalid => "the parameter cannot take this value".to_owned(),
+            Self::Begin(why) => why.to_string(),
+            Self::Lost { at } => format!("the response was lost beyond {}", value(*at)),
+            Self::NotFollowed { value: at } => {
+                format!("no curve was found through the threshold at {}", value(*at))
             }
         }
     }
@@ -151,7 +152,7 @@ impl fmt::Display for Open {
 
 impl fmt::Display for OpenLine {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "at {}: {}", self.along, self.why)
+        write!(f, "at {}: {}", self.along, self.why.words(|value| value.to_string()))
     }
 }
 

@@ -21,10 +21,12 @@ use crate::start::released;
 /// Places at which the map is tried.
 const PLACES: u32 = 60;
 
-/// Most turns of a run that grows beyond every cycle, until it sticks and is one of the turns after a release.
+/// Most turns of a run that grows beyond every cycle, until it sticks and is one of the turns after a release. A run that
+/// grows for longer is refused; more turns only take longer.
 const MOST_TURNS: u32 = 100;
 
-/// Sizes this close, relatively, are the same.
+/// Sizes this close, relatively, are the same: far above the engine's error of a turn (10⁻¹²), so that a start on an unstable cycle
+/// is on it, and below any distance from a cycle that is meant. Narrower, rounding would say which way such a start goes.
 const SAME: f64 = 1e-9;
 
 /// Least size of a cycle that is looked for, relative to the largest possible one.
@@ -135,7 +137,7 @@ pub fn cycle_reached<'a>(
 /// Whether small motions about steady sliding die out: 2ζ + μ′(v₀)F > 0.
 fn settles(belt: &Belt) -> bool {
     let slope = belt.friction().slope(belt.belt_velocity());
-    2.0 * belt.damping_ratio() + slope * belt.normal_load() > 0.0
+    belt.damping_rate(slope, belt.normal_load()) > 0.0
 }
 
 /// From a state to the next lowest point; `None` where none comes within the longest possible turn.

@@ -39,7 +39,8 @@ const NEARER: f64 = 1e-3;
 /// Time for which a run settles before its period is looked for, τ, and how often that is done.
 const SETTLE: (f64, u32) = (2000.0, 6);
 
-/// Half the width of an interval, relative to its place, up to which it is told as a value.
+/// Half the width of an interval, relative to its place, up to which it is told as a value: ten times what thresholds ask of
+/// bisection (10⁻⁵). Wider intervals are those at which it stopped, and are told with their error.
 const NARROW: f64 = 1e-4;
 
 /// Closeness of two states of a run, relative to F, that may be the same of a periodic orbit.
@@ -245,7 +246,7 @@ pub struct Switch {
 }
 
 impl Switch {
-    /// Whether the interval is narrow: nothing but the answers on its two sides was met in it.
+    /// Whether the interval is narrow: bisection was not stopped by a value at which nothing is known.
     pub fn is_close(&self) -> bool {
         self.error <= NARROW * self.value.abs()
     }

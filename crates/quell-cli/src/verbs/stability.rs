@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use clap::Args;
 use quell::picture;
 use quell::run::disc;
-use quell::run::stability::{Averaged, Stability, becomes, kind, run as stability};
+use quell::run::stability::{Averaged, LOOKED_AT, Stability, becomes, kind, run as stability};
 use quell::{DiscStudy, Failure, Study, Subject};
 use quell_model::units::Quantity;
 
@@ -136,9 +136,7 @@ fn averaged(study: &Study, found: &Averaged) -> String {
                 let lower = figure(band.lower);
                 match band.upper {
                     Some(upper) => format!("{lower} to {}", figure(upper)),
-                    None => format!(
-                        "{lower} upwards, no end met up to 200 v_m beyond the fast velocity"
-                    ),
+                    None => format!("{lower} upwards, no end met {LOOKED_AT}"),
                 }
             })
             .collect();

@@ -99,14 +99,7 @@ fn line_in_words(study: &Study, question: &Question, line: &OpenLine) -> String 
     let along = path_in_words(study, &question.along);
     let place = value_in_words(study, &question.along, line.along);
     let value = |value: f64| value_in_words(study, &question.parameter, value);
-    let why = match line.why {
-        Open::Lost { at } => format!("the response was lost beyond {}", value(at)),
-        Open::NotFollowed { value: at } => {
-            format!("no curve was found through the threshold at {}", value(at))
-        }
-        why @ (Open::Invalid | Open::Begin(_)) => why.to_string(),
-    };
-    format!("on the line {along} = {place}: {why}")
+    format!("on the line {along} = {place}: {}", line.why.words(value))
 }
 
 /// The curves of a study.

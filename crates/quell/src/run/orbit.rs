@@ -100,9 +100,9 @@ fn undithered(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
     let why = "on a belt at rest the mass may stay anywhere within the reach of friction: there is nothing periodic";
     moves(study, why)?;
     let cycles = cycles(belt).map_err(refused)?;
-    let slope = belt.friction().slope(belt.belt_velocity()) * belt.normal_load();
+    let slope = belt.friction().slope(belt.belt_velocity());
     // e^−(2ζ + μ′F)/2 is the modulus of both multipliers over unit time.
-    let radius = (-0.5 * (2.0 * belt.damping_ratio() + slope)).exp();
+    let radius = (-0.5 * belt.damping_rate(slope, belt.normal_load())).exp();
     let orbit = match wanted {
         Wanted::After(Protocol::Sliding) => None,
         Wanted::After(protocol) => {

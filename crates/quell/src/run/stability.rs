@@ -200,8 +200,7 @@ impl Averaged {
         let scales = fields.scales();
         let items = bands.iter().map(|band| {
             let mut inner = Fields::new(scales);
-            let no_end =
-                || "no upper end was met up to 200 v_m beyond the fast velocity".to_owned();
+            let no_end = || format!("no upper end was met {LOOKED_AT}");
             inner.number("lower", Quantity::Velocity, band.lower).known(
                 "upper",
                 Quantity::Velocity,
@@ -216,6 +215,9 @@ impl Averaged {
         fields.list(name, items);
     }
 }
+
+/// How far belt velocities are looked at for bands of instability, as [`unstable_bands`] has it.
+pub const LOOKED_AT: &str = "up to 200 v_m beyond the fast velocity";
 
 /// Name of a crossing in output.
 pub fn kind(crossing: Crossing) -> &'static str {

@@ -131,9 +131,7 @@ impl<F: Family> Walk<'_, F> {
 
     /// The place at a scaled parameter, near a state, whatever its signature.
     pub(super) fn standing(&self, state: &[f64], share: f64, towards: f64) -> Found<F> {
-        let mut normal = vec![0.0; state.len() + 1];
-        normal[state.len()] = towards;
-        self.at(&self.scaled(state, share), &normal, None, None)
+        self.at(&self.scaled(state, share), &upright(state.len(), towards), None, None)
     }
 
     pub(super) fn point(&self, place: &Place<F::Signature>) -> Point<F::Signature> {
@@ -162,6 +160,13 @@ impl<F: Family> Walk<'_, F> {
     }
 }
 
+/// The normal of a plane of one parameter, for `n` numbers of a state.
+fn upright(n: usize, towards: f64) -> Vec<f64> {
+    let mut normal = vec![0.0; n + 1];
+    normal[n] = towards;
+    normal
+}
+
 /// What a step led to.
 pub(super) enum Step<S> {
     /// On along the piece.
@@ -187,8 +192,7 @@ impl<F: Family> Walk<'_, F> {
         let reaches = (here.unknowns[n] + length * here.tangent[n] - end) * here.tangent[n] >= 0.0;
         if reaches {
             length = (end - here.unknowns[n]) / here.tangent[n];
-            normal = vec![0.0; n + 1];
-            normal[n] = here.tangent[n].signum();
+            normal = upright(n, here.tangent[n].signum());
         }
         let mut predicted: Vec<f64> =
             here.unknowns.iter().zip(&here.tangent).map(|(u, t)| u + length * t).collect();
@@ -205,11 +209,9 @@ impl<F: Family> Walk<'_, F> {
         } else if corrected_past {
             // The correction went over the end of the window: back to the end itself.
             let share = (end - here.unknowns[n]) / (next.unknowns[n] - here.unknowns[n]);
-            let (one, other) = ((&here.unknowns, &here.tangent), (&next.unknowns, &next.tangent));
-            predicted = between((one.0, one.1), (other.0, other.1), share);
+            predicted = between(here.with_tangent(), next.with_tangent(), share);
             predicted[n] = end;
-            normal = vec![0.0; n + 1];
-            normal[n] = here.tangent[n].signum();
+            normal = upright(n, here.tangent[n].signum());
             let Some(at_end) = self.at(&predicted, &normal, held, None) else {
                 return Step::Failed;
             };
