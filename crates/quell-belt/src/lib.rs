@@ -9,6 +9,7 @@
 
 pub mod attractor;
 pub mod averaging;
+mod contraction;
 pub mod orbit;
 pub mod response;
 pub mod simulation;

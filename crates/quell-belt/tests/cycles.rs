@@ -1,7 +1,7 @@
 //! Limit cycles without dither, and folds of responses.
 
+use quell_belt::attractor::{Reached, orbit_reached, ramped, reached};
 use quell_belt::orbit::cycle::cycles;
-use quell_belt::orbit::reached::{Reached, orbit_reached, ramped, reached};
 use quell_belt::orbit::threshold::{Ending, Kind, local};
 use quell_belt::orbit::{NoOrbit, Orbit, Verdict, from_sliding};
 use quell_belt::simulation::{EventKind, EventRecorder, Start, simulate};
@@ -71,7 +71,8 @@ fn an_unstable_cycle_lies_between_sliding_and_squeal() {
 
 #[test]
 fn cycles_end_at_their_belt_velocity() {
-    for (zeta, last) in [(0.005, 2.50), (0.05, 0.477), (0.07, 0.356)] {
+    // Folds of limit cycles by the notes' independent program; 2.49990 has six digits.
+    for (zeta, last) in [(0.005, 2.49990), (0.05, 0.476688), (0.07, 0.355485)] {
         let count = |velocity: f64| {
             cycles(&undithered(LawKind::Decreasing, zeta, velocity)).expect("no stall").len()
         };
@@ -82,7 +83,7 @@ fn cycles_end_at_their_belt_velocity() {
             if count(middle) > 0 { low = middle } else { high = middle }
         }
         println!("ζ = {zeta}: cycles up to v₀ = {low:.7}");
-        assert!((low / last - 1.0).abs() < 5e-3, "{zeta}: {low}");
+        assert!((low / last - 1.0).abs() < 2e-6, "{zeta}: {low}");
     }
     // The Stribeck law: no coexistence, the cycle ends where sliding becomes stable, v₂ = 0.1988.
     let count = |velocity: f64| {
@@ -113,7 +114,7 @@ fn a_fold_is_not_stepped_over() {
 fn squeal_under_dither_is_an_orbit_of_many_periods() {
     let belt = with_sine(&undithered(LawKind::Decreasing, 0.005, 1.0), 2.5, 10.0);
     let squeal = &cycles(&belt).expect("no stall")[0];
-    let orbit = orbit_reached(&belt, squeal.start, 40).expect("an orbit");
+    let orbit = orbit_reached(&belt, squeal.start).expect("an orbit");
     let tenth = orbit.period / (0.2 * std::f64::consts::PI);
     assert!((tenth - 10.0).abs() < 1e-9, "{tenth} periods of the dither");
     assert!(orbit.count(EventKind::Stick) >= 1 && orbit.residual < 1e-9);
@@ -125,11 +126,10 @@ fn squeal_under_dither_is_an_orbit_of_many_periods() {
 #[test]
 fn a_ramp_ends_at_the_response_of_sliding() {
     let belt = with_sine(&undithered(LawKind::Decreasing, 0.005, 1.0), 3.5, 10.0);
-    let quiet = from_sliding(&belt, 8).expect("an orbit");
     let rest = Start { time: 0.0, displacement: belt.steady_sliding(), velocity: 0.0 };
-    let switched = reached(&belt, &quiet, rest).expect("no stall");
+    let switched = reached(&belt, rest).expect("no stall");
     let ramp = ramped(&belt, rest, 200.0).expect("a period");
-    let grown = reached(&belt, &quiet, ramp).expect("no stall");
+    let grown = reached(&belt, ramp).expect("no stall");
     assert_eq!((switched, grown), (Reached::Elsewhere, Reached::Sliding));
     assert_eq!(ramped(&belt, rest, 0.0), Ok(rest));
 }

@@ -1,6 +1,6 @@
 //! Periodic responses against identities, differences and known thresholds.
 
-use quell_belt::orbit::reached::{Reached, Switches, orbit_reached, switches};
+use quell_belt::attractor::{Reached, Switches, orbit_reached, switches};
 use quell_belt::orbit::threshold::{Kind, Threshold, local_thresholds};
 use quell_belt::orbit::{NoOrbit, Orbit, Verdict, from_sliding};
 use quell_belt::simulation::{EventKind, Start, simulate};
@@ -79,7 +79,7 @@ fn saltation_at_reversals() {
 #[test]
 fn multipliers_through_stick_and_reversal() {
     let squeal = Start { time: 0.0, displacement: -0.750_838_2, velocity: 0.0 };
-    let squealing = orbit_reached(&tangential(Waveform::Sine, 2.5), squeal, 40).expect("an orbit");
+    let squealing = orbit_reached(&tangential(Waveform::Sine, 2.5), squeal).expect("an orbit");
     assert!(squealing.count(EventKind::Stick) > 0 && squealing.count(EventKind::Reversal) > 0);
     let (re, im) = squealing.multipliers[1];
     assert!(re.hypot(im) < 1e-9, "{re} {im}");

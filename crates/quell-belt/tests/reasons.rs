@@ -1,9 +1,9 @@
 //! Every reason for not having an answer says it in words, with its numbers.
 
 use quell_belt::averaging::{AveragingError, NoBand};
-use quell_belt::orbit::NoOrbit;
 use quell_belt::orbit::curve::{Open, OpenLine};
 use quell_belt::orbit::threshold::NoThresholds;
+use quell_belt::orbit::{NoOrbit, Unsettled};
 use quell_belt::simulation::{Stalled, Start};
 use quell_belt::start::NoSquealingStart;
 use quell_numerics::quadrature::{Integral, QuadratureError};
@@ -32,7 +32,8 @@ fn orbits() {
     told(&NoOrbit::Ends { share: 0.75 }, &["0.7500000", "none beyond"]);
     told(&NoOrbit::LostOnTheWay { share: 0.75 }, &["0.7500000", "could not be followed"]);
     told(&NoOrbit::NoPeriod { most: 200 }, &["200 periods"]);
-    told(&NoOrbit::NoLimit, &["no limit cycle that is known"]);
+    told(&NoOrbit::Unsettled(Unsettled::Moving), &["has not settled", "still moved"]);
+    told(&NoOrbit::NoLimit, &["neither to a known limit cycle"]);
     told(&NoOrbit::Invalid { value: -3.0 }, &["-3"]);
     let stalled = Stalled { time: 12.5, why: "it stood still" };
     told(&NoOrbit::Stalled(stalled), &[stalled.why]);

@@ -83,7 +83,7 @@ fn a_squealing_start_is_on_the_cycle() {
     let solver = Solver::default();
     // Claims: at v₀ = 1 the decreasing law has a cycle of peak-to-peak 2.09 beside stable sliding.
     let fast = belt(LawKind::Decreasing, 1.0, Vec::new());
-    let start = InitialState::Squealing.resolve(&fast, &solver).expect("a cycle");
+    let start = InitialState::Squealing.resolve(&fast).expect("a cycle");
     let squeal = respond(&fast, start, &solver).expect("no stall");
     let displacements = squeal.record.samples.iter().map(|sample| sample.displacement);
     let low = displacements.clone().fold(f64::INFINITY, f64::min);
@@ -91,11 +91,11 @@ fn a_squealing_start_is_on_the_cycle() {
     assert!((peak_to_peak - 2.09).abs() < 0.01, "{peak_to_peak}");
     // It survives to v₀ ≈ 2.5 at ζ = 0.005; the Stribeck law's ends at 0.1988.
     let faster = belt(LawKind::Decreasing, 2.7, Vec::new());
-    let none = InitialState::Squealing.resolve(&faster, &solver);
+    let none = InitialState::Squealing.resolve(&faster);
     assert_eq!(none, Err(NoSquealingStart::SettlesToSliding));
     for (velocity, squeals) in [(0.15, true), (0.197, true), (0.201, false)] {
         let stribeck = belt(LawKind::Stribeck, velocity, Vec::new());
-        let start = InitialState::Squealing.resolve(&stribeck, &solver);
+        let start = InitialState::Squealing.resolve(&stribeck);
         assert_eq!(start.is_ok(), squeals, "v₀ = {velocity}: {start:?}");
     }
 }

@@ -109,6 +109,11 @@ impl Belt {
         self.dithers.iter().filter(move |dither| dither.direction == direction)
     }
 
+    /// Whether any dither, of whatever amplitude, is normal.
+    pub fn has_normal_dither(&self) -> bool {
+        self.dithers.iter().any(|dither| dither.direction == Direction::Normal)
+    }
+
     /// ΣD of one direction, the largest force its dithers can reach together.
     pub fn total_amplitude(&self, direction: Direction) -> f64 {
         self.dithers_along(direction).map(|dither| dither.amplitude).sum()

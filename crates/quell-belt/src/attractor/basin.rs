@@ -5,8 +5,9 @@
 //! count as one.
 
 use super::measure::{Attractor, measure};
-use super::settle::{Outcome, Settled, Summary, Unsettled};
+use super::settle::{Outcome, Settled, Summary};
 use super::strobe::Scene;
+use crate::orbit::Unsettled;
 use crate::simulation::Stalled;
 
 /// Difference of centre, size and shape, relative to the size, within which two sections are one attractor's: three times

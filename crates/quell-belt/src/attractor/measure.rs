@@ -1,17 +1,21 @@
 //! What a settled run is on: a closed orbit of some periods, a closed curve, or neither.
 //!
 //! A state that returns after n periods, ever closer, is taken as the guess of an orbit of n periods; shooting closes it to 10⁻¹², and its
-//! multipliers say whether it attracts. Where nothing returns the motion fills a curve, if its rotation number is the same in both halves
-//! of the record. Limit: an orbit of more than `MOST_PERIODS` periods is not told from a curve.
+//! multipliers say whether it attracts. A section that is one state to rounding returns after any n; the shortest period that attracts
+//! is the orbit's own, and a longer one that was found is reduced to it. Where nothing returns the motion fills a curve, if its rotation
+//! number is the same in both halves of the record and the record is long enough for it to have passed every gap: a motion that creeps
+//! along a nearly locked curve may be on its way to a locked orbit. Limit: an orbit of more than `MOST_PERIODS` periods is not distinguished from a curve.
 
+use quell_model::Belt;
 use quell_numerics::roots::{Closeness, find_root};
 
 use super::average::Moments;
+use super::quiet::STEPS;
 use super::rotation::Rotation;
-use super::settle::{Outcome, Settled, block};
+use super::settle::{Outcome, Patience, Settled, block, settle};
 use super::strobe::Scene;
 use super::watch::Watch;
-use crate::orbit::{Verdict, near};
+use crate::orbit::{NoOrbit, Orbit, Verdict, from_sliding, near};
 use crate::simulation::{DEFAULT_TOLERANCE, Observer, Segment, Stalled, Start, simulate};
 
 /// Most periods of a closed orbit.
@@ -33,11 +37,18 @@ const SHRINKS: f64 = 0.5;
 /// Distance of a return, relative to the size, that is closed already.
 const CLOSED: f64 = 1e-7;
 
+/// The same relative to F: states nearer than this are one, as everywhere (`settle`'s NEAR). Below, the size of a section is rounding,
+/// and a distance relative to it says nothing.
+const ONE_STATE: f64 = 1e-6;
+
+/// Most numbers of periods that are shot for one section: beyond the first few returns a curve is filled.
+const MOST_SHOTS: usize = 4;
+
 /// Difference of the rotation number of the two halves of a record at which the motion is a curve's.
 const STEADY: f64 = 1e-5;
 
 /// Times that a record is continued.
-const RECORDS: u32 = 4;
+const RECORDS: u32 = 8;
 
 /// What an attractor is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,29 +131,48 @@ pub fn measure(scene: &Scene<'_>, settled: &Settled) -> Result<Option<Attractor>
     }
 }
 
+/// What the records of a settled run show.
+enum Found {
+    /// A closed orbit of so many periods.
+    Orbit(u32, Orbit),
+    /// None: the state before the last record, its length, and whether its rotation number is steady.
+    Section { from: Start, periods: usize, steady: bool },
+}
+
+/// Records from a state on an attractor, until one shows an orbit or a steady rotation number.
+fn records(scene: &Scene<'_>, state: Start) -> Result<Found, Stalled> {
+    let mut from = state;
+    let mut record = 1;
+    loop {
+        let (section, end) = section(scene, from)?;
+        if let Some((periods, orbit)) = orbit(scene, &section, end) {
+            return Ok(Found::Orbit(periods, orbit));
+        }
+        let rotation = Rotation::of_curve(&section, Moments::of(&section).centre);
+        let steady = rotation.error <= STEADY && rotation.fills(record as usize * section.len());
+        if steady || record == RECORDS {
+            return Ok(Found::Section { from, periods: section.len(), steady });
+        }
+        (from, record) = (end, record + 1);
+    }
+}
+
 /// The attractor from a state on it.
 fn elsewhere(scene: &Scene<'_>, state: Start) -> Result<Attractor, Stalled> {
-    let mut state = state;
-    for record in 1..=RECORDS {
-        let (section, end) = section(scene, state)?;
-        if let Some((periods, radius, start)) = orbit(scene, &section, end) {
-            let kind = Kind::Periodic { periods, radius };
-            return seen(scene, kind, start, periods as usize);
+    match records(scene, state)? {
+        Found::Orbit(periods, orbit) => {
+            let kind = Kind::Periodic { periods, radius: orbit.radius() };
+            seen(scene, kind, orbit.start, periods as usize)
         }
-        let centre = Moments::of(&section).centre;
-        let rotation = Rotation::of_curve(&section, centre);
-        let steady = rotation.error <= STEADY;
-        if steady || record == RECORDS {
+        Found::Section { from, periods, steady } => {
             let kind = match steady {
                 true if scene.is_autonomous() => Kind::Cycle,
                 true => Kind::QuasiPeriodic,
                 false => Kind::Unclassified,
             };
-            return seen(scene, kind, state, section.len());
+            seen(scene, kind, from, periods)
         }
-        state = end;
     }
-    seen(scene, Kind::Unclassified, state, RECORD)
 }
 
 /// States of a record, and the state after it.
@@ -155,28 +185,70 @@ fn section(scene: &Scene<'_>, start: Start) -> Result<(Vec<(f64, f64)>, Start), 
     Ok((watch.section(), Start { time: 0.0, ..end.restart() }))
 }
 
-/// The closed orbit to which the last states of a section return: periods, radius, state.
-fn orbit(scene: &Scene<'_>, section: &[(f64, f64)], end: Start) -> Option<(u32, f64, Start)> {
+/// The closed orbit to which the last states of a section return.
+fn orbit(scene: &Scene<'_>, section: &[(f64, f64)], end: Start) -> Option<(u32, Orbit)> {
     // A cycle without dither has its own period; at the strobe no state need return.
     if scene.is_autonomous() {
         return None;
     }
-    let size = Moments::of(section).size().max(1e-9 * scene.belt.normal_load());
-    let gap = |a: (f64, f64), b: (f64, f64)| libm::hypot(a.0 - b.0, a.1 - b.1);
+    let least = ONE_STATE * scene.belt.normal_load();
+    let size = Moments::of(section).size();
     // The largest return after n periods among the n states before a place.
     let returns = |n: usize, end: usize| {
         (end - n..end).map(|k| gap(section[k], section[k - n])).fold(0.0, f64::max)
     };
-    let n = (1..=MOST_PERIODS).find(|&n| {
-        let late = returns(n, section.len());
-        late <= CLOSED * size || (late <= RETURNS * size && late <= SHRINKS * returns(n, 2 * n))
-    })?;
-    let periods = u32::try_from(n).ok()?;
-    let orbit = near(scene.belt, end, periods).ok()?;
-    let away =
-        gap((orbit.start.displacement, orbit.start.velocity), (end.displacement, end.velocity));
-    let attracts = orbit.verdict() == Verdict::Stable && away <= ITS_OWN * size;
-    attracts.then_some((periods, orbit.radius(), orbit.start))
+    let may_be_closed = |n: &usize| {
+        let late = returns(*n, section.len());
+        late <= (CLOSED * size).max(least)
+            || (late <= RETURNS * size && late <= SHRINKS * returns(*n, 2 * n))
+    };
+    let own = (ITS_OWN * size).max(least);
+    (1..=MOST_PERIODS).filter(may_be_closed).take(MOST_SHOTS).find_map(|n| {
+        let periods = u32::try_from(n).ok()?;
+        let orbit = near(scene.belt, end, periods).ok()?;
+        let attracts =
+            orbit.verdict() != Verdict::Unstable && gap(state(orbit.start), state(end)) <= own;
+        attracts.then(|| shortest(scene, periods, orbit))
+    })
+}
+
+/// The orbit with its own period, where it is a part of the one that was found.
+fn shortest(scene: &Scene<'_>, periods: u32, orbit: Orbit) -> (u32, Orbit) {
+    let same = |part: &Orbit| {
+        gap(state(part.start), state(orbit.start)) <= ONE_STATE * scene.belt.normal_load()
+    };
+    let part = (1..periods)
+        .filter(|part| periods.is_multiple_of(*part))
+        .find_map(|part| Some((part, near(scene.belt, orbit.start, part).ok().filter(same)?)));
+    part.unwrap_or((periods, orbit))
+}
+
+fn state(start: Start) -> (f64, f64) {
+    (start.displacement, start.velocity)
+}
+
+/// Distance of two states.
+fn gap(a: (f64, f64), b: (f64, f64)) -> f64 {
+    libm::hypot(a.0 - b.0, a.1 - b.1)
+}
+
+/// The periodic orbit on which a run from a state at τ = 0 ends.
+///
+/// # Errors
+/// [`NoOrbit`]; [`NoOrbit::NoPeriod`] where the run does not end on a closed orbit of up to 200 common periods.
+pub fn orbit_reached(belt: &Belt, start: Start) -> Result<Orbit, NoOrbit> {
+    let scene = Scene::new(belt)?;
+    let settled = settle(&scene, start, Patience::SWEEP).map_err(NoOrbit::Stalled)?;
+    match settled.outcome {
+        Outcome::Unsettled(why) => Err(NoOrbit::Unsettled(why)),
+        Outcome::Quiet => from_sliding(belt, STEPS),
+        Outcome::Elsewhere => match records(&scene, settled.state).map_err(NoOrbit::Stalled)? {
+            Found::Orbit(_, orbit) => Ok(orbit),
+            Found::Section { .. } => {
+                Err(NoOrbit::NoPeriod { most: u32::try_from(MOST_PERIODS).unwrap_or(u32::MAX) })
+            }
+        },
+    }
 }
 
 /// An attractor as a run over it sees it.

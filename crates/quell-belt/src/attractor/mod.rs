@@ -21,6 +21,7 @@
 //! | `settle` | runs side by side, until each has settled |
 //! | `measure` | what it has settled on |
 //! | `basin` | which starts end on the same attractor |
+//! | `switches` | values of a parameter at which runs from a start begin or cease to end on the base response |
 
 mod average;
 mod basin;
@@ -29,11 +30,14 @@ mod quiet;
 mod rotation;
 mod settle;
 mod strobe;
+mod switches;
 mod watch;
 
+pub use crate::orbit::Unsettled;
 pub use basin::{Basin, Basins, Label, gather};
-pub use measure::{Attractor, Kind, measure};
+pub use measure::{Attractor, Kind, measure, orbit_reached};
 pub use quiet::Quiet;
 pub use rotation::{Ratio, Rotation};
-pub use settle::{Outcome, Patience, Settled, Unsettled, settle, settle_many};
+pub use settle::{Outcome, Patience, Settled, settle, settle_many};
 pub use strobe::{Scene, Strobe};
+pub use switches::{Reached, Switch, Switches, ramped, reached, switches};

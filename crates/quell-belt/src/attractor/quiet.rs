@@ -13,7 +13,7 @@ use super::strobe::Strobe;
 use crate::orbit::{Matrix, NoOrbit, Orbit, Verdict, from_sliding, multipliers_of};
 
 /// Steps of the dither from nothing to its amplitude.
-const STEPS: u32 = 8;
+pub(super) const STEPS: u32 = 8;
 
 /// The response that sliding becomes.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,7 +59,7 @@ impl Quiet {
             let unit = libm::copysign(libm::sqrt(squared), c);
             [c / unit, (d - a) / unit, -b / unit]
         });
-        Self { displacement, velocity, radius, verdict: Verdict::of(radius), form }
+        Self { displacement, velocity, radius, verdict: Verdict::of(radius, 0.0), form }
     }
 
     /// Distance of a state of the section.

@@ -8,6 +8,10 @@
 
 use super::average::{mean, weights};
 
+/// Fractions up to this denominator are distinguished from a quasi-periodic motion by how far it has moved. Of the 1024 periods of a
+/// record an irrational number p/q + 1/(√5q²) needs 2.2 q.
+const DENOMINATORS: u32 = 64;
+
 /// A locked motion: `turns` in `periods`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Ratio {
@@ -42,6 +46,16 @@ impl Rotation {
             periods: u32::try_from(u64::from(periods) / common).unwrap_or(periods),
         };
         Self { turns_per_period: turns as f64 / f64::from(periods), error: 0.0, ratio: Some(ratio) }
+    }
+
+    /// Whether a motion of so many periods has filled its curve: measured against every fraction p/q of a small denominator it
+    /// has moved by more than 1/q of a turn, the gap between the q states that it nearly repeats.
+    pub(super) fn fills(&self, periods: usize) -> bool {
+        (1..=DENOMINATORS).all(|q| {
+            let q = f64::from(q);
+            let nearest = (self.turns_per_period * q).round() / q;
+            periods as f64 * (self.turns_per_period - nearest).abs() * q >= 1.0
+        })
     }
 
     /// Of a long section of motion on a closed curve.
@@ -79,6 +93,15 @@ fn divisor(mut a: u64, mut b: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// 1/10 − 2·10⁻⁵ moves by a fiftieth of a turn in 1024 periods, less than the tenth between its strands; the golden mean fills.
+    #[test]
+    fn a_creep_does_not_fill_its_curve() {
+        let of = |turns_per_period| Rotation { turns_per_period, error: 0.0, ratio: None };
+        assert!(!of(0.1 - 2e-5).fills(1024) && of(0.1 - 2e-5).fills(8192));
+        assert!(of(0.5 * (5.0_f64.sqrt() - 1.0)).fills(1024));
+        assert!(!of(0.25).fills(1_000_000));
+    }
 
     #[test]
     fn a_planted_rotation_is_found() {

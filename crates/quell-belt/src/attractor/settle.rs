@@ -1,15 +1,17 @@
 //! Runs side by side, in blocks of periods, until each has settled.
 //!
 //! After each block one of these ends a run:
-//! 1. **Quiet.** It is at the response of sliding, and that is stable; or its distance falls with the rate of the multipliers
+//! 1. **Quiet.** It is at the base response, and that is not unstable; or, where that is stable, its distance falls with the rate of the multipliers
 //!    (within `ALIKE`, two blocks in a row), so that the rest of the way is known.
 //! 2. **Elsewhere.** Centre, size and shape of the section no longer change, from block to block or from one long window of
 //!    blocks to the next, and what they would still change by at the measured rate is below the closeness asked for. Where the block has a stick that is enough: a stick forgets all but its
 //!    moment. In slip throughout the rate at which areas shrink must be positive, and fast enough for the rest of the way.
 //! 3. **Unsettled**, when its periods are over: it still moves, or it dwells beside a curve that does not attract.
 //!
-//! A start on an unstable response of sliding would stay there for as long as rounding lets it: it is displaced by
+//! A start on an unstable base response would stay there for as long as rounding lets it: it is displaced by
 //! `NUDGE` F first.
+//!
+//! Without dither nothing of this is needed: the exact cycle map decides ([`crate::orbit::cycle`]).
 //!
 //! Each run depends on itself alone: the outcome has the same bits in any company.
 //! Limits: a run counts as quiet on the linear rate although a further attractor could hide in the neighbourhood where the rate is
@@ -19,8 +21,11 @@ use super::average::{self, Moments};
 use super::quiet::Quiet;
 use super::strobe::Scene;
 use super::watch::Watch;
-use crate::orbit::Verdict;
-use crate::simulation::{FinalState, Run, Stalled, Start, simulate_many};
+use crate::orbit::cycle::{cycle_reached, cycles};
+use crate::orbit::{NoOrbit, Orbit, Unsettled, Verdict};
+use crate::simulation::{
+    DEFAULT_TOLERANCE, FinalState, Run, Stalled, Start, simulate, simulate_many,
+};
 
 /// Slow turns of 2π in a block: the bump's averages over fewer still show where a block begins and ends.
 const TURNS: f64 = 20.0;
@@ -66,25 +71,6 @@ impl Patience {
     pub const BASIN: Self = Self { tolerance: 1e-12, closeness: 3e-3, periods: 100_000 };
 }
 
-/// Why a run has not settled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Unsettled {
-    /// It still moved when its periods were over.
-    Moving,
-    /// It dwells in slip where areas grow: beside an unstable curve between two basins.
-    Dwelling,
-}
-
-impl Unsettled {
-    /// In words.
-    pub fn about(self) -> &'static str {
-        match self {
-            Self::Moving => "it still moved when its periods were over",
-            Self::Dwelling => "it dwells beside an unstable curve between two basins",
-        }
-    }
-}
-
 /// Where a run ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Outcome {
@@ -103,7 +89,7 @@ pub struct Settled {
     pub outcome: Outcome,
     /// Its last state, at τ = 0 modulo the period.
     pub state: Start,
-    /// Periods it took.
+    /// Periods of the strobe it took; 0 without dither, where the cycle map decides.
     pub periods: u64,
     /// Its last block.
     pub(super) summary: Summary,
@@ -119,6 +105,17 @@ pub(super) struct Summary {
 }
 
 impl Summary {
+    /// Of a block that was watched.
+    fn of(watch: &Watch<'_>, section: &[(f64, f64)]) -> Self {
+        Self { moments: watch.moments(), size: Moments::of(section).size() }
+    }
+
+    /// Of a motion that is one state.
+    fn of_state(state: Start) -> Self {
+        let centre = [state.displacement, state.velocity];
+        Self { moments: Moments { centre, spread: [0.0; 3] }, size: 0.0 }
+    }
+
     /// The average of some, weighted by a bump: a creep through them leaves less of itself than in a plain mean.
     fn averaged(all: &[Self]) -> Self {
         let weights = average::weights(all.len());
@@ -177,6 +174,9 @@ pub fn settle_many(
     starts: &[Start],
     patience: Patience,
 ) -> Vec<Result<Settled, Stalled>> {
+    if scene.is_autonomous() && scene.belt.belt_velocity() > 0.0 {
+        return undithered(scene, starts);
+    }
     let mut outcomes = vec![Err(Stalled::NEVER_STARTED); starts.len()];
     let mut under_way: Vec<Course> = starts
         .iter()
@@ -219,13 +219,58 @@ pub fn settle_many(
     outcomes
 }
 
-/// A start that does not stand on an unstable response.
+/// Where undithered runs end, by the cycle map.
+fn undithered(scene: &Scene<'_>, starts: &[Start]) -> Vec<Result<Settled, Stalled>> {
+    // Without dither the engine's stop is the only failure.
+    let stall = |why: NoOrbit| match why {
+        NoOrbit::Stalled(stalled) => stalled,
+        _ => Stalled::NEVER_STARTED,
+    };
+    let known = cycles(scene.belt).and_then(|cycles| {
+        let summaries = cycles.iter().map(|cycle| one_block(scene, cycle.start));
+        let summaries = summaries.collect::<Result<Vec<_>, _>>().map_err(NoOrbit::Stalled)?;
+        Ok((cycles, summaries))
+    });
+    let (cycles, summaries) = match known {
+        Ok(known) => known,
+        Err(why) => return vec![Err(stall(why)); starts.len()],
+    };
+    let sliding = Start { time: 0.0, displacement: scene.belt.steady_sliding(), velocity: 0.0 };
+    let on = |cycle: &Orbit| cycles.iter().position(|other| std::ptr::eq(other, cycle));
+    starts
+        .iter()
+        .map(|start| {
+            let start = nudged(scene, *start);
+            let (outcome, state, place) = match cycle_reached(scene.belt, &cycles, start) {
+                Ok(None) => (Outcome::Quiet, sliding, None),
+                Ok(Some(cycle)) if cycle.verdict() == Verdict::Unstable => {
+                    (Outcome::Unsettled(Unsettled::Dwelling), start, on(cycle))
+                }
+                Ok(Some(cycle)) => (Outcome::Elsewhere, cycle.start, on(cycle)),
+                Err(NoOrbit::NoLimit) => (Outcome::Unsettled(Unsettled::Moving), start, None),
+                Err(why) => return Err(stall(why)),
+            };
+            let summary = place.map_or_else(|| Summary::of_state(state), |place| summaries[place]);
+            Ok(Settled { outcome, state, periods: 0, summary })
+        })
+        .collect()
+}
+
+/// The block of a run that begins at a state.
+fn one_block(scene: &Scene<'_>, start: Start) -> Result<Summary, Stalled> {
+    let (period, count) = (scene.strobe.period, block(scene));
+    let mut watch = Watch::new(period, count);
+    simulate(scene.belt, start, count as f64 * period, DEFAULT_TOLERANCE, &mut watch)?;
+    Ok(Summary::of(&watch, &watch.section()))
+}
+
+/// A start that is not on an unstable base response.
 fn nudged(scene: &Scene<'_>, start: Start) -> Start {
     let start = Start { time: 0.0, ..start };
     let nudge = NUDGE * scene.belt.normal_load();
     match &scene.quiet {
         Ok(quiet)
-            if quiet.verdict != Verdict::Stable
+            if quiet.verdict == Verdict::Unstable
                 && quiet.distance(start.displacement, start.velocity) < nudge =>
         {
             Start { displacement: quiet.displacement + nudge, velocity: quiet.velocity, ..start }
@@ -257,12 +302,12 @@ impl Course {
         end: &FinalState,
     ) -> Option<Settled> {
         let section = watch.section();
-        let now = Summary { moments: watch.moments(), size: Moments::of(&section).size() };
+        let now = Summary::of(watch, &section);
         self.state = Start { time: 0.0, displacement: end.displacement, velocity: end.velocity };
         self.periods += section.len() as u64;
         let scale = scene.belt.normal_load();
         if let Ok(quiet) = &scene.quiet
-            && quiet.verdict == Verdict::Stable
+            && quiet.verdict != Verdict::Unstable
             && self.nears(quiet, &section, scale)
         {
             return Some(self.over(Outcome::Quiet, now));
@@ -308,7 +353,9 @@ impl Course {
         if quiet.distance(self.state.displacement, self.state.velocity) < NEAR * scale {
             return true;
         }
-        let Some(expected) = quiet.rate() else { return false };
+        let Some(expected) = quiet.rate().filter(|_| quiet.verdict == Verdict::Stable) else {
+            return false;
+        };
         let size = |states: &[(f64, f64)]| {
             let squares = states.iter().map(|&(x, v)| {
                 let distance = quiet.distance(x, v);

@@ -12,6 +12,7 @@ use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::gauss_legendre::GaussLegendre;
 
 use super::average::{Moments, Sums, bump};
+use crate::contraction::mean_rate;
 use crate::simulation::{Event, EventKind, Observer, Sampler, Segment};
 
 /// Nodes of a segment: 10⁻⁶ of the rate on steps of the engine, where only its sign and size are asked for.
@@ -158,20 +159,11 @@ impl<'a> Contraction<'a> {
             self.add(middle, 0.0, h);
             return;
         }
-        let [nodes, weights] = &*RULE;
-        let rates = nodes.iter().map(|node| self.rate(segment, h * node));
-        let mean = rates.zip(weights).map(|(rate, w)| rate * w).sum::<f64>();
+        let mean = mean_rate(self.belt, segment, &RULE);
         self.add(middle, h * mean, h);
         if beside > 0.0 {
             self.before = segment.slip_velocity(h - beside) / -beside;
         }
-    }
-
-    /// 2ζ + μ′(v_r)N.
-    fn rate(&self, segment: &Segment<'_>, since: f64) -> f64 {
-        let time = segment.clock().time() + since;
-        let slope = self.belt.friction().slope(segment.slip_velocity(since).abs());
-        self.belt.damping_rate(slope, self.belt.normal_load_at(time))
     }
 
     fn add(&mut self, time: f64, amount: f64, duration: f64) {

@@ -277,7 +277,7 @@ fn while_it_decides(
             let orbit = near(&at, point.state, 1).ok()?;
             (!orbit.is_pure_slip()).then(|| orbit.verdict())
         };
-        beyond(1.0).or_else(|| beyond(-1.0)) != Some(Verdict::of(point.radius))
+        beyond(1.0).or_else(|| beyond(-1.0)) != Some(Verdict::of(point.radius, 0.0))
     };
     let kept: Vec<bool> = curve.points.iter().map(decides).collect();
     let off = |index: &usize| (curve.points[*index].along - place).abs();

@@ -1,27 +1,28 @@
-//! The limit cycles of an undithered belt, stable or not, with their periods.
+//! The limit cycles of an undithered belt, stable or not, with their periods; and where an undithered run ends, decided by them.
 //!
 //! The period is unknown; the phase is fixed by the section x′ = 0 at the lowest displacement, so that a cycle is a fixed point of
-//! a map of one number, the displacement there. Trajectories of the plane do not cross: every cycle lies inside
-//! the turn that follows a release, for a release has one state, x = μ_sF − 2ζv₀, x′ = v₀. The map is
-//! searched on all of that interval, and each change of sign is closed in on.
+//! a map of one number, the displacement there: the cycle map. Trajectories of the plane do not cross, so every cycle lies inside
+//! the cycle of the slow phase that follows a release, because a release has one state, x = μ_sF − 2ζv₀, x′ = v₀. The map is
+//! searched on all of that interval: every change of sign is closed in on, every dip towards zero is searched for a pair of
+//! cycles, and below the smallest size of the grid the sign at size zero, that of −(2ζ + μ′(v₀)F), says whether one more cycle
+//! exists.
 //!
 //! One multiplier of a cycle is 1, along it; the other is the derivative of the map, 0 where the cycle sticks.
-//! Limits: two cycles between neighbouring places of the search are missed; cycles that pass v_r = 0 without sticking
-//! lie outside the turn after a release and are not looked for.
+//! Limits: two pairs of cycles between neighbouring sizes of the grid are missed; cycles that pass v_r = 0 without sticking
+//! lie outside the interval and are not searched for.
 
 use std::f64::consts::TAU;
 
 use quell_model::Belt;
-use quell_numerics::roots::{Closeness, try_find_root};
+use quell_numerics::roots::{Closeness, try_find_root, try_minimise};
 
-use super::{NoOrbit, Orbit, TOLERANCE, orbit_at};
+use super::{NoOrbit, Orbit, TOLERANCE, Verdict, orbit_at};
 use crate::simulation::{EventKind, EventRecorder, Start, VelocitySection, simulate};
-use crate::start::released;
 
-/// Places at which the map is tried.
-const PLACES: u32 = 60;
+/// Sizes at which the map is evaluated.
+const SIZES: u32 = 60;
 
-/// Most turns of a run that grows beyond every cycle, until it sticks and is one of the turns after a release. A run that
+/// Most turns of a run that grows beyond every cycle, until it sticks and follows a release. A run that
 /// grows for longer is refused; more turns only take longer.
 const MOST_TURNS: u32 = 100;
 
@@ -29,14 +30,156 @@ const MOST_TURNS: u32 = 100;
 /// is on it, and below any distance from a cycle that is meant. Narrower, rounding would say which way such a start goes.
 const SAME: f64 = 1e-9;
 
-/// Least size of a cycle that is looked for, relative to the largest possible one.
+/// Least size on the grid, relative to the largest possible one.
 const SMALLEST: f64 = 1e-3;
+
+/// Least size of a cycle at all, relative to F: smaller ones are steady sliding, as everywhere a state counts as the base response
+/// within this distance. The map's relative rounding is 10⁻⁸ there, below the growth that the search compares.
+const NEGLIGIBLE: f64 = 1e-6;
 
 /// The next lowest point after a state, its time, and whether the mass stuck on the way.
 struct Turn {
     displacement: f64,
     time: f64,
     sticks: bool,
+}
+
+/// Where an undithered run ends.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FreeEnd {
+    /// Steady sliding.
+    Sliding,
+    /// Rest: the belt does not move.
+    Rest,
+    /// This limit cycle.
+    Cycle(Orbit),
+}
+
+/// The state in which the mass leaves the undithered belt, whatever came before: x = μ_sF − 2ζv₀, x′ = v₀.
+pub(crate) fn released(belt: &Belt) -> Start {
+    let threshold = belt.friction().static_coefficient() * belt.normal_load();
+    Start {
+        time: 0.0,
+        displacement: threshold - 2.0 * belt.damping_ratio() * belt.belt_velocity(),
+        velocity: belt.belt_velocity(),
+    }
+}
+
+/// The map from the size of one cycle of the slow phase to that of the next, for a belt without dither.
+///
+/// A size is the distance of the lowest displacement from steady sliding, a length.
+struct CycleMap<'a> {
+    belt: &'a Belt,
+    sliding: f64,
+}
+
+impl CycleMap<'_> {
+    fn lowest(&self, size: f64) -> Start {
+        Start { time: 0.0, displacement: self.sliding - size, velocity: 0.0 }
+    }
+
+    fn size(&self, turn: &Turn) -> f64 {
+        self.sliding - turn.displacement
+    }
+
+    /// Relative growth of the size over one turn.
+    fn growth(&self, size: f64) -> Result<f64, NoOrbit> {
+        let turn = turn(self.belt, self.lowest(size))?;
+        Ok(turn.map_or(-1.0, |turn| self.size(&turn) / size - 1.0))
+    }
+
+    /// Its sign in the limit of size zero, by the linearised equation: c = 2ζ + μ′(v₀)F, the negative of twice the growth rate.
+    fn linear_growth(&self) -> f64 {
+        -linear_damping(self.belt)
+    }
+
+    /// The size of the turn that follows a release, the largest that a cycle can have; `None` where there is no such turn.
+    fn largest(&self) -> Result<Option<f64>, NoOrbit> {
+        let outermost = turn(self.belt, released(self.belt))?;
+        Ok(outermost.map(|turn| self.size(&turn)).filter(|size| *size > 0.0))
+    }
+
+    /// Whether the turn from the lowest point that follows a release sticks: the release is then on a cycle.
+    fn sticks(&self, largest: f64) -> Result<bool, NoOrbit> {
+        Ok(turn(self.belt, self.lowest(largest))?.is_some_and(|turn| turn.sticks))
+    }
+
+    /// Sizes below `largest` that return to themselves, the largest first.
+    fn fixed_sizes(&self, largest: f64) -> Result<Vec<f64>, NoOrbit> {
+        let size = |k: u32| {
+            let share = f64::from(k) / f64::from(SIZES);
+            largest * (SMALLEST + (1.0 - 1e-7 - SMALLEST) * share * (2.0 - share))
+        };
+        let grid = (0..=SIZES).rev().map(|k| Ok((size(k), self.growth(size(k))?)));
+        let grid: Vec<(f64, f64)> = grid.collect::<Result<_, NoOrbit>>()?;
+        let mut found = Vec::new();
+        for (at, &(lower, below)) in grid.iter().enumerate().skip(1) {
+            let (upper, above) = grid[at - 1];
+            if below * above < 0.0 {
+                found.extend(self.root(lower, upper)?);
+            } else if let Some(&next) = grid.get(at + 1) {
+                found.extend(self.pair([next, (lower, below), (upper, above)])?);
+            }
+        }
+        if let Some(&(smallest, growth)) = grid.last() {
+            found.extend(self.below(smallest, growth)?);
+        }
+        Ok(found)
+    }
+
+    /// The size between two at which the growth changes sign.
+    fn root(&self, lower: f64, upper: f64) -> Result<Option<f64>, NoOrbit> {
+        let closeness = Closeness { absolute: 0.0, relative: 1e-14 };
+        // A change of sign of finite values has a root: the search itself has nothing to complain about.
+        let root = try_find_root(|size| self.growth(size), lower, upper, closeness)?;
+        Ok(root.ok().map(|root| root.location))
+    }
+
+    /// Two sizes about a dip of the growth towards zero between three sizes of the grid, where it changes sign twice: near the
+    /// fold in which a stable and an unstable cycle meet, both lie between neighbours of the grid.
+    fn pair(&self, [low, middle, high]: [(f64, f64); 3]) -> Result<Vec<f64>, NoOrbit> {
+        let sign = middle.1.signum();
+        let dips = sign * middle.1 <= sign * low.1 && sign * middle.1 <= sign * high.1;
+        if !dips || low.1 * middle.1 <= 0.0 || middle.1 * high.1 <= 0.0 {
+            return Ok(Vec::new());
+        }
+        let depth = |size: f64| Ok::<f64, NoOrbit>(sign * self.growth(size)?);
+        let least = try_minimise(depth, low.0, high.0, Closeness::default())?;
+        let Some(least) = least.ok().filter(|least| least.value < 0.0) else {
+            return Ok(Vec::new());
+        };
+        let both = [self.root(least.location, high.0)?, self.root(low.0, least.location)?];
+        Ok(both.into_iter().flatten().collect())
+    }
+
+    /// The cycle smaller than the grid: it exists where the growth at the smallest size has another sign than at size zero.
+    fn below(&self, smallest: f64, growth: f64) -> Result<Option<f64>, NoOrbit> {
+        let least = NEGLIGIBLE * self.belt.normal_load();
+        if growth * self.linear_growth() >= 0.0 || least >= smallest {
+            return Ok(None);
+        }
+        if self.growth(least)? * growth >= 0.0 { Ok(None) } else { self.root(least, smallest) }
+    }
+
+    /// The cycle of a size.
+    fn cycle(&self, size: f64) -> Result<Option<Orbit>, NoOrbit> {
+        let start = self.lowest(size);
+        let Some(turn) = turn(self.belt, start)? else { return Ok(None) };
+        let state = [start.displacement, start.velocity];
+        Ok(Some(orbit_at(self.belt, &state, turn.time, true)?))
+    }
+}
+
+/// 2ζ + μ′(v₀)F of steady sliding without dither: below zero small motions grow.
+pub fn linear_damping(belt: &Belt) -> f64 {
+    let slope = belt.friction().slope(belt.belt_velocity());
+    belt.damping_rate(slope, belt.normal_load())
+}
+
+/// Whether steady sliding without dither is stable. e^{−c/2}, c = 2ζ + μ′(v₀)F, is the modulus of both multipliers over unit time of
+/// an underdamped belt, and has the same side of 1 as the larger one of an overdamped belt.
+pub fn sliding_verdict(belt: &Belt) -> Verdict {
+    Verdict::of(libm::exp(-0.5 * linear_damping(belt)), 0.0)
 }
 
 /// Every limit cycle of the belt without its dither, the largest first; none where all motion settles to steady sliding.
@@ -50,53 +193,81 @@ pub fn cycles(belt: &Belt) -> Result<Vec<Orbit>, NoOrbit> {
     if belt.belt_velocity() == 0.0 {
         return Ok(Vec::new());
     }
-    let sliding = belt.steady_sliding();
-    let Some(outermost) = turn(belt, released(belt))? else { return Ok(Vec::new()) };
-    let largest = sliding - outermost.displacement;
-    if largest <= 0.0 {
-        return Ok(Vec::new());
+    let map = CycleMap { belt, sliding: belt.steady_sliding() };
+    let Some(largest) = map.largest()? else { return Ok(Vec::new()) };
+    let mut sizes = Vec::new();
+    if map.sticks(largest)? {
+        sizes.push(largest);
     }
-    let lowest = |size: f64| Start { time: 0.0, displacement: sliding - size, velocity: 0.0 };
-    let mut found = Vec::new();
-    let again = turn(belt, lowest(largest))?;
-    if let Some(turn) = again.filter(|turn| turn.sticks) {
-        let start = lowest(largest);
-        found.push(orbit_at(belt, &[start.displacement, start.velocity], turn.time)?.free());
-    }
-    // Relative growth of the size over a turn.
-    let growth = |size: f64| -> Result<f64, NoOrbit> {
-        let turn = turn(belt, lowest(size))?;
-        Ok(turn.map_or(-1.0, |turn| (sliding - turn.displacement) / size - 1.0))
-    };
-    let size = |k: u32| {
-        let share = f64::from(k) / f64::from(PLACES);
-        largest * (SMALLEST + (1.0 - 1e-7 - SMALLEST) * share * (2.0 - share))
-    };
-    let (mut upper, mut above) = (size(PLACES), growth(size(PLACES))?);
-    for k in (0..PLACES).rev() {
-        let (lower, below) = (size(k), growth(size(k))?);
-        if below * above < 0.0 {
-            let closeness = Closeness { absolute: 0.0, relative: 1e-14 };
-            // A change of sign of finite values has a place: the search itself has nothing to complain about.
-            if let Ok(root) = try_find_root(growth, lower, upper, closeness)?
-                && let Some(turn) = turn(belt, lowest(root.location))?
-            {
-                let start = lowest(root.location);
-                found.push(orbit_at(belt, &[start.displacement, 0.0], turn.time)?.free());
-            }
-        }
-        (upper, above) = (lower, below);
-    }
-    Ok(found)
+    sizes.extend(map.fixed_sizes(largest)?);
+    let found = sizes.into_iter().filter_map(|size| map.cycle(size).transpose());
+    found.collect()
 }
 
-/// The cycle, one of `cycles`, on which an undithered run from a state ends; `None` where it settles to steady sliding.
+/// A state on the largest stable limit cycle without dither: its release where it sticks, else its lowest displacement. `None`
+/// where no stable cycle exists.
+///
+/// # Errors
+/// [`NoOrbit::Stalled`].
+pub fn squeal(belt: &Belt) -> Result<Option<Start>, NoOrbit> {
+    let belt = &belt.undithered();
+    if belt.belt_velocity() == 0.0 {
+        return Ok(None);
+    }
+    let map = CycleMap { belt, sliding: belt.steady_sliding() };
+    let Some(largest) = map.largest()? else { return Ok(None) };
+    if map.sticks(largest)? {
+        return Ok(Some(released(belt)));
+    }
+    // The turn after a release shrinks: the next smaller cycle attracts it.
+    let sizes = map.fixed_sizes(largest)?;
+    Ok(sizes.first().map(|size| map.lowest(*size)))
+}
+
+/// Where an undithered run from a state ends.
 ///
 /// Turns do not cross: a run whose turns grow comes to the next larger cycle, one whose turns shrink to the next smaller.
 ///
 /// # Errors
 /// [`NoOrbit::Stalled`]; [`NoOrbit::NoLimit`] where turns neither grow nor shrink, grow for long beyond every cycle that is
 /// known, or shrink towards steady sliding that is not stable.
+pub fn free_end(belt: &Belt, start: Start) -> Result<FreeEnd, NoOrbit> {
+    if belt.belt_velocity() == 0.0 {
+        return Ok(FreeEnd::Rest);
+    }
+    let reached = cycle_reached(belt, &cycles(belt)?, start)?.cloned();
+    Ok(reached.map_or(FreeEnd::Sliding, FreeEnd::Cycle))
+}
+
+/// Whether an undithered run from a state keeps vibrating: whether [`free_end`] is a cycle, without computing all of them where
+/// the first turns decide.
+///
+/// # Errors
+/// As [`free_end`].
+pub fn keeps_vibrating(belt: &Belt, start: Start) -> Result<bool, NoOrbit> {
+    let belt = &belt.undithered();
+    if belt.belt_velocity() == 0.0 {
+        return Ok(false);
+    }
+    let map = CycleMap { belt, sliding: belt.steady_sliding() };
+    let Some(first) = turn(belt, start)? else { return Ok(false) };
+    let Some(largest) = map.largest()? else { return Ok(false) };
+    // Whatever sticks is released, and then follows the release.
+    let size = if first.sticks { largest } else { map.size(&first) };
+    if first.sticks && map.sticks(largest)? {
+        return Ok(true);
+    }
+    let growth = if size > 0.0 { map.growth(size)? } else { -1.0 };
+    if growth > SAME || map.linear_growth() > 0.0 && size > NEGLIGIBLE * belt.normal_load() {
+        return Ok(true);
+    }
+    Ok(matches!(free_end(belt, start)?, FreeEnd::Cycle(_)))
+}
+
+/// The cycle, one of `cycles`, on which an undithered run from a state ends; `None` where it settles to steady sliding.
+///
+/// # Errors
+/// As [`free_end`].
 pub fn cycle_reached<'a>(
     belt: &Belt,
     cycles: &'a [Orbit],
@@ -105,6 +276,7 @@ pub fn cycle_reached<'a>(
     let belt = &belt.undithered();
     let sliding = belt.steady_sliding();
     let size_of = |cycle: &Orbit| sliding - cycle.start.displacement;
+    let settled = || if linear_damping(belt) > 0.0 { Ok(None) } else { Err(NoOrbit::NoLimit) };
     let mut from = start;
     for _ in 0..MOST_TURNS {
         let Some(first) = turn(belt, from)? else { return Ok(None) };
@@ -120,11 +292,7 @@ pub fn cycle_reached<'a>(
         }
         if next < size {
             let smaller = cycles.iter().find(|cycle| size_of(cycle) < size);
-            return if smaller.is_none() && !settles(belt) {
-                Err(NoOrbit::NoLimit)
-            } else {
-                Ok(smaller)
-            };
+            return smaller.map_or_else(settled, |cycle| Ok(Some(cycle)));
         }
         let larger = cycles.iter().rev().find(|cycle| size_of(cycle) > size);
         if larger.is_some() {
@@ -134,34 +302,35 @@ pub fn cycle_reached<'a>(
     Err(NoOrbit::NoLimit)
 }
 
-/// Whether small motions about steady sliding die out: 2ζ + μ′(v₀)F > 0.
-fn settles(belt: &Belt) -> bool {
-    let slope = belt.friction().slope(belt.belt_velocity());
-    belt.damping_rate(slope, belt.normal_load()) > 0.0
-}
+/// Time in slip within which a turn comes to its lowest point, two periods of the undamped oscillator; a motion without one is
+/// overdamped and approaches sliding.
+const LONGEST_SLIP: f64 = 2.0 * TAU;
 
-/// From a state to the next lowest point; `None` where none comes within the longest possible turn.
+/// From a state to the next lowest point; `None` where none comes within [`LONGEST_SLIP`].
+///
+/// A stick ends at the release, whose state is known: it is jumped over, however slow the belt.
 fn turn(belt: &Belt, start: Start) -> Result<Option<Turn>, NoOrbit> {
-    // A stick carries the mass from its lowest to its highest place at most.
-    let reach = 2.0
-        * (belt.friction().static_coefficient() * belt.normal_load() + start.displacement.abs());
-    let longest = 2.0 * TAU + reach / belt.belt_velocity();
-    let mut watch = (VelocitySection::upward(0.0), EventRecorder::default());
-    let mut from = start;
-    while from.time < start.time + longest {
-        let end = simulate(belt, from, from.time + 0.5 * TAU, TOLERANCE, &mut watch)
-            .map_err(NoOrbit::Stalled)?;
-        if let Some(lowest) = watch.0.crossings.first() {
-            let is_before = |time: f64| time < lowest.time;
-            let sticks = watch
-                .1
-                .events
-                .iter()
-                .any(|event| event.kind == EventKind::Stick && is_before(event.time));
-            let (displacement, time) = (lowest.displacement, lowest.time);
+    let release = released(belt);
+    let mut from = Start { time: 0.0, ..start };
+    let (mut elapsed, mut slipped, mut sticks) = (0.0, 0.0, false);
+    while slipped < LONGEST_SLIP {
+        let mut watch = (VelocitySection::upward(0.0), EventRecorder::default());
+        let end =
+            simulate(belt, from, 0.5 * TAU, TOLERANCE, &mut watch).map_err(NoOrbit::Stalled)?;
+        let lowest = watch.0.crossings.first();
+        let until = lowest.map_or(f64::INFINITY, |lowest| lowest.time);
+        sticks |= watch.1.events.iter().any(|it| it.kind == EventKind::Stick && it.time < until);
+        if let Some(lowest) = lowest {
+            let (displacement, time) = (lowest.displacement, elapsed + lowest.time);
             return Ok(Some(Turn { displacement, time, sticks }));
         }
-        from = end.restart();
+        elapsed += end.time;
+        slipped += end.time;
+        from = Start { time: 0.0, ..end.restart() };
+        if end.sticking {
+            elapsed += (release.displacement - end.displacement).max(0.0) / belt.belt_velocity();
+            from = release;
+        }
     }
     Ok(None)
 }

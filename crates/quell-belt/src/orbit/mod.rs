@@ -10,14 +10,13 @@
 //!
 //! * [`threshold`]: the values of a parameter at which the response of sliding gains or loses stability;
 //! * [`curve`]: curves of thresholds in two parameters;
-//! * [`cycle`]: the limit cycles of an undithered belt, stable or not;
-//! * [`reached`]: where a run from a given start ends, and on what orbit.
+//! * [`cycle`]: the limit cycles of an undithered belt, stable or not, and where undithered runs end.
 
+mod accuracy;
 mod collocation;
 pub mod curve;
 pub mod cycle;
 pub mod family;
-pub mod reached;
 pub mod threshold;
 mod variation;
 
@@ -39,7 +38,7 @@ const TOLERANCE: f64 = 1e-14;
 /// Frequencies whose ratio is a fraction with a denominator up to this are commensurate.
 const DENOMINATORS: u32 = 64;
 
-/// Multipliers this near to modulus 1 leave the verdict open.
+/// Least error of a multiplier's modulus: that of the collocation of `variation`, 10⁻¹⁰ against differences, and some room.
 const UNDECIDED: f64 = 1e-9;
 
 /// Whether small changes of a periodic response die out.
@@ -54,11 +53,12 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Of an orbit whose largest multiplier has this modulus.
-    pub fn of(radius: f64) -> Self {
+    /// Of an orbit whose largest multiplier has this modulus with this error (at least 10⁻⁹ is presumed).
+    pub fn of(radius: f64, error: f64) -> Self {
+        let error = error.max(UNDECIDED);
         match radius {
-            radius if radius > 1.0 + UNDECIDED => Self::Unstable,
-            radius if radius < 1.0 - UNDECIDED => Self::Stable,
+            radius if radius > 1.0 + error => Self::Unstable,
+            radius if radius < 1.0 - error => Self::Stable,
             _ => Self::Undecided,
         }
     }
@@ -82,6 +82,11 @@ pub struct Orbit {
     pub period: f64,
     /// Mismatch of x and x′ after the period, the larger one, a length.
     pub residual: f64,
+    /// Estimated error of the state, a length: twice the mismatch over |1 − λ| of the multiplier λ nearest to 1.
+    pub state_error: f64,
+    /// Estimated error of the modulus of the multiplier that decides: its change over the state's error. Infinite where
+    /// the state is too uncertain to say.
+    pub multiplier_error: f64,
     /// Derivative of the period map: rows (x, x′) at its end, columns (x, x′) at its start.
     pub monodromy: Matrix,
     /// Its eigenvalues (re, im), the larger modulus first.
@@ -101,17 +106,10 @@ pub struct Orbit {
 }
 
 impl Orbit {
-    /// Modulus of the multiplier that decides: the larger one; of a free orbit the one that is not 1.
+    /// Modulus of the multiplier that decides: the larger one; of a free orbit the one across it.
     pub fn radius(&self) -> f64 {
-        let off = |(re, im): (f64, f64)| libm::hypot(re - 1.0, im);
-        let [larger, smaller] = self.multipliers;
-        let (re, im) = if self.is_free && off(smaller) > off(larger) { smaller } else { larger };
-        libm::hypot(re, im)
-    }
-
-    /// The same with a free phase.
-    fn free(self) -> Self {
-        Self { is_free: true, ..self }
+        let slides = self.is_pure_slip();
+        deciding(self.multipliers, self.is_free, slides.then_some(self.damping))
     }
 
     /// What happens along its period.
@@ -122,7 +120,7 @@ impl Orbit {
 
     /// What the multipliers say.
     pub fn verdict(&self) -> Verdict {
-        Verdict::of(self.radius())
+        Verdict::of(self.radius(), self.multiplier_error)
     }
 
     /// Whether it never touches v_r = 0.
@@ -133,6 +131,25 @@ impl Orbit {
     /// Number of events of a kind in a period.
     pub fn count(&self, kind: EventKind) -> usize {
         self.events.iter().filter(|(it, _)| *it == kind).count()
+    }
+}
+
+/// Why a run has not settled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unsettled {
+    /// It still moved when its periods were over.
+    Moving,
+    /// It dwells in slip where areas grow: beside an unstable curve between two basins.
+    Dwelling,
+}
+
+impl Unsettled {
+    /// In words.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Moving => "it still moved when its periods were over",
+            Self::Dwelling => "it dwells beside an unstable curve between two basins",
+        }
     }
 }
 
@@ -178,12 +195,14 @@ pub enum NoOrbit {
         /// Share of the amplitude up to which it was followed.
         share: f64,
     },
-    /// The run does not come back to itself within this number of common periods.
+    /// The run ends on a response that does not return to itself within this number of common periods.
     NoPeriod {
         /// The number.
         most: u32,
     },
-    /// The turns of an undithered run come to no limit cycle that is known, nor to stable steady sliding.
+    /// The run had not settled when its periods were over.
+    Unsettled(Unsettled),
+    /// The undithered run converges neither to a known limit cycle nor to stable steady sliding.
     NoLimit,
     /// A parameter cannot take this value.
     Invalid {
@@ -192,6 +211,13 @@ pub enum NoOrbit {
     },
     /// The engine stopped.
     Stalled(Stalled),
+}
+
+impl NoOrbit {
+    /// Whether this says that the base response does not exist, rather than that it was not found.
+    pub fn is_absence(&self) -> bool {
+        matches!(self, Self::Ends { .. } | Self::Degenerate { .. } | Self::Another { .. })
+    }
 }
 
 impl fmt::Display for NoOrbit {
@@ -228,11 +254,12 @@ impl fmt::Display for NoOrbit {
             ),
             Self::NoPeriod { most } => write!(
                 f,
-                "the run does not come back to itself within {most} periods of the dither: \
-                 it is slow, locked at a longer period, or not periodic"
+                "the run ends on a response that does not repeat within {most} periods of the dither: \
+                 it is quasi-periodic, or locked at a longer period"
             ),
+            Self::Unsettled(why) => write!(f, "the run has not settled: {}", why.about()),
             Self::NoLimit => f.write_str(
-                "the turns of the run come to no limit cycle that is known, nor to stable steady sliding",
+                "the run converges neither to a known limit cycle nor to stable steady sliding",
             ),
             Self::Invalid { value } => write!(f, "a parameter cannot be {value}"),
             Self::Stalled(stalled) => stalled.fmt(f),
@@ -296,39 +323,50 @@ pub fn near(belt: &Belt, guess: Start, periods: u32) -> Result<Orbit, NoOrbit> {
     let shooting = Shooting { longest_step: longest, ..Shooting::default() };
     let guess = [guess.displacement, guess.velocity];
     let found = fixed_point(&forced, &guess, &[], None, &shooting)?;
-    orbit_at(belt, &found.state, forced.period_of(belt)?)
+    orbit_at(belt, &found.state, forced.period_of(belt)?, false)
 }
 
-/// The orbit of a state that is known to close.
-fn orbit_at(belt: &Belt, state: &[f64], period: f64) -> Result<Orbit, NoOrbit> {
+/// The orbit of a state that is known to close; `is_free` of a limit cycle without dither.
+fn orbit_at(belt: &Belt, state: &[f64], period: f64, is_free: bool) -> Result<Orbit, NoOrbit> {
     let start = family::start_of(state);
     let (end, variation) = shot(belt, start, period)?;
     let mismatch = [end.displacement - start.displacement, end.velocity - start.velocity];
     let residual = mismatch[0].abs().max(mismatch[1].abs());
-    Ok(orbit_of(start, period, residual, &end, &variation))
-}
-
-fn orbit_of(
-    start: Start,
-    period: f64,
-    residual: f64,
-    end: &FinalState,
-    variation: &Variation<'_>,
-) -> Orbit {
-    Orbit {
+    let errors = accuracy::accuracy(belt, start, period, residual, &variation, is_free);
+    Ok(Orbit {
         start,
         period,
         residual,
+        state_error: errors.state,
+        multiplier_error: errors.multiplier,
         monodromy: variation.matrix,
         multipliers: multipliers_of(&variation.matrix),
-        events: variation.events.clone(),
+        events: variation.events,
         damping: variation.damping,
         // A run stays on its side of v_r = 0: what is below is rounding at an event.
         least_slip: variation.least.map(|(least, time)| (least.max(0.0), time)),
         stick_fraction: variation.stuck / period,
         slip_sign: end.slip_sign,
-        is_free: false,
+        is_free,
+    })
+}
+
+/// Modulus of the multiplier that decides. Of a free orbit one multiplier is 1, along it; the other is the determinant, in pure
+/// slip e^−`damping`: the eigenvalues themselves are ill-conditioned where both are near 1.
+fn deciding(multipliers: [(f64, f64); 2], is_free: bool, damping: Option<f64>) -> f64 {
+    let off = |(re, im): (f64, f64)| libm::hypot(re - 1.0, im);
+    let [larger, smaller] = multipliers;
+    match damping {
+        Some(damping) if is_free => libm::exp(-damping),
+        _ if is_free && off(smaller) > off(larger) => libm::hypot(smaller.0, smaller.1),
+        _ => libm::hypot(larger.0, larger.1),
     }
+}
+
+/// The same along a run of one period.
+fn radius_of(variation: &Variation<'_>, is_free: bool) -> f64 {
+    let slides = variation.events.is_empty() && variation.stuck == 0.0;
+    deciding(multipliers_of(&variation.matrix), is_free, slides.then_some(variation.damping))
 }
 
 /// Multipliers of a period map, the larger modulus first.
@@ -363,7 +401,7 @@ pub fn from_sliding(belt: &Belt, steps: u32) -> Result<Orbit, NoOrbit> {
         End::Window { .. } | End::Closed => return Err(NoOrbit::Ends { share: 0.0 }),
     }
     let last = branch.points.last().ok_or(NoOrbit::Ends { share: 0.0 })?;
-    orbit_at(belt, &last.state, period)
+    orbit_at(belt, &last.state, period, false)
 }
 
 /// The response that sliding becomes; without dither steady sliding itself, as the fixed point of the flow over unit time.
@@ -371,5 +409,5 @@ pub(crate) fn quiet(belt: &Belt, steps: u32) -> Result<Orbit, NoOrbit> {
     if !belt.dithers().is_empty() {
         return from_sliding(belt, steps);
     }
-    orbit_at(belt, &[belt.steady_sliding(), 0.0], 1.0)
+    orbit_at(belt, &[belt.steady_sliding(), 0.0], 1.0, false)
 }

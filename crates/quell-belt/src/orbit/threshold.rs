@@ -287,7 +287,7 @@ fn told(branch: &Branch<Signature>, from: f64, to: f64) -> Local {
 }
 
 fn verdict(side: Option<&Side<Signature>>) -> Option<Verdict> {
-    side.map(|side| Verdict::of(side.radius))
+    side.map(|side| Verdict::of(side.radius, 0.0))
 }
 
 fn change(passage: &Passage<Signature>) -> Option<Change> {

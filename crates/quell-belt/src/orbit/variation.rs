@@ -19,9 +19,9 @@
 use quell_model::friction::{LawVisitor, SlidingLaw};
 use quell_model::{Belt, Direction};
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
-use quell_numerics::lane::horner;
 
 use super::collocation::{COLLOCATION, NODES, forces, least_of, weighted};
+use crate::contraction::rates_along;
 use crate::simulation::{Event, EventKind, Observer, Segment};
 
 /// A 2 × 2 matrix, row by row.
@@ -144,20 +144,8 @@ impl<L: SlidingLaw> Work for AlongBy<'_, '_, '_, '_, '_, L> {
         let h = segment.duration();
         let sign = f64::from(segment.slip_sign());
         let (slip, unit) = segment.slip_series();
-        let belt = variation.belt;
-        let has_normal = belt.dithers().iter().any(|it| it.direction == Direction::Normal);
-        let mut speeds = [0.0; NODES];
-        let mut rates = [0.0; NODES];
-        for k in 0..NODES {
-            let since = rule.nodes[k] * h;
-            speeds[k] = sign * unit * horner(slip, since);
-            let load = if has_normal {
-                belt.normal_load_at(segment.clock().time() + since)
-            } else {
-                belt.normal_load()
-            };
-            rates[k] = belt.damping_rate(self.law.slope(speeds[k]), load);
-        }
+        let since = rule.nodes.map(|node| node * h);
+        let (speeds, rates) = rates_along(variation.belt, self.law, segment, &since);
         variation.damping += h * weighted(rule, &rates);
         let [upper, lower] = variation.matrix;
         let force = forces(rule, &rates, h, [upper[0], upper[1]], [lower[0], lower[1]]);

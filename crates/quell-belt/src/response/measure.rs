@@ -8,6 +8,8 @@ use quell_numerics::spectrum::low_band::LargestLines;
 use super::cost::{self, Meter};
 use super::listener::{Listener, Sampling};
 use super::{HALVES_AGREE, HALVES_NEGLIGIBLE, Solver, Undefined};
+use crate::orbit::NoOrbit;
+use crate::orbit::cycle::keeps_vibrating;
 use crate::simulation::{
     Event, FinalState, InstructionSet, Observer, Run, Segment, Stalled, Start, simulate_many_with,
 };
@@ -45,8 +47,6 @@ pub struct Measured {
     pub minimum_normal_load: f64,
     /// Stick, release and reversal events in the record.
     pub events: u64,
-    /// F, the scale of lengths.
-    load: f64,
 }
 
 impl Measured {
@@ -58,18 +58,9 @@ impl Measured {
             || difference <= HALVES_NEGLIGIBLE * reference
     }
 
-    /// Whether an undithered record shows no vibration to compare with: no stick, no reversal, and
-    /// an amplitude that is nothing or still falls.
-    fn why_undefined(&self) -> Option<Undefined> {
-        let [first, second] = self.lines.halves;
-        // What is left of a constant is rounding.
-        let least = 1e-14 * self.load;
-        if first <= least && second <= least && self.stick_fraction == 1.0 {
-            return Some(Undefined::UnditheredAtRest);
-        }
-        let falls = second < (1.0 - HALVES_AGREE) * first;
-        let nothing = second < 1e-9 * self.load;
-        (self.events == 0 && (falls || nothing)).then_some(Undefined::UnditheredSettles)
+    /// Whether M of the halves agree relatively: nothing grows or falls by more than a hundredth over half a record.
+    pub(super) fn is_steady(&self) -> bool {
+        self.is_settled(0.0)
     }
 }
 
@@ -80,6 +71,8 @@ pub struct Compared {
     pub dithered: Measured,
     /// Without, from the same state.
     pub undithered: Measured,
+    /// Whether the undithered run keeps vibrating, by the cycle map; or why E is undefined.
+    pub vibrates: Result<(), Undefined>,
 }
 
 impl Compared {
@@ -88,10 +81,8 @@ impl Compared {
     /// # Errors
     /// Why it is undefined.
     pub fn efficiency(&self) -> Result<f64, Undefined> {
-        match self.undithered.why_undefined() {
-            Some(why) => Err(why),
-            None => Ok(self.dithered.lines.whole / self.undithered.lines.whole),
-        }
+        self.vibrates?;
+        Ok(self.dithered.lines.whole / self.undithered.lines.whole)
     }
 
     /// Whether M of the halves of the dithered record agree.
@@ -125,14 +116,32 @@ pub fn compare_many(
         }));
     }
     let undithered = measure_many(&without, solver, Wanted::default());
+    let vibrates: Vec<_> = without.iter().map(keeps_vibrating_without).collect();
     let dithered = measure_many(cases, solver, wanted);
     dithered
         .into_iter()
         .zip(places)
         .map(|(dithered, place)| {
-            Ok(Compared { dithered: dithered?, undithered: undithered[place]? })
+            let (undithered, vibrates) = (undithered[place]?, vibrates[place]?);
+            Ok(Compared { dithered: dithered?, undithered, vibrates })
         })
         .collect()
+}
+
+/// Whether the undithered run of a case keeps vibrating, or why E is undefined.
+///
+/// # Errors
+/// [`Stalled`].
+pub(super) fn keeps_vibrating_without(case: &Case) -> Result<Result<(), Undefined>, Stalled> {
+    if case.belt.belt_velocity() == 0.0 {
+        return Ok(Err(Undefined::UnditheredAtRest));
+    }
+    match keeps_vibrating(&case.belt, case.start) {
+        Ok(true) => Ok(Ok(())),
+        Ok(false) => Ok(Err(Undefined::UnditheredSettles)),
+        Err(NoOrbit::Stalled(stalled)) => Err(stalled),
+        Err(_) => Ok(Err(Undefined::UnditheredUnknown)),
+    }
 }
 
 /// Measures the settled record of every case.
@@ -229,7 +238,6 @@ impl<O> Watch<O> {
             dither_stroke: has_cost.then(|| self.listener.stroke()),
             minimum_normal_load: cost::minimum_normal_load(belt, self.sampling.from, length),
             events: end.events,
-            load: belt.normal_load(),
         };
         (measured, self.observer)
     }

@@ -7,10 +7,14 @@
 //! and without dither from the same state and phase. Keeping the mean makes E > 1; keeping
 //! the start-up under a rectangular window puts a floor of about 0.3 under E.
 //!
+//! What the dither does in one word, and where its run ends, is decided by the exact undithered cycle map and by the judge of
+//! [`crate::attractor`], not by the record ([`effect()`]).
+//!
 //! Everything is measured while integrating ([`compare_many`]), alone or for many cases side by
 //! side, with the same bits; only [`respond`] keeps the samples too, for spectra and pictures.
 
 mod cost;
+mod effect;
 mod effective;
 mod isocline;
 mod listener;
@@ -23,6 +27,7 @@ use quell_model::Belt;
 pub use quell_numerics::spectrum::{Peak, Spectrum};
 
 use crate::simulation::{DEFAULT_TOLERANCE, Sampler, Stalled, Start};
+pub use effect::{Effect, Ending, QUENCHED, Uncertain, effect};
 pub use effective::{WindowMean, measured_effective_friction};
 pub use isocline::amplitude_at_efficiency;
 use listener::Sampling;
@@ -65,8 +70,10 @@ pub enum Undefined {
     /// The undithered run from this state settles to steady sliding; a limit cycle may still
     /// exist elsewhere.
     UnditheredSettles,
-    /// The undithered run does not move at all.
+    /// The belt does not move (v₀ = 0), so that the undithered run comes to rest.
     UnditheredAtRest,
+    /// Where the undithered run ends is unknown.
+    UnditheredUnknown,
 }
 
 impl fmt::Display for Undefined {
@@ -76,7 +83,14 @@ impl fmt::Display for Undefined {
                 "without dither the belt settles to steady sliding from this start, so there is \
                  no vibration to compare with (a limit cycle may exist from another start)"
             }
-            Self::UnditheredAtRest => "without dither nothing moves from this start",
+            Self::UnditheredAtRest => {
+                "the belt does not move (v₀ = 0), so without dither the mass comes to rest, and \
+                 there is no vibration to compare with"
+            }
+            Self::UnditheredUnknown => {
+                "where the undithered run from this start ends is unknown: it converges neither to \
+                 a known limit cycle nor to stable steady sliding"
+            }
         })
     }
 }
@@ -92,11 +106,15 @@ pub struct Response {
     pub peaks: Vec<Peak>,
     /// Share of the record spent in stick.
     pub stick_fraction: f64,
-    /// E = M₁/M₀ (2.27).
+    /// What the dither does.
+    pub effect: Effect,
+    /// Where the dithered run ends.
+    pub ending: Ending,
+    /// E = M₁/M₀ (2.27), the residual vibration.
     pub efficiency: Result<f64, Undefined>,
     /// M of the undithered run from the same state.
     pub undithered_amplitude: f64,
-    /// Whether M of the two halves of the record agree.
+    /// Whether M of the two halves of the record agree, and nothing is left in it of a vibration that dies out.
     pub settled: bool,
     /// The same for the undithered run.
     pub undithered_settled: bool,
@@ -138,14 +156,20 @@ pub fn respond(belt: &Belt, start: Start, solver: &Solver) -> Result<Response, S
     let (dithered, record) = one(belt, Wanted { dither_cost: true }, None)?;
     let (undithered, undithered_record) =
         one(&belt.undithered(), Wanted::default(), Some(&record))?;
-    let compared = Compared { dithered, undithered };
+    let case = Case { belt: belt.undithered(), start };
+    let vibrates = measure::keeps_vibrating_without(&case)?;
+    let compared = Compared { dithered, undithered, vibrates };
+    let ending = Ending::of(belt, start);
+    let effect = effect(belt, start, &compared, ending);
     Ok(Response {
+        effect,
+        ending,
         amplitude: dithered.lines.whole,
         peaks: record.spectrum.peaks(PEAK_FLOOR),
         stick_fraction: dithered.stick_fraction,
         efficiency: compared.efficiency(),
         undithered_amplitude: undithered.lines.whole,
-        settled: compared.settled(),
+        settled: compared.settled() && !effect::still_decays(effect, &compared),
         undithered_settled: compared.undithered_settled(),
         mean_friction: dithered.mean_friction,
         mean_friction_undithered: belt.steady_sliding(),

@@ -112,5 +112,7 @@ fn table(study: &Study, found: &Orbit) -> String {
     }
     table.number("stick fraction", Quantity::Ratio, found.stick_fraction);
     table.number("residual", Quantity::Displacement, found.residual);
+    table.number("error of the state", Quantity::Displacement, found.state_error);
+    table.number("error of the multiplier", Quantity::Ratio, found.multiplier_error);
     table.text()
 }

@@ -46,8 +46,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 fn text(study: &Study, done: &Steady) -> String {
     let response = &done.response;
     let mut table = Table::new(study.scales());
+    table.word("effect", response.effect.name());
+    table.word("ends on", response.ending.name());
     table.known(
-        "efficiency E",
+        "residual vibration E",
         Quantity::Ratio,
         response.efficiency.map_err(|why| why.to_string()),
     );
@@ -57,6 +59,7 @@ fn text(study: &Study, done: &Steady) -> String {
     table.word("settled", if response.settled { "yes" } else { "no" });
     table.number("mean friction", Quantity::Force, response.mean_friction);
     table.number("  steady, undithered", Quantity::Force, response.mean_friction_undithered);
+    table.known("friction lost", Quantity::Ratio, done.friction_loss());
     let only_normal = || "all dither is normal".to_owned();
     table.known("dither power", Quantity::Power, response.dither_power.ok_or_else(only_normal));
     table.known(

@@ -175,7 +175,7 @@ class Study:
         return results.Simulation(self, self._native.simulate(end, bool(events), bool(samples)))
 
     def response(self) -> results.Response:
-        """The steady response, what the dither does to it (efficiency E, equation (2.27)), and what it costs."""
+        """The steady response, what the dither does to it (``effect``; residual vibration E, equation (2.27)), and its cost."""
         return results.Response(self, self._native.response())
 
     def orbit(

@@ -190,7 +190,7 @@ fn simulation(task: Task, cite: &mut impl FnMut(Task, Source, &'static str)) {
     cite(task, JORBA_ZOU_2005, "Taylor steps and the choice of their length");
     cite(task, FILIPPOV_1988, "what a solution is where the friction law is set-valued");
     if task == Task::Response {
-        cite(task, MICHAUX_2005, "efficiency of dither (2.27)");
+        cite(task, MICHAUX_2005, "residual vibration E under dither (2.27)");
         cite(task, HARRIS_1978, "Hann window of the spectrum");
         cite(task, THOMSEN_FIDLIN_2003, "the stick-slip of the belt without dither");
         cite(task, CUNEFARE_GRAF_2002, "dither against squeal");

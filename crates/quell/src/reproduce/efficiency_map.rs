@@ -246,7 +246,7 @@ fn caption(source: &Source, study: &Study) -> String {
         }
     };
     format!(
-        "Figure {}. Efficiency $E$ (2.27) of {direction} dither with the {} law, from rest: isolines in per cent. Solid: averaged boundary \
+        "Figure {}. Residual vibration $E$ (2.27) under {direction} dither with the {} law, from rest: isolines in per cent. Solid: averaged boundary \
          $D$ = $α^*R$, which the print compares with $E$ = {FIVE_PER_CENT} %; dashed: with the exact fast motion of the oscillator. \
          $ζ$ = {}, {}. Record: $τ$ < {} discarded, {} slow periods, mean removed, Hann window; the print gives \
          none, nor the ranges of its axes.{closing}",

@@ -92,8 +92,16 @@ pub const ENTRIES: &[Entry] = &[
     figure!("2.5", "effective friction, decreasing law", effective_friction::figure),
     figure!("2.6", "stability map, Stribeck law", stability_map::single),
     figure!("2.7", "stability map, decreasing law", stability_map::single),
-    figure!("2.8", "efficiency, Stribeck law, four belt velocities", efficiency_map::velocities),
-    figure!("2.9", "efficiency, decreasing law, four belt velocities", efficiency_map::velocities),
+    figure!(
+        "2.8",
+        "residual vibration, Stribeck law, four belt velocities",
+        efficiency_map::velocities
+    ),
+    figure!(
+        "2.9",
+        "residual vibration, decreasing law, four belt velocities",
+        efficiency_map::velocities
+    ),
     figure!("2.10", "responses and sections, decreasing law, sine, v₀ = 1", sections::figure),
     figure!("2.11", "responses and sections, decreasing law, sine, v₀ = 1.5", sections::figure),
     figure!("3.2", "dither waveforms and their integrals", waveforms::figure),
@@ -108,8 +116,12 @@ pub const ENTRIES: &[Entry] = &[
     figure!("3.7", "responses, Stribeck law, sinusoidal tangential dither", responses::figure),
     figure!("3.8", "responses, Stribeck law, triangular tangential dither", responses::figure),
     figure!("3.9", "responses, Stribeck law, square tangential dither", responses::figure),
-    figure!("3.10", "efficiency, Stribeck law, three waveforms", efficiency_map::waveforms),
-    figure!("3.11", "efficiency, decreasing law, three waveforms", efficiency_map::waveforms),
+    figure!("3.10", "residual vibration, Stribeck law, three waveforms", efficiency_map::waveforms),
+    figure!(
+        "3.11",
+        "residual vibration, decreasing law, three waveforms",
+        efficiency_map::waveforms
+    ),
     figure!("3.12", "responses and sections, decreasing law, triangle", sections::figure),
     figure!("3.13", "responses and sections, decreasing law, square", sections::figure),
     figure!("4.2", "Stribeck and decreasing friction law", laws::figure),
@@ -119,8 +131,8 @@ pub const ENTRIES: &[Entry] = &[
     figure!("4.6", "effective friction from simulation, decreasing law", measured_friction::figure),
     figure!("4.7", "stability maps, Stribeck law, normal dither", stability_map::three),
     figure!("4.8", "stability maps, decreasing law, normal dither", stability_map::three),
-    figure!("4.9", "efficiency, Stribeck law, normal dither", efficiency_map::single),
-    figure!("4.10", "efficiency, decreasing law, normal dither", efficiency_map::single),
+    figure!("4.9", "residual vibration, Stribeck law, normal dither", efficiency_map::single),
+    figure!("4.10", "residual vibration, decreasing law, normal dither", efficiency_map::single),
     figure!(
         "4.11",
         "responses and sections, normal dither, square and sine",

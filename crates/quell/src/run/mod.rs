@@ -44,7 +44,7 @@ fn resolved(
     initial: InitialState,
     refused: impl FnOnce(NoSquealingStart) -> Complaint,
 ) -> Result<Start, Failure> {
-    initial.resolve(study.belt(), study.solver()).map_err(|why| match why {
+    initial.resolve(study.belt()).map_err(|why| match why {
         NoSquealingStart::Stalled(stalled) => failed(stalled),
         NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest => refused(why).into(),
     })

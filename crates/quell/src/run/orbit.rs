@@ -1,8 +1,8 @@
 //! `orbit`: the periodic response that sliding becomes under dither, one near a given state, or the one on which a run ends,
 //! with its Floquet multipliers; without dither the limit cycles, or steady sliding where there is none.
 
-use quell_belt::orbit::cycle::{cycle_reached, cycles};
-use quell_belt::orbit::reached::orbit_reached;
+use quell_belt::attractor::orbit_reached;
+use quell_belt::orbit::cycle::{cycle_reached, cycles, sliding_verdict};
 use quell_belt::orbit::{NoOrbit, from_sliding, near};
 pub use quell_belt::orbit::{Orbit, Verdict};
 use quell_belt::simulation::{EventKind, Start};
@@ -17,9 +17,6 @@ use crate::study::Study;
 
 /// Least number of steps of the dither's amplitude from nothing to its value.
 const STEPS: u32 = 8;
-
-/// Most periods of the dither in one period of a response on which a run ends.
-const MOST_PERIODS: u32 = 200;
 
 /// Which periodic response is looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +72,7 @@ pub fn run(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
     let found = match wanted {
         Wanted::After(protocol) => {
             let start = protocol.start(study)?;
-            orbit_reached(belt, start, MOST_PERIODS)
+            orbit_reached(belt, start)
         }
         Wanted::Near { state: (displacement, velocity), periods } => {
             near(belt, Start { time: 0.0, displacement, velocity }, periods.max(1))
@@ -100,9 +97,6 @@ fn undithered(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
     let why = "on a belt at rest the mass may stay anywhere within the reach of friction: there is nothing periodic";
     moves(study, why)?;
     let cycles = cycles(belt).map_err(refused)?;
-    let slope = belt.friction().slope(belt.belt_velocity());
-    // e^−(2ζ + μ′F)/2 is the modulus of both multipliers over unit time.
-    let radius = (-0.5 * belt.damping_rate(slope, belt.normal_load())).exp();
     let orbit = match wanted {
         Wanted::After(Protocol::Sliding) => None,
         Wanted::After(protocol) => {
@@ -114,7 +108,7 @@ fn undithered(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
             cycles.iter().min_by(|a, b| off(a).total_cmp(&off(b)))
         }
     };
-    Ok(Response { orbit: orbit.cloned(), sliding: Some(Verdict::of(radius)), cycles })
+    Ok(Response { orbit: orbit.cloned(), sliding: Some(sliding_verdict(belt)), cycles })
 }
 
 impl Protocol {
@@ -139,6 +133,7 @@ pub(super) fn refused(why: NoOrbit) -> Failure {
         | NoOrbit::Ends { .. }
         | NoOrbit::LostOnTheWay { .. }
         | NoOrbit::NoPeriod { .. }
+        | NoOrbit::Unsettled(_)
         | NoOrbit::NoLimit
         | NoOrbit::Invalid { .. } => {
             return Failure::Failed { key: "orbit".to_owned(), why: why.to_string() };
@@ -153,9 +148,7 @@ pub fn sentence(study: &Study, orbit: &Orbit) -> String {
     let verdict = match orbit.verdict() {
         Verdict::Stable => "stable: small changes of it die out",
         Verdict::Unstable => "unstable: small changes of it grow",
-        Verdict::Undecided => {
-            "at its threshold: its largest multiplier has modulus 1 within the error"
-        }
+        Verdict::Undecided => "undecided: its largest multiplier has modulus 1 within its error",
     };
     let contact = match (orbit.count(EventKind::Stick), orbit.count(EventKind::Reversal)) {
         (0, 0) if orbit.is_pure_slip() => "slides without touching v_r = 0".to_owned(),
@@ -223,11 +216,21 @@ impl Response {
             .plain("reversals", 0)
             .number("stick_fraction", Quantity::Ratio, 0.0)
             .number("residual", Quantity::Displacement, 0.0)
+            .number("state_error", Quantity::Displacement, 0.0)
+            .number("multiplier_error", Quantity::Ratio, 0.0)
             .plain("signature", Vec::<Json>::new())
             .number("least_slip_velocity", Quantity::Velocity, study.belt().belt_velocity())
             .plain("warnings", Vec::<Json>::new());
         fields.finish()
     }
+}
+
+/// An estimated error, or why there is none.
+fn finite(error: f64) -> Result<f64, String> {
+    if error.is_finite() {
+        return Ok(error);
+    }
+    Err("a multiplier is too near to 1 for the state to be known closely".to_owned())
 }
 
 /// The orbit as JSON.
@@ -247,7 +250,9 @@ pub fn json(study: &Study, orbit: &Orbit) -> Json {
         .plain("stick_episodes", orbit.count(EventKind::Stick))
         .plain("reversals", orbit.count(EventKind::Reversal))
         .number("stick_fraction", Quantity::Ratio, orbit.stick_fraction)
-        .number("residual", Quantity::Displacement, orbit.residual);
+        .number("residual", Quantity::Displacement, orbit.residual)
+        .known("state_error", Quantity::Displacement, finite(orbit.state_error))
+        .known("multiplier_error", Quantity::Ratio, finite(orbit.multiplier_error));
     let signature: Vec<Json> = orbit
         .events
         .iter()

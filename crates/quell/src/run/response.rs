@@ -1,6 +1,7 @@
 //! `response`: the steady response, what the dither does to it, and what it costs.
 
-use quell_belt::response::{BAND_END, Response, respond};
+use quell_belt::attractor::Reached;
+use quell_belt::response::{BAND_END, Effect, Ending, Response, respond};
 use quell_belt::simulation::{Sample, Start};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -11,9 +12,6 @@ use crate::dataset::Dataset;
 use crate::fields::Fields;
 use crate::study::Study;
 
-/// Below this share of the undithered vibration the word is "quenches".
-const QUENCHED: f64 = 0.01;
-
 /// A steady response with its start.
 #[derive(Clone, Debug)]
 pub struct Steady {
@@ -21,6 +19,8 @@ pub struct Steady {
     pub start: Start,
     /// The response.
     pub response: Response,
+    /// Whether the belt moves.
+    moves: bool,
 }
 
 /// Measures the steady response of a study.
@@ -31,39 +31,90 @@ pub struct Steady {
 pub fn run(study: &Study) -> Result<Steady, Failure> {
     let start = start(study)?;
     let response = respond(study.belt(), start, study.solver()).map_err(failed)?;
-    Ok(Steady { start, response })
+    let moves = study.belt().belt_velocity() > 0.0;
+    Ok(Steady { start, response, moves })
 }
 
 impl Steady {
-    /// What the dither does, in one sentence.
+    /// What the dither does, and at what cost.
     pub fn sentence(&self, study: &Study) -> String {
         let response = &self.response;
         let from = start_in_words(study);
         if study.belt().dithers().iter().all(|dither| dither.amplitude == 0.0) {
             return match &response.efficiency {
                 Ok(_) => format!("Without dither, {from}, the belt keeps vibrating."),
-                Err(why) => format!("There is no dither, and {why}."),
+                Err(why) => format!("The study has no dither, and {why}."),
             };
         }
-        match &response.efficiency {
-            Ok(ratio) if *ratio < QUENCHED => format!(
-                "Started {from}, this dither quenches the vibration: {} is left of it below {BAND_END} ω₀.",
-                percent(*ratio)
+        let residual = response.efficiency.map_or_else(
+            |_| String::new(),
+            |ratio| {
+                let level = self.level();
+                let level = level.map_or_else(String::new, |level| format!(", {level:.1} dB"));
+                format!("the residual vibration E below {BAND_END} ω₀ is {}{level}", percent(ratio))
+            },
+        );
+        let amplitude = in_words(study, Quantity::Displacement, response.amplitude);
+        let what = match response.effect {
+            Effect::Quenches => format!("this dither quenches the vibration: {residual}"),
+            Effect::Reduces => format!("this dither reduces the vibration: {residual}"),
+            Effect::Increases => format!("this dither increases the vibration: {residual}"),
+            Effect::Causes => format!(
+                "this dither causes vibration: the belt is quiet without it, and vibrates with an amplitude of \
+                 {amplitude} below {BAND_END} ω₀ with it"
             ),
-            Ok(ratio) if *ratio < 1.0 => format!(
-                "Started {from}, this dither reduces the vibration below {BAND_END} ω₀ to {} of what \
-                 it is without.",
-                percent(*ratio)
-            ),
-            Ok(ratio) => format!(
-                "Started {from}, this dither does not help: below {BAND_END} ω₀ the vibration is {} of \
-                 what it is without.",
-                percent(*ratio)
-            ),
-            Err(why) => {
-                format!("Started {from}, the efficiency of this dither is undefined: {why}.")
+            Effect::Quiet => {
+                "the belt is quiet without this dither and with it: there is nothing to quench"
+                    .to_owned()
+            }
+            Effect::Unknown(why) => format!("the effect of this dither is unknown: {why}"),
+        };
+        format!("Started {from}, {what}.{}", self.cost(study))
+    }
+
+    /// The cost of the dither in a sentence of its own.
+    fn cost(&self, study: &Study) -> String {
+        let response = &self.response;
+        let loss = self.friction_loss().ok().map(|loss| {
+            let change = if loss < 0.0 { "raises" } else { "lowers" };
+            format!("{change} the mean friction by {}", percent(loss.abs()))
+        });
+        let power = response
+            .dither_power
+            .map(|power| format!("takes a power of {}", in_words(study, Quantity::Power, power)));
+        let stroke = response.dither_stroke.map(|stroke| {
+            let stroke = in_words(study, Quantity::Displacement, stroke);
+            format!("a stroke of {stroke} peak to peak")
+        });
+        let parts: Vec<String> = [loss, power, stroke].into_iter().flatten().collect();
+        match parts.as_slice() {
+            [] => String::new(),
+            [only] => format!(" It {only}."),
+            [first, second] => format!(" It {first} and {second}."),
+            [first, second, rest @ ..] => {
+                format!(" It {first}, {second} and {}.", rest.join(" and "))
             }
         }
+    }
+
+    /// Share of the friction of undithered steady sliding that is lost, 1 − ⟨f⟩/(μ(v₀)F); negative where there is more.
+    ///
+    /// # Errors
+    /// Why it is undefined.
+    pub fn friction_loss(&self) -> Result<f64, String> {
+        let response = &self.response;
+        if self.moves {
+            Ok(1.0 - response.mean_friction / response.mean_friction_undithered)
+        } else {
+            Err("the belt does not move (v₀ = 0), so there is no steady sliding to compare with"
+                .to_owned())
+        }
+    }
+
+    /// 20 lg E, in dB; `None` where E is undefined or zero.
+    pub fn level(&self) -> Option<f64> {
+        let ratio = self.response.efficiency.ok().filter(|ratio| *ratio > 0.0)?;
+        Some(20.0 * ratio.log10())
     }
 
     /// What a reader of the numbers should know.
@@ -90,11 +141,18 @@ impl Steady {
         let response = &self.response;
         let scales = study.scales();
         let mut fields = Fields::new(scales);
-        fields.plain("ok", true).plain("sentence", self.sentence(study)).number(
-            "amplitude",
-            Quantity::Displacement,
-            response.amplitude,
-        );
+        fields.plain("ok", true).plain("sentence", self.sentence(study));
+        match response.effect {
+            Effect::Unknown(why) => {
+                fields.plain("effect", "unknown").why("effect", why.to_string())
+            }
+            effect => fields.plain("effect", effect.name()),
+        };
+        fields.plain("ends_on", response.ending.name());
+        if let Some(why) = why_end_unknown(response.ending) {
+            fields.why("ends_on", why);
+        }
+        fields.number("amplitude", Quantity::Displacement, response.amplitude);
         let peaks = response.peaks.iter().map(|peak| {
             let mut inner = Fields::new(scales);
             inner.number("frequency", Quantity::FrequencyRatio, peak.frequency).number(
@@ -115,11 +173,20 @@ impl Steady {
                 Quantity::Ratio,
                 response.efficiency.map_err(|why| why.to_string()),
             )
+            .known(
+                "level_db",
+                Quantity::Ratio,
+                self.level().ok_or_else(|| match response.efficiency {
+                    Ok(_) => "E is zero".to_owned(),
+                    Err(why) => why.to_string(),
+                }),
+            )
             .number("undithered_amplitude", Quantity::Displacement, response.undithered_amplitude)
             .plain("settled", response.settled)
             .plain("undithered_settled", response.undithered_settled)
             .number("mean_friction", Quantity::Force, response.mean_friction)
             .number("mean_friction_undithered", Quantity::Force, response.mean_friction_undithered)
+            .known("friction_loss", Quantity::Ratio, self.friction_loss())
             .known("dither_power", Quantity::Power, response.dither_power.ok_or_else(only_normal))
             .known(
                 "dither_stroke",
@@ -180,6 +247,17 @@ impl Steady {
             .axis("frequency", Quantity::FrequencyRatio, with.frequencies().collect())
             .array("amplitude", Quantity::Displacement, with.amplitudes().to_vec())
             .array("undithered_amplitude", Quantity::Displacement, without.amplitudes().to_vec())
+    }
+}
+
+/// Why it is unknown where a run ends.
+fn why_end_unknown(ending: Ending) -> Option<String> {
+    match ending {
+        Ending::Unknown(why) => Some(why.to_string()),
+        Ending::Reached(Reached::Unsettled | Reached::Unknown) => {
+            Some("the run had not settled when its periods were over".to_owned())
+        }
+        Ending::Reached(Reached::Sliding | Reached::Elsewhere) => None,
     }
 }
 

@@ -1,9 +1,9 @@
 //! `thresholds`: values of a parameter at which the response changes: local ones by Floquet multipliers, and for runs
 //! from given starts the values at which dither begins or ceases to quench.
 
+use quell_belt::attractor::{Reached, Switches, ramped, switches};
 use quell_belt::orbit::NoOrbit;
 pub use quell_belt::orbit::family::Signature;
-use quell_belt::orbit::reached::{Reached, Switches, ramped, switches};
 pub use quell_belt::orbit::threshold::{Change, Ending, Kind, Local, Threshold};
 use quell_belt::orbit::threshold::{NoThresholds, local};
 use quell_belt::simulation::Start;
@@ -168,7 +168,7 @@ pub fn run(study: &Study, question: Question) -> Result<Thresholds, Failure> {
     for &protocol in &question.protocols {
         let initial = protocol.initial();
         let start = |belt: &quell_model::Belt| -> Result<Option<Start>, NoOrbit> {
-            let start = match initial.resolve(belt, study.solver()) {
+            let start = match initial.resolve(belt) {
                 Ok(start) => start,
                 Err(NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest) => {
                     return Ok(None);

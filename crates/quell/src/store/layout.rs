@@ -128,7 +128,9 @@ fn group(plan: &Plan, described: &Map<String, Json>) -> Json {
     let study = plan.grid().study();
     let used = |task: Task| {
         plan.computations().iter().any(|computation| match computation {
-            Computation::Response | Computation::ResponseWithCost => task == Task::Response,
+            Computation::Response
+            | Computation::ResponseWithCost
+            | Computation::ResponseWithEffect => task == Task::Response,
             Computation::Criterion
             | Computation::CriterionSharper
             | Computation::CriticalAmplitudes

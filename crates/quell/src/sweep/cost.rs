@@ -14,6 +14,9 @@ const PERIOD: f64 = 1e-6;
 /// Seconds of one slow period without dither.
 const SLOW_PERIOD: f64 = 3e-6;
 
+/// Cost of a response with the end of its run, over that of the response alone.
+const SETTLING: f64 = 2.0;
+
 /// Seconds of one sample of a record, heard and forgotten.
 const SAMPLE: f64 = 5e-8;
 
@@ -53,6 +56,7 @@ pub(super) fn seconds(study: &Subject, wanted: &[Computation]) -> f64 {
     };
     let each = wanted.iter().map(|computation| match computation {
         Computation::Response | Computation::ResponseWithCost => response(study),
+        Computation::ResponseWithEffect => SETTLING * response(study),
         Computation::Criterion => criterion(study, false),
         Computation::CriterionSharper => criterion(study, true),
         Computation::CriticalAmplitudes => SEARCH * criterion(study, false),

@@ -6,7 +6,9 @@
 use quell_belt::averaging::{
     AveragingError, AveragingOptions, Criterion, CriticalAmplitude, criterion, critical_amplitudes,
 };
-use quell_belt::response::{Case, Compared, Undefined, Wanted, compare_many};
+use quell_belt::response::{
+    Case, Compared, Effect, Ending, Undefined, Wanted, compare_many, effect,
+};
 use quell_belt::simulation::Start;
 use quell_disc::Growth;
 
@@ -21,6 +23,8 @@ pub enum Computation {
     Response,
     /// The same with the power and the stroke of the dither.
     ResponseWithCost,
+    /// The same with the effect of the dither: where runs end with and without it.
+    ResponseWithEffect,
     /// The criterion of averaged stability.
     Criterion,
     /// The same by the sharper averaging.
@@ -36,7 +40,7 @@ pub enum Computation {
 impl Computation {
     /// Whether it integrates responses.
     pub fn is_response(self) -> bool {
-        matches!(self, Self::Response | Self::ResponseWithCost)
+        matches!(self, Self::Response | Self::ResponseWithCost | Self::ResponseWithEffect)
     }
 }
 
@@ -86,6 +90,8 @@ impl From<&Compared> for Steady {
 pub struct Results {
     /// The steady response.
     pub steady: Option<Result<Steady, Status>>,
+    /// The effect of the dither.
+    pub effect: Option<Result<Effect, Status>>,
     /// The criterion of averaged stability.
     pub criterion: Option<Result<Criterion, Status>>,
     /// The same by the sharper averaging.
@@ -102,21 +108,29 @@ pub struct Results {
 pub(super) fn evaluate(points: &[Study], wanted: &[Computation]) -> Vec<Results> {
     let mut results: Vec<Results> = points.iter().map(|study| averages(study, wanted)).collect();
     let dither_cost = wanted.contains(&Computation::ResponseWithCost);
-    if dither_cost || wanted.contains(&Computation::Response) {
-        for (result, steady) in results.iter_mut().zip(responses(points, Wanted { dither_cost })) {
-            result.steady = Some(steady);
+    if wanted.iter().any(|computation| computation.is_response()) {
+        let with_effect = wanted.contains(&Computation::ResponseWithEffect);
+        let found = responses(points, Wanted { dither_cost }, with_effect);
+        for (result, outcome) in results.iter_mut().zip(found) {
+            result.steady = Some(outcome.map(|it| it.0));
+            result.effect = Some(outcome.and_then(|it| it.1.ok_or(Status::Missing)));
         }
     }
     results
 }
 
+/// A steady response, and the effect of the dither where it was wanted.
+type Responded = (Steady, Option<Effect>);
+
 /// The steady responses, side by side where the points share their solver.
-fn responses(points: &[Study], wanted: Wanted) -> Vec<Result<Steady, Status>> {
-    let starts: Vec<Result<Start, Status>> = points
-        .iter()
-        .map(|study| Ok(study.initial().resolve(study.belt(), study.solver())?))
-        .collect();
-    let mut outcomes: Vec<Result<Steady, Status>> =
+fn responses(
+    points: &[Study],
+    wanted: Wanted,
+    with_effect: bool,
+) -> Vec<Result<Responded, Status>> {
+    let starts: Vec<Result<Start, Status>> =
+        points.iter().map(|study| Ok(study.initial().resolve(study.belt())?)).collect();
+    let mut outcomes: Vec<Result<Responded, Status>> =
         starts.iter().map(|start| Err(start.err().unwrap_or(Status::Stalled))).collect();
     let mut rest: Vec<usize> = (0..points.len()).filter(|&at| starts[at].is_ok()).collect();
     while let Some(&first) = rest.first() {
@@ -131,7 +145,13 @@ fn responses(points: &[Study], wanted: Wanted) -> Vec<Result<Steady, Status>> {
             })
             .collect();
         for (&at, compared) in alike.iter().zip(compare_many(&cases, &solver, wanted)) {
-            outcomes[at] = compared.map(|it| Steady::from(&it)).map_err(|_| Status::Stalled);
+            outcomes[at] = compared.map_err(|_| Status::Stalled).and_then(|compared| {
+                let start = starts[at]?;
+                let belt = points[at].belt();
+                let effect =
+                    with_effect.then(|| effect(belt, start, &compared, Ending::of(belt, start)));
+                Ok((Steady::from(&compared), effect))
+            });
         }
     }
     outcomes
@@ -146,6 +166,7 @@ fn averages(study: &Study, wanted: &[Computation]) -> Results {
         match computation {
             Computation::Response
             | Computation::ResponseWithCost
+            | Computation::ResponseWithEffect
             | Computation::DiscGrowth
             | Computation::DiscGrowthUndithered => {}
             Computation::Criterion => {

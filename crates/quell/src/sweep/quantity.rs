@@ -5,6 +5,7 @@
 //! share it.
 
 use quell_belt::averaging::{Criterion, UndecidedBecause, Verdict};
+use quell_belt::response::Effect;
 use quell_disc::Growth;
 use quell_model::units;
 
@@ -156,6 +157,7 @@ const OF_EFFICIENCY: &[Status] = &[
     Status::NoSquealingStart,
     Status::UnditheredSettles,
     Status::UnditheredAtRest,
+    Status::UnditheredUnknown,
 ];
 
 /// The same for power and stroke.
@@ -199,6 +201,13 @@ const OF_CRITICAL: &[Status] = &[
 /// Words of a verdict; the first is 0, so that a verdict is 1 where sliding is stable.
 const VERDICTS: Kind = Kind::Word { words: &["unstable", "stable"], unknown: "undecided" };
 
+/// Words of an effect; the first is 0, what is wanted of a dither.
+const EFFECTS: Kind = Kind::Word { words: &Effect::NAMES, unknown: "unknown" };
+
+/// What an effect can be instead of known.
+const OF_EFFECT: &[Status] =
+    &[Status::Stalled, Status::NoSquealingStart, Status::UnditheredUnknown, Status::StillChanging];
+
 /// Words of a flag.
 const SETTLED: Kind = Kind::Word { words: &["no", "yes"], unknown: "unknown" };
 
@@ -232,8 +241,11 @@ pub(super) const SETTLED_NAME: &str = "settled";
 /// Everything that a map can show.
 #[rustfmt::skip]
 pub const QUANTITIES: &[Quantity] = &[
-    belt("efficiency", "vibration left by the dither: E = M₁/M₀ (2.27), 0 where it is quenched", Computation::Response, &[
-        variable(("efficiency", "E"), "efficiency of the dither, E = M₁/M₀", RATIO, OF_EFFICIENCY, |r| steady(r)?.efficiency.map_err(Status::from)),
+    belt("effect", "what the dither does to the vibration: quenches, reduces, increases, causes, or quiet without and with it", Computation::ResponseWithEffect, &[
+        variable(("effect", ""), "effect of the dither", EFFECTS, OF_EFFECT, |r| effect(r)),
+    ]),
+    belt("efficiency", "residual vibration E = M₁/M₀ (2.27), the share left by the dither, 0 where it is quenched", Computation::Response, &[
+        variable(("efficiency", "E"), "residual vibration E = M₁/M₀", RATIO, OF_EFFICIENCY, |r| steady(r)?.efficiency.map_err(Status::from)),
     ]),
     belt("amplitude", "largest spectral amplitude M of the displacement below 1.9 ω₀", Computation::Response, &[
         variable(("amplitude", "M"), "spectral amplitude of the slow vibration", LENGTH, OF_RESPONSE, |r| Ok(steady(r)?.amplitude)),
@@ -312,6 +324,11 @@ const fn disc(
 
 fn steady(results: &Results) -> Result<Steady, Status> {
     results.steady.unwrap_or(Err(Status::Missing))
+}
+
+#[expect(clippy::cast_precision_loss, reason = "one of five words")]
+fn effect(results: &Results) -> Result<f64, Status> {
+    Ok(results.effect.unwrap_or(Err(Status::Missing))?.place()? as f64)
 }
 
 fn grown(results: &Results) -> Result<Growth, Status> {

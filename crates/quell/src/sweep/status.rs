@@ -3,7 +3,7 @@
 //! Codes are fixed once published: stores keep them.
 
 use quell_belt::averaging::AveragingError;
-use quell_belt::response::Undefined;
+use quell_belt::response::{Uncertain, Undefined};
 use quell_belt::start::NoSquealingStart;
 
 /// State of one number of a map.
@@ -26,6 +26,10 @@ pub enum Status {
     UnditheredAtRest = 11,
     /// Power and stroke: all dither is normal.
     OnlyNormalDither = 12,
+    /// E: where the undithered run ends is unknown.
+    UnditheredUnknown = 13,
+    /// The effect: the vibration still changes within the record, and where the run ends does not decide.
+    StillChanging = 14,
     /// A criterion of zero within its error.
     WithinError = 20,
     /// The belt is exactly as fast as the fast motion.
@@ -59,6 +63,8 @@ impl Status {
         Self::UnditheredSettles,
         Self::UnditheredAtRest,
         Self::OnlyNormalDither,
+        Self::UnditheredUnknown,
+        Self::StillChanging,
         Self::WithinError,
         Self::AtCorner,
         Self::SetValued,
@@ -92,6 +98,8 @@ impl Status {
             Self::UnditheredSettles => "undithered_settles",
             Self::UnditheredAtRest => "undithered_at_rest",
             Self::OnlyNormalDither => "only_normal_dither",
+            Self::UnditheredUnknown => "undithered_unknown",
+            Self::StillChanging => "still_changing",
             Self::WithinError => "within_error",
             Self::AtCorner => "at_corner",
             Self::SetValued => "set_valued_friction",
@@ -119,7 +127,13 @@ impl Status {
                 "without dither the belt settles to steady sliding from this start, so there is no \
                  vibration to compare with"
             }
-            Self::UnditheredAtRest => "without dither nothing moves from this start",
+            Self::UnditheredAtRest => {
+                "the belt does not move, so without dither the mass comes to rest"
+            }
+            Self::UnditheredUnknown => "where the undithered run from this start ends is unknown",
+            Self::StillChanging => {
+                "the vibration still changes within the record: settle for longer"
+            }
             Self::OnlyNormalDither => {
                 "all dither is normal: the model has no normal motion on which it could work"
             }
@@ -149,6 +163,17 @@ impl From<Undefined> for Status {
         match why {
             Undefined::UnditheredSettles => Self::UnditheredSettles,
             Undefined::UnditheredAtRest => Self::UnditheredAtRest,
+            Undefined::UnditheredUnknown => Self::UnditheredUnknown,
+        }
+    }
+}
+
+impl From<Uncertain> for Status {
+    fn from(why: Uncertain) -> Self {
+        match why {
+            Uncertain::Undithered(why) => why.into(),
+            Uncertain::StillChanging => Self::StillChanging,
+            Uncertain::Stalled(_) => Self::Stalled,
         }
     }
 }

@@ -1,0 +1,182 @@
+//! What a dither does to a vibration, in one word.
+//!
+//! Two facts decide: whether the undithered run from this start keeps vibrating (the cycle map, exactly), and where the dithered
+//! run ends ([`reached`]: on the base response, elsewhere, or unknown). The residual vibration E of the record says how much is
+//! left where something is left; a record that still changes does not overrule where its run ends.
+
+use std::fmt;
+
+use quell_model::Belt;
+
+use super::measure::Compared;
+use super::{BAND_END, Undefined};
+use crate::attractor::{Kind, Patience, Reached, Scene, measure, reached, settle};
+use crate::orbit::NoOrbit;
+use crate::simulation::{Stalled, Start};
+
+/// Below this share of the undithered vibration nothing is left of it: a response is quenched.
+pub const QUENCHED: f64 = 0.01;
+
+/// Slow vibration below this share of F is none: the distance within which a state counts as the base response.
+const NONE: f64 = 1e-6;
+
+/// What a dither does to the vibration below 1.9 ω₀, from one start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Effect {
+    /// It vibrates without dither; less than a hundredth is left with it.
+    Quenches,
+    /// It vibrates without dither; less is left with it.
+    Reduces,
+    /// It vibrates without dither, and as much or more with it.
+    Increases,
+    /// It is quiet without dither, and vibrates with it.
+    Causes,
+    /// It is quiet without dither and with it.
+    Quiet,
+    /// Nothing is sure.
+    Unknown(Uncertain),
+}
+
+impl Effect {
+    /// Words in outputs, in the order of the codes in stores.
+    pub const NAMES: [&'static str; 5] = ["quenches", "reduces", "increases", "causes", "quiet"];
+
+    /// Place of its word in [`Effect::NAMES`], or why there is none.
+    ///
+    /// # Errors
+    /// [`Uncertain`].
+    pub fn place(self) -> Result<usize, Uncertain> {
+        Ok(match self {
+            Self::Quenches => 0,
+            Self::Reduces => 1,
+            Self::Increases => 2,
+            Self::Causes => 3,
+            Self::Quiet => 4,
+            Self::Unknown(why) => return Err(why),
+        })
+    }
+
+    /// Its word.
+    pub fn name(self) -> &'static str {
+        self.place().map_or("unknown", |place| Self::NAMES[place])
+    }
+}
+
+/// Why an effect is unknown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Uncertain {
+    /// Where the undithered run ends.
+    Undithered(Undefined),
+    /// The record still changes, and where the dithered run ends does not decide.
+    StillChanging,
+    /// The engine stopped while the end of the run was sought.
+    Stalled(Stalled),
+}
+
+impl fmt::Display for Uncertain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Undithered(why) => why.fmt(f),
+            Self::StillChanging => f.write_str(
+                "the vibration with dither still changes within the record; settle for longer",
+            ),
+            Self::Stalled(stalled) => stalled.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for Uncertain {}
+
+/// Where the dithered run of a case ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ending {
+    /// On the base response, elsewhere, or not settled.
+    Reached(Reached),
+    /// It was not found, and why.
+    Unknown(NoOrbit),
+}
+
+impl Ending {
+    /// Of the run of a belt from a start.
+    pub fn of(belt: &Belt, start: Start) -> Self {
+        match reached(belt, start) {
+            Ok(reached) => Self::Reached(reached),
+            Err(why) => Self::Unknown(why),
+        }
+    }
+
+    /// Word in outputs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Reached(Reached::Sliding) => "base response",
+            Self::Reached(Reached::Elsewhere) => "another response",
+            Self::Reached(Reached::Unsettled | Reached::Unknown) | Self::Unknown(_) => "unknown",
+        }
+    }
+
+    fn is_base(self) -> bool {
+        self == Self::Reached(Reached::Sliding)
+    }
+}
+
+/// The effect of a belt's dither from a start, from what was measured and from where the run ends.
+pub fn effect(belt: &Belt, start: Start, compared: &Compared, ending: Ending) -> Effect {
+    let quiet_without = match compared.efficiency() {
+        Err(why @ Undefined::UnditheredUnknown) => {
+            return Effect::Unknown(Uncertain::Undithered(why));
+        }
+        Err(Undefined::UnditheredSettles | Undefined::UnditheredAtRest) => true,
+        Ok(_) => false,
+    };
+    let rests = ending.is_base() && !forced_in_band(belt);
+    if rests {
+        return if quiet_without { Effect::Quiet } else { Effect::Quenches };
+    }
+    let dithered = &compared.dithered;
+    let ratio = dithered.lines.whole / compared.undithered.lines.whole;
+    let negligible = if quiet_without {
+        dithered.lines.whole < NONE * belt.normal_load()
+    } else {
+        ratio < QUENCHED
+    };
+    let nothing = if quiet_without { Effect::Quiet } else { Effect::Quenches };
+    if negligible {
+        // Nothing is seen of a vibration that may still grow, unless the record is steady or the run ends on a forced response.
+        return match (dithered.is_steady(), ending) {
+            (true, _) => nothing,
+            (false, Ending::Reached(Reached::Elsewhere)) => match ends_on_its_period(belt, start) {
+                Ok(true) => nothing,
+                Ok(false) => Effect::Unknown(Uncertain::StillChanging),
+                Err(stalled) => Effect::Unknown(Uncertain::Stalled(stalled)),
+            },
+            (false, _) => Effect::Unknown(Uncertain::StillChanging),
+        };
+    }
+    if !compared.settled() && !dithered.is_steady() {
+        return Effect::Unknown(Uncertain::StillChanging);
+    }
+    match quiet_without {
+        true => Effect::Causes,
+        false if ratio < 1.0 => Effect::Reduces,
+        false => Effect::Increases,
+    }
+}
+
+/// Whether the record still shows a vibration of which nothing is left in the end.
+pub(super) fn still_decays(effect: Effect, compared: &Compared) -> bool {
+    let ratio = compared.dithered.lines.whole / compared.undithered.lines.whole;
+    effect == Effect::Quenches && ratio >= QUENCHED
+}
+
+/// Whether a dither itself lies in the band of slow vibration.
+fn forced_in_band(belt: &Belt) -> bool {
+    belt.dithers().iter().any(|it| it.amplitude > 0.0 && it.frequency_ratio <= BAND_END)
+}
+
+/// Whether a run ends on a response of the dither's own period, which has no slow vibration.
+fn ends_on_its_period(belt: &Belt, start: Start) -> Result<bool, Stalled> {
+    let Ok(scene) = Scene::new(belt) else { return Ok(false) };
+    let settled = settle(&scene, start, Patience::SWEEP)?;
+    let attractor = measure(&scene, &settled)?;
+    Ok(attractor.is_some_and(|it| matches!(it.kind, Kind::Periodic { periods: 1, .. })))
+}
