@@ -47,7 +47,7 @@ pub(super) fn accuracy(
         weakest(&variation.matrix)
     };
     let state = NEWTON_STEPS * mismatch / slowness;
-    if !(state <= FAR * scale) {
+    if state.is_nan() || state > FAR * scale {
         return Accuracy { state, multiplier: f64::INFINITY };
     }
     let here = radius_of(variation, is_free);

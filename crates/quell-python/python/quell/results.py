@@ -271,12 +271,18 @@ class Response(Result):
     """The steady response with and without dither."""
 
     verb = "response"
+    effect: str
+    """Effect of the dither: "quenches", "reduces", "increases", "causes" (quiet without, vibrating with), "quiet" or "unknown"."""
+    ends_on: str
+    """Where the dithered run ends: "base response", "another response" or "unknown"."""
     amplitude: float
     """Largest spectral amplitude with 0 < ω ≤ 1.9 ω₀: a length."""
     undithered_amplitude: float
     """The same without dither."""
     efficiency: float | None
-    """E = amplitude over undithered amplitude (2.27)."""
+    """Residual vibration E = amplitude over undithered amplitude (2.27)."""
+    level_db: float | None
+    """20 lg E, in dB."""
     stick_fraction: float
     """Share of the time in which the mass sticks to the belt."""
     settled: bool
@@ -287,6 +293,8 @@ class Response(Result):
     """Mean friction force over k: a length."""
     mean_friction_undithered: float
     """Friction force μ(v₀)F of steady sliding without dither, over k: a length."""
+    friction_loss: float | None
+    """Share of the friction of undithered steady sliding that is lost; negative where friction rises."""
     dither_power: float | None
     """Mean power of tangential dither over kω₀: a length squared."""
     dither_stroke: float | None
@@ -321,6 +329,10 @@ class Orbit(Result):
     """Share of the period in which the mass sticks."""
     residual: float
     """How far the state is from itself after a period: a length."""
+    state_error: float | None
+    """Estimated error of the state: a length; none where a multiplier is too near to 1."""
+    multiplier_error: float | None
+    """Estimated error of the modulus of the multiplier that decides; none as for ``state_error``."""
     signature: list[dict[str, Any]]
     """``kind`` and ``slip_sign`` of the events of a period, in their order."""
     least_slip_velocity: float | None

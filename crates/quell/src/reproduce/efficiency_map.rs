@@ -1,4 +1,4 @@
-//! Figures 2.8, 2.9, 3.10, 3.11, 4.9, 4.10: isolines of the efficiency E in the plane of R and D.
+//! Figures 2.8, 2.9, 3.10, 3.11, 4.9, 4.10: isolines of the residual vibration E in the plane of R and D.
 //!
 //! The study is the first panel. Further panels change the belt velocity and the waveform; the range of D grows with the averaged
 //! boundary D = α*R, of which a panel shows the same share each. Drawn over: that boundary, and the sharper one with the
@@ -223,7 +223,7 @@ fn panel(source: &Source, study: &Study, done: &Map, lines: Vec<Line>) -> Result
                 values: axis.values.clone(),
             })
             .collect(),
-        quantity: Axis::new("efficiency").symbol("E"),
+        quantity: Axis::new("residual vibration").symbol("E"),
         kind: MapKind::Efficiency,
         values: (0..grid.len()).map(value).collect(),
         reasons: unknown.iter().map(|status| status.about().to_owned()).collect(),

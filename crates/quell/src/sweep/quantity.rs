@@ -242,7 +242,7 @@ pub(super) const SETTLED_NAME: &str = "settled";
 #[rustfmt::skip]
 pub const QUANTITIES: &[Quantity] = &[
     belt("effect", "what the dither does to the vibration: quenches, reduces, increases, causes, or quiet without and with it", Computation::ResponseWithEffect, &[
-        variable(("effect", ""), "effect of the dither", EFFECTS, OF_EFFECT, |r| effect(r)),
+        variable(("effect", ""), "effect of the dither", EFFECTS, OF_EFFECT, effect),
     ]),
     belt("efficiency", "residual vibration E = M₁/M₀ (2.27), the share left by the dither, 0 where it is quenched", Computation::Response, &[
         variable(("efficiency", "E"), "residual vibration E = M₁/M₀", RATIO, OF_EFFICIENCY, |r| steady(r)?.efficiency.map_err(Status::from)),
