@@ -13,7 +13,7 @@ use super::settle::{Outcome, Patience, settle};
 use super::strobe::Scene;
 use crate::orbit::family::{Forced, Setting};
 use crate::orbit::threshold::NoThresholds;
-use crate::orbit::{NoOrbit, common_period};
+use crate::orbit::{NoOrbit, Verdict, common_period};
 use crate::simulation::{DEFAULT_TOLERANCE, Start, simulate};
 
 /// Half the width of an interval, relative to its value, up to which it is reported as a value: ten times what thresholds ask of
@@ -47,13 +47,14 @@ impl From<Outcome> for Reached {
 ///
 /// # Errors
 /// [`NoOrbit`]: no common period, a base response that could not be followed to the dither's amplitude, or the engine stopped.
-/// Where the base response ends below that amplitude a run ends elsewhere.
+/// Where the base response ends below that amplitude, or is unstable, a run ends elsewhere.
 pub fn reached(belt: &Belt, start: Start) -> Result<Reached, NoOrbit> {
     let scene = Scene::new(belt)?;
-    if let Err(why) = &scene.quiet
-        && !why.is_absence()
-    {
-        return Err(*why);
+    match &scene.quiet {
+        // Nothing ends on an unstable response, however long it takes to settle elsewhere.
+        Ok(quiet) if quiet.verdict == Verdict::Unstable => return Ok(Reached::Elsewhere),
+        Err(why) if !why.is_absence() => return Err(*why),
+        Ok(_) | Err(_) => {}
     }
     let settled = settle(&scene, start, Patience::SWEEP).map_err(NoOrbit::Stalled)?;
     Ok(settled.outcome.into())
