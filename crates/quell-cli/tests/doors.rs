@@ -143,6 +143,9 @@ fn cite_prints_the_entries_that_a_study_uses() {
     assert!(keys("quench.toml").contains("jorba2005") && !keys("disc.toml").contains("jorba2005"));
 }
 
+/// A belt beyond its critical velocity.
+const DECREASING: [&str; 2] = ["friction.law=decreasing", "belt.belt_velocity=1"];
+
 /// The sentence of `thresholds` is the answer: the number, its condition, and every start that was asked for.
 #[test]
 fn thresholds_answer_with_the_number() {
@@ -162,13 +165,35 @@ fn thresholds_answer_with_the_number() {
     assert_eq!(
         sentence("quench.toml", amplitude, ["0.4", "0.6"], &["--from-rest", "--from-squeal"]),
         "From D = 0.496562 on (grazing) the base response is stable; below, it is unstable. \
-         Started from rest, the dither quenches from D = 0.49656 on. \
-         Started in full squeal, the dither quenches from D = 0.49656 on."
+         Started from rest or in full squeal, the dither quenches from D = 0.49656 on."
     );
     assert_eq!(
         sentence("quench.toml", amplitude, ["0.3", "0.4"], &["--from-rest"]),
         "The base response is unstable at every D from 0.3 to 0.4 (no threshold in this range). \
          Started from rest, the dither quenches at no D from 0.3 to 0.4."
+    );
+    // Several intervals, and a branch that turns back.
+    let law = DECREASING.map(|change| ["--set", change]).concat();
+    let with = |more: &[&'static str]| [law.clone(), more.to_vec()].concat();
+    assert_eq!(
+        sentence(
+            "quench.toml",
+            amplitude,
+            ["0.5", "10.5"],
+            &with(&["--from-rest", "--from-squeal"])
+        ),
+        "The base response is stable up to D = 4.32239 (neimark-sacker) and from D = 9.90021 on (grazing). \
+         Started from rest, the dither quenches up to D = 2.86785 and from D = 9.90024 on. \
+         Started in full squeal, the dither quenches from D = 9.90024 on."
+    );
+    assert_eq!(
+        sentence(
+            "quench.toml",
+            amplitude,
+            ["1e-4", "3e-3"],
+            &with(&["--set", "dither.frequency_ratio=1"])
+        ),
+        "Up to D = 0.0015724 (fold) the base response is stable. There it turns back; beyond, runs end on another response."
     );
     let drive = sentence("drive.toml", "belt.belt_velocity_m_per_s", ["0.005", "0.04"], &[]);
     assert!(

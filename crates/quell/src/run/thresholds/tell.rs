@@ -99,11 +99,7 @@ impl<'a> Parameter<'a> {
 
     fn intervals<'b, T: 'b>(&self, list: impl IntoIterator<Item = &'b Interval<T>>) -> String {
         let each: Vec<String> = list.into_iter().map(|interval| self.interval(interval)).collect();
-        match each.split_last() {
-            Some((last, [])) => last.clone(),
-            Some((last, before)) => format!("{} and {last}", before.join(", ")),
-            None => String::new(),
-        }
+        listed(&each, "and")
     }
 
     /// All of them together: "D from 1 to 2".
@@ -121,9 +117,19 @@ impl Thresholds {
         let parameter = Parameter::of(study, &self.question.parameter);
         let dithered = !study.belt().dithers().is_empty();
         let mut sentences = vec![self.of_the_base_response(&parameter, dithered)];
+        // Starts with the same answer are said together.
+        let mut answers: Vec<(Vec<String>, String)> = Vec::new();
         for (protocol, switches) in &self.protocols {
-            let start = self.start_in_words(study, *protocol);
-            sentences.push(self.of_runs(&parameter, &start, switches, dithered));
+            let answer = self.of_runs(&parameter, switches, dithered);
+            let start = start_in_words(study, *protocol);
+            match answers.iter_mut().find(|(_, said)| *said == answer) {
+                Some((starts, _)) => starts.push(start),
+                None => answers.push((vec![start], answer)),
+            }
+        }
+        for (starts, answer) in answers {
+            let (starts, ramp) = (listed(&starts, "or"), self.ramp_in_words(study));
+            sentences.push(format!("Started {starts}{ramp}, {answer}."));
         }
         sentences.join(" ")
     }
@@ -192,13 +198,24 @@ impl Thresholds {
             }
             _ => format!("{subject} is stable {}", parameter.intervals(stable)),
         };
-        format!("{}.{}", capital(&told), self.of_the_end(parameter, end))
+        let stable_until_then = intervals.last().as_ref().is_some_and(is_stable);
+        let ends = self.of_the_end(parameter, end, stable_until_then);
+        format!("{}.{ends}", capital(&told))
     }
 
     /// Where and why the base response ends before the range does.
-    fn of_the_end(&self, parameter: &Parameter<'_>, end: Option<&Threshold>) -> String {
+    fn of_the_end(
+        &self,
+        parameter: &Parameter<'_>,
+        end: Option<&Threshold>,
+        said_already: bool,
+    ) -> String {
         let at = |value: f64| parameter.value(Limit::of_range(value));
         match (end, self.local.ending) {
+            (Some(end), _) if said_already => {
+                let ends = if end.kind == Kind::Fold { "turns back" } else { "ends" };
+                format!(" There it {ends}; beyond, runs end on another response.")
+            }
             (Some(end), _) if end.kind == Kind::Fold || self.local.ending == Ending::Covered => {
                 format!(
                     " It turns back at {} ({}); beyond, runs end on another response.",
@@ -228,33 +245,17 @@ impl Thresholds {
         }
     }
 
-    fn start_in_words(&self, study: &Study, protocol: Protocol) -> String {
-        let start = match protocol {
-            Protocol::Rest => "Started from rest".to_owned(),
-            Protocol::Sliding => "Started from steady sliding".to_owned(),
-            Protocol::Squeal => "Started in full squeal".to_owned(),
-            Protocol::From(displacement, velocity) => format!(
-                "Started at x = {}, x′ = {}",
-                in_words(study, Quantity::Displacement, displacement),
-                in_words(study, Quantity::Velocity, velocity)
-            ),
-        };
+    fn ramp_in_words(&self, study: &Study) -> String {
         if self.question.ramp > 0.0 {
             let time = in_words(study, Quantity::Time, self.question.ramp);
-            format!("{start} with the dither raised over {time}")
+            format!(" with the dither raised over {time}")
         } else {
-            start
+            String::new()
         }
     }
 
     /// From where on runs of a start are quenched.
-    fn of_runs(
-        &self,
-        parameter: &Parameter<'_>,
-        start: &str,
-        switches: &Switches,
-        dithered: bool,
-    ) -> String {
+    fn of_runs(&self, parameter: &Parameter<'_>, switches: &Switches, dithered: bool) -> String {
         let intervals = runs(self.question.from, self.question.to, switches);
         let of = |wanted: &[Reached]| -> Vec<&Interval<Reached>> {
             intervals.iter().filter(|it| wanted.contains(&it.answer)).collect()
@@ -262,15 +263,38 @@ impl Thresholds {
         let verb = if dithered { "the dither quenches" } else { "the run ends in steady sliding" };
         let quenched = of(&[Reached::Sliding]);
         let told = if quenched.is_empty() {
-            format!("{start}, {verb} at no {}", parameter.whole(&intervals))
+            format!("{verb} at no {}", parameter.whole(&intervals))
         } else {
-            format!("{start}, {verb} {}", parameter.intervals(quenched))
+            format!("{verb} {}", parameter.intervals(quenched))
         };
         let open = of(&[Reached::Unsettled, Reached::Unknown]);
         if open.is_empty() {
-            return format!("{told}.");
+            return told;
         }
-        format!("{told}; the outcome is unknown {}.", parameter.intervals(open))
+        format!("{told}; the outcome is unknown {}", parameter.intervals(open))
+    }
+}
+
+/// A start, as it follows "started".
+fn start_in_words(study: &Study, protocol: Protocol) -> String {
+    match protocol {
+        Protocol::Rest => "from rest".to_owned(),
+        Protocol::Sliding => "from steady sliding".to_owned(),
+        Protocol::Squeal => "in full squeal".to_owned(),
+        Protocol::From(displacement, velocity) => format!(
+            "at x = {}, x′ = {}",
+            in_words(study, Quantity::Displacement, displacement),
+            in_words(study, Quantity::Velocity, velocity)
+        ),
+    }
+}
+
+/// "a", "a and b", "a, b and c".
+fn listed(each: &[String], and: &str) -> String {
+    match each.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, before)) => format!("{} {and} {last}", before.join(", ")),
+        None => String::new(),
     }
 }
 
