@@ -20,6 +20,7 @@ use crate::{answer, help};
 /// Finds the dither that silences friction-induced vibration, and quantifies its confidence
 #[derive(Debug, Parser)]
 #[command(name = "quell", version, propagate_version = true, arg_required_else_help = true)]
+#[command(subcommand_value_name = "VERB")]
 #[command(after_help = "`quell VERB --help` shows the options and examples of a verb.\n\
                         Exit status: 0 done, 2 invalid input, 1 failed.")]
 pub(crate) struct Cli {
