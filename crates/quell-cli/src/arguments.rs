@@ -17,10 +17,10 @@ pub(crate) struct StudyArguments {
     /// Study file (TOML); - is standard input
     #[arg(value_name = "STUDY")]
     study: PathBuf,
-    /// Changes a value of the study before it is checked, such as dither[1].amplitude=0.3
+    /// Changes a value of the study, such as dither[1].amplitude=0.3
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
-    /// Overrides [solver] tolerance
+    /// Replaces the tolerance in [solver]
     #[arg(long, value_name = "ε", allow_hyphen_values = true)]
     tolerance: Option<String>,
     /// Prints one JSON object on standard output and nothing else

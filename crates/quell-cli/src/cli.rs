@@ -7,27 +7,31 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Parser, Subcommand};
+use clap::{FromArgMatches, Parser, Subcommand};
 use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
-use crate::answer;
 use crate::verbs::{
-    basins, bifurcation, check, cite, friction, map, modes, orbit, reproduce, resonances, response,
-    schema, simulate, stability, thresholds,
+    basins, bifurcation, check, cite, completions, friction, map, modes, new, orbit, reproduce,
+    resonances, response, schema, simulate, stability, thresholds,
 };
+use crate::{answer, help};
 
-/// Finds the dither that silences friction-induced vibration, and tells how sure it is.
+/// Finds the dither that silences friction-induced vibration, and quantifies its confidence
 #[derive(Debug, Parser)]
 #[command(name = "quell", version, propagate_version = true, arg_required_else_help = true)]
-#[command(after_help = "Exit status: 0 done, 2 the input is wrong, 1 it failed.")]
-struct Cli {
+#[command(subcommand_value_name = "VERB")]
+#[command(after_help = "`quell VERB --help` shows the options and examples of a verb.\n\
+                        Exit status: 0 done, 2 invalid input, 1 failed.")]
+pub(crate) struct Cli {
     #[command(subcommand)]
     verb: Verb,
 }
 
 #[derive(Debug, Subcommand)]
 enum Verb {
+    New(new::Arguments),
+    Completions(completions::Arguments),
     Check(check::Arguments),
     Schema(schema::Arguments),
     Cite(cite::Arguments),
@@ -52,11 +56,14 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         .iter()
         .take_while(|argument| *argument != "--")
         .any(|argument| argument == "--json");
-    let cli = match Cli::try_parse_from(&arguments) {
+    let parsed = help::command().try_get_matches_from(&arguments);
+    let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => return misunderstood(&error, json),
     };
     let outcome = match &cli.verb {
+        Verb::New(arguments) => new::run(arguments),
+        Verb::Completions(arguments) => completions::run(arguments),
         Verb::Check(arguments) => check::run(arguments),
         Verb::Schema(arguments) => Ok(schema::run(arguments)),
         Verb::Cite(arguments) => cite::run(arguments),

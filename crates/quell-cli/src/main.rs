@@ -5,6 +5,7 @@ use std::process::ExitCode;
 mod answer;
 mod arguments;
 mod cli;
+mod help;
 mod interrupt;
 mod progress;
 mod table;

@@ -135,7 +135,7 @@ fn bad_studies_are_refused_by_every_verb() {
         ("binary", vec![0xff, 0xfe, 0x00, 0x80, 0x0a], "study file"),
         ("zeros", vec![0; 64], "study file"),
         ("broken", b"schema = \n[belt\n".to_vec(), "study"),
-        ("comment", b"# nothing\n".to_vec(), "schema"),
+        ("comment", b"# nothing\n".to_vec(), "belt"),
     ];
     for (name, bytes, key) in &cases {
         let bytes = match *name {

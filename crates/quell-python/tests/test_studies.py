@@ -17,7 +17,6 @@ from quell import _quell
 def test_objects_and_files_make_the_same_study() -> None:
     made = quell.Belt(**BELT, dither=DITHER)
     text = """
-        schema = 1
         [belt]
         damping_ratio = 0.005
         normal_load = 1.0

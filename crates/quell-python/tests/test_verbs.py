@@ -20,6 +20,7 @@ ELSEWHERE = {
     "--json": "Result.facts, Result.to_dict",
     "--plot": "Result.plot, Result.save",
     "--save": "Result.save, and store= of Study.map",
+    "--bibtex": "Citations.bibtex",
 }
 """Options that every result or study has in Python, and where."""
 
@@ -50,10 +51,10 @@ def help_of(*arguments: str) -> str:
 
 
 def verbs_of_the_command_line() -> list[str]:
-    """Verbs as --help lists them."""
-    listed = help_of().split("Commands:\n")[1].split("\n\n")[0]
+    """Verbs as --help lists them, in groups before the options; completion is for shells alone."""
+    listed = help_of().split("Options:\n")[0]
     found = re.findall(r"^  (\w+) ", listed, flags=re.MULTILINE)
-    return [verb for verb in found if verb != "help"]
+    return [verb for verb in found if verb != "completions"]
 
 
 def test_the_verbs_are_the_same() -> None:
@@ -71,6 +72,7 @@ def test_the_options_are_the_same(verb: str) -> None:
         "bifurcation": {"progress"},
         "basins": {"progress"},
         "reproduce": {"names"},
+        "new": {"question", "save"},
     }
     assert wanted <= given, f"Python lacks {wanted - given}"
     assert given - wanted <= python_only.get(verb, set()), f"the command line lacks {given - wanted}"
@@ -117,12 +119,34 @@ def test_the_answers_are_the_same(verb: str, path: str, options: list[str], call
 
 
 def test_cases_are_of_every_verb_of_a_study() -> None:
-    functions = {"schema", "reproduce", "map"}
+    functions = {"schema", "new", "reproduce", "map"}
     assert {case[0] for case in CASES} == set(offered()) - functions
 
 
 def test_the_schema_is_the_same(cli: Any) -> None:
     assert quell.schema() == cli("schema")
+
+
+def test_a_new_study_is_the_same(cli: Any, tmp_path: Any) -> None:
+    assert quell.new() == cli("new")
+    made = quell.new("drive")
+    assert made == cli("new", "drive")
+    assert quell.Study.from_text(made["text"]).check().system == "si"
+    path = tmp_path / "drive.toml"
+    assert quell.new("drive", save=path)["saved"] == str(path)
+    with pytest.raises(quell.StudyError, match="overwrite"):
+        quell.new("quench", save=path)
+    assert path.read_text(encoding="utf-8") == made["text"]
+    with pytest.raises(quell.StudyError, match="did you mean quench"):
+        quell.new("quenhc")
+    with pytest.raises(quell.StudyError, match="name of a question"):
+        quell.new(save=path)
+
+
+def test_bibtex_is_the_same() -> None:
+    printed = subprocess.run([command(), "cite", BELT, "--bibtex"], capture_output=True, text=True, check=True).stdout
+    assert quell.Study.from_toml(BELT).cite().bibtex == printed
+    assert "@phdthesis{michaux2005," in printed
 
 
 def test_a_map_is_the_same(cli: Any) -> None:

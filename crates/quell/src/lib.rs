@@ -14,6 +14,7 @@ pub mod schema;
 pub mod store;
 pub mod study;
 pub mod sweep;
+pub mod template;
 
 pub use complaint::{Complaint, Failure, Fault, Origin};
 pub use study::{Change, DiscStudy, Study, Subject};

@@ -11,7 +11,9 @@ use quell_model::parameter::{Bounds, DITHER_FREQUENCY_RATIO, Parameter};
 use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
 
-use crate::study::vocabulary::{self, Choice, Key, MOST_POINTS, Role, SCHEMA_VERSION, Section};
+use crate::study::vocabulary::{
+    self, Choice, Key, MOST_POINTS, Role, SCHEMA_ABOUT, SCHEMA_VERSION, Section,
+};
 
 /// The dialect of the schema.
 const DIALECT: &str = "https://json-schema.org/draft/2020-12/schema";
@@ -81,7 +83,7 @@ fn root(system: System) -> Json {
         "type": "object",
         "description": about,
         "properties": {
-            "schema": { "const": SCHEMA_VERSION, "description": "version of the study file" },
+            "schema": { "const": SCHEMA_VERSION, "description": SCHEMA_ABOUT },
             "title": { "type": "string", "description": "what the study is about" },
             "belt": { "$ref": reference(Section::Belt, system) },
             "friction": { "$ref": reference(Section::Friction, system) },
@@ -95,7 +97,7 @@ fn root(system: System) -> Json {
             "solver": { "$ref": reference(Section::Solver, system) },
             "sweep": { "type": "array", "items": { "$ref": "#/$defs/sweep" } },
         },
-        "required": ["schema", "belt", "friction"],
+        "required": ["belt", "friction"],
         "additionalProperties": false,
     })
 }
@@ -134,13 +136,13 @@ fn disc(definitions: &mut Map<String, Json>) {
         "type": "object",
         "description": "a study of a disc",
         "properties": {
-            "schema": { "const": SCHEMA_VERSION, "description": "version of the study file" },
+            "schema": { "const": SCHEMA_VERSION, "description": SCHEMA_ABOUT },
             "title": { "type": "string", "description": "what the study is about" },
             "disc": { "$ref": "#/$defs/disc" },
             "dither": { "$ref": "#/$defs/disc_dither" },
             "sweep": { "type": "array", "items": { "$ref": "#/$defs/sweep" } },
         },
-        "required": ["schema", "disc"],
+        "required": ["disc"],
         "additionalProperties": false,
     });
     for (name, definition) in [

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use quell::cite::SOURCES;
+use quell::cite::bibliography::BIBLIOGRAPHY;
 
 /// Fields of one entry: what stands after `name = {`.
 fn field<'a>(entry: &'a str, name: &str) -> Option<&'a str> {
@@ -56,4 +57,14 @@ fn keys_are_unique_and_entries_complete() {
             assert!(field(entry, name).is_some(), "{key} has no {name}");
         }
     }
+}
+
+/// The copy in the root, which people find, is the file that is compiled in.
+#[test]
+fn the_copy_in_the_root_is_the_bibliography() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../references.bib");
+    if std::env::var_os("QUELL_BLESS").is_some() {
+        std::fs::write(&path, BIBLIOGRAPHY).expect("written");
+    }
+    assert_eq!(bibliography(), BIBLIOGRAPHY, "QUELL_BLESS=1 writes the copy");
 }

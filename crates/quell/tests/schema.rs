@@ -84,6 +84,7 @@ fn schema_and_reader_agree() {
     for text in [
         SCALED.to_owned(),
         SI.to_owned(),
+        changed(SI, "schema = 1\n", ""),
         changed(SI, "amplitude_n_rms", "amplitude_n"),
         more("[belt.initial]\nstate = 'sliding'"),
         more("[belt.initial]\nvelocity = -1"),

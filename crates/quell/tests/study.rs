@@ -139,7 +139,6 @@ const WRONG: &[(&str, &str, Said)] = &[
         "\"sideways\"",
         (Fault::Value, "dither.direction", Some(13), "\"normal\"", None),
     ),
-    ("schema = 1\n", "", (Fault::Missing, "schema", None, "schema = 1", None)),
     ("schema = 1", "schema = 2", (Fault::Value, "schema", Some(1), "1", None)),
     ("title = \"Stribeck belt\"", "title = 3", (Fault::Value, "title", Some(2), "a string", None)),
     ("title", "titel", (Fault::Unknown, "titel", Some(2), "title", Some("title"))),
@@ -579,4 +578,15 @@ fn bounds_are_told_without_runs_of_zeros() {
     assert_eq!(told(1e-300, f64::INFINITY), "a finite number ≥ 1e-300");
     assert_eq!(told(0.0, 1e30), "a number in [0, 1e30]");
     assert_eq!(told(-0.5, 20000.0), "a number in [-0.5, 20000]");
+}
+
+#[test]
+fn a_study_without_a_version_is_of_the_present_one() {
+    let study = good(&[]);
+    let without = GOOD.replace("schema = 1\n", "");
+    let bare = Study::parse(&without, &[]).expect("valid");
+    assert_eq!(bare.settings(), study.settings());
+    assert!(bare.settings().iter().any(|(path, value)| path == "schema" && value == "1.0"));
+    let set = Study::parse(&without, &set(&["schema=2"])).expect_err("no such version");
+    assert_eq!((set.len(), set[0].key.as_str()), (1, "schema"));
 }

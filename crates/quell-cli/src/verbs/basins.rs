@@ -18,24 +18,24 @@ use crate::interrupt;
 use crate::progress::Bar;
 use crate::table::figure;
 
-/// Finds the responses that starts of a window end on, and which share of it each holds
+/// Finds the responses that starts in a window end on, and the share of each
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Displacements x of the window; about steady sliding by default
+    /// Displacements x of the window [default: around steady sliding]
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     displacement: Option<String>,
-    /// Velocities x′ of the window
+    /// Velocities x′ of the window [default: around 0]
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     velocity: Option<String>,
-    /// A grid of so many displacements and velocities, from edge to edge [default: 41x31]
+    /// Numbers of displacements and velocities of a grid, from edge to edge [default: 41x31]
     #[arg(long, value_name = "NxM", conflicts_with = "sample")]
     grid: Option<String>,
-    /// So many random states in place of a grid
+    /// Number of random states instead of a grid
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     sample: Option<String>,
-    /// Which random states
+    /// Seed of the random states
     #[arg(long, value_name = "SEED", requires = "sample", default_value_t = 1)]
     seed: u64,
     /// Follows the shares over this parameter, such as dither.amplitude; needs --from and --to
@@ -56,7 +56,7 @@ pub(crate) struct Arguments {
         allow_hyphen_values = true
     )]
     points: String,
-    /// Number of threads; all there are by default
+    /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     threads: Option<String>,
     #[command(flatten)]

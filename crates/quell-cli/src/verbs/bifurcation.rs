@@ -16,7 +16,7 @@ use crate::interrupt;
 use crate::progress::Bar;
 use crate::table::figure;
 
-/// Sweeps a parameter up and down with the state carried over: sections, locking, hysteresis
+/// Sweeps a parameter up and down and carries the state along: sections, locking, hysteresis
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -26,10 +26,10 @@ pub(crate) struct Arguments {
     /// Number of values
     #[arg(long, value_name = "N", default_value = "101", allow_hyphen_values = true)]
     points: String,
-    /// Sweeps up, from the start of the study; both ways where neither is asked for
+    /// Sweeps up, from the start of the study [default: up, then down]
     #[arg(long)]
     up: bool,
-    /// Sweeps down, from where sweeping up ended; alone, from the start of the study
+    /// Sweeps down, from the end of the sweep up; without --up, from the start of the study
     #[arg(long)]
     down: bool,
     #[command(flatten)]

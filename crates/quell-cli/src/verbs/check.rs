@@ -12,7 +12,7 @@ use crate::answer::Answer;
 use crate::arguments::StudyArguments;
 use crate::table::Table;
 
-/// Checks a study file and shows what it says
+/// Checks a study file and prints its values
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]

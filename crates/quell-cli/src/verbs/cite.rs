@@ -9,11 +9,14 @@ use quell::cite::sources_of;
 use crate::answer::Answer;
 use crate::arguments::StudyArguments;
 
-/// Shows which equations and papers a study's computations use, and where they were corrected
+/// Lists the equations and papers that a study's computations use, and corrections of the print
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
+    /// Prints BibTeX entries instead
+    #[arg(long)]
+    bibtex: bool,
 }
 
 /// Answers.
@@ -21,6 +24,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = arguments.study.read_any()?;
     let found = sources_of(&study);
     let text = || {
+        if arguments.bibtex {
+            return found.bibtex();
+        }
         let mut text = String::new();
         for source in found.unique() {
             let _ = writeln!(text, "[{}] {}", source.key, source.reference);

@@ -14,7 +14,7 @@ use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
 use crate::table::figure;
 
-/// Shows the friction law and the effective friction under the dither
+/// Computes the friction law and the effective friction under the dither
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]

@@ -26,20 +26,20 @@ use crate::verbs::shard;
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// What is shown; several times, or separated by commas, for several
+    /// Quantities to compute, separated by commas or as repeated options
     #[arg(long = "quantity", value_name = "NAME", required = true, value_delimiter = ',')]
     quantities: Vec<String>,
-    /// Keeps the map: a Zarr store, chunk by chunk as they are done; or a table at the end
+    /// Saves the map: a Zarr store, written while it is computed, or a table at the end
     #[arg(long, value_name = "FILE.zarr|.csv")]
     save: Option<PathBuf>,
-    /// Goes on with the store that --save names, if there is one
+    /// Continues the store that --save names, if it exists
     #[arg(long)]
     resume: bool,
-    /// Computes one of N equal parts of the map, K from 1 to N, into the store that --save names,
-    /// beside processes that compute the others, in any order, on any machines
+    /// Computes part K of N equal parts of the map into the store that --save names; other processes, on any machines,
+    /// compute the others
     #[arg(long, value_name = "K/N", allow_hyphen_values = true, conflicts_with = "resume")]
     shard: Option<String>,
-    /// Number of threads; all there are by default
+    /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     threads: Option<String>,
     #[command(flatten)]
@@ -55,7 +55,7 @@ fn quantities() -> String {
             let _ = writeln!(text, "  {:<20}  {}", quantity.name, quantity.about);
         }
     }
-    text + "\nExit status: 0 done, 2 the input is wrong, 1 it failed or was stopped."
+    text + "\nExit status: 0 done, 2 invalid input, 1 failed or stopped."
 }
 
 /// Where the map is kept.

@@ -11,7 +11,7 @@ use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
 use crate::table::figure;
 
-/// Shows the natural frequencies, shapes and critical speeds of a disc
+/// Computes the natural frequencies, shapes and critical speeds of a disc
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]

@@ -16,27 +16,28 @@ use crate::table::Table;
 /// Options that ask for the response on which a run ends, which has its own state and number of periods.
 const STARTS: [&str; 4] = ["from_rest", "from_sliding", "from_squeal", "start"];
 
-/// Computes the periodic response to dither and whether it is stable, exactly
+/// Computes the periodic response and its stability by Floquet multipliers
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Looks near this state x,v at τ = 0; by default for what sliding becomes under dither, without dither for the limit cycle
+    /// Searches near this state x,v at τ = 0 [default: the base response, continued from steady sliding; without dither the
+    /// limit cycle; at v₀ = 0 the response that a run from rest reaches]
     #[arg(long, value_name = "X,V", conflicts_with_all = STARTS, allow_hyphen_values = true)]
     near: Option<String>,
     /// Common periods of the dithers in one period of the response
     #[arg(long, value_name = "N", conflicts_with_all = STARTS, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     periods: u32,
-    /// Looks for the response on which a run from rest ends, of whatever number of periods
+    /// Finds the response that a run from rest reaches, of any number of periods
     #[arg(long, group = "run")]
     from_rest: bool,
-    /// The same from steady sliding without dither
+    /// Finds the response that a run from steady sliding without dither reaches
     #[arg(long, group = "run")]
     from_sliding: bool,
-    /// The same from the undithered limit cycle
+    /// Finds the response that a run from the undithered limit cycle reaches
     #[arg(long, group = "run")]
     from_squeal: bool,
-    /// The same from this state
+    /// Finds the response that a run from this state reaches
     #[arg(long, group = "run", value_name = "X,V", allow_hyphen_values = true)]
     start: Option<String>,
     #[command(flatten)]
@@ -86,7 +87,7 @@ fn text(study: &Study, found: &Response) -> String {
     for other in others {
         let _ = write!(
             text,
-            "\nBeside it: {}\n{}",
+            "\nAlso found: {}\n{}",
             quell::run::orbit::sentence(study, other),
             table(study, other)
         );

@@ -10,17 +10,17 @@ use quell::reproduce::{ENTRIES, Pace, Reproduction, find, run as reproduce};
 use crate::answer::Answer;
 use crate::progress::Entries;
 
-/// Makes the figures and tables of the dissertation again, with their data and one report
+/// Reproduces the figures, tables and claims of the dissertation, with data and a report
 #[derive(Debug, Args)]
 #[command(after_help = list())]
 pub(crate) struct Arguments {
-    /// Figures such as 2.3, or claims; everything where none is given
+    /// Figures such as 2.3, or claims [default: everything]
     #[arg(value_name = "NAME")]
     names: Vec<String>,
-    /// Directory for the report, pictures, data and tables; it is made if it is missing
+    /// Directory for the report, pictures, data and tables, created if it is missing
     #[arg(long, value_name = "DIR", default_value = "reproduction")]
     out: PathBuf,
-    /// Coarser grids of the maps: a quicker look
+    /// Uses coarser grids for the maps
     #[arg(long)]
     quick: bool,
     /// Prints one JSON object on standard output and nothing else

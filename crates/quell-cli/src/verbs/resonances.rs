@@ -14,21 +14,21 @@ use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
 use crate::table::figure;
 
-/// Shows where waves of a disc meet, which meetings can be unstable, and which dither frequencies keep speeds clear
+/// Finds the speeds at which a disc can squeal, and dither frequencies that keep a range of speeds clear
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Speeds between which meetings are shown
+    /// Range of speeds
     #[arg(long, value_name = "FROM:TO", default_value = "0:1", allow_hyphen_values = true)]
     speeds: String,
-    /// How far the theory goes: second counts friction twice (f of the order of the root of m, c, k)
+    /// Order of the expansion: second counts friction twice (f of the order of the root of m, c, k)
     #[arg(long, value_name = "ORDER", default_value = "first")]
     order: Expansion,
-    /// Speeds that the dither shall keep clear; needs --frequency
+    /// Range of speeds to keep clear; needs --frequency
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, requires = "frequency")]
     clear: Option<String>,
-    /// Dither frequencies R that may do it
+    /// Range of dither frequencies R to choose from; needs --clear
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, requires = "clear")]
     frequency: Option<String>,
     #[command(flatten)]

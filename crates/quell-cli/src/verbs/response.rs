@@ -15,7 +15,7 @@ use crate::table::{Table, figure};
 /// Most peaks in the table for people; JSON has them all.
 const PEAKS: usize = 8;
 
-/// Measures the steady response, with and without dither, and what the dither costs
+/// Measures the steady response with and without dither, and the cost of the dither
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]

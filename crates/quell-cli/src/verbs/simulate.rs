@@ -13,12 +13,12 @@ use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
 use crate::table::{Table, figure};
 
-/// Computes one trajectory with every event at the contact
+/// Simulates one run with every event at the contact
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// How long: τ, or a time such as 0.5s in a study in SI
+    /// Duration τ, or a time such as 0.5s in a study in SI
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: String,
     /// Lists every event

@@ -16,7 +16,7 @@ use crate::table::{Table, figure};
 /// Most marginal frictions that are told in words.
 const MOST_CHANGES: usize = 6;
 
-/// Says whether steady sliding (by averaging) or a disc (eigenvalues, Floquet exponents) is stable, and what changes that
+/// Decides whether steady sliding (by averaging) or a disc (by eigenvalues) is stable, and what changes that
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use clap::Args;
 use quell::run::curves::{Curves, Question as CurveQuestion, run as curves};
 use quell::run::thresholds::{
-    Ending, Protocol, Question, Thresholds, becomes, path_in_words, quantity_of, run as thresholds,
-    side, value_in_words,
+    Protocol, Question, Thresholds, becomes, path_in_words, quantity_of, run as thresholds, side,
+    value_in_words,
 };
 use quell::{Complaint, Failure, Fault, Origin, Study, picture};
 
@@ -15,33 +15,33 @@ use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, Outputs, Plot, PlotArguments, StudyArguments};
 use crate::table::figure_of;
 
-/// Finds the values of a parameter at which dither begins or ceases to quench, exactly
+/// Finds the values of a parameter at which dither begins or ceases to quench
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
     #[command(flatten)]
     varied: VariedArguments,
-    /// Also for runs from rest
+    /// Also finds them for runs from rest
     #[arg(long)]
     from_rest: bool,
-    /// Also for runs from steady sliding without dither
+    /// Also finds them for runs from steady sliding without dither
     #[arg(long)]
     from_sliding: bool,
-    /// Also for runs that squeal when the dither is switched on
+    /// Also finds them for runs in full squeal when the dither is switched on
     #[arg(long)]
     from_squeal: bool,
-    /// Also for runs from this state
+    /// Also finds them for runs from this state
     #[arg(long, value_name = "X,V", allow_hyphen_values = true)]
     start: Option<String>,
-    /// Lets the dither of these runs grow over this time, in steps of its period, instead of switching it on: τ, or a time
-    /// such as 0.5s in a study in SI
+    /// Raises the dither of these runs over this time τ, in steps of its period, instead of switching it on; a time such as
+    /// 0.5s in a study in SI
     #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
     ramp: String,
     /// Follows each local threshold as a curve along a second parameter, such as belt.belt_velocity
     #[arg(long, value_name = "PATH", requires = "between", conflicts_with_all = ["from_rest", "from_sliding", "from_squeal", "start", "ramp"])]
     along: Option<String>,
-    /// The window of the second parameter
+    /// Range of the second parameter
     #[arg(long, value_name = "FROM:TO", requires = "along", allow_hyphen_values = true)]
     between: Option<String>,
     #[command(flatten)]
@@ -152,8 +152,11 @@ fn text(study: &Study, done: &Thresholds) -> String {
     let path = path_in_words(study, given);
     let figure = |value: f64| figure_at(study, given, value);
     let whole = |value: f64| value_in_words(study, given, value);
+    let response =
+        if study.belt().dithers().is_empty() { "steady sliding" } else { "the base response" };
     let mut text = format!(
-        "{path} from {} to {}, the response that sliding becomes under dither:\n",
+        "{}\n\n{path} from {} to {}, {response}:\n",
+        done.sentence(study),
         whole(question.from),
         whole(question.to)
     );
@@ -169,9 +172,6 @@ fn text(study: &Study, done: &Thresholds) -> String {
     }
     if done.local.thresholds.is_empty() {
         text.push_str("  no local threshold\n");
-    }
-    if done.local.ending != Ending::Covered {
-        let _ = writeln!(text, "{}", done.sentence(study));
     }
     for change in &done.local.changes {
         let words = |it: &Option<_>| {

@@ -29,7 +29,7 @@ from ._arguments import Arguments
 from ._axes import Axes, Axis
 from ._belt import Belt, Decreasing, Dither, Expression, Friction, Initial, Samples, Solver, Stribeck
 from ._disc import Disc, Load, Mode
-from ._errors import Complaint, QuellError, RunError, StudyError
+from ._errors import Complaint, QuellError, RunError, StudyError, complaint
 from ._quell import __version__
 from ._study import Study
 
@@ -53,6 +53,7 @@ __all__ = [
     "Study",
     "StudyError",
     "__version__",
+    "new",
     "quantities",
     "reproduce",
     "results",
@@ -64,6 +65,35 @@ __all__ = [
 def schema() -> dict[str, Any]:
     """The JSON Schema of a study file (draft 2020-12)."""
     return _quell.schema()
+
+
+def new(
+    question: str | None = None, *, save: str | os.PathLike[str] | None = None, overwrite: bool = False
+) -> dict[str, Any]:
+    """A commented study to start from.
+
+    Parameters
+    ----------
+    question :
+        Name of a question; without it, the questions are listed.
+    save :
+        A new file to save the study to.
+    overwrite :
+        Whether an existing file is replaced.
+
+    Returns
+    -------
+    dict
+        ``questions``, with ``name`` and ``question`` of each; or ``text``, the study, which
+        :meth:`Study.from_text` reads, with ``name``, ``question`` and ``commands``.
+    """
+    arguments = Arguments()
+    name = None if question is None else arguments.text("question", question, "the name of a question")
+    place = None if save is None else arguments.path("save", save)
+    if place is not None and name is None:
+        arguments.wrong.append(complaint("save", save, "given with the name of a question", "conflict"))
+    arguments.done()
+    return _quell.new(name, place, bool(overwrite))
 
 
 def quantities() -> dict[str, dict[str, str]]:

@@ -120,7 +120,7 @@ class Study:
         return results.Check(self, self._native.check())
 
     def cite(self) -> results.Citations:
-        """Which equations and papers its computations use, and where the print was corrected."""
+        """Equations and papers that its computations use, with BibTeX, and corrections of the print."""
         return results.Citations(self, self._native.cite())
 
     def friction(self, at: npt.ArrayLike | None = None) -> results.FrictionCurve:
@@ -193,7 +193,8 @@ class Study:
         Parameters
         ----------
         near :
-            Look near this state (x, x′) at τ = 0; by default for what sliding becomes under dither.
+            Search near this state (x, x′) at τ = 0 [default: the base response, continued from steady sliding; at v₀ = 0 the
+            response that a run from rest reaches].
         periods :
             Common periods of the dithers in one period of the response.
         from_rest, from_sliding, from_squeal, start :

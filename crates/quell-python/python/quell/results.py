@@ -213,6 +213,8 @@ class Citations(Result):
     """``key``, ``reference``, and ``used``: for what."""
     corrections: list[dict[str, Any]]
     """Where the print of a source is wrong, and what is right."""
+    bibtex: str
+    """The sources as BibTeX entries."""
 
 
 class FrictionCurve(Result):
@@ -320,7 +322,7 @@ class Orbit(Result):
     monodromy: list[list[float]] | None
     """What a small change of x and x′ has become after a period; none where there is no orbit."""
     verdict: Verdict
-    """Whether small changes of it die out."""
+    """Whether small deviations die out."""
     stick_episodes: int
     """Sticks in a period."""
     reversals: int

@@ -7,6 +7,7 @@ pub(crate) mod cite;
 pub(crate) mod friction;
 pub(crate) mod map;
 pub(crate) mod modes;
+pub(crate) mod new;
 pub(crate) mod orbit;
 pub(crate) mod reproduce;
 pub(crate) mod resonances;

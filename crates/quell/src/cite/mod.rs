@@ -8,6 +8,7 @@ use serde_json::{Value as Json, json};
 
 use crate::study::{DiscStudy, Study, Subject};
 
+pub mod bibliography;
 mod correction;
 mod corrections;
 mod disc;
@@ -253,6 +254,13 @@ impl Sources {
         SOURCES.iter().filter(cited).copied().collect()
     }
 
+    /// The sources as BibTeX entries.
+    pub fn bibtex(&self) -> String {
+        let keys = self.unique().into_iter().map(|source| source.key);
+        let entries: Vec<&str> = keys.filter_map(bibliography::entry).collect();
+        entries.join("\n\n") + "\n"
+    }
+
     /// As JSON.
     pub fn json(&self) -> Json {
         let sources: Vec<Json> = self
@@ -283,7 +291,13 @@ impl Sources {
             })
             .collect();
         let warnings: [&str; 0] = [];
-        json!({ "ok": true, "sources": sources, "corrections": corrections, "warnings": warnings })
+        json!({
+            "ok": true,
+            "sources": sources,
+            "corrections": corrections,
+            "bibtex": self.bibtex(),
+            "warnings": warnings,
+        })
     }
 }
 

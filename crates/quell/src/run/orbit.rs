@@ -18,10 +18,15 @@ use crate::study::Study;
 /// Least number of steps of the dither's amplitude from nothing to its value.
 const STEPS: u32 = 8;
 
+/// What is said where a run from rest stands in for steady sliding.
+const FROM_REST_INSTEAD: &str =
+    "A run from rest reaches it; at v₀ = 0 there is no steady sliding to continue from.";
+
 /// Which periodic response is looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wanted {
-    /// The one that sliding becomes; without dither the limit cycle.
+    /// The base response, continued from steady sliding; without dither the limit cycle; at v₀ = 0, where nothing slides
+    /// steadily, the one on which a run from rest ends.
     OfSliding {
         /// Common periods of the dithers in a period of the response.
         periods: u32,
@@ -52,11 +57,13 @@ pub struct Response {
     pub cycles: Vec<Orbit>,
     /// Verdict on steady sliding of an undithered belt, 2ζ + μ′(v₀)F > 0.
     pub sliding: Option<Verdict>,
+    /// Whether a run from rest was taken because v₀ = 0 has no steady sliding to continue from.
+    pub from_rest_instead: bool,
 }
 
 impl From<Orbit> for Response {
     fn from(orbit: Orbit) -> Self {
-        Self { orbit: Some(orbit), cycles: Vec::new(), sliding: None }
+        Self { orbit: Some(orbit), cycles: Vec::new(), sliding: None, from_rest_instead: false }
     }
 }
 
@@ -69,7 +76,17 @@ pub fn run(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
     if belt.dithers().is_empty() {
         return undithered(study, wanted);
     }
+    let from_rest_instead =
+        matches!(wanted, Wanted::OfSliding { .. }) && belt.belt_velocity() == 0.0;
     let found = match wanted {
+        Wanted::OfSliding { periods } if from_rest_instead && periods > 1 => {
+            let allowed =
+                "1 at v₀ = 0 unless --near is given: a run from rest has its own number of periods";
+            return Err(Complaint::option("--periods", periods, allowed).into());
+        }
+        Wanted::OfSliding { .. } if from_rest_instead => {
+            orbit_reached(belt, Protocol::Rest.start(study)?)
+        }
         Wanted::After(protocol) => {
             let start = protocol.start(study)?;
             orbit_reached(belt, start)
@@ -82,7 +99,8 @@ pub fn run(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
             from_sliding(belt, STEPS).and_then(|orbit| near(belt, orbit.start, periods))
         }
     };
-    found.map(Response::from).map_err(refused)
+    let response = |orbit| Response { from_rest_instead, ..Response::from(orbit) };
+    found.map(response).map_err(refused)
 }
 
 /// The limit cycles of an undithered belt.
@@ -94,7 +112,7 @@ fn undithered(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
         let allowed = "1: without dither there are no periods of it to count";
         return Err(Complaint::option("--periods", periods, allowed).into());
     }
-    let why = "on a belt at rest the mass may stay anywhere within the reach of friction: there is nothing periodic";
+    let why = "on a belt at rest without dither the mass may stay anywhere inside the stick band, and nothing is periodic";
     moves(study, why)?;
     let cycles = cycles(belt).map_err(refused)?;
     let orbit = match wanted {
@@ -108,7 +126,8 @@ fn undithered(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
             cycles.iter().min_by(|a, b| off(a).total_cmp(&off(b)))
         }
     };
-    Ok(Response { orbit: orbit.cloned(), sliding: Some(sliding_verdict(belt)), cycles })
+    let sliding = Some(sliding_verdict(belt));
+    Ok(Response { orbit: orbit.cloned(), cycles, sliding, from_rest_instead: false })
 }
 
 impl Protocol {
@@ -146,24 +165,40 @@ pub(super) fn refused(why: NoOrbit) -> Failure {
 /// The orbit in one sentence.
 pub fn sentence(study: &Study, orbit: &Orbit) -> String {
     let verdict = match orbit.verdict() {
-        Verdict::Stable => "stable: small changes of it die out",
-        Verdict::Unstable => "unstable: small changes of it grow",
+        Verdict::Stable => "stable: small deviations die out",
+        Verdict::Unstable => "unstable: small deviations grow",
         Verdict::Undecided => "undecided: its largest multiplier has modulus 1 within its error",
     };
     let contact = match (orbit.count(EventKind::Stick), orbit.count(EventKind::Reversal)) {
-        (0, 0) if orbit.is_pure_slip() => "slides without touching v_r = 0".to_owned(),
+        (0, 0) if orbit.is_pure_slip() => "slides throughout and never touches v_r = 0".to_owned(),
         (0, 0) => "sticks throughout".to_owned(),
-        (sticks, reversals) => format!("sticks {sticks} and reverses {reversals} times a period"),
+        (0, reversals) => format!("reverses {} per period and never sticks", times(reversals)),
+        (sticks, 0) => format!("sticks {} per period and never reverses", times(sticks)),
+        (sticks, reversals) => {
+            format!("sticks {} and reverses {} per period", times(sticks), times(reversals))
+        }
     };
     let period = in_words(study, Quantity::Time, orbit.period);
-    let what = if orbit.is_free { "The limit cycle without dither," } else { "The response" };
-    format!("{what} of period {period} {contact}; it is {verdict}.")
+    let what = if orbit.is_free { "The limit cycle without dither" } else { "The response" };
+    format!("{what} has period {period}. It {contact}. It is {verdict}.")
+}
+
+/// How often, in words.
+fn times(count: usize) -> String {
+    match count {
+        1 => "once".to_owned(),
+        2 => "twice".to_owned(),
+        count => format!("{count} times"),
+    }
 }
 
 impl Response {
     /// What was found in one sentence.
     pub fn sentence(&self, study: &Study) -> String {
         match &self.orbit {
+            Some(orbit) if self.from_rest_instead => {
+                format!("{} {FROM_REST_INSTEAD}", sentence(study, orbit))
+            }
             Some(orbit) => sentence(study, orbit),
             None => self.without_orbit(study),
         }
@@ -179,10 +214,10 @@ impl Response {
         let cycles = if self.cycles.is_empty() {
             "and no limit cycle was found"
         } else {
-            "beside the limit cycles"
+            "next to the limit cycles"
         };
         format!(
-            "Without dither nothing gives the response a period: it is steady sliding at x = {place}, {whether}, {cycles}."
+            "Without dither the response is steady sliding at x = {place}, {whether}, {cycles}."
         )
     }
 
@@ -192,6 +227,9 @@ impl Response {
             Some(orbit) => json(study, orbit),
             None => self.sliding_json(study),
         };
+        if self.from_rest_instead {
+            object["sentence"] = self.sentence(study).into();
+        }
         if self.sliding.is_some() {
             object["cycles"] = self.cycles.iter().map(|cycle| json(study, cycle)).collect();
         }

@@ -51,7 +51,7 @@ pub(super) fn text(path: &Path) -> Result<String, Box<Complaint>> {
     }
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
         return Err(complaint(
-            "is empty; a study has at least schema = 1, [belt] and [friction]".into(),
+            "is empty; a study has at least [belt] and [friction], or [disc]; `quell new` prints examples".into(),
         ));
     }
     Ok(text)

@@ -12,7 +12,7 @@ use quell_model::units::{Quantity, Scales};
 use quell_model::{Belt, Dither, Friction, LawKind};
 use serde_json::Value as Json;
 
-use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::complaint::{Complaint, Failure, Fault};
 use belt::BeltTable;
 use mirror::{Table, Value};
 use reader::Reader;
@@ -256,21 +256,12 @@ fn root(reader: &mut Reader, mirror: &Table, names: &[&str]) -> Option<String> {
             reader.complain(complaint.suggesting(nearest));
         }
     }
-    match mirror.get("schema") {
-        None => {
-            let allowed = format!("schema = {SCHEMA_VERSION}, the version of the study file");
-            reader.complain(Complaint::new(
-                Fault::Missing,
-                "schema",
-                Origin::Whole,
-                Json::Null,
-                allowed,
-            ));
-        }
-        Some(node) if node.value != Value::Number(f64::from(SCHEMA_VERSION)) => {
-            reader.wrong("schema", node, format!("{SCHEMA_VERSION}, the only version there is"));
-        }
-        Some(_) => {}
+    // A study without a version is of the present one.
+    if let Some(node) = mirror.get("schema")
+        && node.value != Value::Number(f64::from(SCHEMA_VERSION))
+    {
+        let allowed = format!("{SCHEMA_VERSION}, the only version of study files, or left out");
+        reader.wrong("schema", node, allowed);
     }
     mirror.get("title").and_then(|node| reader.text("title", node))
 }

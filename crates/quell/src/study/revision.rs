@@ -3,6 +3,7 @@
 use super::change::Change;
 use super::mirror::{Table, Value};
 use super::sweep::Sweep;
+use super::vocabulary::SCHEMA_VERSION;
 use crate::complaint::{Complaint, Fault, Origin};
 
 /// Checks a text after changing it; what cannot be changed is told together with what the check finds.
@@ -44,7 +45,8 @@ pub(super) fn at<'a>(
     Ok((mirror, changes))
 }
 
-/// Every value of a study and what is known beside its mirror, in the order of paths; neither title nor axes.
+/// Every value of a study and what is known beside its mirror, in the order of paths; neither title nor axes. The version
+/// of the file is among them also where the text leaves it out.
 pub(super) fn settings(
     mirror: &Table,
     beside: impl IntoIterator<Item = (String, String)>,
@@ -52,6 +54,9 @@ pub(super) fn settings(
     let mut settings = Vec::new();
     for (name, node) in mirror.iter().filter(|(name, _)| !matches!(*name, "title" | "sweep")) {
         node.leaves(name, &mut settings);
+    }
+    if !mirror.has("schema") {
+        settings.push(("schema".to_owned(), format!("{:?}", f64::from(SCHEMA_VERSION))));
     }
     settings.extend(beside);
     settings.sort();

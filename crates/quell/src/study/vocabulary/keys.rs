@@ -3,7 +3,7 @@
 use quell_model::LawKind;
 use quell_model::parameter::{self, Parameter};
 
-use super::{Choice, Key, Role, Section};
+use super::{Choice, Key, Role, SCHEMA_ABOUT, Section};
 
 /// Every key, table by table.
 pub(super) fn all() -> Vec<Key> {
@@ -23,7 +23,7 @@ fn words() -> Vec<Key> {
         |section, name, choice, about| Key { section, name, role: Role::Choice(choice), about };
     let root = |name, role, about| Key { section: Root, name, role, about };
     vec![
-        root("schema", Role::Schema, "version of the study file"),
+        root("schema", Role::Schema, SCHEMA_ABOUT),
         root("title", Role::Text, "what the study is about"),
         word(Initial, "state", Choice::State, "a named state"),
         word(Friction, "law", Choice::Law, "the friction law"),

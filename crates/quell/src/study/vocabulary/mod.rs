@@ -18,6 +18,9 @@ pub use words::Choice;
 /// Version of the study file that this program reads.
 pub const SCHEMA_VERSION: u32 = 1;
 
+/// What the key `schema` of a study is.
+pub const SCHEMA_ABOUT: &str = "version of the study file; 1 where it is left out";
+
 /// Tables of the design that are not built yet.
 pub const NOT_BUILT: &[&str] =
     &["system", "contact", "input", "actuator", "design", "uncertainty", "sample", "profile"];

@@ -1,5 +1,5 @@
 //! `thresholds`: values of a parameter at which the response changes: local ones by Floquet multipliers, and for runs
-//! from given starts the values at which dither begins or ceases to quench.
+//! from given starts the values at which dither begins or ceases to quench. `tell` says it in sentences.
 
 use quell_belt::attractor::{Reached, Switches, ramped, switches};
 use quell_belt::orbit::NoOrbit;
@@ -20,6 +20,8 @@ use crate::quantity::bearable;
 use crate::study::mirror::given_number;
 use crate::study::vocabulary::join;
 use crate::study::{InitialState, Study};
+
+mod tell;
 
 /// Least number of values between which an orbit is followed.
 const STEPS: u32 = 40;
@@ -150,8 +152,27 @@ fn understood(study: &Study, question: Question) -> Result<Question, Failure> {
     if !wrong.is_empty() {
         return Err(wrong.into());
     }
+    slides(study, &named, from)?;
     let (from, to) = (named.of(from), named.of(to));
     Ok(Question { parameter: named.path, from, to, ..question })
+}
+
+/// Refuses a first value at which the belt is at rest: there is no steady sliding to continue from.
+fn slides(study: &Study, named: &Named, from: f64) -> Result<(), Box<Complaint>> {
+    let belt = study.belt();
+    let at_rest = |belt: &quell_model::Belt| belt.belt_velocity() == 0.0;
+    if !belt.with(&named.path, named.of(from)).is_ok_and(|first| at_rest(&first)) {
+        return Ok(());
+    }
+    let why = "thresholds are those of the response that is continued from steady sliding, and a belt at rest has none; \
+               `orbit`, `response` and `bifurcation` start from rest";
+    let allowed = format!("such that the belt moves: {why}");
+    Err(Box::new(if at_rest(belt) {
+        let allowed = format!("above 0: {why}");
+        Complaint::new(Fault::Value, "belt.belt_velocity", Origin::Whole, 0.0, allowed)
+    } else {
+        Complaint::option("--from", given_number(from), allowed)
+    }))
 }
 
 /// Thresholds of a study's belt.
@@ -204,38 +225,6 @@ pub fn side(verdict: Option<quell_belt::orbit::Verdict>) -> &'static str {
 }
 
 impl Thresholds {
-    /// Whether and how far the response was followed, in one sentence.
-    pub fn sentence(&self, study: &Study) -> String {
-        let given = &self.question.parameter;
-        let path = path_in_words(study, given);
-        let told = |value: f64| value_in_words(study, given, value);
-        let (from, to) = (told(self.question.from), told(self.question.to));
-        match self.local.ending {
-            Ending::Covered => {
-                format!(
-                    "The response that sliding becomes was followed from {path} = {from} to {to}."
-                )
-            }
-            Ending::TurnedBack { at } => format!(
-                "The response that sliding becomes turns back at {path} = {}: there is none of it beyond, \
-                 and what a run ends on there is another one.",
-                told(at)
-            ),
-            Ending::Touch { at } => format!(
-                "The response that sliding becomes ends at {path} = {}, where it touches v_r = 0: there is none beyond.",
-                told(at)
-            ),
-            Ending::LostTurning { furthest, at } => format!(
-                "The response that sliding becomes turns back at {path} = {} and was lost at {}: whether it goes further is not known.",
-                told(furthest),
-                told(at)
-            ),
-            Ending::Lost { at } => {
-                format!("The response that sliding becomes was lost beyond {path} = {}.", told(at))
-            }
-        }
-    }
-
     /// As JSON.
     pub fn json(&self, study: &Study) -> Json {
         let question = &self.question;

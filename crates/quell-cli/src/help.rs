@@ -1,0 +1,163 @@
+//! The help: verbs in groups, and examples of each.
+//!
+//! Examples name the files that `quell new NAME --save NAME.toml` makes, so that each can be run as it is; a test does.
+
+use std::fmt::Write as _;
+
+use clap::{Command, CommandFactory};
+
+use crate::cli::Cli;
+
+/// A verb, and commands that show its use.
+type Verb = (&'static str, &'static [&'static str]);
+
+/// Headings with their verbs, in the order of the help.
+const GROUPS: &[(&str, &[Verb])] = &[
+    (
+        "Start here",
+        &[
+            ("new", &["quell new", "quell new quench --save quench.toml"]),
+            ("check", &["quell check quench.toml", "quell check drive.toml --json"]),
+            ("schema", &["quell schema"]),
+            ("completions", &["quell completions bash"]),
+        ],
+    ),
+    (
+        "Belts and systems",
+        &[
+            (
+                "response",
+                &[
+                    "quell response quench.toml --plot response.svg",
+                    "quell response brake-si.toml --set dither.amplitude_n=4000",
+                ],
+            ),
+            (
+                "thresholds",
+                &[
+                    "quell thresholds quench.toml --parameter dither.amplitude --from 0.3 --to 0.7 --from-rest",
+                    "quell thresholds drive.toml --parameter belt.belt_velocity_m_per_s --from 0.002 --to 0.04",
+                ],
+            ),
+            (
+                "friction",
+                &[
+                    "quell friction own-law.toml --at 0,0.05,0.1",
+                    "quell friction measured-law.toml --plot friction.svg",
+                ],
+            ),
+            ("stability", &["quell stability quench.toml", "quell stability disc.toml"]),
+            (
+                "orbit",
+                &["quell orbit quench.toml", "quell orbit driven-oscillator.toml --from-rest"],
+            ),
+            (
+                "simulate",
+                &[
+                    "quell simulate quench.toml --until 50 --events",
+                    "quell simulate drive.toml --until 0.5s --save drive.csv",
+                ],
+            ),
+            (
+                "bifurcation",
+                &[
+                    "quell bifurcation every-start.toml --parameter dither.amplitude --from 1 --to 2 --points 3",
+                    "quell bifurcation every-start.toml --parameter dither.amplitude --from 1 --to 2 --points 3 --up",
+                ],
+            ),
+            (
+                "basins",
+                &[
+                    "quell basins every-start.toml --grid 4x3",
+                    "quell basins every-start.toml --sample 10 --plot basins.svg",
+                ],
+            ),
+        ],
+    ),
+    (
+        "Discs",
+        &[
+            ("modes", &["quell modes disc.toml"]),
+            (
+                "resonances",
+                &[
+                    "quell resonances disc.toml",
+                    "quell resonances disc-dither.toml --clear 0.25:0.9 --frequency 2:6",
+                ],
+            ),
+        ],
+    ),
+    (
+        "Maps",
+        &[(
+            "map",
+            &[
+                "quell map map.toml --quantity efficiency --save map.zarr",
+                "quell map disc-dither.toml --quantity growth",
+            ],
+        )],
+    ),
+    (
+        "Papers",
+        &[
+            ("cite", &["quell cite quench.toml", "quell cite quench.toml --bibtex"]),
+            ("reproduce", &["quell reproduce", "quell reproduce 2.3 --out figures"]),
+        ],
+    ),
+];
+
+/// The command line with its help.
+pub(crate) fn command() -> Command {
+    let mut command = Cli::command();
+    let mut listing = String::new();
+    let verbs = || GROUPS.iter().flat_map(|(_, verbs)| *verbs);
+    let width = verbs().map(|(verb, _)| verb.len()).max().unwrap_or(0);
+    for (heading, verbs) in GROUPS {
+        let _ = writeln!(listing, "{heading}:");
+        for (verb, _) in *verbs {
+            let about = command.find_subcommand(verb).and_then(Command::get_about);
+            let about = about.map(ToString::to_string).unwrap_or_default();
+            let _ = writeln!(listing, "  {verb:<width$}  {about}");
+        }
+        listing.push('\n');
+    }
+    for (verb, examples) in verbs() {
+        command = command.mut_subcommand(verb, |command| {
+            let mut text = String::from("Examples:\n");
+            for example in *examples {
+                let _ = writeln!(text, "  {example}");
+            }
+            if let Some(rest) = command.get_after_help() {
+                let _ = write!(text, "\n{rest}");
+            }
+            command.after_help(text)
+        });
+    }
+    command.help_template(format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{listing}Options:\n{{options}}{{after-help}}"
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_verb_stands_in_one_group_with_examples_that_parse() {
+        let command = command();
+        let mut grouped: Vec<&str> =
+            GROUPS.iter().flat_map(|(_, verbs)| verbs.iter().map(|(verb, _)| *verb)).collect();
+        let mut there: Vec<&str> = command.get_subcommands().map(Command::get_name).collect();
+        grouped.sort_unstable();
+        there.sort_unstable();
+        assert_eq!(grouped, there);
+        for (verb, examples) in GROUPS.iter().flat_map(|(_, verbs)| *verbs) {
+            assert!((1..=2).contains(&examples.len()), "{verb}");
+            for example in *examples {
+                let words: Vec<&str> = example.split_whitespace().collect();
+                assert_eq!(words[..2], ["quell", verb]);
+                command.clone().try_get_matches_from(words).unwrap_or_else(|why| panic!("{why}"));
+            }
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! The ways in: new studies, help with its examples, completion, BibTeX; and answers to what was asked.
+
+mod place;
+
+use std::collections::BTreeSet;
+
+use place::Place;
+use quell::template::TEMPLATES;
+
+/// A folder with a file of every template.
+fn place(name: &str) -> Place {
+    let files: Vec<(String, &str)> =
+        TEMPLATES.iter().map(|it| (format!("{}.toml", it.name), it.text)).collect();
+    let files: Vec<(&str, &str)> =
+        files.iter().map(|(name, text)| (name.as_str(), *text)).collect();
+    Place::with(name, &files)
+}
+
+/// Standard output of a command that succeeds.
+fn said(place: &Place, command: &str) -> String {
+    let words: Vec<&str> = command.split_whitespace().skip(1).collect();
+    let output = place.quell(&words);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{command}: {told}");
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+/// The examples in the help of a verb.
+fn examples(help: &str) -> Vec<String> {
+    let after = help.split_once("Examples:\n").map_or("", |(_, after)| after);
+    after.lines().map_while(|line| line.strip_prefix("  ")).map(str::to_owned).collect()
+}
+
+#[test]
+fn the_help_lists_every_verb_in_its_group() {
+    let place = place("doors-help");
+    let help = said(&place, "quell --help");
+    let mut at = 0;
+    for heading in ["Start here:", "Belts and systems:", "Discs:", "Maps:", "Papers:", "Options:"] {
+        let found = help[at..].find(heading).unwrap_or_else(|| panic!("{heading}: {help}"));
+        at += found;
+    }
+    let (before, _) = help.split_once("Belts and systems:").expect("groups");
+    assert!(before.contains("\n  new ") && before.contains("\n  check "), "{help}");
+    assert_eq!(said(&place, "quell help orbit"), said(&place, "quell orbit --help"));
+}
+
+/// Every command that a template or the help of a verb shows, but `reproduce`, which takes a minute.
+#[test]
+fn every_example_runs() {
+    let place = place("doors-examples");
+    let mut commands: BTreeSet<String> = BTreeSet::new();
+    for template in TEMPLATES {
+        commands.extend(template.commands().map(str::to_owned));
+    }
+    let help = said(&place, "quell --help");
+    let verbs = help.lines().filter_map(|line| line.strip_prefix("  ")?.split_once("  "));
+    let verbs = verbs.map(|(verb, _)| verb).filter(|verb| verb.chars().all(char::is_alphabetic));
+    let mut count = 0;
+    for verb in verbs {
+        let found = examples(&said(&place, &format!("quell {verb} --help")));
+        assert!(!found.is_empty(), "{verb}");
+        count += 1;
+        commands.extend(found.into_iter().filter(|_| verb != "reproduce"));
+    }
+    assert!(count >= 17 && commands.len() > 40, "{count} {commands:?}");
+    // One makes a file that is there already.
+    std::fs::remove_file(place.folder.join("quench.toml")).expect("there");
+    said(&place, "quell new quench --save quench.toml");
+    commands.remove("quell new quench --save quench.toml");
+    let commands: Vec<String> = commands.into_iter().collect();
+    std::thread::scope(|scope| {
+        for half in 0..2 {
+            let (place, commands) = (&place, &commands);
+            scope.spawn(move || {
+                for command in commands.iter().skip(half).step_by(2) {
+                    let begun = std::time::Instant::now();
+                    assert!(!said(place, command).is_empty(), "{command}");
+                    eprintln!("{:8.2?}  {command}", begun.elapsed());
+                }
+            });
+        }
+    });
+}
+
+#[test]
+fn a_new_study_is_printed_or_saved_once() {
+    let place = Place::with("doors-new", &[]);
+    let list = said(&place, "quell new");
+    for template in TEMPLATES {
+        assert!(list.contains(template.name) && list.contains(template.question()), "{list}");
+    }
+    assert_eq!(said(&place, "quell new drive"), TEMPLATES[2].text);
+    let saved = said(&place, "quell new drive --save my-drive.toml");
+    assert!(saved.contains("  quell check my-drive.toml\n"), "{saved}");
+    let errors = place.refused(&["new", "quench", "--save", "my-drive.toml"]);
+    assert!(errors[0]["allowed"].as_str().expect("text").contains("--overwrite"), "{errors:?}");
+    assert!(said(&place, "quell check my-drive.toml").contains("the study is valid"));
+    said(&place, "quell new quench --save my-drive.toml --overwrite");
+    let errors = place.refused(&["new", "qench"]);
+    assert_eq!(errors[0]["suggestion"], "quench");
+    place.refused(&["new", "--save", "x.toml"]);
+    place.refused(&["new", "quench", "--save", "x.txt"]);
+    assert_eq!(
+        place.good(&["new"])["questions"].as_array().expect("a list").len(),
+        TEMPLATES.len()
+    );
+}
+
+#[test]
+fn shells_get_their_completion() {
+    let place = Place::with("doors-completions", &[]);
+    for (shell, word) in [
+        ("bash", "complete "),
+        ("zsh", "#compdef quell"),
+        ("fish", "complete -c quell"),
+        ("powershell", "Register-ArgumentCompleter"),
+        ("elvish", "edit:completion"),
+    ] {
+        let script = said(&place, &format!("quell completions {shell}"));
+        for word in [word, "thresholds", "from-squeal"] {
+            assert!(script.contains(word), "{shell}: {word}");
+        }
+    }
+    place.refused(&["completions", "tcsh"]);
+}
+
+#[test]
+fn cite_prints_the_entries_that_a_study_uses() {
+    let place = place("doors-bibtex");
+    let keys = |study: &str| -> BTreeSet<String> {
+        let text = said(&place, &format!("quell cite {study} --bibtex"));
+        assert_eq!(place.good(&["cite", study, "--bibtex"])["bibtex"], text);
+        let entries = text.lines().filter_map(|line| line.strip_prefix('@')?.split_once('{'));
+        entries.map(|(_, key)| key.trim_end_matches(',').to_owned()).collect()
+    };
+    for study in ["quench.toml", "disc-dither.toml"] {
+        let object = place.good(&["cite", study]);
+        let sources = object["sources"].as_array().expect("a list");
+        let named = sources.iter().map(|source| source["key"].as_str().expect("a key").to_owned());
+        assert_eq!(keys(study), named.collect());
+    }
+    assert!(keys("quench.toml").contains("jorba2005") && !keys("disc.toml").contains("jorba2005"));
+}
+
+/// A belt beyond its critical velocity.
+const DECREASING: [&str; 2] = ["friction.law=decreasing", "belt.belt_velocity=1"];
+
+/// The sentence of `thresholds` is the answer: the number, its condition, and every start that was asked for.
+#[test]
+fn thresholds_answer_with_the_number() {
+    let place = place("doors-thresholds");
+    let sentence = |study: &str, parameter: &str, range: [&str; 2], more: &[&str]| -> String {
+        let [from, to] = range;
+        let mut words =
+            vec!["thresholds", study, "--parameter", parameter, "--from", from, "--to", to];
+        words.extend(more);
+        let object = place.good(&words);
+        let sentence = object["sentence"].as_str().expect("a sentence").to_owned();
+        let text = String::from_utf8(place.quell(&words).stdout).expect("UTF-8");
+        assert!(text.starts_with(&format!("{sentence}\n")), "{text}");
+        sentence
+    };
+    let amplitude = "dither.amplitude";
+    assert_eq!(
+        sentence("quench.toml", amplitude, ["0.4", "0.6"], &["--from-rest", "--from-squeal"]),
+        "From D = 0.496562 on (grazing) the base response is stable; below, it is unstable. \
+         Started from rest or in full squeal, the dither quenches from D = 0.49656 on."
+    );
+    assert_eq!(
+        sentence("quench.toml", amplitude, ["0.3", "0.4"], &["--from-rest"]),
+        "The base response is unstable at every D from 0.3 to 0.4 (no threshold in this range). \
+         Started from rest, the dither quenches at no D from 0.3 to 0.4."
+    );
+    // Several intervals, and a branch that turns back.
+    let law = DECREASING.map(|change| ["--set", change]).concat();
+    let with = |more: &[&'static str]| [law.clone(), more.to_vec()].concat();
+    assert_eq!(
+        sentence(
+            "quench.toml",
+            amplitude,
+            ["0.5", "10.5"],
+            &with(&["--from-rest", "--from-squeal"])
+        ),
+        "The base response is stable up to D = 4.32239 (neimark-sacker) and from D = 9.90021 on (grazing). \
+         Started from rest, the dither quenches up to D = 2.86785 and from D = 9.90024 on. \
+         Started in full squeal, the dither quenches from D = 9.90024 on."
+    );
+    assert_eq!(
+        sentence(
+            "quench.toml",
+            amplitude,
+            ["1e-4", "3e-3"],
+            &with(&["--set", "dither.frequency_ratio=1"])
+        ),
+        "Up to D = 0.0015724 (fold) the base response is stable. There it turns back; beyond, runs end on another response."
+    );
+    let drive = sentence("drive.toml", "belt.belt_velocity_m_per_s", ["0.005", "0.04"], &[]);
+    assert!(
+        drive.starts_with("From v₀ = 0.02") && drive.contains(" m/s on (hopf) steady"),
+        "{drive}"
+    );
+}
+
+/// v₀ = 0: an oscillator with dry friction under a force, from rest.
+#[test]
+fn a_support_at_rest_has_orbits_from_rest() {
+    let place = place("doors-driven");
+    let file = "driven-oscillator.toml";
+    let object = place.good(&["orbit", file]);
+    let run = place.good(&["orbit", file, "--from-rest"]);
+    assert_eq!(object["displacement"], run["displacement"]);
+    assert_eq!((&object["verdict"], &object["reversals"]), (&"stable".into(), &2.into()));
+    assert!(object["sentence"].as_str().expect("text").contains("run from rest"), "{object}");
+    assert!(!run["sentence"].as_str().expect("text").contains("run from rest"), "{run}");
+    let errors = place.refused(&["orbit", file, "--periods", "2"]);
+    assert_eq!(errors[0]["key"], "--periods");
+    // A dither on a support at rest that is weaker than stiction moves nothing.
+    let weak = place.good(&["orbit", file, "--set", "dither.amplitude=0.2"]);
+    assert_eq!(weak["stick_fraction"], 1.0);
+    let range = ["--from", "1", "--to", "2"];
+    let words = [
+        "thresholds",
+        file,
+        "--parameter",
+        "dither.amplitude",
+        range[0],
+        range[1],
+        range[2],
+        range[3],
+    ];
+    let errors = place.refused(&words);
+    assert_eq!(errors[0]["key"], "belt.belt_velocity");
+    assert!(errors[0]["allowed"].as_str().expect("text").contains("`orbit`"), "{errors:?}");
+}

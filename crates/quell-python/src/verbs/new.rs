@@ -1,0 +1,25 @@
+//! `new`: commented studies to start from.
+
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use quell::template::{Template, list};
+
+use crate::{call, convert};
+
+/// A template, saved where that is asked for; without a name, the list of questions; the command line's object.
+#[pyfunction]
+pub(crate) fn new(
+    py: Python<'_>,
+    question: Option<String>,
+    save: Option<PathBuf>,
+    overwrite: bool,
+) -> PyResult<Py<PyAny>> {
+    let object = call::run(py, move || {
+        let Some(name) = question else { return Ok(list()) };
+        let template = Template::find(&name)?;
+        let saved = save.map(|path| template.save(&path, overwrite)).transpose()?;
+        Ok(template.json(saved.as_deref()))
+    })?;
+    convert::to_python(py, &object)
+}

@@ -1,0 +1,320 @@
+//! What `thresholds` answers, in sentences: where the base response is stable, and from where on each start is quenched.
+
+use quell_belt::attractor::{Reached, Switch, Switches};
+use quell_belt::orbit::Verdict;
+use quell_model::units::Quantity;
+
+use super::{Ending, Kind, Protocol, Threshold, Thresholds, path_in_words, quantity_of};
+use crate::run::in_words;
+use crate::study::Study;
+
+/// One end of an interval of the parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Limit {
+    value: f64,
+    /// How uncertain it is, where that is to be said.
+    error: Option<f64>,
+    /// What happens there; nothing at an end of the range.
+    kind: Option<Kind>,
+    /// Whether it is the end of what was asked, or of what could be answered.
+    of_range: bool,
+}
+
+/// An interval with the same answer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Interval<T> {
+    from: Limit,
+    to: Limit,
+    answer: T,
+}
+
+impl Limit {
+    fn of_range(value: f64) -> Self {
+        Self { value, error: None, kind: None, of_range: true }
+    }
+}
+
+/// Neighbouring intervals with the same answer as one.
+fn merged<T: PartialEq>(intervals: Vec<Interval<T>>) -> Vec<Interval<T>> {
+    let mut merged: Vec<Interval<T>> = Vec::new();
+    for interval in intervals {
+        match merged.last_mut() {
+            Some(last) if last.answer == interval.answer => last.to = interval.to,
+            _ => merged.push(interval),
+        }
+    }
+    merged
+}
+
+/// The name of the parameter in sentences, and its values with units.
+struct Parameter<'a> {
+    study: &'a Study,
+    name: String,
+    quantity: Quantity,
+}
+
+impl<'a> Parameter<'a> {
+    /// The symbol, where it is clear; else the key.
+    fn of(study: &'a Study, path: &str) -> Self {
+        let belt = study.belt();
+        let one_of_many = path.starts_with("dither") && belt.dithers().len() > 1;
+        let symbol = belt.parameter(path).map(|parameter| parameter.symbol);
+        let name = symbol.filter(|symbol| !one_of_many && !symbol.is_empty());
+        let name = name.map_or_else(|| path_in_words(study, path), str::to_owned);
+        Self { study, name, quantity: quantity_of(study, path) }
+    }
+
+    fn number(&self, limit: Limit) -> String {
+        let value = in_words(self.study, self.quantity, limit.value);
+        match limit.error {
+            Some(error) => {
+                format!("{value} ± {}", in_words(self.study, self.quantity, error))
+            }
+            None => value,
+        }
+    }
+
+    fn value(&self, limit: Limit) -> String {
+        format!("{} = {}", self.name, self.number(limit))
+    }
+
+    /// "from D = 1 (fold) to 2 (flip)", "from D = 1 on (fold)", "up to D = 2 (flip)".
+    fn interval<T>(&self, interval: &Interval<T>) -> String {
+        let Interval { from, to, .. } = *interval;
+        let kind = |limit: Limit| {
+            limit.kind.map_or_else(String::new, |kind| format!(" ({})", kind.name()))
+        };
+        match (from.of_range, to.of_range) {
+            (true, true) => {
+                format!("at every {} from {} to {}", self.name, self.number(from), self.number(to))
+            }
+            (false, true) => format!("from {} on{}", self.value(from), kind(from)),
+            (true, false) => format!("up to {}{}", self.value(to), kind(to)),
+            (false, false) => {
+                let (first, last) = (self.value(from), self.number(to));
+                format!("from {first}{} to {last}{}", kind(from), kind(to))
+            }
+        }
+    }
+
+    fn intervals<'b, T: 'b>(&self, list: impl IntoIterator<Item = &'b Interval<T>>) -> String {
+        let each: Vec<String> = list.into_iter().map(|interval| self.interval(interval)).collect();
+        listed(&each, "and")
+    }
+
+    /// All of them together: "D from 1 to 2".
+    fn whole<T>(&self, intervals: &[Interval<T>]) -> String {
+        let ends = intervals.first().zip(intervals.last());
+        ends.map_or_else(String::new, |(first, last)| {
+            format!("{} from {} to {}", self.name, self.number(first.from), self.number(last.to))
+        })
+    }
+}
+
+impl Thresholds {
+    /// Where the base response is stable, and from where on the dither quenches from each start.
+    pub fn sentence(&self, study: &Study) -> String {
+        let parameter = Parameter::of(study, &self.question.parameter);
+        let dithered = !study.belt().dithers().is_empty();
+        let mut sentences = vec![self.of_the_base_response(&parameter, dithered)];
+        // Starts with the same answer are said together.
+        let mut answers: Vec<(Vec<String>, String)> = Vec::new();
+        for (protocol, switches) in &self.protocols {
+            let answer = self.of_runs(&parameter, switches, dithered);
+            let start = start_in_words(study, *protocol);
+            match answers.iter_mut().find(|(_, said)| *said == answer) {
+                Some((starts, _)) => starts.push(start),
+                None => answers.push((vec![start], answer)),
+            }
+        }
+        for (starts, answer) in answers {
+            let (starts, ramp) = (listed(&starts, "or"), self.ramp_in_words(study));
+            sentences.push(format!("Started {starts}{ramp}, {answer}."));
+        }
+        sentences.join(" ")
+    }
+
+    /// The intervals of the base response, from the first value on until it turns back or ends; and the threshold there.
+    fn base_response(&self) -> (Vec<Interval<Verdict>>, Option<&Threshold>) {
+        let Some(first) = self.local.branch.first() else { return (Vec::new(), None) };
+        let mut intervals = Vec::new();
+        let mut from = Limit::of_range(self.question.from);
+        let mut answer = Verdict::of(first.radius, 0.0);
+        for threshold in &self.local.thresholds {
+            let Threshold { value, kind, becomes, was, .. } = *threshold;
+            let limit = Limit { value, error: None, kind: Some(kind), of_range: false };
+            intervals.push(Interval { from, to: limit, answer });
+            // A side without a response: the branch ends or turns back there.
+            let (Some(_), Some(next)) = (was, becomes) else {
+                return (merged(intervals), Some(threshold));
+            };
+            (from, answer) = (limit, next);
+        }
+        let to = match self.local.ending {
+            Ending::Covered => self.question.to,
+            Ending::TurnedBack { at } | Ending::Touch { at } | Ending::Lost { at } => at,
+            Ending::LostTurning { furthest, .. } => furthest,
+        };
+        intervals.push(Interval { from, to: Limit::of_range(to), answer });
+        (merged(intervals), None)
+    }
+
+    fn of_the_base_response(&self, parameter: &Parameter<'_>, dithered: bool) -> String {
+        let subject = if dithered { "the base response" } else { "steady sliding" };
+        let (intervals, end) = self.base_response();
+        let is_stable = |it: &&Interval<Verdict>| it.answer == Verdict::Stable;
+        let stable: Vec<&Interval<Verdict>> = intervals.iter().filter(is_stable).collect();
+        let told = match (stable.len(), intervals.as_slice()) {
+            (0, all) => {
+                let unstable = all.iter().all(|it| it.answer == Verdict::Unstable);
+                let none = if end.is_none() { " (no threshold in this range)" } else { "" };
+                if unstable {
+                    format!("{subject} is unstable at every {}{none}", parameter.whole(all))
+                } else {
+                    format!("{subject} is stable at no {}", parameter.whole(all))
+                }
+            }
+            (_, [only]) if only.to.of_range => {
+                let every = parameter.interval(only);
+                format!("{subject} is stable {every} (no threshold in this range)")
+            }
+            (1, all) => {
+                let only = stable[0];
+                let interval = parameter.interval(only);
+                // Undecided lies at thresholds alone, and is said by the table.
+                let unstable = all.iter().filter(|it| it.answer == Verdict::Unstable).count();
+                match (only.from.of_range, only.to.of_range) {
+                    _ if unstable + 1 < all.len() || all.len() == 1 => {
+                        format!("{interval} {subject} is stable")
+                    }
+                    (false, true) => {
+                        format!("{interval} {subject} is stable; below, it is unstable")
+                    }
+                    (true, false) => {
+                        format!("{interval} {subject} is stable; above, it is unstable")
+                    }
+                    _ => format!("{interval} {subject} is stable; outside, it is unstable"),
+                }
+            }
+            _ => format!("{subject} is stable {}", parameter.intervals(stable)),
+        };
+        let stable_until_then = intervals.last().as_ref().is_some_and(is_stable);
+        let ends = self.of_the_end(parameter, end, stable_until_then);
+        format!("{}.{ends}", capital(&told))
+    }
+
+    /// Where and why the base response ends before the range does.
+    fn of_the_end(
+        &self,
+        parameter: &Parameter<'_>,
+        end: Option<&Threshold>,
+        said_already: bool,
+    ) -> String {
+        let at = |value: f64| parameter.value(Limit::of_range(value));
+        match (end, self.local.ending) {
+            (Some(end), _) if said_already => {
+                let ends = if end.kind == Kind::Fold { "turns back" } else { "ends" };
+                format!(" There it {ends}; beyond, runs end on another response.")
+            }
+            (Some(end), _) if end.kind == Kind::Fold || self.local.ending == Ending::Covered => {
+                format!(
+                    " It turns back at {} ({}); beyond, runs end on another response.",
+                    at(end.value),
+                    end.kind.name()
+                )
+            }
+            (Some(end), _) => format!(
+                " It ends at {} ({}); beyond, runs end on another response.",
+                at(end.value),
+                end.kind.name()
+            ),
+            (None, Ending::Covered) => String::new(),
+            (
+                None,
+                Ending::TurnedBack { at: value } | Ending::LostTurning { furthest: value, .. },
+            ) => {
+                format!(" It turns back at {}; beyond, runs end on another response.", at(value))
+            }
+            (None, Ending::Touch { at: value }) => format!(
+                " It ends at {}, where it touches v_r = 0; beyond, runs end on another response.",
+                at(value)
+            ),
+            (None, Ending::Lost { at: value }) => {
+                format!(" It could not be continued beyond {}; what follows is unknown.", at(value))
+            }
+        }
+    }
+
+    fn ramp_in_words(&self, study: &Study) -> String {
+        if self.question.ramp > 0.0 {
+            let time = in_words(study, Quantity::Time, self.question.ramp);
+            format!(" with the dither raised over {time}")
+        } else {
+            String::new()
+        }
+    }
+
+    /// From where on runs of a start are quenched.
+    fn of_runs(&self, parameter: &Parameter<'_>, switches: &Switches, dithered: bool) -> String {
+        let intervals = runs(self.question.from, self.question.to, switches);
+        let of = |wanted: &[Reached]| -> Vec<&Interval<Reached>> {
+            intervals.iter().filter(|it| wanted.contains(&it.answer)).collect()
+        };
+        let verb = if dithered { "the dither quenches" } else { "the run ends in steady sliding" };
+        let quenched = of(&[Reached::Sliding]);
+        let told = if quenched.is_empty() {
+            format!("{verb} at no {}", parameter.whole(&intervals))
+        } else {
+            format!("{verb} {}", parameter.intervals(quenched))
+        };
+        let open = of(&[Reached::Unsettled, Reached::Unknown]);
+        if open.is_empty() {
+            return told;
+        }
+        format!("{told}; the outcome is unknown {}", parameter.intervals(open))
+    }
+}
+
+/// A start, as it follows "started".
+fn start_in_words(study: &Study, protocol: Protocol) -> String {
+    match protocol {
+        Protocol::Rest => "from rest".to_owned(),
+        Protocol::Sliding => "from steady sliding".to_owned(),
+        Protocol::Squeal => "in full squeal".to_owned(),
+        Protocol::From(displacement, velocity) => format!(
+            "at x = {}, x′ = {}",
+            in_words(study, Quantity::Displacement, displacement),
+            in_words(study, Quantity::Velocity, velocity)
+        ),
+    }
+}
+
+/// "a", "a and b", "a, b and c".
+fn listed(each: &[String], and: &str) -> String {
+    match each.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, before)) => format!("{} {and} {last}", before.join(", ")),
+        None => String::new(),
+    }
+}
+
+/// The intervals in which runs have the same outcome.
+fn runs(from: f64, to: f64, switches: &Switches) -> Vec<Interval<Reached>> {
+    let limit = |switch: &Switch| Limit {
+        value: switch.value,
+        error: (!switch.is_close()).then_some(switch.error),
+        kind: None,
+        of_range: false,
+    };
+    let begins = std::iter::once((Limit::of_range(from), switches.first))
+        .chain(switches.changes.iter().map(|switch| (limit(switch), switch.becomes)));
+    let ends = switches.changes.iter().map(limit).chain(std::iter::once(Limit::of_range(to)));
+    let each = begins.zip(ends).map(|((from, answer), to)| Interval { from, to, answer });
+    merged(each.collect())
+}
+
+/// A sentence with its first letter as it begins one; symbols stay as they are.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}

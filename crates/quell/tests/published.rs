@@ -1,0 +1,179 @@
+//! Published cases: what a paper or another program prints, what is exact, and what Quell answers.
+//!
+//! Numbers and sources stand in `reference/published.json`; the page on correctness shows the same table.
+
+use quell::Study;
+use quell::run::orbit::{Response, Wanted, run as orbit};
+use quell::run::simulate::{Options, run as simulate};
+use quell::run::thresholds::{Kind, Question, run as thresholds};
+use quell_belt::orbit::cycle::cycles;
+use quell_belt::orbit::{Orbit, Verdict};
+use quell_belt::simulation::{Event, EventKind, EventRecorder, simulate as trajectory};
+use quell_model::units::Quantity;
+use serde_json::Value;
+
+/// The independent integrator agrees with closed forms to 2e-12; periods and places are of the order of 10.
+const CLOSE: f64 = 1e-10;
+
+fn case(name: &str) -> Value {
+    let text = include_str!("../../../reference/published.json");
+    let cases: Value = serde_json::from_str(text).expect("JSON");
+    assert!(cases[name]["source"].is_string(), "{name}");
+    cases[name].clone()
+}
+
+/// A stored number.
+fn number(case: &Value, kind: &str, name: &str) -> f64 {
+    case[kind][name].as_f64().unwrap_or_else(|| panic!("{kind} {name}: {case}"))
+}
+
+fn close(found: f64, expected: f64, tolerance: f64) {
+    assert!((found - expected).abs() <= tolerance, "{found} against {expected}");
+}
+
+fn study(text: &str) -> Study {
+    Study::parse(text, &[]).unwrap_or_else(|why| panic!("{why:?}"))
+}
+
+/// A mass with friction of coefficient `law` under unit load, without damping unless it is given.
+fn belt(damping: f64, velocity: f64, law: &str, rest: &str) -> Study {
+    study(&format!(
+        "[belt]\ndamping_ratio = {damping:?}\nnormal_load = 1.0\nbelt_velocity = {velocity:?}\n{rest}"
+    )
+    .replace("LAW", &format!("[friction]\nlaw = \"expression\"\ncoefficient = \"{law}\"\n")))
+}
+
+/// A driven oscillator with Coulomb friction 1: the support is at rest, and the dither is the drive.
+fn driven(damping: f64, stiction: f64, amplitude: f64, ratio: f64) -> Study {
+    let rest = format!(
+        "LAWstatic_coefficient = {stiction:?}\n[dither]\ndirection = \"tangential\"\nwaveform = \"sine\"\n\
+         amplitude = {amplitude:?}\nfrequency_ratio = {ratio:?}\n"
+    );
+    belt(damping, 0.0, "1.0", &rest)
+}
+
+fn only(found: Response) -> Orbit {
+    found.orbit.expect("an orbit")
+}
+
+/// Events of one period.
+fn events(study: &Study, orbit: &Orbit) -> Vec<Event> {
+    let mut watch = EventRecorder::default();
+    trajectory(study.belt(), orbit.start, orbit.period, 1e-13, &mut watch).expect("no stall");
+    watch.events
+}
+
+#[test]
+fn driven_oscillator_in_slip_and_with_stick() {
+    let slip = case("driven_slip");
+    let found = only(orbit(&driven(0.05, 1.1, 1.5, 0.9), Wanted::default()).expect("an orbit"));
+    close(found.period, number(&slip, "printed", "period"), 1e-12);
+    for (index, (re, im)) in found.multipliers.into_iter().enumerate() {
+        let printed = slip["printed"]["multipliers"][index].as_f64().expect("a number");
+        close(re, printed, 6e-11);
+        close(im, 0.0, 1e-12);
+    }
+    assert_eq!((found.count(EventKind::Reversal), found.stick_fraction), (2, 0.0));
+
+    let (stick, study) = (case("driven_stick"), driven(0.05, 1.1, 1.5, 0.6));
+    let found = only(orbit(&study, Wanted::default()).expect("an orbit"));
+    let stuck = 0.5 * found.stick_fraction * found.period;
+    for (value, name) in [(stuck, "stick"), (0.5 * found.period - stuck, "slip")] {
+        close(value, number(&stick, "exact", name), CLOSE);
+        close(value, number(&stick, "printed", name), 1e-12);
+    }
+    close(found.multipliers[0].0, number(&stick, "printed", "multiplier"), 6e-11);
+    let sticks = events(&study, &found).into_iter().filter(|it| it.kind == EventKind::Stick);
+    let places: Vec<f64> = sticks.map(|event| event.displacement.abs()).collect();
+    assert_eq!(places.len(), 2);
+    for place in places {
+        close(place, number(&stick, "printed", "place"), 1e-12);
+    }
+}
+
+/// A smoothed switch cuts the peak of friction: the printed periods are too short, by 0.3 and by 6 %.
+#[test]
+fn stick_slip_of_a_block_on_a_belt() {
+    let leine = case("leine1998");
+    let found = only(
+        orbit(&belt(0.0, 0.2, "1/(1 + 3*abs(v))", "LAW"), Wanted::default()).expect("an orbit"),
+    );
+    let exact = number(&leine, "exact", "period");
+    close(found.period, exact, CLOSE);
+    close(found.stick_fraction, number(&leine, "exact", "stick_fraction"), CLOSE);
+    assert_eq!(found.verdict(), Verdict::Stable);
+    for (name, least, most) in [("period", 0.003, 0.004), ("period_smoothed", 0.05, 0.07)] {
+        let short = 1.0 - number(&leine, "printed", name) / exact;
+        assert!((least..most).contains(&short), "{name}: {short}");
+    }
+    let block = case("carlson1989");
+    let found = only(
+        orbit(&belt(0.0, 0.01, "1/(1 + 5*abs(v))", "LAW"), Wanted::default()).expect("an orbit"),
+    );
+    close(found.period, number(&block, "exact", "period"), 10.0 * CLOSE);
+    close(found.stick_fraction, number(&block, "exact", "stick_fraction"), CLOSE);
+}
+
+/// x stops at 15 − √205; a step of 0.01 misses it by 1.3·10⁻⁴.
+#[test]
+fn free_oscillator_with_coulomb_friction_stops() {
+    let decay = case("coulomb_decay");
+    let study = belt(0.0, 0.0, "1.0", "[belt.initial]\ndisplacement = 12.0\nvelocity = 6.0\nLAW");
+    let done = simulate(&study, 100.0, Options::default()).expect("no stall");
+    assert!(done.end.sticking);
+    close(done.end.displacement, 15.0 - 205.0f64.sqrt(), 1e-12);
+    close(done.end.displacement, number(&decay, "exact", "stops_at"), 1e-12);
+    let off = (done.end.displacement - number(&decay, "printed", "stops_at")).abs();
+    assert!((1.3e-4..1.4e-4).contains(&off), "{off}");
+}
+
+#[test]
+fn amplitude_without_stops_is_den_hartogs() {
+    for row in case("denhartog1931")["cases"].as_array().expect("a list") {
+        let [ratio, amplitude, exact] = ["frequency_ratio", "amplitude", "exact"]
+            .map(|name| row[name].as_f64().expect("a number"));
+        // √(V²a² − U²x_f²), x_f = 1.
+        let response = 1.0 / (1.0 - ratio * ratio);
+        let angle = std::f64::consts::PI / ratio;
+        let damping = angle.sin() / (ratio * (1.0 + angle.cos()));
+        let formula = ((response * amplitude).powi(2) - damping * damping).sqrt();
+        close(formula, exact, 1e-13);
+        let study = driven(0.0, 1.0, amplitude, ratio);
+        let found = only(orbit(&study, Wanted::default()).expect("an orbit"));
+        let reversals = events(&study, &found);
+        assert_eq!(reversals.len(), 2, "{row}");
+        for reversal in reversals {
+            close(reversal.displacement.abs(), exact, 1e-11);
+        }
+    }
+}
+
+/// In SI, with viscous friction in the law: the formula of the Hopf point is exact, the normal form places the end of
+/// bistability 15 % too high.
+#[test]
+fn bistability_of_the_block_of_veraszto_and_stepan() {
+    let case = case("veraszto2017");
+    let study = study(
+        "[belt]\nmass_kg = 0.538\nstiffness_n_per_m = 6957.0\ndamping_n_s_per_m = 5.746\nnormal_force_n = 1.0\n\
+         belt_velocity_m_per_s = 0.22\n[friction]\nlaw = \"expression\"\n\
+         coefficient = \"C + (C_0 - C)*exp(-c_v*abs(v)) + b_s*abs(v)\"\n\
+         [friction.constants]\nC = 2.0\nC_0 = 6.0\nc_v = 10.0\nb_s = 0.2\n",
+    );
+    let key = "belt.belt_velocity_m_per_s";
+    let question =
+        Question { parameter: key.to_owned(), from: 0.15, to: 0.25, ..Question::default() };
+    let found = thresholds(&study, question).expect("followed");
+    let scales = study.scales().expect("SI");
+    let hopf = &found.local.thresholds[0];
+    assert_eq!((found.local.thresholds.len(), hopf.kind), (1, Kind::Hopf));
+    close(scales.to_si(Quantity::Velocity, hopf.value), number(&case, "printed", "hopf"), 1e-9);
+
+    // Cycles at this velocity: the squeal and the unstable one below it, or none.
+    let count = |velocity: f64| {
+        cycles(study.with(key, velocity).expect("valid").belt()).expect("no stall").len()
+    };
+    let exact = number(&case, "exact", "end_of_bistability");
+    assert_eq!((count(exact - 1e-6), count(exact + 1e-6)), (2, 0));
+    let high = number(&case, "printed", "end_of_bistability") / exact - 1.0;
+    assert!((0.15..0.16).contains(&high), "{high}");
+}
