@@ -6,9 +6,11 @@ use quell_belt::orbit::reached::orbit_reached;
 use quell_belt::orbit::{NoOrbit, from_sliding, near};
 pub use quell_belt::orbit::{Orbit, Verdict};
 use quell_belt::simulation::{EventKind, Start};
+use quell_model::Belt;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
+use super::range::SlipMet;
 use super::thresholds::Protocol;
 use super::{failed, in_words, moves, resolved};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
@@ -55,12 +57,25 @@ pub struct Response {
     pub cycles: Vec<Orbit>,
     /// Verdict on steady sliding of an undithered belt, 2ζ + μ′(v₀)F > 0.
     pub sliding: Option<Verdict>,
+    /// The slip that the responses meet over their periods.
+    pub slip: SlipMet,
 }
 
-impl From<Orbit> for Response {
-    fn from(orbit: Orbit) -> Self {
-        Self { orbit: Some(orbit), cycles: Vec::new(), sliding: None }
+impl Response {
+    /// A periodic response of a belt.
+    fn of(belt: &Belt, orbit: Orbit) -> Self {
+        let slip = slip_of(belt, [&orbit]);
+        Self { orbit: Some(orbit), cycles: Vec::new(), sliding: None, slip }
     }
+}
+
+/// The slip that responses of a belt meet over their periods.
+fn slip_of<'o>(belt: &Belt, orbits: impl IntoIterator<Item = &'o Orbit>) -> SlipMet {
+    let mut slip = SlipMet::default();
+    for orbit in orbits {
+        slip.add_run(belt, orbit.start, orbit.period);
+    }
+    slip
 }
 
 /// The periodic response of a study.
@@ -85,7 +100,7 @@ pub fn run(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
             from_sliding(belt, STEPS).and_then(|orbit| near(belt, orbit.start, periods))
         }
     };
-    found.map(Response::from).map_err(refused)
+    found.map(|orbit| Response::of(belt, orbit)).map_err(refused)
 }
 
 /// The limit cycles of an undithered belt.
@@ -114,7 +129,9 @@ fn undithered(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
             cycles.iter().min_by(|a, b| off(a).total_cmp(&off(b)))
         }
     };
-    Ok(Response { orbit: orbit.cloned(), sliding: Some(Verdict::of(radius)), cycles })
+    let mut slip = slip_of(belt, &cycles);
+    slip.add(belt, belt.belt_velocity());
+    Ok(Response { orbit: orbit.cloned(), sliding: Some(Verdict::of(radius)), cycles, slip })
 }
 
 impl Protocol {
@@ -199,6 +216,7 @@ impl Response {
             Some(orbit) => json(study, orbit),
             None => self.sliding_json(study),
         };
+        object["warnings"] = self.slip.warnings(study).into();
         if self.sliding.is_some() {
             object["cycles"] = self.cycles.iter().map(|cycle| json(study, cycle)).collect();
         }
