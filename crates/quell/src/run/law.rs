@@ -70,8 +70,19 @@ pub(super) fn fields(study: &Study) -> Fields {
     fields
 }
 
-/// What a law of one's own says beyond its numbers, as label and words; nothing for other laws.
+/// What a law says beyond its numbers, as label and words.
 pub fn words(study: &Study) -> Vec<(String, String)> {
+    let range = study.belt().friction().range().map(|range| {
+        let speed = |speed: f64| in_words(study, Quantity::Velocity, speed);
+        let words =
+            format!("slip from {} to {}: {}", speed(range.lower), speed(range.upper), range.limit);
+        ("  range".to_owned(), words)
+    });
+    of_own_law(study).into_iter().chain(range).collect()
+}
+
+/// What a law of one's own says beyond its numbers; nothing for other laws.
+fn of_own_law(study: &Study) -> Vec<(String, String)> {
     let row = |label: &str, words: String| (label.to_owned(), words);
     match study.belt().friction() {
         Friction::Expression(law) => {

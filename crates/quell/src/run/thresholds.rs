@@ -211,7 +211,7 @@ fn slip_met(
     for belt in ends.into_iter().filter_map(at) {
         let sliding = InitialState::Sliding.resolve(&belt, study.solver());
         if let Ok(sliding) = sliding {
-            slip.add_attractor(&belt, sliding);
+            slip.add_start(&belt, sliding);
         }
     }
     for (protocol, switches) in protocols {
