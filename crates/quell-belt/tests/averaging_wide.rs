@@ -51,7 +51,7 @@ fn stored_wide_grid() {
 /// Laws beside the default: a deep and a flat one.
 fn more_laws() -> Vec<Friction> {
     let mut laws = laws().to_vec();
-    for kind in LawKind::NUMERIC {
+    for kind in [LawKind::Stribeck, LawKind::Decreasing] {
         for values in [[0.8, 0.05, 0.03], [0.5, 0.5, 1.0], [0.3, 0.0, 2.0]] {
             laws.push(kind.build(&values).expect("valid"));
         }

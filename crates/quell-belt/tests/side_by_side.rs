@@ -34,8 +34,15 @@ fn cases() -> Vec<(Belt, Start, f64)> {
                     5 => vec![tangential, normal],
                     _ => vec![tangential, slower, normal],
                 };
-                let friction =
-                    law.build(&[0.4 - 0.01 * x, 0.28, 0.2 + 0.02 * x]).expect("a valid law");
+                let (level, velocity, viscous) = (0.4 - 0.01 * x, 0.2 + 0.02 * x, 0.02 * x);
+                let values = match law {
+                    LawKind::Coulomb => vec![0.28, level, viscous],
+                    LawKind::StribeckExponential => {
+                        vec![0.28, level, velocity, f64::from(1 + k % 4), viscous]
+                    }
+                    _ => vec![level, 0.28, velocity],
+                };
+                let friction = law.build(&values).expect("a valid law");
                 let belt = Belt::new(0.005 * x, 1.0, 0.05 + 0.02 * x, friction, dithers);
                 let start = Start { time: 0.3 * x, displacement: 0.1 * x, velocity: 0.02 * x };
                 cases.push((belt.expect("a valid belt"), start, 40.0 + 9.0 * x));

@@ -186,7 +186,14 @@ fn lengths_scale_out_to_the_last_bit() {
     for law in LawKind::NUMERIC.iter().copied() {
         let dithers = [tangential(Waveform::Sine, 0.3, 10.0, 0.0), normal];
         let make = |factor: f64| {
-            let friction = law.build(&[0.4, 0.2857, 0.2 * factor]).expect("valid law");
+            let values = match law {
+                LawKind::Coulomb => vec![0.2857, 0.4, 0.05 / factor],
+                LawKind::StribeckExponential => {
+                    vec![0.2857, 0.4, 0.2 * factor, 3.0, 0.05 / factor]
+                }
+                _ => vec![0.4, 0.2857, 0.2 * factor],
+            };
+            let friction = law.build(&values).expect("valid law");
             let scaled =
                 dithers.map(|dither| Dither { amplitude: factor * dither.amplitude, ..dither });
             Belt::new(0.005, factor, 0.05 * factor, friction, scaled.to_vec()).expect("valid")

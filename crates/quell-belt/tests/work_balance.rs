@@ -62,8 +62,15 @@ fn random_belt(random: &mut Random) -> (Belt, Start) {
     let minimum = static_coefficient * random.pick(&[0.0, 0.3, 0.7, 0.95, 1.0]);
     let reference = scale * random.decades(0.02, 3.0);
     let law = random.pick(LawKind::NUMERIC);
-    let friction: Friction =
-        law.build(&[static_coefficient, minimum, reference]).expect("valid law");
+    let values = match law {
+        LawKind::Coulomb => vec![minimum, static_coefficient, 0.03 / scale],
+        LawKind::StribeckExponential => {
+            let exponent = random.pick(&[1.0, 2.0, 3.0, 4.0]);
+            vec![minimum, static_coefficient, reference, exponent, 0.03 / scale]
+        }
+        _ => vec![static_coefficient, minimum, reference],
+    };
+    let friction: Friction = law.build(&values).expect("valid law");
     let mut left = scale;
     let count = random.pick(&[0, 1, 1, 1, 2, 3]);
     let dithers = (0..count)

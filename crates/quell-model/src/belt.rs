@@ -4,7 +4,7 @@
 
 use crate::Invalid;
 use crate::dither::{Direction, Dither};
-use crate::friction::Friction;
+use crate::friction::{Friction, Surroundings};
 use crate::parameter::{
     BELT_VELOCITY, DAMPING_RATIO, DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE,
     NORMAL_LOAD, Parameter, indexed, split_index,
@@ -47,7 +47,32 @@ impl Belt {
         }
         let belt = Self { damping_ratio, normal_load, belt_velocity, friction, dithers };
         complaints.extend(belt.separation());
-        if complaints.is_empty() { Ok(belt) } else { Err(complaints) }
+        if !complaints.is_empty() {
+            return Err(complaints);
+        }
+        let friction = belt.friction.placed(&belt.surroundings())?;
+        Ok(Self { friction, ..belt })
+    }
+
+    /// What the friction law learns from the belt.
+    fn surroundings(&self) -> Surroundings {
+        let slip = self.belt_velocity + self.fast_velocity();
+        Surroundings { normal_load: self.normal_load, slip }
+    }
+
+    /// The largest velocity that the dithers give the mass together in the limit of high frequency: Σ α max|G| of tangential
+    /// ones, μ_s times that of normal ones. Slip reaches v₀ plus this.
+    pub fn fast_velocity(&self) -> f64 {
+        self.dithers.iter().map(|dither| self.fast_velocity_of(dither)).sum()
+    }
+
+    /// The largest velocity that a dither gives this mass, as [`Belt::fast_velocity`].
+    pub fn fast_velocity_of(&self, dither: &Dither) -> f64 {
+        let level = match dither.direction {
+            Direction::Tangential => 1.0,
+            Direction::Normal => self.friction.static_coefficient(),
+        };
+        level * dither.amplitude_ratio() * dither.waveform.peak_integral()
     }
 
     /// Complaint about normal dither that exceeds the normal load, where those numbers are
@@ -179,7 +204,9 @@ impl Belt {
             Place::NormalLoad => Some(NORMAL_LOAD),
             Place::BeltVelocity => Some(BELT_VELOCITY),
             Place::Law => {
-                self.friction.kind().parameters().iter().find(|it| it.path == path).copied()
+                let kind = self.friction.kind();
+                let mut known = kind.parameters().iter().chain(kind.options());
+                known.find(|parameter| parameter.path == path).copied()
             }
             Place::Dither(_, parameter) => Some(parameter),
         }

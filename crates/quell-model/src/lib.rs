@@ -14,6 +14,8 @@ pub mod waveform;
 
 pub use belt::Belt;
 pub use dither::{Direction, Dither};
-pub use friction::{Expression, Friction, LawKind, Samples, SlidingLaw};
+pub use friction::{
+    Coulomb, Expression, Friction, LawKind, Samples, SlidingLaw, StribeckExponential,
+};
 pub use invalid::Invalid;
 pub use waveform::Waveform;

@@ -217,6 +217,47 @@ pub const REFERENCE_VELOCITY: Parameter = Parameter {
     si: &[si("reference_velocity_m_per_s", "m/s")],
 };
 
+/// Sliding coefficient of a named law: constant, or at high slip speed.
+pub const COEFFICIENT: Parameter = Parameter {
+    path: "friction.coefficient",
+    symbol: "μ_d",
+    about: "sliding coefficient: at any slip (coulomb), at high slip without the viscous part (stribeck-exponential)",
+    quantity: Quantity::Ratio,
+    bounds: Bounds::NOT_NEGATIVE,
+    si: &[],
+};
+
+/// Viscous part of the coefficient.
+pub const VISCOUS: Parameter = Parameter {
+    path: "friction.viscous",
+    symbol: "σ_v",
+    about: "rise of the coefficient with slip speed: friction is N(… + viscous·v_r)",
+    quantity: Quantity::PerVelocity,
+    bounds: Bounds::NOT_NEGATIVE,
+    si: &[si("viscous_s_per_m", "s/m")],
+};
+
+/// Exponent of the Stribeck fall.
+pub const EXPONENT: Parameter = Parameter {
+    path: "friction.exponent",
+    symbol: "δ",
+    about: "exponent of the fall, e^−(v/v_s)^δ; simulation needs 1, 2, 3 or 4",
+    quantity: Quantity::Ratio,
+    // Beyond, the fall is a step at v_s for every purpose, and its slope there grows with δ.
+    bounds: Bounds { lower: 0.0, lower_included: false, upper: 100.0 },
+    si: &[],
+};
+
+/// Largest slip speed for which a formula is meant.
+pub const MAXIMUM_VELOCITY: Parameter = Parameter {
+    path: "friction.maximum_velocity",
+    symbol: "v_max",
+    about: "slip speed up to which the formula holds and is proven finite, smooth and not negative",
+    quantity: Quantity::Velocity,
+    bounds: Bounds::POSITIVE,
+    si: &[si("maximum_velocity_m_per_s", "m/s")],
+};
+
 /// Dither amplitude.
 pub const DITHER_AMPLITUDE: Parameter = Parameter {
     path: "dither.amplitude",

@@ -28,6 +28,8 @@ pub enum Quantity {
     Time,
     /// Power over kω₀; in SI watts.
     Power,
+    /// Per velocity/ω₀; in SI per m/s.
+    PerVelocity,
 }
 
 impl Quantity {
@@ -43,6 +45,7 @@ impl Quantity {
             Self::FrequencyRatio => "ω₀",
             Self::Time => "1/ω₀",
             Self::Power => "length² (power/(kω₀))",
+            Self::PerVelocity => "1/length (per velocity/ω₀)",
         }
     }
 
@@ -57,6 +60,7 @@ impl Quantity {
             Self::FrequencyRatio => ("Hz", "hz"),
             Self::Time => ("s", "s"),
             Self::Power => ("W", "w"),
+            Self::PerVelocity => ("s/m", "s_per_m"),
         })
     }
 }
@@ -106,7 +110,7 @@ impl Scales {
             Quantity::Force => self.stiffness_n_per_m,
             Quantity::Velocity => omega,
             Quantity::FrequencyRatio => omega / std::f64::consts::TAU,
-            Quantity::Time => 1.0 / omega,
+            Quantity::Time | Quantity::PerVelocity => 1.0 / omega,
             Quantity::Power => self.stiffness_n_per_m * omega,
         }
     }

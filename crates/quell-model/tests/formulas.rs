@@ -1,7 +1,9 @@
 //! Formulas: whatever the text, an answer and no panic; wrong laws are refused with their reason.
 
 use proptest::prelude::*;
-use quell_model::{Expression, Samples, SlidingLaw};
+use quell_model::{
+    Belt, Direction, Dither, Expression, Friction, LawKind, Samples, SlidingLaw, Waveform,
+};
 
 fn constants() -> Vec<(String, f64)> {
     vec![("a".to_owned(), 0.3), ("b".to_owned(), 0.2)]
@@ -9,7 +11,8 @@ fn constants() -> Vec<(String, f64)> {
 
 /// What is said about a formula.
 fn refused(text: &str) -> String {
-    let wrong = Expression::new(text, &constants(), None, 1.0).expect_err(text);
+    let law = Expression::new(text, &constants(), None, 1.0);
+    let wrong = law.and_then(|law| law.proven_up_to(1e3 * law.velocity_scale())).expect_err(text);
     wrong.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
 }
 
@@ -44,6 +47,94 @@ fn what_is_no_law_is_refused_with_its_reason() {
     assert!(wrong(None, &named).contains("friction.constants.b"));
     named[1] = ("exp".to_owned(), 1.0);
     assert!(wrong(None, &named).contains("means nothing else"));
+}
+
+/// The formula proven up to a speed, or what is said of it.
+fn proven(text: &str, up_to: f64) -> Result<Expression, String> {
+    let law =
+        Expression::new(text, &constants(), None, 1.0).and_then(|law| law.proven_up_to(up_to));
+    law.map_err(|wrong| wrong.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))
+}
+
+/// What no sampling would see is found, with the slip; what only sampling would fear is proven.
+#[test]
+fn formulas_are_proven_over_their_range() {
+    for (text, up_to, parts) in [
+        ("0.3-1.0*exp(-((abs(v)-0.2)/0.0001)^2)", 2.0, &["at v = 0.2", "it is -0."][..]),
+        ("0.3-1.0*exp(-((abs(v)-0.2)/1e-9)^2)", 2.0, &["at v = 0.", "it is -0."]),
+        ("0.3+1e-7/(abs(v)-0.2)", 2.0, &["at v = 0.1999"]),
+        ("0.3+1e-7/(abs(v)-0.2)^2", 2.0, &["at v = 0.2"]),
+        ("0/0", 2.0, &["not finite"]),
+        ("0.4 + 0*(1/(a - a))", 2.0, &["not finite"]),
+        ("0.3 + 0.1*sqrt((abs(v) - b)^2 + 0*v)", 2.0, &["at v = 0.2"]),
+        ("0.4 - 0.1*abs(v)", 4.1, &["up to the maximum velocity 4.1", "at v = 4.0", "it is -0.0"]),
+        ("exp(abs(v))", 400.0, &["not finite"]),
+        ("0.3 + log(2 - abs(v))", 3.0, &["not finite"]),
+    ] {
+        let said = proven(text, up_to).expect_err(text);
+        for part in parts {
+            assert!(said.contains(part), "{text}: {said}");
+        }
+    }
+    for (text, up_to) in [
+        ("0.4 - 0.1*abs(v)", 3.9),
+        ("exp(abs(v))", 100.0),
+        ("0.3+1e-7/(abs(v)-0.2)", 0.1999),
+        ("0.31-0.3*exp(-((abs(v)-0.2)/1e-4)^2)", 2.0),
+        // It touches nothing at 2π, by rounding alone.
+        ("0.5*(1 + cos(v/2))", 9.0),
+        ("0.4 - 0.17145*(abs(v)/b - (abs(v)/b)^3/3)", 50.0),
+        ("tanh(abs(v)/1e-3)*(0.25 + 0.15/(1 + abs(v)/0.1)) + 0.01*abs(v)", 1e3),
+        ("0.2857 + 0.1143*sech(v/0.3)^2 + 0.001*v^2", 1e5),
+        ("0.3 + 0.05*sin(200*abs(v))", 20.0),
+    ] {
+        let law = proven(text, up_to).expect(text);
+        assert_eq!(law.range().map(|range| range.upper), Some(up_to), "{text}");
+    }
+}
+
+/// The speed is the study's, or a multiple of what belt and dither reach; another belt is another proof.
+#[test]
+fn a_formula_is_proven_for_its_belt() {
+    let law = |maximum| {
+        let law = Expression::new("0.4 - 0.1*abs(v)", &[], None, 1.0).expect("a formula");
+        Friction::Expression(law.with_maximum_velocity(maximum).expect("a speed"))
+    };
+    let belt = |velocity, amplitude, maximum| {
+        let (waveform, direction) = (Waveform::Square, Direction::Tangential);
+        let dither = Dither { direction, waveform, amplitude, frequency_ratio: 10.0, phase: 0.0 };
+        Belt::new(0.01, 1.0, velocity, law(maximum), vec![dither])
+    };
+    let quiet = belt(0.1, 0.0, None).expect("proven up to 1");
+    assert_eq!(quiet.friction().range().map(|range| range.upper), Some(1.0));
+    // α max|G| = 0.2 · π/2 more.
+    let reached = quiet.with("dither.amplitude", 1.0).expect("proven up to 2.57");
+    let upper = reached.friction().range().expect("a range").upper;
+    assert!((upper - (1.0 + 0.5 * std::f64::consts::PI)).abs() < 1e-12, "{upper}");
+    let wrong = quiet.with("belt.belt_velocity", 0.41).expect_err("up to 4.1 it is negative");
+    assert!(
+        wrong[0].key == "friction.coefficient" && wrong[0].allowed.contains("4.1"),
+        "{wrong:?}"
+    );
+    let given = belt(0.41, 0.0, Some(3.0)).expect("meant up to 3");
+    assert_eq!(given.get("friction.maximum_velocity"), Some(3.0));
+    assert!(given.with("friction.maximum_velocity", 5.0).is_err());
+    assert!(given.parameter("friction.maximum_velocity").is_some());
+}
+
+/// √3 v_m, where the cubic is back at its static level; beyond it is above any level.
+#[test]
+fn the_cubic_holds_up_to_its_return() {
+    for v_m in [0.2, 6e-6] {
+        let law = LawKind::Stribeck.build(&[0.4, 0.2857, v_m]).expect("valid");
+        let range = law.range().expect("a range");
+        assert!((range.upper / v_m - 3f64.sqrt()).abs() < 1e-15 && range.lower == 0.0);
+        assert!((law.coefficient(range.upper) - 0.4).abs() < 1e-15);
+        assert!(law.coefficient(10.0 * range.upper) > 50.0);
+    }
+    let constant = LawKind::Stribeck.build(&[0.4, 0.4, 0.2]).expect("valid");
+    assert_eq!(constant.range(), None);
+    assert_eq!(LawKind::Decreasing.build(&[0.4, 0.3, 0.2]).expect("valid").range(), None);
 }
 
 #[test]
@@ -131,7 +222,8 @@ proptest! {
         )
     ) {
         let text = words.concat();
-        if let Ok(law) = Expression::new(&text, &constants(), None, 1.0) {
+        let law = Expression::new(&text, &constants(), None, 1.0);
+        if let Ok(law) = law.and_then(|law| law.proven_up_to(31.0 * law.velocity_scale())) {
             for speed in [0.0, 1e-9, 0.1, 1.0, 30.0] {
                 let speed = speed * law.velocity_scale();
                 prop_assert!(law.coefficient(speed) >= -1e-12 && law.slope(speed).is_finite());

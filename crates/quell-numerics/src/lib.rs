@@ -6,6 +6,7 @@
 //! * [`quadrature`], [`gauss_legendre`], [`roots`], [`special`], [`bessel`], [`spectrum`]: integrals, scalar roots and minima,
 //!   special functions, spectra;
 //! * [`symmetric`], [`least_squares`]: eigenvalues of symmetric pencils, fits of a few columns;
+//! * [`interval`]: bounds of functions over intervals, rounded outward, for proofs;
 //! * [`continuation`]: fixed points of period maps by shooting, their branches, thresholds and curves of thresholds.
 
 pub mod bessel;
@@ -15,6 +16,7 @@ pub mod eigen;
 pub mod elementary;
 pub mod floquet;
 pub mod gauss_legendre;
+pub mod interval;
 pub mod lane;
 pub mod least_squares;
 pub mod matrix;

@@ -165,7 +165,7 @@ def test_every_law_has_a_class_with_its_parameters() -> None:
     laws: dict[str, set[str]] = {}
     for system in ("scaled", "si"):
         for law in quell.schema()["$defs"][f"friction_{system}"]["oneOf"]:
-            name = law["properties"]["law"]["const"]
+            name = law["properties"]["law"]["const"].replace("-", "")
             laws.setdefault(name, set()).update(set(law["properties"]) - {"law"})
     assert set(classes) == set(laws)
     for name, wanted in laws.items():
@@ -191,6 +191,32 @@ def test_laws_of_one_s_own_take_formulas_and_arrays() -> None:
     assert steeper.friction([1e-9]).coefficient[0] == pytest.approx(0.5, abs=1e-6)
     with pytest.raises(quell.StudyError, match="friction"):
         quell.Belt(**{**BELT, "friction": quell.Expression("0.3 + 0.1*exq(-v)")}, dither=DITHER)
+
+
+def test_friction_of_a_drive_is_given_in_newtons_and_ranges_are_told() -> None:
+    drive = quell.Belt(
+        mass_kg=0.538,
+        stiffness_n_per_m=6957.0,
+        damping_n_s_per_m=5.746,
+        belt_velocity_m_per_s=0.05,
+        friction=quell.StribeckExponential(
+            friction_force_n=2.0,
+            static_friction_force_n=6.0,
+            reference_velocity_m_per_s=0.1,
+            exponent=1.0,
+            viscous_n_s_per_m=0.2,
+        ),
+    )
+    assert drive.check().facts["friction"]["friction_force_n"] == pytest.approx(2.0)
+    bands = drive.stability().facts["unstable_belt_velocities"]
+    assert bands[0]["upper_m_per_s"] == pytest.approx(0.190616072953803, rel=1e-9)
+    coulomb = quell.Belt(**{**BELT, "friction": quell.Coulomb(0.3, static_coefficient=0.4)})
+    assert coulomb.friction([0.2]).warnings == []
+    fast = quell.Belt(**{**BELT, "belt_velocity": 3.0})
+    assert "range" in fast.stability().warnings[0]
+    formula = quell.Expression("0.4 - 0.1*abs(v)", maximum_velocity=5.0)
+    with pytest.raises(quell.StudyError, match="maximum velocity 5"):
+        quell.Belt(**{**BELT, "friction": formula})
 
 
 def test_axes_of_a_map_take_the_place_of_the_study_s_own() -> None:

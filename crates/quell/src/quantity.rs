@@ -40,6 +40,7 @@ fn units(quantity: Quantity) -> &'static [(&'static str, f64)] {
         Quantity::Force => &[("N", 1.0), ("mN", 1e-3), ("kN", 1e3)],
         Quantity::FrequencyRatio => &[("Hz", 1.0), ("kHz", 1e3), ("MHz", 1e6)],
         Quantity::Power => &[("W", 1.0), ("mW", 1e-3), ("kW", 1e3)],
+        Quantity::PerVelocity => &[("s/m", 1.0), ("s/mm", 1e3)],
         Quantity::DampingRatio => &[("N·s/m", 1.0), ("Ns/m", 1.0)],
         Quantity::Ratio | Quantity::Count | Quantity::Angle => &[],
     }

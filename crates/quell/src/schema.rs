@@ -7,7 +7,7 @@
 use quell_model::LawKind;
 use quell_model::friction::samples::{FEWEST, MOST_TERMS};
 use quell_model::parameter::disc::DISC_DITHER_AMPLITUDE;
-use quell_model::parameter::{Bounds, DITHER_FREQUENCY_RATIO, Parameter};
+use quell_model::parameter::{Bounds, COEFFICIENT, DITHER_FREQUENCY_RATIO, NORMAL_LOAD, Parameter};
 use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
 
@@ -79,7 +79,7 @@ fn root(system: System) -> Json {
         System::Scaled => "a study in the numbers of the equations",
         System::Si => "a study in SI",
     };
-    json!({
+    let mut whole = json!({
         "type": "object",
         "description": about,
         "properties": {
@@ -99,7 +99,15 @@ fn root(system: System) -> Json {
         },
         "required": ["belt", "friction"],
         "additionalProperties": false,
-    })
+    });
+    if system == System::Si {
+        let needs =
+            |table: &str, key: &str| json!({ "properties": { table: { "required": [key] } } });
+        let load = NORMAL_LOAD.si.first().map_or(NORMAL_LOAD.key(), |twin| twin.key);
+        // Friction in newtons may stand for the normal force.
+        whole["anyOf"] = json!([needs("belt", load), needs("friction", FORCE)]);
+    }
+    whole
 }
 
 /// A study of a disc. Which keys exclude one another where modes are listed is left to `quell check`.
@@ -171,6 +179,8 @@ fn table(section: Section, system: System) -> Json {
         properties.insert(key.name.to_owned(), property(key));
         match key.role {
             Role::Number(parameter) if needed(parameter) => required.push(key.name),
+            // Friction in newtons may stand for it.
+            Role::Twin(parameter, _) if parameter.path == NORMAL_LOAD.path => {}
             Role::Twin(parameter, twin) if needed(parameter) && parameter.si.len() == 1 => {
                 required.push(twin.key);
             }
@@ -222,13 +232,25 @@ fn friction(system: System) -> Json {
             let mut required = vec!["law"];
             for key in vocabulary::keys_of(Section::Friction).filter(|key| belongs(key, system)) {
                 let known = |parameter: Parameter| {
-                    law.parameters().iter().any(|known| known.path == parameter.path)
+                    let mut known = law.parameters().iter().chain(law.options());
+                    known.any(|known| known.path == parameter.path)
                 };
-                if key.parameter().is_some_and(known) {
-                    properties.insert(key.name.to_owned(), property(key));
+                if let Some(parameter) = key.parameter().filter(|it| known(*it)) {
+                    let number = match key.role {
+                        Role::Coefficient => property_of(parameter),
+                        _ => property(key),
+                    };
+                    properties.insert(key.name.to_owned(), number);
                     // Where a law carries data, its static level is that of the data.
-                    if LawKind::NUMERIC.contains(law) {
+                    let needed =
+                        LawKind::NUMERIC.contains(law) && law.default_of(parameter.path).is_none();
+                    let also_as_force = system == System::Si && as_force(*law, parameter);
+                    if needed && !also_as_force {
                         required.push(key.name);
+                    }
+                } else if let Role::FrictionForce(parameter, _) = key.role {
+                    if as_force(*law, parameter) {
+                        properties.insert(key.name.to_owned(), property(key));
                     }
                 } else if of_own_law(*law, key.role, key.name) {
                     properties.insert(key.name.to_owned(), property(key));
@@ -260,11 +282,30 @@ fn friction(system: System) -> Json {
                         json!([{ "required": ["file"] }, { "required": [speeds, "coefficient"] }]);
                     whole
                 }
-                _ => object(Section::Friction, &properties, &required),
+                _ => {
+                    let mut whole = object(Section::Friction, &properties, &required);
+                    if properties.contains_key(FORCE) {
+                        whole["oneOf"] =
+                            json!([{ "required": ["coefficient"] }, { "required": [FORCE] }]);
+                    }
+                    whole
+                }
             }
         })
         .collect();
     json!({ "description": Section::Friction.about(), "oneOf": laws })
+}
+
+/// The key of a law's level in newtons.
+const FORCE: &str = "friction_force_n";
+
+/// Whether a number of a law can be given as a force.
+fn as_force(law: LawKind, parameter: Parameter) -> bool {
+    let has = |path: &str| law.parameters().iter().any(|known| known.path == path);
+    let as_force = |key: &Key| matches!(key.role, Role::FrictionForce(given, _) if given.path == parameter.path);
+    has(COEFFICIENT.path)
+        && has(parameter.path)
+        && vocabulary::keys_of(Section::Friction).any(as_force)
 }
 
 /// Whether a key that is no number of the registry belongs to a law that carries data.
@@ -302,7 +343,7 @@ fn sweep() -> Json {
 fn belongs(key: &Key, system: System) -> bool {
     match key.role {
         Role::Number(parameter) => system == System::Scaled || parameter.si.is_empty(),
-        Role::Twin(..) | Role::Scale(_) => system == System::Si,
+        Role::Twin(..) | Role::Scale(_) | Role::FrictionForce(..) => system == System::Si,
         Role::Speeds { si } => si == (system == System::Si),
         _ => true,
     }
@@ -336,6 +377,7 @@ fn property(key: &Key) -> Json {
             json!({ "oneOf": [{ "const": "critical" }, { "type": "number", "exclusiveMinimum": 0.0 }] })
         }
         Role::Coefficient => json!({}),
+        Role::FrictionForce(..) => bounded(Bounds::NOT_NEGATIVE, Quantity::Ratio),
         Role::Speeds { .. } => {
             json!({ "type": "array", "items": { "type": "number", "minimum": 0 }, "minItems": FEWEST })
         }
@@ -359,7 +401,9 @@ fn about(key: &Key) -> String {
             format!("{}: {}, in {}", parameter.symbol, key.about, key.unit_in_words())
         }
         Role::Scale(scale) => format!("{}: {}, in {}", scale.symbol, key.about, key.unit()),
-        Role::Speeds { .. } => format!("{}, in {}", key.about, key.unit()),
+        Role::Speeds { .. } | Role::FrictionForce(..) => {
+            format!("{}, in {}", key.about, key.unit())
+        }
         _ => key.about.to_owned(),
     }
 }

@@ -81,10 +81,29 @@ fn schema_and_reader_agree() {
     };
     let more = |lines: &str| format!("{SCALED}{lines}\n");
     let sweep = |lines: &str| more(&format!("[[sweep]]\nparameter = 'dither.phase'\n{lines}"));
+    let law = |text: &str, law: &str| {
+        let (start, rest) =
+            (text.find("law").expect("a law"), text.find("[dither]").or(text.find("[[dither]]")));
+        text[..start].to_owned()
+            + law
+            + "\n"
+            + &text[rest.expect("a dither")..].replace("normal", "tangential")
+    };
+    let pressed = |text: String| text.replace("normal_force_n = 1\n", "");
+    let forces = "law = 'coulomb'\nfriction_force_n = 3\nviscous_n_s_per_m = 1";
     for text in [
         SCALED.to_owned(),
         SI.to_owned(),
         changed(SI, "schema = 1\n", ""),
+        law(SCALED, "law = 'coulomb'\ncoefficient = 0.3"),
+        law(SCALED, "law = 'coulomb'\ncoefficient = 0.3\nstatic_coefficient = 0.4\nviscous = 0.1"),
+        law(
+            SCALED,
+            "law = 'stribeck-exponential'\ncoefficient = 0.3\nstatic_coefficient = 0.4\nreference_velocity = 1",
+        ),
+        law(SCALED, "law = 'expression'\ncoefficient = '0.3'\nmaximum_velocity = 3"),
+        law(SI, forces),
+        pressed(law(SI, forces)),
         changed(SI, "amplitude_n_rms", "amplitude_n"),
         more("[belt.initial]\nstate = 'sliding'"),
         more("[belt.initial]\nvelocity = -1"),
@@ -95,6 +114,12 @@ fn schema_and_reader_agree() {
         assert_eq!(judged(&text), (true, true), "{text}");
     }
     for text in [
+        law(SCALED, "law = 'coulomb'\nviscous = 0.3"),
+        law(SCALED, "law = 'coulomb'\nfriction_force_n = 3"),
+        law(SCALED, "law = 'stribeck-exponential'\ncoefficient = 0.3\nreference_velocity = 1"),
+        law(SI, &format!("{forces}\ncoefficient = 0.3")),
+        pressed(law(SI, "law = 'coulomb'\ncoefficient = 0.3")),
+        changed(SI, "normal_force_n = 1\n", ""),
         changed(SCALED, "schema = 1", "schema = 2"),
         changed(SCALED, "title = 'x'", "title = 1"),
         changed(SCALED, "title", "titel"),

@@ -11,7 +11,8 @@ use super::{HALVES_AGREE, HALVES_NEGLIGIBLE, Solver, Undefined};
 use crate::orbit::NoOrbit;
 use crate::orbit::cycle::keeps_vibrating;
 use crate::simulation::{
-    Event, FinalState, InstructionSet, Observer, Run, Segment, Stalled, Start, simulate_many_with,
+    Event, FinalState, InstructionSet, LargestSlip, Observer, Run, Segment, Stalled, Start,
+    simulate_many_with,
 };
 
 /// A belt and where it starts.
@@ -45,6 +46,8 @@ pub struct Measured {
     pub dither_stroke: Option<f64>,
     /// Smallest normal load.
     pub minimum_normal_load: f64,
+    /// Largest slip speed |v_r| in the record.
+    pub largest_slip: f64,
     /// Stick, release and reversal events in the record.
     pub events: u64,
 }
@@ -187,6 +190,7 @@ pub(super) fn record_many<O: Observer>(
                 sampling,
                 meter: Meter::new(&case.belt, &settled, wanted.dither_cost),
                 listener: Listener::new(&case.belt, sampling, wanted.dither_cost),
+                slip: LargestSlip::of(&case.belt),
                 observer: observer(case, &sampling),
             })
         })
@@ -218,6 +222,7 @@ struct Watch<O> {
     sampling: Sampling,
     meter: Meter,
     listener: Listener,
+    slip: LargestSlip,
     observer: O,
 }
 
@@ -237,6 +242,7 @@ impl<O> Watch<O> {
             dither_power: has_cost.then(|| self.meter.dither_power()),
             dither_stroke: has_cost.then(|| self.listener.stroke()),
             minimum_normal_load: cost::minimum_normal_load(belt, self.sampling.from, length),
+            largest_slip: self.slip.speed,
             events: end.events,
         };
         (measured, self.observer)
@@ -264,6 +270,7 @@ impl<O: Observer> Observer for Watch<O> {
     fn segment(&mut self, segment: &Segment<'_>) {
         let Self { meter, listener, .. } = self;
         with_fused_multiply_add(Watching { meter, listener, segment });
+        self.slip.segment(segment);
         if self.observer.watches() {
             self.observer.segment(segment);
         }

@@ -23,6 +23,7 @@ mod engine;
 mod event;
 mod forcing;
 mod lanes;
+mod largest_slip;
 mod observer;
 mod release;
 mod slip;
@@ -38,6 +39,7 @@ pub use quell_numerics::dispatch::InstructionSet;
 pub use clock::Clock;
 pub use event::{Event, EventKind};
 pub(crate) use lanes::slide;
+pub use largest_slip::LargestSlip;
 pub use observer::{EventRecorder, Observer, Sample, Sampler, Segment, VelocitySection};
 
 /// Order of the Taylor series. At tolerance 10⁻¹⁰ about three steps cover a period of free
@@ -172,8 +174,14 @@ mod tests {
 
     #[test]
     fn machines_without_fused_multiply_add_give_the_same_bits() {
-        for &law in LawKind::NUMERIC {
-            let friction = law.build(&[0.4, 0.2857, 0.2]).expect("valid law");
+        for values in [
+            (LawKind::Stribeck, &[0.4, 0.2857, 0.2][..]),
+            (LawKind::Decreasing, &[0.4, 0.2857, 0.2]),
+            (LawKind::Coulomb, &[0.2857, 0.4, 0.05]),
+            (LawKind::StribeckExponential, &[0.2857, 0.4, 0.2, 2.0, 0.05]),
+        ] {
+            let (law, values) = values;
+            let friction = law.build(values).expect("valid law");
             let dither = |direction, waveform| Dither {
                 direction,
                 waveform,

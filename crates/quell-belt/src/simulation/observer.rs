@@ -83,6 +83,16 @@ impl Segment<'_> {
         self.belt_velocity - self.slip_velocity(since)
     }
 
+    /// Slip velocity v_r at N moments, as [`Segment::displacements_at`].
+    #[inline(always)]
+    pub(crate) fn slips_at<const N: usize>(&self, since: &[f64; N]) -> [f64; N] {
+        let mut values = horner_at(self.slip, since);
+        for value in &mut values {
+            *value *= self.unit;
+        }
+        values
+    }
+
     /// ∫x dτ over the whole segment, for observers as in [`Segment::displacements_at`].
     #[inline(always)]
     pub(crate) fn displacement_integral(&self) -> f64 {

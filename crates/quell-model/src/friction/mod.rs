@@ -14,15 +14,32 @@ use quell_numerics::lane::{Lane, MOST_LANES};
 use crate::Invalid;
 use crate::parameter::Parameter;
 
+mod coulomb;
 mod decreasing;
 pub mod expression;
+mod range;
 pub mod samples;
 mod stribeck;
+mod stribeck_exponential;
 
+pub use coulomb::{Coulomb, CoulombConstants, CoulombSeries};
 pub use decreasing::{Decreasing, DecreasingConstants, DecreasingSeries};
 pub use expression::Expression;
+pub use range::{RangeLimit, SlipRange, Surroundings};
 pub use samples::Samples;
 pub use stribeck::{Stribeck, StribeckConstants, StribeckSeries};
+pub use stribeck_exponential::{
+    StribeckExponential, StribeckExponentialConstants, StribeckExponentialSeries,
+};
+
+/// The value of a parameter that a study leaves out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Otherwise {
+    /// This number.
+    Number(f64),
+    /// That of the law's parameter with this path.
+    SameAs(&'static str),
+}
 
 /// A friction law in steady sliding, analytic on each side of v_r = 0.
 pub trait SlidingLaw: Clone + Send + Sync + 'static {
@@ -32,6 +49,15 @@ pub trait SlidingLaw: Clone + Send + Sync + 'static {
     const ABOUT: &'static str;
     /// The law's parameters in the registry, in the order of [`SlidingLaw::values`].
     const PARAMETERS: &'static [Parameter];
+
+    /// Numbers that a study may say about the law and that are no number of its formula.
+    const OPTIONS: &'static [Parameter] = &[];
+
+    /// The value of a parameter that a study may leave out; `None` where it has to be given.
+    fn default_of(path: &str) -> Option<Otherwise> {
+        let _ = path;
+        None
+    }
 
     /// Values in the order of `PARAMETERS`.
     fn values(&self) -> Vec<f64>;
@@ -46,8 +72,33 @@ pub trait SlidingLaw: Clone + Send + Sync + 'static {
     /// against a relation.
     fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>>;
 
+    /// The law in the belt that it is put into: whatever it has to prove about the slip it meets there is proven, and
+    /// where it has no velocity of its own it counts slip in one of the belt's.
+    ///
+    /// # Errors
+    /// What cannot be proven of a law of one's own, and at which slip.
+    fn placed(&self, surroundings: &Surroundings) -> Result<Self, Vec<Invalid>> {
+        let _ = surroundings;
+        Ok(self.clone())
+    }
+
+    /// Slip speeds for which the law holds; `None` where it holds for all.
+    fn range(&self) -> Option<SlipRange> {
+        None
+    }
+
+    /// Why the law cannot be simulated, where it cannot: averages hold for every law.
+    fn unsimulated(&self) -> Option<&'static str> {
+        None
+    }
+
     /// Velocity by which the law is naturally scaled (v_m); slip is counted in it, w = v_r/v_m.
     fn velocity_scale(&self) -> f64;
+
+    /// Whether the law changes over a velocity of its own, so that [`SlidingLaw::velocity_scale`] says something of it.
+    fn has_velocity(&self) -> bool {
+        true
+    }
 
     /// Static level μ_s.
     fn static_coefficient(&self) -> f64;
@@ -237,6 +288,16 @@ macro_rules! laws {
                 match self { $(Self::$kind => <$kind as SlidingLaw>::ABOUT),+ }
             }
 
+            /// Numbers that a study may say about the law and that are no number of its formula.
+            pub fn options(self) -> &'static [Parameter] {
+                match self { $(Self::$kind => <$kind as SlidingLaw>::OPTIONS),+ }
+            }
+
+            /// The value of a parameter that a study may leave out; `None` where it has to be given.
+            pub fn default_of(self, path: &str) -> Option<Otherwise> {
+                match self { $(Self::$kind => <$kind as SlidingLaw>::default_of(path)),+ }
+            }
+
             /// Parameters of the law, in the order of [`Friction::values`].
             pub fn parameters(self) -> &'static [Parameter] {
                 match self { $(Self::$kind => <$kind as SlidingLaw>::PARAMETERS),+ }
@@ -287,6 +348,29 @@ macro_rules! laws {
                 match self { $(Self::$kind(law) => visitor.visit(law)),+ }
             }
 
+            /// The law in the belt that it is put into ([`SlidingLaw::placed`]).
+            ///
+            /// # Errors
+            /// What cannot be proven of a law of one's own, and at which slip.
+            pub fn placed(&self, surroundings: &Surroundings) -> Result<Self, Vec<Invalid>> {
+                match self { $(Self::$kind(law) => law.placed(surroundings).map(Self::$kind)),+ }
+            }
+
+            /// Slip speeds for which the law holds; `None` where it holds for all.
+            pub fn range(&self) -> Option<SlipRange> {
+                match self { $(Self::$kind(law) => law.range()),+ }
+            }
+
+            /// Why the law cannot be simulated, where it cannot.
+            pub fn unsimulated(&self) -> Option<&'static str> {
+                match self { $(Self::$kind(law) => law.unsimulated()),+ }
+            }
+
+            /// Whether the law changes over a velocity of its own.
+            pub fn has_velocity(&self) -> bool {
+                match self { $(Self::$kind(law) => law.has_velocity()),+ }
+            }
+
             /// Velocity scale v_m of the law.
             pub fn velocity_scale(&self) -> f64 {
                 match self { $(Self::$kind(law) => law.velocity_scale()),+ }
@@ -310,7 +394,7 @@ macro_rules! laws {
     };
 }
 
-laws!(numbers: Stribeck, Decreasing; data: Expression, Samples);
+laws!(numbers: Stribeck, Decreasing, Coulomb, StribeckExponential; data: Expression, Samples);
 
 impl LawKind {
     /// The law of a name.
@@ -349,7 +433,18 @@ fn checked(
     if complaints.is_empty() { Ok(()) } else { Err(complaints) }
 }
 
-/// μ_m ≤ μ_s, which both built-in laws need.
+/// μ_s ≥ μ_d, which the laws with a sliding coefficient need.
+fn static_at_least_sliding(coefficient: f64, static_coefficient: f64) -> Option<Invalid> {
+    use crate::parameter::{COEFFICIENT, STATIC_COEFFICIENT};
+    let judged = COEFFICIENT.bounds.contains(coefficient)
+        && STATIC_COEFFICIENT.bounds.contains(static_coefficient);
+    (judged && static_coefficient < coefficient).then(|| {
+        let allowed = format!("at least friction.coefficient = {coefficient}");
+        Invalid::new(STATIC_COEFFICIENT.path, static_coefficient, allowed)
+    })
+}
+
+/// μ_m ≤ μ_s, which the laws of the dissertation need.
 fn minimum_at_most_static(static_coefficient: f64, minimum_coefficient: f64) -> Option<Invalid> {
     use crate::parameter::{MINIMUM_COEFFICIENT, STATIC_COEFFICIENT};
     let judged = STATIC_COEFFICIENT.bounds.contains(static_coefficient)

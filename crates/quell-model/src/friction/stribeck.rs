@@ -1,12 +1,16 @@
 //! Stribeck law, eq. (2.7): falls to a minimum μ_m at v_m, then rises.
 //!
 //! μ = μ_s sgn(v_r) − (3/2)(μ_s − μ_m)(w − w³/3), w = v_r/v_m.
+//!
+//! Range: a cubic through the minimum, meant for the fall and the beginning of the rise. w − w³/3 = w(1 − w²/3) is zero
+//! again at w = √3, where μ is back at μ_s; beyond, μ grows as w³/3 without bound and soon exceeds any measured friction.
+//! The law holds up to √3 v_m. With μ_m = μ_s it is constant and holds everywhere.
 
 use quell_numerics::lane::{Lane, half_inner_square, partial_product};
 
 use super::{
-    BranchSeries, Friction, NumericLaw, SlidingLaw, checked, minimum_at_most_static, number_of,
-    side_by_side, with_number,
+    BranchSeries, Friction, NumericLaw, RangeLimit, SlidingLaw, SlipRange, checked,
+    minimum_at_most_static, number_of, side_by_side, with_number,
 };
 use crate::Invalid;
 use crate::parameter::{MINIMUM_COEFFICIENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT};
@@ -59,6 +63,12 @@ impl SlidingLaw for Stribeck {
 
     fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>> {
         with_number(self, path, value)
+    }
+
+    fn range(&self) -> Option<SlipRange> {
+        let falls = self.minimum_coefficient < self.static_coefficient;
+        let upper = 3f64.sqrt() * self.reference_velocity;
+        falls.then_some(SlipRange { lower: 0.0, upper, limit: RangeLimit::BackAtStaticLevel })
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! Valid examples of every law, found from its parameters alone.
 
-use quell_model::parameter::Parameter;
+use quell_model::parameter::{COEFFICIENT, EXPONENT, Parameter};
 use quell_model::units::Quantity;
 use quell_model::{Expression, Friction, LawKind, Samples};
 
@@ -16,6 +16,11 @@ const AT_MOST: usize = 40;
 /// brake (lengths of micrometres), and the edge of its range.
 fn candidates(parameter: &Parameter) -> Vec<f64> {
     let numbers: &[f64] = match parameter.quantity {
+        // Steeper falls need more terms than this suite keeps: `law_powers` holds them to formulas.
+        _ if parameter.path == EXPONENT.path => &[1.0, 2.0],
+        // Where nothing stays at high slip, a fall to 10⁻³⁰⁰ has too few terms to be judged.
+        _ if parameter.path == COEFFICIENT.path => &[0.4, 0.2857, 0.05, 1.3],
+        Quantity::PerVelocity => &[0.0, 0.05, 0.3],
         Quantity::Ratio => &[0.4, 0.2857, 0.05, 1.3, 0.0],
         Quantity::Velocity | Quantity::Force | Quantity::Displacement => &[0.2, 0.3, 7.0, 6e-6],
         _ => &[1.0, 0.5, 2.0],

@@ -24,10 +24,15 @@ fn scaled(law: &Friction, factor: f64) -> Friction {
         .zip(law.values())
         .map(|(parameter, value)| match parameter.quantity {
             Quantity::Velocity | Quantity::Displacement | Quantity::Force => value * factor,
+            Quantity::PerVelocity => value / factor,
             _ => value,
         })
         .collect();
-    kind.build(&values).expect("valid at any scale of length")
+    match kind.build(&values).expect("valid at any scale of length") {
+        // It counts slip in a length of the belt.
+        Friction::Coulomb(law) => Friction::Coulomb(law.counted_in(factor)),
+        law => law,
+    }
 }
 
 #[test]

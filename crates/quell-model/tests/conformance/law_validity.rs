@@ -110,7 +110,7 @@ fn names_lead_back_and_paths_are_those_of_the_friction_table() {
     for (index, &kind) in LawKind::ALL.iter().enumerate() {
         assert_eq!(LawKind::from_name(kind.name()), Some(kind));
         assert!(LawKind::ALL[..index].iter().all(|other| other.name() != kind.name()));
-        assert!(kind.name().chars().all(|c| c.is_ascii_lowercase() || c == '_'));
+        assert!(kind.name().chars().all(|c| c.is_ascii_lowercase() || "_-".contains(c)));
         assert!(!kind.about().is_empty());
         for (place, parameter) in kind.parameters().iter().enumerate() {
             assert_eq!(parameter.table(), "friction", "{}", parameter.path);

@@ -4,6 +4,7 @@
 //! or waveform is one file and one line in its list, and is tested here without a change.
 
 mod law_numbers;
+mod law_powers;
 mod law_samples;
 mod law_scaling;
 mod law_series;

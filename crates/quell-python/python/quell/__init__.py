@@ -27,7 +27,19 @@ from typing import Any
 from . import _quell, results
 from ._arguments import Arguments
 from ._axes import Axes, Axis
-from ._belt import Belt, Decreasing, Dither, Expression, Friction, Initial, Samples, Solver, Stribeck
+from ._belt import (
+    Belt,
+    Coulomb,
+    Decreasing,
+    Dither,
+    Expression,
+    Friction,
+    Initial,
+    Samples,
+    Solver,
+    Stribeck,
+    StribeckExponential,
+)
 from ._disc import Disc, Load, Mode
 from ._errors import Complaint, QuellError, RunError, StudyError, complaint
 from ._quell import __version__
@@ -37,6 +49,7 @@ __all__ = [
     "Axis",
     "Belt",
     "Complaint",
+    "Coulomb",
     "Decreasing",
     "Disc",
     "Dither",
@@ -50,6 +63,7 @@ __all__ = [
     "Samples",
     "Solver",
     "Stribeck",
+    "StribeckExponential",
     "Study",
     "StudyError",
     "__version__",

@@ -12,7 +12,19 @@ from ._axes import Axes, axes_tables
 from ._study import Study
 from ._tables import Table, Unknown, given
 
-__all__ = ["Belt", "Decreasing", "Dither", "Expression", "Friction", "Initial", "Samples", "Solver", "Stribeck"]
+__all__ = [
+    "Belt",
+    "Coulomb",
+    "Decreasing",
+    "Dither",
+    "Expression",
+    "Friction",
+    "Initial",
+    "Samples",
+    "Solver",
+    "Stribeck",
+    "StribeckExponential",
+]
 
 
 class Friction(Table):
@@ -80,6 +92,73 @@ class Decreasing(Friction):
         super().__init__("decreasing", **given(locals()))
 
 
+class Coulomb(Friction):
+    """Coulomb friction, μ(v) = μ_d + σ_v v for v > 0, with a static level μ_s ≥ μ_d.
+
+    Parameters
+    ----------
+    coefficient, static_coefficient :
+        μ_d and μ_s, dimensionless; μ_s is μ_d where it is not given.
+    viscous :
+        σ_v, the rise of the coefficient with slip speed, per length per τ; 0 where it is not given.
+    viscous_s_per_m :
+        The same in s/m, in a study in SI.
+    friction_force_n, static_friction_force_n, viscous_n_s_per_m :
+        Friction as forces in N and N·s/m instead, in a study in SI. The normal force may then be left out.
+    """
+
+    def __init__(
+        self,
+        coefficient: float | None = None,
+        *,
+        static_coefficient: float | None = None,
+        viscous: float | None = None,
+        viscous_s_per_m: float | None = None,
+        friction_force_n: float | None = None,
+        static_friction_force_n: float | None = None,
+        viscous_n_s_per_m: float | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__("coulomb", **given(locals()))
+
+
+class StribeckExponential(Friction):
+    """Exponential Stribeck friction, μ(v) = μ_d + (μ_s − μ_d) exp(−(v/v_s)^δ) + σ_v v for v > 0.
+
+    Parameters
+    ----------
+    coefficient, static_coefficient :
+        μ_d and μ_s, dimensionless.
+    reference_velocity :
+        v_s, over which friction falls, as length per τ (velocity/ω₀).
+    exponent :
+        δ; 2 where it is not given. Simulation needs 1, 2, 3 or 4; averages take any above 0.
+    viscous :
+        σ_v, the rise of the coefficient with slip speed, per length per τ; 0 where it is not given.
+    reference_velocity_m_per_s, viscous_s_per_m :
+        The same in m/s and s/m, in a study in SI.
+    friction_force_n, static_friction_force_n, viscous_n_s_per_m :
+        Friction as forces in N and N·s/m instead, in a study in SI. The normal force may then be left out.
+    """
+
+    def __init__(
+        self,
+        *,
+        coefficient: float | None = None,
+        static_coefficient: float | None = None,
+        reference_velocity: float | None = None,
+        exponent: float | None = None,
+        viscous: float | None = None,
+        reference_velocity_m_per_s: float | None = None,
+        viscous_s_per_m: float | None = None,
+        friction_force_n: float | None = None,
+        static_friction_force_n: float | None = None,
+        viscous_n_s_per_m: float | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__("stribeck-exponential", **given(locals()))
+
+
 class Expression(Friction):
     """A friction law as a formula: ``Expression("0.3 + 0.1*exp(-abs(v)/0.2)")``.
 
@@ -93,6 +172,11 @@ class Expression(Friction):
         ``friction.constants.NAME``.
     static_coefficient :
         μ_s, apart from the formula; the formula's value at v = 0 where it is not given.
+    maximum_velocity :
+        The slip speed up to which the formula holds and is proven finite, smooth and not negative, as length per τ; 10
+        times the speed of belt and dither where it is not given.
+    maximum_velocity_m_per_s :
+        The same in m/s, in a study in SI.
     """
 
     def __init__(
@@ -101,6 +185,8 @@ class Expression(Friction):
         *,
         constants: Mapping[str, float] | None = None,
         static_coefficient: float | None = None,
+        maximum_velocity: float | None = None,
+        maximum_velocity_m_per_s: float | None = None,
         **unknown: Unknown,
     ) -> None:
         super().__init__("expression", **given(locals()))
@@ -245,7 +331,8 @@ class Belt(Study):
     belt_velocity :
         v₀ ≥ 0: a length per τ. In SI ``belt_velocity_m_per_s``, in m/s.
     friction :
-        A law: :class:`Stribeck`, :class:`Decreasing`, :class:`Expression` (a formula), :class:`Samples` (measured), or
+        A law: :class:`Stribeck`, :class:`Decreasing`, :class:`Coulomb`, :class:`StribeckExponential`,
+        :class:`Expression` (a formula), :class:`Samples` (measured), or
         :class:`Friction` with its name.
     dither :
         A :class:`Dither`, or several.

@@ -18,9 +18,10 @@ mod references;
 pub use correction::{Bears, Correction, DiscKind, Proof};
 pub use corrections::CORRECTIONS;
 pub use references::{
-    CHAN_1994, CUNEFARE_GRAF_2002, DAS_SAIKI_SANDER_YORKE_2017, FILIPPOV_1988, HARRIS_1978,
-    IWAN_STAHL_1973, JORBA_ZOU_2005, MENCK_2013, MICHAUX_2005, NAYFEH_MOOK_1979, SOURCES, Source,
-    TAKAHASHI_IMADA_1984, THOMSEN_1999, THOMSEN_FIDLIN_2003, VOGEL_SKINNER_1965, WILSON_1927,
+    ARMSTRONG_HELOUVRY_1994, CHAN_1994, CUNEFARE_GRAF_2002, DAS_SAIKI_SANDER_YORKE_2017,
+    FILIPPOV_1988, HARRIS_1978, IWAN_STAHL_1973, JORBA_ZOU_2005, MENCK_2013, MICHAUX_2005,
+    NAYFEH_MOOK_1979, SOURCES, Source, TAKAHASHI_IMADA_1984, THOMSEN_1999, THOMSEN_FIDLIN_2003,
+    VOGEL_SKINNER_1965, WILSON_1927,
 };
 
 /// A computation, named after its verb.
@@ -121,6 +122,10 @@ fn citations(study: &Study) -> Vec<Citation> {
     let mut cite = |task, source, used| citations.push(Citation { source, task, used });
     for &task in Task::ALL {
         cite(task, MICHAUX_2005, model(belt));
+        if belt.friction().kind() == LawKind::StribeckExponential {
+            let used = "exponential Stribeck friction with a viscous part";
+            cite(task, ARMSTRONG_HELOUVRY_1994, used);
+        }
         match task {
             Task::Friction | Task::Stability => averaging(belt, task, &mut cite),
             Task::Simulate | Task::Response => simulation(task, &mut cite),
@@ -140,6 +145,12 @@ fn model(belt: &Belt) -> &'static str {
         (LawKind::Decreasing, false) => "equation of motion (2.1), (3.1); decreasing law (2.8)",
         (LawKind::Decreasing, true) => {
             "equation of motion (2.1), (3.1), (4.1); decreasing law (2.8)"
+        }
+        (LawKind::Coulomb | LawKind::StribeckExponential, false) => {
+            "equation of motion (2.1), (3.1)"
+        }
+        (LawKind::Coulomb | LawKind::StribeckExponential, true) => {
+            "equation of motion (2.1), (3.1), (4.1)"
         }
         (LawKind::Expression | LawKind::Samples, false) => {
             "equation of motion (2.1), (3.1); the law is the study's own"
@@ -183,7 +194,10 @@ fn closed_form(law: LawKind) -> Option<&'static str> {
         LawKind::Stribeck => Some("closed forms (3.29)–(3.31)"),
         LawKind::Decreasing => Some("closed forms (3.36)–(3.39), (B.10), (C.7)"),
         // Quadrature serves any other.
-        LawKind::Expression | LawKind::Samples => None,
+        LawKind::Coulomb
+        | LawKind::StribeckExponential
+        | LawKind::Expression
+        | LawKind::Samples => None,
     }
 }
 

@@ -33,6 +33,12 @@ pub const CUNEFARE_GRAF_2002: Source = Source {
     reference: "K. A. Cunefare, A. J. Graf: Experimental active control of automotive disc brake \
                 rotor squeal using dither. Journal of Sound and Vibration 250(4), 579–590, 2002",
 };
+/// Friction with a Stribeck fall and a viscous part in machines.
+pub const ARMSTRONG_HELOUVRY_1994: Source = Source {
+    key: "armstrong1994",
+    reference: "B. Armstrong-Hélouvry, P. Dupont, C. Canudas de Wit: A survey of models, analysis tools and \
+                compensation methods for the control of machines with friction. Automatica 30(7), 1083–1138, 1994",
+};
 /// Taylor steps and their control.
 pub const JORBA_ZOU_2005: Source = Source {
     key: "jorba2005",
@@ -106,6 +112,7 @@ pub const SOURCES: &[Source] = &[
     THOMSEN_1999,
     THOMSEN_FIDLIN_2003,
     CUNEFARE_GRAF_2002,
+    ARMSTRONG_HELOUVRY_1994,
     JORBA_ZOU_2005,
     FILIPPOV_1988,
     HARRIS_1978,

@@ -61,7 +61,7 @@ fn picture(done: &Map, entry: &Entry) -> Picture {
     let grid = plan.grid();
     let states: Vec<Status> = (0..grid.len()).map(|point| done.status(entry, point)).collect();
     let mut unknown: Vec<Status> =
-        states.iter().copied().filter(|status| *status != Status::Known).collect();
+        states.iter().copied().filter(|status| !status.has_number()).collect();
     unknown.sort_unstable();
     unknown.dedup();
     let value = |point: usize| {

@@ -207,7 +207,7 @@ fn panel(source: &Source, study: &Study, done: &Map, lines: Vec<Line>) -> Result
     let axes = [("frequency ratio", symbols.0), ("dither amplitude", symbols.1)];
     let states: Vec<Status> = (0..grid.len()).map(|point| done.status(entry, point)).collect();
     let mut unknown: Vec<Status> =
-        states.iter().copied().filter(|status| *status != Status::Known).collect();
+        states.iter().copied().filter(|status| !status.has_number()).collect();
     unknown.sort_unstable();
     unknown.dedup();
     let value = |point: usize| {

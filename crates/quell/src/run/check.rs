@@ -4,7 +4,7 @@ use quell_model::parameter::{BELT_VELOCITY, DAMPING_RATIO, NORMAL_LOAD};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::law;
+use super::{law, range};
 use crate::fields::Fields;
 use crate::study::Study;
 
@@ -62,7 +62,7 @@ impl Check<'_> {
             inner
         });
         fields.list("sweeps", axes.collect::<Vec<_>>());
-        fields.plain("warnings", law::warnings(study));
+        fields.plain("warnings", range::averaged(study));
         fields.finish()
     }
 }

@@ -8,6 +8,7 @@ use quell_belt::orbit::curve::{CurvesFound, Open, OpenLine, Plane, curves};
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
+use super::range::SlipMet;
 use super::thresholds::{Kind, path_in_words, quantity_of, told, value_in_words};
 use super::varied::{Named, ascending};
 use crate::complaint::{Complaint, Failure};
@@ -254,7 +255,15 @@ impl Curves {
         let told = |line: &OpenLine| {
             format!("curves may be missing {}", line_in_words(study, &self.question, line))
         };
-        self.open.iter().map(told).collect()
+        let mut slip = SlipMet::default();
+        let question = &self.question;
+        for point in self.curves.iter().flat_map(|curve| &curve.points) {
+            let along = study.belt().with(&question.along, point.along);
+            if let Ok(belt) = along.and_then(|belt| belt.with(&question.parameter, point.value)) {
+                slip.add_attractor(&belt, point.state);
+            }
+        }
+        slip.warnings(study).into_iter().chain(self.open.iter().map(told)).collect()
     }
 
     /// α = D/R of the first dither along a curve, where the first parameter is its amplitude.

@@ -1,10 +1,11 @@
 //! `friction`: the law and what the dither makes of it, over the slip velocity.
 
 use quell_belt::averaging::{AveragingOptions, Effective, FastMotion, Side, effective};
+use quell_model::Belt;
 use quell_model::units::Quantity;
-use quell_model::{Belt, Direction};
 use serde_json::Value as Json;
 
+use super::range;
 use crate::dataset::Dataset;
 use crate::fields::Fields;
 use crate::study::Study;
@@ -33,26 +34,21 @@ pub struct FrictionCurve {
     pub points: Vec<Point>,
 }
 
-/// Slip velocities of a picture: past the law's own velocity, the belt's, and the fast motion's.
+/// Slip velocities of a picture: past the law's own velocity, the belt's, and the fast motion's, up to the end of the law's
+/// range.
 pub fn grid(belt: &Belt) -> Vec<f64> {
-    let scale = belt.friction().velocity_scale();
-    let fast: f64 = belt
-        .dithers()
-        .iter()
-        .map(|dither| {
-            let level = match dither.direction {
-                Direction::Tangential => 1.0,
-                Direction::Normal => belt.friction().static_coefficient(),
-            };
-            level * dither.amplitude_ratio() * dither.waveform.peak_integral()
-        })
-        .sum();
-    let end = (2.0 * scale).max(1.5 * belt.belt_velocity()).max(1.5 * fast);
+    let law = belt.friction();
+    let fast = belt.fast_velocity();
+    let reached = 1.5 * belt.belt_velocity().max(fast);
+    let scale = law.velocity_scale();
+    let own = if law.has_velocity() || reached == 0.0 { 2.0 * scale } else { 0.0 };
+    let end = law.range().map_or(f64::INFINITY, |range| range.upper).min(own.max(reached));
     let mut side: Vec<f64> = (1..=POINTS).map(|k| end * f64::from(k) / f64::from(POINTS)).collect();
     // At the largest fast velocity the effective friction has a corner.
     if fast > 0.0 {
         side.extend((1..=CORNER).map(|k| fast * (1.0 - 0.5f64.powi(k))));
         side.push(fast);
+        side.retain(|&v| v <= end);
     }
     side.sort_by(f64::total_cmp);
     side.dedup();
@@ -138,8 +134,14 @@ impl FrictionCurve {
                 fields.why(&format!("effective_slope[{index}]"), why);
             }
         }
-        fields.plain("warnings", super::law::warnings(study));
+        fields.plain("warnings", self.warnings(study));
         fields.finish()
+    }
+
+    /// Where the slip velocities, with the fast motion, leave the range of the law.
+    pub fn warnings(&self, study: &Study) -> Vec<String> {
+        let speeds = self.points.iter().map(|point| point.slip_velocity.abs());
+        range::averaged_at(study, speeds.fold(0.0, f64::max))
     }
 
     /// As a dataset.

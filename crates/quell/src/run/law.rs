@@ -2,6 +2,7 @@
 
 use quell_model::Friction;
 use quell_model::friction::samples::Fit;
+use quell_model::parameter::COEFFICIENT;
 use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json};
 
@@ -49,13 +50,39 @@ pub(super) fn fields(study: &Study) -> Fields {
             }
             fields.nested("fit", inner);
         }
+        Friction::Coulomb(_) | Friction::StribeckExponential(_) => {
+            let load = study.belt().normal_load();
+            let level = law.get(COEFFICIENT.path).unwrap_or_default();
+            fields.number("friction_force", Quantity::Force, level * load).number(
+                "static_friction_force",
+                Quantity::Force,
+                law.static_coefficient() * load,
+            );
+        }
         Friction::Stribeck(_) | Friction::Decreasing(_) => {}
+    }
+    if let Some(range) = law.range() {
+        fields
+            .number("range_from", Quantity::Velocity, range.lower)
+            .number("range_to", Quantity::Velocity, range.upper)
+            .plain("range_limit", range.limit.to_string());
     }
     fields
 }
 
-/// What a law of one's own says beyond its numbers, as label and words; nothing for other laws.
+/// What a law says beyond its numbers, as label and words.
 pub fn words(study: &Study) -> Vec<(String, String)> {
+    let range = study.belt().friction().range().map(|range| {
+        let speed = |speed: f64| in_words(study, Quantity::Velocity, speed);
+        let words =
+            format!("slip from {} to {}: {}", speed(range.lower), speed(range.upper), range.limit);
+        ("  range".to_owned(), words)
+    });
+    of_own_law(study).into_iter().chain(range).collect()
+}
+
+/// What a law of one's own says beyond its numbers; nothing for other laws.
+fn of_own_law(study: &Study) -> Vec<(String, String)> {
     let row = |label: &str, words: String| (label.to_owned(), words);
     match study.belt().friction() {
         Friction::Expression(law) => {
@@ -76,7 +103,10 @@ pub fn words(study: &Study) -> Vec<(String, String)> {
                 row("  error of the fit", error(fit)),
             ]
         }
-        Friction::Stribeck(_) | Friction::Decreasing(_) => Vec::new(),
+        Friction::Stribeck(_)
+        | Friction::Decreasing(_)
+        | Friction::Coulomb(_)
+        | Friction::StribeckExponential(_) => Vec::new(),
     }
 }
 
@@ -86,28 +116,4 @@ fn error(fit: &Fit) -> String {
         "{:.2e} at most, {:.2e} rms, {:.2e} rms at left-out samples{pinned}",
         fit.largest_error, fit.rms_error, fit.left_out_error
     )
-}
-
-/// Where the study leaves the speeds that were measured.
-pub fn warnings(study: &Study) -> Vec<String> {
-    let Friction::Samples(law) = study.belt().friction() else { return Vec::new() };
-    let belt = study.belt();
-    let fast: f64 = belt
-        .dithers_along(quell_model::Direction::Tangential)
-        .map(|dither| dither.amplitude_ratio() * dither.waveform.peak_integral())
-        .sum();
-    let reached = belt.belt_velocity() + fast;
-    let unit = law.curve().velocity_unit();
-    let (fit, to) = (law.fit(), law.fit().range.1 * unit);
-    if reached <= to {
-        return Vec::new();
-    }
-    let speed = |speed: f64| in_words(study, Quantity::Velocity, speed);
-    vec![format!(
-        "slip reaches {} by the belt and the dither alone, samples end at {}: beyond them the fit's trend dies \
-         out towards μ = {:.4}",
-        speed(reached),
-        speed(to),
-        fit.limit
-    )]
 }

@@ -13,6 +13,7 @@ pub mod friction;
 pub mod law;
 pub mod map;
 pub mod orbit;
+pub mod range;
 pub mod response;
 pub mod simulate;
 pub mod stability;
@@ -75,7 +76,7 @@ pub fn start_in_words(study: &Study) -> String {
 }
 
 /// A quantity in a sentence: six digits, in SI where the study is.
-fn in_words(study: &Study, quantity: Quantity, value: f64) -> String {
+pub(crate) fn in_words(study: &Study, quantity: Quantity, value: f64) -> String {
     match study.scales().zip(quantity.si_unit()) {
         Some((scales, (unit, _))) => format!("{} {unit}", digits(scales.to_si(quantity, value))),
         None => digits(value),

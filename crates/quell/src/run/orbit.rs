@@ -6,9 +6,11 @@ use quell_belt::orbit::cycle::{cycle_reached, cycles, sliding_verdict};
 use quell_belt::orbit::{NoOrbit, from_sliding, near};
 pub use quell_belt::orbit::{Orbit, Verdict};
 use quell_belt::simulation::{EventKind, Start};
+use quell_model::Belt;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
+use super::range::SlipMet;
 use super::thresholds::Protocol;
 use super::{failed, in_words, moves, resolved};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
@@ -59,12 +61,26 @@ pub struct Response {
     pub sliding: Option<Verdict>,
     /// Whether a run from rest was taken because v₀ = 0 has no steady sliding to continue from.
     pub from_rest_instead: bool,
+    /// The slip that the responses meet over their periods.
+    pub slip: SlipMet,
 }
 
-impl From<Orbit> for Response {
-    fn from(orbit: Orbit) -> Self {
-        Self { orbit: Some(orbit), cycles: Vec::new(), sliding: None, from_rest_instead: false }
+impl Response {
+    /// A periodic response of a belt.
+    fn of(belt: &Belt, orbit: Orbit) -> Self {
+        let slip = slip_of(belt, [&orbit]);
+        let orbit = Some(orbit);
+        Self { orbit, cycles: Vec::new(), sliding: None, from_rest_instead: false, slip }
     }
+}
+
+/// The slip that responses of a belt meet over their periods.
+fn slip_of<'o>(belt: &Belt, orbits: impl IntoIterator<Item = &'o Orbit>) -> SlipMet {
+    let mut slip = SlipMet::default();
+    for orbit in orbits {
+        slip.add_run(belt, orbit.start, orbit.period);
+    }
+    slip
 }
 
 /// The periodic response of a study.
@@ -99,7 +115,7 @@ pub fn run(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
             from_sliding(belt, STEPS).and_then(|orbit| near(belt, orbit.start, periods))
         }
     };
-    let response = |orbit| Response { from_rest_instead, ..Response::from(orbit) };
+    let response = |orbit| Response { from_rest_instead, ..Response::of(belt, orbit) };
     found.map(response).map_err(refused)
 }
 
@@ -127,7 +143,9 @@ fn undithered(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
         }
     };
     let sliding = Some(sliding_verdict(belt));
-    Ok(Response { orbit: orbit.cloned(), cycles, sliding, from_rest_instead: false })
+    let mut slip = slip_of(belt, &cycles);
+    slip.add(belt, belt.belt_velocity());
+    Ok(Response { orbit: orbit.cloned(), cycles, sliding, from_rest_instead: false, slip })
 }
 
 impl Protocol {
@@ -230,6 +248,7 @@ impl Response {
         if self.from_rest_instead {
             object["sentence"] = self.sentence(study).into();
         }
+        object["warnings"] = self.slip.warnings(study).into();
         if self.sliding.is_some() {
             object["cycles"] = self.cycles.iter().map(|cycle| json(study, cycle)).collect();
         }

@@ -6,6 +6,7 @@ use quell_belt::simulation::{Sample, Start};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::range::SlipMet;
 use super::{failed, in_words, start, start_in_words};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
@@ -21,6 +22,8 @@ pub struct Steady {
     pub response: Response,
     /// Whether the belt moves.
     moves: bool,
+    /// The slip that both runs met.
+    pub slip: SlipMet,
 }
 
 /// Measures the steady response of a study.
@@ -32,7 +35,12 @@ pub fn run(study: &Study) -> Result<Steady, Failure> {
     let start = start(study)?;
     let response = respond(study.belt(), start, study.solver()).map_err(failed)?;
     let moves = study.belt().belt_velocity() > 0.0;
-    Ok(Steady { start, response, moves })
+    let belt = study.belt();
+    let samples = response.record.samples.iter().chain(&response.undithered_record.samples);
+    let mut slip = SlipMet::of_velocities(belt, samples.map(|sample| sample.velocity));
+    slip.add_start(belt, start);
+    slip.add_start(&belt.undithered(), start);
+    Ok(Steady { start, response, moves, slip })
 }
 
 impl Steady {
@@ -121,7 +129,7 @@ impl Steady {
     pub fn warnings(&self, study: &Study) -> Vec<String> {
         let time = if study.scales().is_some() { "t" } else { "τ" };
         let settle = in_words(study, Quantity::Time, study.solver().settle);
-        let mut warnings = Vec::new();
+        let mut warnings = self.slip.warnings(study);
         let mut warn = |which: &str, settled: bool| {
             if !settled {
                 warnings.push(format!(

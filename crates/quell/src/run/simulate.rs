@@ -2,10 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use quell_belt::simulation::{Event, EventRecorder, FinalState, Sample, Sampler, Start, simulate};
+use quell_belt::simulation::{
+    Event, EventRecorder, FinalState, LargestSlip, Sample, Sampler, Start, simulate,
+};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::range::SlipMet;
 use super::{failed, in_words, start, start_in_words};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
@@ -45,6 +48,8 @@ pub struct Simulation {
     pub undithered_samples: Option<Vec<Sample>>,
     /// Whether the samples are coarser than the fastest dither deserves.
     pub coarse: bool,
+    /// The slip that it met.
+    pub slip: SlipMet,
 }
 
 /// Integrates a study to τ = `until`.
@@ -62,13 +67,16 @@ pub fn run(study: &Study, until: f64, options: Options) -> Result<Simulation, Fa
     let mut sampler = Sampler::new(start.time, sample_step, count);
     let tolerance = study.solver().tolerance;
     let mut recorder = EventRecorder::default();
+    let mut largest = LargestSlip::of(belt);
+    let mut watch = (&mut largest, &mut sampler);
     let end = if options.events {
-        let mut both = (&mut recorder, &mut sampler);
-        simulate(belt, start, until, tolerance, &mut both)
+        simulate(belt, start, until, tolerance, &mut (&mut recorder, &mut watch))
     } else {
-        simulate(belt, start, until, tolerance, &mut sampler)
+        simulate(belt, start, until, tolerance, &mut watch)
     }
     .map_err(failed)?;
+    let mut slip = SlipMet::default();
+    slip.add(belt, largest.speed);
     let samples = with_end(sampler.samples, &end);
     let undithered_samples = if options.undithered && !belt.dithers().is_empty() {
         let mut sampler = Sampler::new(start.time, sample_step, count);
@@ -85,6 +93,7 @@ pub fn run(study: &Study, until: f64, options: Options) -> Result<Simulation, Fa
         samples: options.samples.then_some(samples),
         undithered_samples,
         coarse,
+        slip,
     })
 }
 
@@ -178,13 +187,13 @@ impl Simulation {
             .plain("steps", end.steps)
             .plain("near_tangential_releases", end.near_tangential_releases)
             .number("tolerance", Quantity::Ratio, study.solver().tolerance)
-            .plain("warnings", self.warnings());
+            .plain("warnings", self.warnings(study));
         fields.finish()
     }
 
     /// What a reader of the numbers should know.
-    pub fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
+    pub fn warnings(&self, study: &Study) -> Vec<String> {
+        let mut warnings = self.slip.warnings(study);
         if self.coarse {
             warnings.push(format!(
                 "only {MOST_SAMPLES} samples are kept; they are coarser than the dither deserves"

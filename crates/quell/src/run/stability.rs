@@ -13,7 +13,7 @@ use quell_model::Belt;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::in_words;
+use super::{in_words, range};
 use crate::fields::Fields;
 use crate::study::Study;
 
@@ -287,13 +287,45 @@ impl Stability {
     /// What a reader of the numbers should know.
     pub fn warnings(&self, study: &Study) -> Vec<String> {
         let slow = study.belt().dithers().iter().filter(|dither| dither.frequency_ratio < FAST);
-        slow.map(|dither| {
+        let slow = slow.map(|dither| {
             format!(
                 "averaging presumes fast dither; R = {} is hardly fast, simulate to be sure",
                 dither.frequency_ratio
             )
-        })
-        .collect()
+        });
+        slow.chain(range::averaged(study)).chain(self.beyond(study)).collect()
+    }
+
+    /// Critical amplitudes and bands that lie outside of the range of the friction law.
+    fn beyond(&self, study: &Study) -> Vec<String> {
+        let belt = study.belt();
+        let Some(range) = belt.friction().range() else { return Vec::new() };
+        let averaged: Vec<&Averaged> = [&self.limit].into_iter().chain(&self.sharper).collect();
+        let mut warnings = Vec::new();
+        let amplitudes = averaged.iter().filter_map(|it| it.critical_amplitudes.as_ref().ok());
+        let slips = amplitudes.flatten().map(|critical| {
+            let slip = range::at_amplitude(belt, critical.amplitude);
+            (critical.amplitude, slip)
+        });
+        let outside = slips.filter(|(_, slip)| *slip > range.upper);
+        if let Some((amplitude, slip)) = outside.min_by(|a, b| a.0.total_cmp(&b.0)) {
+            let amplitude = in_words(study, Quantity::Force, amplitude);
+            let what =
+                format!("at the critical amplitude D = {amplitude} slip and dither together reach");
+            warnings.push(range::sentence(study, &range, &what, slip));
+        }
+        let bands = averaged.iter().filter_map(|it| it.unstable_bands.as_ref().ok());
+        let ends = bands.flatten().map(|band| band.upper.unwrap_or(band.lower));
+        let furthest = ends.fold(0.0, f64::max);
+        let slip = range::with_dither(belt, furthest);
+        if slip > range.upper {
+            let furthest = in_words(study, Quantity::Velocity, furthest);
+            let what = format!(
+                "unstable belt velocities go up to {furthest}, where slip and dither together reach"
+            );
+            warnings.push(range::sentence(study, &range, &what, slip));
+        }
+        warnings
     }
 
     /// As JSON.

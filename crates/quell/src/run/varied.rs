@@ -197,7 +197,7 @@ fn address(option: &'static str, path: &str) -> Result<Address, Box<Complaint>> 
     let found = resolve(path).map_err(|nearest| {
         refuse(nearest.or_else(|| suggest::word(path, ["dither.amplitude", "belt.belt_velocity"])))
     })?;
-    if found.key.parameter().is_some() { Ok(found) } else { Err(refuse(None)) }
+    if found.key.takes_number() { Ok(found) } else { Err(refuse(None)) }
 }
 
 /// A complaint about a study at an end of the range, told of that option.

@@ -5,10 +5,10 @@ use quell_model::parameter::{
 };
 use serde_json::Value as Json;
 
-use super::InitialState;
 use super::mirror::{Node, Table};
 use super::reader::{Found, Reader};
 use super::vocabulary::{Choice, Section};
+use super::{InitialState, friction};
 use crate::complaint::{Complaint, Fault, Origin};
 
 /// Numbers of `[belt]`, each where it was right.
@@ -32,8 +32,14 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> BeltTable {
     };
     reader.unknown_keys(table, Section::Belt, "belt", &["initial"]);
     let mut number = |parameter| reader.number(table, "belt", node.origin, parameter);
-    let (damping_ratio, normal_load, belt_velocity) =
-        (number(DAMPING_RATIO), number(NORMAL_LOAD), number(BELT_VELOCITY));
+    let (damping_ratio, belt_velocity) = (number(DAMPING_RATIO), number(BELT_VELOCITY));
+    // Friction in newtons may stand for the normal force.
+    let normal_load = match reader.optional(table, "belt", NORMAL_LOAD, None) {
+        Found::Absent if friction::in_newtons(reader, root) => None,
+        Found::Absent => reader.number(table, "belt", node.origin, NORMAL_LOAD),
+        Found::Value(load) => Some(load),
+        Found::Wrong => None,
+    };
     let initial = match table.get("initial") {
         Some(node) => initial(reader, node),
         None => Some(InitialState::Rest),

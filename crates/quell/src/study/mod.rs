@@ -157,10 +157,16 @@ impl Study {
             reader.complain(subject::not_of_a_belt(node.origin));
             return Err(reader.into_complaints());
         }
-        let belt = belt::read(&mut reader, &mirror);
-        let friction = friction::read(&mut reader, &mirror, folder, known);
-        let (friction, measured) = friction.map_or((None, None), |(law, from)| (Some(law), from));
+        let mut belt = belt::read(&mut reader, &mirror);
+        let given = friction::Given { folder, known, normal_load: belt.normal_load };
+        let friction = friction::read(&mut reader, &mirror, given);
         let dithers = dither::read(&mut reader, &mirror);
+        if let Some(load) = friction.as_ref().and_then(|read| read.own_load) {
+            belt.normal_load = Some(load);
+            friction::needs_no_normal_force(&mut reader, &mirror, dithers.as_deref());
+        }
+        let (friction, measured) =
+            friction.map_or((None, None), |read| (Some(read.law), read.measured));
         let solver = solver::read(&mut reader, &mirror);
         let sweeps = sweep::read(&mut reader, &mirror);
         let built = build(&mut reader, belt, friction, dithers);

@@ -180,14 +180,7 @@ fn parameter(
     };
     let path = reader.text(&key, node)?;
     match vocabulary::resolve(&path) {
-        Ok(address)
-            if matches!(
-                address.key.role,
-                Role::Number(_) | Role::Twin(..) | Role::Scale(_) | Role::Constant
-            ) =>
-        {
-            Some((path, address))
-        }
+        Ok(address) if address.key.takes_number() => Some((path, address)),
         Ok(_) => {
             reader.wrong(&key, node, "path of a number of the study, such as \"dither.amplitude\"");
             None

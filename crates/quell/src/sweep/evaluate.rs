@@ -11,8 +11,10 @@ use quell_belt::response::{
 };
 use quell_belt::simulation::Start;
 use quell_disc::Growth;
+use quell_model::{Belt, Dither};
 
 use super::status::Status;
+use crate::run::range;
 use crate::run::stability::SHARPER;
 use crate::study::Study;
 
@@ -38,6 +40,11 @@ pub enum Computation {
 }
 
 impl Computation {
+    /// Whether it is about a belt, whose friction law may have a range.
+    pub fn meets_friction(self) -> bool {
+        !matches!(self, Self::DiscGrowth | Self::DiscGrowthUndithered)
+    }
+
     /// Whether it integrates responses.
     pub fn is_response(self) -> bool {
         matches!(self, Self::Response | Self::ResponseWithCost | Self::ResponseWithEffect)
@@ -65,6 +72,8 @@ pub struct Steady {
     pub dither_stroke: Option<f64>,
     /// Smallest normal load over k: a length.
     pub minimum_normal_load: f64,
+    /// Largest slip speed of both records and of the first slow period.
+    pub largest_slip: f64,
 }
 
 impl From<&Compared> for Steady {
@@ -81,6 +90,7 @@ impl From<&Compared> for Steady {
             dither_power: dithered.dither_power,
             dither_stroke: dithered.dither_stroke,
             minimum_normal_load: dithered.minimum_normal_load,
+            largest_slip: dithered.largest_slip.max(compared.undithered.largest_slip),
         }
     }
 }
@@ -102,6 +112,60 @@ pub struct Results {
     pub disc: Option<Result<Growth, Status>>,
     /// The same without dither.
     pub disc_undithered: Option<Result<Growth, Status>>,
+    /// The range of the friction law beside what averages meet, where the law has a range.
+    pub reach: Option<Reach>,
+}
+
+/// The fastest slip that a law holds for, beside the slip that averages meet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reach {
+    /// End of the law's range.
+    upper: f64,
+    /// Slip at v₀ with every dither but the first.
+    without_first: f64,
+    /// Fast velocity of the first dither per amplitude ratio α.
+    per_ratio: f64,
+    /// α of the first dither.
+    ratio: f64,
+}
+
+impl Reach {
+    fn of(belt: &Belt) -> Option<Self> {
+        let upper = belt.friction().range()?.upper;
+        let unit = |dither: &Dither| Dither { amplitude: dither.frequency_ratio, ..*dither };
+        let first = belt.dithers().first();
+        let ratio = first.map_or(0.0, Dither::amplitude_ratio);
+        Some(Self {
+            upper,
+            without_first: range::at_amplitude(belt, 0.0),
+            per_ratio: first.map_or(0.0, |dither| belt.fast_velocity_of(&unit(dither))),
+            ratio,
+        })
+    }
+
+    /// Whether averages leave the range with this α of the first dither.
+    fn is_left_at(&self, ratio: f64) -> bool {
+        ratio.mul_add(self.per_ratio, self.without_first) > self.upper
+    }
+}
+
+impl Results {
+    /// Whether slip leaves the range of the friction law where `value` comes from.
+    pub(super) fn leaves_range(&self, computation: Computation, value: f64) -> bool {
+        let Some(reach) = self.reach else { return false };
+        match computation {
+            Computation::Response
+            | Computation::ResponseWithCost
+            | Computation::ResponseWithEffect => {
+                let met = |steady: Steady| steady.largest_slip > reach.upper;
+                self.steady.is_some_and(|steady| steady.is_ok_and(met))
+            }
+            Computation::Criterion | Computation::CriterionSharper => reach.is_left_at(reach.ratio),
+            // An amplitude ratio of the first dither.
+            Computation::CriticalAmplitudes => reach.is_left_at(value),
+            Computation::DiscGrowth | Computation::DiscGrowthUndithered => false,
+        }
+    }
 }
 
 /// Computes at every point of a chunk.
@@ -144,13 +208,19 @@ fn responses(
                 Some(Case { belt: points[at].belt().clone(), start: starts[at].ok()? })
             })
             .collect();
-        for (&at, compared) in alike.iter().zip(compare_many(&cases, &solver, wanted)) {
+        let firsts: Vec<(&Belt, Start)> =
+            cases.iter().map(|case| (&case.belt, case.start)).collect();
+        let firsts = range::of_starts(&firsts);
+        let compared = compare_many(&cases, &solver, wanted).into_iter().zip(firsts);
+        for (&at, (compared, first)) in alike.iter().zip(compared) {
             outcomes[at] = compared.map_err(|_| Status::Stalled).and_then(|compared| {
                 let start = starts[at]?;
                 let belt = points[at].belt();
                 let effect =
                     with_effect.then(|| effect(belt, start, &compared, Ending::of(belt, start)));
-                Ok((Steady::from(&compared), effect))
+                let steady = Steady::from(&compared);
+                let largest_slip = steady.largest_slip.max(first);
+                Ok((Steady { largest_slip, ..steady }, effect))
             });
         }
     }
@@ -160,7 +230,7 @@ fn responses(
 /// What averaging says at a point.
 fn averages(study: &Study, wanted: &[Computation]) -> Results {
     let belt = study.belt();
-    let mut results = Results::default();
+    let mut results = Results { reach: Reach::of(belt), ..Results::default() };
     let told = |why: AveragingError| Status::from(&why);
     for computation in wanted {
         match computation {

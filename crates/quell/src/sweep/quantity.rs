@@ -67,10 +67,11 @@ impl Variable {
     }
 
     /// Every state it can have, in the order of their codes.
-    pub fn all_statuses(&self) -> Vec<Status> {
+    pub fn all_statuses(&self, computation: Computation) -> Vec<Status> {
         let common = [Status::Known, Status::InvalidStudy, Status::NotFinite, Status::Missing];
+        let friction = computation.meets_friction().then_some(Status::BeyondRange);
         let mut all: Vec<Status> =
-            common.into_iter().chain(self.statuses.iter().copied()).collect();
+            common.into_iter().chain(friction).chain(self.statuses.iter().copied()).collect();
         all.sort_unstable();
         all.dedup();
         all

@@ -7,7 +7,7 @@
 
 use quell_model::units::{self, Scales};
 
-use super::evaluate::Results;
+use super::evaluate::{Computation, Results};
 use super::quantity::{Kind, Quantity, Variable};
 use super::status::Status;
 use crate::quantity::unit_of;
@@ -94,6 +94,8 @@ impl Data {
 pub struct Entry {
     /// The variable.
     pub variable: Variable,
+    /// What it is computed from.
+    pub computation: Computation,
     /// Its values.
     pub value: usize,
     /// Its values in SI.
@@ -114,7 +116,10 @@ impl Sheet {
     pub fn new(study: &Subject, quantities: &[&Quantity]) -> Self {
         let si = study.scales().is_some();
         let mut sheet = Self { entries: Vec::new(), fields: Vec::new() };
-        for variable in quantities.iter().flat_map(|quantity| quantity.variables) {
+        let variables = quantities.iter().flat_map(|quantity| {
+            quantity.variables.iter().map(|variable| (variable, quantity.computation))
+        });
+        for (variable, computation) in variables {
             let name = variable.name;
             let content = match variable.kind {
                 Kind::Number(_) | Kind::Rate | Kind::DiscRate => Content::Numbers,
@@ -132,13 +137,13 @@ impl Sheet {
                 let unit = unit.to_owned();
                 sheet.add(name, variable.about, unit, Content::Numbers, state.clone())
             });
-            let states = variable.all_statuses();
+            let states = variable.all_statuses(computation);
             let states = states.iter().map(|status| (status.code(), status.name())).collect();
             let about = format!("state of {name}: known, or why it is not");
             let content = Content::Codes(states);
             let name = format!("{name}_status");
             let status = sheet.add(name, &about, String::new(), content, None);
-            sheet.entries.push(Entry { variable: *variable, value, twin, status });
+            sheet.entries.push(Entry { variable: *variable, computation, value, twin, status });
         }
         sheet
     }
@@ -176,11 +181,17 @@ impl Sheet {
         for point in points {
             for entry in &self.entries {
                 let (value, scales) = match point {
-                    Some((scales, results)) => (entry.variable.read(results), *scales),
+                    Some((scales, results)) => {
+                        let value = entry.variable.read(results);
+                        let beyond =
+                            value.is_ok_and(|value| results.leaves_range(entry.computation, value));
+                        let known = if beyond { Status::BeyondRange } else { Status::Known };
+                        (value.map(|value| (value, known)), *scales)
+                    }
                     None => (Err(Status::InvalidStudy), None),
                 };
                 let (number, code, status) = match value {
-                    Ok(value) => (value, whole(value), Status::Known),
+                    Ok((value, status)) => (value, whole(value), status),
                     Err(status) => (unknown(status), unknown_word(entry.variable.kind), status),
                 };
                 arrays[entry.value].push(number, code);
@@ -188,7 +199,7 @@ impl Sheet {
                 if let Some(twin) = entry.twin {
                     let factor = scales.map_or(1.0, |scales| factor(entry.variable.kind, scales));
                     // A NaN times a factor need not keep its code.
-                    let number = if status == Status::Known { number * factor } else { number };
+                    let number = if status.has_number() { number * factor } else { number };
                     arrays[twin].push(number, 0);
                 }
             }
@@ -255,7 +266,7 @@ mod tests {
 
     #[test]
     fn what_is_unknown_is_not_what_is_missing() {
-        for status in Status::ALL.iter().filter(|status| **status != Status::Known) {
+        for status in Status::ALL.iter().filter(|status| !status.has_number()) {
             let number = unknown(*status);
             assert!(number.is_nan() && number.to_bits() != f64::NAN.to_bits());
         }

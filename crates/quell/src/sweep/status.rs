@@ -48,6 +48,8 @@ pub enum Status {
     NeverChanges = 27,
     /// Averaged stability changes at one amplitude only.
     ChangesOnce = 28,
+    /// The number is there, but slip left the range of the friction law.
+    BeyondRange = 29,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
 }
@@ -74,12 +76,18 @@ impl Status {
         Self::NoDither,
         Self::NeverChanges,
         Self::ChangesOnce,
+        Self::BeyondRange,
         Self::Missing,
     ];
 
     /// Its code in a store.
     pub const fn code(self) -> u8 {
         self as u8
+    }
+
+    /// Whether the number is there.
+    pub const fn has_number(self) -> bool {
+        matches!(self, Self::Known | Self::BeyondRange)
     }
 
     /// The state with a code.
@@ -109,6 +117,7 @@ impl Status {
             Self::NoDither => "no_dither",
             Self::NeverChanges => "never_changes",
             Self::ChangesOnce => "changes_once",
+            Self::BeyondRange => "beyond_range",
             Self::Missing => "missing",
         }
     }
@@ -153,6 +162,9 @@ impl Status {
             Self::NoDither => "there is no dither",
             Self::NeverChanges => "no amplitude of the first dither changes averaged stability",
             Self::ChangesOnce => "averaged stability changes at one amplitude only, the lower one",
+            Self::BeyondRange => {
+                "the value is there, but slip leaves the range of the friction law"
+            }
             Self::Missing => "not computed yet",
         }
     }

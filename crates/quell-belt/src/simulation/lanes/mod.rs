@@ -37,7 +37,13 @@ pub(super) fn side_by_side(
     tolerance: f64,
 ) -> Vec<Outcome> {
     let mut outcomes = vec![Err(Stalled::NEVER_STARTED); runs.len()];
-    let mut rest: Vec<(usize, Run<'_>)> = runs.into_iter().enumerate().collect();
+    let mut rest: Vec<(usize, Run<'_>)> = Vec::with_capacity(runs.len());
+    for (number, run) in runs.into_iter().enumerate() {
+        match run.belt.friction().unsimulated() {
+            Some(why) => outcomes[number] = Err(Stalled { time: run.start.time, why }),
+            None => rest.push((number, run)),
+        }
+    }
     while let Some((_, first)) = rest.first() {
         let (law, shapes) = (first.belt.friction().clone(), shapes_of(first));
         let alike = |run: &Run<'_>| run.belt.friction().is_alike(&law) && shapes_of(run) == shapes;

@@ -27,6 +27,9 @@ pub(crate) fn slide(
     tolerance: f64,
     observer: &mut dyn Observer,
 ) -> Result<FinalState, Stalled> {
+    if let Some(why) = belt.friction().unsimulated() {
+        return Err(Stalled { time: start.time, why });
+    }
     belt.friction().visit(Sliding { belt, sign, start, until, tolerance, observer })
 }
 

@@ -9,19 +9,23 @@
 //! bilinear recurrence for Taylor coefficients (`series`): values, slopes and all derivatives are exact up
 //! to rounding. Named constants are numbers of the law, to be varied like any other.
 //!
-//! Limits: formulas must be smooth for v ≥ 0, finite and not negative for all slip speeds up to
-//! [`REACH`] times the speed over which they vary near v = 0; both are checked on [`PLACES`] speeds
-//! and at the extrema between them.
+//! Limits: formulas must be smooth, finite and not negative for all slip speeds up to `friction.maximum_velocity`. That is
+//! proven, not sampled (`proof`), for each belt into which the law is put ([`SlidingLaw::placed`]): up to the speed that the
+//! study gives or, where it gives none, up to [`MULTIPLE`] times the slip that belt and dither reach together.
 
 use std::sync::Arc;
 
 use quell_numerics::lane::Lane;
 
-use super::{BranchSeries, Friction, SlidingLaw, not_a_number_of, side_by_side};
+use super::{
+    BranchSeries, Friction, RangeLimit, SlidingLaw, SlipRange, Surroundings, not_a_number_of,
+    side_by_side,
+};
 use crate::Invalid;
-use crate::parameter::{Parameter, STATIC_COEFFICIENT};
+use crate::parameter::{MAXIMUM_VELOCITY, Parameter, STATIC_COEFFICIENT};
 
 mod program;
+mod proof;
 mod series;
 mod syntax;
 mod tree;
@@ -29,6 +33,7 @@ mod tree;
 use program::Program;
 pub use series::{ExpressionConstants, ExpressionSeries};
 pub use syntax::{LONGEST, SyntaxError, is_name, is_taken};
+use tree::Tree;
 
 /// Path of the formula in a study file.
 pub const FORMULA: &str = "friction.coefficient";
@@ -36,11 +41,10 @@ pub const FORMULA: &str = "friction.coefficient";
 /// Table of the named constants in a study file.
 pub const CONSTANTS: &str = "friction.constants";
 
-/// Slip speed up to which a law is checked, in units of its velocity scale.
-pub const REACH: f64 = 1e6;
-
-/// Speeds at which a law is checked, in equal ratios from 1/[`REACH`] to [`REACH`].
-pub const PLACES: u32 = 960;
+/// Slip speed up to which a law is proven where the study gives none, in units of the belt's speed plus the largest fast
+/// velocity of its dither: stick–slip and transients stay far below. Of a belt at rest without dither, in units of the
+/// speed over which the formula varies.
+pub const MULTIPLE: f64 = 10.0;
 
 /// Coefficients beyond this are taken for infinite: exponentials are held before they overflow.
 const LARGEST: f64 = 1e100;
@@ -53,6 +57,7 @@ const DERIVATIVES: usize = 6;
 pub struct Expression {
     text: Arc<str>,
     names: Arc<[String]>,
+    tree: Arc<Tree>,
     /// Values of the named constants.
     named: Vec<f64>,
     program: Arc<Program>,
@@ -64,6 +69,20 @@ pub struct Expression {
     velocity_unit: f64,
     /// Velocity scale in units of v.
     scale: f64,
+    /// The largest slip speed for which the formula is meant, in units of v, where the study gives one.
+    maximum: Option<f64>,
+    /// Slip speed up to which the formula is proven, in units of v.
+    proven: Proven,
+}
+
+/// What a belt has proven of a formula: no part of the law, so that laws in different belts are equal.
+#[derive(Clone, Copy, Debug, Default)]
+struct Proven(Option<f64>);
+
+impl PartialEq for Proven {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 impl Expression {
@@ -104,8 +123,8 @@ impl Expression {
         let refused = |why: String| Invalid::new(FORMULA, text, why);
         let compiled = syntax::parse(text, &names)
             .map_err(|error| format!("a formula; {error}"))
-            .and_then(|tree| Ok((Program::new(&tree, 1.0)?, Program::new(&tree, -1.0)?)));
-        let (program, mirrored) = match compiled {
+            .and_then(|tree| Ok((Program::new(&tree, 1.0)?, Program::new(&tree, -1.0)?, tree)));
+        let (program, mirrored, tree) = match compiled {
             Ok(programs) => programs,
             Err(why) => {
                 complaints.push(refused(why));
@@ -118,6 +137,7 @@ impl Expression {
         let law = Self {
             text: text.into(),
             names: names.iter().map(|&name| name.to_owned()).collect(),
+            tree: Arc::new(tree),
             named: constants.iter().map(|(_, value)| *value).collect(),
             program: Arc::new(program),
             constants: Vec::new(),
@@ -125,6 +145,8 @@ impl Expression {
             static_coefficient: 0.0,
             velocity_unit,
             scale: 1.0,
+            maximum: None,
+            proven: Proven::default(),
         };
         let law = law.settled()?;
         law.same_in_both_directions(&mirrored).map_err(|why| vec![refused(why)])?;
@@ -135,6 +157,7 @@ impl Expression {
     fn settled(mut self) -> Result<Self, Vec<Invalid>> {
         let refused = |law: &Self, why: String| vec![Invalid::new(FORMULA, &law.text, why)];
         self.constants = self.program.values(&self.named);
+        self.proven = Proven::default();
         let (start, slope) = self.at(0.0);
         if !start.is_finite() || !slope.is_finite() {
             let why = "smooth up to v = 0⁺, with a finite value and slope there; of powers of v only whole \
@@ -143,7 +166,11 @@ impl Expression {
             return Err(refused(&self, why));
         }
         self.scale = self.scale_of_variation();
-        self.check().map_err(|why| refused(&self, why))?;
+        // Differences of equal terms leave their rounding, which has the size of the terms.
+        if start < -4.0 * f64::EPSILON {
+            let why = format!("≥ 0 at every slip speed; at v = 0⁺ it is {start:.6}");
+            return Err(refused(&self, why));
+        }
         let level = self.given_static.unwrap_or(start);
         // A sum of decimals may miss the level by its rounding.
         let rounding = 4.0 * f64::EPSILON * level;
@@ -165,6 +192,37 @@ impl Expression {
     /// Names and values of the constants, in order.
     pub fn named(&self) -> impl Iterator<Item = (&str, f64)> {
         self.names.iter().map(String::as_str).zip(self.named.iter().copied())
+    }
+
+    /// The same formula, meant for slip speeds up to `speed`, a velocity of the equations; up to a declared multiple of
+    /// the belt's and the dither's speed where it is not given.
+    ///
+    /// # Errors
+    /// A speed that is not finite or not above 0.
+    pub fn with_maximum_velocity(&self, speed: Option<f64>) -> Result<Self, Vec<Invalid>> {
+        if let Some(speed) = speed {
+            MAXIMUM_VELOCITY.check(speed).map_err(|invalid| vec![invalid])?;
+        }
+        let maximum = speed.map(|speed| speed / self.velocity_unit);
+        Ok(Self { maximum, proven: Proven::default(), ..self.clone() })
+    }
+
+    /// The same formula, proven finite, smooth and not negative at every slip speed up to `speed`, a velocity of the
+    /// equations. The proof is by interval arithmetic on the tree of the formula.
+    ///
+    /// # Errors
+    /// Under `friction.coefficient`: the slip at which the formula is negative or not finite, with its value, or at which
+    /// it could not be proven.
+    pub fn proven_up_to(&self, speed: f64) -> Result<Self, Vec<Invalid>> {
+        let speed = speed / self.velocity_unit;
+        if !(speed.is_finite() && speed > 0.0) {
+            return Ok(self.clone());
+        }
+        if self.proven.0.is_none_or(|proven| proven < speed) {
+            proof::prove(self, speed)
+                .map_err(|doubt| vec![Invalid::new(FORMULA, &self.text, doubt.to_string())])?;
+        }
+        Ok(Self { proven: Proven(Some(speed)), ..self.clone() })
     }
 
     /// Velocity of the equations that one unit of v means.
@@ -207,57 +265,6 @@ impl Expression {
         scale.fold(f64::INFINITY, f64::min).min(f64::MAX.sqrt())
     }
 
-    /// Whether the law is finite and not negative at all speeds.
-    fn check(&self) -> Result<(), String> {
-        let negative = |speed: f64, value: f64| {
-            format!("≥ 0 at every slip speed; at v = {speed:.6} it is {value:.6}")
-        };
-        let singular = |speed: f64| {
-            format!("finite and smooth at every slip speed; it is not at v = {speed:.6}")
-        };
-        let judged = |speed: f64| {
-            let (value, slope) = self.at(speed);
-            if !(value.abs() <= LARGEST && slope.is_finite()) {
-                return Err(singular(speed));
-            }
-            // Differences of equal terms leave their rounding.
-            if value < -1e-14 * self.at(0.0).0.abs() {
-                return Err(negative(speed, value));
-            }
-            Ok((value, slope))
-        };
-        let mut before = (0.0, judged(0.0)?);
-        for place in 0..=PLACES {
-            let power = 2.0 * f64::from(place) / f64::from(PLACES) - 1.0;
-            let speed = self.scale * libm::pow(REACH, power);
-            let here = judged(speed)?;
-            if before.1.1 * here.1 < 0.0 {
-                let (extremum, value) = self.extremum(before.0, speed, before.1.1);
-                judged(extremum)?;
-                // Between two speeds so close a finite maximum is no mountain.
-                let around = before.1.0.max(here.0).max(f64::MIN_POSITIVE);
-                if value > 1e6 * around {
-                    return Err(singular(extremum));
-                }
-            }
-            before = (speed, here);
-        }
-        Ok(())
-    }
-
-    /// Where the slope changes sign between two speeds, and the coefficient there.
-    fn extremum(&self, mut from: f64, mut to: f64, slope: f64) -> (f64, f64) {
-        for _ in 0..60 {
-            let middle = f64::midpoint(from, to);
-            if self.at(middle).1 * slope > 0.0 {
-                from = middle;
-            } else {
-                to = middle;
-            }
-        }
-        (to, self.at(to).0)
-    }
-
     /// Whether the formula on the branch v < 0 is that on v > 0, or its negative.
     fn same_in_both_directions(&self, mirrored: &Program) -> Result<(), String> {
         let constants = mirrored.values(&self.named);
@@ -285,6 +292,7 @@ impl SlidingLaw for Expression {
     const ABOUT: &'static str =
         "a formula for the coefficient, such as 0.3 + 0.1*exp(-abs(v)/0.2), v the slip velocity";
     const PARAMETERS: &'static [Parameter] = &[STATIC_COEFFICIENT];
+    const OPTIONS: &'static [Parameter] = &[MAXIMUM_VELOCITY];
 
     fn values(&self) -> Vec<f64> {
         vec![self.static_coefficient]
@@ -293,6 +301,9 @@ impl SlidingLaw for Expression {
     fn get(&self, path: &str) -> Option<f64> {
         if path == STATIC_COEFFICIENT.path {
             return Some(self.static_coefficient);
+        }
+        if path == MAXIMUM_VELOCITY.path {
+            return self.maximum.or(self.proven.0).map(|speed| speed * self.velocity_unit);
         }
         let name = path.strip_prefix(CONSTANTS)?.strip_prefix('.')?;
         self.named().find(|(known, _)| *known == name).map(|(_, value)| value)
@@ -303,6 +314,9 @@ impl SlidingLaw for Expression {
             STATIC_COEFFICIENT.check(value).map_err(|invalid| vec![invalid])?;
             return Self { given_static: Some(value), ..self.clone() }.settled();
         }
+        if path == MAXIMUM_VELOCITY.path {
+            return self.with_maximum_velocity(Some(value));
+        }
         let name = path.strip_prefix(CONSTANTS).and_then(|rest| rest.strip_prefix('.'));
         let index = self.names.iter().position(|known| Some(known.as_str()) == name);
         let index = index.ok_or_else(|| not_a_number_of::<Self>(path, value))?;
@@ -312,6 +326,19 @@ impl SlidingLaw for Expression {
         let mut changed = self.clone();
         changed.named[index] = value;
         changed.settled()
+    }
+
+    fn placed(&self, surroundings: &Surroundings) -> Result<Self, Vec<Invalid>> {
+        let own =
+            || if surroundings.slip > 0.0 { surroundings.slip } else { self.velocity_scale() };
+        let given = self.maximum.map(|speed| speed * self.velocity_unit);
+        self.proven_up_to(given.unwrap_or_else(|| MULTIPLE * own()))
+    }
+
+    fn range(&self) -> Option<SlipRange> {
+        let upper = self.maximum.or(self.proven.0)? * self.velocity_unit;
+        let limit = if self.maximum.is_some() { RangeLimit::Declared } else { RangeLimit::Proven };
+        Some(SlipRange { lower: 0.0, upper, limit })
     }
 
     #[inline(always)]

@@ -10,7 +10,7 @@ use super::tree::{Function, Tree};
 pub(super) const MOST_SLOTS: usize = 32;
 
 /// Powers that are products; others are exp(b log a).
-const LARGEST_POWER: f64 = 8.0;
+pub(super) const LARGEST_POWER: f64 = 8.0;
 
 /// a x + b: a series, and the places of a and b in the list of constants.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -71,6 +71,20 @@ pub(super) enum Tree {
 }
 
 impl Tree {
+    /// Whether the slip velocity is in it.
+    pub(super) fn has_velocity(&self) -> bool {
+        match self {
+            Self::Velocity => true,
+            Self::Number(_) | Self::Constant(_) => false,
+            Self::Negative(x) | Self::Call(_, x) => x.has_velocity(),
+            Self::Sum(x, y)
+            | Self::Difference(x, y)
+            | Self::Product(x, y)
+            | Self::Quotient(x, y)
+            | Self::Power(x, y) => x.has_velocity() || y.has_velocity(),
+        }
+    }
+
     /// Its value where it has no slip velocity in it.
     pub(super) fn value(&self, constants: &[f64]) -> f64 {
         let of = |tree: &Self| tree.value(constants);

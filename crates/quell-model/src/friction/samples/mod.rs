@@ -12,7 +12,9 @@ use std::sync::Arc;
 use quell_numerics::lane::Lane;
 
 use super::expression::{ExpressionConstants, ExpressionSeries};
-use super::{Expression, Friction, SlidingLaw, not_a_number_of};
+use super::{
+    Expression, Friction, RangeLimit, SlidingLaw, SlipRange, Surroundings, not_a_number_of,
+};
 use crate::Invalid;
 use crate::parameter::{Parameter, STATIC_COEFFICIENT};
 
@@ -28,6 +30,21 @@ pub const COEFFICIENTS: &str = "friction.coefficient";
 
 /// Path of the number of terms in a study file.
 pub const TERMS: &str = "friction.terms";
+
+/// What is wrong with the formula of a fit, said of its samples.
+fn of_samples(wrong: Vec<Invalid>) -> Vec<Invalid> {
+    let said = |invalid: Invalid| {
+        if invalid.key == STATIC_COEFFICIENT.path {
+            return invalid;
+        }
+        let allowed = format!(
+            "samples whose fit is {}; give more samples, or another number of terms",
+            invalid.allowed
+        );
+        Invalid::new(COEFFICIENTS, invalid.value, allowed)
+    };
+    wrong.into_iter().map(said).collect()
+}
 
 /// A law from measured samples.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,20 +115,9 @@ impl Samples {
         // A pinned fit starts at the level but for rounding.
         let level =
             static_coefficient.map(|level| if fit.pinned { level.max(fit.start()) } else { level });
-        let curve =
-            Expression::new(&fit.formula(), &[], level, velocity_unit).map_err(|wrong| {
-                let told = |invalid: Invalid| {
-                    if invalid.key == STATIC_COEFFICIENT.path {
-                        return invalid;
-                    }
-                    let allowed = format!(
-                        "samples whose fit is {}; give more samples, or another number of terms",
-                        invalid.allowed
-                    );
-                    Invalid::new(COEFFICIENTS, invalid.value, allowed)
-                };
-                wrong.into_iter().map(told).collect::<Vec<_>>()
-            })?;
+        let curve = Expression::new(&fit.formula(), &[], level, velocity_unit)
+            .and_then(|curve| curve.proven_up_to(fit.range.1 * velocity_unit))
+            .map_err(of_samples)?;
         Ok(Self { curve, fit: Arc::new(fit) })
     }
 
@@ -151,6 +157,22 @@ impl SlidingLaw for Samples {
             return Err(not_a_number_of::<Self>(path, value));
         }
         Ok(Self { curve: self.curve.with(path, value)?, fit: Arc::clone(&self.fit) })
+    }
+
+    /// Slip beyond the samples is warned of; the fit's trend is proven there all the same.
+    fn placed(&self, surroundings: &Surroundings) -> Result<Self, Vec<Invalid>> {
+        let data = self.fit.range.1 * self.curve.velocity_unit();
+        let speed = data.max(super::expression::MULTIPLE * surroundings.slip);
+        let curve = self.curve.proven_up_to(speed).map_err(of_samples)?;
+        Ok(Self { curve, fit: Arc::clone(&self.fit) })
+    }
+
+    fn range(&self) -> Option<SlipRange> {
+        let unit = self.curve.velocity_unit();
+        let (lower, upper) = self.fit.range;
+        // Held at the static level, the fit runs from rest to the first sample.
+        let lower = if self.fit.pinned { 0.0 } else { lower };
+        Some(SlipRange { lower: lower * unit, upper: upper * unit, limit: RangeLimit::Samples })
     }
 
     #[inline(always)]

@@ -22,6 +22,7 @@ use quell_belt::simulation::Stalled;
 use rayon::prelude::*;
 
 use super::attractor::{scene, unknown};
+use super::range::{self, SlipMet};
 use super::varied::{Range, Varied};
 use super::{failed, moves, stopped};
 use crate::complaint::{Complaint, Failure};
@@ -76,6 +77,8 @@ pub struct Basins {
     pub varied: Option<Varied>,
     /// One for each value; one alone where no parameter is followed.
     pub portraits: Vec<Portrait>,
+    /// The slip that the starts meet in their first slow period and the attractors later.
+    pub slip: SlipMet,
 }
 
 /// Runs every start until it has settled and gathers the ends.
@@ -113,7 +116,25 @@ pub fn run(study: &Study, question: &Question, running: Running<'_>) -> Result<B
     running.progress.begin(studies.len() * starts.states().len(), 0);
     let portraits = pool.install(|| portraits(&studies, &starts, running));
     running.progress.end();
-    Ok(Basins { starts, varied, portraits: portraits? })
+    let portraits = portraits?;
+    let slip = slip_met(&studies, &starts, &portraits);
+    Ok(Basins { starts, varied, portraits, slip })
+}
+
+/// The slip of the starts, side by side, and of the attractors.
+fn slip_met(studies: &[(Option<f64>, Study)], starts: &Starts, portraits: &[Portrait]) -> SlipMet {
+    let mut slip = SlipMet::default();
+    for ((_, study), portrait) in studies.iter().zip(portraits) {
+        let belt = study.belt();
+        let cases: Vec<_> = starts.states().iter().map(|start| (belt, *start)).collect();
+        for speed in range::of_starts(&cases) {
+            slip.add(belt, speed);
+        }
+        for basin in &portrait.gathered.basins {
+            slip.add_attractor(belt, basin.attractor.state);
+        }
+    }
+    slip
 }
 
 /// Every value has every start, and all of them are kept.

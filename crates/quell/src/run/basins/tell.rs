@@ -198,8 +198,8 @@ impl Basins {
     }
 
     /// What a reader of the numbers should know.
-    pub fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
+    pub fn warnings(&self, study: &Study) -> Vec<String> {
+        let mut warnings = self.slip.warnings(study);
         for portrait in &self.portraits {
             let at = match (portrait.value, &self.varied) {
                 (Some(value), Some(varied)) => format!(" at {} = {value}", varied.path),
@@ -258,7 +258,7 @@ impl Basins {
             put_portrait(&mut fields, portrait, true);
             fields.plain("ends", portrait.ends());
         }
-        fields.plain("warnings", self.warnings());
+        fields.plain("warnings", self.warnings(study));
         fields.finish()
     }
 

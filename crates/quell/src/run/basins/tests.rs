@@ -35,6 +35,7 @@ fn unknown_ends_reach_nothing() {
         starts: starts.expect("valid"),
         varied: Some(varied),
         portraits: vec![at(1.0), at(2.0)],
+        slip: SlipMet::default(),
     };
     let told = found.sentence(&study);
     assert!(told.ends_with(" no end of any start is known."), "{told}");

@@ -12,6 +12,7 @@ use quell_belt::orbit::Verdict;
 use quell_belt::simulation::Start;
 
 use super::attractor::{scene, unknown};
+use super::range::SlipMet;
 use super::varied::{Range, Varied};
 use super::{failed, start, stopped};
 use crate::complaint::Failure;
@@ -99,6 +100,8 @@ pub struct Bifurcation {
     /// First and last value of each stretch in which the two directions show different responses; nothing is said where one of
     /// them has not settled.
     pub hysteresis: Vec<(f64, f64)>,
+    /// The slip that the responses meet.
+    pub slip: SlipMet,
 }
 
 /// Sweeps the belt of a study.
@@ -120,6 +123,7 @@ pub fn run(
     running.progress.begin(count * directions.len(), 0);
     let mut branches: Vec<Branch> = Vec::new();
     let mut state: Option<Start> = None;
+    let mut slip = SlipMet::default();
     let swept = directions.into_iter().try_for_each(|direction| {
         let mut values = varied.values.clone();
         if direction == Direction::Down {
@@ -136,6 +140,7 @@ pub fn run(
                 None => start(&at)?,
             };
             let (point, end) = point(&at, value, begun)?;
+            slip.add_attractor(at.belt(), end);
             found.push(point);
             state = Some(end);
             running.progress.advance(1);
@@ -146,7 +151,7 @@ pub fn run(
     running.progress.end();
     swept?;
     let hysteresis = hysteresis(study, &branches);
-    Ok(Bifurcation { varied, branches, hysteresis })
+    Ok(Bifurcation { varied, branches, hysteresis, slip })
 }
 
 /// The response at one value, and the state with which the next one begins.

@@ -79,8 +79,8 @@ impl Bifurcation {
     }
 
     /// Points that have not settled, in words.
-    pub fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
+    pub fn warnings(&self, study: &Study) -> Vec<String> {
+        let mut warnings = self.slip.warnings(study);
         for branch in &self.branches {
             for point in &branch.points {
                 if let Err(why) = &point.response {
@@ -152,7 +152,7 @@ impl Bifurcation {
         } else {
             fields.unknown("hysteresis", "it takes both directions to show it");
         }
-        fields.plain("warnings", self.warnings());
+        fields.plain("warnings", self.warnings(study));
         fields.finish()
     }
 
@@ -236,6 +236,7 @@ mod tests {
     use quell_belt::attractor::Unsettled;
     use quell_belt::orbit::Verdict;
 
+    use super::super::super::range::SlipMet;
     use super::super::Branch;
     use super::*;
     use crate::run::varied::{Range, Varied};
@@ -260,14 +261,15 @@ mod tests {
         let branch =
             |direction, values: [f64; 2]| Branch { direction, points: values.map(point).to_vec() };
         let branches = vec![branch(Direction::Up, [1.0, 2.0]), branch(Direction::Down, [2.0, 1.0])];
-        let found = Bifurcation { varied, branches, hysteresis: Vec::new() };
+        let found =
+            Bifurcation { varied, branches, hysteresis: Vec::new(), slip: SlipMet::default() };
         let told = found.sentence(&study);
         assert!(told.contains("the response is unsettled at 1"), "{told}");
         assert!(told.ends_with("At no value have both directions settled."), "{told}");
         let json = found.json(&study);
         assert_eq!(json["jumps"].as_array().map(Vec::len), Some(0));
         assert!(json["up"][0]["kind"].is_null() && json["why"]["up[0].kind"].is_string());
-        assert_eq!(found.warnings().len(), 4);
+        assert_eq!(found.warnings(&study).len(), 4);
         let table = found.dataset(&study).csv();
         assert_eq!(table.matches("unknown").count(), 4, "{table}");
     }

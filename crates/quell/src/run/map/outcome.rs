@@ -3,9 +3,12 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
+use quell_model::units::Quantity;
 use serde_json::{Map as Object, Value as Json, json};
 
 use crate::dataset::{Array, Dataset};
+use crate::run::in_words;
+use crate::study::Subject;
 use crate::sweep::{Content, Data, Entry, Plan, Status};
 
 /// A finished map.
@@ -68,7 +71,7 @@ impl Map {
     }
 
     fn value(&self, array: usize, entry: &Entry, point: usize) -> Option<f64> {
-        let known = self.status(entry, point) == Status::Known;
+        let known = self.status(entry, point).has_number();
         known.then(|| match &self.arrays[array] {
             Data::Numbers(values) => values[point],
             Data::Codes(codes) => f64::from(codes[point]),
@@ -132,6 +135,7 @@ impl Map {
                 ));
             }
         }
+        warnings.extend(self.beyond_range());
         if self.damaged > 0 {
             warnings.push(format!(
                 "{} chunks of the store were cut short or changed since they were written; they were \
@@ -140,6 +144,27 @@ impl Map {
             ));
         }
         warnings
+    }
+
+    /// Points at which slip leaves the range of the friction law.
+    fn beyond_range(&self) -> Option<String> {
+        let entries = self.plan.sheet().entries();
+        let points = 0..self.plan.grid().len();
+        let beyond = |point: &usize| {
+            entries.iter().any(|entry| self.status(entry, *point) == Status::BeyondRange)
+        };
+        let count = points.filter(beyond).count();
+        let Subject::Belt(study) = self.plan.grid().study() else { return None };
+        let range = study.belt().friction().range().filter(|_| count > 0)?;
+        let upper = in_words(study, Quantity::Velocity, range.upper);
+        Some(format!(
+            "{count} of {} points have slip outside the range of the {} law, up to {upper} in the study itself ({}): \
+             their status is {}",
+            self.plan.grid().len(),
+            study.belt().friction().kind().name(),
+            range.limit,
+            Status::BeyondRange.name(),
+        ))
     }
 
     /// As JSON: arrays nested like the axes.
@@ -257,7 +282,7 @@ impl Map {
 
 /// Why numbers of a variable are null, one sentence for all of them.
 fn reasons(summary: &Summary) -> String {
-    let unknown = summary.states.iter().filter(|(status, _)| **status != Status::Known);
+    let unknown = summary.states.iter().filter(|(status, _)| !status.has_number());
     let reasons: Vec<String> = unknown
         .map(|(status, count)| format!("{} ({count} points): {}", status.name(), status.about()))
         .collect();

@@ -13,6 +13,7 @@ use serde_json::Value as Json;
 
 use super::in_words;
 use super::orbit::refused;
+use super::range::SlipMet;
 use super::varied::{Named, ascending};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::fields::Fields;
@@ -90,6 +91,8 @@ pub struct Thresholds {
     pub local: Local,
     /// By runs from a start.
     pub protocols: Vec<(Protocol, Switches)>,
+    /// The slip that the responses meet at both ends and at the thresholds, and the runs at their beginning.
+    pub slip: SlipMet,
 }
 
 /// The key of a number of the equations, in SI where the study is.
@@ -206,7 +209,41 @@ pub fn run(study: &Study, question: Question) -> Result<Thresholds, Failure> {
             .map_err(|why| told(why, path, "--from"))?;
         protocols.push((protocol, found));
     }
-    Ok(Thresholds { question, local, protocols })
+    let slip = slip_met(study, &question, &local, &protocols);
+    Ok(Thresholds { question, local, protocols, slip })
+}
+
+/// The slip of the responses at the thresholds, of steady sliding at both ends, and of the runs of protocols there and at
+/// their switches.
+fn slip_met(
+    study: &Study,
+    question: &Question,
+    local: &Local,
+    protocols: &[(Protocol, Switches)],
+) -> SlipMet {
+    let mut slip = SlipMet::default();
+    let at = |value: f64| study.belt().with(&question.parameter, value).ok();
+    for threshold in &local.thresholds {
+        if let Some(belt) = at(threshold.value) {
+            slip.add_attractor(&belt, threshold.state);
+        }
+    }
+    let ends = [question.from, question.to];
+    for belt in ends.into_iter().filter_map(at) {
+        let sliding = InitialState::Sliding.resolve(&belt);
+        if let Ok(sliding) = sliding {
+            slip.add_start(&belt, sliding);
+        }
+    }
+    for (protocol, switches) in protocols {
+        let values = ends.into_iter().chain(switches.changes.iter().map(|change| change.value));
+        for belt in values.filter_map(at) {
+            if let Ok(start) = protocol.initial().resolve(&belt) {
+                slip.add_attractor(&belt, start);
+            }
+        }
+    }
+    slip
 }
 
 /// What runs do beyond a switch.
@@ -304,6 +341,10 @@ impl Thresholds {
                 "where the run {runs} ends at {path} = {value} is not known: {why}{others}"
             ))
         };
-        self.protocols.iter().filter_map(told).collect()
+        self.slip
+            .warnings(study)
+            .into_iter()
+            .chain(self.protocols.iter().filter_map(told))
+            .collect()
     }
 }

@@ -1,7 +1,7 @@
 //! A law written as a formula, with its named constants.
 
 use quell_model::friction::expression::{CONSTANTS, FORMULA};
-use quell_model::parameter::{Bounds, STATIC_COEFFICIENT};
+use quell_model::parameter::{Bounds, MAXIMUM_VELOCITY, STATIC_COEFFICIENT};
 use quell_model::units::Quantity;
 use quell_model::{Expression, Friction, Invalid};
 use serde_json::Value as Json;
@@ -10,7 +10,7 @@ use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::mirror::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
 
-/// Reads `coefficient`, `static_coefficient` and `[friction.constants]`.
+/// Reads `coefficient`, `static_coefficient`, `maximum_velocity` and `[friction.constants]`.
 pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option<Friction> {
     let constants = constants(reader, table);
     let level = reader.optional(table, "friction", STATIC_COEFFICIENT, None);
@@ -32,7 +32,15 @@ pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option
         Found::Absent => None,
         Found::Wrong => return None,
     };
-    match Expression::new(&text, &constants?, level, velocity_unit(reader)) {
+    let maximum = match reader.optional(table, "friction", MAXIMUM_VELOCITY, None) {
+        Found::Value(speed) => Some(speed),
+        Found::Absent => None,
+        Found::Wrong => return None,
+    };
+    // What cannot be proven is said when the belt is known.
+    reader.remember(FORMULA, FORMULA, node.origin, 1.0);
+    let law = Expression::new(&text, &constants?, level, velocity_unit(reader));
+    match law.and_then(|law| law.with_maximum_velocity(maximum)) {
         Ok(law) => Some(Friction::Expression(law)),
         Err(invalid) => {
             complain(reader, table, node, invalid);

@@ -2,29 +2,51 @@
 
 use std::path::Path;
 
+use quell_model::friction::Otherwise;
+use quell_model::parameter::{COEFFICIENT, STATIC_COEFFICIENT};
 use quell_model::{Friction, LawKind};
 use serde_json::Value as Json;
 
 use super::mirror::{Node, Table};
-use super::reader::Reader;
+use super::reader::{Found, Reader};
 use super::vocabulary::{self, Choice, Role, Section};
 use crate::complaint::{Complaint, Fault, Origin};
+pub(super) use forces::{in_newtons, needs_no_normal_force};
 pub use samples::Measured;
 
 mod expression;
+mod forces;
 mod samples;
 
-/// A law, and the samples that it was fitted to.
-pub(super) type Read = (Friction, Option<Measured>);
+/// What `[friction]` says.
+pub(super) struct Read {
+    /// The law.
+    pub(super) law: Friction,
+    /// The samples that it was fitted to.
+    pub(super) measured: Option<Measured>,
+    /// The normal load F of friction in newtons where the study gives none.
+    pub(super) own_load: Option<f64>,
+}
 
-/// Reads `[friction]`. Files of samples are looked for in `folder`; those that are known already are
-/// neither read nor fitted again.
-pub(super) fn read(
-    reader: &mut Reader,
-    root: &Table,
-    folder: &Path,
-    known: Option<&Measured>,
-) -> Option<Read> {
+impl Read {
+    fn of(law: Friction) -> Self {
+        Self { law, measured: None, own_load: None }
+    }
+}
+
+/// What is known when a law is read.
+#[derive(Clone, Copy)]
+pub(super) struct Given<'a> {
+    /// Where files of samples are looked for.
+    pub(super) folder: &'a Path,
+    /// Samples that are known already: they are neither read nor fitted again.
+    pub(super) known: Option<&'a Measured>,
+    /// The normal load F, where it is given and right.
+    pub(super) normal_load: Option<f64>,
+}
+
+/// Reads `[friction]`.
+pub(super) fn read(reader: &mut Reader, root: &Table, given: Given<'_>) -> Option<Read> {
     let Some(node) = root.get("friction") else {
         let allowed = "a table [friction] with law and its parameters";
         reader.complain(Complaint::new(
@@ -41,11 +63,14 @@ pub(super) fn read(
     let kind = name.and_then(LawKind::from_name);
     unknown_keys(reader, table, kind);
     match kind {
-        Some(LawKind::Expression) => {
-            expression::read(reader, table, node.origin).map(|law| (law, None))
+        Some(LawKind::Expression) => expression::read(reader, table, node.origin).map(Read::of),
+        Some(LawKind::Samples) => {
+            samples::read(reader, table, node.origin, given.folder, given.known)
         }
-        Some(LawKind::Samples) => samples::read(reader, table, node.origin, folder, known),
-        kind => numeric(reader, table, node, kind).map(|law| (law, None)),
+        Some(kind) if forces::are_given(table) => {
+            forces::read(reader, table, node.origin, kind, given.normal_load)
+        }
+        kind => numeric(reader, table, node, kind).map(Read::of),
     }
 }
 
@@ -58,14 +83,31 @@ fn numeric(
 ) -> Option<Friction> {
     // Without a law its parameters are still judged, each by itself.
     let parameters = kind.map_or_else(|| LawKind::ALL[0].parameters(), LawKind::parameters);
-    let values: Vec<Option<f64>> = parameters
-        .iter()
-        .filter(|parameter| kind.is_some() || table.has(parameter.key()))
-        .map(|parameter| reader.number(table, "friction", node.origin, *parameter))
-        .collect();
     // NaN stands for what was complained about: `adopt` says nothing twice.
-    let known: Vec<f64> = values.iter().map(|value| value.unwrap_or(f64::NAN)).collect();
-    match kind?.build(&known) {
+    let mut values: Vec<f64> = Vec::with_capacity(parameters.len());
+    for parameter in parameters {
+        if kind.is_none() && !table.has(parameter.key()) {
+            continue;
+        }
+        let value = match reader.optional(table, "friction", *parameter, None) {
+            Found::Value(value) => Some(value),
+            Found::Wrong => None,
+            Found::Absent => match kind.and_then(|kind| kind.default_of(parameter.path)) {
+                Some(Otherwise::Number(number)) => Some(number),
+                Some(Otherwise::SameAs(path)) => {
+                    let earlier = parameters.iter().position(|known| known.path == path);
+                    earlier.and_then(|place| values.get(place).copied())
+                }
+                None => reader.number(table, "friction", node.origin, *parameter),
+            },
+        };
+        values.push(value.unwrap_or(f64::NAN));
+    }
+    match kind?.build(&values) {
+        // A static level that is not given follows the coefficient.
+        Ok(Friction::Coulomb(law)) if !table.has(STATIC_COEFFICIENT.key()) => {
+            Some(Friction::Coulomb(law.without_static_level()))
+        }
         Ok(law) => Some(law),
         Err(invalid) => {
             reader.adopt(invalid);
@@ -113,9 +155,14 @@ fn unknown_keys(reader: &mut Reader, table: &Table, kind: Option<LawKind>) {
 fn belongs(role: Role, kind: LawKind) -> bool {
     match role {
         Role::Number(parameter) | Role::Twin(parameter, _) => {
-            kind.parameters().iter().any(|known| known.path == parameter.path)
+            let mut known = kind.parameters().iter().chain(kind.options());
+            known.any(|known| known.path == parameter.path)
         }
-        Role::Coefficient => matches!(kind, LawKind::Expression | LawKind::Samples),
+        Role::FrictionForce(parameter, _) => forces::gives(kind, parameter),
+        Role::Coefficient => {
+            matches!(kind, LawKind::Expression | LawKind::Samples)
+                || forces::gives(kind, COEFFICIENT)
+        }
         Role::Speeds { .. } | Role::Terms | Role::Text => kind == LawKind::Samples,
         _ => true,
     }

@@ -82,9 +82,11 @@ pub(super) fn read(
     };
     match made {
         Ok(law) => {
+            let key = if file.is_some() { FILE } else { COEFFICIENTS };
+            reader.remember(COEFFICIENTS, key, origin.origin, 1.0);
             let fit = law.fit().clone();
             let measured = Measured { file, samples, static_coefficient, terms, fit };
-            Some((Friction::Samples(law), Some(measured)))
+            Some(Read { measured: Some(measured), ..Read::of(Friction::Samples(law)) })
         }
         Err(invalid) => {
             told(reader, table, origin, file.is_some(), invalid);

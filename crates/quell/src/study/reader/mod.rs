@@ -130,7 +130,7 @@ impl Reader {
         let si = self.is_si();
         vocabulary::keys_of(section).filter(move |key| match key.role {
             Role::Number(parameter) => !si || parameter.si.is_empty(),
-            Role::Twin(..) | Role::Scale(_) => si,
+            Role::Twin(..) | Role::Scale(_) | Role::FrictionForce(..) => si,
             Role::Speeds { si: in_si } => in_si == si,
             _ => true,
         })
@@ -171,7 +171,8 @@ impl Reader {
         }
     }
 
-    fn remember(&mut self, path: &str, key: &str, origin: Origin, factor: f64) {
+    /// Remembers where a number of the registry was written, for complaints of the model.
+    pub(super) fn remember(&mut self, path: &str, key: &str, origin: Origin, factor: f64) {
         self.written.push(Written { path: path.to_owned(), key: key.to_owned(), origin, factor });
     }
 }
@@ -184,7 +185,9 @@ fn is_si(root: &Table) -> bool {
             for (name, _) in table.iter() {
                 match vocabulary::key(*section, name).map(|key| key.role) {
                     Some(Role::Scale(_)) => return true,
-                    Some(Role::Twin(..) | Role::Speeds { si: true }) => twins = true,
+                    Some(Role::Twin(..) | Role::Speeds { si: true } | Role::FrictionForce(..)) => {
+                        twins = true
+                    }
                     Some(Role::Speeds { si: false }) => plain = true,
                     Some(Role::Number(parameter)) if !parameter.si.is_empty() => plain = true,
                     _ => {}

@@ -1,7 +1,7 @@
 //! Every key, made from the registry of parameters and from lists of what takes no number of it.
 
 use quell_model::LawKind;
-use quell_model::parameter::{self, Parameter};
+use quell_model::parameter::{self, COEFFICIENT, Parameter, STATIC_COEFFICIENT, VISCOUS};
 
 use super::{Choice, Key, Role, SCHEMA_ABOUT, Section};
 
@@ -45,7 +45,9 @@ fn numbers() -> Vec<Key> {
     // The disc's dither has the keys of the belt's.
     let own = |parameter: &&Parameter| parameter.table() == "disc";
     parameters.extend(parameter::disc::DISC.iter().filter(own));
-    for parameter in LawKind::ALL.iter().flat_map(|law| law.parameters()) {
+    let of_laws = LawKind::ALL.iter().flat_map(|law| law.parameters().iter().chain(law.options()));
+    // The key of a coefficient also takes formulas and samples.
+    for parameter in of_laws.filter(|parameter| parameter.path != COEFFICIENT.path) {
         if !parameters.iter().any(|known| known.path == parameter.path) {
             parameters.push(*parameter);
         }
@@ -73,7 +75,24 @@ fn own_law() -> Vec<Key> {
         key(
             "coefficient",
             Role::Coefficient,
-            "formula of the coefficient in the slip velocity v, or measured coefficients",
+            "formula of the coefficient in the slip velocity v, measured coefficients, or the sliding coefficient of a \
+             named law",
+        ),
+        key(
+            "friction_force_n",
+            Role::FrictionForce(COEFFICIENT, "N"),
+            "friction force in sliding, instead of coefficient; without normal_force_n the normal force is the larger \
+             of this and the static one",
+        ),
+        key(
+            "static_friction_force_n",
+            Role::FrictionForce(STATIC_COEFFICIENT, "N"),
+            "largest friction force at rest, instead of static_coefficient",
+        ),
+        key(
+            "viscous_n_s_per_m",
+            Role::FrictionForce(VISCOUS, "N·s/m"),
+            "rise of the friction force with slip speed, instead of viscous_s_per_m",
         ),
         key(
             "file",

@@ -5,7 +5,7 @@
 use std::sync::LazyLock;
 
 use quell_model::friction::expression;
-use quell_model::parameter::{Parameter, ScaleKey, SiTwin};
+use quell_model::parameter::{COEFFICIENT, Parameter, ScaleKey, SiTwin};
 use quell_model::units::Quantity;
 
 use super::suggest;
@@ -127,8 +127,10 @@ pub enum Role {
     Choices(Choice),
     /// The reference frequency of a disc: "critical", or a frequency parameter k².
     Reference,
-    /// A formula of the friction coefficient, or measured coefficients.
+    /// A formula of the friction coefficient, measured coefficients, or the number of a named law.
     Coefficient,
+    /// Friction as a force in SI, which gives this number of a named law.
+    FrictionForce(Parameter, &'static str),
     /// Measured slip speeds, in SI or not.
     Speeds {
         /// In metres per second.
@@ -169,8 +171,15 @@ impl Key {
     pub fn parameter(&self) -> Option<Parameter> {
         match self.role {
             Role::Number(parameter) | Role::Twin(parameter, _) => Some(parameter),
+            Role::Coefficient => Some(COEFFICIENT),
             _ => None,
         }
+    }
+
+    /// Whether it takes a number that can be varied.
+    pub fn takes_number(&self) -> bool {
+        let scale = matches!(self.role, Role::Scale(_) | Role::Constant | Role::FrictionForce(..));
+        scale || self.parameter().is_some()
     }
 
     /// Unit of its value.
@@ -179,6 +188,7 @@ impl Key {
             Role::Number(parameter) => parameter.quantity.scaled_unit(),
             Role::Twin(_, twin) => twin.unit,
             Role::Scale(scale) => scale.unit,
+            Role::FrictionForce(_, unit) => unit,
             Role::Speeds { si: true } => "m/s",
             Role::Speeds { si: false } => Quantity::Velocity.scaled_unit(),
             _ => "1",

@@ -1,0 +1,54 @@
+//! The largest slip speed that a run meets.
+
+use quell_model::Belt;
+use quell_numerics::dispatch::{Work, with_fused_multiply_add};
+
+use super::observer::{Observer, Segment};
+
+/// Moments of a step at which slip is looked at: a step is at most a few radians of the fastest oscillation, so that the
+/// largest slip is missed by less than a hundredth of the oscillation.
+const MOMENTS: usize = 8;
+
+/// Keeps the largest |v_r| of a run, where the friction law has a range that slip could leave.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LargestSlip {
+    /// The largest |v_r| so far: a length per τ; 0 where the law has no range.
+    pub speed: f64,
+    /// Whether the law has a range.
+    asked: bool,
+}
+
+impl LargestSlip {
+    /// For runs of a belt.
+    pub fn of(belt: &Belt) -> Self {
+        Self { speed: 0.0, asked: belt.friction().range().is_some() }
+    }
+}
+
+impl Observer for LargestSlip {
+    fn watches(&self) -> bool {
+        self.asked
+    }
+
+    fn segment(&mut self, segment: &Segment<'_>) {
+        if self.asked && segment.slip_sign() != 0 {
+            self.speed = self.speed.max(with_fused_multiply_add(Largest(segment)));
+        }
+    }
+}
+
+/// The largest |v_r| at equal steps of a segment, both ends included.
+struct Largest<'a, 'b>(&'a Segment<'b>);
+
+impl Work for Largest<'_, '_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        let mut since = [0.0; MOMENTS];
+        for (place, since) in since.iter_mut().enumerate() {
+            *since = self.0.duration() * (place as f64 / (MOMENTS - 1) as f64);
+        }
+        self.0.slips_at(&since).into_iter().fold(0.0, |most, slip| slip.abs().max(most))
+    }
+}

@@ -1,0 +1,172 @@
+//! Coulomb friction with a static level of its own and a viscous part.
+//!
+//! μ = μ_d sgn(v_r) + σ_v v_r, μ_s ≥ μ_d at rest.
+//!
+//! Its average under a fast velocity α cos θ is μ_d (2/π) asin(v/α) + σ_v v for |v| < α: the static level does not
+//! enter. The law has no velocity of its own; slip is counted in the normal load of the belt it is put into.
+
+use quell_numerics::lane::Lane;
+
+use super::{
+    BranchSeries, Friction, NumericLaw, Otherwise, SlidingLaw, Surroundings, checked,
+    not_a_number_of, number_of, side_by_side, static_at_least_sliding,
+};
+use crate::Invalid;
+use crate::parameter::{COEFFICIENT, Parameter, STATIC_COEFFICIENT, VISCOUS};
+
+/// Coulomb friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coulomb {
+    coefficient: f64,
+    given_static: Option<f64>,
+    viscous: f64,
+    /// Velocity in which slip is counted.
+    scale: f64,
+}
+
+impl Coulomb {
+    /// From μ_d ≥ 0, μ_s ≥ μ_d (μ_d where it is not given) and σ_v ≥ 0.
+    ///
+    /// # Errors
+    /// Every value out of its bounds; μ_s < μ_d.
+    pub fn new(
+        coefficient: f64,
+        static_coefficient: Option<f64>,
+        viscous: f64,
+    ) -> Result<Self, Vec<Invalid>> {
+        let level = static_coefficient.unwrap_or(coefficient);
+        let law = Self::from_values(&[coefficient, level, viscous])?;
+        Ok(Self { given_static: static_coefficient, ..law })
+    }
+
+    /// The same law without a static level of its own: it follows the coefficient.
+    #[must_use]
+    pub fn without_static_level(self) -> Self {
+        Self { given_static: None, ..self }
+    }
+
+    /// The same law with slip counted in another velocity.
+    #[must_use]
+    pub fn counted_in(self, scale: f64) -> Self {
+        Self { scale, ..self }
+    }
+}
+
+impl SlidingLaw for Coulomb {
+    const NAME: &'static str = "coulomb";
+    const ABOUT: &'static str = "μ_d sgn(v_r) + σ_v v_r, with a static level μ_s ≥ μ_d";
+    const PARAMETERS: &'static [Parameter] = &[COEFFICIENT, STATIC_COEFFICIENT, VISCOUS];
+
+    fn default_of(path: &str) -> Option<Otherwise> {
+        if path == STATIC_COEFFICIENT.path {
+            return Some(Otherwise::SameAs(COEFFICIENT.path));
+        }
+        (path == VISCOUS.path).then_some(Otherwise::Number(0.0))
+    }
+
+    fn values(&self) -> Vec<f64> {
+        vec![self.coefficient, self.static_coefficient(), self.viscous]
+    }
+
+    fn get(&self, path: &str) -> Option<f64> {
+        number_of(self, path)
+    }
+
+    fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>> {
+        let Self { mut coefficient, mut given_static, mut viscous, .. } = *self;
+        match path {
+            path if path == COEFFICIENT.path => coefficient = value,
+            path if path == STATIC_COEFFICIENT.path => given_static = Some(value),
+            path if path == VISCOUS.path => viscous = value,
+            _ => return Err(not_a_number_of::<Self>(path, value)),
+        }
+        Ok(Self::new(coefficient, given_static, viscous)?.counted_in(self.scale))
+    }
+
+    fn placed(&self, surroundings: &Surroundings) -> Result<Self, Vec<Invalid>> {
+        Ok(self.counted_in(surroundings.normal_load))
+    }
+
+    #[inline(always)]
+    fn velocity_scale(&self) -> f64 {
+        self.scale
+    }
+
+    fn has_velocity(&self) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn static_coefficient(&self) -> f64 {
+        self.given_static.unwrap_or(self.coefficient)
+    }
+
+    type Constants<V: Lane> = CoulombConstants<V>;
+
+    #[inline(always)]
+    fn constants<V: Lane>(laws: &[Self]) -> CoulombConstants<V> {
+        CoulombConstants {
+            coefficient: side_by_side(laws, |law| law.coefficient),
+            viscous: side_by_side(laws, |law| law.viscous * law.scale),
+        }
+    }
+
+    type Series<'c, V: Lane, const N: usize> = CoulombSeries<V>;
+
+    #[inline(always)]
+    fn series<V: Lane, const N: usize>(
+        constants: &mut CoulombConstants<V>,
+        sign: V,
+        w0: V,
+    ) -> CoulombSeries<V> {
+        let CoulombConstants { coefficient, viscous } = *constants;
+        CoulombSeries { first: w0.mul_add(viscous, sign * coefficient), slope: viscous }
+    }
+
+    fn of(friction: &Friction) -> Option<Self> {
+        if let Friction::Coulomb(law) = friction { Some(*law) } else { None }
+    }
+}
+
+impl NumericLaw for Coulomb {
+    fn from_values(values: &[f64]) -> Result<Self, Vec<Invalid>> {
+        checked(Self::PARAMETERS, values, || static_at_least_sliding(values[0], values[1]))?;
+        Ok(Self {
+            coefficient: values[0],
+            given_static: Some(values[1]),
+            viscous: values[2],
+            scale: 1.0,
+        })
+    }
+}
+
+/// μ_d, and σ_v times the velocity in which slip is counted, in each lane.
+#[derive(Clone, Copy, Debug)]
+pub struct CoulombConstants<V> {
+    coefficient: V,
+    viscous: V,
+}
+
+/// Recurrence of [`Coulomb`]: nothing but its slope.
+#[derive(Clone, Copy, Debug)]
+pub struct CoulombSeries<V> {
+    first: V,
+    slope: V,
+}
+
+impl<V: Lane> BranchSeries<V> for CoulombSeries<V> {
+    #[inline(always)]
+    fn first(&self) -> V {
+        self.first
+    }
+
+    #[inline(always)]
+    fn slope(&self) -> V {
+        self.slope
+    }
+
+    #[inline(always)]
+    fn lower(&mut self, _: usize, _: &[V]) -> V {
+        V::splat(0.0)
+    }
+}

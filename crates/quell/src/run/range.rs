@@ -1,0 +1,156 @@
+//! Slip beyond the range of the friction law: where an answer meets it, and the one sentence that says so.
+//!
+//! Averages meet v₀ plus the largest fast velocity of the dither. Runs meet what they meet: verbs that keep a record look
+//! there; those that tell of attractors and orbits run each of them once more for a few periods, and every start for one.
+
+use std::f64::consts::TAU;
+
+use quell_belt::simulation::{
+    DEFAULT_TOLERANCE, LargestSlip, Observer, Run, Start, simulate, simulate_many,
+};
+use quell_model::Belt;
+use quell_model::friction::SlipRange;
+use quell_model::units::Quantity;
+
+use super::in_words;
+use crate::study::Study;
+
+/// How long a start is watched: its first slow period, in which a decaying transient is largest.
+const OF_START: f64 = TAU;
+
+/// How long an attractor is watched.
+const OF_ATTRACTOR: f64 = 4.0 * TAU;
+
+/// The slip that the runs of an answer meet, each against the range of its own law.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SlipMet {
+    runs: usize,
+    beyond: usize,
+    /// The largest slip speed of those beyond, relative to the range, and that range.
+    worst: Option<(f64, SlipRange)>,
+}
+
+impl SlipMet {
+    /// What a record of these velocities x′ met.
+    pub(super) fn of_velocities(belt: &Belt, velocities: impl Iterator<Item = f64>) -> Self {
+        let mut met = Self::default();
+        let speeds = velocities.map(|velocity| (belt.belt_velocity() - velocity).abs());
+        met.add(belt, speeds.fold(0.0, f64::max));
+        met
+    }
+
+    /// A run that meets slip up to `speed`.
+    pub(super) fn add(&mut self, belt: &Belt, speed: f64) {
+        self.runs += 1;
+        let Some(range) = belt.friction().range().filter(|range| speed > range.upper) else {
+            return;
+        };
+        self.beyond += 1;
+        let larger = |&(known, of): &(f64, SlipRange)| speed / range.upper > known / of.upper;
+        if self.worst.as_ref().is_none_or(larger) {
+            self.worst = Some((speed, range));
+        }
+    }
+
+    /// Runs from a start for its first slow period.
+    pub(super) fn add_start(&mut self, belt: &Belt, start: Start) {
+        self.add_run(belt, start, OF_START);
+    }
+
+    /// Runs on an attractor for a few slow periods, from a state on it.
+    pub(super) fn add_attractor(&mut self, belt: &Belt, state: Start) {
+        self.add_run(belt, state, OF_ATTRACTOR);
+    }
+
+    /// Runs from a state for `length`. A run that stops has met what it met until then.
+    pub(super) fn add_run(&mut self, belt: &Belt, state: Start, length: f64) {
+        let mut slip = LargestSlip::of(belt);
+        if slip.watches() {
+            simulate(belt, state, state.time + length, DEFAULT_TOLERANCE, &mut slip).ok();
+        }
+        self.add(belt, slip.speed);
+    }
+
+    /// The warning, where a run leaves the range.
+    pub fn warnings(&self, study: &Study) -> Vec<String> {
+        let Some((speed, range)) = self.worst else { return Vec::new() };
+        let others = if self.runs > 1 {
+            format!(" ({} of {} runs leave it)", self.beyond, self.runs)
+        } else {
+            String::new()
+        };
+        vec![sentence(study, &range, "slip reaches", speed) + &others]
+    }
+}
+
+/// Largest slip speed in the first slow period of each run, the runs side by side; 0 where the law has no range.
+pub(crate) fn of_starts(cases: &[(&Belt, Start)]) -> Vec<f64> {
+    let mut slips: Vec<LargestSlip> = cases.iter().map(|(belt, _)| LargestSlip::of(belt)).collect();
+    let runs = cases
+        .iter()
+        .zip(&mut slips)
+        .filter(|(_, slip)| slip.watches())
+        .map(|(&(belt, start), slip)| {
+            let observer: &mut dyn Observer = slip;
+            Run { belt, start, until: start.time + OF_START, observer }
+        })
+        .collect();
+    simulate_many(runs, DEFAULT_TOLERANCE);
+    slips.into_iter().map(|slip| slip.speed).collect()
+}
+
+/// Slip that averages meet at slip speed `slip`: with the largest fast velocity.
+pub(crate) fn with_dither(belt: &Belt, slip: f64) -> f64 {
+    slip + belt.fast_velocity()
+}
+
+/// Slip that averages meet at v₀ with the first dither at this amplitude.
+pub(crate) fn at_amplitude(belt: &Belt, amplitude: f64) -> f64 {
+    let mut dithers = belt.dithers().to_vec();
+    let first = dithers.first().map_or(0.0, |dither| belt.fast_velocity_of(dither));
+    if let Some(dither) = dithers.first_mut() {
+        dither.amplitude = amplitude;
+    }
+    let then = dithers.first().map_or(0.0, |dither| belt.fast_velocity_of(dither));
+    with_dither(belt, belt.belt_velocity()) - first + then
+}
+
+/// What averages at the study's own slip, v₀, leave of the range.
+pub(super) fn averaged(study: &Study) -> Vec<String> {
+    averaged_at(study, study.belt().belt_velocity())
+}
+
+/// What averages at slip speeds up to `slip` leave of the range.
+pub(super) fn averaged_at(study: &Study, slip: f64) -> Vec<String> {
+    let belt = study.belt();
+    let Some(range) = belt.friction().range() else { return Vec::new() };
+    let mut warnings = Vec::new();
+    let (together, fast) = (with_dither(belt, slip), belt.fast_velocity());
+    if together > range.upper {
+        let what = match (fast > 0.0, slip == belt.belt_velocity()) {
+            (true, true) => "slip reaches, by belt and dither together,".to_owned(),
+            (true, false) => "slip and dither together reach".to_owned(),
+            (false, true) => "slip reaches, by the belt alone,".to_owned(),
+            (false, false) => "slip reaches".to_owned(),
+        };
+        warnings.push(sentence(study, &range, &what, together));
+    }
+    let slow = belt.belt_velocity();
+    if slow > 0.0 && slow < range.lower {
+        warnings.push(sentence(study, &range, "steady sliding has a slip of", slow));
+    }
+    warnings
+}
+
+/// One sentence about slip outside a range; `what` ends before the speed.
+pub(super) fn sentence(study: &Study, range: &SlipRange, what: &str, speed: f64) -> String {
+    let words = |speed: f64| in_words(study, Quantity::Velocity, speed);
+    format!(
+        "{what} {}, outside the range of the {} law, {} to {} ({}): numbers from there are an extrapolation",
+        words(speed),
+        study.belt().friction().kind().name(),
+        words(range.lower),
+        words(range.upper),
+        range.limit
+    )
+}
