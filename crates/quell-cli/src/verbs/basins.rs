@@ -23,10 +23,10 @@ use crate::table::figure;
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Displacements x of the window; about steady sliding by default
+    /// Displacements x of the window, in SI in a study in SI; about steady sliding by default
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     displacement: Option<String>,
-    /// Velocities x′ of the window
+    /// Velocities x′ of the window, likewise
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     velocity: Option<String>,
     /// A grid of so many displacements and velocities, from edge to edge [default: 41x31]
@@ -100,8 +100,9 @@ fn question(
     let over = match &arguments.over {
         None => Some(None),
         Some(parameter) => {
-            let end =
-                |option, text: &Option<String>| number(option, text.as_deref().unwrap_or_default());
+            let end = |option, text: &Option<String>| {
+                number(option, text.as_deref().unwrap_or_default(), parameter)
+            };
             let from = complaints.take(end("--from", &arguments.from));
             let to = complaints.take(end("--to", &arguments.to));
             let points = complaints.take(count("--points", &arguments.points));
