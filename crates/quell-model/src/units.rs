@@ -64,17 +64,15 @@ impl Quantity {
     pub fn si_unit(self) -> Option<(&'static str, &'static str)> {
         Some(match self {
             Self::Ratio | Self::Count | Self::Angle => return None,
-            Self::DampingRatio => ("N·s/m", "n_s_per_m"),
-            Self::Force => ("N", "n"),
+            Self::DampingRatio | Self::LoadDamping => ("N·s/m", "n_s_per_m"),
+            Self::Force | Self::LoadFriction => ("N", "n"),
             Self::Velocity => ("m/s", "m_per_s"),
             Self::Displacement => ("m", "m"),
             Self::FrequencyRatio => ("Hz", "hz"),
             Self::Time => ("s", "s"),
             Self::Power => ("W", "w"),
             Self::LoadMass => ("kg", "kg"),
-            Self::LoadDamping => ("N·s/m", "n_s_per_m"),
             Self::LoadStiffness => ("N/m", "n_per_m"),
-            Self::LoadFriction => ("N", "n"),
         })
     }
 }
@@ -143,15 +141,16 @@ impl Scales {
         match quantity {
             Quantity::Ratio | Quantity::Count | Quantity::Angle | Quantity::Displacement => 1.0,
             Quantity::DampingRatio => 2.0 * self.mass_kg * omega,
-            Quantity::Force => self.stiffness_n_per_m,
+            // Stiffness and friction of a load: a force over a length of 1 m.
+            Quantity::Force | Quantity::LoadStiffness | Quantity::LoadFriction => {
+                self.stiffness_n_per_m
+            }
             Quantity::Velocity => omega,
             Quantity::FrequencyRatio => omega / std::f64::consts::TAU,
             Quantity::Time => 1.0 / omega,
             Quantity::Power => self.stiffness_n_per_m * omega,
             Quantity::LoadMass => self.mass_kg,
             Quantity::LoadDamping => self.mass_kg * omega,
-            // A force over a length of 1 m.
-            Quantity::LoadStiffness | Quantity::LoadFriction => self.stiffness_n_per_m,
         }
     }
 

@@ -273,8 +273,10 @@ impl NativeStudy {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<NativeAnswer> {
         let (up, down) = ways;
-        let (from, to) = call::here(py, || ends(&parameter, &range))?;
-        let range = Range { parameter, from, to, points };
+        let range = call::here(py, move || {
+            let (from, to) = ends(&parameter, &range)?;
+            Ok(Range { parameter, from, to, points })
+        })?;
         let question = Sweep { range, up, down };
         bifurcation::run(py, self.subject(), question, progress)
     }
@@ -292,11 +294,11 @@ impl NativeStudy {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<NativeAnswer> {
         let subject = self.subject();
-        let (displacement, velocity, over) = call::here(py, || {
+        let (displacement, velocity, over) = call::here(py, move || {
             let scales = subject.scales();
-            let (displacement, velocity) = &window;
-            let read = |pair: &Option<Pair>, quantity, option| {
-                pair.as_ref().map(|pair| both(pair, quantity, scales, option)).transpose()
+            let (displacement, velocity) = window;
+            let read = |pair: Option<Pair>, quantity, option| {
+                pair.map(|pair| both(&pair, quantity, scales, option)).transpose()
             };
             let over = over.map(|(parameter, range, points)| {
                 let (from, to) = ends(&parameter, &range)?;

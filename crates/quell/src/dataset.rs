@@ -137,7 +137,9 @@ impl Dataset {
             return self;
         };
         let omega = scales.si_per_unit(Quantity::Velocity);
-        values.iter_mut().for_each(|value| *value /= omega);
+        for value in &mut values {
+            *value /= omega;
+        }
         self.push_both(Array::new(name, si_unit, values), Some(suffix));
         self
     }
@@ -187,7 +189,9 @@ impl Dataset {
             return (Array::new(name, quantity.scaled_unit(), values), None);
         };
         let factor = scales.si_per_unit(quantity);
-        values.iter_mut().for_each(|value| *value *= factor);
+        for value in &mut values {
+            *value *= factor;
+        }
         (Array::new(name, unit, values), Some(suffix))
     }
 
