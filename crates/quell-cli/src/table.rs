@@ -1,7 +1,8 @@
 //! Short tables for people: what, value, unit, and the same in SI.
 
-use quell::Study;
 use quell::quantity::unit_of;
+use quell::run::stability::DECIBELS;
+use quell::{DiscStudy, Study};
 use quell_model::units::{Quantity, Scales};
 
 /// Digits of a number in a table.
@@ -39,6 +40,16 @@ impl Table {
             Ok(value) => self.number(label, quantity, value),
             Err(why) => self.word(label, &format!("undefined: {why}")),
         }
+    }
+
+    /// A row of a growth rate per unit τ; in SI also per second and in decibels per second.
+    pub(crate) fn rate(&mut self, label: &str, value: f64) {
+        let si = self.scales.map(|scales| {
+            let per_second = value * scales.angular_frequency();
+            format!("{} 1/s ({} dB/s)", figure(per_second), figure(DECIBELS * per_second))
+        });
+        let unit = "per unit τ".to_owned();
+        self.rows.push([label.to_owned(), figure(value), unit, si.unwrap_or_default()]);
     }
 
     /// A row of words.
@@ -80,6 +91,21 @@ pub(crate) fn figure_of(study: &Study, quantity: Quantity, value: f64) -> String
         Some((scales, (unit, _))) => format!("{} {unit}", figure(scales.to_si(quantity, value))),
         None => figure(value),
     }
+}
+
+/// Frequencies of a disc in hertz, in brackets; nothing where the study does not say what ω_ref is.
+pub(crate) fn in_hertz(study: &DiscStudy, ratios: &[f64]) -> String {
+    let told = |hertz: f64| {
+        let values: Vec<String> = ratios.iter().map(|ratio| figure(ratio * hertz)).collect();
+        format!(" ({} Hz)", values.join(" to "))
+    };
+    study.reference_hz().map_or_else(String::new, told)
+}
+
+/// A speed of a disc in revolutions per minute, in brackets; nothing where the study does not say what ω_ref is.
+pub(crate) fn in_rpm(study: &DiscStudy, speed: f64) -> String {
+    let told = |hertz: f64| format!(" ({} rpm)", figure(60.0 * hertz * speed));
+    study.reference_hz().map_or_else(String::new, told)
 }
 
 /// A number with [`DIGITS`] significant digits.

@@ -269,3 +269,119 @@ fn what_cannot_be_is_refused_and_the_clamp_is_warned_of() {
     let errors = place.refused(&["modes", "belt.toml"]);
     assert_eq!(errors[0]["key"], "disc");
 }
+
+/// A brake disc of steel with its loads in SI.
+const STEEL: &str = r#"schema = 1
+[disc]
+inner_radius_ratio = 0.5
+youngs_modulus_pa = "210 GPa"
+density_kg_per_m3 = 7850
+thickness_m = "10 mm"
+outer_radius_m = 0.14
+[disc.load]
+radius_ratio = 0.75
+mass_kg = 0.2
+damping_n_s_per_m = 400
+stiffness_n_per_m = 2e7
+friction_n = 500
+speed_rpm = 600
+[dither]
+direction = "tangential"
+frequency_hz = "20 kHz"
+"#;
+
+#[test]
+fn a_disc_may_be_in_si() {
+    let place = Place::with("disc-si", &[("steel.toml", STEEL)]);
+    let check = place.good(&["check", "steel.toml"]);
+    let modes = place.good(&["modes", "steel.toml"]);
+    let (hertz, mass) = (number(&modes["reference_hz"]), number(&modes["plate_mass_kg"]));
+    let omega = std::f64::consts::TAU * hertz;
+    let load = &check["disc"]["loads"][0];
+    let radius = 0.75 * 0.14;
+    for (name, wanted) in [
+        ("mass", 0.2 / mass),
+        ("damping", 400.0 / (mass * omega)),
+        ("stiffness", 2e7 / (mass * omega * omega)),
+        ("friction", 500.0 / (radius * mass * omega * omega)),
+    ] {
+        assert!((number(&load[name]) / wanted - 1.0).abs() < 1e-14, "{name}: {load}");
+    }
+    assert!((number(&check["disc"]["speed"]) / (10.0 / hertz) - 1.0).abs() < 1e-14);
+    assert!((number(&check["dither"]["frequency_ratio"]) / (2e4 / hertz) - 1.0).abs() < 1e-14);
+    // The answer in Hz, rpm and km/h, and every unstable mode.
+    let still = [
+        "stability",
+        "steel.toml",
+        "--set",
+        "disc.load.friction_n=50kN",
+        "--set",
+        "disc.without=[\"dither\"]",
+    ];
+    let found = place.good(&still[..4]);
+    assert!((number(&found["speed_rpm"]) - 600.0).abs() < 1e-9);
+    let along = 3.6 * std::f64::consts::TAU * 10.0 * radius;
+    assert!((number(&found["speed_at_load_km_per_h"]) / along - 1.0).abs() < 1e-12);
+    for mode in found["unstable_modes"].as_array().expect("a list") {
+        assert!(
+            (number(&mode["frequency_hz"]) / (hertz * number(&mode["frequency"])) - 1.0).abs()
+                < 1e-12
+        );
+        assert!(
+            number(&mode["growth_rate_per_s"]) > 0.0 && mode["growth_rate_db_per_s"].is_number()
+        );
+    }
+    let (words, _, _) = quell(&place, &still[..4]);
+    assert!(words.contains(" rpm)") && words.contains("km/h") && words.contains("dB/s"), "{words}");
+    // Options take units; plain numbers are in hertz here.
+    let ask = |speeds: &str, clear: &str, frequency: &str| {
+        let range = ["--speeds", speeds, "--clear", clear, "--frequency", frequency];
+        place.good(
+            &[&["resonances", "steel.toml", "--set", "disc.load.friction_n=100"][..], &range]
+                .concat(),
+        )
+    };
+    let units = ask("0rpm:60000rpm", "6000rpm:12000rpm", "18kHz:20kHz");
+    assert_eq!(units, ask("0:1000", "100:200", "18000:20000"));
+    assert!(number(&units["clear"]["frequencies_hz"][0]) > 17_999.0);
+    // Each key may be in SI or not; both at once, or SI without a size, is refused.
+    place.good(&[
+        "check",
+        "steel.toml",
+        "--set",
+        "disc.load.speed=0.1",
+        "--set",
+        "dither.frequency_ratio=3",
+    ]);
+    let twice = STEEL.replace("speed_rpm = 600", "speed_rpm = 600\nspeed = 0.1");
+    place.write("twice.toml", twice);
+    let errors = place.refused(&["check", "twice.toml"]);
+    assert!(errors[0]["allowed"].as_str().is_some_and(|it| it.contains("not both")), "{errors:?}");
+    place.write("bare.toml", STUDY.replace("speed = 0.3", "speed_rpm = 600"));
+    let errors = place.refused(&["check", "bare.toml"]);
+    let allowed = errors[0]["allowed"].as_str().unwrap_or_default();
+    assert!(
+        errors[0]["key"] == "disc.load.speed_rpm" && allowed.contains("hertz need"),
+        "{errors:?}"
+    );
+}
+
+#[test]
+fn each_load_may_have_a_phase_of_its_dither() {
+    let two = STUDY.replace(
+        "[disc.load]",
+        "[[disc.load]]\nradius_ratio = 0.75\nangle_deg = 30\nfriction = 0.04\n[[disc.load]]",
+    );
+    let place = Place::with("disc-phase", &[("two.toml", &two)]);
+    let rate = |phase: &str| {
+        let set = format!("disc.load[0].dither_phase_deg={phase}");
+        number(&place.good(&["stability", "two.toml", "--set", &set])["growth_rate"])
+    };
+    let turned = ["stability", "two.toml", "--set", "disc.load[0].friction=-0.04"];
+    assert!((rate("180") - number(&place.good(&turned)["growth_rate"])).abs() < 1e-9);
+    assert!((rate("90deg") - rate("0")).abs() > 1e-6);
+}
+
+fn number(value: &Json) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("a number: {value}"))
+}

@@ -1,4 +1,5 @@
-//! Stability with dither: Floquet exponents (sections 5.4 and 5.5), f(τ) = f(1 + α cos Rτ) or f α cos Rτ.
+//! Stability with dither: Floquet exponents (sections 5.4 and 5.5), f(τ) = f(1 + α cos Rτ) or f α cos Rτ. Each load may have
+//! a phase of its own, cos(Rτ + φ_l), which the dissertation does not have: under one load it only shifts the time.
 //!
 //! All friction is in the kicks, x′ = A₀x + Σ_l f_l(τ) U_l V_lᵀ x, so that A₀ is the same for every friction at one speed:
 //! [`DitheredDisc`] prepares it once and serves a whole row of a map. A point gives the same bits either way.
@@ -18,6 +19,8 @@ use crate::undithered;
 pub struct DitheredDisc {
     engine: Floquet,
     friction: Vec<f64>,
+    /// Sine and cosine of the phase of each load's dither.
+    phases: Vec<(f64, f64)>,
     modulation: (f64, f64),
 }
 
@@ -46,6 +49,7 @@ impl DitheredDisc {
         Ok(Some(Self {
             engine: Floquet::new(flow, core::f64::consts::TAU / ratio),
             friction: system.friction().to_vec(),
+            phases: disc.loads().iter().map(|load| libm::sincos(load.dither_phase)).collect(),
             modulation: system.modulation(),
         }))
     }
@@ -64,14 +68,31 @@ impl DitheredDisc {
     /// # Errors
     /// As [`DitheredDisc::new`].
     pub fn exponent(&self, factor: f64, effort: Effort) -> Result<Exponent, EigenError> {
-        let phi = |phase: Phase, to: &mut Matrix| {
-            let (mean, amplitude) = self.modulation;
-            let modulation = amplitude.mul_add(phase.cosine, mean);
-            for (l, friction) in self.friction.iter().enumerate() {
-                to[(l, l)] = factor * friction * modulation;
-            }
+        self.engine.growth(&|phase, to| self.kick(factor, phase, to), effort)
+    }
+
+    /// Every motion that grows by more than its error with the friction as it is, the fastest first.
+    ///
+    /// # Errors
+    /// As [`DitheredDisc::new`].
+    pub fn growing(&self, effort: Effort) -> Result<Vec<Growth>, EigenError> {
+        let found = self.engine.growing(&|phase, to| self.kick(1.0, phase, to), effort)?;
+        let growth = |found: Exponent| Growth {
+            rate: found.growth_rate,
+            error: found.error,
+            frequency: found.frequency,
         };
-        self.engine.growth(&phi, effort)
+        Ok(found.into_iter().map(growth).collect())
+    }
+
+    /// Friction of every load at a phase of the period.
+    fn kick(&self, factor: f64, phase: Phase, to: &mut Matrix) {
+        let (mean, amplitude) = self.modulation;
+        for (l, (friction, (sine, cosine))) in self.friction.iter().zip(&self.phases).enumerate() {
+            // cos(Rτ + φ); without a phase the cosine itself, to the last bit.
+            let wave = phase.cosine * cosine - phase.sine * sine;
+            to[(l, l)] = factor * friction * amplitude.mul_add(wave, mean);
+        }
     }
 }
 

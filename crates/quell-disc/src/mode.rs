@@ -2,8 +2,8 @@
 
 use quell_model::Invalid;
 use quell_model::parameter::disc::{
-    LOAD_ANGLE, LOAD_DAMPING, LOAD_FRICTION, LOAD_MASS, LOAD_STIFFNESS, MODE_DAMPING,
-    MODE_DIAMETERS, MODE_RATIO, MODE_SHAPE_AT_LOAD,
+    LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_MASS, LOAD_STIFFNESS,
+    MODE_DAMPING, MODE_DIAMETERS, MODE_RATIO, MODE_SHAPE_AT_LOAD,
 };
 use quell_model::parameter::{Parameter, indexed};
 
@@ -33,6 +33,8 @@ pub struct Load {
     pub stiffness: f64,
     /// Follower force of friction f* = F_θ/(r₀ M_p ω_ref²); positive drags the disc in the direction of +θ.
     pub friction: f64,
+    /// Phase φ of the dither of its friction, cos(Rτ + φ), radians.
+    pub dither_phase: f64,
     /// Shapes of all modes at this load, where it sits at another radius than the modes'
     /// [`Mode::shape_at_load`] means.
     pub shapes: Option<Vec<f64>>,
@@ -41,13 +43,19 @@ pub struct Load {
 impl Load {
     /// A load at angle zero from m*, c*, k*, f*.
     pub fn new(mass: f64, damping: f64, stiffness: f64, friction: f64) -> Self {
-        Self { angle: 0.0, mass, damping, stiffness, friction, shapes: None }
+        Self { angle: 0.0, mass, damping, stiffness, friction, dither_phase: 0.0, shapes: None }
     }
 
     /// The same load at another angle (radians).
     #[must_use]
     pub fn at_angle(self, angle: f64) -> Self {
         Self { angle, ..self }
+    }
+
+    /// The same load with another phase of its dither (radians).
+    #[must_use]
+    pub fn dithered_at(self, dither_phase: f64) -> Self {
+        Self { dither_phase, ..self }
     }
 }
 
@@ -82,6 +90,7 @@ impl Load {
             (LOAD_DAMPING, self.damping),
             (LOAD_STIFFNESS, self.stiffness),
             (LOAD_FRICTION, self.friction),
+            (LOAD_DITHER_PHASE, self.dither_phase.to_degrees()),
         ]
         .iter()
         .filter_map(|(parameter, value)| complain(parameter, *value, index, count))

@@ -46,6 +46,22 @@ pub fn growth_of(system: &System, friction: &[f64]) -> Result<Growth, EigenError
     })
 }
 
+/// Every motion that grows by more than its error, the disc's dither left out and some contributions switched off, the fastest
+/// first.
+///
+/// # Errors
+/// As [`growth`].
+pub fn growing_with(disc: &Disc, parts: Contributions) -> Result<Vec<Growth>, EigenError> {
+    let system = undithered(disc, parts);
+    let decomposition = Decomposition::new(&system.state_matrix(system.mean_friction()))?;
+    let found = decomposition.in_right_half_plane().into_iter().map(|found| Growth {
+        rate: found.value.re,
+        error: found.error + FLOOR,
+        frequency: found.value.im,
+    });
+    Ok(found.filter(|growth| growth.rate > growth.error).collect())
+}
+
 /// All eigenvalues of a disc, its dither left out, sorted by frequency and then by growth rate: one
 /// column of a Campbell diagram.
 ///

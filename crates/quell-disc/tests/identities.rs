@@ -301,3 +301,66 @@ fn crossings_of_the_partition_are_marginal() {
     let vast = disc("1,2", 0.0, Load::new(0.1, 0.1, 0.1, 1e200), NORMAL, 0.3);
     assert_eq!(crossings(&vast), Err(NoPartition::Eigenvalues));
 }
+
+/// Two loads under dither with phases: a phase that all share only shifts the time, half a period turns the sign.
+#[test]
+fn phases_of_dither_are_phases() {
+    let mode = |diameters, ratio| Mode { diameters, ratio, shape_at_load: 0.9, damping: 1e-3 };
+    let loads = |friction: [f64; 2], phases: [f64; 2]| -> Vec<Load> {
+        let angles = [0.0, 0.8];
+        (0..2)
+            .map(|l| {
+                let load = Load::new(0.05, 0.01, 0.1, friction[l]);
+                load.at_angle(angles[l]).dithered_at(phases[l])
+            })
+            .collect()
+    };
+    let growth = |friction, phases| {
+        let dither = Dither::Tangential { amplitude: 1.0, frequency_ratio: 3.9 };
+        let modes = vec![mode(1, 1.8), mode(2, 2.0), mode(3, 3.1)];
+        let disc = Disc::new(modes, loads(friction, phases), dither, 0.3).expect("valid");
+        DitheredDisc::new(&disc)
+            .expect("finite")
+            .expect("dithered")
+            .growth(1.0, Effort { at_least: 1e-9, ..Effort::default() })
+            .expect("finite")
+    };
+    let close = |a: Growth, b: Growth| {
+        assert!((a.rate - b.rate).abs() <= a.error + b.error, "{a:?} {b:?}");
+    };
+    let plain = growth([0.2, 0.15], [0.0, 0.0]);
+    close(plain, growth([0.2, 0.15], [0.7, 0.7]));
+    close(growth([0.2, -0.15], [0.0, 0.0]), growth([0.2, 0.15], [0.0, core::f64::consts::PI]));
+    // A phase between the loads is another system.
+    let apart = growth([0.2, 0.15], [0.0, 0.5 * core::f64::consts::PI]);
+    assert!(
+        (apart.rate - plain.rate).abs() > 10.0 * (apart.error + plain.error),
+        "{apart:?} {plain:?}"
+    );
+}
+
+/// Every growing motion is listed, with dither or without, and the fastest is the one that decides.
+#[test]
+fn every_growing_motion_is_listed() {
+    let mode = |diameters, ratio| Mode { diameters, ratio, shape_at_load: 0.9, damping: 0.0 };
+    let disc = |dither| {
+        let modes = vec![mode(1, 1.8), mode(2, 2.0), mode(3, 3.1)];
+        Disc::new(modes, vec![Load::new(0.05, 0.02, 0.1, 0.3)], dither, 0.3).expect("valid")
+    };
+    let still = disc(Dither::None);
+    let listed = undithered::growing_with(&still, Contributions::ALL).expect("finite");
+    let all = undithered::eigenvalues(&still).expect("finite");
+    let growing = all.iter().filter(|value| value.im >= 0.0 && value.re > 1e-12).count();
+    assert!(listed.len() == growing && growing > 1, "{listed:?} {all:?}");
+    assert_eq!(listed[0].rate, undithered::growth(&still).expect("finite").rate);
+    assert!(listed.is_sorted_by(|a, b| a.rate >= b.rate));
+    let shaken = disc(Dither::Normal { amplitude: 0.0, frequency_ratio: 40.0 });
+    let prepared = DitheredDisc::new(&shaken).expect("finite").expect("dithered");
+    // Without amplitude the exponents are the eigenvalues.
+    let found = prepared.growing(Effort::default()).expect("finite");
+    assert_eq!(found.len(), listed.len());
+    for (a, b) in found.iter().zip(&listed) {
+        assert!((a.rate - b.rate).abs() <= a.error + b.error, "{a:?} {b:?}");
+        assert!((a.frequency - b.frequency).abs() < 1e-6, "{a:?} {b:?}");
+    }
+}

@@ -55,6 +55,11 @@ impl Parameter {
         self.path.split('.').next().unwrap_or(self.path)
     }
 
+    /// Whether a study in SI may give it as it is, in place of its twin: a ratio of quantities of one dimension.
+    pub fn is_pure(&self) -> bool {
+        self.quantity == Quantity::DampingRatio
+    }
+
     /// Checks a value against the bounds.
     ///
     /// # Errors
@@ -360,8 +365,17 @@ pub const STIFFNESS: ScaleKey = ScaleKey {
     bounds: Bounds::POSITIVE,
 };
 
-/// The numbers that make the scales of a study in SI.
-pub const SCALES: &[ScaleKey] = &[MASS, STIFFNESS];
+/// Natural frequency ω₀/2π of an SI study, instead of its stiffness.
+pub const NATURAL_FREQUENCY: ScaleKey = ScaleKey {
+    path: "belt.natural_frequency_hz",
+    symbol: "f₀",
+    about: "natural frequency ω₀/2π, instead of the stiffness; its presence makes the study one in SI",
+    unit: "Hz",
+    bounds: Bounds::POSITIVE,
+};
+
+/// The numbers that make the scales of a study in SI: the mass, and either stiffness or natural frequency.
+pub const SCALES: &[ScaleKey] = &[MASS, STIFFNESS, NATURAL_FREQUENCY];
 
 /// Every parameter of a belt study, in the order of the study file. The friction law's own
 /// parameters are those of its file ([`crate::friction::LawKind::parameters`]).

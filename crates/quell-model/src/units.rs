@@ -5,6 +5,8 @@
 
 use crate::Invalid;
 
+pub mod measure;
+
 /// What kind of quantity a number is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Quantity {
@@ -30,6 +32,14 @@ pub enum Quantity {
     Power,
     /// Per velocity/ω₀; in SI per m/s.
     PerVelocity,
+    /// Mass over the plate's; in SI kilograms.
+    LoadMass,
+    /// Damper over M_pω_ref; in SI N·s/m.
+    LoadDamping,
+    /// Spring over M_pω_ref²; in SI N/m.
+    LoadStiffness,
+    /// Friction force over r₀M_pω_ref²; in SI newtons.
+    LoadFriction,
 }
 
 impl Quantity {
@@ -46,6 +56,10 @@ impl Quantity {
             Self::Time => "1/ω₀",
             Self::Power => "length² (power/(kω₀))",
             Self::PerVelocity => "1/length (per velocity/ω₀)",
+            Self::LoadMass => "1 (m/M_p)",
+            Self::LoadDamping => "1 (c/(M_pω_ref))",
+            Self::LoadStiffness => "1 (k/(M_pω_ref²))",
+            Self::LoadFriction => "1 (F_θ/(r₀M_pω_ref²))",
         }
     }
 
@@ -53,14 +67,16 @@ impl Quantity {
     pub fn si_unit(self) -> Option<(&'static str, &'static str)> {
         Some(match self {
             Self::Ratio | Self::Count | Self::Angle => return None,
-            Self::DampingRatio => ("N·s/m", "n_s_per_m"),
-            Self::Force => ("N", "n"),
+            Self::DampingRatio | Self::LoadDamping => ("N·s/m", "n_s_per_m"),
+            Self::Force | Self::LoadFriction => ("N", "n"),
             Self::Velocity => ("m/s", "m_per_s"),
             Self::Displacement => ("m", "m"),
             Self::FrequencyRatio => ("Hz", "hz"),
             Self::Time => ("s", "s"),
             Self::Power => ("W", "w"),
             Self::PerVelocity => ("s/m", "s_per_m"),
+            Self::LoadMass => ("kg", "kg"),
+            Self::LoadStiffness => ("N/m", "n_per_m"),
         })
     }
 }
@@ -70,6 +86,8 @@ impl Quantity {
 pub struct Scales {
     mass_kg: f64,
     stiffness_n_per_m: f64,
+    /// ω₀, rad/s.
+    angular_frequency: f64,
 }
 
 impl Scales {
@@ -84,16 +102,36 @@ impl Scales {
                 .filter(|(_, value)| !(value.is_finite() && *value > 0.0))
                 .map(|(key, value)| Invalid::new(key, value, "a finite number > 0"))
                 .collect();
-        if complaints.is_empty() {
-            Ok(Self { mass_kg, stiffness_n_per_m })
-        } else {
-            Err(complaints)
+        if !complaints.is_empty() {
+            return Err(complaints);
         }
+        let angular_frequency = (stiffness_n_per_m / mass_kg).sqrt();
+        Ok(Self { mass_kg, stiffness_n_per_m, angular_frequency })
+    }
+
+    /// From mass in kilograms and natural frequency ω₀/2π in hertz: k = mω₀².
+    ///
+    /// # Errors
+    /// A complaint for each value that is not finite and positive.
+    pub fn of_natural_frequency(mass_kg: f64, hertz: f64) -> Result<Self, Vec<Invalid>> {
+        let angular_frequency = std::f64::consts::TAU * hertz;
+        let stiffness = mass_kg * angular_frequency * angular_frequency;
+        if !(hertz.is_finite() && hertz > 0.0) {
+            let key = "belt.natural_frequency_hz";
+            return Err(vec![Invalid::new(key, hertz, "a finite number > 0")]);
+        }
+        let scales = Self::new(mass_kg, stiffness)?;
+        Ok(Self { angular_frequency, ..scales })
     }
 
     /// Natural frequency ω₀ = √(k/m), rad/s.
     pub fn angular_frequency(&self) -> f64 {
-        (self.stiffness_n_per_m / self.mass_kg).sqrt()
+        self.angular_frequency
+    }
+
+    /// Stiffness k, N/m.
+    pub fn stiffness_n_per_m(&self) -> f64 {
+        self.stiffness_n_per_m
     }
 
     /// Mass m, kg.
@@ -107,11 +145,16 @@ impl Scales {
         match quantity {
             Quantity::Ratio | Quantity::Count | Quantity::Angle | Quantity::Displacement => 1.0,
             Quantity::DampingRatio => 2.0 * self.mass_kg * omega,
-            Quantity::Force => self.stiffness_n_per_m,
+            // Stiffness and friction of a load: a force over a length of 1 m.
+            Quantity::Force | Quantity::LoadStiffness | Quantity::LoadFriction => {
+                self.stiffness_n_per_m
+            }
             Quantity::Velocity => omega,
             Quantity::FrequencyRatio => omega / std::f64::consts::TAU,
             Quantity::Time | Quantity::PerVelocity => 1.0 / omega,
             Quantity::Power => self.stiffness_n_per_m * omega,
+            Quantity::LoadMass => self.mass_kg,
+            Quantity::LoadDamping => self.mass_kg * omega,
         }
     }
 
@@ -126,9 +169,68 @@ impl Scales {
     }
 }
 
+/// What turns the numbers of a disc into SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DiscScales {
+    /// ω_ref/2π, Hz.
+    pub reference_hz: f64,
+    /// Mass M_p of the plate, kg, where material and size are known.
+    pub plate_mass_kg: Option<f64>,
+    /// Radius r₀ of the load, m, where it is known.
+    pub load_radius_m: Option<f64>,
+}
+
+impl DiscScales {
+    /// SI value of one unit of a quantity of the equations; `None` where what it takes is not known.
+    pub fn si_per_unit(&self, quantity: Quantity) -> Option<f64> {
+        let omega = std::f64::consts::TAU * self.reference_hz;
+        let mass = self.plate_mass_kg;
+        match quantity {
+            Quantity::FrequencyRatio => Some(self.reference_hz),
+            Quantity::Time => Some(1.0 / omega),
+            Quantity::LoadMass => mass,
+            Quantity::LoadDamping => mass.map(|mass| mass * omega),
+            Quantity::LoadStiffness => mass.map(|mass| mass * omega * omega),
+            Quantity::LoadFriction => {
+                mass.zip(self.load_radius_m).map(|(mass, radius)| radius * mass * omega * omega)
+            }
+            Quantity::Ratio | Quantity::Count | Quantity::Angle | Quantity::Displacement => {
+                Some(1.0)
+            }
+            Quantity::DampingRatio
+            | Quantity::Force
+            | Quantity::Velocity
+            | Quantity::PerVelocity
+            | Quantity::Power => None,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_load_in_si_maps_to_the_numbers_of_the_disc() {
+        let scales = DiscScales {
+            reference_hz: 5.0 / std::f64::consts::PI,
+            plate_mass_kg: Some(2.0),
+            load_radius_m: Some(0.1),
+        };
+        for (quantity, unit) in [
+            (Quantity::LoadMass, 2.0),
+            (Quantity::LoadDamping, 20.0),
+            (Quantity::LoadStiffness, 200.0),
+            (Quantity::LoadFriction, 20.0),
+            (Quantity::Time, 0.1),
+        ] {
+            let found = scales.si_per_unit(quantity).expect("known");
+            assert!((found / unit - 1.0).abs() < 1e-14, "{quantity:?}");
+        }
+        let bare = DiscScales { plate_mass_kg: None, ..scales };
+        assert_eq!(bare.si_per_unit(Quantity::LoadMass), None);
+        assert!(bare.si_per_unit(Quantity::FrequencyRatio).is_some());
+    }
 
     #[test]
     fn a_pad_in_si_maps_to_its_ratios() {
@@ -141,6 +243,17 @@ mod tests {
         let ratio = scales.from_si(Quantity::FrequencyRatio, 100.0 / std::f64::consts::TAU);
         assert!((ratio - 10.0).abs() < 1e-14);
         assert_eq!(scales.to_si(Quantity::Time, 30.0), 3.0);
+    }
+
+    #[test]
+    fn a_natural_frequency_stands_for_a_stiffness() {
+        let scales = Scales::of_natural_frequency(2.0, 5.0).expect("valid");
+        assert_eq!(scales.angular_frequency(), 10.0 * std::f64::consts::PI);
+        assert_eq!(scales.si_per_unit(Quantity::FrequencyRatio), 5.0);
+        let stiffness = 200.0 * std::f64::consts::PI * std::f64::consts::PI;
+        assert!((scales.stiffness_n_per_m() / stiffness - 1.0).abs() < 1e-15);
+        assert!(Scales::of_natural_frequency(2.0, 0.0).is_err());
+        assert!(Scales::of_natural_frequency(-2.0, 5.0).is_err());
     }
 
     #[test]

@@ -47,9 +47,10 @@ pub(crate) fn dataset(py: Python<'_>, dataset: Dataset) -> PyResult<Py<PyAny>> {
     (told, list(axes)?, list(arrays)?).into_py_any(py)
 }
 
-/// (name, unit, values, words): codes of words are bytes.
+/// (name, (unit, scaling), values, words): codes of words are bytes.
 fn array(py: Python<'_>, array: Array) -> PyResult<Py<PyAny>> {
-    let Array { name, unit, values, words } = array;
+    let Array { name, unit, scaling, values, words } = array;
+    let unit = (unit, scaling);
     if words.is_empty() {
         return (name, unit, values.into_pyarray(py), py.None()).into_py_any(py);
     }

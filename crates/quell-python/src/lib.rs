@@ -34,7 +34,7 @@ mod _quell {
     #[pymodule_export]
     use crate::answer::NativeAnswer;
     #[pymodule_export]
-    use crate::reference::reference;
+    use crate::reference::{readable_unit, reference};
     #[pymodule_export]
     use crate::shared::NativeShared;
     #[pymodule_export]

@@ -12,6 +12,12 @@ const FILES: &[(&str, &str)] = &[
     ("disc_modes", include_str!("../../../reference/disc_modes.json")),
 ];
 
+/// A unit as unit packages read it, and what the numbers are scaled by.
+#[pyfunction]
+pub(crate) fn readable_unit(unit: &str) -> (String, String) {
+    quell::dataset::readable(unit)
+}
+
 /// The text of a reference file; none where there is none of that name.
 #[pyfunction]
 pub(crate) fn reference(name: &str) -> Option<&'static str> {

@@ -9,7 +9,8 @@ use quell::run::basins::{Layout, Question as Window};
 use quell::run::bifurcation::Question as Sweep;
 use quell::run::varied::Range;
 use quell::study::mirror::{Node, Table};
-use quell::{Change, Complaint, Failure, Subject};
+use quell::{Change, Complaint, Failure, Subject, quantity};
+use quell_model::units::{Quantity, Scales};
 
 use crate::answer::NativeAnswer;
 use crate::verbs::map::Asked;
@@ -32,8 +33,37 @@ pub(crate) struct NativeStudy {
     from_file: bool,
 }
 
-/// The ends of a range.
-type Ends = (f64, f64);
+/// Two numbers in the system of the study, or with units.
+pub(crate) type Pair = (String, String);
+
+/// Two quantities in the numbers of the equations.
+pub(crate) fn both(
+    (first, second): &Pair,
+    quantity: Quantity,
+    scales: Option<Scales>,
+    option: &'static str,
+) -> Result<(f64, f64), Failure> {
+    let read = |text: &str| quantity::parse(text, quantity, scales, option);
+    Ok((read(first)?, read(second)?))
+}
+
+/// A state: displacement and velocity in the numbers of the equations.
+pub(crate) fn state(
+    (x, v): &Pair,
+    scales: Option<Scales>,
+    option: &'static str,
+) -> Result<(f64, f64), Failure> {
+    let x = quantity::parse(x, Quantity::Displacement, scales, option)?;
+    let v = quantity::parse(v, Quantity::Velocity, scales, option)?;
+    Ok((x, v))
+}
+
+/// The ends of a range of a parameter, in the unit of its key.
+pub(crate) fn ends(parameter: &str, (from, to): &Pair) -> Result<(f64, f64), Failure> {
+    let from = quantity::value_of_key(from, parameter, "--from")?;
+    let to = quantity::value_of_key(to, parameter, "--to")?;
+    Ok((from, to))
+}
 
 /// Keys and values of an axis.
 type Axis = Vec<(String, String)>;
@@ -152,16 +182,17 @@ impl NativeStudy {
         call::here(py, move || Ok(cite::run(&subject)))
     }
 
-    /// `at`: slip velocities; a grid of them where it is none.
-    #[pyo3(signature = (at))]
+    /// `at`: slip velocities in the system of the study, `texts`: such with units; a grid of them where there are none.
+    #[pyo3(signature = (at, texts))]
     fn friction(
         &self,
         py: Python<'_>,
         at: Option<PyReadonlyArray1<'_, f64>>,
+        texts: Vec<String>,
     ) -> PyResult<NativeAnswer> {
         let subject = self.subject();
         let at = at.map(|at| at.as_array().to_vec());
-        call::run(py, move || friction::run(&subject, at))
+        call::run(py, move || friction::run(&subject, at, &texts))
     }
 
     fn stability(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
@@ -191,13 +222,13 @@ impl NativeStudy {
     fn orbit(
         &self,
         py: Python<'_>,
-        near: Option<(f64, f64)>,
+        near: Option<Pair>,
         periods: u32,
         after: Vec<String>,
-        start: Option<(f64, f64)>,
+        start: Option<Pair>,
     ) -> PyResult<NativeAnswer> {
         let subject = self.subject();
-        call::run(py, move || orbit::run(&subject, near, periods, &after, start))
+        call::run(py, move || orbit::run(&subject, near.as_ref(), periods, &after, start.as_ref()))
     }
 
     /// `protocols`: names of starts, and a start of its own.
@@ -206,15 +237,14 @@ impl NativeStudy {
         &self,
         py: Python<'_>,
         parameter: String,
-        range: (f64, f64),
+        range: Pair,
         protocols: Vec<String>,
-        start: Option<(f64, f64)>,
-        ramp: f64,
+        start: Option<Pair>,
+        ramp: String,
     ) -> PyResult<NativeAnswer> {
         let subject = self.subject();
         call::run(py, move || {
-            let protocols = thresholds::protocols(&protocols, start);
-            thresholds::run(&subject, parameter, range, protocols, ramp)
+            thresholds::run(&subject, parameter, &range, (&protocols, start.as_ref()), &ramp)
         })
     }
 
@@ -223,12 +253,12 @@ impl NativeStudy {
         &self,
         py: Python<'_>,
         parameter: String,
-        range: (f64, f64),
+        range: Pair,
         along: String,
-        between: (f64, f64),
+        between: Pair,
     ) -> PyResult<NativeAnswer> {
         let subject = self.subject();
-        call::run(py, move || thresholds::run_along(&subject, parameter, range, along, between))
+        call::run(py, move || thresholds::run_along(&subject, parameter, &range, along, &between))
     }
 
     /// `ways`: whether up and whether down is asked for.
@@ -237,13 +267,16 @@ impl NativeStudy {
         &self,
         py: Python<'_>,
         parameter: String,
-        range: (f64, f64),
+        range: Pair,
         points: usize,
         ways: (bool, bool),
         progress: Option<Py<PyAny>>,
     ) -> PyResult<NativeAnswer> {
-        let ((from, to), (up, down)) = (range, ways);
-        let range = Range { parameter, from, to, points };
+        let (up, down) = ways;
+        let range = call::here(py, move || {
+            let (from, to) = ends(&parameter, &range)?;
+            Ok(Range { parameter, from, to, points })
+        })?;
         let question = Sweep { range, up, down };
         bifurcation::run(py, self.subject(), question, progress)
     }
@@ -254,18 +287,33 @@ impl NativeStudy {
     fn basins(
         &self,
         py: Python<'_>,
-        window: (Option<Ends>, Option<Ends>),
+        window: (Option<Pair>, Option<Pair>),
         layout: ((usize, usize), Option<(usize, u64)>),
-        over: Option<(String, f64, f64, usize)>,
+        over: Option<(String, Pair, usize)>,
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<NativeAnswer> {
-        let (displacement, velocity) = window;
+        let subject = self.subject();
+        let (displacement, velocity, over) = call::here(py, move || {
+            let scales = subject.scales();
+            let (displacement, velocity) = window;
+            let read = |pair: Option<Pair>, quantity, option| {
+                pair.map(|pair| both(&pair, quantity, scales, option)).transpose()
+            };
+            let over = over.map(|(parameter, range, points)| {
+                let (from, to) = ends(&parameter, &range)?;
+                Ok::<_, Failure>(Range { parameter, from, to, points })
+            });
+            Ok((
+                read(displacement, Quantity::Displacement, "--displacement")?,
+                read(velocity, Quantity::Velocity, "--velocity")?,
+                over.transpose()?,
+            ))
+        })?;
         let layout = match layout {
             (_, Some((count, seed))) => Layout::Sample { count, seed },
             ((columns, rows), None) => Layout::Grid { columns, rows },
         };
-        let over = over.map(|(parameter, from, to, points)| Range { parameter, from, to, points });
         let question = Window { displacement, velocity, layout, over };
         basins::run(py, self.subject(), question, threads, progress)
     }
@@ -279,13 +327,13 @@ impl NativeStudy {
     fn resonances(
         &self,
         py: Python<'_>,
-        speeds: (f64, f64),
+        speeds: Option<Pair>,
         order: String,
-        clear: Option<(f64, f64)>,
-        frequency: Option<(f64, f64)>,
+        clear: Option<Pair>,
+        frequency: Option<Pair>,
     ) -> PyResult<NativeAnswer> {
         let subject = self.subject();
-        call::run(py, move || resonances::run(&subject, speeds, &order, clear, frequency))
+        call::run(py, move || resonances::run(&subject, &order, [speeds, clear, frequency]))
     }
 
     /// `progress`: called with the points that are there and all points.

@@ -94,21 +94,76 @@ def test_complaints_are_those_of_the_command_line(cli: Any, tmp_path: Any) -> No
     assert caught.value.errors[0]["fault"] == "path"
 
 
+def belt_in_si(**given: Any) -> quell.Belt:
+    """A belt in SI, ω₀ = 10 rad/s."""
+    keys: dict[str, Any] = {
+        "mass_kg": 2.0,
+        "stiffness_n_per_m": 200.0,
+        "damping_n_s_per_m": 0.2,
+        "normal_force_n": 20.0,
+        "belt_velocity_m_per_s": 0.05,
+        "friction": quell.Stribeck(static_coefficient=0.4, minimum_coefficient=0.2857, reference_velocity_m_per_s=0.2),
+        "dither": quell.Dither("tangential", "sine", amplitude_n=80.0, frequency_hz=16.0),
+        "initial": (0.01, 0.0),
+    }
+    return quell.Belt(**{**keys, **given})
+
+
 def test_a_study_in_si_answers_in_both() -> None:
-    belt = quell.Belt(
-        mass_kg=2.0,
-        stiffness_n_per_m=200.0,
-        damping_n_s_per_m=0.2,
-        normal_force_n=20.0,
-        belt_velocity_m_per_s=0.05,
-        friction=quell.Stribeck(static_coefficient=0.4, minimum_coefficient=0.2857, reference_velocity_m_per_s=0.2),
-        dither=quell.Dither("tangential", "sine", amplitude_n=80.0, frequency_hz=16.0),
-        initial=quell.Initial(displacement_m=0.01),
-    )
-    end = belt.simulate("1.5s").final
+    belt = belt_in_si()
+    end = belt.simulate("1500ms").final
     assert end["time"] == 15.0 and end["time_s"] == 1.5
-    assert belt.simulate(15.0).final == end
+    assert belt.simulate(1.5).final == end
     assert belt.check().system == "si"
+
+
+def test_arguments_of_a_study_in_si_are_in_si_or_have_units() -> None:
+    belt = belt_in_si()
+    assert belt == belt_in_si(initial=quell.Initial(displacement_m=0.01, velocity_m_per_s=0.0))
+    with_units = belt_in_si(mass_kg="2000 g", normal_force_n="0.02kN", belt_velocity_m_per_s="0.18 km/h",
+                            dither=quell.Dither("tangential", "sine", amplitude_n="0.08kN", frequency_hz="0.016 kHz"))
+    assert with_units.settings == belt.settings
+    assert belt.set({"belt.normal_force_n": "0.02kN"}).settings == belt.settings
+    at = belt.friction([0.02, -0.03])
+    assert at.facts == belt.friction(["20mm/s", "-0.03m/s"]).facts
+    assert np.allclose(at.slip_velocity_m_per_s, [0.02, -0.03], rtol=1e-15)
+    near = belt.orbit(near=(0.02, 0.05))
+    assert near.facts == belt.orbit(near=("20mm", "5cm/s")).facts
+    found = belt.thresholds("dither.amplitude_n", 70, 90, start=(0.02, 0.05), ramp=0.5)
+    same = belt.thresholds("dither.amplitude_n", "0.07kN", "90 N", start=("2cm", 0.05), ramp="500ms")
+    assert found.facts == same.facts and found.from_n == pytest.approx(70)
+    for call, key in (
+        (lambda: belt.simulate("5N"), "until"),
+        (lambda: belt.orbit(near=("1s", 0)), "near"),
+        (lambda: belt.thresholds("dither.amplitude_n", "5m", 90), "from_"),
+        (lambda: belt.thresholds("dither.amplitude", 70, 90), "parameter"),
+        (lambda: quell.Belt(**BELT, dither=DITHER).simulate("5s"), "until"),
+    ):
+        with pytest.raises(quell.StudyError) as caught:
+            call()
+        assert caught.value.errors[0]["key"] == key
+
+
+def test_datasets_are_in_the_units_of_the_study() -> None:
+    belt = belt_in_si()
+    run = belt.simulate(1.5).dataset
+    assert float(run["time"][-1]) == 1.5 and run["time"].attrs["units"] == "s"
+    assert run["velocity"].attrs["units"] == "m/s" and run["displacement"].attrs["units"] == "m"
+    assert float(run["final_time"]) == 1.5 and run["final_time"].attrs["units"] == "s"
+    orbit = belt.orbit()
+    assert orbit.dataset["velocity"].attrs["units"] == "m/s"
+    assert orbit.lowest_m < orbit.highest_m and orbit.lowest_velocity_m_per_s < orbit.highest_velocity_m_per_s
+    for verb in (run, orbit.dataset, belt.friction().dataset, belt.stability().dataset, belt.response().dataset):
+        units = {it.attrs["units"] for it in verb.variables.values() if "units" in it.attrs}
+        assert not any("length" in unit or "ω" in unit or "(" in unit for unit in units), units
+
+
+def test_a_belt_may_give_its_natural_frequency() -> None:
+    hertz = 10.0 / (2.0 * np.pi)
+    belt = belt_in_si(stiffness_n_per_m=None, damping_n_s_per_m=None, natural_frequency_hz=hertz, damping_ratio=0.005)
+    assert belt.simulate(1.5).final["time_s"] == 1.5
+    with pytest.raises(quell.StudyError, match="not both"):
+        belt_in_si(natural_frequency_hz=hertz)
 
 
 def test_numpy_numbers_are_numbers() -> None:

@@ -2,6 +2,9 @@
 //!
 //! Arrays lie over the product of the axes, the last axis fastest. CSV is one row a point,
 //! axes first, after a header of comment lines (`pandas.read_csv(…, comment="#")`).
+//!
+//! Numbers are in the units of the study: in SI where the study is. Units are words that programs read (`m/s`,
+//! `dimensionless`); what a number without dimension is scaled by stands beside them.
 
 use std::fmt::Write as _;
 
@@ -15,8 +18,10 @@ use crate::study::{Study, Subject};
 pub struct Array {
     /// Name, as in JSON.
     pub name: String,
-    /// Unit.
+    /// Unit, as unit packages such as pint read it.
     pub unit: String,
+    /// What a number of the equations is scaled by, such as `1/ω₀`; empty where there is nothing to say.
+    pub scaling: String,
     /// Values; NaN only where there is none.
     pub values: Vec<f64>,
     /// Words that the values are codes of; empty where they are numbers.
@@ -26,13 +31,14 @@ pub struct Array {
 impl Array {
     /// Numbers.
     pub fn new(name: impl Into<String>, unit: impl Into<String>, values: Vec<f64>) -> Self {
-        Self { name: name.into(), unit: unit.into(), values, words: Vec::new() }
+        let (unit, scaling) = readable(&unit.into());
+        Self { name: name.into(), unit, scaling, values, words: Vec::new() }
     }
 
     /// Codes of words.
     pub fn of_words(name: impl Into<String>, words: Vec<(u8, &'static str)>, codes: &[u8]) -> Self {
         let values = codes.iter().copied().map(f64::from).collect();
-        Self { name: name.into(), unit: "word".to_owned(), values, words }
+        Self { words, ..Self::new(name, "1", values) }
     }
 
     /// A value as it stands in CSV; empty where there is none.
@@ -100,35 +106,41 @@ impl Dataset {
         self
     }
 
-    /// Adds an axis; in a study in SI its twin follows among the arrays where there is one axis.
+    /// Adds an axis of numbers of the equations: in SI in a study in SI; a single axis also under the name that carries
+    /// the unit, as an array.
     #[must_use]
     pub fn axis(mut self, name: &str, quantity: Quantity, values: Vec<f64>) -> Self {
-        let twin = self.twin(name, quantity, &values);
-        self.axes.push(array(name, quantity, values));
-        self.arrays.extend(twin);
+        let (axis, suffix) = self.in_units(name, quantity, values);
+        match self.axes.first().map(|first| format!("{}_", first.name)) {
+            // Over several axes an array of the length of one is none.
+            Some(twin) => self.arrays.retain(|array| !array.name.starts_with(&twin)),
+            None => self.arrays.extend(twin(&axis, suffix)),
+        }
+        self.axes.push(axis);
         self
     }
 
-    /// Adds an array, and its SI twin in a study in SI.
+    /// Adds an array of numbers of the equations: in SI in a study in SI, also under the name that carries the unit.
     #[must_use]
     pub fn array(mut self, name: &str, quantity: Quantity, values: Vec<f64>) -> Self {
-        let twin = self.twin(name, quantity, &values);
-        self.arrays.push(array(name, quantity, values));
-        self.arrays.extend(twin);
+        let (array, suffix) = self.in_units(name, quantity, values);
+        self.push_both(array, suffix);
         self
     }
 
-    /// Adds slopes per unit velocity, in a study in SI also per m/s.
+    /// Adds slopes per unit velocity: in a study in SI per m/s.
     #[must_use]
-    pub fn per_velocity(mut self, name: &str, values: Vec<f64>) -> Self {
+    pub fn per_velocity(mut self, name: &str, mut values: Vec<f64>) -> Self {
         let (unit, si_unit, suffix) = PER_VELOCITY;
-        let twin = self.scales.map(|scales| {
-            let omega = scales.si_per_unit(Quantity::Velocity);
-            let values = values.iter().map(|value| value / omega).collect();
-            Array::new(format!("{name}_{suffix}"), si_unit, values)
-        });
-        self.arrays.push(Array::new(name, unit, values));
-        self.arrays.extend(twin);
+        let Some(scales) = self.scales else {
+            self.arrays.push(Array::new(name, unit, values));
+            return self;
+        };
+        let omega = scales.si_per_unit(Quantity::Velocity);
+        for value in &mut values {
+            *value /= omega;
+        }
+        self.push_both(Array::new(name, si_unit, values), Some(suffix));
         self
     }
 
@@ -166,11 +178,28 @@ impl Dataset {
         &self.provenance
     }
 
-    fn twin(&self, name: &str, quantity: Quantity, values: &[f64]) -> Option<Array> {
-        let (unit, suffix) = quantity.si_unit()?;
-        let factor = self.scales?.si_per_unit(quantity);
-        let values = values.iter().map(|value| value * factor).collect();
-        Some(Array::new(format!("{name}_{suffix}"), unit, values))
+    /// An array in the units of the study, and the suffix that names its unit in SI.
+    fn in_units(
+        &self,
+        name: &str,
+        quantity: Quantity,
+        mut values: Vec<f64>,
+    ) -> (Array, Option<&'static str>) {
+        let Some((scales, (unit, suffix))) = self.scales.zip(quantity.si_unit()) else {
+            return (Array::new(name, quantity.scaled_unit(), values), None);
+        };
+        let factor = scales.si_per_unit(quantity);
+        for value in &mut values {
+            *value *= factor;
+        }
+        (Array::new(name, unit, values), Some(suffix))
+    }
+
+    /// Adds an array, and the same under its name with the suffix.
+    fn push_both(&mut self, array: Array, suffix: Option<&str>) {
+        let twin = twin(&array, suffix);
+        self.arrays.push(array);
+        self.arrays.extend(twin);
     }
 
     /// As CSV.
@@ -214,6 +243,12 @@ impl Dataset {
             .map(|array| format!("{} [{}]", array.name, array.unit))
             .collect();
         lines.push(format!("units: {}", units.join(", ")));
+        let scaled = self.axes.iter().chain(&self.arrays).filter(|it| !it.scaling.is_empty());
+        let scalings: Vec<String> =
+            scaled.map(|array| format!("{} [{}]", array.name, array.scaling)).collect();
+        if !scalings.is_empty() {
+            lines.push(format!("scaling: {}", scalings.join(", ")));
+        }
         lines.extend(changes.iter().map(|change| format!("changed: {change}")));
         lines.push("study:".to_owned());
         lines.extend(text.lines().map(|line| format!("  {line}")));
@@ -226,8 +261,28 @@ impl Dataset {
     }
 }
 
-fn array(name: &str, quantity: Quantity, values: Vec<f64>) -> Array {
-    Array::new(name, quantity.scaled_unit(), values)
+/// The same array under its name with the suffix of its unit.
+fn twin(array: &Array, suffix: Option<&str>) -> Option<Array> {
+    suffix.map(|suffix| Array { name: format!("{}_{suffix}", array.name), ..array.clone() })
+}
+
+/// A unit as unit packages read it, and what the numbers are scaled by.
+pub fn readable(unit: &str) -> (String, String) {
+    let (head, inner) = unit.split_once(" (").unwrap_or((unit, ""));
+    let scaling = inner.strip_suffix(')').unwrap_or(inner);
+    match head {
+        "" | "1" => ("dimensionless".to_owned(), scaling.to_owned()),
+        "degrees" => ("degree".to_owned(), scaling.to_owned()),
+        // Decibels are logarithms, which unit packages treat each in its own way.
+        "dB/s" => ("1/s".to_owned(), "dB".to_owned()),
+        _ if head.contains('ω') || head.contains("length") => {
+            ("dimensionless".to_owned(), unit.to_owned())
+        }
+        _ => {
+            let plain = head.replace('·', "*").replace('²', "**2").replace('³', "**3");
+            (plain, scaling.to_owned())
+        }
+    }
 }
 
 #[cfg(test)]
@@ -251,7 +306,49 @@ mod tests {
         assert_eq!(rows[1], "1.0,0.1,1.0");
         assert_eq!(rows[5], "2.0,0.2,");
         assert_eq!(rows[6], "2.0,0.3,1e-300");
-        assert!(csv.contains("# units: a [1], b [1], c [length (force/k)]"));
+        assert!(csv.contains("# units: a [dimensionless], b [dimensionless], c [dimensionless]"));
+        assert!(csv.contains("# scaling: c [length (force/k)]\n"));
         assert!(csv.contains("#   normal_load = 1\n"));
+    }
+
+    #[test]
+    fn a_study_in_si_has_its_numbers_in_si() {
+        let text = TEXT
+            .replace("damping_ratio = 0", "mass_kg = 2\nstiffness_n_per_m = 200\ndamping_ratio = 0")
+            .replace("normal_load", "normal_force_n")
+            .replace("belt_velocity", "belt_velocity_m_per_s")
+            .replace("reference_velocity", "reference_velocity_m_per_s");
+        let study = Study::parse(&text, &[]).expect("valid");
+        let csv = Dataset::new(&study, "simulate")
+            .axis("time", Quantity::Time, vec![10.0])
+            .array("velocity", Quantity::Velocity, vec![0.5])
+            .array("sticking", Quantity::Count, vec![1.0])
+            .csv();
+        let rows: Vec<&str> = csv.lines().filter(|line| !line.starts_with('#')).collect();
+        assert_eq!(rows, ["time,time_s,velocity,velocity_m_per_s,sticking", "1.0,1.0,5.0,5.0,1.0"]);
+        let units = "# units: time [s], time_s [s], velocity [m/s], velocity_m_per_s [m/s], sticking [dimensionless]";
+        assert!(csv.contains(units), "{csv}");
+        let plane = Dataset::new(&study, "basins")
+            .axis("velocity", Quantity::Velocity, vec![0.1, 0.2])
+            .axis("displacement", Quantity::Displacement, vec![0.0]);
+        assert!(plane.arrays().is_empty() && plane.axes()[0].values == [1.0, 2.0]);
+        assert!(!csv.contains("length") && !csv.contains("# scaling"));
+    }
+
+    #[test]
+    fn units_are_words_that_programs_read() {
+        for (unit, wanted, scaling) in [
+            ("1", "dimensionless", ""),
+            ("length (force/k)", "dimensionless", "length (force/k)"),
+            ("m (force/k)", "m", "force/k"),
+            ("1/ω₀", "dimensionless", "1/ω₀"),
+            ("1 (c/(2mω₀))", "dimensionless", "c/(2mω₀)"),
+            ("N·s/m", "N*s/m", ""),
+            ("N (rms)", "N", "rms"),
+            ("kg/m³", "kg/m**3", ""),
+            ("ω_ref", "dimensionless", "ω_ref"),
+        ] {
+            assert_eq!(readable(unit), (wanted.to_owned(), scaling.to_owned()), "{unit}");
+        }
     }
 }

@@ -127,6 +127,15 @@ impl Fields {
         self
     }
 
+    /// A growth in decibels per second, of a study in SI; or null and why.
+    pub fn decibels(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
+        self.units.insert(name.to_owned(), "dB/s".into());
+        match value {
+            Ok(value) => self.plain(name, value),
+            Err(why) => self.unknown(name, why),
+        }
+    }
+
     /// An object inside this one.
     pub fn nested(&mut self, name: &str, inner: Self) -> &mut Self {
         let object = self.take(name, inner);

@@ -1,50 +1,14 @@
-//! Quantities on the command line: `0.5`, `0.5s`, `20 mm/s`.
+//! Quantities on the command line and in Python: `0.5`, `0.5s`, `20 mm/s`.
 //!
-//! A plain number is one of the equations; a number with a unit needs a study in SI.
+//! A plain number is in the system of the study: in SI where the study is, else one of the equations. A number with
+//! a unit needs a study in SI; angles and ratios have units (`30deg`, `2%`) in any.
 
+use quell_model::units::measure::{self, Unread};
 use quell_model::units::{Quantity, Scales};
 use serde_json::Value as Json;
 
 use crate::complaint::Complaint;
-
-/// Units of a quantity with their size in SI.
-fn units(quantity: Quantity) -> &'static [(&'static str, f64)] {
-    match quantity {
-        Quantity::Time => &[
-            ("s", 1.0),
-            ("ms", 1e-3),
-            ("us", 1e-6),
-            ("µs", 1e-6),
-            ("μs", 1e-6),
-            ("min", 60.0),
-            ("h", 3600.0),
-        ],
-        Quantity::Velocity => &[
-            ("m/s", 1.0),
-            ("cm/s", 1e-2),
-            ("mm/s", 1e-3),
-            ("um/s", 1e-6),
-            ("µm/s", 1e-6),
-            ("μm/s", 1e-6),
-            ("km/h", 1.0 / 3.6),
-        ],
-        Quantity::Displacement => &[
-            ("m", 1.0),
-            ("cm", 1e-2),
-            ("mm", 1e-3),
-            ("um", 1e-6),
-            ("µm", 1e-6),
-            ("μm", 1e-6),
-            ("nm", 1e-9),
-        ],
-        Quantity::Force => &[("N", 1.0), ("mN", 1e-3), ("kN", 1e3)],
-        Quantity::FrequencyRatio => &[("Hz", 1.0), ("kHz", 1e3), ("MHz", 1e6)],
-        Quantity::Power => &[("W", 1.0), ("mW", 1e-3), ("kW", 1e3)],
-        Quantity::PerVelocity => &[("s/m", 1.0), ("s/mm", 1e3)],
-        Quantity::DampingRatio => &[("N·s/m", 1.0), ("Ns/m", 1.0)],
-        Quantity::Ratio | Quantity::Count | Quantity::Angle => &[],
-    }
-}
+use crate::study::{DiscStudy, vocabulary};
 
 /// Unit of a quantity in the numbers of the equations. The lengths of a study in SI are metres.
 pub fn unit_of(quantity: Quantity, si: bool) -> String {
@@ -64,41 +28,81 @@ pub fn parse(
     option: &'static str,
 ) -> Result<f64, Box<Complaint>> {
     let text = text.trim();
-    let known = units(quantity);
-    let complaint = |allowed: String| Box::new(Complaint::option(option, text, allowed));
-    let wanted = || match (known.first(), scales) {
-        (Some((unit, _)), Some(_)) => {
-            format!(
-                "a finite number in {}, or one with a unit such as 0.5{unit}",
-                quantity.scaled_unit()
-            )
-        }
-        _ => format!("a finite number in {}", quantity.scaled_unit()),
+    let unit = match (quantity, quantity.si_unit()) {
+        (Quantity::Angle, _) => Some("rad"),
+        (Quantity::Ratio, _) => Some("1"),
+        (_, Some((unit, _))) => Some(unit).filter(|_| scales.is_some()),
+        (_, None) => None,
     };
-    if let Ok(number) = text.parse::<f64>() {
-        return if number.is_finite() { Ok(number) } else { Err(complaint(wanted())) };
+    let found = measured(text, unit, quantity.scaled_unit(), option)?;
+    let found = scales.map_or(found, |scales| scales.from_si(quantity, found));
+    if found.is_finite() {
+        return Ok(found);
     }
-    // The longest unit that fits: "ms" before "s".
-    let fitting = known
-        .iter()
-        .filter_map(|(unit, size)| text.strip_suffix(unit).map(|rest| (rest.trim(), *unit, *size)))
-        .min_by_key(|(rest, ..)| rest.len());
-    let Some((rest, unit, size)) = fitting else {
-        return Err(complaint(wanted()));
+    let allowed = format!("a smaller number of {}", unit.unwrap_or(quantity.scaled_unit()));
+    Err(Box::new(Complaint::option(option, text, allowed)))
+}
+
+/// Reads a speed or a frequency of a disc into ω_ref: a plain number is in hertz where the study has numbers in SI, else in
+/// ω_ref; one with a unit (`20kHz`, `900rpm`) needs a study that says what ω_ref is.
+///
+/// # Errors
+/// A complaint about `option`.
+pub fn frequency(
+    text: &str,
+    study: Option<&DiscStudy>,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    // Of a study that could not be read it is not known what ω_ref is: units are no fault there.
+    let hertz = study.map_or(Some(1.0), DiscStudy::reference_hz);
+    let in_hertz = study.is_some_and(DiscStudy::is_si) || measure::has_unit(text);
+    match hertz.filter(|_| in_hertz) {
+        Some(hertz) => measured(text, Some("Hz"), "", option).map(|found| found / hertz),
+        None => measured(text, None, "ω_ref", option),
+    }
+}
+
+/// Reads a value of the number that a path names, in the unit of its key. Where the path names none, which is for its
+/// own reader to refuse, the unit is not looked at.
+///
+/// # Errors
+/// As [`parse`].
+pub fn value_of_key(text: &str, path: &str, option: &'static str) -> Result<f64, Box<Complaint>> {
+    let Ok(address) = vocabulary::resolve(path) else {
+        return measured(text, Some("1"), "", option).or(Ok(0.0));
     };
-    let number = rest.parse::<f64>().ok().filter(|number| number.is_finite());
-    let Some(number) = number else {
-        return Err(complaint(wanted()));
+    measured(text, address.key.measured_in(), address.key.unit_in_words(), option)
+}
+
+/// A finite number in a unit, or in the words for numbers without one.
+fn measured(
+    text: &str,
+    unit: Option<&'static str>,
+    otherwise: &'static str,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    let text = text.trim();
+    let why = match measure::read(text, unit) {
+        Ok(number) if number.is_finite() => return Ok(number),
+        Err(why) if measure::has_unit(text) => Some(why),
+        _ => None,
     };
-    let Some(scales) = scales else {
-        return Err(complaint(format!(
-            "a plain number, in {}: {unit} needs a study in SI, with belt.mass_kg and \
-             belt.stiffness_n_per_m",
-            quantity.scaled_unit()
-        )));
+    let wanted = match (unit, otherwise) {
+        (None | Some("1"), "" | "1") => "a finite number".to_owned(),
+        (None, unit) => format!("a finite number in {unit}"),
+        (Some("1"), _) => "a finite number, or one in %".to_owned(),
+        (Some(unit), _) => {
+            format!("a finite number in {unit}, or one with a unit such as 0.5{unit}")
+        }
     };
-    let found = scales.from_si(quantity, number * size);
-    if found.is_finite() { Ok(found) } else { Err(complaint(wanted())) }
+    let allowed = match why {
+        None => wanted,
+        Some(why @ Unread::NoUnitHere(_)) => format!(
+            "{wanted}: {why}; units need a study in SI, with belt.mass_kg and its keys in SI"
+        ),
+        Some(why) => format!("{wanted}: {why}"),
+    };
+    Err(Box::new(Complaint::option(option, text, allowed)))
 }
 
 /// Longest time τ of a run, 1.6·10⁸ slow periods: nobody waits for longer ones.
@@ -140,14 +144,26 @@ mod tests {
         let time = |text| {
             parse(text, Quantity::Time, scales, "--until").map_err(|complaint| complaint.allowed)
         };
-        assert_eq!(time("30"), Ok(30.0));
+        assert_eq!(time("3"), Ok(30.0));
         assert_eq!(time("3s"), Ok(30.0));
         assert_eq!(time("3000 ms"), Ok(30.0));
         assert_eq!(time("-1e0s"), Ok(-10.0));
         for wrong in ["", "s", "fast", "3m", "nan", "inf", "infs", "1e999", "1e308h", "--json"] {
             assert!(time(wrong).is_err(), "{wrong}");
         }
+        assert!(time("3m").is_err_and(|allowed| allowed.contains("in s")));
         assert_eq!(parse("50mm/s", Quantity::Velocity, scales, "--at").ok(), Some(0.005));
+    }
+
+    #[test]
+    fn a_value_is_in_the_unit_of_its_key() {
+        let of = |text, path| value_of_key(text, path, "--from").map_err(|told| told.allowed);
+        assert_eq!(of("5kN", "dither.amplitude_n"), Ok(5000.0));
+        assert_eq!(of("5000", "dither.amplitude_n"), Ok(5000.0));
+        assert_eq!(of("90deg", "dither.phase"), Ok(std::f64::consts::FRAC_PI_2));
+        assert_eq!(of("2%", "belt.damping_ratio"), Ok(0.02));
+        assert!(of("5m", "dither.amplitude_n").expect_err("a length").contains("in N"));
+        assert!(of("5kN", "dither.amplitude").expect_err("no unit").contains("mass_kg"));
     }
 
     #[test]

@@ -7,7 +7,9 @@
 use quell_model::LawKind;
 use quell_model::friction::samples::{FEWEST, MOST_TERMS};
 use quell_model::parameter::disc::DISC_DITHER_AMPLITUDE;
-use quell_model::parameter::{Bounds, COEFFICIENT, DITHER_FREQUENCY_RATIO, NORMAL_LOAD, Parameter};
+use quell_model::parameter::{
+    Bounds, COEFFICIENT, DITHER_FREQUENCY_RATIO, MASS, NORMAL_LOAD, Parameter,
+};
 use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
 
@@ -136,8 +138,10 @@ fn disc(definitions: &mut Map<String, Json>) {
             "waveform": { "const": "sine" },
             "amplitude": property_of(DISC_DITHER_AMPLITUDE),
             "frequency_ratio": property_of(DITHER_FREQUENCY_RATIO),
+            "frequency_hz": vocabulary::key(Section::Dither, "frequency_hz").map_or(json!({}), property),
         },
-        "required": ["direction", "frequency_ratio"],
+        "required": ["direction"],
+        "oneOf": [{ "required": ["frequency_ratio"] }, { "required": ["frequency_hz"] }],
         "additionalProperties": false,
     });
     let root = json!({
@@ -174,20 +178,24 @@ fn property_of(parameter: Parameter) -> Json {
 fn table(section: Section, system: System) -> Json {
     let mut properties = Map::new();
     let mut required = Vec::new();
-    let mut either = Vec::new();
+    // Keys that say the same: one of each list is needed.
+    let mut either: Vec<(&str, Vec<&str>)> = Vec::new();
+    let mut one_of = |what: &'static str, key: &'static str| match either
+        .iter_mut()
+        .find(|(known, _)| *known == what)
+    {
+        Some((_, keys)) => keys.push(key),
+        None => either.push((what, vec![key])),
+    };
     for key in vocabulary::keys_of(section).filter(|key| belongs(key, system)) {
         properties.insert(key.name.to_owned(), property(key));
         match key.role {
-            Role::Number(parameter) if needed(parameter) => required.push(key.name),
             // Friction in newtons may stand for it.
             Role::Twin(parameter, _) if parameter.path == NORMAL_LOAD.path => {}
-            Role::Twin(parameter, twin) if needed(parameter) && parameter.si.len() == 1 => {
-                required.push(twin.key);
+            Role::Number(parameter) | Role::Twin(parameter, _) if needed(parameter) => {
+                one_of(parameter.path, key.name);
             }
-            // Several SI keys give one parameter: exactly one of them.
-            Role::Twin(parameter, twin) if needed(parameter) => {
-                either.push(json!({ "required": [twin.key] }));
-            }
+            Role::Scale(scale) if scale != MASS => one_of("stiffness", key.name),
             Role::Scale(_) | Role::Choice(Choice::Direction | Choice::Waveform) => {
                 required.push(key.name);
             }
@@ -197,9 +205,16 @@ fn table(section: Section, system: System) -> Json {
     if section == Section::Belt {
         properties.insert("initial".into(), json!({ "$ref": reference(Section::Initial, system) }));
     }
+    let (single, several): (Vec<_>, Vec<_>) =
+        either.into_iter().map(|(_, keys)| keys).partition(|keys| keys.len() == 1);
+    required.extend(single.concat());
     let mut object = object(section, &properties, &required);
-    if !either.is_empty() {
-        object["oneOf"] = either.into();
+    let one = |keys: Vec<&str>| {
+        let each: Vec<Json> = keys.iter().map(|key| json!({ "required": [key] })).collect();
+        json!({ "oneOf": each })
+    };
+    if !several.is_empty() {
+        object["allOf"] = several.into_iter().map(one).collect::<Vec<_>>().into();
     }
     if section == Section::Initial {
         let numbers: Vec<Json> = vocabulary::keys_of(section)
@@ -342,7 +357,9 @@ fn sweep() -> Json {
 /// Whether a key may stand in a study of a system.
 fn belongs(key: &Key, system: System) -> bool {
     match key.role {
-        Role::Number(parameter) => system == System::Scaled || parameter.si.is_empty(),
+        Role::Number(parameter) => {
+            system == System::Scaled || parameter.si.is_empty() || parameter.is_pure()
+        }
         Role::Twin(..) | Role::Scale(_) | Role::FrictionForce(..) => system == System::Si,
         Role::Speeds { si } => si == (system == System::Si),
         _ => true,
@@ -388,8 +405,30 @@ fn property(key: &Key) -> Json {
             json!({ "type": "array", "items": { "type": "number" }, "minItems": 1 })
         }
     };
+    if key.measured_in().is_some() {
+        schema = with_units(schema);
+    }
     schema["description"] = about(key).into();
     schema
+}
+
+/// Texts that begin with a number and go on with a unit, which the reader judges.
+const WITH_UNIT: &str =
+    "^\\s*[-+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][-+]?[0-9]+)?\\s*[^-+.\\s0-9eE]";
+
+/// A number, or a text such as "5.7 kN".
+fn with_units(number: Json) -> Json {
+    match number["type"].as_str() {
+        Some("number") => {
+            json!({ "anyOf": [number, { "type": "string", "pattern": WITH_UNIT }] })
+        }
+        Some("array") => {
+            let mut list = number;
+            list["items"] = with_units(list["items"].clone());
+            list
+        }
+        _ => number,
+    }
 }
 
 fn about(key: &Key) -> String {

@@ -2,6 +2,7 @@
 
 use quell::Study;
 use quell::schema::schema;
+use quell_model::units::measure;
 use serde_json::Value as Json;
 
 /// Whether `value` is valid under `schema`: the keywords that our schema uses, and no others.
@@ -14,6 +15,9 @@ fn valid(value: &Json, schema: &Json, root: &Json) -> bool {
             valid(value, root.pointer(pointer).expect(pointer), root)
         }
         "oneOf" => schemas(argument).filter(|schema| valid(value, schema, root)).count() == 1,
+        "allOf" => schemas(argument).all(|schema| valid(value, schema, root)),
+        // The one pattern there is: a number with a unit.
+        "pattern" => value.as_str().is_none_or(measure::has_unit),
         "anyOf" => schemas(argument).any(|schema| valid(value, schema, root)),
         "not" => !valid(value, argument, root),
         "type" => match argument.as_str() {
@@ -105,6 +109,9 @@ fn schema_and_reader_agree() {
         law(SI, forces),
         pressed(law(SI, forces)),
         changed(SI, "amplitude_n_rms", "amplitude_n"),
+        changed(SI, "stiffness_n_per_m = 1", "natural_frequency_hz = 5"),
+        changed(SI, "damping_n_s_per_m = 0.1", "damping_ratio = 0.1"),
+        changed(SI, "normal_force_n = 1", "normal_force_n = '0.4 kN'"),
         more("[belt.initial]\nstate = 'sliding'"),
         more("[belt.initial]\nvelocity = -1"),
         more("[solver]\ntolerance = 1e-9\nsettle = 10\nrecord_periods = 10"),
@@ -133,6 +140,11 @@ fn schema_and_reader_agree() {
         changed(SCALED, "waveform = 'sine'\n", ""),
         changed(SCALED, "amplitude = 0.1\n", ""),
         changed(SI, "mass_kg = 1\n", ""),
+        changed(SI, "mass_kg = 1\n", "mass_kg = 1\nnatural_frequency_hz = 5\n"),
+        changed(SI, "stiffness_n_per_m = 1\n", ""),
+        changed(SI, "damping_n_s_per_m = 0.1\n", "damping_n_s_per_m = 0.1\ndamping_ratio = 0.1\n"),
+        changed(SI, "damping_n_s_per_m = 0.1\n", ""),
+        changed(SI, "normal_force_n = 1", "normal_force_n = 'kN'"),
         changed(SI, "amplitude_n_rms = 0.1\n", ""),
         changed(SI, "amplitude_n_rms", "amplitude"),
         changed(SI, "phase", "amplitude_n = 1\nphase"),

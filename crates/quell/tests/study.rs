@@ -342,16 +342,115 @@ fn si_and_the_numbers_of_the_equations_give_the_same_belt() {
 }
 
 #[test]
+fn a_belt_in_si_may_give_its_natural_frequency_and_damping_ratio() {
+    let plain = Study::parse(SI, &[]).expect("valid");
+    let scales = plain.scales().expect("in SI");
+    let hertz = scales.angular_frequency() / std::f64::consts::TAU;
+    let ratio = plain.belt().damping_ratio();
+    let stiffness = SI.lines().find(|line| line.starts_with("stiffness_n_per_m")).expect("there");
+    let stated = SI
+        .replace(stiffness, &format!("natural_frequency_hz = {hertz:?}"))
+        .replace("damping_n_s_per_m = 15.8", &format!("damping_ratio = {ratio:?}"));
+    let other = Study::parse(&stated, &[]).expect("valid");
+    let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 4e-15, "{a} {b}");
+    assert_eq!(other.belt().damping_ratio(), ratio);
+    close(other.belt().normal_load(), plain.belt().normal_load());
+    close(other.scales().expect("in SI").stiffness_n_per_m(), scales.stiffness_n_per_m());
+    // Each may stand alone, and `--set` takes one in the place of the other.
+    let half = SI.replace("damping_n_s_per_m = 15.8", "damping_ratio = 0.005");
+    assert_eq!(Study::parse(&half, &[]).expect("valid").belt().damping_ratio(), 0.005);
+    let changes = set(&["belt.natural_frequency_hz=0.1kHz", "belt.damping_ratio=2%"]);
+    let changed = Study::parse(SI, &changes).expect("valid");
+    close(changed.scales().expect("in SI").angular_frequency(), 200.0 * std::f64::consts::PI);
+    assert_eq!(changed.belt().damping_ratio(), 0.02);
+    // Both at once is a contradiction.
+    for (line, more, key) in [
+        (stiffness, "natural_frequency_hz = 100", "belt.natural_frequency_hz"),
+        ("damping_n_s_per_m = 15.8", "damping_ratio = 0.01", "belt.damping_ratio"),
+    ] {
+        let both = SI.replace(line, &format!("{line}\n{more}"));
+        let complaints = Study::parse(&both, &[]).expect_err("both are given");
+        assert_eq!(complaints.len(), 1, "{complaints:?}");
+        assert_eq!((complaints[0].fault, complaints[0].key.as_str()), (Fault::Conflict, key));
+        assert!(complaints[0].allowed.contains("not both"), "{}", complaints[0].allowed);
+    }
+    let missing = SI.replace(&format!("{stiffness}\n"), "");
+    let complaints = Study::parse(&missing, &[]).expect_err("nothing says it");
+    assert!(complaints[0].allowed.contains("or belt.natural_frequency_hz"), "{complaints:?}");
+}
+
+#[test]
+fn numbers_may_have_units() {
+    let with = |changes: &[&str]| Study::parse(SI, &set(changes));
+    let (plain, units) = (
+        with(&[
+            "belt.belt_velocity_m_per_s=0.1",
+            "belt.mass_kg=2.5",
+            "dither[0].phase=1.5707963267948966",
+        ]),
+        with(&[
+            "belt.belt_velocity_m_per_s=0.36km/h",
+            "belt.mass_kg=2500 g",
+            "dither[0].phase=90deg",
+        ]),
+    );
+    let (plain, units) = (plain.expect("valid"), units.expect("valid"));
+    assert_eq!(plain.belt(), units.belt());
+    assert_eq!(plain.settings(), units.settings());
+    // In the file as well, and for the ends of an axis.
+    let text = SI.replace("normal_force_n = 350.0", "normal_force_n = '0.35 kN'");
+    assert_eq!(Study::parse(&text, &[]).expect("valid").belt(), with(&[]).expect("valid").belt());
+    let axis = "[[sweep]]\nparameter = 'dither[0].frequency_hz'\nfrom = '1kHz'\nto = '4000 Hz'\npoints = 3\n";
+    let swept = Study::parse(&format!("{SI}{axis}"), &[]).expect("valid");
+    assert_eq!(swept.sweeps()[0].axis.values().collect::<Vec<_>>(), [1000.0, 2500.0, 4000.0]);
+    let listed = with(&["sweep[0].parameter=belt.normal_force_n", "sweep[0].values=[0.3kN, 350]"]);
+    let listed = listed.expect("valid");
+    assert_eq!(listed.sweeps()[0].axis.values().collect::<Vec<_>>(), [300.0, 350.0]);
+    // A unit of another dimension, one that is not a unit, and one in a study without SI.
+    for (text, key, told) in [
+        ("belt.normal_force_n=5m", "belt.normal_force_n", "in N; m measures something else"),
+        ("belt.normal_force_n=5kg", "belt.normal_force_n", "kg measures something else"),
+        ("belt.normal_force_n=5 stone", "belt.normal_force_n", "stone is not a unit"),
+        ("solver.record_periods=5s", "solver.record_periods", "no unit, and s is one"),
+    ] {
+        let complaints = with(&[text]).expect_err(text);
+        assert_eq!(complaints[0].key, key);
+        assert!(complaints[0].allowed.contains(told), "{text}: {}", complaints[0].allowed);
+    }
+    let complaints = Study::parse(GOOD, &set(&["belt.normal_load=5N"])).expect_err("no SI");
+    assert!(complaints[0].allowed.contains("units need a study in SI"), "{complaints:?}");
+}
+
+#[test]
+fn hints_are_keys_that_the_study_has() {
+    for (path, si, scaled) in [
+        ("belt.normal_laod", "belt.normal_force_n", "belt.normal_load"),
+        ("belt.initial.displacment", "belt.initial.displacement_m", "belt.initial.displacement"),
+        ("belt.initial.velocty", "belt.initial.velocity_m_per_s", "belt.initial.velocity"),
+        ("solver.setle", "solver.settle_s", "solver.settle"),
+        ("dither[0].amplitud", "dither[0].amplitude_n", "dither[0].amplitude"),
+    ] {
+        for (text, wanted) in [(SI, si), (GOOD, scaled)] {
+            let complaints =
+                Study::parse(text, &set(&[&format!("{path}=1")])).expect_err("no such key");
+            let hint = complaints.iter().find_map(|it| it.suggestion.as_deref());
+            assert_eq!(hint, Some(wanted), "{path}: {complaints:?}");
+        }
+    }
+}
+
+#[test]
 fn systems_do_not_mix() {
-    let mixed = SI.replace("damping_n_s_per_m = 15.8", "damping_ratio = 0.005");
+    let mixed = SI.replace("normal_force_n", "normal_load");
+    let line = 1 + SI.lines().position(|line| line.starts_with("normal_force_n")).expect("there");
     check(
         &mixed,
         &[(
             Fault::Mixed,
-            "belt.damping_ratio",
-            Some(5),
-            "damping_n_s_per_m",
-            Some("belt.damping_n_s_per_m"),
+            "belt.normal_load",
+            Some(line),
+            "normal_force_n",
+            Some("belt.normal_force_n"),
         )],
     );
     let both = SI.replace("amplitude_n = 40.0", "amplitude_n = 40.0\namplitude_n_rms = 40.0");
@@ -377,7 +476,11 @@ fn systems_do_not_mix() {
 fn suggestions_are_in_the_system_of_the_study() {
     let told = complaints(&SI.replace("damping_n_s_per_m", "dampng_ratio"), &[]);
     let unknown = told.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
-    assert_eq!(unknown.suggestion.as_deref(), Some("belt.damping_n_s_per_m"));
+    // The damping ratio is a key of a study in SI as well.
+    assert_eq!(unknown.suggestion.as_deref(), Some("belt.damping_ratio"));
+    let told = complaints(&SI.replace("normal_force_n", "normal_laod"), &[]);
+    let unknown = told.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
+    assert_eq!(unknown.suggestion.as_deref(), Some("belt.normal_force_n"));
     let told = complaints(&GOOD.replace("amplitude = 0.4", "amplitud_n = 0.4"), &[]);
     let unknown = told.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
     assert_eq!(unknown.suggestion.as_deref(), Some("dither.amplitude"));

@@ -21,6 +21,7 @@
 mod clock;
 mod engine;
 mod event;
+mod extremes;
 mod forcing;
 mod lanes;
 mod largest_slip;
@@ -38,6 +39,7 @@ pub use quell_numerics::dispatch::InstructionSet;
 
 pub use clock::Clock;
 pub use event::{Event, EventKind};
+pub use extremes::Extremes;
 pub(crate) use lanes::slide;
 pub use largest_slip::LargestSlip;
 pub use observer::{EventRecorder, Observer, Sample, Sampler, Segment, VelocitySection};

@@ -2,7 +2,7 @@
 
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::lane::horner;
-use quell_numerics::polynomial::first_crossing;
+use quell_numerics::polynomial::first_crossing_after;
 
 use super::clock::Clock;
 use super::event::Event;
@@ -301,15 +301,10 @@ impl Work for Scan<'_, '_> {
         let mut shifted = [0.0; super::ORDER + 1];
         shifted[..segment.slip.len()].copy_from_slice(segment.slip);
         shifted[0] += (section.level - segment.belt_velocity) / segment.unit;
-        let mut since = 0.0;
-        let mut rest = segment.duration;
-        while shifted[0] != 0.0 && rest > 0.0 {
-            let Some(root) = first_crossing(&shifted, rest) else {
-                break;
-            };
-            let upward = shifted[0] > 0.0;
-            since += root;
-            rest -= root;
+        if shifted[0] == 0.0 {
+            return;
+        }
+        each_crossing(&mut shifted, segment.duration, |since, upward| {
             if upward {
                 section.crossings.push(Sample {
                     time: segment.clock.after(since).time(),
@@ -318,10 +313,33 @@ impl Work for Scan<'_, '_> {
                     sticking: segment.slip_sign == 0,
                 });
             }
-            shift(&mut shifted, root);
-            // On the far side now, however the value at the root rounds.
-            shifted[0] = shifted[0].abs().max(f64::MIN_POSITIVE) * if upward { -1.0 } else { 1.0 };
-        }
+        });
+    }
+}
+
+/// Every moment up to `duration` at which a Taylor polynomial changes its sign, in order, and whether it falls there.
+/// Zeros at the start are divided out. The polynomial is used up.
+#[inline(always)]
+pub(super) fn each_crossing(
+    series: &mut [f64; super::ORDER + 1],
+    duration: f64,
+    mut found: impl FnMut(f64, bool),
+) {
+    let mut zeros = series.iter().take_while(|coefficient| **coefficient == 0.0).count();
+    let mut since = 0.0;
+    let mut rest = duration;
+    while zeros < series.len() && rest > 0.0 {
+        let Some(root) = first_crossing_after(series, zeros, rest) else {
+            break;
+        };
+        let falls = series[zeros] > 0.0;
+        since += root;
+        rest -= root;
+        found(since, falls);
+        shift(series, root);
+        // On the far side now, however the value at the root rounds.
+        series[0] = series[0].abs().max(f64::MIN_POSITIVE) * if falls { -1.0 } else { 1.0 };
+        zeros = 0;
     }
 }
 

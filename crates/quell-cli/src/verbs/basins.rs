@@ -23,10 +23,10 @@ use crate::table::figure;
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Displacements x of the window [default: around steady sliding]
+    /// Displacements x of the window, SI in a study in SI [default: around steady sliding]
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     displacement: Option<String>,
-    /// Velocities x′ of the window [default: around 0]
+    /// Velocities x′ of the window, SI in a study in SI [default: around 0]
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     velocity: Option<String>,
     /// Numbers of displacements and velocities of a grid, from edge to edge [default: 41x31]
@@ -100,8 +100,9 @@ fn question(
     let over = match &arguments.over {
         None => Some(None),
         Some(parameter) => {
-            let end =
-                |option, text: &Option<String>| number(option, text.as_deref().unwrap_or_default());
+            let end = |option, text: &Option<String>| {
+                number(option, text.as_deref().unwrap_or_default(), parameter)
+            };
             let from = complaints.take(end("--from", &arguments.from));
             let to = complaints.take(end("--to", &arguments.to));
             let points = complaints.take(count("--points", &arguments.points));

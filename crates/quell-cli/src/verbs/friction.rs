@@ -19,7 +19,7 @@ use crate::table::figure;
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Slip velocities: numbers, or with a unit such as 20mm/s in a study in SI
+    /// Slip velocities: numbers; m/s, or with a unit such as 20mm/s, in a study in SI
     #[arg(long, value_name = "V,…", value_delimiter = ',', allow_hyphen_values = true)]
     at: Vec<String>,
     #[command(flatten)]
@@ -58,7 +58,11 @@ fn velocities(texts: &[String], study: Option<&Study>, complaints: &mut Complain
 }
 
 fn text(study: &Study, curve: &FrictionCurve) -> String {
-    let unit = quantity::unit_of(Quantity::Velocity, study.scales().is_some());
+    // In the units of the study: m/s, and slopes per m/s, in SI.
+    let (unit, per_unit) = match study.scales() {
+        Some(scales) => ("m/s".to_owned(), scales.si_per_unit(Quantity::Velocity)),
+        None => (quantity::unit_of(Quantity::Velocity, false), 1.0),
+    };
     let mut text = String::new();
     for (label, words) in law::words(study) {
         let _ = writeln!(text, "{}: {words}", label.trim());
@@ -75,10 +79,10 @@ fn text(study: &Study, curve: &FrictionCurve) -> String {
         let law =
             point.coefficient.as_ref().map_or_else(|_| "any".to_owned(), |value| figure(*value));
         let (mean, slope) = match &point.effective {
-            Ok(found) => (figure(found.coefficient), figure(found.slope)),
+            Ok(found) => (figure(found.coefficient), figure(found.slope / per_unit)),
             Err(_) => ("any".to_owned(), "none".to_owned()),
         };
-        let v = figure(point.slip_velocity);
+        let v = figure(point.slip_velocity * per_unit);
         let _ = writeln!(text, "  {v:>14}  {law:>14}  {mean:>14}  {slope:>14}");
     }
     text

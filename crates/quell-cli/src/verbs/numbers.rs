@@ -6,25 +6,25 @@ use quell_model::units::{Quantity, Scales};
 
 use crate::arguments::Complaints;
 
-/// A parameter and the ends of its range.
+/// A parameter and the ends of its range, in the unit of its key.
 #[derive(Debug, Args)]
 pub(crate) struct VariedArguments {
     /// Path of the parameter, such as dither.amplitude
     #[arg(long, value_name = "PATH")]
     pub(super) parameter: String,
-    /// Smallest value
+    /// Smallest value, in the unit of the key or with a unit, such as 5kN
     #[arg(long, value_name = "A", allow_hyphen_values = true)]
     from: String,
-    /// Largest value
+    /// Largest value, likewise
     #[arg(long, value_name = "B", allow_hyphen_values = true)]
     to: String,
 }
 
 impl VariedArguments {
-    /// Both ends.
+    /// Both ends, in the unit of the key.
     pub(super) fn ends(&self, complaints: &mut Complaints) -> Option<(f64, f64)> {
-        let from = complaints.take(number("--from", &self.from));
-        let to = complaints.take(number("--to", &self.to));
+        let from = complaints.take(number("--from", &self.from, &self.parameter));
+        let to = complaints.take(number("--to", &self.to, &self.parameter));
         from.zip(to)
     }
 }
@@ -44,16 +44,13 @@ pub(super) fn duration(
     quantity::duration(text, scales(study), option)
 }
 
-/// A finite number, if the text is one.
-fn finite(text: &str) -> Option<f64> {
-    text.trim().parse().ok().filter(|it: &f64| it.is_finite())
-}
-
-/// A finite number in the numbers of the equations, or of the SI key that is varied.
-pub(crate) fn number(option: &'static str, text: &str) -> Result<f64, Box<Complaint>> {
-    finite(text).ok_or_else(|| {
-        Box::new(Complaint::option(option, text, "a finite number in the unit of the parameter"))
-    })
+/// A finite number in the unit of the key that is varied, or with a unit of its own.
+pub(crate) fn number(
+    option: &'static str,
+    text: &str,
+    parameter: &str,
+) -> Result<f64, Box<Complaint>> {
+    quantity::value_of_key(text, parameter, option)
 }
 
 /// A whole number.
@@ -70,32 +67,49 @@ pub(crate) fn range(
     quantity: Quantity,
     scales: Option<Scales>,
 ) -> Result<(f64, f64), Box<Complaint>> {
-    let allowed = || {
-        let allowed = "FROM:TO, two quantities, the first below the second, such as -1:1.5";
-        Box::new(Complaint::option(option, text, allowed))
+    let read = |text: &str| quantity::parse(text, quantity, scales, option);
+    let (from, to) = pair(option, text, read)?;
+    if from < to {
+        return Ok((from, to));
+    }
+    let allowed = "FROM:TO, two quantities, the first below the second, such as -1:1.5";
+    Err(Box::new(Complaint::option(option, text, allowed)))
+}
+
+/// `FROM:TO`, two values of the number that a path names.
+pub(crate) fn window(
+    option: &'static str,
+    text: &str,
+    parameter: &str,
+) -> Result<(f64, f64), Box<Complaint>> {
+    pair(option, text, |text| quantity::value_of_key(text, parameter, option))
+}
+
+/// `FROM:TO`, each end as `read` reads it.
+pub(crate) fn pair(
+    option: &'static str,
+    text: &str,
+    read: impl Fn(&str) -> Result<f64, Box<Complaint>>,
+) -> Result<(f64, f64), Box<Complaint>> {
+    let Some((from, to)) = text.split_once(':') else {
+        let allowed = "two finite numbers FROM:TO, such as 0.2:0.9";
+        return Err(Box::new(Complaint::option(option, text, allowed)));
     };
-    let (from, to) = text.split_once(':').ok_or_else(allowed)?;
-    let from = quantity::parse(from, quantity, scales, option)?;
-    let to = quantity::parse(to, quantity, scales, option)?;
-    if from < to { Ok((from, to)) } else { Err(allowed()) }
+    Ok((read(from)?, read(to)?))
 }
 
-/// `FROM:TO`, two finite numbers.
-pub(crate) fn window(option: &'static str, text: &str) -> Result<(f64, f64), Box<Complaint>> {
-    pair(text, ':').ok_or_else(|| {
-        Box::new(Complaint::option(option, text, "two finite numbers FROM:TO, such as 0.2:0.9"))
-    })
-}
-
-/// `X,V`, a state.
-pub(crate) fn state(option: &'static str, text: &str) -> Result<(f64, f64), Box<Complaint>> {
-    pair(text, ',').ok_or_else(|| {
+/// `X,V`, a state; displacement and velocity in SI, or with units, in a study in SI.
+pub(crate) fn state(
+    option: &'static str,
+    text: &str,
+    study: Option<&Study>,
+) -> Result<(f64, f64), Box<Complaint>> {
+    let Some((x, v)) = text.split_once(',') else {
         let allowed = "two finite numbers x,v: displacement and velocity, such as 0.3,0";
-        Box::new(Complaint::option(option, text, allowed))
-    })
-}
-
-fn pair(text: &str, between: char) -> Option<(f64, f64)> {
-    let (first, second) = text.split_once(between)?;
-    Some((finite(first)?, finite(second)?))
+        return Err(Box::new(Complaint::option(option, text, allowed)));
+    };
+    let scales = scales(study);
+    let x = quantity::parse(x, Quantity::Displacement, scales, option)?;
+    let v = quantity::parse(v, Quantity::Velocity, scales, option)?;
+    Ok((x, v))
 }

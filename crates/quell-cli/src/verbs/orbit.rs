@@ -3,14 +3,14 @@
 use std::fmt::Write as _;
 
 use clap::Args;
-use quell::run::orbit::{Orbit, Response, Wanted, run as orbit};
+use quell::run::orbit::{Orbit, Response, Wanted, extremes, run as orbit};
 use quell::run::thresholds::Protocol;
 use quell::{Failure, Study, picture};
 use quell_model::units::Quantity;
 
 use super::numbers::state;
 use crate::answer::Answer;
-use crate::arguments::{Complaints, PlotArguments, StudyArguments};
+use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
 use crate::table::Table;
 
 /// Options that ask for the response on which a run ends, which has its own state and number of periods.
@@ -21,8 +21,9 @@ const STARTS: [&str; 4] = ["from_rest", "from_sliding", "from_squeal", "start"];
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Searches near this state x,v at τ = 0 [default: the base response, continued from steady sliding; without dither the
-    /// limit cycle; at v₀ = 0 the response that a run from rest reaches]
+    /// Searches near this state x,v at τ = 0; in a study in SI metres and m/s, or with units such as 1um,50mm/s [default: the
+    /// base response, continued from steady sliding; without dither the limit cycle; at v₀ = 0 the response that a run
+    /// from rest reaches]
     #[arg(long, value_name = "X,V", conflicts_with_all = STARTS, allow_hyphen_values = true)]
     near: Option<String>,
     /// Common periods of the dithers in one period of the response
@@ -40,6 +41,8 @@ pub(crate) struct Arguments {
     /// Finds the response that a run from this state reaches
     #[arg(long, group = "run", value_name = "X,V", allow_hyphen_values = true)]
     start: Option<String>,
+    #[command(flatten)]
+    output: OutputArguments,
     #[command(flatten)]
     plot: PlotArguments,
 }
@@ -61,11 +64,14 @@ impl Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read());
-    let near = complaints.take(arguments.near.as_deref().map(|it| state("--near", it)).transpose());
-    let start =
-        complaints.take(arguments.start.as_deref().map(|it| state("--start", it)).transpose());
+    let near = arguments.near.as_deref().map(|it| state("--near", it, study.as_ref()));
+    let near = complaints.take(near.transpose());
+    let start = arguments.start.as_deref().map(|it| state("--start", it, study.as_ref()));
+    let start = complaints.take(start.transpose());
+    let outputs = complaints.take(arguments.output.prepare(&[]));
     let plot = complaints.take(arguments.plot.prepare());
-    let (study, ((near, start), plot)) = complaints.finish(study.zip(near.zip(start).zip(plot)))?;
+    let (study, ((near, start), (outputs, plot))) =
+        complaints.finish(study.zip(near.zip(start).zip(outputs.zip(plot))))?;
     let periods = arguments.periods;
     let wanted = match (arguments.after(start), near) {
         (Some(protocol), _) => Wanted::After(protocol),
@@ -74,6 +80,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     };
     let found = orbit(&study, wanted)?;
     let mut object = found.json(&study);
+    if arguments.output.saves() {
+        outputs.write(&[found.dataset(&study)?], &mut object)?;
+    }
     plot.try_write(|| picture::periodic_response(&study, &found), &mut object)?;
     Ok(Answer::new(arguments.study.json, &object, || text(&study, &found)))
 }
@@ -112,6 +121,11 @@ fn table(study: &Study, found: &Orbit) -> String {
         table.number("least slip velocity |v_r|", Quantity::Velocity, least);
     }
     table.number("stick fraction", Quantity::Ratio, found.stick_fraction);
+    let reach = extremes(study, found);
+    table.number("lowest displacement", Quantity::Displacement, reach.displacement.0);
+    table.number("highest displacement", Quantity::Displacement, reach.displacement.1);
+    table.number("lowest velocity", Quantity::Velocity, reach.velocity.0);
+    table.number("highest velocity", Quantity::Velocity, reach.velocity.1);
     table.number("residual", Quantity::Displacement, found.residual);
     table.number("error of the state", Quantity::Displacement, found.state_error);
     table.number("error of the multiplier", Quantity::Ratio, found.multiplier_error);

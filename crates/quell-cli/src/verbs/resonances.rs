@@ -7,28 +7,28 @@ use quell::picture;
 use quell::run::disc::resonances::{
     Clear, Order, Question, Resonance, Resonances, Verdict, run as resonances,
 };
-use quell::{DiscStudy, Failure};
+use quell::{DiscStudy, Failure, quantity};
 
-use super::numbers::window;
+use super::numbers::pair;
 use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
-use crate::table::figure;
+use crate::table::{figure, in_hertz, in_rpm};
 
 /// Finds the speeds at which a disc can squeal, and dither frequencies that keep a range of speeds clear
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Range of speeds
-    #[arg(long, value_name = "FROM:TO", default_value = "0:1", allow_hyphen_values = true)]
-    speeds: String,
+    /// Range of speeds, in ω_ref or with units such as 0rpm:900rpm [default: 0:1]
+    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
+    speeds: Option<String>,
     /// Order of the expansion: second counts friction twice (f of the order of the root of m, c, k)
     #[arg(long, value_name = "ORDER", default_value = "first")]
     order: Expansion,
     /// Range of speeds to keep clear; needs --frequency
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, requires = "frequency")]
     clear: Option<String>,
-    /// Range of dither frequencies R to choose from; needs --clear
+    /// Range of dither frequencies to choose from, ratios R or with units such as 2kHz:20kHz; needs --clear
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, requires = "clear")]
     frequency: Option<String>,
     #[command(flatten)]
@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = complaints.take(arguments.study.read_disc());
     let output = complaints.take(arguments.output.prepare(&[]));
     let plot = complaints.take(arguments.plot.prepare());
-    let question = question(arguments, &mut complaints);
+    let question = question(arguments, study.as_ref(), &mut complaints);
     let ((study, question), (output, plot)) =
         complaints.finish(study.zip(question).zip(output.zip(plot)))?;
 
@@ -60,11 +60,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     Ok(Answer::new(arguments.study.json, &object, || text(&study, &done)))
 }
 
-fn question(arguments: &Arguments, complaints: &mut Complaints) -> Option<Question> {
-    let speeds = complaints.take(window("--speeds", &arguments.speeds));
+fn question(
+    arguments: &Arguments,
+    study: Option<&DiscStudy>,
+    complaints: &mut Complaints,
+) -> Option<Question> {
     let mut range = |option, text: &Option<String>| {
-        complaints.take(text.as_deref().map(|text| window(option, text)).transpose())
+        let read = |text: &str| quantity::frequency(text, study, option);
+        complaints.take(text.as_deref().map(|text| pair(option, text, read)).transpose())
     };
+    let speeds = range("--speeds", &arguments.speeds).map(|speeds| speeds.unwrap_or((0.0, 1.0)));
     let clear = range("--clear", &arguments.clear);
     let frequency = range("--frequency", &arguments.frequency);
     let order = match arguments.order {
@@ -100,11 +105,12 @@ fn text(study: &DiscStudy, done: &Resonances) -> String {
         }
         for resonance in list {
             let (speed, label) = (figure(resonance.speed), resonance.label());
-            let _ = writeln!(text, "  Ω = {speed:<9}  {label}: {}", tongue(resonance));
+            let rpm = in_rpm(study, resonance.speed);
+            let _ = writeln!(text, "  Ω = {speed:<9}{rpm}  {label}: {}", tongue(resonance));
         }
     }
     if let Some(clear) = &done.clear {
-        text += &clearance(clear);
+        text += &clearance(study, clear);
     }
     text
 }
@@ -148,7 +154,7 @@ fn verified(clear: &Clear) -> String {
 }
 
 /// Which dither frequencies keep the speeds clear.
-fn clearance(clear: &Clear) -> String {
+fn clearance(study: &DiscStudy, clear: &Clear) -> String {
     let mut text = String::new();
     let (from, to) = (figure(*clear.speeds.start()), figure(*clear.speeds.end()));
     let _ = writeln!(
@@ -156,12 +162,14 @@ fn clearance(clear: &Clear) -> String {
         "Dither frequencies R that keep {from} to {to} clear of tongues that dither makes:"
     );
     for [from, to] in &clear.clearance.clear {
-        let _ = writeln!(text, "  {} to {}", figure(*from), figure(*to));
+        let hertz = in_hertz(study, &[*from, *to]);
+        let _ = writeln!(text, "  {} to {}{hertz}", figure(*from), figure(*to));
     }
     match &clear.suggestion {
         None => text.push_str("  none\n"),
         Some((ratio, nearby)) => {
-            let _ = writeln!(text, "  best away from the others: R = {}", figure(*ratio));
+            let hertz = in_hertz(study, &[*ratio]);
+            let _ = writeln!(text, "  best away from the others: R = {}{hertz}", figure(*ratio));
             let _ = writeln!(text, "  {}", verified(clear));
             for nearby in nearby.iter().filter(|nearby| nearby.reaches_in) {
                 let resonance = &nearby.resonance;
@@ -170,7 +178,7 @@ fn clearance(clear: &Clear) -> String {
                     (Some(_), Some(growth)) => format!(", growth up to {}", figure(growth)),
                     (None, Some(growth)) => format!(", {}", by_itself(growth)),
                 };
-                let place = figure(resonance.speed);
+                let place = figure(resonance.speed) + &in_rpm(study, resonance.speed);
                 let _ = writeln!(text, "  left there: Ω = {place}, {}{growth}", resonance.label());
             }
         }

@@ -11,17 +11,17 @@ use quell_model::units::Quantity;
 use super::numbers::duration;
 use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
-use crate::table::{Table, figure};
+use crate::table::{Table, figure_of};
 
 /// Simulates one run with every event at the contact
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Duration τ, or a time such as 0.5s in a study in SI
+    /// Duration τ; in a study in SI seconds, or a time such as 50ms
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: String,
-    /// Lists every event
+    /// Lists every event; with --save also as a file of its own, such as run-events.csv beside run.csv
     #[arg(long)]
     events: bool,
     #[command(flatten)]
@@ -35,7 +35,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read());
     let until = complaints.take(duration("--until", &arguments.until, study.as_ref()));
-    let outputs = complaints.take(arguments.output.prepare(&[]));
+    let parts: &[&str] = if arguments.events { &["events"] } else { &[] };
+    let outputs = complaints.take(arguments.output.prepare(parts));
     let plot = complaints.take(arguments.plot.prepare());
     let ((study, until), (outputs, plot)) =
         complaints.finish(study.zip(until).zip(outputs.zip(plot)))?;
@@ -47,7 +48,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     };
     let done = simulate(&study, until, options)?;
     let mut object = done.json(&study);
-    outputs.write(&[done.dataset(&study)], &mut object)?;
+    outputs.write(&[done.dataset(&study), done.events_dataset(&study)], &mut object)?;
     plot.write(|| picture::simulate(&study, &done), &mut object)?;
     Ok(Answer::new(arguments.study.json, &object, || text(&study, &done)))
 }
@@ -56,9 +57,11 @@ fn text(study: &Study, done: &Simulation) -> String {
     let mut text = done.sentence(study) + "\n";
     if let Some(events) = &done.events {
         text.push('\n');
-        let _ = writeln!(text, "  {:>14}  {:<8}  {:>4}  {:>14}", "τ", "event", "slip", "x");
+        let symbol = if study.scales().is_some() { "t" } else { "τ" };
+        let _ = writeln!(text, "  {symbol:>14}  {:<8}  {:>4}  {:>14}", "event", "slip", "x");
         for event in events {
-            let (time, place) = (figure(event.time), figure(event.displacement));
+            let time = figure_of(study, Quantity::Time, event.time);
+            let place = figure_of(study, Quantity::Displacement, event.displacement);
             let _ = writeln!(
                 text,
                 "  {time:>14}  {:<8}  {:>4}  {place:>14}",

@@ -31,17 +31,17 @@ pub(crate) struct Arguments {
     /// Also finds them for runs in full squeal when the dither is switched on
     #[arg(long)]
     from_squeal: bool,
-    /// Also finds them for runs from this state
+    /// Also finds them for runs from this state; in a study in SI metres and m/s, or with units such as 1um,50mm/s
     #[arg(long, value_name = "X,V", allow_hyphen_values = true)]
     start: Option<String>,
-    /// Raises the dither of these runs over this time τ, in steps of its period, instead of switching it on; a time such as
-    /// 0.5s in a study in SI
+    /// Raises the dither of these runs over this time τ, in steps of its period, instead of switching it on; in a study in SI
+    /// seconds, or a time such as 50ms
     #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
     ramp: String,
     /// Follows each local threshold as a curve along a second parameter, such as belt.belt_velocity
     #[arg(long, value_name = "PATH", requires = "between", conflicts_with_all = ["from_rest", "from_sliding", "from_squeal", "start", "ramp"])]
     along: Option<String>,
-    /// Range of the second parameter
+    /// Range of the second parameter, in the unit of its key or with units
     #[arg(long, value_name = "FROM:TO", requires = "along", allow_hyphen_values = true)]
     between: Option<String>,
     #[command(flatten)]
@@ -55,9 +55,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read());
     let range = arguments.varied.ends(&mut complaints);
-    let between = arguments.between.as_deref().map(|it| window("--between", it));
+    let along = arguments.along.as_deref().unwrap_or_default();
+    let between = arguments.between.as_deref().map(|it| window("--between", it, along));
     let between = complaints.take(between.transpose());
-    let start = arguments.start.as_deref().map(|it| state("--start", it));
+    let start = arguments.start.as_deref().map(|it| state("--start", it, study.as_ref()));
     let start = complaints.take(start.transpose());
     let ramp = complaints.take(duration("--ramp", &arguments.ramp, study.as_ref()));
     let outputs = complaints.take(arguments.output.prepare(&[]));

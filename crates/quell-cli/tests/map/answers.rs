@@ -107,7 +107,7 @@ fn a_store_describes_itself() {
         serde_json::json!(["dither_amplitude", "belt_velocity"])
     );
     assert_eq!(efficiency["attributes"]["ancillary_variables"], "efficiency_status");
-    assert_eq!(efficiency["attributes"]["units"], "1");
+    assert_eq!(efficiency["attributes"]["units"], "dimensionless");
     assert_eq!(efficiency["fill_value"], "NaN");
     let status = &arrays["efficiency_status"];
     assert_eq!(status["fill_value"], 255);
@@ -133,7 +133,8 @@ fn a_table_has_a_row_a_point() {
     let efficiency = &map["efficiency"][1][2];
     assert!(rows[7].starts_with(&format!("0.5,0.15,{efficiency},known,")), "{}", rows[7]);
     assert!(rows[4].starts_with("0.1,0.5,,undithered_settles,"), "{}", rows[4]);
-    assert!(text.contains("# units: dither_amplitude [length (force/k)], "));
+    assert!(text.contains("# units: dither_amplitude [dimensionless], "));
+    assert!(text.contains("# scaling: dither_amplitude [length (force/k)], "));
 }
 
 #[test]

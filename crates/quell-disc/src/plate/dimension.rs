@@ -59,6 +59,12 @@ impl PlateMaterial {
         Ok(Self { youngs_modulus, density, thickness, outer_radius })
     }
 
+    /// Outer radius a, m.
+    #[must_use]
+    pub fn outer_radius(&self) -> f64 {
+        self.outer_radius
+    }
+
     /// Angular frequency (rad/s) that belongs to a frequency parameter k² of 1 on the given plate.
     #[must_use]
     pub fn angular_frequency_unit(&self, plate: &Plate) -> f64 {

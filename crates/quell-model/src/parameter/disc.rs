@@ -3,7 +3,7 @@
 //! Mass-ratio form: M_p = ρhπ(a² − b²), m* = m/M_p, c* = c/(M_pω_ref), k* = k/(M_pω_ref²),
 //! f* = F_θ/(r₀M_pω_ref²); frequencies and speeds in ω_ref, time in 1/ω_ref.
 
-use super::{Bounds, Parameter};
+use super::{Bounds, Parameter, SiTwin, si};
 use crate::units::Quantity;
 
 const fn disc(
@@ -14,6 +14,11 @@ const fn disc(
     bounds: Bounds,
 ) -> Parameter {
     Parameter { path, symbol, about, quantity, bounds, si: &[] }
+}
+
+/// A parameter of a disc with keys that give it in SI.
+const fn in_si(parameter: Parameter, si: &'static [SiTwin]) -> Parameter {
+    Parameter { si, ..parameter }
 }
 
 /// Ratio of the radii of the plate.
@@ -83,12 +88,15 @@ pub const MODAL_DAMPING: Parameter = disc(
 );
 
 /// Speed of the loads over the disc.
-pub const DISC_SPEED: Parameter = disc(
-    "disc.load.speed",
-    "Ω",
-    "speed of the loads over the disc",
-    Quantity::FrequencyRatio,
-    Bounds { lower: -1e3, lower_included: true, upper: 1e3 },
+pub const DISC_SPEED: Parameter = in_si(
+    disc(
+        "disc.load.speed",
+        "Ω",
+        "speed of the loads over the disc",
+        Quantity::FrequencyRatio,
+        Bounds { lower: -1e3, lower_included: true, upper: 1e3 },
+    ),
+    &[si("speed_hz", "Hz"), si("speed_rpm", "rpm")],
 );
 
 /// Nodal diameters of a mode given by hand.
@@ -155,25 +163,61 @@ pub const LOAD_ANGLE: Parameter = disc(
 );
 
 /// Mass of a load.
-pub const LOAD_MASS: Parameter = disc(
-    "disc.load.mass",
-    "m*",
-    "mass of the load over the mass of the plate",
-    Quantity::Ratio,
-    Bounds::NOT_NEGATIVE,
+pub const LOAD_MASS: Parameter = in_si(
+    disc(
+        "disc.load.mass",
+        "m*",
+        "mass of the load over the mass of the plate",
+        Quantity::LoadMass,
+        Bounds::NOT_NEGATIVE,
+    ),
+    &[si("mass_kg", "kg")],
 );
 
 /// Damper of a load.
-pub const LOAD_DAMPING: Parameter =
-    disc("disc.load.damping", "c*", "damper of the load", Quantity::Ratio, Bounds::NOT_NEGATIVE);
+pub const LOAD_DAMPING: Parameter = in_si(
+    disc(
+        "disc.load.damping",
+        "c*",
+        "damper of the load",
+        Quantity::LoadDamping,
+        Bounds::NOT_NEGATIVE,
+    ),
+    &[si("damping_n_s_per_m", "N·s/m")],
+);
 
 /// Spring of a load.
-pub const LOAD_STIFFNESS: Parameter =
-    disc("disc.load.stiffness", "k*", "spring of the load", Quantity::Ratio, Bounds::NOT_NEGATIVE);
+pub const LOAD_STIFFNESS: Parameter = in_si(
+    disc(
+        "disc.load.stiffness",
+        "k*",
+        "spring of the load",
+        Quantity::LoadStiffness,
+        Bounds::NOT_NEGATIVE,
+    ),
+    &[si("stiffness_n_per_m", "N/m")],
+);
 
 /// Friction of a load; positive drags the disc along with the load.
-pub const LOAD_FRICTION: Parameter =
-    disc("disc.load.friction", "f*", "follower force of friction", Quantity::Ratio, Bounds::FINITE);
+pub const LOAD_FRICTION: Parameter = in_si(
+    disc(
+        "disc.load.friction",
+        "f*",
+        "follower force of friction",
+        Quantity::LoadFriction,
+        Bounds::FINITE,
+    ),
+    &[si("friction_n", "N")],
+);
+
+/// Phase of the dither of a load's friction.
+pub const LOAD_DITHER_PHASE: Parameter = disc(
+    "disc.load.dither_phase_deg",
+    "φ",
+    "phase of the dither of the load's friction, cos(Rτ + φ), degrees",
+    Quantity::Angle,
+    Bounds { lower: -1e6, lower_included: true, upper: 1e6 },
+);
 
 /// Dither of the friction force.
 pub const DISC_DITHER_AMPLITUDE: Parameter = disc(
@@ -206,6 +250,7 @@ pub const DISC: &[Parameter] = &[
     LOAD_DAMPING,
     LOAD_STIFFNESS,
     LOAD_FRICTION,
+    LOAD_DITHER_PHASE,
     DISC_SPEED,
     DISC_DITHER_AMPLITUDE,
     super::DITHER_FREQUENCY_RATIO,

@@ -25,6 +25,24 @@ pub struct Rightmost {
 }
 
 impl Decomposition {
+    /// Every eigenvalue with a positive real part, one of each conjugate pair, the largest real part first, each with the
+    /// bound on the error of its own real part.
+    pub fn in_right_half_plane(&self) -> Vec<Rightmost> {
+        let rounding = ROUNDING * f64::EPSILON * self.norm;
+        let nearly_double = (rounding * self.norm).sqrt();
+        let mut found: Vec<Rightmost> = (0..self.n)
+            .filter(|&i| self.values[i].im >= 0.0 && self.values[i].re > 0.0)
+            .map(|i| {
+                let error = (rounding * self.pair(i).condition).min(nearly_double);
+                Rightmost { value: self.values[i], error: error.max(f64::MIN_POSITIVE) }
+            })
+            .collect();
+        found.sort_by(|a, b| {
+            b.value.re.total_cmp(&a.value.re).then(a.value.im.total_cmp(&b.value.im))
+        });
+        found
+    }
+
     /// The eigenvalue of largest real part; `None` for a matrix without rows.
     pub fn rightmost(&self) -> Option<Rightmost> {
         let upper = |z: &Complex64| z.im >= 0.0;

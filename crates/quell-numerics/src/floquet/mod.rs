@@ -165,6 +165,41 @@ impl Floquet {
         }
     }
 
+    /// Every exponent that grows by more than its error, one of each conjugate pair, the fastest first.
+    ///
+    /// # Errors
+    /// As [`Floquet::growth`].
+    pub fn growing(
+        &self,
+        phi: &dyn Fn(Phase, &mut Matrix),
+        effort: Effort,
+    ) -> Result<Vec<Exponent>, EigenError> {
+        let leading = self.growth(phi, effort)?;
+        if leading.growth_rate <= leading.error {
+            return Ok(Vec::new());
+        }
+        let generator = Generator::new(&self.flow, self.period, phi);
+        let map = |count: usize| {
+            let steps = Steps::new(&self.flow, self.period, count);
+            generator.process(monodromy::monodromy(&self.flow, &steps, phi), steps.step)
+        };
+        let (coarse, fine) = (map(leading.steps / 2), map(leading.steps));
+        let (decomposition, old) = paired(&coarse, &fine)?;
+        let conditions = conditions(&decomposition, 0.0);
+        let values = decomposition.values();
+        let one = |i: usize| {
+            let (old, new, condition) = (&old[i..=i], &values[i..=i], &conditions[i..=i]);
+            self.extrapolate(old, new, condition, &decomposition, leading.steps).0
+        };
+        let mut found: Vec<Exponent> = (0..old.len())
+            .filter(|&i| values[i].im >= 0.0 && modulus(values[i]) > 1.0)
+            .map(one)
+            .filter(|exponent| exponent.growth_rate > exponent.error)
+            .collect();
+        found.sort_by(|a, b| b.growth_rate.total_cmp(&a.growth_rate));
+        Ok(found)
+    }
+
     /// Weight of the difference between two levels in the extrapolation.
     fn weight(&self) -> f64 {
         if self.flow.nilpotent { 1.0 / 15.0 } else { 1.0 / 3.0 }
@@ -217,28 +252,39 @@ impl Floquet {
         fine: &Matrix,
         steps: usize,
     ) -> Result<(Exponent, f64), EigenError> {
-        let decomposition = Decomposition::of_balanced(fine)?;
-        let mut left = eigenvalues(coarse)?;
-        let mut old = Vec::with_capacity(left.len());
-        for &value in decomposition.values() {
-            let nearest = (0..left.len())
-                .min_by(|&i, &j| modulus(left[i] - value).total_cmp(&modulus(left[j] - value)));
-            if let Some(at) = nearest {
-                old.push(left.swap_remove(at));
-            }
-        }
-        // Defective multipliers move by the root of a rounding error, which their difference shows; the condition
-        // is capped where that holds.
-        let cap = 1.0 / decomposition.backward_error().max(f64::MIN_POSITIVE).sqrt();
-        let largest = decomposition.values().iter().fold(0.0, |most: f64, z| most.max(modulus(*z)));
-        let conditions: Vec<f64> = (0..old.len())
-            .map(|i| {
-                let near = modulus(decomposition.values()[i]) > 0.9 * largest;
-                if near { decomposition.pair(i).condition.min(cap) } else { 1.0 }
-            })
-            .collect();
+        let (decomposition, old) = paired(coarse, fine)?;
+        let conditions = conditions(&decomposition, 0.9);
         Ok(self.extrapolate(&old, decomposition.values(), &conditions, &decomposition, steps))
     }
+}
+
+/// The finer map, and for each of its multipliers the nearest of the coarser one, each taken once.
+fn paired(coarse: &Matrix, fine: &Matrix) -> Result<(Decomposition, Vec<Complex64>), EigenError> {
+    let decomposition = Decomposition::of_balanced(fine)?;
+    let mut left = eigenvalues(coarse)?;
+    let mut old = Vec::with_capacity(left.len());
+    for &value in decomposition.values() {
+        let nearest = (0..left.len())
+            .min_by(|&i, &j| modulus(left[i] - value).total_cmp(&modulus(left[j] - value)));
+        if let Some(at) = nearest {
+            old.push(left.swap_remove(at));
+        }
+    }
+    Ok((decomposition, old))
+}
+
+/// Conditions of the multipliers beyond a fraction of the largest, 1 for the others. Defective multipliers move by the
+/// root of a rounding error, which their difference shows; the condition is capped where that holds.
+fn conditions(decomposition: &Decomposition, beyond: f64) -> Vec<f64> {
+    let cap = 1.0 / decomposition.backward_error().max(f64::MIN_POSITIVE).sqrt();
+    let values = decomposition.values();
+    let largest = values.iter().fold(0.0, |most: f64, z| most.max(modulus(*z)));
+    (0..values.len())
+        .map(|i| {
+            let near = modulus(values[i]) > beyond * largest;
+            if near { decomposition.pair(i).condition.min(cap) } else { 1.0 }
+        })
+        .collect()
 }
 
 /// Branches that may hold the largest multiplier of the true map; `None` where vectors do not serve.

@@ -47,6 +47,31 @@ class Arguments:
             self.wrong.append(complaint(name, given, allowed))
         return pair
 
+    def quantity(self, name: str, given: object, allowed: str = "a finite number, or one with a unit") -> str:
+        """A number in the system of the study, or a text with a unit such as ``"5kN"``, which the native part reads."""
+        if isinstance(given, str):
+            return self.text(name, given, allowed)
+        return repr(self.number(name, given, allowed))
+
+    def quantities(self, name: str, given: Any, allowed: str) -> tuple[str, str]:
+        """Two of them in their order."""
+        try:
+            if isinstance(given, (str, bytes, bytearray, Mapping, Set)):
+                raise TypeError
+            first, second = given
+        except (TypeError, ValueError):
+            first = second = None
+        of_text = [isinstance(it, str) for it in (first, second)]
+        numbers = [0.0 if text else _number(it) for it, text in zip((first, second), of_text, strict=True)]
+        if not np.isfinite(numbers).all():
+            self.wrong.append(complaint(name, given, allowed))
+            return ("0", "0")
+        texts = [
+            self.text(name, it, allowed) if text else repr(number)
+            for it, text, number in zip((first, second), of_text, numbers, strict=True)
+        ]
+        return (texts[0], texts[1])
+
     def path(self, name: str, given: object) -> str:
         """A path."""
         try:

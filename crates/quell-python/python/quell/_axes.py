@@ -8,7 +8,7 @@ from typing import Any, Literal, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._tables import Table, Unknown
+from ._tables import Number, Table, Unknown
 
 __all__ = ["Axes", "Axis", "axes_tables"]
 
@@ -23,7 +23,7 @@ class Axis(Table):
     parameter :
         Path of the number that is varied, SI twins included, such as ``belt.belt_velocity``.
     from_, to, points :
-        Both ends included, in the unit of the parameter. An axis of a disc's speed gets further points beside
+        Both ends included, in the unit of the parameter or as texts with units. An axis of a disc's speed gets further points beside
         every meeting of waves.
     values :
         The values themselves instead, in any order.
@@ -36,8 +36,8 @@ class Axis(Table):
     def __init__(
         self,
         parameter: str | None = None,
-        from_: float | None = None,
-        to: float | None = None,
+        from_: Number | None = None,
+        to: Number | None = None,
         points: int | None = None,
         *,
         values: Numbers | None = None,

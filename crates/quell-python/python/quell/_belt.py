@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ._axes import Axes, axes_tables
 from ._study import Study
-from ._tables import Table, Unknown, given
+from ._tables import Number, Table, Unknown, given
 
 __all__ = [
     "Belt",
@@ -58,10 +58,10 @@ class Stribeck(Friction):
     def __init__(
         self,
         *,
-        static_coefficient: float | None = None,
-        minimum_coefficient: float | None = None,
-        reference_velocity: float | None = None,
-        reference_velocity_m_per_s: float | None = None,
+        static_coefficient: Number | None = None,
+        minimum_coefficient: Number | None = None,
+        reference_velocity: Number | None = None,
+        reference_velocity_m_per_s: Number | None = None,
         **unknown: Unknown,
     ) -> None:
         super().__init__("stribeck", **given(locals()))
@@ -83,10 +83,10 @@ class Decreasing(Friction):
     def __init__(
         self,
         *,
-        static_coefficient: float | None = None,
-        minimum_coefficient: float | None = None,
-        reference_velocity: float | None = None,
-        reference_velocity_m_per_s: float | None = None,
+        static_coefficient: Number | None = None,
+        minimum_coefficient: Number | None = None,
+        reference_velocity: Number | None = None,
+        reference_velocity_m_per_s: Number | None = None,
         **unknown: Unknown,
     ) -> None:
         super().__init__("decreasing", **given(locals()))
@@ -184,9 +184,9 @@ class Expression(Friction):
         coefficient: str | None = None,
         *,
         constants: Mapping[str, float] | None = None,
-        static_coefficient: float | None = None,
-        maximum_velocity: float | None = None,
-        maximum_velocity_m_per_s: float | None = None,
+        static_coefficient: Number | None = None,
+        maximum_velocity: Number | None = None,
+        maximum_velocity_m_per_s: Number | None = None,
         **unknown: Unknown,
     ) -> None:
         super().__init__("expression", **given(locals()))
@@ -216,7 +216,7 @@ class Samples(Friction):
         *,
         slip_velocity_m_per_s: npt.ArrayLike | None = None,
         file: str | os.PathLike[str] | None = None,
-        static_coefficient: float | None = None,
+        static_coefficient: Number | None = None,
         terms: int | None = None,
         **unknown: Unknown,
     ) -> None:
@@ -249,12 +249,12 @@ class Dither(Table):
         direction: Literal["tangential", "normal"] | None = None,
         waveform: Literal["sine", "triangle", "square"] | None = None,
         *,
-        amplitude: float | None = None,
-        frequency_ratio: float | None = None,
-        phase: float | None = None,
-        amplitude_n: float | None = None,
-        amplitude_n_rms: float | None = None,
-        frequency_hz: float | None = None,
+        amplitude: Number | None = None,
+        frequency_ratio: Number | None = None,
+        phase: Number | None = None,
+        amplitude_n: Number | None = None,
+        amplitude_n_rms: Number | None = None,
+        frequency_hz: Number | None = None,
         **unknown: Unknown,
     ) -> None:
         super().__init__(**given(locals()))
@@ -280,10 +280,10 @@ class Initial(Table):
         self,
         state: Literal["rest", "sliding", "squealing"] | None = None,
         *,
-        displacement: float | None = None,
-        velocity: float | None = None,
-        displacement_m: float | None = None,
-        velocity_m_per_s: float | None = None,
+        displacement: Number | None = None,
+        velocity: Number | None = None,
+        displacement_m: Number | None = None,
+        velocity_m_per_s: Number | None = None,
         **unknown: Unknown,
     ) -> None:
         super().__init__(**given(locals()))
@@ -307,9 +307,9 @@ class Solver(Table):
     def __init__(
         self,
         *,
-        tolerance: float | None = None,
-        settle: float | None = None,
-        settle_s: float | None = None,
+        tolerance: Number | None = None,
+        settle: Number | None = None,
+        settle_s: Number | None = None,
         record_periods: int | None = None,
         **unknown: Unknown,
     ) -> None:
@@ -337,7 +337,7 @@ class Belt(Study):
     dither :
         A :class:`Dither`, or several.
     initial :
-        "rest" (the default), "sliding", "squealing", (x, x′), or an :class:`Initial`.
+        "rest" (the default), "sliding", "squealing", (x, x′), in m and m/s in a study in SI, or an :class:`Initial`.
     solver :
         A :class:`Solver`.
     axes :
@@ -346,6 +346,12 @@ class Belt(Study):
         What the study is about.
     mass_kg, stiffness_n_per_m :
         m in kg and k in N/m: they make it a study in SI.
+    natural_frequency_hz :
+        ω₀/2π in Hz, instead of the stiffness. ``damping_ratio`` may be given in SI too, instead of the damping constant.
+
+    Notes
+    -----
+    A number may be given as a text with a unit, such as ``normal_force_n="4kN"``.
 
     Raises
     ------
@@ -356,25 +362,27 @@ class Belt(Study):
     def __init__(
         self,
         *,
-        damping_ratio: float | None = None,
-        normal_load: float | None = None,
-        belt_velocity: float | None = None,
+        damping_ratio: Number | None = None,
+        normal_load: Number | None = None,
+        belt_velocity: Number | None = None,
         friction: Friction | Mapping[str, Any] | None = None,
         dither: Dither | Iterable[Dither] | None = None,
         initial: Literal["rest", "sliding", "squealing"] | tuple[float, float] | Initial | None = None,
         solver: Solver | None = None,
         axes: Axes | None = None,
         title: str | None = None,
-        mass_kg: float | None = None,
-        stiffness_n_per_m: float | None = None,
-        damping_n_s_per_m: float | None = None,
-        normal_force_n: float | None = None,
-        belt_velocity_m_per_s: float | None = None,
+        mass_kg: Number | None = None,
+        stiffness_n_per_m: Number | None = None,
+        natural_frequency_hz: Number | None = None,
+        damping_n_s_per_m: Number | None = None,
+        normal_force_n: Number | None = None,
+        belt_velocity_m_per_s: Number | None = None,
         **unknown: Unknown,
     ) -> None:
         belt = Table(**given(locals(), "friction", "dither", "initial", "solver", "axes", "title"))
         if initial is not None:
-            belt.given["initial"] = start(initial)
+            si = any(name in belt.given for name in ("mass_kg", "stiffness_n_per_m", "natural_frequency_hz"))
+            belt.given["initial"] = start(initial, si)
         self._build(
             title=title,
             belt=belt,
@@ -385,11 +393,13 @@ class Belt(Study):
         )
 
 
-def start(initial: object) -> object:
-    """The table of a start; what is none is left for the reader to refuse."""
+def start(initial: object, si: bool) -> object:
+    """The table of a start, in SI where the study is; invalid values are passed through and rejected by the reader."""
     if isinstance(initial, str):
         return Initial(state=initial)  # type: ignore[arg-type]
     if isinstance(initial, tuple) and len(initial) == 2:
+        if si:
+            return Initial(displacement_m=initial[0], velocity_m_per_s=initial[1])
         return Initial(displacement=initial[0], velocity=initial[1])
     return initial
 

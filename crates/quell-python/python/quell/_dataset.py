@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from ._quell import __version__
+from ._quell import __version__, readable_unit
 
 if TYPE_CHECKING:
     import xarray
@@ -115,13 +115,25 @@ def arrays(verb: str, facts: Mapping[str, Any], datasets: list[tuple[str, Any]])
 
 def variable(dims: tuple[str, ...], array: Any, shape: tuple[int, ...] | None = None) -> Variable:
     """A native array as a variable."""
-    _, unit, values, words = array
+    _, (unit, scaling), values, words = array
     if words is None:
         attrs: dict[str, Any] = {"units": unit}
+        if scaling:
+            attrs["scaling"] = scaling
     else:
         codes = np.array([code for code, _ in words], dtype=np.uint8)
         attrs = {"flag_values": codes, "flag_meanings": " ".join(word.replace(" ", "_") for _, word in words)}
     return Variable(dims, values if shape is None else values.reshape(shape), attrs)
+
+
+SUFFIXES = ("n_s_per_m", "n", "m_per_s", "m", "hz", "s", "w", "s_per_m", "per_s")
+"""What the name of a number in SI carries."""
+
+
+def twin_of(name: str, units: Mapping[str, str]) -> str | None:
+    """The name of the same number in SI, where there is one."""
+    twins = (f"{name}_{suffix}" for suffix in SUFFIXES)
+    return next((twin for twin in twins if twin in units), None)
 
 
 class Facts:
@@ -131,23 +143,29 @@ class Facts:
         self, facts: Mapping[str, Any], given: set[str], variables: dict[str, Variable], attrs: dict[str, Any]
     ) -> None:
         self.facts, self.given, self.variables, self.attrs = facts, given, variables, attrs
-        self.units: Mapping[str, str] = facts.get("units", {})
+        given_units: Mapping[str, str] = facts.get("units", {})
+        self.twins = {name: twin for name in given_units if (twin := twin_of(name, given_units)) is not None}
+        self.units = {name: given_units[self.twins.get(name, name)] for name in given_units}
         self.why: Mapping[str, str] = facts.get("why", {})
 
     def all(self) -> None:
         """Adds all of them."""
-        for name, value in self.facts.items():
+        for name, value in self.in_units(self.facts).items():
             # An array that is there already is no fact again.
             of_array = name in self.given and isinstance(value, list)
             if name not in NOT_FACTS and not of_array:
                 self.add(name, name, value)
+
+    def in_units(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Facts in the units of the study: each number that has a twin in SI takes its value."""
+        return {name: values.get(self.twins.get(name, name), value) for name, value in values.items()}
 
     def add(self, label: str, name: str, value: Any) -> None:
         """Adds one, by what it is."""
         if isinstance(value, str):
             self.attrs[label] = value
         elif isinstance(value, Mapping):
-            for inner, it in value.items():
+            for inner, it in self.in_units(value).items():
                 self.add(f"{label}_{inner}", inner, it)
         elif isinstance(value, list):
             self.many(label, name, value)
@@ -159,6 +177,7 @@ class Facts:
         """A list: of numbers or words, or of objects with the same keys."""
         dim = label.removesuffix("s")
         if values and all(isinstance(it, Mapping) for it in values):
+            values = [self.in_units(it) for it in values]
             for inner in dict.fromkeys(key for it in values for key in it):
                 column = [it.get(inner) for it in values]
                 if all(isinstance(it, (int, float, bool, str, type(None))) for it in column):
@@ -175,7 +194,9 @@ class Facts:
             label = f"{label}_value"
         attrs: dict[str, Any] = {}
         if name in self.units:
-            attrs["units"] = self.units[name]
+            attrs["units"], scaling = readable_unit(self.units[name])
+            if scaling:
+                attrs["scaling"] = scaling
         if label in self.why:
             attrs["why"] = self.why[label]
         self.variables[label] = Variable(dims, values, attrs)

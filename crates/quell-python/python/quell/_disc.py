@@ -9,7 +9,7 @@ from typing import Literal
 from ._axes import Axes, axes_tables
 from ._belt import Dither, several
 from ._study import Study
-from ._tables import Table, Unknown, given
+from ._tables import Number, Table, Unknown, given
 
 __all__ = ["Disc", "Load", "Mode"]
 
@@ -25,8 +25,14 @@ class Load(Table):
         Angle of the load, in degrees; of several loads each its own.
     mass, damping, stiffness, friction :
         m*, c*, k*, f* of the equations, dimensionless.
+    mass_kg, damping_n_s_per_m, stiffness_n_per_m, friction_n :
+        The same in SI, where the disc has its material.
+    dither_phase_deg :
+        Phase of the dither of this load's friction, in degrees; 0 by default.
     speed :
         Ω in units of ω_ref, the same for every load.
+    speed_hz, speed_rpm :
+        The same in revolutions per second or per minute, where the disc has its material or modes in Hz.
     """
 
     _path = "disc.load"
@@ -34,13 +40,20 @@ class Load(Table):
     def __init__(
         self,
         *,
-        radius_ratio: float | None = None,
-        angle_deg: float | None = None,
-        mass: float | None = None,
-        damping: float | None = None,
-        stiffness: float | None = None,
-        friction: float | None = None,
-        speed: float | None = None,
+        radius_ratio: Number | None = None,
+        angle_deg: Number | None = None,
+        mass: Number | None = None,
+        damping: Number | None = None,
+        stiffness: Number | None = None,
+        friction: Number | None = None,
+        mass_kg: Number | None = None,
+        damping_n_s_per_m: Number | None = None,
+        stiffness_n_per_m: Number | None = None,
+        friction_n: Number | None = None,
+        dither_phase_deg: Number | None = None,
+        speed: Number | None = None,
+        speed_hz: Number | None = None,
+        speed_rpm: Number | None = None,
         **unknown: Unknown,
     ) -> None:
         super().__init__(**given(locals()))
@@ -67,10 +80,10 @@ class Mode(Table):
         self,
         *,
         diameters: int | None = None,
-        ratio: float | None = None,
-        frequency_hz: float | None = None,
-        shape_at_load: float | None = None,
-        damping: float | None = None,
+        ratio: Number | None = None,
+        frequency_hz: Number | None = None,
+        shape_at_load: Number | None = None,
+        damping: Number | None = None,
         **unknown: Unknown,
     ) -> None:
         super().__init__(**given(locals()))
@@ -115,21 +128,21 @@ class Disc(Study):
     def __init__(
         self,
         *,
-        inner_radius_ratio: float | None = None,
-        poisson_ratio: float | None = None,
-        modal_damping: float | None = None,
+        inner_radius_ratio: Number | None = None,
+        poisson_ratio: Number | None = None,
+        modal_damping: Number | None = None,
         radial_modes: int | None = None,
         nodal_diameters: int | None = None,
-        reference_frequency: Literal["critical"] | float | None = None,
+        reference_frequency: Literal["critical"] | Number | None = None,
         mode: Mode | Iterable[Mode] | None = None,
         modes_file: str | os.PathLike[str] | None = None,
         load: Load | Iterable[Load] | None = None,
         dither: Dither | Iterable[Dither] | None = None,
         without: Iterable[str] | None = None,
-        youngs_modulus_pa: float | None = None,
-        density_kg_per_m3: float | None = None,
-        thickness_m: float | None = None,
-        outer_radius_m: float | None = None,
+        youngs_modulus_pa: Number | None = None,
+        density_kg_per_m3: Number | None = None,
+        thickness_m: Number | None = None,
+        outer_radius_m: Number | None = None,
         axes: Axes | None = None,
         title: str | None = None,
         **unknown: Unknown,

@@ -39,51 +39,51 @@ class NativeStudy:
     def changes(self) -> list[str]: ...
     def check(self) -> NativeAnswer: ...
     def cite(self) -> NativeAnswer: ...
-    def friction(self, at: npt.NDArray[np.float64] | None) -> NativeAnswer: ...
+    def friction(self, at: npt.NDArray[np.float64] | None, texts: list[str]) -> NativeAnswer: ...
     def stability(self) -> NativeAnswer: ...
     def simulate(self, until: str, events: bool, samples: bool) -> NativeAnswer: ...
     def response(self) -> NativeAnswer: ...
     def orbit(
         self,
-        near: tuple[float, float] | None,
+        near: tuple[str, str] | None,
         periods: int,
         after: list[str],
-        start: tuple[float, float] | None,
+        start: tuple[str, str] | None,
     ) -> NativeAnswer: ...
     def thresholds(
         self,
         parameter: str,
-        range: tuple[float, float],
+        range: tuple[str, str],
         protocols: list[str],
-        start: tuple[float, float] | None,
-        ramp: float,
+        start: tuple[str, str] | None,
+        ramp: str,
     ) -> NativeAnswer: ...
     def threshold_curves(
-        self, parameter: str, range: tuple[float, float], along: str, between: tuple[float, float]
+        self, parameter: str, range: tuple[str, str], along: str, between: tuple[str, str]
     ) -> NativeAnswer: ...
     def bifurcation(
         self,
         parameter: str,
-        range: tuple[float, float],
+        range: tuple[str, str],
         points: int,
         ways: tuple[bool, bool],
         progress: Callable[[int, int], object] | None,
     ) -> NativeAnswer: ...
     def basins(
         self,
-        window: tuple[tuple[float, float] | None, tuple[float, float] | None],
+        window: tuple[tuple[str, str] | None, tuple[str, str] | None],
         layout: tuple[tuple[int, int], tuple[int, int] | None],
-        over: tuple[str, float, float, int] | None,
+        over: tuple[str, tuple[str, str], int] | None,
         threads: int | None,
         progress: Callable[[int, int], object] | None,
     ) -> NativeAnswer: ...
     def modes(self) -> NativeAnswer: ...
     def resonances(
         self,
-        speeds: tuple[float, float],
+        speeds: tuple[str, str] | None,
         order: str,
-        clear: tuple[float, float] | None,
-        frequency: tuple[float, float] | None,
+        clear: tuple[str, str] | None,
+        frequency: tuple[str, str] | None,
     ) -> NativeAnswer: ...
     def map(
         self,
@@ -120,4 +120,5 @@ def keys() -> list[tuple[str, str, str, str]]: ...
 def quantities() -> list[tuple[str, str, str]]: ...
 def reproduce(names: list[str], out: str, quick: bool) -> dict[str, Any]: ...
 def reproduce_names() -> list[tuple[str, str]]: ...
+def readable_unit(unit: str) -> tuple[str, str]: ...
 def reference(name: str) -> str | None: ...

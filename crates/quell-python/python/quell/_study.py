@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
 
 import numpy as np
@@ -14,7 +14,7 @@ from ._arguments import Arguments, changes_of
 from ._axes import Axes, axes_tables
 from ._errors import StudyError, complaint
 from ._quell import NativeStudy
-from ._tables import Table
+from ._tables import Number, Table
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 __all__ = ["Study"]
 
 Self = TypeVar("Self", bound="Study")
+
+State = tuple[Number, Number]
+"""Two of them: displacement and velocity, or the ends of a range."""
 
 
 class Study:
@@ -123,13 +126,14 @@ class Study:
         """Equations and papers that its computations use, with BibTeX, and corrections of the print."""
         return results.Citations(self, self._native.cite())
 
-    def friction(self, at: npt.ArrayLike | None = None) -> results.FrictionCurve:
+    def friction(self, at: npt.ArrayLike | str | Sequence[str] | None = None) -> results.FrictionCurve:
         """The friction law and what the dither makes of it, equations (2.21), (3.19)–(3.27), (4.27).
 
         Parameters
         ----------
         at :
-            Slip velocities, any shape, flattened; a grid that shows the law where none are given.
+            Slip velocities, any shape, flattened, in m/s in a study in SI, or texts with units such as ``"20mm/s"``; a
+            grid that shows the law where none are given.
 
         Returns
         -------
@@ -137,12 +141,16 @@ class Study:
             μ, μ̄ and μ̄′ over ``slip_velocity`` (n,).
         """
         where: npt.NDArray[np.float64] | None = None
+        if isinstance(at, str):
+            at = [at]
+        if isinstance(at, Sequence) and at and all(isinstance(it, str) for it in at):
+            return results.FrictionCurve(self, self._native.friction(None, [str(it) for it in at]))
         if at is not None:
             try:
                 where = np.atleast_1d(np.asarray(at, dtype=np.float64)).ravel()
             except (TypeError, ValueError, OverflowError):
                 raise StudyError([complaint("at", at, "slip velocities: finite numbers")]) from None
-        return results.FrictionCurve(self, self._native.friction(where))
+        return results.FrictionCurve(self, self._native.friction(where, []))
 
     def stability(self) -> results.Stability:
         """Belt: averaged stability of steady sliding, equation (2.26), and every critical amplitude.
@@ -152,14 +160,14 @@ class Study:
         return results.Stability(self, self._native.stability())
 
     def simulate(
-        self, until: float | str, *, events: bool = True, samples: bool = True
+        self, until: Number, *, events: bool = True, samples: bool = True
     ) -> results.Simulation:
         """One trajectory with every event at the contact, exactly.
 
         Parameters
         ----------
         until :
-            τ at the end, or a time with its unit such as ``"0.5s"`` in a study in SI.
+            τ at the end; in a study in SI seconds, or a time with its unit such as ``"50ms"``.
         events :
             Whether every event is kept: ``events``, in order.
         samples :
@@ -167,10 +175,7 @@ class Study:
             of it.
         """
         arguments = Arguments()
-        if isinstance(until, str):
-            end = arguments.text("until", until, "a time")
-        else:
-            end = repr(arguments.number("until", until, "a finite number, or a time with its unit such as \"0.5s\""))
+        end = arguments.quantity("until", until, 'a finite number, or a time with its unit such as "0.5s"')
         arguments.done()
         return results.Simulation(self, self._native.simulate(end, bool(events), bool(samples)))
 
@@ -181,29 +186,29 @@ class Study:
     def orbit(
         self,
         *,
-        near: tuple[float, float] | None = None,
+        near: State | None = None,
         periods: int = 1,
         from_rest: bool = False,
         from_sliding: bool = False,
         from_squeal: bool = False,
-        start: tuple[float, float] | None = None,
+        start: State | None = None,
     ) -> results.Orbit:
         """The periodic response to dither and its Floquet multipliers, through stick and slip; limit cycles without it.
 
         Parameters
         ----------
         near :
-            Search near this state (x, x′) at τ = 0 [default: the base response, continued from steady sliding; at v₀ = 0 the
-            response that a run from rest reaches].
+            Search near this state (x, x′) at τ = 0, in m and m/s or as texts with units in a study in SI [default: the base
+            response, continued from steady sliding; at v₀ = 0 the response that a run from rest reaches].
         periods :
             Common periods of the dithers in one period of the response.
         from_rest, from_sliding, from_squeal, start :
             One of them: look for the response on which a run from there ends, of whatever number of periods.
         """
         arguments = Arguments()
-        state = None if near is None else arguments.pair("near", near, "two finite numbers (x, x′)")
+        state = None if near is None else arguments.quantities("near", near, "two finite numbers (x, x′)")
         count = arguments.whole("periods", periods, 1, 1000)
-        begin = None if start is None else arguments.pair("start", start, "two finite numbers (x, x′)")
+        begin = None if start is None else arguments.quantities("start", start, "two finite numbers (x, x′)")
         flags = {"from_rest": from_rest, "from_sliding": from_sliding, "from_squeal": from_squeal}
         asked = [name for name, wanted in flags.items() if wanted]
         if len(asked) + (start is not None) > 1:
@@ -220,34 +225,34 @@ class Study:
     def thresholds(
         self,
         parameter: str,
-        from_: float,
-        to: float,
+        from_: Number,
+        to: Number,
         *,
         from_rest: bool = False,
         from_sliding: bool = False,
         from_squeal: bool = False,
-        start: tuple[float, float] | None = None,
-        ramp: float = 0.0,
+        start: State | None = None,
+        ramp: Number = 0.0,
     ) -> results.Thresholds: ...
 
     @overload
     def thresholds(
-        self, parameter: str, from_: float, to: float, *, along: str, between: tuple[float, float]
+        self, parameter: str, from_: Number, to: Number, *, along: str, between: State
     ) -> results.ThresholdCurves: ...
 
     def thresholds(
         self,
         parameter: str,
-        from_: float,
-        to: float,
+        from_: Number,
+        to: Number,
         *,
         from_rest: bool = False,
         from_sliding: bool = False,
         from_squeal: bool = False,
-        start: tuple[float, float] | None = None,
-        ramp: float = 0.0,
+        start: State | None = None,
+        ramp: Number = 0.0,
         along: str | None = None,
-        between: tuple[float, float] | None = None,
+        between: State | None = None,
     ) -> results.Thresholds | results.ThresholdCurves:
         """Values of a parameter at which dither begins or ceases to quench, exactly; curves of them in two parameters.
 
@@ -257,26 +262,28 @@ class Study:
             Path of a number of the equations, such as ``dither.amplitude``; in a study in SI also its key in SI,
             such as ``dither.amplitude_n``.
         from_, to :
-            The range that is searched, in the unit of that key (the ``--from`` and ``--to`` of the command line).
+            The range that is searched, in the unit of that key or as texts with units such as ``"5kN"`` (the ``--from``
+            and ``--to`` of the command line).
         from_rest, from_sliding, from_squeal, start :
-            Also for runs from rest, from steady sliding, from full squeal, from a state (x, x′).
+            Also for runs from rest, from steady sliding, from full squeal, from a state (x, x′), which is in m and m/s in
+            a study in SI.
         ramp :
-            Lets the dither of these runs grow over this time τ instead of switching it on.
+            Lets the dither of these runs grow over this time instead of switching it on: τ, in a study in SI seconds.
         along, between :
             Follows each local threshold as a curve along a second parameter, named likewise, within a window of it.
         """
         arguments = Arguments()
         path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
-        ends = (arguments.number("from_", from_), arguments.number("to", to))
-        state = None if start is None else arguments.pair("start", start, "two finite numbers (x, x′)")
-        time = arguments.number("ramp", ramp, "a time τ ≥ 0")
+        ends = (arguments.quantity("from_", from_), arguments.quantity("to", to))
+        state = None if start is None else arguments.quantities("start", start, "two finite numbers (x, x′)")
+        time = arguments.quantity("ramp", ramp, "a time ≥ 0")
         second = None if along is None else arguments.text("along", along, "path of a number, such as belt.belt_velocity")
-        window = None if between is None else arguments.pair("between", between, "two numbers, the second above the first")
+        window = None if between is None else arguments.quantities("between", between, "two numbers, the second above the first")
         flags = {"from_rest": from_rest, "from_sliding": from_sliding, "from_squeal": from_squeal}
         asked = [name for name, wanted in flags.items() if wanted]
         if (along is None) != (between is None):
             arguments.wrong.append(complaint("along", along, "given together with between", "conflict"))
-        if along is not None and (asked or start is not None or time != 0.0):
+        if along is not None and (asked or start is not None or time != repr(0.0)):
             arguments.wrong.append(complaint("along", along, "given without starts and ramp", "conflict"))
         arguments.done()
         if second is not None and window is not None:
@@ -383,8 +390,8 @@ class Study:
     def bifurcation(
         self,
         parameter: str,
-        from_: float,
-        to: float,
+        from_: Number,
+        to: Number,
         *,
         points: int = 101,
         up: bool = False,
@@ -398,7 +405,7 @@ class Study:
         parameter :
             Path of a number of the study, such as ``dither.amplitude``.
         from_, to, points :
-            Smallest and largest value, and how many values.
+            Smallest and largest value, in the unit of the key or as texts with units, and how many values.
         up, down :
             Which ways; both where neither is asked for. Down alone begins at the start of the study.
         progress :
@@ -406,7 +413,7 @@ class Study:
         """
         arguments = Arguments()
         path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
-        ends = (arguments.number("from_", from_), arguments.number("to", to))
+        ends = (arguments.quantity("from_", from_), arguments.quantity("to", to))
         count = arguments.whole("points", points, 0, 2**31)
         arguments.done()
         ways = (bool(up), bool(down))
@@ -415,14 +422,14 @@ class Study:
     def basins(
         self,
         *,
-        displacement: tuple[float, float] | None = None,
-        velocity: tuple[float, float] | None = None,
+        displacement: State | None = None,
+        velocity: State | None = None,
         grid: tuple[int, int] | None = None,
         sample: int | None = None,
         seed: int | None = None,
         over: str | None = None,
-        from_: float | None = None,
-        to: float | None = None,
+        from_: Number | None = None,
+        to: Number | None = None,
         points: int | None = None,
         threads: int | None = None,
         progress: Callable[[int, int], object] | None = None,
@@ -432,7 +439,7 @@ class Study:
         Parameters
         ----------
         displacement, velocity :
-            The window, x and x′; about steady sliding by default.
+            The window, x and x′, in m and m/s or as texts with units in a study in SI; about steady sliding by default.
         grid :
             So many displacements and velocities, from edge to edge; (41, 31) by default.
         sample, seed :
@@ -447,12 +454,9 @@ class Study:
         arguments = Arguments()
         two = "two numbers, the first below the second"
         window = (
-            None if displacement is None else arguments.pair("displacement", displacement, two),
-            None if velocity is None else arguments.pair("velocity", velocity, two),
+            None if displacement is None else arguments.quantities("displacement", displacement, two),
+            None if velocity is None else arguments.quantities("velocity", velocity, two),
         )
-        for name, ends in zip(("displacement", "velocity"), window, strict=True):
-            if ends is not None and ends[0] >= ends[1]:
-                arguments.wrong.append(complaint(name, list(ends), two))
         cells = arguments.pair("grid", (41, 31) if grid is None else grid, "two whole numbers, at least 2")
         sides = [
             arguments.whole("grid", int(side) if side == int(side) else side, 0, 10**7)
@@ -469,7 +473,7 @@ class Study:
         along = None
         if over is not None:
             path = arguments.text("over", over, "path of a number, such as dither.amplitude")
-            along = (path, arguments.number("from_", from_), arguments.number("to", to), count)
+            along = (path, (arguments.quantity("from_", from_), arguments.quantity("to", to)), count)
         elif from_ is not None or to is not None or points is not None:
             arguments.wrong.append(complaint("over", None, "given together with from_, to and points", "conflict"))
         workers = None if threads is None else arguments.whole("threads", threads, 1, 1024)
@@ -485,17 +489,18 @@ class Study:
     def resonances(
         self,
         *,
-        speeds: tuple[float, float] = (0.0, 1.0),
+        speeds: State | None = None,
         order: Literal["first", "second"] = "first",
-        clear: tuple[float, float] | None = None,
-        frequency: tuple[float, float] | None = None,
+        clear: State | None = None,
+        frequency: State | None = None,
     ) -> results.Resonances:
         """Where waves of a disc meet, which meetings can be unstable, which dither frequencies keep speeds clear.
 
         Parameters
         ----------
         speeds :
-            Speeds between which meetings are told, in ω_ref.
+            Speeds between which meetings are listed, in ω_ref, or as texts with units such as ``"900rpm"``; 0 to 1 ω_ref
+            by default. Where a load is given in SI, plain numbers are in Hz.
         order :
             How far the theory goes: "second" counts friction twice.
         clear, frequency :
@@ -503,9 +508,9 @@ class Study:
         """
         arguments = Arguments()
         two = "two finite numbers"
-        ranges = arguments.pair("speeds", speeds, two)
-        wanted = None if clear is None else arguments.pair("clear", clear, two)
-        within = None if frequency is None else arguments.pair("frequency", frequency, two)
+        ranges = None if speeds is None else arguments.quantities("speeds", speeds, two)
+        wanted = None if clear is None else arguments.quantities("clear", clear, two)
+        within = None if frequency is None else arguments.quantities("frequency", frequency, two)
         how_far = arguments.text("order", order, '"first" or "second"')
         arguments.done()
         return results.Resonances(self, self._native.resonances(ranges, how_far, wanted, within))

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, NoReturn
+from typing import Any, NoReturn, Union
 
-__all__ = ["Table", "given"]
+__all__ = ["Number", "Table", "given"]
+
+Number = Union[float, str]
+"""A number in the unit of its key, or in SI for a study in SI; or a text with a unit, such as ``"5kN"``."""
 
 
 class Table:

@@ -2,7 +2,8 @@
 
 A result has the facts that the command line prints with ``--json`` as attributes (``response.efficiency``), in the
 numbers of the equations and, for a study in SI, in SI beside them (``amplitude_m``). What is unknown is ``None``, and
-``result.why`` says why. All of it, arrays included, is one :class:`xarray.Dataset` with units and provenance in
+``result.why`` says why. All of it, arrays included, is one :class:`xarray.Dataset` in the units of the study (in SI where
+it is; units are words that pint reads, what dimensionless numbers are scaled by is ``attrs["scaling"]``), with provenance, in
 ``result.dataset`` (a :class:`quell.results.Arrays` where xarray is not installed). Results plot, save, pickle, and
 show as a table in notebooks.
 """

@@ -4,7 +4,8 @@ use quell::dataset::Dataset;
 use quell::picture;
 use quell::plot::Figure;
 use quell::run::friction::{FrictionCurve, grid, run as friction};
-use quell::{Failure, Study, Subject};
+use quell::{Failure, Study, Subject, quantity};
+use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::refused;
@@ -30,12 +31,23 @@ impl Answer for Curve {
 }
 
 /// Answers.
-pub(crate) fn run(subject: &Subject, at: Option<Vec<f64>>) -> Result<NativeAnswer, Failure> {
+pub(crate) fn run(
+    subject: &Subject,
+    at: Option<Vec<f64>>,
+    texts: &[String],
+) -> Result<NativeAnswer, Failure> {
     let study = subject.the_belt()?.clone();
-    let at = at.unwrap_or_else(|| grid(study.belt()));
-    if let Some(wrong) = at.iter().find(|v| !v.is_finite()) {
+    let scales = study.scales();
+    if let Some(wrong) = at.iter().flatten().find(|v| !v.is_finite()) {
         return Err(refused("at", wrong.to_string(), "finite slip velocities"));
     }
+    let scaled = |v: f64| scales.map_or(v, |scales| scales.from_si(Quantity::Velocity, v));
+    let read = |text: &String| quantity::parse(text, Quantity::Velocity, scales, "--at");
+    let at = match (at, texts) {
+        (Some(at), _) => at.into_iter().map(scaled).collect(),
+        (None, []) => grid(study.belt()),
+        (None, texts) => texts.iter().map(read).collect::<Result<Vec<f64>, _>>()?,
+    };
     let done = friction(&study, &at);
     Ok(NativeAnswer::new(Curve { study, done }))
 }

@@ -4,11 +4,12 @@ use quell::dataset::Dataset;
 use quell::picture;
 use quell::plot::Figure;
 use quell::run::disc::resonances::{Order, Question, Resonances, run as resonances};
-use quell::{DiscStudy, Failure, Subject};
+use quell::{DiscStudy, Failure, Subject, quantity};
 use serde_json::Value as Json;
 
 use super::refused;
 use crate::answer::{Answer, NativeAnswer};
+use crate::study::Pair;
 
 struct Found {
     study: DiscStudy,
@@ -32,10 +33,8 @@ impl Answer for Found {
 /// Answers.
 pub(crate) fn run(
     subject: &Subject,
-    speeds: (f64, f64),
     order: &str,
-    clear: Option<(f64, f64)>,
-    frequency: Option<(f64, f64)>,
+    [speeds, clear, frequency]: [Option<Pair>; 3],
 ) -> Result<NativeAnswer, Failure> {
     let study = subject.the_disc()?.clone();
     let order = match order {
@@ -43,6 +42,14 @@ pub(crate) fn run(
         "second" => Order::Second,
         other => return Err(refused("order", other, "\"first\" or \"second\"")),
     };
+    let range = |pair: &Option<Pair>, option| -> Result<Option<(f64, f64)>, Failure> {
+        let Some((from, to)) = pair else { return Ok(None) };
+        let read = |text: &str| quantity::frequency(text, Some(&study), option);
+        Ok(Some((read(from)?, read(to)?)))
+    };
+    // Without a range, those of the command line.
+    let speeds = range(&speeds, "--speeds")?.unwrap_or((0.0, 1.0));
+    let (clear, frequency) = (range(&clear, "--clear")?, range(&frequency, "--frequency")?);
     let question = Question::new(speeds, order, clear, frequency)?;
     let done = resonances(&study, question)?;
     Ok(NativeAnswer::new(Found { study, done }))

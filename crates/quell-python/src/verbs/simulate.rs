@@ -43,7 +43,7 @@ pub(crate) fn run(
     samples: bool,
 ) -> Result<NativeAnswer, Failure> {
     let study = subject.the_belt()?.clone();
-    let time = quantity::duration(until, study.scales(), "until")?;
+    let time = quantity::duration(until, study.scales(), "--until")?;
     let done = simulate(&study, time, Options { events, samples, undithered: false })?;
     Ok(NativeAnswer::new(Trajectory { study, until: time, done }))
 }

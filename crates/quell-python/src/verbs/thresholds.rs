@@ -5,10 +5,11 @@ use quell::picture;
 use quell::plot::Figure;
 use quell::run::curves::{Curves, Question as Plane, run as curves};
 use quell::run::thresholds::{Protocol, Question, Thresholds, run as thresholds};
-use quell::{Failure, Study, Subject};
+use quell::{Failure, Study, Subject, quantity};
 use serde_json::Value as Json;
 
 use crate::answer::{Answer, NativeAnswer};
+use crate::study::{Pair, ends, state};
 
 struct OnALine {
     study: Study,
@@ -55,11 +56,16 @@ pub(crate) fn protocols(names: &[String], start: Option<(f64, f64)>) -> Vec<Prot
 pub(crate) fn run(
     subject: &Subject,
     parameter: String,
-    (from, to): (f64, f64),
-    protocols: Vec<Protocol>,
-    ramp: f64,
+    range: &Pair,
+    (names, start): (&[String], Option<&Pair>),
+    ramp: &str,
 ) -> Result<NativeAnswer, Failure> {
     let study = subject.the_belt()?.clone();
+    let scales = study.scales();
+    let (from, to) = ends(&parameter, range)?;
+    let start = start.map(|pair| state(pair, scales, "--start")).transpose()?;
+    let ramp = quantity::duration(ramp, scales, "--ramp")?;
+    let protocols = protocols(names, start);
     let done = thresholds(&study, Question { parameter, from, to, protocols, ramp })?;
     Ok(NativeAnswer::new(OnALine { study, done }))
 }
@@ -68,11 +74,14 @@ pub(crate) fn run(
 pub(crate) fn run_along(
     subject: &Subject,
     parameter: String,
-    window: (f64, f64),
+    range: &Pair,
     along: String,
-    between: (f64, f64),
+    between: &Pair,
 ) -> Result<NativeAnswer, Failure> {
     let study = subject.the_belt()?.clone();
+    let window = ends(&parameter, range)?;
+    let value = |text: &str| quantity::value_of_key(text, &along, "--between");
+    let between = (value(&between.0)?, value(&between.1)?);
     let done = curves(&study, &Plane { parameter, window, along, between })?;
     Ok(NativeAnswer::new(InAPlane { study, done }))
 }

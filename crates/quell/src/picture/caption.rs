@@ -72,8 +72,12 @@ pub(super) fn caption_of_disc(study: &DiscStudy) -> String {
     }
     for (load, radius) in disc.loads().iter().zip(study.radii()) {
         let place = radius.map_or_else(String::new, |radius| format!(" at $r_0$/$a$ = {radius}"));
+        let phase = match load.dither_phase {
+            0.0 => String::new(),
+            phase => format!(", $φ$ = {}°", short(phase.to_degrees())),
+        };
         parts.push(format!(
-            "load $m$ = {}, $c$ = {}, $k$ = {}, $f$ = {}{place}",
+            "load $m$ = {}, $c$ = {}, $k$ = {}, $f$ = {}{phase}{place}",
             short(load.mass),
             short(load.damping),
             short(load.stiffness),

@@ -3,18 +3,14 @@
 use std::f64::consts::TAU;
 
 use quell_belt::orbit::Orbit;
-use quell_belt::simulation::{DEFAULT_TOLERANCE, Sampler, simulate};
 use quell_model::units::Quantity;
 
 use super::caption::caption;
 use super::ruler::Ruler;
 use crate::complaint::Failure;
 use crate::plot::{Axis, Figure, Line, Marker, Panel, Points, Role, Rule, Size};
-use crate::run::orbit::{Response, sentence};
+use crate::run::orbit::{Response, samples, sentence};
 use crate::study::Study;
-
-/// Samples of a period.
-const SAMPLES: usize = 1200;
 
 /// Points of a circle.
 const CIRCLE: u32 = 180;
@@ -31,27 +27,15 @@ pub fn response(study: &Study, found: &Response) -> Result<Figure, Failure> {
 /// The picture of a periodic response.
 pub fn orbit(study: &Study, found: &Orbit) -> Figure {
     let belt = study.belt();
-    let step = found.period / SAMPLES as f64;
-    let mut sampler = Sampler::new(0.0, step, SAMPLES + 1);
-    // Where the engine stops the curve ends: the orbit itself was integrated before.
-    let free;
-    let belt = if found.is_free {
-        free = belt.undithered();
-        &free
-    } else {
-        belt
-    };
-    let _ = simulate(belt, found.start, found.period, DEFAULT_TOLERANCE, &mut sampler);
+    let samples = samples(study, found);
     let largest = |of: fn(&quell_belt::simulation::Sample) -> f64| {
-        sampler.samples.iter().map(|sample| of(sample).abs()).fold(0.0, f64::max)
+        samples.iter().map(|sample| of(sample).abs()).fold(0.0, f64::max)
     };
     let x = Ruler::new(study, Quantity::Displacement, largest(|sample| sample.displacement));
     let speed = largest(|sample| sample.velocity).max(belt.belt_velocity());
     let v = Ruler::new(study, Quantity::Velocity, speed);
-    let curve = sampler
-        .samples
-        .iter()
-        .map(|sample| (x.place(sample.displacement), v.place(sample.velocity)));
+    let curve =
+        samples.iter().map(|sample| (x.place(sample.displacement), v.place(sample.velocity)));
     let phase = Panel::new(x.axis("displacement", "x"), v.axis("velocity", "x′"))
         .with(Line::new(Role::Dithered, curve))
         .with(Rule::horizontal(v.place(belt.belt_velocity())).label("belt"));

@@ -17,19 +17,15 @@ const POINTS: u32 = 160;
 /// Without dither there is nothing to draw over, and the criterion is one line.
 pub fn stability(study: &Study, done: &Stability) -> Figure {
     let belt = study.belt();
-    let critical: Vec<f64> = done
-        .limit
-        .critical_amplitudes
-        .iter()
-        .flatten()
-        .map(|critical| critical.amplitude)
-        .collect();
+    let averaged = done.leading();
+    let critical: Vec<f64> =
+        averaged.critical_amplitudes.iter().flatten().map(|critical| critical.amplitude).collect();
     let own = belt.dithers().first().map_or(0.0, |dither| dither.amplitude);
     let end = last_amplitude(belt, critical.iter().copied().fold(own, f64::max));
     let force = Ruler::new(study, Quantity::Force, end);
     let value = |amplitude: f64| {
         let changed = belt.with(&belt.dither_path(0, "amplitude"), amplitude).ok()?;
-        let found = criterion(&changed, AveragingOptions::default()).ok()?;
+        let found = criterion(&changed, averaged.options).ok()?;
         Some((force.place(amplitude), found.value))
     };
     let pieces = between(&critical, end, value);
@@ -44,13 +40,14 @@ pub fn stability(study: &Study, done: &Stability) -> Figure {
         panel = panel.with(Line::new(Role::Undithered, level).label("without dither"));
     }
     panel = panel.with(Line::pieces(Role::Averaged, pieces).label("averaged"));
+    let by = format!("by {}", done.method(study));
     if let Some((place, value)) = value(own).filter(|_| !belt.dithers().is_empty()) {
         let point = Points::new(Role::Dithered, [(place, value)]).marker(Marker::Disc).size(7.0);
         panel = panel.with(point.label("this study"));
     }
     Figure::single(panel)
         .title(study.title().unwrap_or_default())
-        .caption(format!("{}.", caption(study)))
+        .caption(format!("{}; {by}.", caption(study)))
 }
 
 /// Where the picture ends, beyond the largest amplitude of which there is something to tell.

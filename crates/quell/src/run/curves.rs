@@ -65,7 +65,6 @@ pub struct Curves {
 /// # Errors
 /// Every complaint about it at once.
 fn understood(study: &Study, question: &Question) -> Result<Question, Failure> {
-    let belt = study.belt();
     let parameter = Named::new(study, "--parameter", &question.parameter)?;
     let along = Named::new(study, "--along", &question.along)?;
     if parameter.is(&along) {
@@ -77,8 +76,8 @@ fn understood(study: &Study, question: &Question) -> Result<Question, Failure> {
     let across = [("--between", question.between.0), ("--between", question.between.1)];
     let mut wrong: Vec<Complaint> = ends
         .into_iter()
-        .flat_map(|end| parameter.unable(belt, end))
-        .chain(across.into_iter().flat_map(|end| along.unable(belt, end)))
+        .flat_map(|end| parameter.unable(study, end))
+        .chain(across.into_iter().flat_map(|end| along.unable(study, end)))
         .collect();
     wrong.extend(ascending(from, to).err().map(|complaint| *complaint));
     let (first, last) = question.between;
@@ -118,7 +117,7 @@ pub fn run(study: &Study, question: &Question) -> Result<Curves, Failure> {
     };
     let CurvesFound { curves, open } =
         curves(belt, plane, LINES, POINTS).map_err(|line| match line.why {
-            Open::Begin(why) => told(why, &question.parameter, "--from"),
+            Open::Begin(why) => told(study, why, &question.parameter, "--from"),
             _ => Failure::Failed {
                 key: "thresholds".to_owned(),
                 why: line_in_words(study, &question, &line),

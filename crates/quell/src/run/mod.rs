@@ -23,9 +23,11 @@ pub mod varied;
 use quell_belt::simulation::{Stalled, Start};
 use quell_belt::start::NoSquealingStart;
 
+use quell_model::parameter::BELT_VELOCITY;
 use quell_model::units::Quantity;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::study::vocabulary::in_system;
 use crate::study::{InitialState, Study};
 
 /// The state a study starts from, in numbers.
@@ -57,7 +59,8 @@ fn moves(study: &Study, why: &str) -> Result<(), Failure> {
     if velocity > 0.0 {
         return Ok(());
     }
-    let (key, allowed) = ("belt.belt_velocity", format!("above 0: {why}"));
+    let key = in_system(BELT_VELOCITY.path, study.scales().is_some());
+    let allowed = format!("above 0: {why}");
     Err(Complaint::new(Fault::Value, key, Origin::Whole, velocity, allowed).into())
 }
 

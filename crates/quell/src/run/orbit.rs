@@ -5,7 +5,9 @@ use quell_belt::attractor::orbit_reached;
 use quell_belt::orbit::cycle::{cycle_reached, cycles, sliding_verdict};
 use quell_belt::orbit::{NoOrbit, from_sliding, near};
 pub use quell_belt::orbit::{Orbit, Verdict};
-use quell_belt::simulation::{EventKind, Start};
+use quell_belt::simulation::{
+    DEFAULT_TOLERANCE, EventKind, Extremes, Observer, Sample, Sampler, Start, simulate,
+};
 use quell_model::Belt;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
@@ -14,6 +16,7 @@ use super::range::SlipMet;
 use super::thresholds::Protocol;
 use super::{failed, in_words, moves, resolved};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::dataset::Dataset;
 use crate::fields::Fields;
 use crate::study::Study;
 
@@ -23,6 +26,9 @@ const STEPS: u32 = 8;
 /// What is said where a run from rest stands in for steady sliding.
 const FROM_REST_INSTEAD: &str =
     "A run from rest reaches it; at v₀ = 0 there is no steady sliding to continue from.";
+
+/// Steps between the samples of a period.
+const SAMPLES: usize = 1200;
 
 /// Which periodic response is looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -159,6 +165,34 @@ impl Protocol {
     }
 }
 
+/// Integrates one period of an orbit under an observer. Where the engine stops the observer has seen what came before:
+/// the orbit itself was integrated when it was found.
+fn trace(study: &Study, orbit: &Orbit, observer: &mut impl Observer) {
+    let free;
+    let belt = if orbit.is_free {
+        free = study.belt().undithered();
+        &free
+    } else {
+        study.belt()
+    };
+    let end = orbit.start.time + orbit.period;
+    let _ = simulate(belt, orbit.start, end, DEFAULT_TOLERANCE, observer);
+}
+
+/// Least and largest displacement and velocity over a period.
+pub fn extremes(study: &Study, orbit: &Orbit) -> Extremes {
+    let mut extremes = Extremes::default();
+    trace(study, orbit, &mut extremes);
+    extremes
+}
+
+/// States at equal steps over a period, both ends included.
+pub fn samples(study: &Study, orbit: &Orbit) -> Vec<Sample> {
+    let mut sampler = Sampler::new(orbit.start.time, orbit.period / SAMPLES as f64, SAMPLES + 1);
+    trace(study, orbit, &mut sampler);
+    sampler.samples
+}
+
 /// Why there is no orbit, as it is told.
 pub(super) fn refused(why: NoOrbit) -> Failure {
     let key = match why {
@@ -239,6 +273,27 @@ impl Response {
         )
     }
 
+    /// The periodic response over one period.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] where there is none.
+    pub fn dataset(&self, study: &Study) -> Result<Dataset, Failure> {
+        let why = || Failure::Failed { key: "--save".to_owned(), why: self.sentence(study) };
+        let samples = samples(study, self.orbit.as_ref().ok_or_else(why)?);
+        let column = |value: fn(&Sample) -> f64| samples.iter().map(value).collect::<Vec<f64>>();
+        let dataset = Dataset::new(study, "orbit")
+            .fact(self.sentence(study))
+            .axis("time", Quantity::Time, column(|sample| sample.time))
+            .array("displacement", Quantity::Displacement, column(|sample| sample.displacement))
+            .array("velocity", Quantity::Velocity, column(|sample| sample.velocity))
+            .array(
+                "sticking",
+                Quantity::Count,
+                column(|sample| f64::from(u8::from(sample.sticking))),
+            );
+        Ok(dataset)
+    }
+
     /// As JSON.
     pub fn json(&self, study: &Study) -> Json {
         let mut object = match &self.orbit {
@@ -275,6 +330,10 @@ impl Response {
             .number("residual", Quantity::Displacement, 0.0)
             .number("state_error", Quantity::Displacement, 0.0)
             .number("multiplier_error", Quantity::Ratio, 0.0)
+            .number("lowest", Quantity::Displacement, study.belt().steady_sliding())
+            .number("highest", Quantity::Displacement, study.belt().steady_sliding())
+            .number("lowest_velocity", Quantity::Velocity, 0.0)
+            .number("highest_velocity", Quantity::Velocity, 0.0)
             .plain("signature", Vec::<Json>::new())
             .number("least_slip_velocity", Quantity::Velocity, study.belt().belt_velocity())
             .plain("warnings", Vec::<Json>::new());
@@ -310,6 +369,12 @@ pub fn json(study: &Study, orbit: &Orbit) -> Json {
         .number("residual", Quantity::Displacement, orbit.residual)
         .known("state_error", Quantity::Displacement, finite(orbit.state_error))
         .known("multiplier_error", Quantity::Ratio, finite(orbit.multiplier_error));
+    let Extremes { displacement, velocity } = extremes(study, orbit);
+    fields
+        .number("lowest", Quantity::Displacement, displacement.0)
+        .number("highest", Quantity::Displacement, displacement.1)
+        .number("lowest_velocity", Quantity::Velocity, velocity.0)
+        .number("highest_velocity", Quantity::Velocity, velocity.1);
     let signature: Vec<Json> = orbit
         .events
         .iter()

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use quell_belt::simulation::{
-    Event, EventRecorder, FinalState, LargestSlip, Sample, Sampler, Start, simulate,
+    Event, EventKind, EventRecorder, FinalState, LargestSlip, Sample, Sampler, Start, simulate,
 };
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -11,7 +11,7 @@ use serde_json::Value as Json;
 use super::range::SlipMet;
 use super::{failed, in_words, start, start_in_words};
 use crate::complaint::Failure;
-use crate::dataset::Dataset;
+use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::study::Study;
 
@@ -206,6 +206,25 @@ impl Simulation {
             ));
         }
         warnings
+    }
+
+    /// The events, one row each; empty where they were not asked for. The velocity at every event is the belt's.
+    pub fn events_dataset(&self, study: &Study) -> Dataset {
+        let events = self.events.as_deref().unwrap_or_default();
+        let column = |value: fn(&Event) -> f64| events.iter().map(value).collect::<Vec<f64>>();
+        let kinds = [EventKind::Stick, EventKind::Release, EventKind::Reversal];
+        let code = |event: &Event| kinds.iter().zip(0..).find(|(kind, _)| **kind == event.kind);
+        let codes: Vec<u8> = events.iter().filter_map(|event| Some(code(event)?.1)).collect();
+        let words = kinds.iter().zip(0..).map(|(kind, code)| (code, kind.name())).collect();
+        let rows = (1..=events.len()).map(|row| row as f64).collect();
+        Dataset::new(study, "simulate: events")
+            .fact(format!("start: {}", start_in_words(study)))
+            .axis("event", Quantity::Count, rows)
+            .array("time", Quantity::Time, column(|event| event.time))
+            .with(Array::of_words("kind", words, &codes))
+            .array("slip_sign", Quantity::Count, column(|event| f64::from(event.slip_sign)))
+            .array("displacement", Quantity::Displacement, column(|event| event.displacement))
+            .array("velocity", Quantity::Velocity, vec![study.belt().belt_velocity(); events.len()])
     }
 
     /// The sampled trajectory; empty where no samples were asked for.

@@ -4,10 +4,11 @@
 //! high frequency; `sharper` takes the oscillator's own response to the dither instead, and one
 //! more term of the fast motion under normal dither.
 
+pub use quell_belt::averaging::Side;
 use quell_belt::averaging::{
     AveragingError, AveragingOptions, Band, Becomes, Criterion, CriticalAmplitude, Crossing,
-    EverywhereStable, NeverStable, NormalOrder, Response, Side, UndecidedBecause, Verdict,
-    criterion, critical_amplitudes, everywhere_stable_amplitude, fast_wave, unstable_bands,
+    EverywhereStable, NeverStable, NormalOrder, Response, UndecidedBecause, Verdict, criterion,
+    critical_amplitudes, everywhere_stable_amplitude, fast_wave, unstable_bands,
 };
 use quell_model::Belt;
 use quell_model::units::Quantity;
@@ -121,8 +122,11 @@ fn word(criterion: &Result<Criterion, AveragingError>) -> &'static str {
     }
 }
 
+/// Decibels of a growth by a factor of e: 20 log₁₀ e.
+pub const DECIBELS: f64 = 20.0 * std::f64::consts::LOG10_E;
+
 /// Growth rate of small slow motions, Re ρ of ρ² + cρ + 1 = 0.
-pub(crate) fn growth_rate(criterion: f64) -> f64 {
+pub fn growth_rate(criterion: f64) -> f64 {
     let half = 0.5 * criterion;
     let overdamped = (half.abs() - 1.0).max(0.0) * (half.abs() + 1.0);
     overdamped.sqrt() - half
@@ -137,11 +141,16 @@ impl Averaged {
     fn put(&self, study: &Study, fields: &mut Fields) {
         let told = |why: &AveragingError| why.to_string();
         let value = |field: fn(&Criterion) -> f64| self.criterion.as_ref().map(field).map_err(told);
+        let rate = value(|criterion| growth_rate(criterion.value));
+        if let Some(scales) = fields.scales() {
+            let decibels = rate.clone().map(|rate| DECIBELS * rate * scales.angular_frequency());
+            fields.decibels("growth_rate_db_per_s", decibels);
+        }
         fields
             .plain("verdict", self.verdict())
             .known("criterion", Quantity::Ratio, value(|criterion| criterion.value))
             .known("error", Quantity::Ratio, value(|criterion| criterion.error))
-            .rate("growth_rate", value(|criterion| growth_rate(criterion.value)))
+            .rate("growth_rate", rate)
             .known(
                 "effective_coefficient",
                 Quantity::Ratio,
@@ -236,10 +245,38 @@ pub fn becomes(becomes: Becomes) -> &'static str {
 }
 
 impl Stability {
+    /// The averaging that sentence and picture go by: the one at finite R, where it exists, else the limit of high
+    /// frequency.
+    pub fn leading(&self) -> &Averaged {
+        self.finite().unwrap_or(&self.limit)
+    }
+
+    /// Averaging at finite R, or why it does not exist.
+    fn finite(&self) -> Result<&Averaged, String> {
+        let finite = self.sharper.as_ref().map_err(Clone::clone)?;
+        match &finite.criterion {
+            Ok(_) => Ok(finite),
+            Err(why) => Err(why.to_string()),
+        }
+    }
+
+    /// The averaging that sentence and picture go by, in words.
+    pub fn method(&self, study: &Study) -> String {
+        match self.finite() {
+            Ok(_) => "finite-R averaging".to_owned(),
+            Err(_) if study.belt().dithers().is_empty() => {
+                "the slope of the friction law".to_owned()
+            }
+            Err(why) => format!(
+                "averaging in the limit of high dither frequency (finite-R averaging does not exist here: {why})"
+            ),
+        }
+    }
+
     /// What averaging says, in one sentence.
     pub fn sentence(&self, study: &Study) -> String {
         let v = in_words(study, Quantity::Velocity, study.belt().belt_velocity());
-        let verdict = match &self.limit.criterion {
+        let verdict = match &self.leading().criterion {
             Err(why) => format!("nothing can be said about steady sliding at v₀ = {v}: {why}"),
             Ok(found) => match found.verdict {
                 Verdict::Stable => format!("steady sliding at v₀ = {v} is stable"),
@@ -254,7 +291,8 @@ impl Stability {
             },
         };
         format!(
-            "By averaging over the fast motion (locally, for small slow motions), {verdict}{}.",
+            "By {}, locally, for small slow motions, {verdict}{}.",
+            self.method(study),
             self.next(study)
         )
     }
@@ -264,12 +302,13 @@ impl Stability {
         let Some(dither) = study.belt().dithers().first() else {
             return "; there is no dither".to_owned();
         };
-        let (Ok(critical), Ok(_)) = (&self.limit.critical_amplitudes, &self.limit.criterion) else {
+        let leading = self.leading();
+        let (Ok(critical), Ok(_)) = (&leading.critical_amplitudes, &leading.criterion) else {
             return String::new();
         };
         let now = dither.amplitude_ratio();
         let next = critical.iter().find(|critical| {
-            critical.amplitude_ratio > now && becomes(critical.becomes) != self.limit.verdict()
+            critical.amplitude_ratio > now && becomes(critical.becomes) != leading.verdict()
         });
         match next {
             Some(next) => format!(
@@ -287,13 +326,20 @@ impl Stability {
     /// What a reader of the numbers should know.
     pub fn warnings(&self, study: &Study) -> Vec<String> {
         let slow = study.belt().dithers().iter().filter(|dither| dither.frequency_ratio < FAST);
-        let slow = slow.map(|dither| {
+        let hardly = slow.map(|dither| {
             format!(
                 "averaging presumes fast dither; R = {} is hardly fast, simulate to be sure",
                 dither.frequency_ratio
             )
         });
-        slow.chain(range::averaged(study)).chain(self.beyond(study)).collect()
+        let verdicts = self.finite().ok().map(|finite| (finite.verdict(), self.limit.verdict()));
+        let apart = verdicts.filter(|(finite, limit)| finite != limit).map(|(finite, limit)| {
+            format!(
+                "the two averagings differ: {finite} at finite R, {limit} in the limit of high frequency; simulate to be sure"
+            )
+        });
+        let range = range::averaged(study).into_iter().chain(self.beyond(study));
+        hardly.chain(apart).chain(range).collect()
     }
 
     /// Critical amplitudes and bands that lie outside of the range of the friction law.
@@ -335,6 +381,7 @@ impl Stability {
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
             .plain("protocol", "averaged")
+            .plain("sentence_by", self.method(study))
             .plain("method", "averaging over the fast motion in the limit of high frequency");
         self.limit.put(study, &mut fields);
         match &self.sharper {

@@ -1,11 +1,11 @@
 //! One number of a study varied over a range: `--parameter PATH --from A --to B --points N`.
 
-use quell_model::Belt;
+use quell_model::parameter::{BELT_VELOCITY, DITHER_AMPLITUDE};
 
 use super::evenly;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::mirror::given_number;
-use crate::study::vocabulary::{Address, Role, join, resolve};
+use crate::study::vocabulary::{Address, Role, in_system, join, resolve};
 use crate::study::{Study, suggest};
 
 /// Most values of a range.
@@ -46,7 +46,7 @@ impl Varied {
     /// Every complaint about the path, the ends and the number of values at once.
     pub fn new(study: &Study, option: &'static str, range: &Range) -> Result<Self, Vec<Complaint>> {
         let &Range { parameter: ref path, from, to, points } = range;
-        let address = address(option, path).map_err(|complaint| vec![*complaint])?;
+        let address = address(study, option, path).map_err(|complaint| vec![*complaint])?;
         let mut complaints = Vec::new();
         let mut lacking: Vec<String> = Vec::new();
         let studies = [("--from", from), ("--to", to)].map(|(end, value)| {
@@ -123,6 +123,8 @@ pub(super) fn ascending(from: f64, to: f64) -> Result<(), Box<Complaint>> {
 pub(super) struct Named {
     /// Path of the number of the equations, such as `dither.amplitude`.
     pub(super) path: String,
+    /// The key that names it.
+    key: String,
     /// Values of the named key that make one of the equations: 1, or the unit in SI.
     per_unit: f64,
 }
@@ -138,25 +140,36 @@ impl Named {
         path: &str,
     ) -> Result<Self, Box<Complaint>> {
         let belt = study.belt();
-        if belt.get(path).is_some() {
-            return Ok(Self { path: path.to_owned(), per_unit: 1.0 });
-        }
-        let near = match resolve(path) {
-            Ok(address) => address.key.parameter().map(|parameter| {
-                let table = path.trim().rsplit_once('.').map_or("", |(table, _)| table);
-                (join(table, parameter.key()), address.key.role)
-            }),
-            Err(nearest) => nearest.map(|path| (path, Role::Text)),
+        let table = path.trim().rsplit_once('.').map_or("", |(table, _)| table);
+        let found = resolve(path);
+        // The number of the equations that is meant, whether or not its key is one of this study.
+        let meant = match &found {
+            Ok(address) => address.key.parameter().map(|it| join(table, it.key())),
+            Err(nearest) => nearest.clone(),
         };
-        let near = near.filter(|(near, _)| belt.get(near).is_some());
-        match (near, study.scales()) {
-            (Some((path, Role::Twin(parameter, twin))), Some(scales)) if !twin.rms => {
-                Ok(Self { path, per_unit: scales.si_per_unit(parameter.quantity) })
+        let meant = meant.or_else(|| Some(path.to_owned())).filter(|it| belt.get(it).is_some());
+        let per_unit = match (&meant, found.ok().map(|address| address.key.role), study.scales()) {
+            // A root mean square depends on the waveform: what is found is a peak.
+            (Some(_), Some(Role::Twin(parameter, twin)), Some(scales)) if !twin.rms => {
+                Some(scales.si_per_unit(parameter.quantity))
             }
-            (near, _) => {
+            (Some(_), Some(Role::Number(parameter)), scales) => {
+                let own = scales.is_none() || parameter.si.is_empty() || parameter.is_pure();
+                own.then_some(1.0)
+            }
+            (Some(_), Some(Role::Constant), _) => Some(1.0),
+            _ => None,
+        };
+        match (meant, per_unit) {
+            (Some(number), Some(per_unit)) => {
+                Ok(Self { path: number, key: path.to_owned(), per_unit })
+            }
+            (meant, _) => {
+                let [amplitude, velocity] = [DITHER_AMPLITUDE, BELT_VELOCITY]
+                    .map(|parameter| key_of(study, parameter.path));
                 let allowed =
-                    "a number that this study has, such as dither.amplitude or belt.belt_velocity";
-                let near = near.map(|(path, _)| path);
+                    format!("a number that this study has, such as {amplitude} or {velocity}");
+                let near = meant.map(|path| key_of(study, &path));
                 Err(Box::new(Complaint::option(option, path, allowed).suggesting(near)))
             }
         }
@@ -173,29 +186,33 @@ impl Named {
         given / self.per_unit
     }
 
-    /// Complaints about the value of an option that the number cannot take.
+    /// Complaints about the value of an option that the study cannot take: those of `--set`.
     pub(super) fn unable(
         &self,
-        belt: &Belt,
+        study: &Study,
         (option, given): (&'static str, f64),
     ) -> impl Iterator<Item = Complaint> {
-        let refused = belt.with(&self.path, self.of(given)).err().unwrap_or_default();
-        refused.into_iter().map(move |it| {
-            let allowed = format!("such that {} is {}", it.key, it.allowed);
-            Complaint::option(option, given_number(given), allowed)
-        })
+        let refused = study.with(&self.key, given).err().unwrap_or_default();
+        refused.into_iter().map(move |complaint| told(complaint, option))
     }
 }
 
-fn address(option: &'static str, path: &str) -> Result<Address, Box<Complaint>> {
+/// The key by which a study gives a number of the equations: in SI where the study is.
+pub fn key_of(study: &Study, path: &str) -> String {
+    in_system(path, study.scales().is_some())
+}
+
+fn address(study: &Study, option: &'static str, path: &str) -> Result<Address, Box<Complaint>> {
     let origin = Origin::Argument(option);
+    let known = [DITHER_AMPLITUDE, BELT_VELOCITY].map(|parameter| key_of(study, parameter.path));
     let refuse = |suggestion: Option<String>| {
-        let allowed = "a number of the study, such as dither.amplitude or belt.belt_velocity";
+        let allowed = format!("a number of the study, such as {} or {}", known[0], known[1]);
         let complaint = Complaint::new(Fault::Value, option, origin, path, allowed);
         Box::new(complaint.suggesting(suggestion))
     };
     let found = resolve(path).map_err(|nearest| {
-        refuse(nearest.or_else(|| suggest::word(path, ["dither.amplitude", "belt.belt_velocity"])))
+        let nearest = nearest.map(|path| key_of(study, &path));
+        refuse(nearest.or_else(|| suggest::word(path, known.each_ref().map(String::as_str))))
     })?;
     if found.key.takes_number() { Ok(found) } else { Err(refuse(None)) }
 }

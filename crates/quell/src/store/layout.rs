@@ -14,6 +14,7 @@ use zarrs::array::{Array, ArrayBuilder, ArrayCreateError, DataType, FillValue, d
 use zarrs::metadata::v3::GroupMetadataV3;
 
 use crate::cite::{Task, sources_of};
+use crate::dataset::readable;
 use crate::sweep::{Computation, Content, Field, GridAxis, MISSING, Plan, Status};
 
 /// An array that is described and encoded here, and written by the store.
@@ -84,15 +85,25 @@ fn describe(
 
 fn coordinate(axis: &GridAxis) -> Result<Described, ArrayCreateError> {
     let length = [axis.values.len()];
-    let attributes = json!({ "long_name": axis.about, "units": axis.unit, "parameter": axis.path });
+    let mut attributes = json!({ "long_name": axis.about, "parameter": axis.path });
+    put_unit(&mut attributes, axis.unit);
     let kind = (data_type::float64(), FillValue::from(f64::NAN));
     describe(&axis.name, (&length, &length), kind, vec![axis.name.clone()], attributes)
+}
+
+/// Adds a unit that programs read, and what the numbers are scaled by.
+fn put_unit(attributes: &mut Json, unit: &str) {
+    let (unit, scaling) = readable(unit);
+    attributes["units"] = unit.into();
+    if !scaling.is_empty() {
+        attributes["scaling"] = scaling.into();
+    }
 }
 
 fn field(plan: &Plan, field: &Field) -> Result<Described, ArrayCreateError> {
     let mut attributes = json!({ "long_name": field.about });
     if !field.unit.is_empty() {
-        attributes["units"] = field.unit.as_str().into();
+        put_unit(&mut attributes, &field.unit);
     }
     if let Some(status) = &field.status {
         attributes["ancillary_variables"] = status.as_str().into();

@@ -3,7 +3,10 @@
 
 use std::fmt;
 
+use quell_model::parameter::MASS;
+
 use super::mirror::{Node, Table, Value};
+use super::reader;
 use super::vocabulary::{self, Key, NOT_BUILT, Role, Section};
 use crate::complaint::{Complaint, Fault, Origin};
 
@@ -43,13 +46,15 @@ impl Change {
 
     /// Makes the change.
     pub(super) fn apply(&self, root: &mut Table) -> Result<(), Box<Complaint>> {
-        let address = vocabulary::resolve(&self.path).map_err(|nearest| self.unknown(nearest))?;
+        let address = vocabulary::resolve(&self.path)
+            .map_err(|nearest| self.unknown(nearest, reader::is_si(root)))?;
         let key = address.key;
+        let of_a_disc = root.has("disc");
         let Some(table) = self.section(root, key.section, address.index)? else {
             return Ok(());
         };
         for sibling in vocabulary::keys_of(key.section) {
-            if replaces(key, sibling) {
+            if replaces(key, sibling, of_a_disc) {
                 table.remove(sibling.name);
             }
         }
@@ -62,7 +67,8 @@ impl Change {
         Ok(())
     }
 
-    fn unknown(&self, nearest: Option<String>) -> Box<Complaint> {
+    /// A complaint with the nearest key that a study of this system has.
+    fn unknown(&self, nearest: Option<String>, si: bool) -> Box<Complaint> {
         let first = self.path.split(['.', '[']).next().unwrap_or_default();
         if NOT_BUILT.contains(&first) {
             let allowed = format!("[{first}] is not built yet");
@@ -72,11 +78,12 @@ impl Change {
             let example = vocabulary::keys_of(section)
                 .find(|key| !matches!(key.role, Role::Scale(_)))
                 .map_or_else(|| vocabulary::join(section.path(), "a"), Key::path);
+            let example = vocabulary::in_system(&example, si);
             let allowed = format!("set key by key, such as {example}: it is a table");
             return Box::new(self.complaint(Fault::Value, allowed));
         }
         let complaint = self.complaint(Fault::Unknown, "the keys that `quell schema` lists");
-        Box::new(complaint.suggesting(nearest))
+        Box::new(complaint.suggesting(nearest.map(|path| vocabulary::in_system(&path, si))))
     }
 
     /// The table that the path names, where it names a table and no key of it.
@@ -195,13 +202,20 @@ impl fmt::Display for Change {
 }
 
 /// Whether setting `key` takes the place of `sibling`: another SI key of the same parameter,
-/// a named state for numbers, values of an axis for its ends, and the other way round.
-fn replaces(key: &Key, sibling: &Key) -> bool {
+/// a named state for numbers, values of an axis for its ends, and the other way round. A disc has its numbers in SI or not,
+/// each by itself.
+fn replaces(key: &Key, sibling: &Key, of_a_disc: bool) -> bool {
     if key.name == sibling.name {
         return false;
     }
     match (key.section, key.role, sibling.role) {
         (_, Role::Twin(parameter, _), Role::Twin(other, _)) => parameter.path == other.path,
+        (_, Role::Number(parameter), Role::Twin(other, _))
+        | (_, Role::Twin(parameter, _), Role::Number(other)) => {
+            parameter.path == other.path && (of_a_disc || parameter.is_pure())
+        }
+        // The mass stays: stiffness and natural frequency say the same of it.
+        (_, Role::Scale(scale), Role::Scale(other)) => ![scale, other].contains(&MASS),
         (Section::Initial, role, other) => is_word(role) || is_word(other),
         (Section::Friction, Role::Speeds { .. }, Role::Speeds { .. }) => true,
         (Section::Sweep, role, other) => {

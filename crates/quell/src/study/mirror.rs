@@ -111,6 +111,11 @@ impl Table {
         self.entries.iter().map(|(key, node)| (key.as_str(), node))
     }
 
+    /// Keys and values in the order of the text, to change the values.
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = (&str, &mut Node)> {
+        self.entries.iter_mut().map(|(key, node)| (key.as_str(), node))
+    }
+
     /// Whether a key is there.
     pub fn has(&self, key: &str) -> bool {
         self.get(key).is_some()
@@ -151,7 +156,15 @@ impl Node {
             }
             _ => Value::Text(text.trim().to_owned()),
         };
-        Self { value, origin: Origin::Argument(option) }
+        let origin = Origin::Argument(option);
+        // `[5kN, 6kN]` is no TOML: each element is an argument of its own.
+        if let Value::Text(text) = &value
+            && let Some(inner) = text.strip_prefix('[').and_then(|text| text.strip_suffix(']'))
+        {
+            let elements = inner.split(',').map(|text| Self::from_argument(text, option));
+            return Self { value: Value::List(elements.collect()), origin };
+        }
+        Self { value, origin }
     }
 
     /// As it is told in a complaint.
@@ -283,5 +296,8 @@ mod tests {
         assert_eq!(value("\"square\""), Value::Text("square".into()));
         assert!(matches!(value("nan"), Value::Number(number) if number.is_nan()));
         assert_eq!(value(""), Value::Text(String::new()));
+        let Value::List(list) = value("[5kN, 6e3]") else { panic!("a list") };
+        let values: Vec<Value> = list.into_iter().map(|node| node.value).collect();
+        assert_eq!(values, [Value::Text("5kN".into()), Value::Number(6e3)]);
     }
 }

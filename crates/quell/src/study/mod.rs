@@ -24,6 +24,7 @@ pub mod disc;
 mod dither;
 mod file;
 mod friction;
+mod measures;
 pub mod mirror;
 mod reader;
 mod revision;
@@ -135,6 +136,7 @@ impl Study {
     pub fn sweeping(&self, axes: &[Table]) -> Result<Self, Vec<Complaint>> {
         let mut mirror = self.mirror.clone();
         sweep::replace(&mut mirror, axes);
+        measures::resolve(&mut mirror);
         let mut study = self.check_again(mirror)?;
         study.changes = sweep::told(&self.changes, axes);
         Ok(study)

@@ -1,6 +1,7 @@
 //! Studies out of other studies: a text with changes, the point of a map, and what both kinds of study say of themselves.
 
 use super::change::Change;
+use super::measures;
 use super::mirror::{Table, Value};
 use super::sweep::Sweep;
 use super::vocabulary::SCHEMA_VERSION;
@@ -18,6 +19,7 @@ pub(super) fn changed<S>(
         .filter_map(|change| change.apply(&mut mirror).err())
         .map(|complaint| *complaint)
         .collect();
+    measures::resolve(&mut mirror);
     match check(mirror, changes.iter().map(Change::to_string).collect()) {
         Ok(study) if refused.is_empty() => Ok(study),
         Ok(_) => Err(refused),

@@ -161,7 +161,9 @@ fn one(reader: &mut Reader, node: &Node, prefix: &str) -> Option<Sweep> {
     };
     reader.unknown_keys(table, Section::Sweep, prefix, &[]);
     let named = parameter(reader, table, node, prefix);
-    let axis = axis(reader, table, node, prefix);
+    let unit = named.as_ref().and_then(|(_, address)| address.key.measured_in());
+    let unit = unit.filter(|unit| *unit != "1").unwrap_or_default();
+    let axis = axis(reader, table, node, prefix, unit);
     let (path, address) = named?;
     Some(Sweep { path, address, axis: axis? })
 }
@@ -188,13 +190,19 @@ fn parameter(
         Err(nearest) => {
             let allowed = "path of a number of the study, such as \"dither.amplitude\"";
             let complaint = Complaint::new(Fault::Value, key, node.origin, path, allowed);
-            reader.complain(complaint.suggesting(nearest.map(|path| reader.in_system(path))));
+            reader.complain(complaint.suggesting(nearest.map(|path| reader.in_system(&path))));
             None
         }
     }
 }
 
-fn axis(reader: &mut Reader, table: &Table, header: &Node, prefix: &str) -> Option<Axis> {
+fn axis(
+    reader: &mut Reader,
+    table: &Table,
+    header: &Node,
+    prefix: &str,
+    unit: &str,
+) -> Option<Axis> {
     let spacing = match table.get("spacing") {
         Some(node) => reader.choice(&join(prefix, "spacing"), node, Choice::Spacing),
         None => Some("linear"),
@@ -216,11 +224,11 @@ fn axis(reader: &mut Reader, table: &Table, header: &Node, prefix: &str) -> Opti
                 ));
             }
         }
-        return values(reader, node, &join(prefix, "values")).map(Axis::Values);
+        return values(reader, node, &join(prefix, "values"), unit).map(Axis::Values);
     }
     let logarithmic = spacing == Some("log");
     let bounds = if logarithmic { Bounds::POSITIVE } else { Bounds::FINITE };
-    let mut end = |name: &str, bounds, whole| {
+    let mut end = |name: &str, bounds, whole: bool| {
         let key = join(prefix, name);
         let Some(node) = table.get(name) else {
             let allowed = "a number; or give values = […] instead of from, to and points";
@@ -233,7 +241,7 @@ fn axis(reader: &mut Reader, table: &Table, header: &Node, prefix: &str) -> Opti
             ));
             return None;
         };
-        reader.within(&key, node, bounds, "", whole)
+        reader.within(&key, node, bounds, if whole { "" } else { unit }, whole)
     };
     let points = Bounds { upper: f64::from(MOST_POINTS), ..Bounds::at_least(2.0) };
     let (from, to, points) =
@@ -250,7 +258,7 @@ fn axis(reader: &mut Reader, table: &Table, header: &Node, prefix: &str) -> Opti
     }
 }
 
-fn values(reader: &mut Reader, node: &Node, key: &str) -> Option<Vec<f64>> {
+fn values(reader: &mut Reader, node: &Node, key: &str, unit: &str) -> Option<Vec<f64>> {
     let Value::List(list) = &node.value else {
         reader.wrong(key, node, format!("an array of numbers; this is {}", node.kind()));
         return None;
@@ -263,7 +271,7 @@ fn values(reader: &mut Reader, node: &Node, key: &str) -> Option<Vec<f64>> {
         .iter()
         .enumerate()
         .map(|(index, node)| {
-            reader.within(&format!("{key}[{index}]"), node, Bounds::FINITE, "", false)
+            reader.within(&format!("{key}[{index}]"), node, Bounds::FINITE, unit, false)
         })
         .collect();
     numbers.into_iter().collect()

@@ -3,8 +3,10 @@
 use quell_disc::Dither;
 use quell_model::Direction;
 use quell_model::parameter::disc::{
-    DISC_SPEED, LOAD_DAMPING, LOAD_FRICTION, LOAD_MASS, LOAD_STIFFNESS,
+    DISC_SPEED, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_MASS, LOAD_STIFFNESS,
 };
+use quell_model::parameter::{DITHER_FREQUENCY_RATIO, Parameter};
+use quell_model::units::{DiscScales, measure};
 use serde_json::{Value as Json, json};
 
 use crate::study::DiscStudy;
@@ -17,15 +19,23 @@ pub fn json(study: &DiscStudy) -> Json {
         .loads()
         .iter()
         .zip(study.radii())
-        .map(|(load, radius)| {
-            json!({
+        .enumerate()
+        .map(|(index, (load, radius))| {
+            let mut object = json!({
                 "radius_ratio": radius,
                 "angle_deg": load.angle.to_degrees(),
-                LOAD_MASS.key(): load.mass,
-                LOAD_DAMPING.key(): load.damping,
-                LOAD_STIFFNESS.key(): load.stiffness,
-                LOAD_FRICTION.key(): load.friction,
-            })
+                LOAD_DITHER_PHASE.key(): load.dither_phase.to_degrees(),
+            });
+            let scales = study.scales(index);
+            for (parameter, value) in [
+                (LOAD_MASS, load.mass),
+                (LOAD_DAMPING, load.damping),
+                (LOAD_STIFFNESS, load.stiffness),
+                (LOAD_FRICTION, load.friction),
+            ] {
+                put_both(&mut object, parameter, value, scales);
+            }
+            object
         })
         .collect();
     let sweeps: Vec<Json> = study
@@ -49,17 +59,32 @@ pub fn json(study: &DiscStudy) -> Json {
             "modes": disc.modes().len(),
             "modes_from": source(study),
             "without": study.without(),
-            DISC_SPEED.key(): disc.speed(),
             "loads": loads,
         },
         "dither": dither(disc.dither()),
         "sweeps": sweeps,
         "warnings": study.warnings(),
     });
+    let scales = study.scales(0);
+    put_both(&mut object["disc"], DISC_SPEED, disc.speed(), scales);
+    if let Some(ratio) = disc.dither().frequency_ratio() {
+        put_both(&mut object["dither"], DITHER_FREQUENCY_RATIO, ratio, scales);
+    }
     if study.title().is_none() {
         object["why"] = json!({ "title": "the study gives none" });
     }
     object
+}
+
+/// Adds a number of the equations, and the same in SI under each key for that, where its size is known.
+fn put_both(object: &mut Json, parameter: Parameter, value: f64, scales: Option<DiscScales>) {
+    object[parameter.key()] = value.into();
+    let per_unit = scales.and_then(|scales| scales.si_per_unit(parameter.quantity));
+    let Some((per_unit, (unit, _))) = per_unit.zip(parameter.quantity.si_unit()) else { return };
+    for twin in parameter.si {
+        let size = measure::convert(1.0, unit, twin.unit).unwrap_or(1.0);
+        object[twin.key] = (value * per_unit * size).into();
+    }
 }
 
 /// Where the modes come from, in words.

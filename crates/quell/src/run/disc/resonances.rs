@@ -169,8 +169,23 @@ pub fn run(study: &DiscStudy, question: Question) -> Result<Resonances, Failure>
     })
 }
 
+/// Adds numbers in ω_ref of an object in hertz, under their names with `_hz`.
+fn put_hertz(object: &mut Json, hertz: Option<f64>, names: &[&str]) {
+    fn times(value: &Json, hertz: f64) -> Json {
+        match value {
+            Json::Array(list) => list.iter().map(|value| times(value, hertz)).collect(),
+            _ => value.as_f64().map_or(Json::Null, |value| (value * hertz).into()),
+        }
+    }
+    for name in names {
+        if let Some(hertz) = hertz {
+            object[format!("{name}_hz")] = times(&object[*name], hertz);
+        }
+    }
+}
+
 /// A meeting as JSON.
-fn meeting(resonance: &Resonance) -> Json {
+fn meeting(resonance: &Resonance, hertz: Option<f64>) -> Json {
     let [first, second] = &resonance.waves;
     let mut why = Map::new();
     let edges = resonance.tongue.edges();
@@ -205,6 +220,10 @@ fn meeting(resonance: &Resonance) -> Json {
         "width": resonance.tongue.width(),
         "peak_growth": resonance.tongue.peak_growth(),
     });
+    put_hertz(&mut object, hertz, &["speed", "edges", "width"]);
+    if let Some(hertz) = hertz {
+        object["speed_rpm"] = (60.0 * hertz * resonance.speed).into();
+    }
     if !why.is_empty() {
         object["why"] = Json::Object(why);
     }
@@ -257,18 +276,20 @@ impl Resonances {
 
     /// As JSON.
     pub fn json(&self, study: &DiscStudy) -> Json {
+        let hertz = study.reference_hz();
         let (start, end) = (self.question.speeds.start(), self.question.speeds.end());
         let mut object = json!({
             "ok": true,
             "speeds": [start, end],
             "order": if self.question.order == Order::First { "first" } else { "second" },
-            "undithered": self.undithered.iter().map(meeting).collect::<Vec<_>>(),
-            "dithered": self.dithered.iter().map(meeting).collect::<Vec<_>>(),
+            "undithered": self.undithered.iter().map(|it| meeting(it, hertz)).collect::<Vec<_>>(),
+            "dithered": self.dithered.iter().map(|it| meeting(it, hertz)).collect::<Vec<_>>(),
             "units": {
                 "speed": "ω_ref", "edges": "ω_ref", "width": "ω_ref", "peak_growth": "ω_ref", "threshold": "1 (f*)",
             },
             "warnings": study.warnings(),
         });
+        put_hertz(&mut object, hertz, &["speeds"]);
         if let Some(clear) = &self.clear {
             let mut inner = json!({
                 "speeds": [clear.speeds.start(), clear.speeds.end()],
@@ -289,6 +310,7 @@ impl Resonances {
                     "verified_growth_rate": "ω_ref", "growth_rate": "ω_ref", "growth_rate_error": "ω_ref", "speed": "ω_ref",
                 },
             });
+            put_hertz(&mut inner, hertz, &["speeds", "frequencies", "clear", "suggestion"]);
             let mut why = Map::new();
             if clear.suggestion.is_none() {
                 why.insert("suggestion".to_owned(), "no frequency of the range is clear".into());
@@ -310,7 +332,7 @@ impl Resonances {
                 let nearby: Vec<Json> = nearby
                     .iter()
                     .map(|nearby| {
-                        let mut object = meeting(&nearby.resonance);
+                        let mut object = meeting(&nearby.resonance, hertz);
                         object["reaches_in"] = nearby.reaches_in.into();
                         object
                     })

@@ -5,11 +5,13 @@ use quell_disc::dithered::DitheredDisc;
 use quell_disc::partition::{NoPartition, crossings};
 use quell_disc::system::Contributions;
 use quell_disc::{Dither, Growth, Verdict, undithered};
+use quell_model::units::Quantity;
 use quell_numerics::floquet::Effort;
 use serde_json::{Map, Value as Json, json};
 
 use super::overflowed;
 use crate::complaint::Failure;
+use crate::run::stability::DECIBELS;
 use crate::study::DiscStudy;
 
 /// A friction at which some motion is marginal.
@@ -28,6 +30,8 @@ pub struct Stability {
     pub growth: Growth,
     /// Of the same without dither.
     pub undithered: Growth,
+    /// Every motion that grows by more than its error, the fastest first.
+    pub unstable: Vec<Growth>,
     /// Frictions of the load's own sign, ≥ 0 where it has none, at which a motion is marginal, the rest as given, ascending; or why
     /// they are not known.
     pub changes: Result<Vec<Change>, String>,
@@ -43,9 +47,12 @@ pub fn run(study: &DiscStudy) -> Result<Stability, Failure> {
     let (disc, parts) = (study.disc(), study.parts());
     let failed = |why| overflowed("stability", why);
     let undithered = undithered::growth_with(disc, parts).map_err(failed)?;
-    let growth = match DitheredDisc::with_contributions(disc, parts).map_err(failed)? {
-        Some(dithered) => dithered.growth(1.0, Effort::default()).map_err(failed)?,
-        None => undithered,
+    let (growth, unstable) = match DitheredDisc::with_contributions(disc, parts).map_err(failed)? {
+        Some(dithered) => {
+            let growth = dithered.growth(1.0, Effort::default()).map_err(failed)?;
+            (growth, dithered.growing(Effort::default()).map_err(failed)?)
+        }
+        None => (undithered, undithered::growing_with(disc, parts).map_err(failed)?),
     };
     let (changes, out_of_reach) = match disc.dither() {
         _ if parts != Contributions::ALL => (
@@ -55,7 +62,7 @@ pub fn run(study: &DiscStudy) -> Result<Stability, Failure> {
         Dither::None => still(study),
         Dither::Normal { .. } | Dither::Tangential { .. } => (shaken(study), false),
     };
-    Ok(Stability { growth, undithered, changes, out_of_reach })
+    Ok(Stability { growth, undithered, unstable, changes, out_of_reach })
 }
 
 /// Boundaries without dither.
@@ -117,6 +124,14 @@ fn ascending(mut changes: Vec<Change>) -> Vec<Change> {
     changes
 }
 
+/// Adds growth per second, in decibels per second, and hertz to a motion.
+fn put_si(object: &mut Json, hertz: f64, growth: &Growth) {
+    let rate = std::f64::consts::TAU * hertz * growth.rate;
+    object["growth_rate_per_s"] = rate.into();
+    object["growth_rate_db_per_s"] = (DECIBELS * rate).into();
+    object["frequency_hz"] = (hertz * growth.frequency).into();
+}
+
 impl Stability {
     /// What was found, in one sentence.
     pub fn sentence(&self, study: &DiscStudy) -> String {
@@ -151,8 +166,20 @@ impl Stability {
                 "frequency": growth.frequency,
             })
         };
+        let hertz = study.reference_hz();
         let mut object = growth(&self.growth);
         let mut why = Map::new();
+        object["unstable_modes"] = self
+            .unstable
+            .iter()
+            .map(|mode| {
+                let mut object = growth(mode);
+                if let Some(hertz) = hertz {
+                    put_si(&mut object, hertz, mode);
+                }
+                object
+            })
+            .collect();
         object["ok"] = true.into();
         object["sentence"] = self.sentence(study).into();
         object["protocol"] = match study.disc().dither() {
@@ -177,9 +204,27 @@ impl Stability {
         object["units"] = json!({
             "growth_rate": "ω_ref", "growth_rate_error": "ω_ref", "frequency": "ω_ref", "speed": "ω_ref", "friction": "1",
         });
-        if let Some(hertz) = study.reference_hz() {
-            object["growth_rate_per_s"] = (std::f64::consts::TAU * hertz * self.growth.rate).into();
-            object["frequency_hz"] = (hertz * self.growth.frequency).into();
+        if let Some(hertz) = hertz {
+            put_si(&mut object, hertz, &self.growth);
+            let speed = hertz * study.disc().speed();
+            object["speed_hz"] = speed.into();
+            object["speed_rpm"] = (60.0 * speed).into();
+            if let Some(radius) = study.scales(0).and_then(|scales| scales.load_radius_m) {
+                let velocity = std::f64::consts::TAU * radius * speed;
+                object["speed_at_load_m_per_s"] = velocity.into();
+                object["speed_at_load_km_per_h"] = (3.6 * velocity).into();
+            }
+            if let Some(force) =
+                study.scales(0).and_then(|it| it.si_per_unit(Quantity::LoadFriction))
+                && let Some(changes) = object["changes"].as_array_mut()
+            {
+                for change in changes {
+                    let friction = change["friction"].as_f64().map(|friction| friction * force);
+                    let frequency = change["frequency"].as_f64().map(|frequency| frequency * hertz);
+                    change["friction_n"] = friction.into();
+                    change["frequency_hz"] = frequency.into();
+                }
+            }
         }
         if !why.is_empty() {
             object["why"] = Json::Object(why);

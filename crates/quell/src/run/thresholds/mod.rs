@@ -14,12 +14,11 @@ use serde_json::Value as Json;
 use super::in_words;
 use super::orbit::refused;
 use super::range::SlipMet;
-use super::varied::{Named, ascending};
+use super::varied::{Named, ascending, key_of};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::fields::Fields;
 use crate::quantity::bearable;
 use crate::study::mirror::given_number;
-use crate::study::vocabulary::join;
 use crate::study::{InitialState, Study};
 
 mod tell;
@@ -97,15 +96,7 @@ pub struct Thresholds {
 
 /// The key of a number of the equations, in SI where the study is.
 pub fn path_in_words(study: &Study, path: &str) -> String {
-    let twin = study
-        .belt()
-        .parameter(path)
-        .filter(|_| study.scales().is_some())
-        .and_then(|parameter| parameter.si.iter().find(|twin| !twin.rms));
-    match (twin, path.rsplit_once('.')) {
-        (Some(twin), Some((table, _))) => join(table, twin.key),
-        _ => path.to_owned(),
-    }
+    key_of(study, path)
 }
 
 /// A value of a number of the equations, in SI where the study is.
@@ -122,15 +113,17 @@ pub fn quantity_of(study: &Study, path: &str) -> Quantity {
 }
 
 /// Why there are no thresholds, as it is told.
-pub(super) fn told(why: NoThresholds, path: &str, option: &'static str) -> Failure {
+pub(super) fn told(study: &Study, why: NoThresholds, path: &str, option: &'static str) -> Failure {
+    let key = path_in_words(study, path);
+    let words = |value: f64| value_in_words(study, path, value);
     match why {
         NoThresholds::Invalid { value } => {
-            Complaint::option(option, value, format!("values that {path} can take")).into()
+            Complaint::option(option, words(value), format!("values that {key} can take")).into()
         }
         NoThresholds::Start(why) => refused(why),
         NoThresholds::Lost { at } => Failure::Failed {
             key: "thresholds".to_owned(),
-            why: format!("the response was lost beyond {path} = {at}"),
+            why: format!("the response was lost beyond {key} = {}", words(at)),
         },
     }
 }
@@ -144,7 +137,7 @@ fn understood(study: &Study, question: Question) -> Result<Question, Failure> {
     let named = Named::new(study, "--parameter", &question.parameter)?;
     let ends = [("--from", from), ("--to", to)];
     let mut wrong: Vec<Complaint> =
-        ends.into_iter().flat_map(|end| named.unable(study.belt(), end)).collect();
+        ends.into_iter().flat_map(|end| named.unable(study, end)).collect();
     wrong.extend(ascending(from, to).err().map(|complaint| *complaint));
     wrong.extend(bearable(ramp, given_number(ramp), "--ramp").err().map(|complaint| *complaint));
     if ramp > 0.0 && question.protocols.is_empty() {
@@ -187,7 +180,8 @@ pub fn run(study: &Study, question: Question) -> Result<Thresholds, Failure> {
     let question = understood(study, question)?;
     let path = question.parameter.as_str();
     let (from, to) = (question.from, question.to);
-    let local = local(belt, path, from, to, STEPS).map_err(|why| told(why, path, "--from"))?;
+    let local =
+        local(belt, path, from, to, STEPS).map_err(|why| told(study, why, path, "--from"))?;
     let mut protocols = Vec::new();
     for &protocol in &question.protocols {
         let initial = protocol.initial();
@@ -206,7 +200,7 @@ pub fn run(study: &Study, question: Question) -> Result<Thresholds, Failure> {
             }
         };
         let found = switches(belt, path, (from, to), TRIED, CLOSENESS, start)
-            .map_err(|why| told(why, path, "--from"))?;
+            .map_err(|why| told(study, why, path, "--from"))?;
         protocols.push((protocol, found));
     }
     let slip = slip_met(study, &question, &local, &protocols);

@@ -6,11 +6,12 @@ use quell_disc::plate::PlateMaterial;
 use quell_disc::system::{Contribution, Contributions};
 use quell_disc::{Load, Mode};
 use quell_model::parameter::disc::MODAL_DAMPING;
+use quell_model::units::DiscScales;
 
 use super::super::mirror::{Node, Table, Value};
 use super::super::reader::Reader;
 use super::super::vocabulary::{Choice, Section};
-use super::loads::Pad;
+use super::loads::{LoadScales, Pad};
 use super::modes::{self, ModeSource};
 use super::{loads, plate};
 use crate::complaint::Origin;
@@ -38,9 +39,16 @@ impl Body {
         reader.unknown_keys(table, Section::Disc, "disc", &["mode", "load"]);
         let damping = reader.optional(table, "disc", MODAL_DAMPING, None).or(0.0);
         let parts = without(reader, table);
-        let pads = loads::read(reader, table);
         let material = plate::material(reader, table, header);
         let source = modes::read(reader, table, header, folder, known);
+        let metal = material.as_ref().and_then(|given| given.as_ref().map(|(metal, _)| metal));
+        let scales = match (&source, &material) {
+            (Some(source), Some(_)) => scales(source, metal),
+            // What is wrong was complained about: the loads are judged all the same.
+            _ => LoadScales { disc: Some(UNIT), outer_radius_m: Some(1.0) },
+        };
+        let pads = loads::read(reader, table, scales);
+        reader.set_disc_scales(scales.disc);
         let (pads, source) = (pads?, source?);
         let (damping, parts, material) = (damping?, parts?, material?);
         let radii: Vec<Option<f64>> = pads.iter().map(|pad| pad.radius).collect();
@@ -54,6 +62,25 @@ impl Body {
         let material = material.map(|(material, _)| material);
         Some(Self { source, material, modes, loads, radii, speed, parts, warnings })
     }
+}
+
+/// Scales that stand in for unknown ones.
+const UNIT: DiscScales =
+    DiscScales { reference_hz: 1.0, plate_mass_kg: Some(1.0), load_radius_m: Some(1.0) };
+
+/// What turns the numbers of a disc into SI.
+pub(super) fn scales(source: &ModeSource, material: Option<&PlateMaterial>) -> LoadScales {
+    let plate = match source {
+        ModeSource::Plate(plate) => Some(&plate.plate),
+        _ => None,
+    };
+    let known = plate.zip(material);
+    let disc = source.reference_hz(material).map(|reference_hz| DiscScales {
+        reference_hz,
+        plate_mass_kg: known.map(|(plate, material)| material.plate_mass(plate)),
+        load_radius_m: None,
+    });
+    LoadScales { disc, outer_radius_m: material.map(PlateMaterial::outer_radius) }
 }
 
 /// `without = ["damper", …]`.

@@ -2,13 +2,32 @@
 
 use quell_disc::Load;
 use quell_model::parameter::disc::{
-    DISC_SPEED, LOAD_ANGLE, LOAD_DAMPING, LOAD_FRICTION, LOAD_MASS, LOAD_RADIUS, LOAD_STIFFNESS,
+    DISC_SPEED, LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_MASS, LOAD_RADIUS,
+    LOAD_STIFFNESS,
 };
+use quell_model::units::DiscScales;
 
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::mirror::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::Section;
+
+/// What turns the numbers of loads into SI, each at its own radius.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LoadScales {
+    /// Scales of the disc; `None` where they are not known.
+    pub(super) disc: Option<DiscScales>,
+    /// Outer radius a, m.
+    pub(super) outer_radius_m: Option<f64>,
+}
+
+impl LoadScales {
+    /// At a load of this radius over the outer radius.
+    pub(super) fn at(&self, radius_ratio: Option<f64>) -> Option<DiscScales> {
+        let load_radius_m = radius_ratio.zip(self.outer_radius_m).map(|(ratio, a)| ratio * a);
+        self.disc.map(|scales| DiscScales { load_radius_m, ..scales })
+    }
+}
 
 /// A load with what the file says about its place.
 #[derive(Clone, Debug)]
@@ -25,16 +44,18 @@ pub(super) struct Pad {
 }
 
 /// Reads every load; none is a free disc.
-pub(super) fn read(reader: &mut Reader, disc: &Table) -> Option<Vec<Pad>> {
+pub(super) fn read(reader: &mut Reader, disc: &Table, scales: LoadScales) -> Option<Vec<Pad>> {
     let Some(node) = disc.get("load") else { return Some(Vec::new()) };
     let pads: Vec<Option<Pad>> = match &node.value {
         Value::List(list) if list.len() > 1 => list
             .iter()
             .enumerate()
-            .map(|(index, node)| one(reader, node, &format!("disc.load[{index}]")))
+            .map(|(index, node)| one(reader, node, &format!("disc.load[{index}]"), scales))
             .collect(),
-        Value::List(list) => list.iter().map(|node| one(reader, node, "disc.load")).collect(),
-        _ => vec![one(reader, node, "disc.load")],
+        Value::List(list) => {
+            list.iter().map(|node| one(reader, node, "disc.load", scales)).collect()
+        }
+        _ => vec![one(reader, node, "disc.load", scales)],
     };
     let pads: Vec<Pad> = pads.into_iter().collect::<Option<_>>()?;
     let mut speeds = pads.iter().filter_map(|pad| Some((pad.speed?, &pad.path)));
@@ -51,22 +72,31 @@ pub(super) fn read(reader: &mut Reader, disc: &Table) -> Option<Vec<Pad>> {
     Some(pads)
 }
 
-fn one(reader: &mut Reader, node: &Node, path: &str) -> Option<Pad> {
+fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Option<Pad> {
     let table = reader.table(path, node)?;
     reader.unknown_keys(table, Section::DiscLoad, path, &[]);
-    let mut strength = |parameter| reader.optional(table, path, parameter, None).or(0.0);
-    let strengths = [LOAD_MASS, LOAD_DAMPING, LOAD_STIFFNESS, LOAD_FRICTION].map(&mut strength);
-    let angle = strength(LOAD_ANGLE);
-    let mut maybe = |parameter| match reader.optional(table, path, parameter, None) {
+    let radius = match reader.optional(table, path, LOAD_RADIUS, None) {
         Found::Value(value) => Some(Some(value)),
         Found::Absent => Some(None),
         Found::Wrong => None,
     };
-    let (radius, speed) = (maybe(LOAD_RADIUS), maybe(DISC_SPEED));
+    reader.set_disc_scales(scales.at(radius.flatten()));
+    let mut strength = |parameter| reader.optional(table, path, parameter, None).or(0.0);
+    let strengths = [LOAD_MASS, LOAD_DAMPING, LOAD_STIFFNESS, LOAD_FRICTION].map(&mut strength);
+    let (angle, phase) = (strength(LOAD_ANGLE), strength(LOAD_DITHER_PHASE));
+    let speed = match reader.optional(table, path, DISC_SPEED, None) {
+        Found::Value(value) => Some(Some(value)),
+        Found::Absent => Some(None),
+        Found::Wrong => None,
+    };
     let [mass, damping, stiffness, friction] = strengths;
-    let origin = table.get("speed").map_or(node.origin, |node| node.origin);
+    let twins = DISC_SPEED.si.iter().map(|twin| twin.key);
+    let given = [DISC_SPEED.key()].into_iter().chain(twins).find_map(|key| table.get(key));
+    let origin = given.map_or(node.origin, |node| node.origin);
     Some(Pad {
-        load: Load::new(mass?, damping?, stiffness?, friction?).at_angle(angle?.to_radians()),
+        load: Load::new(mass?, damping?, stiffness?, friction?)
+            .at_angle(angle?.to_radians())
+            .dithered_at(phase?.to_radians()),
         radius: radius?,
         speed: speed?.map(|speed| (speed, origin)),
         path: path.to_owned(),

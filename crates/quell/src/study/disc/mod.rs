@@ -18,14 +18,15 @@ use quell_disc::{Disc, Dither};
 use quell_model::Direction;
 use quell_model::parameter::DITHER_FREQUENCY_RATIO;
 use quell_model::parameter::disc::DISC_DITHER_AMPLITUDE;
+use quell_model::units::DiscScales;
 use serde_json::Value as Json;
 
 use super::change::Change;
 use super::mirror::{Table, Value};
 use super::reader::{Found, Reader};
 use super::sweep::{self, Sweep};
-use super::vocabulary::{Choice, join};
-use super::{revision, root};
+use super::vocabulary::{self, Choice, Role, join};
+use super::{measures, revision, root};
 use crate::complaint::{Complaint, Fault, Origin};
 
 pub use modes::{Listed, ModeSource};
@@ -91,6 +92,7 @@ impl DiscStudy {
         let common = &self.common;
         let mut mirror = common.mirror.clone();
         sweep::replace(&mut mirror, axes);
+        measures::resolve(&mut mirror);
         let told = sweep::told(&common.changes, axes);
         Self::check(mirror, &common.text, &common.folder, told, Some(&common.source))
     }
@@ -122,7 +124,7 @@ impl DiscStudy {
         changes: Vec<String>,
         known: Option<&ModeSource>,
     ) -> Result<Self, Vec<Complaint>> {
-        let mut reader = Reader::scaled();
+        let mut reader = Reader::of_a_disc();
         let title = root(&mut reader, &mirror, ROOT);
         for name in ["belt", "friction", "solver"] {
             if let Some(node) = mirror.get(name) {
@@ -256,13 +258,23 @@ impl DiscStudy {
 
     /// Hertz of a frequency of one ω_ref, where material or listed frequencies tell it.
     pub fn reference_hz(&self) -> Option<f64> {
-        match &self.common.source {
-            ModeSource::Plate(plate) => {
-                let material = self.common.material.as_ref()?;
-                Some(material.hertz(&plate.plate, plate.set.reference()))
-            }
-            ModeSource::List(listed) | ModeSource::File { listed, .. } => listed.reference_hz,
-        }
+        self.common.source.reference_hz(self.common.material.as_ref())
+    }
+
+    /// What turns numbers of the equations into SI at a load, where the study says enough.
+    pub fn scales(&self, load: usize) -> Option<DiscScales> {
+        let scales = body::scales(&self.common.source, self.common.material.as_ref());
+        scales.at(self.common.radii.get(load).copied().flatten())
+    }
+
+    /// Whether a key of the study gives a load, its speed or the dither's frequency in SI: plain numbers of speeds and
+    /// frequencies are in hertz then.
+    pub fn is_si(&self) -> bool {
+        let said = |path: &str| {
+            let role = vocabulary::resolve(path).map(|address| address.key.role);
+            matches!(role, Ok(Role::Twin(..)))
+        };
+        self.settings().iter().any(|(path, _)| said(path))
     }
 }
 
@@ -274,7 +286,7 @@ fn dither(reader: &mut Reader, mirror: &Table) -> Option<Dither> {
         _ => node,
     };
     let table = reader.table("dither", node)?;
-    let keys = ["direction", "waveform", "amplitude", "frequency_ratio"];
+    let keys = ["direction", "waveform", "amplitude", "frequency_ratio", "frequency_hz"];
     for (name, node) in table.iter().filter(|(name, _)| !keys.contains(name)) {
         let nearest = super::suggest::word(name, keys).map(|word| join("dither", &word));
         let complaint = Complaint::new(

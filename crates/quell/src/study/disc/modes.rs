@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use quell_disc::Mode;
+use quell_disc::plate::PlateMaterial;
 use quell_model::parameter::disc::{
     MODE_DAMPING, MODE_DIAMETERS, MODE_FREQUENCY, MODE_RATIO, MODE_SHAPE_AT_LOAD,
 };
@@ -30,6 +31,16 @@ pub enum ModeSource {
         /// What stands in it.
         listed: Listed,
     },
+}
+
+impl ModeSource {
+    /// Hertz of one ω_ref, where material or listed frequencies say it.
+    pub fn reference_hz(&self, material: Option<&PlateMaterial>) -> Option<f64> {
+        match self {
+            Self::Plate(plate) => Some(material?.hertz(&plate.plate, plate.set.reference())),
+            Self::List(listed) | Self::File { listed, .. } => listed.reference_hz,
+        }
+    }
 }
 
 /// Modes given by hand.

@@ -6,7 +6,7 @@
 //! key that has an SI twin is refused, and the other way round.
 
 use quell_model::Invalid;
-use quell_model::units::Scales;
+use quell_model::units::{DiscScales, Quantity, Scales};
 use serde_json::Value as Json;
 
 use super::mirror::{Node, Table, Value, given_number};
@@ -26,6 +26,9 @@ pub(super) enum Units {
     Scaled,
     /// SI; without scales where mass or stiffness are wrong.
     Si(Option<Scales>),
+    /// A disc, of which each key may be in SI or not; without scales where neither material nor frequencies in hertz
+    /// are known.
+    Disc(Option<DiscScales>),
 }
 
 /// Where and how a parameter was written.
@@ -61,16 +64,35 @@ impl Reader {
         reader
     }
 
-    /// For a study that knows no SI twins.
-    pub(super) fn scaled() -> Self {
-        Self { units: Units::Scaled, complaints: Vec::new(), written: Vec::new() }
+    /// For a study of a disc, whose scales are not known yet.
+    pub(super) fn of_a_disc() -> Self {
+        Self { units: Units::Disc(None), complaints: Vec::new(), written: Vec::new() }
+    }
+
+    /// Says what turns the numbers of the disc into SI from here on.
+    pub(super) fn set_disc_scales(&mut self, scales: Option<DiscScales>) {
+        self.units = Units::Disc(scales);
+    }
+
+    /// SI value of one unit of a quantity, where that is known.
+    fn si_per_unit(&self, quantity: Quantity) -> Option<f64> {
+        match self.units {
+            Units::Scaled => None,
+            Units::Si(scales) => scales.map(|scales| scales.si_per_unit(quantity)),
+            Units::Disc(scales) => scales?.si_per_unit(quantity),
+        }
+    }
+
+    /// Whether the study is of a disc.
+    pub(super) fn is_of_a_disc(&self) -> bool {
+        matches!(self.units, Units::Disc(_))
     }
 
     /// The scales, in a study in SI whose mass and stiffness are right.
     pub(super) fn known_scales(&self) -> Option<Scales> {
         match self.units {
             Units::Si(scales) => scales,
-            Units::Scaled => None,
+            Units::Scaled | Units::Disc(_) => None,
         }
     }
 
@@ -117,7 +139,7 @@ impl Reader {
             prefix.split_once('[').and_then(|(_, rest)| rest.trim_end_matches(']').parse().ok());
         let there: Vec<&str> = self.keys_there(section).map(|key| key.name).collect();
         let key = join(prefix, name);
-        let nearest = suggest::path(section.path(), name, index).map(|path| self.in_system(path));
+        let nearest = suggest::path(section.path(), name, index).map(|path| self.in_system(&path));
         // A key that is there is never the way out of its own complaint.
         let nearest = nearest.filter(|path| *path != key);
         let complaint =
@@ -128,8 +150,10 @@ impl Reader {
     /// The keys of a table in the system of this study.
     pub(super) fn keys_there(&self, section: Section) -> impl Iterator<Item = &'static Key> {
         let si = self.is_si();
+        let disc = self.is_of_a_disc();
         vocabulary::keys_of(section).filter(move |key| match key.role {
-            Role::Number(parameter) => !si || parameter.si.is_empty(),
+            _ if disc => true,
+            Role::Number(parameter) => !si || parameter.si.is_empty() || parameter.is_pure(),
             Role::Twin(..) | Role::Scale(_) | Role::FrictionForce(..) => si,
             Role::Speeds { si: in_si } => in_si == si,
             _ => true,
@@ -137,19 +161,11 @@ impl Reader {
     }
 
     /// The path that gives the same number in the system of this study.
-    pub(super) fn in_system(&self, path: String) -> String {
-        let Ok(address) = vocabulary::resolve(&path) else {
-            return path;
-        };
-        let key = match (address.key.role, self.units) {
-            (Role::Number(parameter), Units::Si(_)) => parameter.si.first().map(|twin| twin.key),
-            (Role::Twin(parameter, _), Units::Scaled) => Some(parameter.key()),
-            _ => None,
-        };
-        match (key, path.rsplit_once('.')) {
-            (Some(key), Some((table, _))) => join(table, key),
-            _ => path,
+    pub(super) fn in_system(&self, path: &str) -> String {
+        if self.is_of_a_disc() {
+            return path.to_owned();
         }
+        vocabulary::in_system(path, self.is_si())
     }
 
     /// Adds what a constructor of the model said, in the words of the file. What was
@@ -178,7 +194,7 @@ impl Reader {
 }
 
 /// Whether a study is in SI.
-fn is_si(root: &Table) -> bool {
+pub(super) fn is_si(root: &Table) -> bool {
     let (mut plain, mut twins) = (false, false);
     for section in Section::ALL {
         for table in tables(root, *section) {
@@ -189,7 +205,11 @@ fn is_si(root: &Table) -> bool {
                         twins = true
                     }
                     Some(Role::Speeds { si: false }) => plain = true,
-                    Some(Role::Number(parameter)) if !parameter.si.is_empty() => plain = true,
+                    Some(Role::Number(parameter))
+                        if !parameter.si.is_empty() && !parameter.is_pure() =>
+                    {
+                        plain = true;
+                    }
                     _ => {}
                 }
             }

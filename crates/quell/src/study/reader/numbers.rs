@@ -1,14 +1,17 @@
 //! Numbers: bounds, SI twins, and keys of the wrong system.
 
 use quell_model::Waveform;
-use quell_model::parameter::{Bounds, Parameter, SCALES, ScaleKey, SiTwin};
+use quell_model::parameter::{
+    Bounds, MASS, NATURAL_FREQUENCY, Parameter, STIFFNESS, ScaleKey, SiTwin,
+};
+use quell_model::units::measure::{self, Unread};
 use quell_model::units::{Quantity, Scales};
 use serde_json::Value as Json;
 
 use super::{Reader, Units};
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::mirror::{Node, Table, Value};
-use crate::study::vocabulary::join;
+use crate::study::vocabulary::{self, join};
 
 /// What was found under a parameter's keys.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,15 +38,35 @@ impl Found {
 impl Reader {
     pub(super) fn scales(&mut self, belt: &Node) -> Option<Scales> {
         let table = belt.table()?;
-        let [mass, stiffness] =
-            [SCALES[0], SCALES[1]].map(|scale| self.scale(table, scale, belt.origin));
-        Scales::new(mass?, stiffness?).ok()
+        let mass = self.scale(table, MASS, belt.origin);
+        let Some(node) = table.get(NATURAL_FREQUENCY.key()) else {
+            let stiffness = self.scale(table, STIFFNESS, belt.origin);
+            return Scales::new(mass?, stiffness?).ok();
+        };
+        let hertz = self.scale(table, NATURAL_FREQUENCY, belt.origin);
+        if table.has(STIFFNESS.key()) {
+            self.not_both(STIFFNESS.path, NATURAL_FREQUENCY.path, node);
+            return None;
+        }
+        Scales::of_natural_frequency(mass?, hertz?).ok()
+    }
+
+    /// Complains about the second of two keys that say the same.
+    fn not_both(&mut self, first: &str, second: &str, node: &Node) {
+        let allowed = format!("say either {first} or {second}, not both");
+        let given = node.given();
+        self.complain(Complaint::new(Fault::Conflict, second, node.origin, given, allowed));
     }
 
     fn scale(&mut self, table: &Table, scale: ScaleKey, header: Origin) -> Option<f64> {
         let Some(node) = table.get(scale.key()) else {
+            let or = if scale == STIFFNESS {
+                format!("; or {}", NATURAL_FREQUENCY.path)
+            } else {
+                String::new()
+            };
             let allowed = format!(
-                "{} in {} ({}, {}); a study in SI needs mass and stiffness",
+                "{} in {} ({}, {}){or}; a study in SI needs mass and stiffness",
                 scale.bounds, scale.unit, scale.symbol, scale.about
             );
             self.complain(Complaint::new(Fault::Missing, scale.path, header, Json::Null, allowed));
@@ -91,21 +114,21 @@ impl Reader {
         let twins: Vec<SiTwin> =
             parameter.si.iter().copied().filter(|twin| table.has(twin.key)).collect();
         let plain = table.get(parameter.key());
-        let si = matches!(self.units, Units::Si(_));
+        let (si, disc) = (self.is_si(), self.is_of_a_disc());
         match (plain, twins.as_slice()) {
             (None, []) => Found::Absent,
-            (Some(node), []) if !si || parameter.si.is_empty() => {
+            (Some(node), []) if !si || parameter.si.is_empty() || parameter.is_pure() => {
                 self.plain(node, &join(prefix, parameter.key()), parameter)
             }
-            (None, [twin]) if si => self.twin(table, prefix, parameter, *twin, waveform),
-            (None, [first, .., last]) if si => {
-                let key = join(prefix, last.key);
-                let allowed =
-                    format!("say either {} or {}, not both", join(prefix, first.key), key);
-                let node = table.get(last.key);
-                let origin = node.map_or(Origin::Whole, |node| node.origin);
-                let given = node.map_or(Json::Null, Node::given);
-                self.complain(Complaint::new(Fault::Conflict, key, origin, given, allowed));
+            (None, [twin]) if si || disc => self.twin(table, prefix, parameter, *twin, waveform),
+            (None, [first, .., last]) if si || disc => {
+                if let Some(node) = table.get(last.key) {
+                    self.not_both(&join(prefix, first.key), &join(prefix, last.key), node);
+                }
+                Found::Wrong
+            }
+            (Some(node), [twin, ..]) if disc || (si && parameter.is_pure()) => {
+                self.not_both(&join(prefix, twin.key), &join(prefix, parameter.key()), node);
                 Found::Wrong
             }
             (plain, twins) => {
@@ -176,10 +199,12 @@ impl Reader {
             (true, None) => None,
             (false, _) => Some(1.0),
         };
-        let factor = self
-            .known_scales()
-            .zip(rms)
-            .map(|(scales, rms)| scales.si_per_unit(parameter.quantity) * rms);
+        // A key in rpm is not in the SI unit of its quantity.
+        let unit = twin.unit.trim_end_matches(" (rms)");
+        let (si_unit, _) = parameter.quantity.si_unit().unwrap_or((unit, ""));
+        let size = measure::convert(1.0, unit, si_unit).unwrap_or(1.0);
+        let per_unit = self.si_per_unit(parameter.quantity);
+        let factor = per_unit.zip(rms).map(|(per_unit, rms)| per_unit * rms / size);
         // Without scales the sign can still be judged.
         let scale = factor.unwrap_or(1.0);
         let judged = factor.is_some()
@@ -196,11 +221,36 @@ impl Reader {
         let Some(given) = self.within(&key, node, bounds, twin.unit, false) else {
             return Found::Wrong;
         };
-        let Some((scales, rms)) = self.known_scales().zip(rms) else {
+        let Some((per_unit, rms)) = per_unit.zip(rms) else {
+            self.without_scale(parameter, &key, node);
             return Found::Wrong;
         };
         self.remember(&join(prefix, parameter.key()), &key, node.origin, scale);
-        Found::Value(scales.from_si(parameter.quantity, given / rms))
+        Found::Value(given * size / rms / per_unit)
+    }
+
+    /// Complains about a number in SI of a disc whose size in the equations is not known; of a belt the missing mass
+    /// or stiffness was complained about.
+    fn without_scale(&mut self, parameter: Parameter, key: &str, node: &Node) {
+        if !self.is_of_a_disc() {
+            return;
+        }
+        let needed = match parameter.quantity {
+            Quantity::FrequencyRatio => {
+                "hertz need disc.youngs_modulus_pa, density_kg_per_m3, thickness_m and outer_radius_m, or modes in hertz"
+            }
+            Quantity::LoadFriction => {
+                "newtons need the computed modes of a plate with disc.youngs_modulus_pa, density_kg_per_m3, thickness_m and \
+                 outer_radius_m, and radius_ratio of the load"
+            }
+            _ => {
+                "SI needs the mass of the plate: computed modes with disc.youngs_modulus_pa, density_kg_per_m3, thickness_m \
+                 and outer_radius_m"
+            }
+        };
+        let allowed = format!("{needed}; or give {} instead", parameter.key());
+        let complaint = Complaint::new(Fault::Conflict, key, node.origin, node.given(), allowed);
+        self.complain(complaint);
     }
 
     /// A finite number within bounds.
@@ -219,12 +269,7 @@ impl Reader {
         };
         let range = if unit.is_empty() { range } else { format!("{range}, in {unit}") };
         let Value::Number(value) = node.value else {
-            let advice = match &node.value {
-                Value::Text(text) if text.trim().parse::<f64>().is_ok() => ", without quotes",
-                _ => "",
-            };
-            let allowed = format!("{range}{advice}; this is {}", node.kind());
-            self.wrong(key, node, allowed);
+            self.wrong(key, node, format!("{range}{}", self.no_number(key, node, unit)));
             return None;
         };
         if !bounds.contains(value) || (whole && value.fract() != 0.0) {
@@ -233,11 +278,44 @@ impl Reader {
         }
         Some(value)
     }
+
+    /// Why a value is no number of a key, in `unit` where one is given.
+    fn no_number(&self, key: &str, node: &Node, unit: &str) -> String {
+        let kind = node.kind();
+        let Value::Text(text) = &node.value else { return format!("; this is {kind}") };
+        if text.trim().parse::<f64>().is_ok() {
+            return format!(", without quotes; this is {kind}");
+        }
+        if !measure::has_unit(text) {
+            return format!("; this is {kind}");
+        }
+        let of_key = || vocabulary::resolve(key).ok()?.key.measured_in();
+        let given = Some(unit.trim_end_matches(" (rms)")).filter(|unit| !unit.is_empty());
+        match measure::read(text, given.or_else(of_key)) {
+            Err(why @ Unread::NoUnitHere(_)) if !self.is_si() => {
+                let instead = if self.is_of_a_disc() {
+                    "units need the keys in SI, such as disc.load.speed_rpm"
+                } else {
+                    "units need a study in SI, with belt.mass_kg"
+                };
+                format!("; {why}: {instead}")
+            }
+            Err(why) => format!("; {why}"),
+            Ok(_) => format!("; this is {kind}"),
+        }
+    }
+
     /// Keys that give a parameter in the system of this study.
     fn right_keys(&self, parameter: Parameter) -> Vec<String> {
         match self.units {
             Units::Si(_) if !parameter.si.is_empty() => {
-                parameter.si.iter().map(|twin| twin.key.to_owned()).collect()
+                let twins = parameter.si.iter().map(|twin| twin.key.to_owned());
+                let pure = parameter.is_pure().then(|| parameter.key().to_owned());
+                twins.chain(pure).collect()
+            }
+            Units::Disc(_) => {
+                let twins = parameter.si.iter().map(|twin| twin.key);
+                [parameter.key()].into_iter().chain(twins).map(str::to_owned).collect()
             }
             _ => vec![parameter.key().to_owned()],
         }

@@ -197,20 +197,45 @@ impl Key {
 
     /// Unit in words, also of the disc's keys, which carry it in their names.
     pub fn unit_in_words(&self) -> &'static str {
-        let units = [
-            ("_kg_per_m3", "kg/m³"),
-            ("_pa", "Pa"),
-            ("_hz", "Hz"),
-            ("_deg", "degrees"),
-            ("_m", "m"),
-        ];
-        let disc = matches!(self.section, Section::Disc | Section::DiscMode | Section::DiscLoad);
-        let found = units.iter().find(|(suffix, _)| disc && self.name.ends_with(suffix));
-        match found {
-            Some((_, unit)) => unit,
-            None if disc && self.unit() == "ω₀" => "ω_ref",
+        match self.unit_in_name() {
+            Some("deg") => "degrees",
+            Some(unit) => unit,
+            None if self.is_of_a_disc() && self.unit() == "ω₀" => "ω_ref",
             None => self.unit(),
         }
+    }
+
+    /// The unit in which a number with a unit is read, such as `5.7kN` for a key in newtons; `None` for numbers of
+    /// the equations and whatever else has no unit.
+    pub fn measured_in(&self) -> Option<&'static str> {
+        if let Some(unit) = self.unit_in_name() {
+            return Some(unit);
+        }
+        match self.role {
+            Role::Number(parameter) => match parameter.quantity {
+                Quantity::Ratio | Quantity::DampingRatio => Some("1"),
+                Quantity::Angle => Some("rad"),
+                _ => None,
+            },
+            Role::Twin(_, twin) => Some(twin.unit.trim_end_matches(" (rms)")),
+            Role::Scale(scale) => Some(scale.unit),
+            Role::Speeds { si: true } => Some("m/s"),
+            Role::Constant => Some("1"),
+            _ => None,
+        }
+    }
+
+    /// The unit that the name of a disc's key carries.
+    fn unit_in_name(&self) -> Option<&'static str> {
+        let units =
+            [("_kg_per_m3", "kg/m³"), ("_pa", "Pa"), ("_hz", "Hz"), ("_deg", "deg"), ("_m", "m")];
+        let found = units.iter().find(|(suffix, _)| self.name.ends_with(suffix));
+        let number = matches!(self.role, Role::Number(_));
+        found.filter(|_| number && self.is_of_a_disc()).map(|(_, unit)| *unit)
+    }
+
+    fn is_of_a_disc(&self) -> bool {
+        matches!(self.section, Section::Disc | Section::DiscMode | Section::DiscLoad)
     }
 }
 
@@ -278,6 +303,24 @@ pub fn resolve(path: &str) -> Result<Address, Option<String>> {
     match found {
         Some(key) if listed || index.is_none() => Ok(Address { key, index }),
         _ => Err(suggest::path(table, name, index)),
+    }
+}
+
+/// The path that gives the same number in a study in SI, or in one without; a path that names none stays as it is.
+pub fn in_system(path: &str, si: bool) -> String {
+    let Ok(address) = resolve(path) else {
+        return path.to_owned();
+    };
+    let key = match (address.key.role, si) {
+        (Role::Number(parameter), true) if !parameter.is_pure() => {
+            parameter.si.iter().find(|twin| !twin.rms).map(|twin| twin.key)
+        }
+        (Role::Twin(parameter, _), false) => Some(parameter.key()),
+        _ => None,
+    };
+    match (key, path.rsplit_once('.')) {
+        (Some(key), Some((table, _))) => join(table, key),
+        _ => path.to_owned(),
     }
 }
 

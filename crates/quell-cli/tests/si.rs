@@ -1,0 +1,322 @@
+//! A study in SI: plain numbers of options are in SI, units are taken wherever a number has a dimension, tables are in SI.
+
+mod place;
+
+use std::fs;
+
+use place::Place;
+use serde_json::Value as Json;
+
+const PAD: &str = r#"schema = 1
+title = "A pad in SI"
+[belt]
+mass_kg = 0.5
+natural_frequency_hz = 5600
+damping_ratio = 0.005
+normal_force_n = 4000.0
+belt_velocity_m_per_s = 0.1
+[friction]
+law = "decreasing"
+static_coefficient = 0.4
+minimum_coefficient = 0.2857
+reference_velocity_m_per_s = 0.5
+[dither]
+direction = "tangential"
+waveform = "sine"
+amplitude_n = 4000.0
+frequency_hz = 20000.0
+[solver]
+settle_s = "20 ms"
+record_periods = 20
+"#;
+
+fn place(name: &str) -> Place {
+    let scaled = "schema = 1\n[belt]\ndamping_ratio = 0.005\nnormal_load = 1\nbelt_velocity = 0.05\n[friction]\n\
+        law = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n\
+        [dither]\ndirection = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.4\nfrequency_ratio = 10\n";
+    Place::with(name, &[("pad.toml", PAD), ("scaled.toml", scaled)])
+}
+
+/// Answers that two ways to ask must share, whatever the words of the question.
+fn same(place: &Place, verb: &[&str], one: &[&str], other: &[&str]) -> Json {
+    let ask = |more: &[&str]| place.good(&[verb, more].concat());
+    let found = ask(one);
+    assert_eq!(found, ask(other), "{verb:?} {one:?} {other:?}");
+    found
+}
+
+#[test]
+fn plain_numbers_of_options_are_in_si() {
+    let place = place("si_options");
+    let at = same(
+        &place,
+        &["friction", "pad.toml"],
+        &["--at", "0.1,-0.02"],
+        &["--at", "0.36km/h,-20 mm/s"],
+    );
+    assert_eq!(
+        at["slip_velocity_m_per_s"][0].as_f64().map(|v| (v - 0.1).abs() < 1e-16),
+        Some(true)
+    );
+    let run = same(&place, &["simulate", "pad.toml"], &["--until", "0.002"], &["--until", "2ms"]);
+    let end = run["final"]["time_s"].as_f64().expect("a time");
+    assert!((end - 0.002).abs() < 1e-17, "{end}");
+    let start = ["orbit", "pad.toml", "--set", "dither.amplitude_n=6.5kN"];
+    same(&place, &start, &["--near", "1e-6,0.05"], &["--near", "1um,50mm/s"]);
+    same(&place, &start, &["--start", "1e-6,0.05"], &["--start", "0.001 mm, 5cm/s"]);
+    let thresholds = ["thresholds", "pad.toml", "--parameter", "dither.amplitude_n"];
+    let found = same(
+        &place,
+        &thresholds,
+        &["--from", "5000", "--to", "6500"],
+        &["--from", "5kN", "--to", "0.0065MN"],
+    );
+    assert_eq!(found["from_n"].as_f64().map(|n| (n - 5000.0).abs() < 1e-9), Some(true), "{found}");
+    let basins = ["basins", "pad.toml", "--set", "dither.amplitude_n=6.5kN", "--grid", "2x2"];
+    let window = ["--displacement", "-1e-6:5e-6", "--velocity", "0:0.1"];
+    let units = ["--displacement=-1um:5um", "--velocity", "0:10cm/s"];
+    same(&place, &basins, &window, &units);
+    let set = ["check", "pad.toml"];
+    same(
+        &place,
+        &set,
+        &["--set", "dither.amplitude_n=5700"],
+        &["--set", "dither.amplitude_n=5.7kN"],
+    );
+}
+
+#[test]
+fn wrong_units_are_refused_with_what_is_expected() {
+    let place = place("si_wrong");
+    let range = |from: &'static str| {
+        [
+            "thresholds",
+            "pad.toml",
+            "--parameter",
+            "dither.amplitude_n",
+            "--to",
+            "6kN",
+            "--from",
+            from,
+        ]
+    };
+    let cases: &[(&[&str], &str, &str)] = &[
+        (&["friction", "pad.toml", "--at", "0.1N"], "--at", "in m/s"),
+        (&["simulate", "pad.toml", "--until", "0.1m"], "--until", "in s"),
+        (&["orbit", "pad.toml", "--near", "1um,50mm"], "--near", "in m/s"),
+        (&["check", "pad.toml", "--set", "belt.mass_kg=5N"], "belt.mass_kg", "in kg"),
+        (&range("5m"), "--from", "in N"),
+        (&range("5 furlong"), "--from", "furlong is not a unit"),
+        (&["friction", "scaled.toml", "--at", "20mm/s"], "--at", "units need a study in SI"),
+        (&["orbit", "scaled.toml", "--near", "1um,0"], "--near", "units need a study in SI"),
+        (
+            &[
+                "thresholds",
+                "scaled.toml",
+                "--parameter",
+                "dither.amplitude",
+                "--from",
+                "5kN",
+                "--to",
+                "6",
+            ],
+            "--from",
+            "units need a study in SI",
+        ),
+        (
+            &["check", "scaled.toml", "--set", "dither.amplitude=5kN"],
+            "dither.amplitude",
+            "units need a study in SI",
+        ),
+    ];
+    for (arguments, key, told) in cases {
+        let errors = place.refused(arguments);
+        let found = errors.iter().find(|error| error["key"] == *key);
+        let allowed = found.and_then(|error| error["allowed"].as_str()).unwrap_or_default();
+        assert!(allowed.contains(told), "{arguments:?}: {errors:?}");
+    }
+}
+
+/// What `--set` refuses, ranges refuse: the key of the other system, a value out of bounds.
+#[test]
+fn ranges_refuse_what_changes_refuse() {
+    let place = place("si_ranges");
+    for (study, path, from, to, hint) in [
+        ("pad.toml", "dither.amplitude", "1", "2", Some("dither.amplitude_n")),
+        ("pad.toml", "belt.belt_velocity", "0", "1", Some("belt.belt_velocity_m_per_s")),
+        ("pad.toml", "dither.amplitud", "1", "2", Some("dither.amplitude_n")),
+        ("scaled.toml", "dither.amplitude_n_rms", "1", "2", Some("dither.amplitude")),
+        ("scaled.toml", "dither.amplitude_n", "1", "2", Some("dither.amplitude")),
+        ("pad.toml", "dither.amplitude_n", "-1", "2", None),
+        ("pad.toml", "dither.frequency_hz", "1", "1e12", None),
+    ] {
+        let set = format!("{path}={}", if hint.is_some() { from } else { from.min(to) });
+        if hint.is_some() {
+            place.refused(&["check", study, "--set", &set]);
+        }
+        for verb in ["thresholds", "bifurcation"] {
+            let errors =
+                place.refused(&[verb, study, "--parameter", path, "--from", from, "--to", to]);
+            if let Some(hint) = hint.filter(|_| verb == "thresholds") {
+                assert_eq!(errors[0]["suggestion"], hint, "{verb} {path}: {errors:?}");
+            }
+            let text = Json::from(errors.clone()).to_string();
+            // A study in SI is told of keys in SI.
+            let foreign = study == "pad.toml" && text.contains("such as dither.amplitude or");
+            assert!(!foreign, "{text}");
+        }
+    }
+    // What thresholds find is a peak: a root mean square depends on the waveform.
+    let rms = ["--parameter", "dither.amplitude_n_rms", "--from", "1", "--to", "2"];
+    let errors = place.refused(&[&["thresholds", "pad.toml"][..], &rms].concat());
+    assert_eq!(errors[0]["suggestion"], "dither.amplitude_n");
+}
+
+#[test]
+fn tables_are_in_si_with_units_that_programs_read() {
+    let place = place("si_tables");
+    let read = |name: &str| fs::read_to_string(place.folder.join(name)).expect("saved");
+    let column = |text: &str, name: &str| -> Vec<String> {
+        let mut rows = text.lines().filter(|line| !line.starts_with('#'));
+        let names: Vec<&str> = rows.next().expect("names").split(',').collect();
+        let at =
+            names.iter().position(|it| *it == name).unwrap_or_else(|| panic!("{name}: {names:?}"));
+        rows.map(|row| row.split(',').nth(at).expect("a cell").to_owned()).collect()
+    };
+    let number = |cell: &String| cell.parse::<f64>().expect("a number");
+    let run =
+        place.good(&["simulate", "pad.toml", "--until", "2ms", "--events", "--save", "run.csv"]);
+    assert_eq!(run["saved"], serde_json::json!(["run.csv", "run_events.csv"]));
+    let (run_csv, events) = (read("run.csv"), read("run_events.csv"));
+    assert!(
+        run_csv.contains("# units: time [s], time_s [s], displacement [m]"),
+        "{}",
+        &run_csv[..400]
+    );
+    let last = number(column(&run_csv, "time").last().expect("rows"));
+    assert!((last - 0.002).abs() < 1e-17, "{last}");
+    // Events: time, kind, sign, state, a row each, as in JSON.
+    let listed = run["events"].as_array().expect("events");
+    assert!(!listed.is_empty());
+    let times = column(&events, "time");
+    assert_eq!(times.len(), listed.len());
+    for (k, event) in listed.iter().enumerate() {
+        assert_eq!(event["time_s"].as_f64(), Some(number(&times[k])));
+        assert_eq!(event["kind"], column(&events, "kind")[k].as_str());
+        assert_eq!(event["slip_sign"].as_f64(), Some(number(&column(&events, "slip_sign")[k])));
+        assert_eq!(
+            event["displacement_m"].as_f64(),
+            Some(number(&column(&events, "displacement")[k]))
+        );
+        assert!((number(&column(&events, "velocity")[k]) - 0.1).abs() < 1e-16);
+    }
+    for (verb, file) in [
+        (&["friction", "pad.toml", "--at", "0.1"][..], "f.csv"),
+        (&["response", "pad.toml"], "r.csv"),
+        (&["orbit", "pad.toml", "--set", "dither.amplitude_n=6.5kN"], "o.csv"),
+        (&["basins", "pad.toml", "--set", "dither.amplitude_n=6.5kN", "--grid", "2x2"], "b.csv"),
+        (
+            &[
+                "bifurcation",
+                "pad.toml",
+                "--parameter",
+                "dither.amplitude_n",
+                "--from",
+                "6kN",
+                "--to",
+                "6.5kN",
+                "--points",
+                "2",
+                "--up",
+            ],
+            "v.csv",
+        ),
+    ] {
+        place.good(&[verb, &["--save", file]].concat());
+        let text = read(file);
+        let header: Vec<&str> = text.lines().take_while(|line| *line != "# study:").collect();
+        let units = header.iter().find(|line| line.starts_with("# units:")).expect("units");
+        assert!(
+            !units.contains("length") && !units.contains('ω') && !units.contains('('),
+            "{units}"
+        );
+    }
+    let velocity = number(&column(&read("f.csv"), "slip_velocity")[0]);
+    assert!((velocity - 0.1).abs() < 1e-16);
+}
+
+#[test]
+fn an_orbit_has_extremes_and_a_table() {
+    let place = place("si_orbit");
+    let orbit = ["orbit", "pad.toml", "--set", "dither.amplitude_n=6.5kN", "--save", "orbit.csv"];
+    let found = place.good(&orbit);
+    let text = fs::read_to_string(place.folder.join("orbit.csv")).expect("saved");
+    let rows: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
+    assert!(
+        rows[0].starts_with("time,time_s,") || rows[0].starts_with("time,displacement,"),
+        "{}",
+        rows[0]
+    );
+    let names: Vec<&str> = rows[0].split(',').collect();
+    let column = |name: &str| -> Vec<f64> {
+        let at = names.iter().position(|it| *it == name).expect(name);
+        rows[1..]
+            .iter()
+            .map(|row| row.split(',').nth(at).expect("a cell").parse().expect("a number"))
+            .collect()
+    };
+    let period = found["period_s"].as_f64().expect("a period");
+    let times = column("time");
+    assert!((times[times.len() - 1] / period - 1.0).abs() < 1e-12);
+    assert_eq!(column("sticking").len(), times.len());
+    for (name, low, high) in [
+        ("displacement", "lowest_m", "highest_m"),
+        ("velocity", "lowest_velocity_m_per_s", "highest_velocity_m_per_s"),
+    ] {
+        let (low, high) = (found[low].as_f64().expect(low), found[high].as_f64().expect(high));
+        let values = column(name);
+        let (least, most) = values
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
+        // Samples come near the extremes and never beyond them.
+        let span = high - low;
+        assert!(low <= least && most <= high && span > 0.0, "{name}: {low} {least} {most} {high}");
+        assert!(least - low < 1e-4 * span && high - most < 1e-4 * span, "{name}");
+    }
+    let people = String::from_utf8(place.quell(&orbit).stdout).expect("UTF-8");
+    assert!(
+        people.contains("highest displacement") && people.contains("lowest velocity"),
+        "{people}"
+    );
+}
+
+#[test]
+fn stability_says_growth_and_forces() {
+    let place = place("si_stability");
+    let found = place.good(&["stability", "pad.toml"]);
+    let finite = &found["sharper"];
+    let rate = finite["growth_rate_per_s"].as_f64().expect("a rate");
+    let decibels = finite["growth_rate_db_per_s"].as_f64().expect("a rate");
+    assert!((decibels / rate - 20.0 * std::f64::consts::LOG10_E).abs() < 1e-12);
+    let force = finite["critical_amplitudes"][0]["amplitude_n"].as_f64().expect("a force");
+    let sentence = found["sentence"].as_str().expect("a sentence");
+    assert!(sentence.starts_with("By finite-R averaging"), "{sentence}");
+    assert!(
+        sentence.contains(&format!("{force:.2}")) && sentence.contains(" N "),
+        "{sentence} {force}"
+    );
+    let people = String::from_utf8(place.quell(&["stability", "pad.toml"]).stdout).expect("UTF-8");
+    for word in ["1/s (", "dB/s)", "effective friction", " N\n", "m/s to "] {
+        assert!(people.contains(word), "{word}: {people}");
+    }
+    let scaled =
+        String::from_utf8(place.quell(&["stability", "scaled.toml"]).stdout).expect("UTF-8");
+    assert!(scaled.contains("per unit τ") && !scaled.contains("dB/s"), "{scaled}");
+    // Where finite R has no averaging, the limit answers, and says so.
+    let slow = place.good(&["stability", "scaled.toml", "--set", "dither.frequency_ratio=0.9"]);
+    let sentence = slow["sentence"].as_str().expect("a sentence");
+    assert!(
+        sentence.contains("limit of high dither frequency (finite-R averaging does not exist"),
+        "{sentence}"
+    );
+}

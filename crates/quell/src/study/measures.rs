@@ -1,0 +1,79 @@
+//! Numbers with units in the mirror: `amplitude_n = "5.7kN"` becomes 5700.
+//!
+//! The unit of a number is that of its key. What is not a number of that unit stays as it is, for the reader to refuse.
+
+use quell_model::units::measure;
+
+use super::mirror::{Node, Table, Value};
+use super::vocabulary::{self, Section};
+
+/// Turns texts with units under keys of numbers into numbers in the unit of the key; the ends and values of an axis
+/// are in the unit of the key that it names.
+pub(super) fn resolve(root: &mut Table) {
+    for section in Section::ALL {
+        for table in tables(root, *section) {
+            resolve_table(table, *section);
+        }
+    }
+}
+
+fn resolve_table(table: &mut Table, section: Section) {
+    let axis = varied(table, section);
+    for (name, node) in table.iter_mut() {
+        let unit = match (section, vocabulary::key(section, name)) {
+            (Section::Sweep, _) if name != "points" => axis,
+            (Section::Constants, _) => Some("1"),
+            (_, Some(key)) => key.measured_in(),
+            _ => None,
+        };
+        if let Some(unit) = unit {
+            resolve_node(node, unit);
+        }
+    }
+}
+
+/// Unit of the key that an axis varies.
+fn varied(table: &Table, section: Section) -> Option<&'static str> {
+    let Value::Text(path) = &table.get("parameter").filter(|_| section == Section::Sweep)?.value
+    else {
+        return None;
+    };
+    vocabulary::resolve(path).ok()?.key.measured_in()
+}
+
+fn resolve_node(node: &mut Node, unit: &'static str) {
+    match &mut node.value {
+        Value::Text(text) if measure::has_unit(text) => {
+            if let Ok(number) = measure::read(text, Some(unit)) {
+                node.value = Value::Number(number);
+            }
+        }
+        Value::List(list) => list.iter_mut().for_each(|node| resolve_node(node, unit)),
+        _ => {}
+    }
+}
+
+/// The tables of a section.
+fn tables(root: &mut Table, section: Section) -> Vec<&mut Table> {
+    let mut within = vec![root];
+    for name in section.path().split('.').filter(|name| !name.is_empty()) {
+        let nodes = within.into_iter().filter_map(|table| table.get_mut(name));
+        within = nodes.flat_map(listed).collect();
+    }
+    within
+}
+
+/// A table, or each table of a list.
+fn listed(node: &mut Node) -> Vec<&mut Table> {
+    match &mut node.value {
+        Value::Table(table) => vec![table],
+        Value::List(list) => list
+            .iter_mut()
+            .filter_map(|node| match &mut node.value {
+                Value::Table(table) => Some(table),
+                _ => None,
+            })
+            .collect(),
+        _ => Vec::new(),
+    }
+}
