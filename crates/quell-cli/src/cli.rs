@@ -1,6 +1,6 @@
 //! The verbs, and what becomes of their answers.
 //!
-//! Exit status: 0 done, 2 the input is wrong (usage errors too), 1 it failed. With `--json`
+//! Exit status: 0 done, 2 the input is wrong (usage errors too), 1 it failed, 130 it was interrupted. With `--json`
 //! one object stands on standard output, also where something is wrong.
 
 use std::ffi::OsString;
@@ -20,7 +20,9 @@ use crate::verbs::{
 /// Finds the dither that silences friction-induced vibration, and tells how sure it is.
 #[derive(Debug, Parser)]
 #[command(name = "quell", version, propagate_version = true, arg_required_else_help = true)]
-#[command(after_help = "Exit status: 0 done, 2 the input is wrong, 1 it failed.")]
+#[command(
+    after_help = "Exit status: 0 done, 2 the input is wrong, 1 it failed, 130 it was interrupted."
+)]
 struct Cli {
     #[command(subcommand)]
     verb: Verb,

@@ -11,5 +11,6 @@ mod table;
 mod verbs;
 
 fn main() -> ExitCode {
+    interrupt::handle();
     cli::run(std::env::args_os())
 }

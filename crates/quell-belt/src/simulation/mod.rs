@@ -15,6 +15,8 @@
 //!   |f_s| ≤ μ_s N" is our declared selection, and such releases are counted
 //!   ([`FinalState::near_tangential_releases`]).
 //!
+//! * Steps are counted: a run that would not end in reasonable time is stopped with the reason (`pace`).
+//!
 //! Taylor step control: Jorba and Zou (2005). Order of events and stick rules: the errata
 //! and traps of the project's documentation, chapter "The belt".
 
@@ -24,6 +26,7 @@ mod event;
 mod forcing;
 mod lanes;
 mod observer;
+mod pace;
 mod release;
 mod slip;
 mod slip_step;
@@ -39,6 +42,7 @@ pub use clock::Clock;
 pub use event::{Event, EventKind};
 pub(crate) use lanes::slide;
 pub use observer::{EventRecorder, Observer, Sample, Sampler, Segment, VelocitySection};
+pub use pace::{MOST_STEPS, within};
 
 /// Order of the Taylor series. At tolerance 10⁻¹⁰ about three steps cover a period of free
 /// slip; the kernel is unrolled for it.
@@ -92,7 +96,7 @@ impl FinalState {
     }
 }
 
-/// The engine could not go on; a defect worth reporting with the study.
+/// The engine could not go on: the numbers of the study are too extreme for it, or the run would not end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stalled {
     /// τ at which it stopped.
@@ -133,7 +137,8 @@ pub struct Run<'a> {
 /// and instruction set, whatever watches: an observer costs one indirect call a segment.
 ///
 /// # Errors
-/// [`Stalled`] if a state leaves the finite numbers or no step advances time.
+/// [`Stalled`] if a state leaves the finite numbers, if no step advances time, or if the run would take more than
+/// [`MOST_STEPS`] or more than the question that it belongs to may take ([`within`]).
 pub fn simulate(
     belt: &Belt,
     start: Start,

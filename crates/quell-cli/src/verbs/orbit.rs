@@ -10,7 +10,7 @@ use quell_model::units::Quantity;
 
 use super::numbers::state;
 use crate::answer::Answer;
-use crate::arguments::{Complaints, PlotArguments, StudyArguments};
+use crate::arguments::{Complaints, PlotArguments, StudyArguments, inputs};
 use crate::table::Table;
 
 /// Options that ask for the response on which a run ends, which has its own state and number of periods.
@@ -60,10 +60,11 @@ impl Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read());
+    let inputs = inputs(study.as_ref(), Study::inputs);
     let near = complaints.take(arguments.near.as_deref().map(|it| state("--near", it)).transpose());
     let start =
         complaints.take(arguments.start.as_deref().map(|it| state("--start", it)).transpose());
-    let plot = complaints.take(arguments.plot.prepare());
+    let plot = complaints.take(arguments.plot.prepare(&inputs));
     let (study, ((near, start), plot)) = complaints.finish(study.zip(near.zip(start).zip(plot)))?;
     let periods = arguments.periods;
     let wanted = match (arguments.after(start), near) {

@@ -11,7 +11,7 @@ use quell::{DiscStudy, Failure};
 
 use super::numbers::window;
 use crate::answer::Answer;
-use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
+use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments, inputs};
 use crate::table::figure;
 
 /// Shows where waves of a disc meet, which meetings can be unstable, and which dither frequencies keep speeds clear
@@ -47,8 +47,9 @@ enum Expansion {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read_disc());
-    let output = complaints.take(arguments.output.prepare(&[]));
-    let plot = complaints.take(arguments.plot.prepare());
+    let inputs = inputs(study.as_ref(), DiscStudy::inputs);
+    let output = complaints.take(arguments.output.prepare(&[], &inputs));
+    let plot = complaints.take(arguments.plot.prepare(&inputs));
     let question = question(arguments, &mut complaints);
     let ((study, question), (output, plot)) =
         complaints.finish(study.zip(question).zip(output.zip(plot)))?;

@@ -5,12 +5,12 @@ use quell_belt::orbit::cycle::{cycle_reached, cycles};
 use quell_belt::orbit::reached::orbit_reached;
 use quell_belt::orbit::{NoOrbit, from_sliding, near};
 pub use quell_belt::orbit::{Orbit, Verdict};
-use quell_belt::simulation::{EventKind, Start};
+use quell_belt::simulation::{EventKind, Start, within};
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
 use super::thresholds::Protocol;
-use super::{failed, in_words, moves, resolved};
+use super::{STEPS_OF_A_SEARCH, failed, in_words, moves, resolved};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::fields::Fields;
 use crate::study::Study;
@@ -68,6 +68,10 @@ impl From<Orbit> for Response {
 /// # Errors
 /// A complaint where there is no period; [`Failure::Failed`] where shooting does not converge, with the place.
 pub fn run(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
+    within(STEPS_OF_A_SEARCH, || found(study, wanted))
+}
+
+fn found(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
     let belt = study.belt();
     if belt.dithers().is_empty() {
         return undithered(study, wanted);

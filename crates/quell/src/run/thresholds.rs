@@ -6,14 +6,14 @@ pub use quell_belt::orbit::family::Signature;
 use quell_belt::orbit::reached::{Reached, Switches, ramped, switches};
 pub use quell_belt::orbit::threshold::{Change, Ending, Kind, Local, Threshold};
 use quell_belt::orbit::threshold::{NoThresholds, local};
-use quell_belt::simulation::Start;
+use quell_belt::simulation::{Start, within};
 use quell_belt::start::NoSquealingStart;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::in_words;
 use super::orbit::refused;
 use super::varied::{Named, ascending};
+use super::{STEPS_OF_MANY_SEARCHES, in_words};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::fields::Fields;
 use crate::quantity::bearable;
@@ -159,6 +159,10 @@ fn understood(study: &Study, question: Question) -> Result<Question, Failure> {
 /// # Errors
 /// A complaint about the parameter or its range; [`Failure::Failed`] where there is no response to begin with.
 pub fn run(study: &Study, question: Question) -> Result<Thresholds, Failure> {
+    within(STEPS_OF_MANY_SEARCHES, || found(study, question))
+}
+
+fn found(study: &Study, question: Question) -> Result<Thresholds, Failure> {
     let belt = study.belt();
     let question = understood(study, question)?;
     let path = question.parameter.as_str();

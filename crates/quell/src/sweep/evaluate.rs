@@ -7,10 +7,11 @@ use quell_belt::averaging::{
     AveragingError, AveragingOptions, Criterion, CriticalAmplitude, criterion, critical_amplitudes,
 };
 use quell_belt::response::{Case, Compared, Undefined, Wanted, compare_many};
-use quell_belt::simulation::Start;
+use quell_belt::simulation::{Start, within};
 use quell_disc::Growth;
 
 use super::status::Status;
+use crate::run::STEPS_OF_A_SEARCH;
 use crate::run::stability::SHARPER;
 use crate::study::Study;
 
@@ -114,7 +115,10 @@ pub(super) fn evaluate(points: &[Study], wanted: &[Computation]) -> Vec<Results>
 fn responses(points: &[Study], wanted: Wanted) -> Vec<Result<Steady, Status>> {
     let starts: Vec<Result<Start, Status>> = points
         .iter()
-        .map(|study| Ok(study.initial().resolve(study.belt(), study.solver())?))
+        .map(|study| {
+            let start = || study.initial().resolve(study.belt(), study.solver());
+            Ok(within(STEPS_OF_A_SEARCH, start)?)
+        })
         .collect();
     let mut outcomes: Vec<Result<Steady, Status>> =
         starts.iter().map(|start| Err(start.err().unwrap_or(Status::Stalled))).collect();
