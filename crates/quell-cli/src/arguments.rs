@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use quell::dataset::Dataset;
+use quell::input::Inputs;
 use quell::output::Output;
 use quell::picture::{self, EXTENSIONS};
 use quell::plot::Figure;
@@ -56,6 +57,11 @@ impl StudyArguments {
     }
 }
 
+/// The files that a study was read from: none where it could not be read, which ends the work anyway.
+pub(crate) fn inputs<S>(study: Option<&S>, of: impl Fn(&S) -> Inputs) -> Inputs {
+    study.map_or(Inputs::NONE, of)
+}
+
 /// Where the picture goes.
 #[derive(Debug, Args)]
 pub(crate) struct PlotArguments {
@@ -70,9 +76,10 @@ impl PlotArguments {
         self.plot.is_some()
     }
 
-    /// Tries whether the picture can be written.
-    pub(crate) fn prepare(&self) -> Result<Plot, Failure> {
-        let output = self.plot.as_ref().map(|path| Output::prepare(path, "--plot", EXTENSIONS));
+    /// Tries whether the picture can be written, and is not one of the inputs.
+    pub(crate) fn prepare(&self, inputs: &Inputs) -> Result<Plot, Failure> {
+        let prepare = |path| Output::prepare(path, "--plot", EXTENSIONS, inputs);
+        let output = self.plot.as_deref().map(prepare);
         Ok(Plot { output: output.transpose()? })
     }
 }
@@ -131,13 +138,13 @@ impl OutputArguments {
         self.save.is_some()
     }
 
-    /// Tries every output; `parts` name further files beside the first.
-    pub(crate) fn prepare(&self, parts: &[&str]) -> Result<Outputs, Failure> {
+    /// Tries every output, none of which is one of the inputs; `parts` name further files beside the first.
+    pub(crate) fn prepare(&self, parts: &[&str], inputs: &Inputs) -> Result<Outputs, Failure> {
         let mut save = Vec::new();
         if let Some(path) = &self.save {
-            let first = Output::prepare(path, "--save", &["csv"])?;
+            let first = Output::prepare(path, "--save", &["csv"], inputs)?;
             for part in parts {
-                save.push(first.beside(part, "--save")?);
+                save.push(first.beside(part, "--save", inputs)?);
             }
             save.insert(0, first);
         }

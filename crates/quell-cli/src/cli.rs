@@ -1,6 +1,6 @@
 //! The verbs, and what becomes of their answers.
 //!
-//! Exit status: 0 done, 2 the input is wrong (usage errors too), 1 it failed. With `--json`
+//! Exit status: 0 done, 2 the input is wrong (usage errors too), 1 it failed, 130 it was interrupted. With `--json`
 //! one object stands on standard output, also where something is wrong.
 
 use std::ffi::OsString;
@@ -22,7 +22,7 @@ use crate::{answer, help};
 #[command(name = "quell", version, propagate_version = true, arg_required_else_help = true)]
 #[command(subcommand_value_name = "VERB")]
 #[command(after_help = "`quell VERB --help` shows the options and examples of a verb.\n\
-                        Exit status: 0 done, 2 invalid input, 1 failed.")]
+                        Exit status: 0 done, 2 invalid input, 1 failed, 130 interrupted.")]
 pub(crate) struct Cli {
     #[command(subcommand)]
     verb: Verb,

@@ -12,5 +12,6 @@ mod table;
 mod verbs;
 
 fn main() -> ExitCode {
+    interrupt::handle();
     cli::run(std::env::args_os())
 }

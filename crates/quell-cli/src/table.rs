@@ -23,6 +23,9 @@ impl Table {
 
     /// A row of a quantity.
     pub(crate) fn number(&mut self, label: &str, quantity: Quantity, value: f64) {
+        if !value.is_finite() {
+            return self.word(label, "undefined: it is beyond the range of numbers");
+        }
         let unit = unit_of(quantity, self.scales.is_some());
         let unit = if unit == "1" { String::new() } else { unit };
         let si = match (self.scales, quantity.si_unit()) {

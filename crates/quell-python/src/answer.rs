@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use pyo3::prelude::*;
 use quell::dataset::Dataset;
+use quell::input::Inputs;
 use quell::output::Output;
 use quell::picture::{self, EXTENSIONS};
 use quell::plot::Figure;
@@ -17,6 +18,9 @@ use crate::{call, convert};
 pub(crate) trait Answer: Send + Sync {
     /// The object that the command line prints with `--json`; of a map without its arrays.
     fn json(&self) -> Json;
+
+    /// The files that the study was read from: none of them is an output.
+    fn inputs(&self) -> Inputs;
 
     /// Arrays, each dataset with its name; the first is the main one.
     fn datasets(&self) -> Vec<(&'static str, Dataset)> {
@@ -79,7 +83,7 @@ impl NativeAnswer {
     fn picture(&self, py: Python<'_>, path: PathBuf) -> PyResult<String> {
         let inner = Self { inner: Arc::clone(&self.inner) };
         call::run(py, move || {
-            let output = Output::prepare(&path, "path", EXTENSIONS)?;
+            let output = Output::prepare(&path, "path", EXTENSIONS, &inner.inner.inputs())?;
             picture::write(&inner.figure()?, output)
         })
     }
@@ -89,7 +93,8 @@ impl NativeAnswer {
         let inner = Arc::clone(&self.inner);
         call::run(py, move || {
             let mut saved = Vec::new();
-            let first = Output::prepare(&path, "path", &["csv"])?;
+            let inputs = inner.inputs();
+            let first = Output::prepare(&path, "path", &["csv"], &inputs)?;
             let datasets = inner.datasets();
             if datasets.is_empty() {
                 let allowed = "there is no table of this result";
@@ -100,7 +105,7 @@ impl NativeAnswer {
             }
             let mut outputs = Vec::new();
             for (name, _) in datasets.iter().skip(1) {
-                outputs.push(first.beside(name, "path")?);
+                outputs.push(first.beside(name, "path", &inputs)?);
             }
             outputs.insert(0, first);
             for (output, (_, dataset)) in outputs.into_iter().zip(datasets) {

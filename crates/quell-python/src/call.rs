@@ -7,7 +7,7 @@
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::OnceLock;
-use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::thread::{self, ThreadId};
 use std::time::Duration;
 
@@ -70,7 +70,8 @@ where
     py.detach(|| guarded(work)).map_err(|failure| errors::raised(py, failure))
 }
 
-/// The same as [`run`], watched. After a signal the work is asked to stop, and waited for where it will.
+/// The same as [`run`], watched. After a signal the work is asked to stop, and waited for where it will, until there is
+/// another signal.
 ///
 /// # Errors
 /// As [`run`], or what the watch refuses with.
@@ -110,12 +111,27 @@ where
             Err(RecvTimeoutError::Timeout) => {
                 if let Err(signal) = py.check_signals().and_then(|()| watch.tick(py)) {
                     if watch.stop() {
-                        // What it says at the end is said by the signal.
-                        py.detach(move || drop(receiver.recv()));
+                        wait(py, receiver);
                     }
                     return Err(signal);
                 }
             }
+        }
+    }
+}
+
+/// Waits for work that was asked to stop, until it has or there is another signal. What it says at the end is said by
+/// the signal.
+fn wait<T: Send>(py: Python<'_>, mut receiver: Receiver<T>) {
+    loop {
+        let (back, got) = py.detach(move || {
+            let got = receiver.recv_timeout(TICK);
+            (receiver, got)
+        });
+        receiver = back;
+        let goes_on = matches!(got, Err(RecvTimeoutError::Timeout));
+        if !goes_on || py.check_signals().is_err() {
+            return;
         }
     }
 }

@@ -30,7 +30,9 @@ pub(crate) struct NativeStudy {
     /// Axes in place of those of the text, each as (key, value).
     axes: Option<Vec<Axis>>,
     /// Whether its lines mean something to who made it.
-    from_file: bool,
+    has_lines: bool,
+    /// The file that it was read from, which is no output.
+    file: Option<PathBuf>,
 }
 
 /// Two numbers in the system of the study, or with units.
@@ -68,22 +70,28 @@ pub(crate) fn ends(parameter: &str, (from, to): &Pair) -> Result<(f64, f64), Fai
 /// Keys and values of an axis.
 type Axis = Vec<(String, String)>;
 
-/// What makes a study again: text, folder, changes, axes, whether it was a file.
-type Parts = (String, PathBuf, Vec<(String, String)>, Option<Vec<Axis>>, bool);
+/// What makes a study again: text, folder, changes, axes, whether it has lines, and the file that it was read from.
+type Parts = (String, PathBuf, Vec<(String, String)>, Option<Vec<Axis>>, bool, Option<PathBuf>);
 
 impl NativeStudy {
     fn made(py: Python<'_>, parts: Parts) -> PyResult<Self> {
-        let (text, folder, changes, axes, from_file) = parts;
+        let (text, folder, changes, axes, has_lines, file) = parts;
         let (place, made, swept) = (folder.clone(), changes.clone(), axes.clone());
+        let source = file.clone();
         let subject = call::here(py, move || {
             let changes: Vec<Change> = made.iter().map(change).collect();
             let subject = Subject::parse(&text, &changes, &place);
-            subject.and_then(|subject| sweeping(subject, swept.as_deref())).map_err(|complaints| {
-                let told = if from_file { complaints } else { errors::without_lines(complaints) };
+            let subject = subject.and_then(|subject| sweeping(subject, swept.as_deref()));
+            let subject = subject.map_err(|complaints| {
+                let told = if has_lines { complaints } else { errors::without_lines(complaints) };
                 Failure::Wrong(told)
+            })?;
+            Ok(match source {
+                Some(file) => subject.read_from(file),
+                None => subject,
             })
         })?;
-        Ok(Self { subject: Arc::new(subject), folder, changes, axes, from_file })
+        Ok(Self { subject: Arc::new(subject), folder, changes, axes, has_lines, file })
     }
 
     /// The study itself.
@@ -120,35 +128,38 @@ impl NativeStudy {
     /// Reads and checks a study file.
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf, changes: Vec<(String, String)>) -> PyResult<Self> {
-        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let made = changes.clone();
+        // Whoever changes it may have gone elsewhere.
+        let file = std::path::absolute(&path).ok();
+        let folder = file.as_deref().unwrap_or(&path).parent().unwrap_or(Path::new("")).to_owned();
         let subject = call::here(py, move || {
             let changes: Vec<Change> = made.iter().map(change).collect();
             Subject::read(&path, &changes)
         })?;
-        Ok(Self { subject: Arc::new(subject), folder, changes, axes: None, from_file: true })
+        Ok(Self { subject: Arc::new(subject), folder, changes, axes: None, has_lines: true, file })
     }
 
     /// The same study with values changed, as `--set path=value` changes them.
     fn changed(&self, py: Python<'_>, changes: Vec<(String, String)>) -> PyResult<Self> {
-        let (text, folder, mut all, axes, from_file) = self.parts();
+        let (text, folder, mut all, axes, has_lines, file) = self.parts();
         all.extend(changes);
-        Self::made(py, (text, folder, all, axes, from_file))
+        Self::made(py, (text, folder, all, axes, has_lines, file))
     }
 
     /// The same study with these axes in place of its own.
     fn swept(&self, py: Python<'_>, axes: Vec<Axis>) -> PyResult<Self> {
-        let (text, folder, changes, _, from_file) = self.parts();
-        Self::made(py, (text, folder, changes, Some(axes), from_file))
+        let (text, folder, changes, _, has_lines, file) = self.parts();
+        Self::made(py, (text, folder, changes, Some(axes), has_lines, file))
     }
 
-    /// What makes this study again: text, folder, changes, axes, whether it was a file.
+    /// What makes this study again: text, folder, changes, axes, whether it has lines, and the file that it was read from.
     fn parts(&self) -> Parts {
         let text = self.subject.text().to_owned();
         // Whoever makes it again may run elsewhere.
         let folder = std::env::current_dir()
             .map_or_else(|_| self.folder.clone(), |here| here.join(&self.folder));
-        (text, folder, self.changes.clone(), self.axes.clone(), self.from_file)
+        let file = self.file.clone();
+        (text, folder, self.changes.clone(), self.axes.clone(), self.has_lines, file)
     }
 
     /// "belt" or "disc".

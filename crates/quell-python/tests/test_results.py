@@ -149,6 +149,27 @@ def test_arrays_are_handed_over_not_copied(belt: quell.Belt) -> None:
     assert np.shares_memory(run.dataset["displacement"].values, values)
 
 
+
+def test_inputs_are_never_outputs(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    study, data = tmp_path / "study.toml", tmp_path / "data.csv"
+    data.write_text("slip_velocity,coefficient\n0,0.4\n0.1,0.35\n0.2,0.31\n0.3,0.29\n0.4,0.28\n0.5,0.275\n0.8,0.272\n")
+    law = '[friction]\nlaw = "samples"\nfile = "data.csv"\n'
+    study.write_text(f"schema = 1\n[belt]\ndamping_ratio = 0.005\nnormal_load = 1\nbelt_velocity = 0.1\n{law}")
+    before = study.read_text(), data.read_text()
+    (tmp_path / "link.csv").symlink_to("study.toml")
+    (tmp_path / "link.svg").symlink_to("data.csv")
+    monkeypatch.chdir(tmp_path)
+    read = quell.Study.from_toml("study.toml")
+    monkeypatch.chdir("/")
+    changed = read.set({"belt.belt_velocity": 0.2})
+    for belt in [read, changed, pickle.loads(pickle.dumps(changed))]:
+        run = belt.simulate(1.0)
+        for name in ["data.csv", "link.csv", "link.svg"]:
+            with pytest.raises(quell.StudyError, match="which the study is read from"):
+                run.save(tmp_path / name)
+    assert (study.read_text(), data.read_text()) == before
+
+
 def test_files_are_those_of_the_command_line(belt: quell.Belt, cli: Any, tmp_path: Any) -> None:
     path = STUDIES / "stribeck-belt.toml"
     run = quell.Study.from_toml(path).simulate(20)

@@ -4,6 +4,7 @@ pub mod cite;
 pub mod complaint;
 pub mod dataset;
 pub mod fields;
+pub mod input;
 pub mod output;
 pub mod picture;
 pub mod plot;

@@ -3,14 +3,47 @@
 //! [`Output::prepare`] proves that the path can be written by making and removing a file
 //! beside it. [`Output::write`] writes such a file in full, then renames it, so that nobody
 //! ever sees half a file. Devices and pipes, which cannot be replaced, are written straight.
+//!
+//! A file that is replaced keeps its permissions; a new one has those that the process gives to new files. A file that
+//! the study is read from is no output ([`Inputs`]).
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{PoisonError, RwLock, RwLockReadGuard, TryLockError};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::input::Inputs;
+
+/// Held by every thread for as long as a file of it is half-written.
+static WRITING: RwLock<()> = RwLock::new(());
+
+/// A file is half-written until this is dropped.
+pub(crate) fn writing() -> RwLockReadGuard<'static, ()> {
+    WRITING.read().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Waits until no file is half-written, at most for a time, and lets none be begun then: for a process that is about
+/// to end. Whether it came to that.
+pub fn close(patience: Duration) -> bool {
+    let begun = Instant::now();
+    loop {
+        match WRITING.try_write() {
+            Ok(guard) => {
+                // Whoever would write from now on waits for the end of the process.
+                std::mem::forget(guard);
+                return true;
+            }
+            Err(TryLockError::Poisoned(_)) => return true,
+            Err(TryLockError::WouldBlock) if begun.elapsed() > patience => return false,
+            Err(TryLockError::WouldBlock) => thread::sleep(Duration::from_millis(5)),
+        }
+    }
+}
 
 /// A place where a file can be written.
 #[derive(Debug)]
@@ -24,7 +57,7 @@ pub struct Output {
 }
 
 impl Output {
-    /// Checks that `path` can be written and has one of the `extensions`.
+    /// Checks that `path` can be written, has one of the `extensions`, and is none of the `inputs`.
     ///
     /// # Errors
     /// A complaint that names `option` and the path.
@@ -32,6 +65,7 @@ impl Output {
         path: &Path,
         option: &'static str,
         extensions: &[&str],
+        inputs: &Inputs,
     ) -> Result<Self, Box<Complaint>> {
         let complaint = |allowed: String| {
             let given = path.display().to_string();
@@ -44,16 +78,44 @@ impl Output {
             let list: Vec<String> = extensions.iter().map(|name| format!(".{name}")).collect();
             return Err(complaint(format!("the file name must end in {}", list.join(" or "))));
         }
+        if let Some(input) = inputs.at(path) {
+            return Err(complaint(input.refusal()));
+        }
         let mut output = Self { given: path.to_owned(), path: path.to_owned(), special: None };
         output.probe(special).map_err(|error| complaint(format!("cannot be written: {error}")))?;
         Ok(output)
+    }
+
+    /// As [`Output::prepare`], for a name that the user has not given: a link, a device or a pipe of this name was put
+    /// there by someone else, and is not followed, opened or replaced.
+    ///
+    /// # Errors
+    /// A complaint that names `option` and the path.
+    pub fn prepare_plain(
+        path: &Path,
+        option: &'static str,
+        extensions: &[&str],
+        inputs: &Inputs,
+    ) -> Result<Self, Box<Complaint>> {
+        if fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
+            let (given, origin) = (path.display().to_string(), Origin::Argument(option));
+            let allowed =
+                "is there already, and is not a regular file: remove it, or choose another name";
+            return Err(Box::new(Complaint::new(Fault::Path, option, origin, given, allowed)));
+        }
+        Self::prepare(path, option, extensions, inputs)
     }
 
     /// Another file beside this one: `name.csv` → `name_part.csv`. Beside a device or pipe there is none: it takes both.
     ///
     /// # Errors
     /// A complaint that names `option` and the path.
-    pub fn beside(&self, part: &str, option: &'static str) -> Result<Self, Box<Complaint>> {
+    pub fn beside(
+        &self,
+        part: &str,
+        option: &'static str,
+        inputs: &Inputs,
+    ) -> Result<Self, Box<Complaint>> {
         if let Some(file) = &self.special {
             let file = file.try_clone().map_err(|error| {
                 let given = self.given.display().to_string();
@@ -67,7 +129,7 @@ impl Output {
         let extension =
             self.given.extension().and_then(|extension| extension.to_str()).unwrap_or("csv");
         let path = self.given.with_file_name(format!("{stem}_{part}.{extension}"));
-        Self::prepare(&path, option, &[extension.to_ascii_lowercase().as_str()])
+        Self::prepare_plain(&path, option, &[extension.to_ascii_lowercase().as_str()], inputs)
     }
 
     /// The extension in lower case.
@@ -84,8 +146,11 @@ impl Output {
         let written = if let Some(mut file) = self.special.as_ref() {
             file.write_all(bytes).and_then(|()| file.flush())
         } else {
+            let _writing = writing();
             self.temporary().and_then(|(temporary, file)| {
-                let written = fill(file, bytes).and_then(|()| fs::rename(&temporary, &self.path));
+                let written = keep_permissions(&self.path, &file)
+                    .and_then(|()| fill(file, bytes))
+                    .and_then(|()| fs::rename(&temporary, &self.path));
                 if written.is_err() {
                     // Nothing else to do about a file that cannot be removed either.
                     let _ = fs::remove_file(&temporary);
@@ -112,6 +177,7 @@ impl Output {
             self.path = self.path.canonicalize()?;
             OpenOptions::new().append(true).open(&self.path)?;
         }
+        let _writing = writing();
         fs::remove_file(self.temporary()?.0)
     }
 
@@ -130,6 +196,15 @@ impl Output {
                 Ok(file) => return Ok((path, file)),
             }
         }
+    }
+}
+
+/// Gives a new file the permissions of the one that it will replace, where there is one: before anything is in it.
+fn keep_permissions(replaced: &Path, file: &File) -> io::Result<()> {
+    match fs::metadata(replaced) {
+        Ok(found) => file.set_permissions(found.permissions()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        Err(error) => Err(error),
     }
 }
 
@@ -152,7 +227,8 @@ mod tests {
         std::thread::scope(|scope| {
             for text in &texts {
                 scope.spawn(|| {
-                    let output = Output::prepare(&path, "--save", &["csv"]).expect("writable");
+                    let output = Output::prepare(&path, "--save", &["csv"], &Inputs::NONE)
+                        .expect("writable");
                     output.write(text.as_bytes()).expect("written");
                 });
             }

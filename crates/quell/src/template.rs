@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value as Json, json};
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::input::Inputs;
 use crate::output::Output;
 use crate::study::suggest;
 
@@ -81,7 +82,8 @@ impl Template {
     /// A complaint where the file exists or its name does not end in `.toml`; [`Failure::Failed`] where it cannot be written.
     pub fn save(&self, path: &Path, overwrite: bool) -> Result<PathBuf, Failure> {
         if overwrite {
-            return Output::prepare(path, SAVE, &["toml"])?.write(self.text.as_bytes());
+            return Output::prepare(path, SAVE, &["toml"], &Inputs::NONE)?
+                .write(self.text.as_bytes());
         }
         let complaint = |allowed: String| {
             let given = path.display().to_string();

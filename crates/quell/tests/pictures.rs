@@ -3,6 +3,7 @@
 use std::fs;
 
 use quell::Complaint;
+use quell::input::Inputs;
 use quell::output::Output;
 use quell::picture::{EXTENSIONS, write};
 use quell::plot::{
@@ -60,7 +61,7 @@ const BLUE: &str = "#0072b2";
 const GREY: &str = "#808080";
 
 fn output(path: &std::path::Path) -> Result<Output, Box<Complaint>> {
-    Output::prepare(path, "--plot", EXTENSIONS)
+    Output::prepare(path, "--plot", EXTENSIONS, &Inputs::NONE)
 }
 
 #[test]

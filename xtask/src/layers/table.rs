@@ -68,6 +68,8 @@ pub(crate) const CONFINED: &[Confined] = &[
     confined("kuva",       &["quell"],              false, "plots are made from datasets, in the front door"),
     confined("png",        &["quell"],              false, "plots are made from datasets, in the front door"),
     confined("resvg",      &["quell"],              false, "plots are made from datasets, in the front door"),
+    confined("rustix",     &["quell"],              false, "files of strangers are opened in one place"),
+    confined("nix",        &["quell-cli"],          false, "signals concern whoever owns the process"),
     confined("clap",       &["quell-cli"],          false, "arguments of a command line concern the command line alone"),
     confined("indicatif",  &["quell-cli"],          false, "progress bars concern the command line alone"),
     confined("pyo3",       &["quell-python"],       false, "bindings never leak into the core"),

@@ -107,7 +107,8 @@ fn scan_points(corners: &[f64], scale: f64, at_rest: bool) -> Vec<f64> {
     // Ratio 1.15 over two decades beyond the largest scale, 2 over two more.
     let mut point = first;
     while point < 1e4 * scale {
-        point *= if point < 1e2 * scale { 1.15 } else { 2.0 };
+        // The smallest numbers are their own multiples: the next one is a step too.
+        point = (point * if point < 1e2 * scale { 1.15 } else { 2.0 }).max(point.next_up());
         points.push(point);
     }
     points.sort_unstable_by(f64::total_cmp);

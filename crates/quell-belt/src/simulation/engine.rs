@@ -6,7 +6,8 @@
 //! Progress is guaranteed: every turn of the loop advances time, or changes the contact at
 //! the same moment, and after [`PATIENCE`] changes without advance the bond is held for
 //! [`HOLD`] of a dither period. A release that only touches its threshold therefore cannot
-//! loop; the held time is below every tolerance in use.
+//! loop; the held time is below every tolerance in use. How much time a turn advances is another
+//! question: [`super::pace`] counts steps.
 
 use quell_model::friction::SlidingLaw;
 use quell_model::{Belt, Direction};
@@ -18,6 +19,7 @@ use super::clock::Clock;
 use super::event::EventKind;
 use super::forcing::{Forcing, Shape};
 use super::observer::{Observer, Segment};
+use super::pace::Pace;
 use super::release::Release;
 use super::slip_step::{Next, Root, SlipDue, SlipTaken};
 use super::stick::{Bond, Search};
@@ -29,6 +31,9 @@ const HOLD: f64 = 1e-8;
 
 /// Sure stick shorter than this is left to the search.
 const WORTH_SKIPPING: f64 = 1e-3;
+
+/// A sixteenth of the rounding of a number, relative to it: terms below this leave no trace.
+const INVISIBLE: f64 = f64::EPSILON / 16.0;
 
 /// State of one run. Lengths are in units of the law's velocity scale.
 pub(super) struct Engine<'a> {
@@ -58,6 +63,7 @@ pub(super) struct Engine<'a> {
     pub(super) smooth_release: bool,
     pub(super) events: u64,
     pub(super) steps: u64,
+    pub(super) pace: Pace,
     pub(super) near_tangential_releases: u64,
     pub(super) observer: &'a mut dyn Observer,
     /// Whether the observer sees segments.
@@ -69,7 +75,6 @@ impl<'a> Engine<'a> {
         let Run { belt, start, until, observer } = run;
         let unit = law.velocity_scale();
         let clock = Clock::at(start.time);
-        let load = belt.normal_load() / unit;
         let belt_velocity = belt.belt_velocity() / unit;
         let damping = 2.0 * belt.damping_ratio();
         let slip = (belt.belt_velocity() - start.velocity) / unit;
@@ -79,6 +84,8 @@ impl<'a> Engine<'a> {
             belt_velocity,
             static_coefficient: law.static_coefficient(),
         };
+        let fastest = tangential.highest_rate().max(normal.highest_rate());
+        let pace = Pace::new(start.time, until, fastest);
         let shapes = [Direction::Tangential, Direction::Normal]
             .map(|direction| Shape::of(belt.dithers(), direction));
         let mut engine = Self {
@@ -86,9 +93,14 @@ impl<'a> Engine<'a> {
             bond,
             release: Release::of(&bond, (&tangential, &normal), (shapes[0], shapes[1])),
             longest_step: longest_step(&tangential, &normal),
+            tolerance: step_tolerance(
+                tolerance,
+                (&tangential, &normal),
+                start.displacement / unit,
+                slip,
+            ),
             tangential,
             normal,
-            tolerance: tolerance * load,
             unit,
             belt_velocity: belt.belt_velocity(),
             clock,
@@ -101,6 +113,7 @@ impl<'a> Engine<'a> {
             smooth_release: law.starts_at_static_level(),
             events: 0,
             steps: 0,
+            pace,
             near_tangential_releases: 0,
             watched: observer.watches(),
             observer,
@@ -121,6 +134,11 @@ impl<'a> Engine<'a> {
 
     #[inline(always)]
     fn go_on(&mut self) -> Next {
+        if self.steps == 0
+            && let Err(why) = self.pace.spend(0)
+        {
+            return Next::Over(Err(self.stalled(why)));
+        }
         while self.clock.until(self.until) > 0.0 {
             match self.contact {
                 Contact::Slip { sign, zeros } => {
@@ -135,6 +153,8 @@ impl<'a> Engine<'a> {
                 }
             }
         }
+        // The steps are counted; a run that is over is over.
+        let _ = self.pace.spend(self.steps);
         Next::Over(Ok(self.final_state()))
     }
 
@@ -148,7 +168,20 @@ impl<'a> Engine<'a> {
         if !(self.displacement.is_finite() && self.slip.is_finite()) {
             return Err(self.stalled("the state left the finite numbers"));
         }
+        if self.pace.is_due(self.steps) {
+            let time = self.clock.time();
+            return self.pace.look(self.steps, time).map_err(|why| self.stalled(why));
+        }
         Ok(())
+    }
+
+    /// Looks at the clock while a lane takes steps without it: `steps` more than it knows, up to the moment `time`.
+    pub(super) fn look(&mut self, steps: u64, time: f64) -> Result<(), Stalled> {
+        let steps = self.steps + steps;
+        if !self.pace.is_due(steps) {
+            return Ok(());
+        }
+        self.pace.look(steps, time).map_err(|why| Stalled { time, why })
     }
 
     fn stalled(&self, why: &'static str) -> Stalled {
@@ -376,6 +409,22 @@ impl Work for Take<'_, '_, '_> {
 #[inline(always)]
 pub(super) fn longest_step(tangential: &Forcing, normal: &Forcing) -> f64 {
     0.5 * ORDER as f64 / tangential.highest_rate().max(normal.highest_rate()).max(1.0)
+}
+
+/// Bound on the last retained terms of a step: relative to F. Terms that leave no trace in the state (that of the
+/// start, or as large as the dither makes it) need no bound: it would only shorten the steps, without end where F is
+/// nothing beside the other forces.
+#[inline(always)]
+pub(super) fn step_tolerance(
+    tolerance: f64,
+    (tangential, normal): (&Forcing, &Forcing),
+    displacement: f64,
+    slip: f64,
+) -> f64 {
+    let rate = tangential.highest_rate().max(1.0);
+    let driven = tangential.amplitude() / (rate * rate);
+    let rounding = INVISIBLE * displacement.abs().max(slip.abs()).max(driven);
+    (tolerance * normal.mean()).max(rounding)
 }
 
 /// The dithers of a belt in units of `unit`, tangential and normal, at the moment `clock`.

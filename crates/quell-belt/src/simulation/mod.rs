@@ -15,6 +15,8 @@
 //!   |f_s| ≤ μ_s N" is our declared selection, and such releases are counted
 //!   ([`FinalState::near_tangential_releases`]).
 //!
+//! * Steps are counted: a run that would not end in reasonable time is stopped with the reason (`pace`).
+//!
 //! Taylor step control: Jorba and Zou (2005). Order of events and stick rules: the errata
 //! and traps of the project's documentation, chapter "The belt".
 
@@ -26,6 +28,7 @@ mod forcing;
 mod lanes;
 mod largest_slip;
 mod observer;
+mod pace;
 mod release;
 mod slip;
 mod slip_step;
@@ -43,6 +46,7 @@ pub use extremes::Extremes;
 pub(crate) use lanes::slide;
 pub use largest_slip::LargestSlip;
 pub use observer::{EventRecorder, Observer, Sample, Sampler, Segment, VelocitySection};
+pub use pace::{MOST_STEPS, within};
 
 /// Order of the Taylor series. At tolerance 10⁻¹⁰ about three steps cover a period of free
 /// slip; the kernel is unrolled for it.
@@ -96,7 +100,7 @@ impl FinalState {
     }
 }
 
-/// The engine could not go on; a defect worth reporting with the study.
+/// The engine could not go on: the numbers of the study are too extreme for it, or the run would not end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stalled {
     /// τ at which it stopped.
@@ -137,7 +141,8 @@ pub struct Run<'a> {
 /// and instruction set, whatever watches: an observer costs one indirect call a segment.
 ///
 /// # Errors
-/// [`Stalled`] if a state leaves the finite numbers or no step advances time.
+/// [`Stalled`] if a state leaves the finite numbers, if no step advances time, or if the run would take more than
+/// [`MOST_STEPS`] or more than the question that it belongs to may take ([`within`]).
 pub fn simulate(
     belt: &Belt,
     start: Start,

@@ -13,7 +13,7 @@ use quell_model::units::Quantity;
 use super::map::threads;
 use super::numbers::{count, number, range, scales};
 use crate::answer::Answer;
-use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
+use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments, inputs};
 use crate::interrupt;
 use crate::progress::Bar;
 use crate::table::figure;
@@ -69,10 +69,11 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read());
+    let inputs = inputs(study.as_ref(), Study::inputs);
     let question = question(arguments, study.as_ref(), &mut complaints);
     let threads = complaints.take(threads(arguments.threads.as_deref()));
-    let output = complaints.take(arguments.output.prepare(&[]));
-    let plot = complaints.take(arguments.plot.prepare());
+    let output = complaints.take(arguments.output.prepare(&[], &inputs));
+    let plot = complaints.take(arguments.plot.prepare(&inputs));
     let ((study, question), (threads, (output, plot))) =
         complaints.finish(study.zip(question).zip(threads.zip(output.zip(plot))))?;
     let bar = Bar::new();

@@ -11,7 +11,7 @@ use quell::{Failure, Study, picture};
 
 use super::numbers::{VariedArguments, count};
 use crate::answer::Answer;
-use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
+use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments, inputs};
 use crate::interrupt;
 use crate::progress::Bar;
 use crate::table::figure;
@@ -42,10 +42,11 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read());
+    let inputs = inputs(study.as_ref(), Study::inputs);
     let ends = arguments.varied.ends(&mut complaints);
     let points = complaints.take(count("--points", &arguments.points));
-    let output = complaints.take(arguments.output.prepare(&[]));
-    let plot = complaints.take(arguments.plot.prepare());
+    let output = complaints.take(arguments.output.prepare(&[], &inputs));
+    let plot = complaints.take(arguments.plot.prepare(&inputs));
     let ((study, points), ((from, to), (output, plot))) =
         complaints.finish(study.zip(points).zip(ends.zip(output.zip(plot))))?;
     let range = Range { parameter: arguments.varied.parameter.clone(), from, to, points };

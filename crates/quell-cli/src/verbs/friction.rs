@@ -11,7 +11,7 @@ use quell_model::units::Quantity;
 
 use super::numbers::scales;
 use crate::answer::Answer;
-use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
+use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments, inputs};
 use crate::table::figure;
 
 /// Computes the friction law and the effective friction under the dither
@@ -32,9 +32,10 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read());
+    let inputs = inputs(study.as_ref(), Study::inputs);
     let at = velocities(&arguments.at, study.as_ref(), &mut complaints);
-    let outputs = complaints.take(arguments.output.prepare(&[]));
-    let plot = complaints.take(arguments.plot.prepare());
+    let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
+    let plot = complaints.take(arguments.plot.prepare(&inputs));
     let (study, (outputs, plot)) = complaints.finish(study.zip(outputs.zip(plot)))?;
 
     let at = if at.is_empty() { grid(study.belt()) } else { at };

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
+use quell::input::Inputs;
 use quell::output::Output;
 use quell::picture;
 use quell::run::map::{Extreme, Map, run as map};
@@ -11,10 +12,10 @@ use quell::store::Store;
 use quell::sweep::{
     Entry, Grid, MOST_THREADS, Plan, QUANTITIES, Quantity, Running, Status, System,
 };
-use quell::{Complaint, Failure, Fault, Origin};
+use quell::{Complaint, Failure, Fault, Origin, Subject};
 
 use crate::answer::Answer;
-use crate::arguments::{Complaints, PlotArguments, StudyArguments};
+use crate::arguments::{Complaints, PlotArguments, StudyArguments, inputs};
 use crate::interrupt;
 use crate::progress::Bar;
 use crate::table::figure;
@@ -55,7 +56,7 @@ fn quantities() -> String {
             let _ = writeln!(text, "  {:<20}  {}", quantity.name, quantity.about);
         }
     }
-    text + "\nExit status: 0 done, 2 invalid input, 1 failed or stopped."
+    text + "\nExit status: 0 done, 2 invalid input, 1 failed or stopped, 130 interrupted."
 }
 
 /// Where the map is kept.
@@ -69,6 +70,7 @@ enum Keep {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read_any());
+    let inputs = inputs(study.as_ref(), Subject::inputs);
     // What there is depends on what the study is about.
     let system = study.as_ref().map_or(System::Belt, System::of);
     let names = if study.is_some() { arguments.quantities.as_slice() } else { &[] };
@@ -77,10 +79,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         .filter_map(|name| complaints.take(Quantity::named_for(system, name.trim(), "--quantity")))
         .collect();
     let threads = complaints.take(threads(arguments.threads.as_deref()));
-    let keep = complaints.take(keep(arguments));
+    let keep = complaints.take(keep(arguments, &inputs));
     let shard = arguments.shard.as_deref().map(|text| shard::read(text, arguments.plot.asked()));
     let shard = complaints.take(shard.transpose());
-    let plot = complaints.take(arguments.plot.prepare());
+    let plot = complaints.take(arguments.plot.prepare(&inputs));
     let plan = study.and_then(|study| complaints.take(Plan::new(&study, &asked)));
     if let (Some(plan), Some(plot)) = (&plan, &plot)
         && plot.wanted()
@@ -126,7 +128,7 @@ pub(super) fn threads(text: Option<&str>) -> Result<Option<usize>, Box<Complaint
     }
 }
 
-fn keep(arguments: &Arguments) -> Result<Keep, Box<Complaint>> {
+fn keep(arguments: &Arguments, inputs: &Inputs) -> Result<Keep, Box<Complaint>> {
     let zarr = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "zarr");
     match &arguments.save {
         Some(path) if zarr(path) => Ok(Keep::Zarr(path.clone())),
@@ -138,7 +140,7 @@ fn keep(arguments: &Arguments) -> Result<Keep, Box<Complaint>> {
             };
             Err(Box::new(Complaint::new(Fault::Usage, option, Origin::Whole, option, allowed)))
         }
-        Some(path) => Output::prepare(path, "--save", &["csv", "zarr"]).map(Keep::Csv),
+        Some(path) => Output::prepare(path, "--save", &["csv", "zarr"], inputs).map(Keep::Csv),
         None => Ok(Keep::Nowhere),
     }
 }

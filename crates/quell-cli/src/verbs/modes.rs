@@ -8,7 +8,7 @@ use quell::run::disc::modes::{Modes, run as modes};
 use quell::{DiscStudy, Failure};
 
 use crate::answer::Answer;
-use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
+use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments, inputs};
 use crate::table::figure;
 
 /// Computes the natural frequencies, shapes and critical speeds of a disc
@@ -26,8 +26,9 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read_disc());
-    let output = complaints.take(arguments.output.prepare(&[]));
-    let plot = complaints.take(arguments.plot.prepare());
+    let inputs = inputs(study.as_ref(), DiscStudy::inputs);
+    let output = complaints.take(arguments.output.prepare(&[], &inputs));
+    let plot = complaints.take(arguments.plot.prepare(&inputs));
     let (study, (output, plot)) = complaints.finish(study.zip(output.zip(plot)))?;
 
     let done = modes(&study);

@@ -10,7 +10,7 @@ use quell_model::units::Quantity;
 
 use super::numbers::state;
 use crate::answer::Answer;
-use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
+use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments, inputs};
 use crate::table::Table;
 
 /// Options that ask for the response on which a run ends, which has its own state and number of periods.
@@ -64,12 +64,13 @@ impl Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read());
+    let inputs = inputs(study.as_ref(), Study::inputs);
     let near = arguments.near.as_deref().map(|it| state("--near", it, study.as_ref()));
     let near = complaints.take(near.transpose());
     let start = arguments.start.as_deref().map(|it| state("--start", it, study.as_ref()));
     let start = complaints.take(start.transpose());
-    let outputs = complaints.take(arguments.output.prepare(&[]));
-    let plot = complaints.take(arguments.plot.prepare());
+    let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
+    let plot = complaints.take(arguments.plot.prepare(&inputs));
     let (study, ((near, start), (outputs, plot))) =
         complaints.finish(study.zip(near.zip(start).zip(outputs.zip(plot))))?;
     let periods = arguments.periods;

@@ -11,7 +11,7 @@ use quell::{DiscStudy, Failure, quantity};
 
 use super::numbers::pair;
 use crate::answer::Answer;
-use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
+use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments, inputs};
 use crate::table::{figure, in_hertz, in_rpm};
 
 /// Finds the speeds at which a disc can squeal, and dither frequencies that keep a range of speeds clear
@@ -47,8 +47,9 @@ enum Expansion {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read_disc());
-    let output = complaints.take(arguments.output.prepare(&[]));
-    let plot = complaints.take(arguments.plot.prepare());
+    let inputs = inputs(study.as_ref(), DiscStudy::inputs);
+    let output = complaints.take(arguments.output.prepare(&[], &inputs));
+    let plot = complaints.take(arguments.plot.prepare(&inputs));
     let question = question(arguments, study.as_ref(), &mut complaints);
     let ((study, question), (output, plot)) =
         complaints.finish(study.zip(question).zip(output.zip(plot)))?;

@@ -9,7 +9,7 @@ use quell::{Failure, Study};
 use quell_model::units::Quantity;
 
 use crate::answer::Answer;
-use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
+use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments, inputs};
 use crate::table::{Table, figure};
 
 /// Most peaks in the table for people; JSON has them all.
@@ -30,8 +30,9 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read());
-    let outputs = complaints.take(arguments.output.prepare(&["spectrum"]));
-    let plot = complaints.take(arguments.plot.prepare());
+    let inputs = inputs(study.as_ref(), Study::inputs);
+    let outputs = complaints.take(arguments.output.prepare(&["spectrum"], &inputs));
+    let plot = complaints.take(arguments.plot.prepare(&inputs));
     let (study, (outputs, plot)) = complaints.finish(study.zip(outputs.zip(plot)))?;
 
     let done = respond(&study)?;

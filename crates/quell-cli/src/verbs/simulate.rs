@@ -10,7 +10,7 @@ use quell_model::units::Quantity;
 
 use super::numbers::duration;
 use crate::answer::Answer;
-use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments};
+use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments, inputs};
 use crate::table::{Table, figure_of};
 
 /// Simulates one run with every event at the contact
@@ -34,10 +34,11 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read());
+    let inputs = inputs(study.as_ref(), Study::inputs);
     let until = complaints.take(duration("--until", &arguments.until, study.as_ref()));
     let parts: &[&str] = if arguments.events { &["events"] } else { &[] };
-    let outputs = complaints.take(arguments.output.prepare(parts));
-    let plot = complaints.take(arguments.plot.prepare());
+    let outputs = complaints.take(arguments.output.prepare(parts, &inputs));
+    let plot = complaints.take(arguments.plot.prepare(&inputs));
     let ((study, until), (outputs, plot)) =
         complaints.finish(study.zip(until).zip(outputs.zip(plot)))?;
 

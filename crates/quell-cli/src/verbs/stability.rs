@@ -12,7 +12,7 @@ use quell::{DiscStudy, Failure, Study, Subject};
 use quell_model::units::Quantity;
 
 use crate::answer::Answer;
-use crate::arguments::{Complaints, Plot, PlotArguments, StudyArguments};
+use crate::arguments::{Complaints, Plot, PlotArguments, StudyArguments, inputs};
 use crate::table::{Table, figure, figure_of, in_hertz, in_rpm};
 
 /// Most marginal frictions that are told in words.
@@ -31,7 +31,8 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read_any());
-    let plot = complaints.take(arguments.plot.prepare());
+    let inputs = inputs(study.as_ref(), Subject::inputs);
+    let plot = complaints.take(arguments.plot.prepare(&inputs));
     let (study, plot) = complaints.finish(study.zip(plot))?;
     let study = match study {
         Subject::Belt(study) => *study,

@@ -12,7 +12,9 @@ use quell::{Complaint, Failure, Fault, Origin, Study, picture};
 
 use super::numbers::{VariedArguments, duration, state, window};
 use crate::answer::Answer;
-use crate::arguments::{Complaints, OutputArguments, Outputs, Plot, PlotArguments, StudyArguments};
+use crate::arguments::{
+    Complaints, OutputArguments, Outputs, Plot, PlotArguments, StudyArguments, inputs,
+};
 use crate::table::figure_of;
 
 /// Finds the values of a parameter at which dither begins or ceases to quench
@@ -54,6 +56,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Complaints::default();
     let study = complaints.take(arguments.study.read());
+    let inputs = inputs(study.as_ref(), Study::inputs);
     let range = arguments.varied.ends(&mut complaints);
     let along = arguments.along.as_deref().unwrap_or_default();
     let between = arguments.between.as_deref().map(|it| window("--between", it, along));
@@ -61,8 +64,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let start = arguments.start.as_deref().map(|it| state("--start", it, study.as_ref()));
     let start = complaints.take(start.transpose());
     let ramp = complaints.take(duration("--ramp", &arguments.ramp, study.as_ref()));
-    let outputs = complaints.take(arguments.output.prepare(&[]));
-    let plot = complaints.take(arguments.plot.prepare());
+    let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
+    let plot = complaints.take(arguments.plot.prepare(&inputs));
     if arguments.output.saves() && arguments.along.is_none() {
         let (key, allowed) = ("--save", "--save is for the curves of --along: give both");
         let complaint = Complaint::new(Fault::Usage, key, Origin::Whole, key, allowed);

@@ -4,3 +4,4 @@ mod answers;
 mod faults;
 mod place;
 mod shards;
+mod strangers;

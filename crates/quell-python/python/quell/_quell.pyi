@@ -9,7 +9,7 @@ import numpy.typing as npt
 __version__: str
 
 _Changes = list[tuple[str, str]]
-_Parts = tuple[str, str, _Changes, list[_Changes] | None, bool]
+_Parts = tuple[str, str, _Changes, list[_Changes] | None, bool, str | None]
 
 @final
 class NativeAnswer:

@@ -40,7 +40,7 @@ class Study:
 
     def _build(self, **tables: Any) -> None:
         text = _toml.study(tables)
-        self._native = NativeStudy.parse((text, "", [], None, False))
+        self._native = NativeStudy.parse((text, "", [], None, False, None))
 
     @classmethod
     def _of(cls: type[Self], native: NativeStudy) -> Self:
@@ -74,7 +74,7 @@ class Study:
         given = arguments.text("text", text, "the text of a study")
         changes = changes_of(set, arguments)
         arguments.done()
-        return Study._of(NativeStudy.parse((given, "", changes, None, True)))
+        return Study._of(NativeStudy.parse((given, "", changes, None, True, None)))
 
     def set(self: Self, changes: Mapping[str, Any]) -> Self:
         """The same study with values changed: ``study.set({"dither.amplitude": 0.5})``.

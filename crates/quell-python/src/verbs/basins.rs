@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use pyo3::prelude::*;
 use quell::dataset::Dataset;
+use quell::input::Inputs;
 use quell::picture;
 use quell::plot::Figure;
 use quell::run::basins::{Basins, Question, run as basins};
@@ -20,6 +21,10 @@ struct Found {
 }
 
 impl Answer for Found {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
     fn json(&self) -> Json {
         self.done.json(&self.study)
     }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use quell::Subject;
+use quell::input::Inputs;
 use quell::run::check::Check;
 use quell::run::disc::check as disc;
 use serde_json::Value as Json;
@@ -12,6 +13,10 @@ use crate::answer::{Answer, NativeAnswer};
 struct Checked(Arc<Subject>);
 
 impl Answer for Checked {
+    fn inputs(&self) -> Inputs {
+        self.0.inputs()
+    }
+
     fn json(&self) -> Json {
         json(&self.0)
     }

@@ -2,19 +2,27 @@
 
 use quell::Subject;
 use quell::cite::sources_of;
+use quell::input::Inputs;
 use serde_json::Value as Json;
 
 use crate::answer::{Answer, NativeAnswer};
 
-struct Cited(Json);
+struct Cited {
+    inputs: Inputs,
+    object: Json,
+}
 
 impl Answer for Cited {
+    fn inputs(&self) -> Inputs {
+        self.inputs.clone()
+    }
+
     fn json(&self) -> Json {
-        self.0.clone()
+        self.object.clone()
     }
 }
 
 /// Answers.
 pub(crate) fn run(subject: &Subject) -> NativeAnswer {
-    NativeAnswer::new(Cited(sources_of(subject).json()))
+    NativeAnswer::new(Cited { inputs: subject.inputs(), object: sources_of(subject).json() })
 }

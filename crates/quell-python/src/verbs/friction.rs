@@ -1,6 +1,7 @@
 //! `friction`: the law and what the dither makes of it.
 
 use quell::dataset::Dataset;
+use quell::input::Inputs;
 use quell::picture;
 use quell::plot::Figure;
 use quell::run::friction::{FrictionCurve, grid, run as friction};
@@ -17,6 +18,10 @@ struct Curve {
 }
 
 impl Answer for Curve {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
     fn json(&self) -> Json {
         self.done.json(&self.study)
     }

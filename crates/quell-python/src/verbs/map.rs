@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use pyo3::prelude::*;
 use quell::dataset::Dataset;
+use quell::input::Inputs;
 use quell::picture;
 use quell::plot::Figure;
 use quell::run::map::{Map, run as front_door};
@@ -36,6 +37,10 @@ pub(crate) struct Asked {
 pub(crate) struct Done(pub(crate) Map);
 
 impl Answer for Done {
+    fn inputs(&self) -> Inputs {
+        self.0.plan().grid().study().inputs()
+    }
+
     fn json(&self) -> Json {
         self.0.facts()
     }

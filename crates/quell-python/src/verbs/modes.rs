@@ -1,6 +1,7 @@
 //! `modes`: natural frequencies and shapes of a disc.
 
 use quell::dataset::Dataset;
+use quell::input::Inputs;
 use quell::picture;
 use quell::plot::Figure;
 use quell::run::disc::modes::{Modes, run as modes};
@@ -15,6 +16,10 @@ struct Found {
 }
 
 impl Answer for Found {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
     fn json(&self) -> Json {
         self.done.json(&self.study)
     }

@@ -1,6 +1,7 @@
 //! `orbit`: the periodic response and its Floquet multipliers.
 
 use quell::dataset::Dataset;
+use quell::input::Inputs;
 use quell::picture;
 use quell::plot::Figure;
 use quell::run::orbit::{Response, Wanted, run as orbit};
@@ -17,6 +18,10 @@ struct Found {
 }
 
 impl Answer for Found {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
     fn json(&self) -> Json {
         self.done.json(&self.study)
     }

@@ -1,6 +1,7 @@
 //! `resonances`: where waves of a disc meet, and which dither frequency keeps speeds clear.
 
 use quell::dataset::Dataset;
+use quell::input::Inputs;
 use quell::picture;
 use quell::plot::Figure;
 use quell::run::disc::resonances::{Order, Question, Resonances, run as resonances};
@@ -17,6 +18,10 @@ struct Found {
 }
 
 impl Answer for Found {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
     fn json(&self) -> Json {
         self.done.json(&self.study)
     }

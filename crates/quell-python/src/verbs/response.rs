@@ -1,6 +1,7 @@
 //! `response`: the steady response, what the dither does to it, and what it costs.
 
 use quell::dataset::Dataset;
+use quell::input::Inputs;
 use quell::picture;
 use quell::plot::Figure;
 use quell::run::response::{Steady, run as response};
@@ -15,6 +16,10 @@ struct Measured {
 }
 
 impl Answer for Measured {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
     fn json(&self) -> Json {
         self.done.json(&self.study)
     }

@@ -1,6 +1,7 @@
 //! `simulate`: one trajectory with its events.
 
 use quell::dataset::Dataset;
+use quell::input::Inputs;
 use quell::picture;
 use quell::plot::Figure;
 use quell::run::simulate::{Options, Simulation, run as simulate};
@@ -16,6 +17,10 @@ struct Trajectory {
 }
 
 impl Answer for Trajectory {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
     fn json(&self) -> Json {
         self.done.json(&self.study)
     }

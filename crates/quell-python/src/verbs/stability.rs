@@ -1,5 +1,6 @@
 //! `stability`: averaged stability of steady sliding; eigenvalues or Floquet exponents of a disc.
 
+use quell::input::Inputs;
 use quell::picture;
 use quell::plot::Figure;
 use quell::run::disc;
@@ -15,6 +16,10 @@ struct OfBelt {
 }
 
 impl Answer for OfBelt {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
     fn json(&self) -> Json {
         self.done.json(&self.study)
     }
@@ -30,6 +35,10 @@ struct OfDisc {
 }
 
 impl Answer for OfDisc {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
     fn json(&self) -> Json {
         self.done.json(&self.study)
     }

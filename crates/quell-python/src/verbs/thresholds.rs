@@ -1,6 +1,7 @@
 //! `thresholds`: exact values of a parameter at which the response changes, and curves of them in two.
 
 use quell::dataset::Dataset;
+use quell::input::Inputs;
 use quell::picture;
 use quell::plot::Figure;
 use quell::run::curves::{Curves, Question as Plane, run as curves};
@@ -17,6 +18,10 @@ struct OnALine {
 }
 
 impl Answer for OnALine {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
     fn json(&self) -> Json {
         self.done.json(&self.study)
     }
@@ -32,6 +37,10 @@ struct InAPlane {
 }
 
 impl Answer for InAPlane {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
     fn json(&self) -> Json {
         self.done.json(&self.study)
     }

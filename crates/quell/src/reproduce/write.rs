@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::claims;
 use super::product::Product;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::input::Inputs;
 use crate::output::Output;
 
 const OPTION: &str = "--out";
@@ -17,7 +18,7 @@ pub(super) fn prepare(directory: &Path) -> Result<(), Failure> {
         Failure::from(Complaint::new(Fault::Path, OPTION, Origin::Argument(OPTION), given, why))
     };
     fs::create_dir_all(directory).map_err(|error| refuse(format!("cannot be made: {error}")))?;
-    Output::prepare(&directory.join("claims.csv"), OPTION, &["csv"])
+    Output::prepare_plain(&directory.join("claims.csv"), OPTION, &["csv"], &Inputs::NONE)
         .map(drop)
         .map_err(|complaint| refuse(complaint.allowed))
 }
@@ -25,7 +26,7 @@ pub(super) fn prepare(directory: &Path) -> Result<(), Failure> {
 /// Writes one file, whole or not at all.
 pub(super) fn file(directory: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, Failure> {
     let extension = name.rsplit('.').next().unwrap_or_default();
-    let output = Output::prepare(&directory.join(name), OPTION, &[extension])?;
+    let output = Output::prepare_plain(&directory.join(name), OPTION, &[extension], &Inputs::NONE)?;
     output.write(bytes)
 }
 

@@ -5,9 +5,11 @@ use quell_belt::averaging::{
 };
 pub use quell_belt::orbit::curve::{CurvePoint, Ending, ThresholdCurve};
 use quell_belt::orbit::curve::{CurvesFound, Open, OpenLine, Plane, curves};
+use quell_belt::simulation::within;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
+use super::STEPS_OF_MANY_SEARCHES;
 use super::range::SlipMet;
 use super::thresholds::{Kind, path_in_words, quantity_of, told, value_in_words};
 use super::varied::{Named, ascending};
@@ -107,6 +109,10 @@ fn line_in_words(study: &Study, question: &Question, line: &OpenLine) -> String 
 /// # Errors
 /// A complaint about a parameter or its window; [`Failure::Failed`] where there is no response to begin with.
 pub fn run(study: &Study, question: &Question) -> Result<Curves, Failure> {
+    within(STEPS_OF_MANY_SEARCHES, || found(study, question))
+}
+
+fn found(study: &Study, question: &Question) -> Result<Curves, Failure> {
     let belt = study.belt();
     let question = understood(study, question)?;
     let plane = Plane {

@@ -20,7 +20,7 @@ pub mod stability;
 pub mod thresholds;
 pub mod varied;
 
-use quell_belt::simulation::{Stalled, Start};
+use quell_belt::simulation::{Stalled, Start, within};
 use quell_belt::start::NoSquealingStart;
 
 use quell_model::parameter::BELT_VELOCITY;
@@ -29,6 +29,13 @@ use quell_model::units::Quantity;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::study::vocabulary::in_system;
 use crate::study::{InitialState, Study};
+
+/// Most steps of all runs that one search takes: for an orbit, for where one start ends, or for one value of a parameter.
+/// Ordinary ones take a hundredth of it.
+pub(crate) const STEPS_OF_A_SEARCH: u64 = 100_000_000;
+
+/// Most steps of all runs that a verb of many searches takes.
+const STEPS_OF_MANY_SEARCHES: u64 = 10 * STEPS_OF_A_SEARCH;
 
 /// The state a study starts from, in numbers.
 ///
@@ -47,7 +54,8 @@ fn resolved(
     initial: InitialState,
     refused: impl FnOnce(NoSquealingStart) -> Complaint,
 ) -> Result<Start, Failure> {
-    initial.resolve(study.belt()).map_err(|why| match why {
+    let found = within(STEPS_OF_A_SEARCH, || initial.resolve(study.belt()));
+    found.map_err(|why| match why {
         NoSquealingStart::Stalled(stalled) => failed(stalled),
         NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest => refused(why).into(),
     })

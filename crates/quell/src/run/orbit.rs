@@ -6,7 +6,7 @@ use quell_belt::orbit::cycle::{cycle_reached, cycles, sliding_verdict};
 use quell_belt::orbit::{NoOrbit, from_sliding, near};
 pub use quell_belt::orbit::{Orbit, Verdict};
 use quell_belt::simulation::{
-    DEFAULT_TOLERANCE, EventKind, Extremes, Observer, Sample, Sampler, Start, simulate,
+    DEFAULT_TOLERANCE, EventKind, Extremes, Observer, Sample, Sampler, Start, simulate, within,
 };
 use quell_model::Belt;
 use quell_model::units::Quantity;
@@ -14,7 +14,7 @@ use serde_json::{Value as Json, json};
 
 use super::range::SlipMet;
 use super::thresholds::Protocol;
-use super::{failed, in_words, moves, resolved};
+use super::{STEPS_OF_A_SEARCH, failed, in_words, moves, resolved};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::Dataset;
 use crate::fields::Fields;
@@ -94,6 +94,10 @@ fn slip_of<'o>(belt: &Belt, orbits: impl IntoIterator<Item = &'o Orbit>) -> Slip
 /// # Errors
 /// A complaint where there is no period; [`Failure::Failed`] where shooting does not converge, with the place.
 pub fn run(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
+    within(STEPS_OF_A_SEARCH, || found(study, wanted))
+}
+
+fn found(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
     let belt = study.belt();
     if belt.dithers().is_empty() {
         return undithered(study, wanted);

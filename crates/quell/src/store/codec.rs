@@ -51,6 +51,13 @@ pub(super) fn decode<T: ElementOwned + Copy>(
     slots.iter().map(|&slot| whole.get(slot).copied().ok_or_else(missing)).collect()
 }
 
+/// The longest that an encoded chunk can be: numbers of eight bytes, and a checksum.
+pub(super) fn longest(array: &Described) -> u64 {
+    let volume: u64 =
+        shape(array).map_or(0, |shape| shape.iter().map(|length| length.get()).product());
+    volume.saturating_mul(8).saturating_add(4)
+}
+
 /// Shape of a whole chunk.
 fn shape(array: &Described) -> Result<Vec<NonZeroU64>, CodecError> {
     array

@@ -3,16 +3,43 @@
 //! Compared are the values of the study after its changes (not the text: comments and order do
 //! not matter), the axes, the quantities, the chunks, and the version of Quell, for another one
 //! may give other bits. Numbers are compared as the digits that read back as the same number.
+//!
+//! The words of the first study are kept beside ([`Provenance`]), not compared: the metadata of the store are made of
+//! them, so that every process knows the bytes that they must have.
 
 use serde_json::{Map, Value as Json, json};
 
 use crate::sweep::Plan;
 
 /// Version of the layout of a store.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// Most differences that are named.
 const NAMED: usize = 6;
+
+/// The words of the study that a store was begun with. They decide no number: a study with other words may go on with
+/// the store, whose metadata stay those of the first.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Provenance {
+    /// Title of the study, if it has one.
+    pub(super) title: Option<String>,
+    /// Text of the study.
+    pub(super) study: String,
+    /// Its changes, one a line.
+    pub(super) changes: String,
+}
+
+impl Provenance {
+    /// As [`identity`] wrote it; what is not there is empty.
+    pub(super) fn of(identity: &Json) -> Self {
+        let text = |key: &str| identity["provenance"][key].as_str().map(str::to_owned);
+        Self {
+            title: text("title"),
+            study: text("study").unwrap_or_default(),
+            changes: text("changes").unwrap_or_default(),
+        }
+    }
+}
 
 /// What a store of this plan holds.
 pub(super) fn identity(plan: &Plan) -> Json {
@@ -39,6 +66,11 @@ pub(super) fn identity(plan: &Plan) -> Json {
         "axes": axes,
         "quantities": names,
         "chunk": plan.chunks().chunk_shape(),
+        "provenance": {
+            "title": grid.study().title(),
+            "study": grid.study().text(),
+            "changes": grid.study().changes().join("\n"),
+        },
     })
 }
 

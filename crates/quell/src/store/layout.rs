@@ -13,6 +13,7 @@ use zarrs::array::codec::{BytesCodec, Crc32cCodec};
 use zarrs::array::{Array, ArrayBuilder, ArrayCreateError, DataType, FillValue, data_type};
 use zarrs::metadata::v3::GroupMetadataV3;
 
+use super::identity::Provenance;
 use crate::cite::{Task, sources_of};
 use crate::dataset::readable;
 use crate::sweep::{Computation, Content, Field, GridAxis, MISSING, Plan, Status};
@@ -27,8 +28,8 @@ pub(super) struct Layout {
     pub(super) coordinates: Vec<Described>,
     /// One a field of the sheet, in its order.
     pub(super) fields: Vec<Described>,
-    /// The group, as JSON.
-    pub(super) group: Json,
+    /// What the quantities rest on, one source a line.
+    references: String,
 }
 
 impl Layout {
@@ -37,11 +38,28 @@ impl Layout {
         let coordinates: Vec<Described> = axes.iter().map(coordinate).collect::<Result<_, _>>()?;
         let fields = plan.sheet().fields().iter().map(|described| field(plan, described));
         let fields: Vec<Described> = fields.collect::<Result<_, _>>()?;
-        let arrays = coordinates.iter().chain(&fields);
+        Ok(Self { coordinates, fields, references: references(plan) })
+    }
+
+    /// Metadata of the group as JSON: what the store was begun with, and the metadata of every array once more.
+    pub(super) fn group(&self, begun: &Provenance) -> Json {
+        let mut attributes = Map::new();
+        if let Some(title) = &begun.title {
+            attributes.insert("title".into(), title.as_str().into());
+        }
+        let source = concat!("quell ", env!("CARGO_PKG_VERSION"), " map");
+        attributes.insert("source".into(), source.into());
+        attributes.insert("quell_version".into(), env!("CARGO_PKG_VERSION").into());
+        attributes.insert("study".into(), begun.study.as_str().into());
+        attributes.insert("changes".into(), begun.changes.as_str().into());
+        attributes.insert("references".into(), self.references.as_str().into());
+        let group = GroupMetadataV3::new().with_attributes(attributes);
+        let mut group = serde_json::to_value(group).unwrap_or_default();
         let described: Map<String, Json> =
-            arrays.map(|array| (name(array).to_owned(), metadata(array))).collect();
-        let group = group(plan, &described);
-        Ok(Self { coordinates, fields, group })
+            self.arrays().map(|array| (name(array).to_owned(), metadata(array))).collect();
+        group["consolidated_metadata"] =
+            json!({ "kind": "inline", "must_understand": false, "metadata": described });
+        group
     }
 
     /// Every array.
@@ -135,8 +153,8 @@ fn reasons(meanings: &[(u8, &str)]) -> String {
     lines.join("\n")
 }
 
-fn group(plan: &Plan, described: &Map<String, Json>) -> Json {
-    let study = plan.grid().study();
+/// The sources of what is computed, one a line.
+fn references(plan: &Plan) -> String {
     let used = |task: Task| {
         plan.computations().iter().any(|computation| match computation {
             Computation::Response
@@ -149,24 +167,11 @@ fn group(plan: &Plan, described: &Map<String, Json>) -> Json {
             | Computation::DiscGrowthUndithered => task == Task::Stability,
         })
     };
-    let citations = sources_of(study).citations;
+    let citations = sources_of(plan.grid().study()).citations;
     let cited: Vec<String> = citations
         .iter()
         .filter(|citation| used(citation.task))
         .map(|citation| format!("{}: {}", citation.source.reference, citation.used))
         .collect();
-    let mut attributes = Map::new();
-    if let Some(title) = study.title() {
-        attributes.insert("title".into(), title.into());
-    }
-    attributes.insert("source".into(), concat!("quell ", env!("CARGO_PKG_VERSION"), " map").into());
-    attributes.insert("quell_version".into(), env!("CARGO_PKG_VERSION").into());
-    attributes.insert("study".into(), study.text().into());
-    attributes.insert("changes".into(), study.changes().join("\n").into());
-    attributes.insert("references".into(), cited.join("\n").into());
-    let group = GroupMetadataV3::new().with_attributes(attributes);
-    let mut group = serde_json::to_value(group).unwrap_or_default();
-    group["consolidated_metadata"] =
-        json!({ "kind": "inline", "must_understand": false, "metadata": described });
-    group
+    cited.join("\n")
 }

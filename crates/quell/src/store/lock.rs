@@ -5,9 +5,10 @@
 //! other machines do not see, loses no chunk: what is written is whole and the same whoever
 //! writes it.
 
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{File, TryLockError};
 use std::io;
-use std::path::Path;
+
+use super::folder::Folder;
 
 /// With whom a store is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,10 +33,10 @@ impl From<io::Error> for Refused {
     }
 }
 
-/// Takes the lock; and whether nobody else can write now.
-pub(super) fn lock(file: &Path, writers: Writers) -> Result<(File, bool), Refused> {
+/// Takes the lock in a folder; and whether nobody else can write now.
+pub(super) fn lock(folder: &Folder, writers: Writers) -> Result<(File, bool), Refused> {
     // A network file system asks for reading where the lock is shared, for writing where not.
-    let lock = OpenOptions::new().create(true).truncate(false).read(true).write(true).open(file)?;
+    let lock = folder.lockable("lock")?;
     let taken = match writers {
         Writers::One => lock.try_lock(),
         Writers::Several => lock.try_lock_shared(),

@@ -14,7 +14,12 @@
 //! What holds at every moment, whoever is killed: a file is whole or not there; a record is
 //! there only after its chunk; what a record says is checked before it is believed. So a run
 //! resumes with the chunks that are not proven, and ends with the same bytes as one that was
-//! never disturbed.
+//! never disturbed. Metadata and coordinates are compared with the bytes that they must have,
+//! which follow from the study and from `map.json`: a store in which they differ is refused.
+//!
+//! A store may come from a stranger. Nothing outside its folder is read, written or removed: no
+//! symbolic link inside is followed ([`folder`]), and a store that holds one, or a pipe in place of a
+//! file, is refused before anything in it is written or removed; so is the store of another map.
 //!
 //! One process writes alone ([`Store::open`]), or several on any number of machines share the
 //! store ([`Store::open_shared`]). Sharing needs no word between them: which map the store is of
@@ -24,6 +29,8 @@
 //! that writes alone from those that share; nothing depends on them.
 
 mod codec;
+mod examine;
+mod folder;
 mod identity;
 mod layout;
 mod lock;
@@ -31,17 +38,17 @@ mod record;
 mod whole;
 
 use std::collections::HashSet;
-use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::thread;
-use std::time::Duration;
 
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::sweep::{Content, Data, Field, MISSING, Plan};
+use examine::{compared, examined, known};
+use folder::Folder;
+use identity::Provenance;
 use layout::{Described, Layout};
 use lock::{Refused, Writers, lock};
 use record::{Record, Seal};
@@ -53,12 +60,18 @@ const OWN: &str = ".quell";
 /// Folder of completion records inside.
 const DONE: &str = "done";
 
-/// Metadata of the group.
-const GROUP: &str = "zarr.json";
+/// Folder of unfinished files inside.
+const UNFINISHED: &str = "unfinished";
 
-/// Times that an identity which is not whole is looked at, and the time between.
-const PATIENCE: u32 = 20;
-const MOMENT: Duration = Duration::from_millis(50);
+/// What the store was begun with, inside.
+const IDENTITY: &str = "map.json";
+
+/// Metadata of the group, and of an array in its folder.
+const METADATA: &str = "zarr.json";
+
+/// The longest record or identity that is read: the text of a study has at most 16 MiB, more than ten times as much as
+/// anything else in them.
+const LONGEST: u64 = 64 << 20;
 
 /// The option that names a store.
 const OPTION: &str = "--save";
@@ -67,6 +80,9 @@ const OPTION: &str = "--save";
 #[derive(Debug)]
 pub struct Store {
     path: PathBuf,
+    /// The folder itself, held open where the platform can.
+    root: Folder,
+    own: Folder,
     layout: Layout,
     unfinished: Unfinished,
     /// Held while the store is open, exclusively or with others.
@@ -95,7 +111,11 @@ impl Store {
     /// disk is full; a store that was begun just now is taken away then.
     pub fn open(path: &Path, plan: &Plan, resume: bool) -> Result<Self, Failure> {
         let layout = Layout::new(plan).map_err(|error| failed(path, error.to_string()))?;
-        let made = prepare(path, resume)?;
+        let made = prepare(path, plan, resume)?;
+        let identity = identity::identity(plan);
+        if !made {
+            examined(path, &layout, &identity)?;
+        }
         let (store, alone) = match Self::locked(path, layout, Writers::One) {
             Ok(locked) => locked,
             Err(refused) => {
@@ -105,7 +125,7 @@ impl Store {
                 return Err(refused.told(path));
             }
         };
-        let begun = store.begin(plan, resume);
+        let begun = store.begin(plan, &identity, resume).and_then(|()| store.tidy(alone));
         if begun.is_err() && made && alone {
             discard(path);
         }
@@ -119,83 +139,84 @@ impl Store {
     /// As [`Store::open`] with `resume`; [`Failure::Failed`] while a process writes it alone.
     pub fn open_shared(path: &Path, plan: &Plan) -> Result<Self, Failure> {
         let layout = Layout::new(plan).map_err(|error| failed(path, error.to_string()))?;
-        prepare(path, true)?;
+        let made = prepare(path, plan, true)?;
+        let identity = identity::identity(plan);
+        if !made {
+            examined(path, &layout, &identity)?;
+        }
         let locked = Self::locked(path, layout, Writers::Several);
-        let (store, _) = locked.map_err(|refused| refused.told(path))?;
-        store.begin(plan, true)?;
+        let (store, alone) = locked.map_err(|refused| refused.told(path))?;
+        store.begin(plan, &identity, true)?;
+        store.tidy(alone)?;
         Ok(store)
     }
 
     /// Takes the lock of the store, which is the first thing that is in it; and whether nobody
     /// else writes.
     fn locked(path: &Path, layout: Layout, writers: Writers) -> Result<(Self, bool), Refused> {
-        let own = path.join(OWN);
-        fs::create_dir_all(own.join(DONE))?;
-        let (lock, alone) = lock(&own.join("lock"), writers)?;
-        let unfinished = Unfinished::new(own.join("unfinished"))?;
-        if alone {
-            unfinished.clear()?;
-        } else {
-            unfinished.clear_abandoned()?;
-        }
-        Ok((Self { path: path.to_owned(), layout, unfinished, _lock: lock }, alone))
+        let root = Folder::open(path)?;
+        let own = root.made(OWN)?;
+        own.made(DONE)?;
+        let (lock, alone) = lock(&own, writers)?;
+        let unfinished = Unfinished::new(own.made(UNFINISHED)?);
+        Ok((Self { path: path.to_owned(), root, own, layout, unfinished, _lock: lock }, alone))
+    }
+
+    /// Removes what killed processes left.
+    fn tidy(&self, alone: bool) -> Result<(), Failure> {
+        let tidied =
+            if alone { self.unfinished.clear() } else { self.unfinished.clear_abandoned() };
+        tidied.map_err(|error| unwritable(&self.path, &error))
     }
 
     /// Compares what is there with the plan, and writes what is missing of all but the chunks.
-    fn begin(&self, plan: &Plan, resume: bool) -> Result<(), Failure> {
-        let map = self.path.join(OWN).join("map.json");
-        let identity = identity::identity(plan);
+    fn begin(&self, plan: &Plan, identity: &Json, resume: bool) -> Result<(), Failure> {
         let text = format!("{identity:#}\n");
-        let first = match fs::read_to_string(&map) {
-            Ok(_) => false,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => self
-                .unfinished
-                .write_first(&map, text.as_bytes())
-                .map_err(|error| failed(&self.path, format!("cannot be written: {error}")))?,
-            Err(error) => return Err(unwritable(&self.path, &error)),
+        let there = match known(&self.path, &self.own)? {
+            Some(there) => Some(there),
+            None => {
+                let first = self.unfinished.write_first(&self.own, IDENTITY, text.as_bytes());
+                let first = first
+                    .map_err(|error| failed(&self.path, format!("cannot be written: {error}")))?;
+                if first { None } else { known(&self.path, &self.own)? }
+            }
         };
-        if !first {
-            if !resume {
-                return Err(exists(&self.path));
+        let begun = match &there {
+            None => Provenance::of(identity),
+            Some(_) if !resume => return Err(exists(&self.path)),
+            Some(there) => {
+                compared(&self.path, there, identity)?;
+                Provenance::of(there)
             }
-            let there = self.identity(&map)?;
-            let differences = identity::differences(&there, &identity);
-            if !differences.is_empty() {
-                return Err(another(&self.path, &differences));
-            }
-        }
-        if first || !self.path.join(GROUP).exists() {
-            self.frame(plan)?;
-        }
-        Ok(())
+        };
+        self.frame(plan, &begun)
     }
 
-    /// What the store was begun with. Where it is not whole it is waited for a moment: on a file
-    /// system without second names, the process that was first may still be writing it.
-    fn identity(&self, map: &Path) -> Result<Json, Failure> {
-        for _ in 0..PATIENCE {
-            let text = fs::read_to_string(map).map_err(|error| unwritable(&self.path, &error))?;
-            if let Ok(there) = serde_json::from_str(&text) {
-                return Ok(there);
-            }
-            thread::sleep(MOMENT);
-        }
-        Ok(Json::Null)
-    }
-
-    /// Writes everything but chunks.
-    fn frame(&self, plan: &Plan) -> Result<(), Failure> {
+    /// Writes what is missing of everything but chunks, and proves the rest: every byte of it is known.
+    fn frame(&self, plan: &Plan, begun: &Provenance) -> Result<(), Failure> {
+        let mut files = Vec::new();
         for array in self.layout.arrays() {
-            let path = self.path.join(layout::name(array)).join("zarr.json");
-            self.put(&path, format!("{:#}\n", layout::metadata(array)).as_bytes())?;
+            let key = format!("{}/{METADATA}", layout::name(array));
+            files.push((key, format!("{:#}\n", layout::metadata(array)).into_bytes()));
         }
         for (array, axis) in self.layout.coordinates.iter().zip(plan.grid().axes()) {
             let slots: Vec<usize> = (0..axis.values.len()).collect();
             let bytes = codec::encode(array, &slots, axis.values.iter().copied(), f64::NAN)
                 .map_err(|error| failed(&self.path, error.to_string()))?;
-            self.put(&self.path.join(key(array, &[0])), &bytes)?;
+            files.push((key(array, &[0]), bytes));
         }
-        self.put(&self.path.join(GROUP), format!("{:#}\n", self.layout.group).as_bytes())
+        // The group comes last.
+        let group = format!("{:#}\n", self.layout.group(begun)).into_bytes();
+        files.push((METADATA.to_owned(), group));
+        let mut missing = Vec::new();
+        for (key, bytes) in &files {
+            match self.root.read_key(key, bytes.len() as u64) {
+                Ok(there) if there == *bytes => {}
+                Err(error) if error.kind() == io::ErrorKind::NotFound => missing.push((key, bytes)),
+                Ok(_) | Err(_) => return Err(changed(&self.path, key)),
+            }
+        }
+        missing.into_iter().try_for_each(|(key, bytes)| self.put(key, bytes))
     }
 
     /// Writes a finished chunk: its files, then its record. Again is as good as once.
@@ -216,18 +237,21 @@ impl Store {
             let bytes = bytes.map_err(|error| failed(&self.path, error.to_string()))?;
             let key = key(array, &place);
             record.add(&key, Seal::of(&bytes));
-            self.put(&self.path.join(key), &bytes)?;
+            self.put(&key, &bytes)?;
         }
-        self.put(&self.record_path(&place), record.text().as_bytes())
+        self.put(&record_key(&place), record.text().as_bytes())
     }
 
     /// Reads a chunk back, if it is proven whole.
     pub fn read(&self, plan: &Plan, chunk: usize) -> Found {
         let place = plan.chunks().place(chunk);
-        let Ok(text) = fs::read_to_string(self.record_path(&place)) else {
-            return Found::Nothing;
+        let bytes = match self.root.read_key(&record_key(&place), LONGEST) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Found::Nothing,
+            Err(_) => return Found::Damaged,
         };
-        match Record::parse(&text).and_then(|record| self.proven(plan, chunk, &record)) {
+        let record = std::str::from_utf8(&bytes).ok().and_then(Record::parse);
+        match record.and_then(|record| self.proven(plan, chunk, &record)) {
             Some(values) => Found::Whole(values),
             None => Found::Damaged,
         }
@@ -238,7 +262,7 @@ impl Store {
         let place = plan.chunks().place(chunk);
         let read = |(array, field): (&Described, &Field)| {
             let key = key(array, &place);
-            let bytes = fs::read(self.path.join(&key)).ok()?;
+            let bytes = self.root.read_key(&key, codec::longest(array)).ok()?;
             if record.seal(&key) != Some(Seal::of(&bytes)) {
                 return None;
             }
@@ -256,21 +280,15 @@ impl Store {
     /// # Errors
     /// [`Failure::Wrong`] where the records cannot be listed.
     pub fn unrecorded(&self, plan: &Plan) -> Result<Vec<usize>, Failure> {
-        let entries = fs::read_dir(self.path.join(OWN).join(DONE));
-        let names: Result<HashSet<_>, _> =
-            entries.and_then(|entries| entries.map(|entry| Ok(entry?.file_name())).collect());
-        let names = names.map_err(|error| unwritable(&self.path, &error))?;
-        let recorded =
-            |chunk| names.contains(OsStr::new(&record_name(&plan.chunks().place(chunk))));
+        let entries = self.own.folder(DONE).and_then(|done| done.entries());
+        let entries = entries.map_err(|error| unwritable(&self.path, &error))?;
+        let names: HashSet<String> = entries.into_iter().map(|(name, _)| name).collect();
+        let recorded = |chunk| names.contains(&record_name(&plan.chunks().place(chunk)));
         Ok((0..plan.chunks().len()).filter(|&chunk| !recorded(chunk)).collect())
     }
 
-    fn record_path(&self, place: &[usize]) -> PathBuf {
-        self.path.join(OWN).join(DONE).join(record_name(place))
-    }
-
-    fn put(&self, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-        let written = self.unfinished.write(path, bytes);
+    fn put(&self, key: &str, bytes: &[u8]) -> Result<(), Failure> {
+        let written = self.unfinished.write(&self.root, key, bytes);
         written.map_err(|error| failed(&self.path, format!("cannot be written: {error}")))
     }
 
@@ -286,6 +304,11 @@ fn record_name(place: &[usize]) -> String {
     format!("{}.json", place.join("."))
 }
 
+/// Key of the completion record of a chunk.
+fn record_key(place: &[usize]) -> String {
+    format!("{OWN}/{DONE}/{}", record_name(place))
+}
+
 /// Key of a chunk of an array.
 fn key(array: &Described, index: &[usize]) -> String {
     let index: Vec<u64> = index.iter().map(|&place| place as u64).collect();
@@ -298,7 +321,10 @@ fn slots(plan: &Plan, chunk: usize) -> Vec<usize> {
 }
 
 /// Makes the folder, or sees what is there; whether it was made.
-fn prepare(path: &Path, resume: bool) -> Result<bool, Failure> {
+fn prepare(path: &Path, plan: &Plan, resume: bool) -> Result<bool, Failure> {
+    if let Some(input) = plan.grid().study().inputs().inside(path) {
+        return Err(complaint(path, input.refusal()));
+    }
     match fs::create_dir(path) {
         Ok(()) => return Ok(true),
         Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
@@ -350,6 +376,16 @@ fn complaint(path: &Path, allowed: impl Into<String>) -> Failure {
 
 fn exists(path: &Path) -> Failure {
     complaint(path, "exists already: --resume goes on with it; or choose another name")
+}
+
+fn changed(path: &Path, key: &str) -> Failure {
+    complaint(
+        path,
+        format!(
+            "{key} is not what the store was begun with: it was cut short or changed, and a reader would take wrong \
+             numbers from the store; remove that file, which is written again then, or choose another name"
+        ),
+    )
 }
 
 fn another(path: &Path, differences: &[String]) -> Failure {

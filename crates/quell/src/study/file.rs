@@ -2,14 +2,32 @@
 
 use std::fs::File;
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{self, Path, PathBuf};
 
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Fault, Origin};
+use crate::input::Inputs;
 
 /// The largest study file that is read; anything larger is no study, and some files never end.
 const LARGEST: u64 = 16 << 20;
+
+/// Where a study file is, wherever the program goes from here; `-` is standard input.
+pub(super) fn place(path: &Path) -> PathBuf {
+    let here = if path == Path::new("-") { None } else { path::absolute(path).ok() };
+    here.unwrap_or_else(|| path.to_owned())
+}
+
+/// The files that a study was read from: its own, at its [`place`], and one that it names, which was looked for in
+/// `folder`, beside its own.
+pub(super) fn inputs(file: Option<&Path>, folder: &Path, data: Option<&Path>) -> Inputs {
+    let home = file.filter(|file| *file != Path::new("-")).and_then(Path::parent);
+    let data = data.map(|data| match home {
+        Some(home) => home.join(data.strip_prefix(folder).unwrap_or(data)),
+        None => data.to_owned(),
+    });
+    Inputs::of(file.into_iter().chain(data.as_deref()))
+}
 
 /// Reads a study file; `-` is standard input.
 ///

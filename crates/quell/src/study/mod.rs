@@ -13,6 +13,7 @@ use quell_model::{Belt, Dither, Friction, LawKind};
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault};
+use crate::input::Inputs;
 use belt::BeltTable;
 use mirror::{Table, Value};
 use reader::Reader;
@@ -20,6 +21,7 @@ use vocabulary::{NOT_BUILT, SCHEMA_VERSION, Section};
 
 mod belt;
 mod change;
+mod data_file;
 pub mod disc;
 mod dither;
 mod file;
@@ -55,6 +57,8 @@ pub struct Study {
     text: String,
     /// Where files that the study names are looked for.
     folder: PathBuf,
+    /// The file that it was read from; `-` is standard input.
+    file: Option<PathBuf>,
     /// The samples of a measured law.
     measured: Option<Arc<Measured>>,
     changes: Vec<String>,
@@ -68,7 +72,19 @@ impl Study {
     pub fn read(path: &Path, changes: &[Change]) -> Result<Self, Failure> {
         let text = file::text(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        Self::parse_in(&text, changes, folder).map_err(Failure::Wrong)
+        let study = Self::parse_in(&text, changes, folder).map_err(Failure::Wrong)?;
+        Ok(study.read_from(file::place(path)))
+    }
+
+    /// The same study, which was read from this file.
+    fn read_from(self, file: PathBuf) -> Self {
+        Self { file: Some(file), ..self }
+    }
+
+    /// The files that it was read from: none of them is an output.
+    pub fn inputs(&self) -> Inputs {
+        let data = self.measured.as_ref().and_then(|measured| measured.file.as_deref());
+        file::inputs(self.file.as_deref(), &self.folder, data)
     }
 
     /// Checks the text of a study after changing it; files that it names are looked for where the program runs.
@@ -144,7 +160,8 @@ impl Study {
 
     /// Checks the changed mirror of this study; files are not read again.
     fn check_again(&self, mirror: Table) -> Result<Self, Vec<Complaint>> {
-        Self::check(mirror, &self.text, &self.folder, self.measured.as_deref())
+        let study = Self::check(mirror, &self.text, &self.folder, self.measured.as_deref())?;
+        Ok(Self { file: self.file.clone(), ..study })
     }
 
     fn check(
@@ -191,6 +208,7 @@ impl Study {
             mirror,
             text: text.to_owned(),
             folder: folder.to_owned(),
+            file: None,
             measured: measured.map(Arc::new),
             changes: Vec::new(),
         };

@@ -1,6 +1,6 @@
 //! A study of whatever it is about.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use quell_model::units::Scales;
 use serde_json::Value as Json;
@@ -9,6 +9,7 @@ use super::disc::DiscStudy;
 use super::mirror::Table;
 use super::{Change, Study, Sweep, file};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::input::Inputs;
 
 /// A checked study of a belt or of a disc.
 #[derive(Clone, Debug)]
@@ -27,7 +28,25 @@ impl Subject {
     pub fn read(path: &Path, changes: &[Change]) -> Result<Self, Failure> {
         let text = file::text(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        Self::parse(&text, changes, folder).map_err(Failure::Wrong)
+        let subject = Self::parse(&text, changes, folder).map_err(Failure::Wrong)?;
+        Ok(subject.read_from(file::place(path)))
+    }
+
+    /// The same study, which was read from this file.
+    #[must_use]
+    pub fn read_from(self, file: PathBuf) -> Self {
+        match self {
+            Self::Belt(study) => Self::Belt(Box::new(study.read_from(file))),
+            Self::Disc(study) => Self::Disc(study.read_from(file)),
+        }
+    }
+
+    /// The files that it was read from: none of them is an output.
+    pub fn inputs(&self) -> Inputs {
+        match self {
+            Self::Belt(study) => study.inputs(),
+            Self::Disc(study) => study.inputs(),
+        }
     }
 
     /// Checks the text of a study after changing it; a file that it names is looked for in `folder`.

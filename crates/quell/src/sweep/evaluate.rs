@@ -9,13 +9,13 @@ use quell_belt::averaging::{
 use quell_belt::response::{
     Case, Compared, Effect, Ending, Undefined, Wanted, compare_many, effect,
 };
-use quell_belt::simulation::Start;
+use quell_belt::simulation::{Start, within};
 use quell_disc::Growth;
 use quell_model::{Belt, Dither};
 
 use super::status::Status;
-use crate::run::range;
 use crate::run::stability::SHARPER;
+use crate::run::{STEPS_OF_A_SEARCH, range};
 use crate::study::Study;
 
 /// A computation that several quantities share.
@@ -192,8 +192,10 @@ fn responses(
     wanted: Wanted,
     with_effect: bool,
 ) -> Vec<Result<Responded, Status>> {
-    let starts: Vec<Result<Start, Status>> =
-        points.iter().map(|study| Ok(study.initial().resolve(study.belt())?)).collect();
+    let starts: Vec<Result<Start, Status>> = points
+        .iter()
+        .map(|study| Ok(within(STEPS_OF_A_SEARCH, || study.initial().resolve(study.belt()))?))
+        .collect();
     let mut outcomes: Vec<Result<Responded, Status>> =
         starts.iter().map(|start| Err(start.err().unwrap_or(Status::Stalled))).collect();
     let mut rest: Vec<usize> = (0..points.len()).filter(|&at| starts[at].is_ok()).collect();

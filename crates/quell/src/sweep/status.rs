@@ -127,7 +127,9 @@ impl Status {
         match self {
             Self::Known => "the value is there",
             Self::InvalidStudy => "the values of the axes make no valid study together",
-            Self::Stalled => "the engine stopped: its steps became too small to go on",
+            Self::Stalled => {
+                "the engine stopped: its steps became too small, or too many, to go on"
+            }
             Self::NoSquealingStart => {
                 "the start is to be squealing, and the undithered belt has no limit cycle here"
             }

@@ -6,6 +6,7 @@ use quell_numerics::lane::{Lane, MOST_LANES};
 
 use super::super::Run;
 use super::super::engine::Engine;
+use super::super::pace::EVERY;
 use super::super::slip_step::{Next, SlipDue};
 use super::board::Board;
 use super::{Outcome, Shapes};
@@ -104,6 +105,9 @@ impl<'a, V: Lane, L: SlidingLaw> Bench<'a, V, L> {
     /// Lets the engines of the lanes that are not clear go on to their next slip step.
     #[inline(always)]
     pub(super) fn look_after(&mut self, over: &mut impl FnMut(usize, Outcome)) {
+        if self.turn.is_multiple_of(EVERY) {
+            self.look_at_clocks(over);
+        }
         if self.all_clear {
             return;
         }
@@ -115,6 +119,24 @@ impl<'a, V: Lane, L: SlidingLaw> Bench<'a, V, L> {
             let Some(seat) = place else { continue };
             if let Some(outcome) = self.board.look_after(self.set, lane, seat, self.turn) {
                 over(seat.number, outcome);
+                *place = None;
+                self.seated -= 1;
+                self.waiting += 1;
+            }
+        }
+    }
+
+    /// Ends the runs of clear lanes that do not get on: their engines see no step.
+    #[cold]
+    fn look_at_clocks(&mut self, over: &mut impl FnMut(usize, Outcome)) {
+        for (lane, place) in self.seats.iter_mut().enumerate().take(V::LANES) {
+            let Some(seat) = place else { continue };
+            if !self.board.is_clear(lane) {
+                continue;
+            }
+            let looked = seat.engine.look(self.turn - seat.known, self.board.time(lane));
+            if let Err(stalled) = looked {
+                over(seat.number, Err(stalled));
                 *place = None;
                 self.seated -= 1;
                 self.waiting += 1;

@@ -216,6 +216,11 @@ impl<V: Lane> Board<V> {
         self.clear.0[lane] > 0.0
     }
 
+    /// The moment a lane has come to.
+    pub(super) fn time(&self, lane: usize) -> f64 {
+        self.time.0[lane]
+    }
+
     /// Whether a step may have a root.
     #[inline(always)]
     pub(super) fn is_unproven(&self, lane: usize) -> bool {

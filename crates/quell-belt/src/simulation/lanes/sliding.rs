@@ -9,8 +9,9 @@ use quell_model::friction::{LawVisitor, SlidingLaw};
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 
 use super::super::clock::Clock;
-use super::super::engine::{forcings, longest_step};
+use super::super::engine::{forcings, longest_step, step_tolerance};
 use super::super::observer::{Observer, Segment};
+use super::super::pace::Pace;
 use super::super::slip::{DitherSeries, Load, SlipEquation, SlipSeries, SlipStart, StepLimits};
 use super::super::{FinalState, ORDER, Stalled, Start};
 use super::rows::Row;
@@ -73,6 +74,9 @@ impl<L: SlidingLaw> Work for SlidingBy<'_, '_, L> {
         let mut slip = (belt.belt_velocity() - start.velocity) / unit;
         let mut series = SlipSeries { displacement: [0.0; ORDER + 1], slip: [0.0; ORDER + 1] };
         let mut table = [Row::ZERO; ORDER + 1];
+        let fastest = tangential.highest_rate().max(normal.highest_rate());
+        let mut pace = Pace::new(start.time, until, fastest);
+        let tolerance = step_tolerance(tolerance, (&tangential, &normal), displacement, slip);
         let mut steps = 0;
         while clock.until(until) > 0.0 {
             let stop = tangential.next_break().min(normal.next_break()).min(until);
@@ -88,11 +92,7 @@ impl<L: SlidingLaw> Work for SlidingBy<'_, '_, L> {
                 Load::Series(&load_series)
             };
             let from = SlipStart { sign, displacement, slip, first_slope: 1.0 };
-            let limits = StepLimits {
-                tolerance: tolerance * belt.normal_load() / unit,
-                longest,
-                room: clock.until(stop),
-            };
+            let limits = StepLimits { tolerance, longest, room: clock.until(stop) };
             let length =
                 equation.series::<L>(&mut constants, from, &dither, load, limits, &mut series);
             (displacement, slip) = series.end(length);
@@ -119,6 +119,9 @@ impl<L: SlidingLaw> Work for SlidingBy<'_, '_, L> {
             }
             if clock == before {
                 return Err(stalled("no step advanced time"));
+            }
+            if pace.is_due(steps) {
+                pace.look(steps, clock.time()).map_err(stalled)?;
             }
         }
         Ok(FinalState {

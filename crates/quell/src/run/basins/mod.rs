@@ -18,13 +18,13 @@ use quell_belt::attractor::{
     Basins as Gathered, Label, Patience, Scene, Settled, gather, settle_many,
 };
 use quell_belt::orbit::Verdict;
-use quell_belt::simulation::Stalled;
+use quell_belt::simulation::{Stalled, within};
 use rayon::prelude::*;
 
 use super::attractor::{scene, unknown};
 use super::range::{self, SlipMet};
 use super::varied::{Range, Varied};
-use super::{failed, moves, stopped};
+use super::{STEPS_OF_A_SEARCH, STEPS_OF_MANY_SEARCHES, failed, moves, stopped};
 use crate::complaint::{Complaint, Failure};
 use crate::study::Study;
 use crate::sweep::Running;
@@ -153,8 +153,10 @@ fn portraits(
     starts: &Starts,
     running: Running<'_>,
 ) -> Result<Vec<Portrait>, Failure> {
-    let scenes: Vec<Scene<'_>> =
-        studies.par_iter().map(|(_, study)| scene(study.belt())).collect::<Result<_, Failure>>()?;
+    let scenes: Vec<Scene<'_>> = studies
+        .par_iter()
+        .map(|(_, study)| within(STEPS_OF_A_SEARCH, || scene(study.belt())))
+        .collect::<Result<_, Failure>>()?;
     let chunks: Vec<_> = starts.states().chunks(CHUNK).collect();
     let tasks: Vec<(usize, usize)> = (0..scenes.len())
         .flat_map(|value| (0..chunks.len()).map(move |chunk| (value, chunk)))
@@ -168,7 +170,9 @@ fn portraits(
             }
             let tolerance = studies[value].1.solver().tolerance;
             let patience = Patience { tolerance, ..Patience::BASIN };
-            let settled = settle_many(&scenes[value], chunks[chunk], patience);
+            let starts = chunks[chunk];
+            let steps = STEPS_OF_A_SEARCH.saturating_mul(starts.len() as u64);
+            let settled = within(steps, || settle_many(&scenes[value], starts, patience));
             running.progress.advance(settled.len());
             Ok(settled)
         })
@@ -178,7 +182,8 @@ fn portraits(
         .par_iter()
         .enumerate()
         .map(|(place, scene)| {
-            let gathered = gather(scene, &whole(place)).map_err(failed)?;
+            let gather = || gather(scene, &whole(place));
+            let gathered = within(STEPS_OF_MANY_SEARCHES, gather).map_err(failed)?;
             Ok(Portrait::new(studies[place].0, scene, starts, gathered))
         })
         .collect()

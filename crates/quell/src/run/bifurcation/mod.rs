@@ -9,12 +9,12 @@ use std::sync::atomic::Ordering;
 
 use quell_belt::attractor::{Attractor, Patience, Unsettled, measure, settle};
 use quell_belt::orbit::Verdict;
-use quell_belt::simulation::Start;
+use quell_belt::simulation::{Start, within};
 
 use super::attractor::{scene, unknown};
 use super::range::SlipMet;
 use super::varied::{Range, Varied};
-use super::{failed, start, stopped};
+use super::{STEPS_OF_A_SEARCH, failed, start, stopped};
 use crate::complaint::Failure;
 use crate::study::Study;
 use crate::sweep::Running;
@@ -139,7 +139,7 @@ pub fn run(
                 Some(state) => state,
                 None => start(&at)?,
             };
-            let (point, end) = point(&at, value, begun)?;
+            let (point, end) = within(STEPS_OF_A_SEARCH, || point(&at, value, begun))?;
             slip.add_attractor(at.belt(), end);
             found.push(point);
             state = Some(end);

@@ -6,15 +6,15 @@ use quell_belt::orbit::NoOrbit;
 pub use quell_belt::orbit::family::Signature;
 pub use quell_belt::orbit::threshold::{Change, Ending, Kind, Local, Threshold};
 use quell_belt::orbit::threshold::{NoThresholds, local};
-use quell_belt::simulation::Start;
+use quell_belt::simulation::{Start, within};
 use quell_belt::start::NoSquealingStart;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::in_words;
 use super::orbit::refused;
 use super::range::SlipMet;
 use super::varied::{Named, ascending, key_of};
+use super::{STEPS_OF_MANY_SEARCHES, in_words};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::fields::Fields;
 use crate::quantity::bearable;
@@ -176,6 +176,10 @@ fn slides(study: &Study, named: &Named, from: f64) -> Result<(), Box<Complaint>>
 /// # Errors
 /// A complaint about the parameter or its range; [`Failure::Failed`] where there is no response to begin with.
 pub fn run(study: &Study, question: Question) -> Result<Thresholds, Failure> {
+    within(STEPS_OF_MANY_SEARCHES, || found(study, question))
+}
+
+fn found(study: &Study, question: Question) -> Result<Thresholds, Failure> {
     let belt = study.belt();
     let question = understood(study, question)?;
     let path = question.parameter.as_str();

@@ -26,8 +26,9 @@ use super::mirror::{Table, Value};
 use super::reader::{Found, Reader};
 use super::sweep::{self, Sweep};
 use super::vocabulary::{self, Choice, Role, join};
-use super::{measures, revision, root};
+use super::{file, measures, revision, root};
 use crate::complaint::{Complaint, Fault, Origin};
+use crate::input::Inputs;
 
 pub use modes::{Listed, ModeSource};
 pub use plate::PlateModes;
@@ -43,6 +44,8 @@ pub struct DiscStudy {
     disc: Disc,
     parts: Contributions,
     common: Arc<Common>,
+    /// The file that it was read from; `-` is standard input.
+    file: Option<PathBuf>,
 }
 
 /// What does not change along the axes of a map that set numbers of the equations.
@@ -81,7 +84,23 @@ impl DiscStudy {
     ) -> Result<Self, Vec<Complaint>> {
         let common = &self.common;
         let (mirror, changes) = revision::at(&common.mirror, &common.changes, numbers)?;
-        Self::check(mirror, &common.text, &common.folder, changes, Some(&common.source))
+        let study =
+            Self::check(mirror, &common.text, &common.folder, changes, Some(&common.source))?;
+        Ok(Self { file: self.file.clone(), ..study })
+    }
+
+    /// The same study, which was read from this file.
+    pub(super) fn read_from(self, file: PathBuf) -> Self {
+        Self { file: Some(file), ..self }
+    }
+
+    /// The files that it was read from: none of them is an output.
+    pub fn inputs(&self) -> Inputs {
+        let modes = match &self.common.source {
+            ModeSource::File { path, .. } => Some(path.as_path()),
+            ModeSource::Plate(_) | ModeSource::List(_) => None,
+        };
+        file::inputs(self.file.as_deref(), &self.common.folder, modes)
     }
 
     /// The same study with these axes in place of its own.
@@ -94,7 +113,8 @@ impl DiscStudy {
         sweep::replace(&mut mirror, axes);
         measures::resolve(&mut mirror);
         let told = sweep::told(&common.changes, axes);
-        Self::check(mirror, &common.text, &common.folder, told, Some(&common.source))
+        let study = Self::check(mirror, &common.text, &common.folder, told, Some(&common.source))?;
+        Ok(Self { file: self.file.clone(), ..study })
     }
 
     /// The disc at one point of a map, the same as that of [`DiscStudy::at`]: without reading the study again where
@@ -178,7 +198,7 @@ impl DiscStudy {
             folder: folder.to_owned(),
             changes,
         };
-        let study = Self { disc, parts, common: Arc::new(common) };
+        let study = Self { disc, parts, common: Arc::new(common), file: None };
         revision::ends_valid(&study.common.mirror, study.sweeps(), |number| study.at(number))?;
         Ok(study)
     }

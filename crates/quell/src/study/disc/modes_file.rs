@@ -3,7 +3,6 @@
 //! Comment lines begin with `#`; the first other line names the columns: `diameters`, `ratio` or `frequency_hz`,
 //! `shape_at_load`, and `damping` where modes have their own. Other columns are passed over. Where there are both, `ratio` counts.
 
-use std::fs;
 use std::path::Path;
 
 use quell_model::parameter::Parameter;
@@ -12,33 +11,22 @@ use quell_model::parameter::disc::{
 };
 
 use super::modes::Line;
+use crate::study::data_file::{self, DataFile, Row};
 
-/// The largest file of modes that is read.
-const LARGEST: u64 = 16 << 20;
+/// What the file must be.
+const WHAT: &str = "a CSV file of modes";
 
 /// Reads the lines of a file.
 ///
 /// # Errors
 /// What is wrong, with its line.
 pub(super) fn read(path: &Path) -> Result<Vec<Line>, String> {
-    let unreadable =
-        |error: std::io::Error| format!("a CSV file of modes; it cannot be read: {error}");
-    let size = fs::metadata(path).map_err(unreadable)?;
-    if !size.is_file() || size.len() > LARGEST {
-        return Err("a CSV file of modes of at most 16 MiB".to_owned());
-    }
-    parse(&fs::read_to_string(path).map_err(unreadable)?)
+    parse(&data_file::text(path, WHAT)?)
 }
 
 fn parse(text: &str) -> Result<Vec<Line>, String> {
-    let mut rows = text
-        .lines()
-        .enumerate()
-        .map(|(index, line)| (index + 1, line.trim().trim_start_matches('\u{feff}')))
-        .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
-    let (_, header) = rows.next().ok_or("a CSV file of modes with a line of column names")?;
-    let names: Vec<&str> = header.split(',').map(|name| name.trim().trim_matches('"')).collect();
-    let column = |parameter: Parameter| names.iter().position(|name| *name == parameter.key());
+    let file = DataFile::new(text, WHAT)?;
+    let column = |parameter: Parameter| file.column(parameter.key());
     let needed = |parameter: Parameter| {
         column(parameter).ok_or_else(|| format!("a CSV file with a column {}", parameter.key()))
     };
@@ -48,21 +36,12 @@ fn parse(text: &str) -> Result<Vec<Line>, String> {
         return Err("a CSV file with a column ratio or frequency_hz".to_owned());
     }
     let damping = column(MODE_DAMPING);
-    let mut lines = Vec::new();
-    for (number, row) in rows {
-        let cells: Vec<&str> = row.split(',').map(str::trim).collect();
-        let value = |at: usize, parameter: Parameter| -> Result<f64, String> {
-            let cell = cells.get(at).copied().unwrap_or_default();
+    let line = |row: &Row<'_>| {
+        let value = |at: usize, parameter: Parameter| {
             let whole = parameter == MODE_DIAMETERS;
-            let right =
-                |value: &f64| parameter.bounds.contains(*value) && !(whole && value.fract() != 0.0);
-            cell.parse::<f64>().ok().filter(right).ok_or_else(|| {
-                let kind = if whole { " (whole)" } else { "" };
-                format!(
-                    "line {number}, {}: {cell:?} must be {}{kind}",
-                    parameter.key(),
-                    parameter.bounds
-                )
+            let kind = if whole { " (whole)" } else { "" };
+            row.number(at, parameter.key(), &format!("{}{kind}", parameter.bounds), |value| {
+                parameter.bounds.contains(value) && !(whole && value.fract() != 0.0)
             })
         };
         let ratio = ratio.map(|at| value(at, MODE_RATIO)).transpose()?;
@@ -70,14 +49,15 @@ fn parse(text: &str) -> Result<Vec<Line>, String> {
             Some(_) => None,
             None => hertz.map(|at| value(at, MODE_FREQUENCY)).transpose()?,
         };
-        lines.push(Line {
+        Ok(Line {
             diameters: value(diameters, MODE_DIAMETERS)?,
             ratio,
             hertz,
             shape_at_load: value(shape, MODE_SHAPE_AT_LOAD)?,
             damping: damping.map(|at| value(at, MODE_DAMPING)).transpose()?,
-        });
-    }
+        })
+    };
+    let lines: Vec<Line> = file.rows().iter().map(line).collect::<Result<_, String>>()?;
     if lines.is_empty() {
         return Err("a CSV file with at least one mode".to_owned());
     }

@@ -3,7 +3,6 @@
 //! The file: comment lines begin with `#`; the first other line names the columns, `slip_velocity` (in a study in SI
 //! `slip_velocity_m_per_s`) and `coefficient`. Other columns are passed over.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use quell_model::friction::samples::{COEFFICIENTS, Fit, MOST_TERMS, SPEEDS, TERMS};
@@ -14,11 +13,12 @@ use serde_json::Value as Json;
 use super::Read;
 use super::expression::{complain, velocity_unit};
 use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::data_file::{self, DataFile, Row};
 use crate::study::mirror::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
 
-/// The largest file of samples that is read.
-const LARGEST: u64 = 16 << 20;
+/// What the file must be.
+const WHAT: &str = "a CSV file of samples";
 
 /// Path of the file's key.
 const FILE: &str = "friction.file";
@@ -199,50 +199,33 @@ fn list<'t>(
 
 /// Reads the samples of a file; what is wrong, with its line.
 fn from_file(path: &Path, column: &str) -> Result<Vec<(f64, f64)>, String> {
-    let unreadable =
-        |error: std::io::Error| format!("a CSV file of samples; it cannot be read: {error}");
-    let size = fs::metadata(path).map_err(unreadable)?;
-    if !size.is_file() || size.len() > LARGEST {
-        return Err("a CSV file of samples of at most 16 MiB".to_owned());
-    }
-    parse(&fs::read_to_string(path).map_err(unreadable)?, column)
+    parse(&data_file::text(path, WHAT)?, column)
 }
 
 fn parse(text: &str, column: &str) -> Result<Vec<(f64, f64)>, String> {
-    let mut rows = text
-        .lines()
-        .enumerate()
-        .map(|(index, line)| (index + 1, line.trim().trim_start_matches('\u{feff}')))
-        .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
-    let (_, header) = rows.next().ok_or("a CSV file of samples with a line of column names")?;
-    let names: Vec<&str> = header.split(',').map(|name| name.trim().trim_matches('"')).collect();
-    let place = |name: &str| {
-        names
-            .iter()
-            .position(|known| *known == name)
-            .ok_or_else(|| format!("a CSV file with a column {name}; it has {}", names.join(", ")))
+    let file = DataFile::new(text, WHAT)?;
+    let (Some(speed), Some(coefficient)) = (file.column(column), file.column("coefficient")) else {
+        // Columns of a study in other units are named; other names of the file are its own.
+        let other = ["slip_velocity", "slip_velocity_m_per_s"];
+        let other = other.iter().find(|name| **name != column && file.column(name).is_some());
+        let other = other.map_or_else(String::new, |name| {
+            format!("; {name}, which it has, is in the units of another study")
+        });
+        return Err(format!("a CSV file with columns {column} and coefficient{other}"));
     };
-    let (speed, coefficient) = (place(column)?, place("coefficient")?);
-    let mut samples = Vec::new();
-    for (number, row) in rows {
-        let cells: Vec<&str> = row.split(',').map(str::trim).collect();
-        let value = |at: usize, name: &str| {
-            let cell = cells.get(at).copied().unwrap_or_default();
-            let right = |value: &f64| value.is_finite() && *value >= 0.0;
-            cell.parse::<f64>().ok().filter(right).ok_or_else(|| {
-                let why = match cell.parse::<f64>() {
-                    Ok(value) if value < 0.0 => {
-                        "; friction is the same in both directions of slip here: samples of one direction, with \
-                         both numbers positive, make one law"
-                    }
-                    _ => "",
-                };
-                format!("line {number}, {name}: {cell:?} must be a finite number ≥ 0{why}")
-            })
-        };
-        samples.push((value(speed, column)?, value(coefficient, "coefficient")?));
-    }
-    Ok(samples)
+    let value = |row: &Row<'_>, at: usize, name: &str| {
+        let number =
+            row.number(at, name, "a finite number ≥ 0", |it| it.is_finite() && it >= 0.0);
+        number.map_err(|why| match row.is_negative(at) {
+            true => format!(
+                "{why}; friction is the same in both directions of slip here: samples of one direction, with \
+                 both numbers positive, make one law"
+            ),
+            false => why,
+        })
+    };
+    let sample = |row| Ok((value(row, speed, column)?, value(row, coefficient, "coefficient")?));
+    file.rows().iter().map(sample).collect()
 }
 
 #[cfg(test)]
@@ -254,7 +237,10 @@ mod tests {
         let text = "# synthetic\ncoefficient, note, slip_velocity\n0.4,a,0\n\n0.3,b,0.5\n";
         assert_eq!(parse(text, "slip_velocity"), Ok(vec![(0.0, 0.4), (0.5, 0.3)]));
         let wrong = parse(text, "slip_velocity_m_per_s").expect_err("no such column");
-        assert!(wrong.contains("slip_velocity_m_per_s; it has coefficient, note"), "{wrong}");
+        assert!(
+            wrong.contains("columns slip_velocity_m_per_s and coefficient; slip_velocity"),
+            "{wrong}"
+        );
         for (row, part) in [
             ("-1,0.3", "one direction"),
             ("x,0.3", "line 3, slip_velocity: \"x\""),

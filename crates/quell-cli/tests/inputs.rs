@@ -1,0 +1,289 @@
+//! Files of strangers by the real binary: inputs are never outputs, nothing of other files is shown, permissions stay, and
+//! limits and signals leave nothing half-written.
+#![cfg(unix)]
+
+mod place;
+
+use std::fs;
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use place::Place;
+
+const MEASURED: &str = "schema = 1\n[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.1\n\
+    [friction]\nlaw = \"samples\"\nfile = \"data.csv\"\n\
+    [dither]\ndirection = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.3\nfrequency_ratio = 10\n\
+    [solver]\nsettle = 5\nrecord_periods = 4\n\
+    [[sweep]]\nparameter = \"dither.amplitude\"\nfrom = 0.1\nto = 0.9\npoints = 3\n";
+
+const SAMPLES: &str = "slip_velocity,coefficient\n0,0.4\n0.1,0.35\n0.2,0.31\n0.3,0.29\n0.4,0.28\n0.5,0.275\n\
+    0.6,0.273\n0.8,0.272\n";
+
+const DISC: &str = "schema = 1\n[disc]\nmodes_file = \"data.csv\"\n[disc.load]\nmass = 0.1\n\
+    damping = 0.1\nstiffness = 0.1\nfriction = 0.05\nspeed = 0.3\n";
+
+const MODES: &str = "diameters,ratio,shape_at_load\n1,1.0,1.0\n2,1.3,0.9\n3,1.9,0.8\n";
+
+/// Every verb of a belt that writes files.
+const BELT_VERBS: &[&[&str]] = &[
+    &["friction"],
+    &["stability"],
+    &["simulate", "--until", "5"],
+    &["response"],
+    &["orbit"],
+    &["thresholds", "--parameter", "dither.amplitude", "--from", "0.5", "--to", "1"],
+    &[
+        "bifurcation",
+        "--parameter",
+        "dither.amplitude",
+        "--from",
+        "0.5",
+        "--to",
+        "1",
+        "--points",
+        "2",
+    ],
+    &["basins", "--grid", "2x2"],
+    &["map", "--quantity", "growth"],
+];
+
+const DISC_VERBS: &[&[&str]] = &[&["modes"], &["stability"], &["resonances"]];
+
+/// Names that are the study or its data.
+fn disguise(place: &Place) -> Vec<&'static str> {
+    let folder = &place.folder;
+    fs::create_dir(folder.join("sub")).expect("a folder");
+    for (target, link) in [
+        ("data.csv", "link.csv"),
+        ("study.toml", "study.csv"),
+        ("data.csv", "link.svg"),
+        ("study.toml", "study.svg"),
+    ] {
+        symlink(target, folder.join(link)).expect("a link");
+    }
+    fs::hard_link(folder.join("data.csv"), folder.join("hard.csv")).expect("a link");
+    fs::hard_link(folder.join("study.toml"), folder.join("hard.svg")).expect("a link");
+    vec![
+        "data.csv",
+        "./sub/../data.csv",
+        "link.csv",
+        "study.csv",
+        "hard.csv",
+        "link.svg",
+        "study.svg",
+        "hard.svg",
+    ]
+}
+
+#[test]
+fn inputs_are_never_outputs() {
+    for (name, study, data, verbs) in
+        [("belt", MEASURED, SAMPLES, BELT_VERBS), ("disc", DISC, MODES, DISC_VERBS)]
+    {
+        let files = [("study.toml", study), ("data.csv", data)];
+        let place = Place::with(&format!("inputs/{name}"), &files);
+        let names = disguise(&place);
+        for (number, verb) in verbs.iter().enumerate() {
+            for output in &names {
+                // Every name with the first verb, two with each other.
+                if number > 0 && !["link.csv", "study.svg"].contains(output) {
+                    continue;
+                }
+                let option = if output.ends_with("svg") { "--plot" } else { "--save" };
+                let arguments =
+                    [&verb[..1], &["study.toml"], &verb[1..], &[option, output]].concat();
+                if option == "--save" && ["stability", "orbit"].contains(&verb[0]) {
+                    continue;
+                }
+                let errors = place.refused(&arguments);
+                let told = errors[0]["message"].as_str().unwrap_or_default();
+                assert!(told.contains("which the study is read from"), "{arguments:?}: {told}");
+                for (file, text) in files {
+                    let there = fs::read_to_string(place.folder.join(file)).expect("there");
+                    assert_eq!(there, text, "{arguments:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_study_on_standard_input_is_an_input_and_a_store_may_not_hold_one() {
+    let place = Place::with("inputs/stdin", &[("study.toml", MEASURED), ("data.csv", SAMPLES)]);
+    symlink("study.toml", place.folder.join("out.csv")).expect("a link");
+    let file = fs::File::open(place.folder.join("study.toml")).expect("there");
+    let mut command = place.command(&["friction", "-", "--save", "out.csv"]);
+    let output = command.stdin(file).output().expect("quell runs");
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains("standard input"), "{told}");
+    assert_eq!(fs::read_to_string(place.folder.join("study.toml")).expect("there"), MEASURED);
+    // The data inside a store, and the store around the study.
+    fs::create_dir_all(place.folder.join("m.zarr/.quell")).expect("a folder");
+    fs::rename(place.folder.join("data.csv"), place.folder.join("m.zarr/data.csv")).expect("moved");
+    place.write("study.toml", MEASURED.replace("data.csv", "m.zarr/data.csv"));
+    let ask = ["map", "study.toml", "--quantity", "growth", "--save", "m.zarr", "--resume"];
+    let errors = place.refused(&ask);
+    assert!(errors[0]["message"].as_str().is_some_and(|it| it.contains("read from")), "{errors:?}");
+}
+
+/// The second table of a response has a name that the user has not given.
+#[test]
+fn what_stands_in_the_place_of_a_second_file_is_left_alone() {
+    let place = Place::with(
+        "second",
+        &[("study.toml", MEASURED), ("data.csv", SAMPLES), ("theirs", "theirs")],
+    );
+    let second = place.folder.join("out_spectrum.csv");
+    symlink("theirs", &second).expect("a link");
+    let ask = ["response", "study.toml", "--save", "out.csv"];
+    let told = format!("{:?}", place.refused(&ask));
+    assert!(told.contains("out_spectrum.csv") && told.contains("not a regular file"), "{told}");
+    assert_eq!(fs::read_to_string(place.folder.join("theirs")).expect("there"), "theirs");
+    fs::remove_file(&second).expect("removed");
+    assert!(Command::new("mkfifo").arg(&second).status().expect("mkfifo").success());
+    let told = format!("{:?}", place.refused(&ask));
+    assert!(told.contains("not a regular file"), "{told}");
+}
+
+#[test]
+fn of_a_file_that_is_no_data_nothing_is_shown() {
+    let secret = "root:x:0:0:hunter2:/root:/bin/sh\ndaemon:x:1:1:hunter3:/usr\n";
+    for (name, study) in [("belt", MEASURED), ("disc", DISC)] {
+        let place =
+            Place::with(&format!("secret/{name}"), &[("study.toml", study), ("data.csv", secret)]);
+        let long = "9".repeat(100) + "hunter2";
+        for text in [
+            secret.to_owned(),
+            secret.replace(':', ","),
+            format!("slip_velocity,hunter2\n{secret}"),
+            format!("diameters,hunter2\n{secret}"),
+            // A file of data with one line that is none: not more than a part of the cell.
+            format!(
+                "slip_velocity,coefficient,diameters,ratio,shape_at_load\n{long},hunter2,{long},1,hunter2\n"
+            ),
+        ] {
+            place.write("data.csv", &text);
+            let errors = place.refused(&["check", "study.toml"]);
+            let told = format!("{errors:?}");
+            assert!(!told.contains("hunter") && !told.contains("root"), "{told}");
+            assert!(told.contains("a CSV file with") || told.contains("line 2"), "{told}");
+        }
+        // Files that are none are named, and do not hang.
+        fs::remove_file(place.folder.join("data.csv")).expect("removed");
+        let made = Command::new("mkfifo").arg(place.folder.join("data.csv")).status();
+        assert!(made.expect("mkfifo").success());
+        let told = format!("{:?}", place.refused(&["check", "study.toml"]));
+        assert!(told.contains("not a regular file"), "{told}");
+    }
+}
+
+#[test]
+fn an_output_keeps_its_permissions_and_a_new_one_has_those_of_the_process() {
+    let place = Place::with("permissions", &[("study.toml", MEASURED), ("data.csv", SAMPLES)]);
+    let mode = |name: &str| {
+        fs::metadata(place.folder.join(name)).expect("there").permissions().mode() & 0o7777
+    };
+    for (name, bits) in [("a.csv", 0o600), ("b.csv", 0o664), ("c.svg", 0o640), ("d.csv", 0o666)] {
+        place.write(name, "old");
+        let path = place.folder.join(name);
+        fs::set_permissions(&path, fs::Permissions::from_mode(bits)).expect("set");
+        let option = if name.ends_with("svg") { "--plot" } else { "--save" };
+        place.good(&["friction", "study.toml", option, name]);
+        assert_ne!(fs::read_to_string(&path).expect("there"), "old");
+        assert_eq!(mode(name), bits, "{name}");
+    }
+    for (mask, bits) in [("027", 0o640), ("077", 0o600), ("002", 0o664)] {
+        let line = format!(
+            "umask {mask}; exec {} friction study.toml --save new{mask}.csv",
+            env!("CARGO_BIN_EXE_quell")
+        );
+        let done = Command::new("sh").current_dir(&place.folder).args(["-c", &line]).status();
+        assert!(done.expect("a shell").success());
+        assert_eq!(mode(&format!("new{mask}.csv")), bits, "{mask}");
+    }
+}
+
+#[test]
+fn a_file_that_may_not_grow_is_an_error_like_any_other() {
+    let place = Place::with("limit", &[("study.toml", MEASURED), ("data.csv", SAMPLES)]);
+    place.write("old.csv", "old");
+    let before = place.files();
+    for output in ["--save old.csv", "--save new.csv", "--plot new.svg"] {
+        let line = format!(
+            "ulimit -f 1; exec {} simulate study.toml --until 50 {output} --json",
+            env!("CARGO_BIN_EXE_quell")
+        );
+        let done = Command::new("sh").current_dir(&place.folder).args(["-c", &line]).output();
+        let done = done.expect("a shell");
+        let told = String::from_utf8_lossy(&done.stdout);
+        assert_eq!(done.status.code(), Some(1), "{output}: {done:?}");
+        assert!(told.contains("File too large"), "{told}");
+        assert_eq!(place.files(), before, "{output}");
+        assert_eq!(fs::read_to_string(place.folder.join("old.csv")).expect("there"), "old");
+    }
+}
+
+/// Sends a signal to a process that is ours.
+fn signal(child: &Child, name: &str) {
+    let sent = Command::new("kill").args([name, &child.id().to_string()]).status();
+    assert!(sent.expect("kill").success());
+}
+
+/// Waits for the end; how it was, and how long it took.
+fn ended(mut child: Child) -> (Option<i32>, Duration) {
+    let begun = Instant::now();
+    loop {
+        if let Some(status) = child.try_wait().expect("it is ours") {
+            return (status.code(), begun.elapsed());
+        }
+        if begun.elapsed() > Duration::from_secs(30) {
+            child.kill().expect("it is ours");
+            panic!("it did not end");
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+#[test]
+fn signals_end_every_verb() {
+    let place = Place::with("signals", &[("study.toml", MEASURED), ("data.csv", SAMPLES)]);
+    let begin = |arguments: &[&str]| {
+        let mut command = place.command(arguments);
+        let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+        let child = child.expect("quell runs");
+        std::thread::sleep(Duration::from_millis(700));
+        child
+    };
+    // A verb that does not stop by itself ends at once, whatever it does.
+    for (name, arguments) in [
+        ("-INT", &["simulate", "study.toml", "--until", "1e8", "--save", "s.csv"][..]),
+        ("-TERM", &["response", "study.toml", "--set", "solver.settle=1e8"]),
+    ] {
+        let child = begin(arguments);
+        signal(&child, name);
+        let (status, after) = ended(child);
+        assert_eq!(status, Some(130), "{arguments:?}");
+        assert!(after < Duration::from_secs(5), "{arguments:?}: {after:?}");
+    }
+    assert_eq!(place.files(), ["data.csv", "study.toml"]);
+    // One that does is asked first, and ends at once after the second.
+    let long = [
+        "map",
+        "study.toml",
+        "--quantity",
+        "efficiency",
+        "--set",
+        "solver.settle=1e8",
+        "--save",
+        "m.zarr",
+    ];
+    let child = begin(&long);
+    signal(&child, "-INT");
+    std::thread::sleep(Duration::from_millis(200));
+    signal(&child, "-INT");
+    let (status, after) = ended(child);
+    assert_eq!(status, Some(130));
+    assert!(after < Duration::from_secs(5), "{after:?}");
+}

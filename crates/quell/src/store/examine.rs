@@ -1,0 +1,97 @@
+//! A look at a store that is there, before anything in it is written or removed.
+
+use std::collections::HashMap;
+use std::io;
+use std::path::Path;
+use std::thread;
+use std::time::Duration;
+
+use serde_json::Value as Json;
+
+use super::folder::{Entry, Folder};
+use super::layout::{self, Layout};
+use super::{IDENTITY, LONGEST, METADATA, OWN, another, complaint, identity, unwritable};
+use crate::complaint::Failure;
+
+/// Times that an identity which is not whole is looked at, and the time between.
+const PATIENCE: u32 = 20;
+const MOMENT: Duration = Duration::from_millis(50);
+
+/// Looks at a store that is there, before anything in it is written or removed: whether every entry is what it must be,
+/// and whether it is the store of this map.
+pub(super) fn examined(path: &Path, layout: &Layout, identity: &Json) -> Result<(), Failure> {
+    let root = Folder::open(path).map_err(|error| unwritable(path, &error))?;
+    // Folders below that of an array: c, and one an axis but for the last, which is in the names of chunks.
+    let arrays = layout.arrays().map(|array| (layout::name(array), array.dimensionality()));
+    let expected: HashMap<&str, usize> = arrays.chain([(OWN, 1)]).collect();
+    let entries = root.entries().map_err(|error| unwritable(path, &error))?;
+    for (name, entry) in entries {
+        match expected.get(name.as_str()) {
+            Some(&depth) => holds_no_stranger(path, &root, (&name, entry), (&name, depth + 1))?,
+            None if name == METADATA => holds_no_stranger(path, &root, (&name, entry), (&name, 0))?,
+            // Not a store's, and left alone.
+            None => {}
+        }
+    }
+    match root.entry(OWN) {
+        Ok(_) => {}
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        Err(error) => return Err(unwritable(path, &error)),
+    }
+    let own = root.folder(OWN).map_err(|error| unwritable(path, &error))?;
+    known(path, &own)?.map_or(Ok(()), |there| compared(path, &there, identity))
+}
+
+/// Refuses links, pipes and whatever else is neither a file nor a folder; and a folder that is deeper than any of a store.
+/// The entry is in `folder`, its key is that from the store.
+fn holds_no_stranger(
+    path: &Path,
+    folder: &Folder,
+    (name, entry): (&str, Entry),
+    (key, depth): (&str, usize),
+) -> Result<(), Failure> {
+    match entry {
+        Entry::File => Ok(()),
+        Entry::Folder if depth > 0 => {
+            let inside = folder.folder(name).map_err(|error| unwritable(path, &error))?;
+            let entries = inside.entries().map_err(|error| unwritable(path, &error))?;
+            entries.into_iter().try_for_each(|(name, entry)| {
+                let key = format!("{key}/{name}");
+                holds_no_stranger(path, &inside, (&name, entry), (&key, depth - 1))
+            })
+        }
+        entry => Err(complaint(
+            path,
+            format!(
+                "holds {} at {key}, where a store has {}; nothing is read, written or removed through it: \
+                 remove it, or choose another name",
+                entry.words(),
+                if depth > 0 { "folders and files" } else { "files" },
+            ),
+        )),
+    }
+}
+
+/// What a store was begun with; `None` where that is not there yet. Where it is not whole it is waited for a moment: on
+/// a file system without second names, the process that was first may still be writing it.
+pub(super) fn known(path: &Path, own: &Folder) -> Result<Option<Json>, Failure> {
+    for _ in 0..PATIENCE {
+        match own.read(IDENTITY, LONGEST) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(unwritable(path, &error)),
+            Ok(bytes) => {
+                if let Ok(there) = serde_json::from_slice(&bytes) {
+                    return Ok(Some(there));
+                }
+            }
+        }
+        thread::sleep(MOMENT);
+    }
+    Ok(Some(Json::Null))
+}
+
+/// Whether a store was begun with the same map.
+pub(super) fn compared(path: &Path, there: &Json, identity: &Json) -> Result<(), Failure> {
+    let differences = identity::differences(there, identity);
+    if differences.is_empty() { Ok(()) } else { Err(another(path, &differences)) }
+}

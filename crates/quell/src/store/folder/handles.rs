@@ -1,0 +1,160 @@
+//! [`Folder`] on Unix: an open folder, and its entries reached through it.
+
+use std::ffi::OsString;
+use std::fs::File;
+use std::io;
+use std::os::fd::OwnedFd;
+use std::os::unix::ffi::OsStringExt;
+use std::path::Path;
+use std::time::SystemTime;
+
+use rustix::fs::{
+    AtFlags, CWD, Dir, FileType, Mode, OFlags, fstat, linkat, mkdirat, openat, renameat, statat,
+    unlinkat,
+};
+
+use super::{Entry, read_at_most};
+
+/// Rights of a new folder and of a new file, before the mask of the process.
+const FOLDER_MODE: Mode = Mode::from_bits_retain(0o777);
+const FILE_MODE: Mode = Mode::from_bits_retain(0o666);
+
+/// A folder that is held open.
+#[derive(Debug)]
+pub(in crate::store) struct Folder {
+    handle: OwnedFd,
+}
+
+impl From<FileType> for Entry {
+    fn from(kind: FileType) -> Self {
+        match kind {
+            FileType::RegularFile => Self::File,
+            FileType::Directory => Self::Folder,
+            FileType::Symlink => Self::Link,
+            _ => Self::Special,
+        }
+    }
+}
+
+impl Folder {
+    /// The folder that the user names.
+    pub(in crate::store) fn open(path: &Path) -> io::Result<Self> {
+        let flags = OFlags::RDONLY | OFlags::DIRECTORY | OFlags::CLOEXEC;
+        Ok(Self { handle: openat(CWD, path, flags, Mode::empty())? })
+    }
+
+    /// The same folder once more.
+    pub(super) fn same(&self) -> io::Result<Self> {
+        Ok(Self { handle: self.handle.try_clone()? })
+    }
+
+    /// A folder inside.
+    pub(in crate::store) fn folder(&self, name: &str) -> io::Result<Self> {
+        let flags = OFlags::RDONLY | OFlags::DIRECTORY | OFlags::NOFOLLOW | OFlags::CLOEXEC;
+        match openat(&self.handle, name, flags, Mode::empty()) {
+            Ok(handle) => Ok(Self { handle }),
+            Err(error) => {
+                // Says what is there instead, where something is.
+                self.entry(name)?.expected(Entry::Folder, name)?;
+                Err(error.into())
+            }
+        }
+    }
+
+    /// A folder inside, made where it is missing.
+    pub(in crate::store) fn made(&self, name: &str) -> io::Result<Self> {
+        match mkdirat(&self.handle, name, FOLDER_MODE) {
+            Ok(()) | Err(rustix::io::Errno::EXIST) => self.folder(name),
+            // A folder that is there may be read where none can be made.
+            Err(error) => self.folder(name).map_err(|_| error.into()),
+        }
+    }
+
+    /// What an entry is.
+    pub(in crate::store) fn entry(&self, name: &str) -> io::Result<Entry> {
+        let found = statat(&self.handle, name, AtFlags::SYMLINK_NOFOLLOW)?;
+        Ok(FileType::from_raw_mode(found.st_mode).into())
+    }
+
+    /// Every entry that has a name in UTF-8: all that a store has.
+    pub(in crate::store) fn entries(&self) -> io::Result<Vec<(String, Entry)>> {
+        let mut found = Vec::new();
+        for entry in Dir::read_from(&self.handle)? {
+            let entry = entry?;
+            let name = OsString::from_vec(entry.file_name().to_bytes().to_vec());
+            let Ok(name) = name.into_string() else { continue };
+            if name == "." || name == ".." {
+                continue;
+            }
+            let kind = match entry.file_type() {
+                FileType::Unknown => match self.entry(&name) {
+                    Ok(kind) => kind,
+                    // Gone meanwhile.
+                    Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+                    Err(error) => return Err(error),
+                },
+                kind => kind.into(),
+            };
+            found.push((name, kind));
+        }
+        Ok(found)
+    }
+
+    /// Reads a regular file that is at most so long.
+    pub(in crate::store) fn read(&self, name: &str, most: u64) -> io::Result<Vec<u8>> {
+        let file = self.regular(name, OFlags::RDONLY)?;
+        read_at_most(file, most, name)
+    }
+
+    /// A file that is locked: opened for both ways, made where it is missing, never written.
+    pub(in crate::store) fn lockable(&self, name: &str) -> io::Result<File> {
+        self.regular(name, OFlags::RDWR | OFlags::CREATE)
+    }
+
+    /// Opens a regular file, and nothing else.
+    fn regular(&self, name: &str, flags: OFlags) -> io::Result<File> {
+        match self.entry(name) {
+            Ok(entry) => entry.expected(Entry::File, name)?,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            Err(error) => return Err(error),
+        }
+        let flags = flags | OFlags::NOFOLLOW | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::CLOEXEC;
+        let handle = openat(&self.handle, name, flags, FILE_MODE)?;
+        let found = fstat(&handle)?;
+        Entry::from(FileType::from_raw_mode(found.st_mode)).expected(Entry::File, name)?;
+        Ok(handle.into())
+    }
+
+    /// A new file, for writing.
+    pub(in crate::store) fn create(&self, name: &str) -> io::Result<File> {
+        let flags = OFlags::WRONLY | OFlags::CREATE | OFlags::EXCL | OFlags::CLOEXEC;
+        Ok(openat(&self.handle, name, flags, FILE_MODE)?.into())
+    }
+
+    /// When an entry was last written.
+    pub(in crate::store) fn modified(&self, name: &str) -> io::Result<SystemTime> {
+        File::from(openat(
+            &self.handle,
+            name,
+            OFlags::RDONLY | OFlags::NOFOLLOW | OFlags::NONBLOCK | OFlags::CLOEXEC,
+            Mode::empty(),
+        )?)
+        .metadata()?
+        .modified()
+    }
+
+    /// Takes a name away, and the file with its last one.
+    pub(in crate::store) fn remove(&self, name: &str) -> io::Result<()> {
+        Ok(unlinkat(&self.handle, name, AtFlags::empty())?)
+    }
+
+    /// Gives a file another name in another folder, in place of a file of that name.
+    pub(in crate::store) fn rename(&self, name: &str, to: &Self, new: &str) -> io::Result<()> {
+        Ok(renameat(&self.handle, name, &to.handle, new)?)
+    }
+
+    /// Gives a file a second name in another folder, where no entry has it.
+    pub(in crate::store) fn link(&self, name: &str, to: &Self, new: &str) -> io::Result<()> {
+        Ok(linkat(&self.handle, name, &to.handle, new, AtFlags::empty())?)
+    }
+}

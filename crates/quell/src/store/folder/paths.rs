@@ -1,0 +1,137 @@
+//! [`Folder`] where folders cannot be held open: a path, and every entry looked up right before it is used.
+
+use std::fs::{self, File, FileType, OpenOptions};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use super::{Entry, read_at_most};
+
+/// A folder.
+#[derive(Debug)]
+pub(in crate::store) struct Folder {
+    path: PathBuf,
+}
+
+impl From<FileType> for Entry {
+    fn from(kind: FileType) -> Self {
+        if kind.is_symlink() {
+            Self::Link
+        } else if kind.is_dir() {
+            Self::Folder
+        } else if kind.is_file() {
+            Self::File
+        } else {
+            Self::Special
+        }
+    }
+}
+
+impl Folder {
+    /// The folder that the user names.
+    pub(in crate::store) fn open(path: &Path) -> io::Result<Self> {
+        Ok(Self { path: path.canonicalize()? })
+    }
+
+    /// The same folder once more.
+    pub(super) fn same(&self) -> io::Result<Self> {
+        Ok(Self { path: self.path.clone() })
+    }
+
+    /// A folder inside.
+    pub(in crate::store) fn folder(&self, name: &str) -> io::Result<Self> {
+        self.entry(name)?.expected(Entry::Folder, name)?;
+        Ok(Self { path: self.path.join(name) })
+    }
+
+    /// A folder inside, made where it is missing.
+    pub(in crate::store) fn made(&self, name: &str) -> io::Result<Self> {
+        match fs::create_dir(self.path.join(name)) {
+            Ok(()) => self.folder(name),
+            Err(error) => self.folder(name).map_err(|why| match error.kind() {
+                io::ErrorKind::AlreadyExists => why,
+                _ => error,
+            }),
+        }
+    }
+
+    /// What an entry is.
+    pub(in crate::store) fn entry(&self, name: &str) -> io::Result<Entry> {
+        self.itself()?;
+        Ok(fs::symlink_metadata(self.path.join(name))?.file_type().into())
+    }
+
+    /// Every entry that has a name in UTF-8: all that a store has.
+    pub(in crate::store) fn entries(&self) -> io::Result<Vec<(String, Entry)>> {
+        self.itself()?;
+        let mut found = Vec::new();
+        for entry in fs::read_dir(&self.path)? {
+            let entry = entry?;
+            let Ok(name) = entry.file_name().into_string() else { continue };
+            match entry.file_type() {
+                Ok(kind) => found.push((name, kind.into())),
+                // Gone meanwhile.
+                Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(found)
+    }
+
+    /// Reads a regular file that is at most so long.
+    pub(in crate::store) fn read(&self, name: &str, most: u64) -> io::Result<Vec<u8>> {
+        self.entry(name)?.expected(Entry::File, name)?;
+        read_at_most(File::open(self.path.join(name))?, most, name)
+    }
+
+    /// A file that is locked: opened for both ways, made where it is missing, never written.
+    pub(in crate::store) fn lockable(&self, name: &str) -> io::Result<File> {
+        match self.entry(name) {
+            Ok(entry) => entry.expected(Entry::File, name)?,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => match self.create(name) {
+                Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(error),
+                _ => {}
+            },
+            Err(error) => return Err(error),
+        }
+        OpenOptions::new().read(true).write(true).open(self.path.join(name))
+    }
+
+    /// A new file, for writing.
+    pub(in crate::store) fn create(&self, name: &str) -> io::Result<File> {
+        self.itself()?;
+        OpenOptions::new().write(true).create_new(true).open(self.path.join(name))
+    }
+
+    /// When an entry was last written.
+    pub(in crate::store) fn modified(&self, name: &str) -> io::Result<SystemTime> {
+        self.itself()?;
+        fs::symlink_metadata(self.path.join(name))?.modified()
+    }
+
+    /// Takes a name away, and the file with its last one.
+    pub(in crate::store) fn remove(&self, name: &str) -> io::Result<()> {
+        self.itself()?;
+        fs::remove_file(self.path.join(name))
+    }
+
+    /// Gives a file another name in another folder, in place of a file of that name.
+    pub(in crate::store) fn rename(&self, name: &str, to: &Self, new: &str) -> io::Result<()> {
+        self.itself()?;
+        to.itself()?;
+        fs::rename(self.path.join(name), to.path.join(new))
+    }
+
+    /// Gives a file a second name in another folder, where no entry has it.
+    pub(in crate::store) fn link(&self, name: &str, to: &Self, new: &str) -> io::Result<()> {
+        self.itself()?;
+        to.itself()?;
+        fs::hard_link(self.path.join(name), to.path.join(new))
+    }
+
+    /// Whether it is a folder still: it may have been exchanged for a link.
+    fn itself(&self) -> io::Result<()> {
+        let entry = Entry::from(fs::symlink_metadata(&self.path)?.file_type());
+        entry.expected(Entry::Folder, &self.path.display().to_string())
+    }
+}

@@ -1,0 +1,98 @@
+//! CSV files that a study names: columns by name, wrong cells by line.
+//!
+//! Comment lines begin with `#`; the first other line names the columns. Columns that are not asked for are passed over.
+//!
+//! A study may come from a stranger and may name any file: nothing of a file is shown in a complaint before the columns
+//! that are needed were found in it, and then no more than the cell that is wrong, cut short.
+
+use std::path::Path;
+
+use crate::input::read_regular;
+
+/// The largest file that is read.
+const LARGEST: u64 = 16 << 20;
+
+/// Most characters of a cell that are shown.
+const SHOWN: usize = 24;
+
+/// Reads a file as text; `what` it must be, such as "a CSV file of samples".
+///
+/// # Errors
+/// Why it is none.
+pub(super) fn text(path: &Path, what: &str) -> Result<String, String> {
+    let bytes = read_regular(path, LARGEST)
+        .map_err(|error| format!("{what} of at most 16 MiB; it cannot be read: {error}"))?;
+    String::from_utf8(bytes).map_err(|_| format!("{what}; this file is not text"))
+}
+
+/// A CSV file whose columns are known.
+#[derive(Debug)]
+pub(super) struct DataFile<'t> {
+    names: Vec<&'t str>,
+    rows: Vec<Row<'t>>,
+}
+
+/// A line of numbers.
+#[derive(Debug)]
+pub(super) struct Row<'t> {
+    /// Number of the line, from 1.
+    line: usize,
+    cells: Vec<&'t str>,
+}
+
+impl<'t> DataFile<'t> {
+    /// Takes the text apart.
+    ///
+    /// # Errors
+    /// Where there is no line of column names.
+    pub(super) fn new(text: &'t str, what: &str) -> Result<Self, String> {
+        let mut lines = text
+            .lines()
+            .enumerate()
+            .map(|(index, line)| (index + 1, line.trim().trim_start_matches('\u{feff}')))
+            .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+        let (_, header) =
+            lines.next().ok_or_else(|| format!("{what} with a line of column names"))?;
+        let names = header.split(',').map(|name| name.trim().trim_matches('"')).collect();
+        let rows = lines
+            .map(|(line, row)| Row { line, cells: row.split(',').map(str::trim).collect() })
+            .collect();
+        Ok(Self { names, rows })
+    }
+
+    /// Where a column is.
+    pub(super) fn column(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|known| *known == name)
+    }
+
+    /// The lines of numbers.
+    pub(super) fn rows(&self) -> &[Row<'t>] {
+        &self.rows
+    }
+}
+
+impl Row<'_> {
+    /// The number in a column, where it is `right`.
+    ///
+    /// # Errors
+    /// Line, column, the cell, and what it must be.
+    pub(super) fn number(
+        &self,
+        at: usize,
+        name: &str,
+        allowed: &str,
+        right: impl Fn(f64) -> bool,
+    ) -> Result<f64, String> {
+        let cell = self.cells.get(at).copied().unwrap_or_default();
+        cell.parse().ok().filter(|&value| right(value)).ok_or_else(|| {
+            let short: String = cell.chars().take(SHOWN).collect();
+            let rest = if short.len() < cell.len() { "…" } else { "" };
+            format!("line {}, {name}: {short:?}{rest} must be {allowed}", self.line)
+        })
+    }
+
+    /// Whether the number in a column is below 0.
+    pub(super) fn is_negative(&self, at: usize) -> bool {
+        self.cells.get(at).and_then(|cell| cell.parse::<f64>().ok()).is_some_and(|it| it < 0.0)
+    }
+}
