@@ -76,6 +76,9 @@ fn formulas_are_proven_over_their_range() {
             assert!(said.contains(part), "{text}: {said}");
         }
     }
+    // Belts of any speed: what is bounded is proven as far as numbers go.
+    assert!(proven("0.3 + 0.1*exp(-abs(v)/0.2)", f64::INFINITY).is_ok());
+    assert!(proven("0.4 + 0.1*abs(v)", f64::INFINITY).is_err());
     for (text, up_to) in [
         ("0.4 - 0.1*abs(v)", 3.9),
         ("exp(abs(v))", 100.0),

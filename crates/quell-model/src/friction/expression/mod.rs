@@ -214,8 +214,9 @@ impl Expression {
     /// Under `friction.coefficient`: the slip at which the formula is negative or not finite, with its value, or at which
     /// it could not be proven.
     pub fn proven_up_to(&self, speed: f64) -> Result<Self, Vec<Invalid>> {
-        let speed = speed / self.velocity_unit;
-        if !(speed.is_finite() && speed > 0.0) {
+        // No slip is faster than the largest number.
+        let speed = (speed / self.velocity_unit).min(f64::MAX);
+        if speed.is_nan() || speed <= 0.0 {
             return Ok(self.clone());
         }
         if self.proven.0.is_none_or(|proven| proven < speed) {
