@@ -69,7 +69,7 @@ fn formulas_are_proven_over_their_range() {
         ("0.3 + 0.1*sqrt((abs(v) - b)^2 + 0*v)", 2.0, &["at v = 0."]),
         ("0.4 - 0.1*abs(v)", 4.1, &["up to the maximum velocity 4.1", "at v = 4.0", "it is -0.0"]),
         ("exp(abs(v))", 400.0, &["not finite"]),
-        ("0.3 + log(2 - abs(v))", 3.0, &["not finite"]),
+        ("0.3 + (2 - abs(v))^0.5", 3.0, &["not finite"]),
     ] {
         let said = proven(text, up_to).expect_err(text);
         for part in parts {

@@ -274,6 +274,10 @@ impl Expression {
             let speed = self.scale * libm::exp(0.5 * f64::from(place) - 6.0);
             let (above, below) =
                 (self.at(speed).0, series::at_speed(mirrored, &constants, speed).0);
+            // Beyond its range a formula need not be defined.
+            if !(above.is_finite() && below.is_finite()) {
+                continue;
+            }
             let close = 1e-9 * above.abs();
             even &= (above - below).abs() <= close;
             odd &= (above + below).abs() <= close;
