@@ -60,22 +60,25 @@ fn proven(text: &str, up_to: f64) -> Result<Expression, String> {
 #[test]
 fn formulas_are_proven_over_their_range() {
     for (text, up_to, parts) in [
-        ("0.3-1.0*exp(-((abs(v)-0.2)/0.0001)^2)", 2.0, &["at v = 0.2", "it is -0."][..]),
+        ("0.3-1.0*exp(-((abs(v)-0.2)/0.0001)^2)", 2.0, &["at v = 0.19995", "it is -0.4878"][..]),
         ("0.3-1.0*exp(-((abs(v)-0.2)/1e-9)^2)", 2.0, &["at v = 0.", "it is -0."]),
         ("0.3+1e-7/(abs(v)-0.2)", 2.0, &["at v = 0.1999"]),
-        ("0.3+1e-7/(abs(v)-0.2)^2", 2.0, &["at v = 0.2"]),
+        ("0.3+1e-7/(abs(v)-0.2)^2", 2.0, &["at v = 0."]),
         ("0/0", 2.0, &["not finite"]),
         ("0.4 + 0*(1/(a - a))", 2.0, &["not finite"]),
-        ("0.3 + 0.1*sqrt((abs(v) - b)^2 + 0*v)", 2.0, &["at v = 0.2"]),
+        ("0.3 + 0.1*sqrt((abs(v) - b)^2 + 0*v)", 2.0, &["at v = 0."]),
         ("0.4 - 0.1*abs(v)", 4.1, &["up to the maximum velocity 4.1", "at v = 4.0", "it is -0.0"]),
         ("exp(abs(v))", 400.0, &["not finite"]),
-        ("0.3 + log(2 - abs(v))", 3.0, &["not finite"]),
+        ("0.3 + (2 - abs(v))^0.5", 3.0, &["not finite"]),
     ] {
         let said = proven(text, up_to).expect_err(text);
         for part in parts {
             assert!(said.contains(part), "{text}: {said}");
         }
     }
+    // Belts of any speed: what is bounded is proven as far as numbers go.
+    assert!(proven("0.3 + 0.1*exp(-abs(v)/0.2)", f64::INFINITY).is_ok());
+    assert!(proven("0.4 + 0.1*abs(v)", f64::INFINITY).is_err());
     for (text, up_to) in [
         ("0.4 - 0.1*abs(v)", 3.9),
         ("exp(abs(v))", 100.0),

@@ -72,8 +72,12 @@ pub(super) fn effective(
         settled(integrate(pair, delta, FRAC_PI_2, &cuts, &floor))?.value
     };
     // A slope that crosses zero is accurate relative to the law's own slopes.
-    let scale = law.slope(0.0).abs() + law.slope(v).abs() + PI * law.coefficient(0.0) * density;
-    let options = QuadratureOptions { absolute: 1e-13 * scale, ..options };
+    let at_rest = law.slope(0.0).abs();
+    // Where the slope at rest is unbounded, as that of a power below 1, the integrand has a singular end at the crossing:
+    // bisections towards it stop at the resolution of its place, and the error says so.
+    let (at_rest, relative) = if at_rest.is_finite() { (at_rest, 1e-13) } else { (0.0, 1e-6) };
+    let scale = at_rest + law.slope(v).abs() + PI * law.coefficient(0.0) * density;
+    let options = QuadratureOptions { relative, absolute: relative * scale, ..options };
     let smooth = settled(integrate(slopes, 0.0, FRAC_PI_2, &cuts, &options))?;
     let side = if v == corner { Side::Outer } else { Side::Both };
     let mut effective = Effective::closed(

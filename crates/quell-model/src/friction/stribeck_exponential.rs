@@ -266,9 +266,9 @@ impl<V: Lane, const N: usize> Powers<V, N> {
             }
             None => {
                 let mut sum = V::splat(0.0);
-                for j in 1..k {
+                for (j, &slip) in w.iter().enumerate().take(k).skip(1) {
                     let weight = self.exponent * j as f64 - (k - j) as f64;
-                    sum = (V::splat(weight) * w[j]).mul_add(self.power[k - j], sum);
+                    sum = (V::splat(weight) * slip).mul_add(self.power[k - j], sum);
                 }
                 let inverse = self.speed.map(|speed| 1.0 / (k as f64 * speed));
                 sign * sum * inverse

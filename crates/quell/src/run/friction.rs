@@ -43,12 +43,12 @@ pub fn grid(belt: &Belt) -> Vec<f64> {
     let scale = law.velocity_scale();
     let own = if law.has_velocity() || reached == 0.0 { 2.0 * scale } else { 0.0 };
     let end = law.range().map_or(f64::INFINITY, |range| range.upper).min(own.max(reached));
-    let mut side: Vec<f64> = (1..=POINTS).map(|k| end * f64::from(k) / f64::from(POINTS)).collect();
+    let mut side: Vec<f64> =
+        (1..=POINTS).map(|k| (end * f64::from(k) / f64::from(POINTS)).min(end)).collect();
     // At the largest fast velocity the effective friction has a corner.
     if fast > 0.0 {
-        side.extend((1..=CORNER).map(|k| fast * (1.0 - 0.5f64.powi(k))));
-        side.push(fast);
-        side.retain(|&v| v <= end);
+        let crowd = (1..=CORNER).map(|k| fast * (1.0 - 0.5f64.powi(k))).chain([fast]);
+        side.extend(crowd.filter(|&v| v <= end));
     }
     side.sort_by(f64::total_cmp);
     side.dedup();

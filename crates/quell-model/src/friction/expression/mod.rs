@@ -214,8 +214,9 @@ impl Expression {
     /// Under `friction.coefficient`: the slip at which the formula is negative or not finite, with its value, or at which
     /// it could not be proven.
     pub fn proven_up_to(&self, speed: f64) -> Result<Self, Vec<Invalid>> {
-        let speed = speed / self.velocity_unit;
-        if !(speed.is_finite() && speed > 0.0) {
+        // No slip is faster than the largest number.
+        let speed = (speed / self.velocity_unit).min(f64::MAX);
+        if speed.is_nan() || speed <= 0.0 {
             return Ok(self.clone());
         }
         if self.proven.0.is_none_or(|proven| proven < speed) {
@@ -273,6 +274,10 @@ impl Expression {
             let speed = self.scale * libm::exp(0.5 * f64::from(place) - 6.0);
             let (above, below) =
                 (self.at(speed).0, series::at_speed(mirrored, &constants, speed).0);
+            // Beyond its range a formula need not be defined.
+            if !(above.is_finite() && below.is_finite()) {
+                continue;
+            }
             let close = 1e-9 * above.abs();
             even &= (above - below).abs() <= close;
             odd &= (above + below).abs() <= close;
