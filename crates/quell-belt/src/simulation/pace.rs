@@ -109,8 +109,8 @@ impl Pace {
         }
         if steps >= FAIR {
             let whole = steps as f64 * ((self.until - self.from) / (time - self.from));
-            // Not a number where no time has passed.
-            if !(whole <= MOST_STEPS as f64) {
+            // It is infinite where no time has passed.
+            if whole.is_nan() || whole > MOST_STEPS as f64 {
                 return Err(TOO_LONG);
             }
         }
