@@ -116,7 +116,7 @@ const ONCE_ENDLESS: &[(&str, &[&str])] = &[
         &["dither.frequency_ratio=1e-100"],
     ),
     ("basins --grid 2x2", &["dither.frequency_ratio=1e-300"]),
-    ("simulate --until 1e300", &[]),
+    ("simulate --until 1e9", &["dither.frequency_ratio=1e5"]),
 ];
 
 /// The chance of a linear congruential generator.

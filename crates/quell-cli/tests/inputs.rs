@@ -199,8 +199,8 @@ fn an_output_keeps_its_permissions_and_a_new_one_has_those_of_the_process() {
             "umask {mask}; exec {} friction study.toml --save new{mask}.csv",
             env!("CARGO_BIN_EXE_quell")
         );
-        let done = Command::new("sh").current_dir(&place.folder).args(["-c", &line]).status();
-        assert!(done.expect("a shell").success());
+        let done = Command::new("sh").current_dir(&place.folder).args(["-c", &line]).output();
+        assert!(done.expect("a shell").status.success());
         assert_eq!(mode(&format!("new{mask}.csv")), bits, "{mask}");
     }
 }

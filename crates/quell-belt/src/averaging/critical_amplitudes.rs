@@ -15,7 +15,7 @@ use quell_model::{Belt, Direction, Dither};
 use super::criterion::Criterion;
 use super::effective::{AveragingError, effective};
 use super::fast_motion::{AveragingOptions, FastMotion, fast_wave};
-use super::sign_changes::{Crossing, sign_changes};
+use super::sign_changes::{Crossing, grown, sign_changes};
 
 /// Steady sliding after a change of sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,8 +107,7 @@ fn scan_points(corners: &[f64], scale: f64, at_rest: bool) -> Vec<f64> {
     // Ratio 1.15 over two decades beyond the largest scale, 2 over two more.
     let mut point = first;
     while point < 1e4 * scale {
-        // The smallest numbers are their own multiples: the next one is a step too.
-        point = (point * if point < 1e2 * scale { 1.15 } else { 2.0 }).max(point.next_up());
+        point = grown(point, if point < 1e2 * scale { 1.15 } else { 2.0 });
         points.push(point);
     }
     points.sort_unstable_by(f64::total_cmp);

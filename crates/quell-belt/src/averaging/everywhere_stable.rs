@@ -21,7 +21,7 @@ use quell_numerics::roots::{Closeness, minimise, try_minimise};
 use super::criterion::Criterion;
 use super::edges::{CriticalVelocity, kappa, undithered_critical_velocity};
 use super::effective::{AveragingError, single};
-use super::sign_changes::sign_changes;
+use super::sign_changes::{grown, sign_changes};
 use super::wave::FastWave;
 
 /// The amplitude ratio beyond which steady sliding is stable at every belt velocity.
@@ -144,7 +144,7 @@ impl Case<'_> {
         let scale = outer.max(vm);
         let mut points = vec![outer];
         while points[points.len() - 1] < 1e3 * scale {
-            points.push(1.3 * points[points.len() - 1]);
+            points.push(grown(points[points.len() - 1], 1.3));
         }
         let last = points[points.len() - 1];
         if self.worst_inside(last)? < 0.0 {

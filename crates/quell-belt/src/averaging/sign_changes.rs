@@ -127,6 +127,12 @@ fn locate<E>(
     Ok(SignChange { place, error, crossing, becomes_positive })
 }
 
+/// The next of points that grow by a factor. The smallest numbers are their own multiples: after them comes the next
+/// number.
+pub(super) fn grown(point: f64, factor: f64) -> f64 {
+    (point * factor).max(point.next_up())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

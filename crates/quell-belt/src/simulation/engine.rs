@@ -135,7 +135,7 @@ impl<'a> Engine<'a> {
     #[inline(always)]
     fn go_on(&mut self) -> Next {
         if self.steps == 0
-            && let Err(why) = self.pace.spend(0)
+            && let Err(why) = Pace::begin()
         {
             return Next::Over(Err(self.stalled(why)));
         }

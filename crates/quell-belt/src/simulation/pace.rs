@@ -26,6 +26,9 @@ const FAIR: u64 = 1 << 20;
 /// Most steps of a run: some minutes of work.
 pub const MOST_STEPS: u64 = 2_000_000_000;
 
+/// Steps that the beginning of a run counts for: a question may take many runs of a step each.
+const OF_A_RUN: u64 = 64;
+
 /// Why a run whose steps are too short was stopped.
 const TOO_STIFF: &str = "a hundred thousand steps did not cover one period of its fastest oscillation: the \
                          damping, the friction or the dither is too large beside the other forces";
@@ -106,12 +109,20 @@ impl Pace {
         }
         if steps >= FAIR {
             let whole = steps as f64 * ((self.until - self.from) / (time - self.from));
-            // Not a number where no time has passed.
-            if !(whole <= MOST_STEPS as f64) {
+            // It is infinite where no time has passed.
+            if whole.is_nan() || whole > MOST_STEPS as f64 {
                 return Err(TOO_LONG);
             }
         }
         Ok(())
+    }
+
+    /// Counts the beginning of a run.
+    ///
+    /// # Errors
+    /// Where the steps of the question are used up.
+    pub(super) fn begin() -> Result<(), &'static str> {
+        take(OF_A_RUN)
     }
 
     /// Takes the steps since the last look from those of the question.
@@ -121,14 +132,19 @@ impl Pace {
     pub(super) fn spend(&mut self, steps: u64) -> Result<(), &'static str> {
         let taken = steps - self.steps;
         self.steps = steps;
-        LEFT.with(|left| {
-            let rest = left.get();
-            if rest < u64::MAX {
-                left.set(rest.saturating_sub(taken));
-            }
-            if rest == 0 { Err(TOO_MUCH) } else { Ok(()) }
-        })
+        take(taken)
     }
+}
+
+/// Takes steps from those of the question of this thread.
+fn take(steps: u64) -> Result<(), &'static str> {
+    LEFT.with(|left| {
+        let rest = left.get();
+        if rest < u64::MAX {
+            left.set(rest.saturating_sub(steps));
+        }
+        if rest == 0 { Err(TOO_MUCH) } else { Ok(()) }
+    })
 }
 
 #[cfg(test)]
@@ -163,5 +179,8 @@ mod tests {
         });
         assert_eq!((told, run(u64::MAX / 2)), (Err(TOO_MUCH), Ok(())));
         assert_eq!(within(100, || [within(10, || run(20)), run(80)]), [Ok(()); 2]);
+        // Runs without steps come to an end too.
+        let begun = within(OF_A_RUN * 3, || (0..9).take_while(|_| Pace::begin().is_ok()).count());
+        assert_eq!(begun, 3);
     }
 }
