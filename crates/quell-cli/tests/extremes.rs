@@ -3,6 +3,7 @@
 //! A generator puts one to three parameters at their smallest or largest values and asks one verb. The test runs a few of
 //! them with a fixed seed, and those that once ran on without end; `QUELL_EXTREMES=2000` runs so many.
 
+#[expect(dead_code, reason = "other files of tests use the rest of it")]
 mod place;
 
 use std::process::Stdio;

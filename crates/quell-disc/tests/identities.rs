@@ -330,9 +330,9 @@ fn phases_of_dither_are_phases() {
     };
     let plain = growth([0.2, 0.15], [0.0, 0.0]);
     close(plain, growth([0.2, 0.15], [0.7, 0.7]));
-    close(growth([0.2, -0.15], [0.0, 0.0]), growth([0.2, 0.15], [0.0, core::f64::consts::PI]));
+    close(growth([0.2, -0.15], [0.0, 0.0]), growth([0.2, 0.15], [0.0, PI]));
     // A phase between the loads is another system.
-    let apart = growth([0.2, 0.15], [0.0, 0.5 * core::f64::consts::PI]);
+    let apart = growth([0.2, 0.15], [0.0, 0.5 * PI]);
     assert!(
         (apart.rate - plain.rate).abs() > 10.0 * (apart.error + plain.error),
         "{apart:?} {plain:?}"
@@ -349,7 +349,7 @@ fn every_growing_motion_is_listed() {
     };
     let still = disc(Dither::None);
     let listed = undithered::growing_with(&still, Contributions::ALL).expect("finite");
-    let all = undithered::eigenvalues(&still).expect("finite");
+    let all = eigenvalues(&still).expect("finite");
     let growing = all.iter().filter(|value| value.im >= 0.0 && value.re > 1e-12).count();
     assert!(listed.len() == growing && growing > 1, "{listed:?} {all:?}");
     assert_eq!(listed[0].rate, undithered::growth(&still).expect("finite").rate);

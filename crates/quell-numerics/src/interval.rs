@@ -239,7 +239,9 @@ mod tests {
     /// Every value of a function at points inside lies in its interval, and the interval is no wider than needed.
     #[test]
     fn images_contain_every_value_and_little_else() {
-        let functions: [(&str, fn(Interval) -> Interval, fn(f64) -> f64); 8] = [
+        type Image = fn(Interval) -> Interval;
+        type Function = fn(f64) -> f64;
+        let functions: [(&str, Image, Function); 8] = [
             ("exp", Interval::exp, f64::exp),
             ("sin", Interval::sin, f64::sin),
             ("cos", Interval::cos, f64::cos),

@@ -224,7 +224,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("folder");
         let path = folder.path().join("same.csv");
         let texts: Vec<String> = (0..8).map(|it| it.to_string().repeat(100_000)).collect();
-        std::thread::scope(|scope| {
+        thread::scope(|scope| {
             for text in &texts {
                 scope.spawn(|| {
                     let output = Output::prepare(&path, "--save", &["csv"], &Inputs::NONE)

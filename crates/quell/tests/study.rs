@@ -345,7 +345,7 @@ fn si_and_the_numbers_of_the_equations_give_the_same_belt() {
 fn a_belt_in_si_may_give_its_natural_frequency_and_damping_ratio() {
     let plain = Study::parse(SI, &[]).expect("valid");
     let scales = plain.scales().expect("in SI");
-    let hertz = scales.angular_frequency() / std::f64::consts::TAU;
+    let hertz = scales.angular_frequency() / TAU;
     let ratio = plain.belt().damping_ratio();
     let stiffness = SI.lines().find(|line| line.starts_with("stiffness_n_per_m")).expect("there");
     let stated = SI
@@ -361,7 +361,7 @@ fn a_belt_in_si_may_give_its_natural_frequency_and_damping_ratio() {
     assert_eq!(Study::parse(&half, &[]).expect("valid").belt().damping_ratio(), 0.005);
     let changes = set(&["belt.natural_frequency_hz=0.1kHz", "belt.damping_ratio=2%"]);
     let changed = Study::parse(SI, &changes).expect("valid");
-    close(changed.scales().expect("in SI").angular_frequency(), 200.0 * std::f64::consts::PI);
+    close(changed.scales().expect("in SI").angular_frequency(), 200.0 * PI);
     assert_eq!(changed.belt().damping_ratio(), 0.02);
     // Both at once is a contradiction.
     for (line, more, key) in [

@@ -132,7 +132,8 @@ fn a_store_of_another_map_is_left_as_it_is() {
 #[test]
 fn metadata_are_proven() {
     let (place, store) = whole("metadata");
-    let changes: [(&str, &dyn Fn(&[u8]) -> Vec<u8>); 6] = [
+    type Changed<'c> = &'c dyn Fn(&[u8]) -> Vec<u8>;
+    let changes: [(&str, Changed<'_>); 6] = [
         ("efficiency/zarr.json", &|bytes| {
             let text = String::from_utf8_lossy(bytes);
             assert!(text.contains("little"));

@@ -172,15 +172,15 @@ impl Store {
     /// Compares what is there with the plan, and writes what is missing of all but the chunks.
     fn begin(&self, plan: &Plan, identity: &Json, resume: bool) -> Result<(), Failure> {
         let text = format!("{identity:#}\n");
-        let there = match known(&self.path, &self.own)? {
-            Some(there) => Some(there),
-            None => {
-                let first = self.unfinished.write_first(&self.own, IDENTITY, text.as_bytes());
-                let first = first
-                    .map_err(|error| failed(&self.path, format!("cannot be written: {error}")))?;
-                if first { None } else { known(&self.path, &self.own)? }
+        let mut there = known(&self.path, &self.own)?;
+        if there.is_none() {
+            let first = self.unfinished.write_first(&self.own, IDENTITY, text.as_bytes());
+            let first =
+                first.map_err(|error| failed(&self.path, format!("cannot be written: {error}")))?;
+            if !first {
+                there = known(&self.path, &self.own)?;
             }
-        };
+        }
         let begun = match &there {
             None => Provenance::of(identity),
             Some(_) if !resume => return Err(exists(&self.path)),

@@ -34,7 +34,9 @@ impl Folder {
     }
 
     /// The same folder once more.
+    #[cfg(not(unix))]
     pub(super) fn same(&self) -> io::Result<Self> {
+        self.itself()?;
         Ok(Self { path: self.path.clone() })
     }
 

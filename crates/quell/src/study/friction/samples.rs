@@ -216,12 +216,15 @@ fn parse(text: &str, column: &str) -> Result<Vec<(f64, f64)>, String> {
     let value = |row: &Row<'_>, at: usize, name: &str| {
         let number =
             row.number(at, name, "a finite number ≥ 0", |it| it.is_finite() && it >= 0.0);
-        number.map_err(|why| match row.is_negative(at) {
-            true => format!(
-                "{why}; friction is the same in both directions of slip here: samples of one direction, with \
-                 both numbers positive, make one law"
-            ),
-            false => why,
+        number.map_err(|why| {
+            if row.is_negative(at) {
+                format!(
+                    "{why}; friction is the same in both directions of slip here: samples of one direction, with \
+                     both numbers positive, make one law"
+                )
+            } else {
+                why
+            }
         })
     };
     let sample = |row| Ok((value(row, speed, column)?, value(row, coefficient, "coefficient")?));

@@ -202,7 +202,7 @@ pub(super) fn is_si(root: &Table) -> bool {
                 match vocabulary::key(*section, name).map(|key| key.role) {
                     Some(Role::Scale(_)) => return true,
                     Some(Role::Twin(..) | Role::Speeds { si: true } | Role::FrictionForce(..)) => {
-                        twins = true
+                        twins = true;
                     }
                     Some(Role::Speeds { si: false }) => plain = true,
                     Some(Role::Number(parameter))
