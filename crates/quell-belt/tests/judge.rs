@@ -48,6 +48,19 @@ fn a_response_of_one_period_is_not_called_locked() {
     }
 }
 
+/// At v₀ = 0 a run from rest ends on the response that sticks twice a period, whose section is one state to the last bit.
+#[test]
+fn a_driven_oscillator_settles_from_rest() {
+    let friction = Friction::Expression(Expression::new("0.3", &[], None, 1.0).expect("valid"));
+    let still = Belt::new(0.05, 1.0, 0.0, friction, Vec::new()).expect("valid");
+    for amplitude in [0.4, 0.5, 0.6, 0.8, 1.5] {
+        let belt = with_sine(&still, amplitude, 0.5);
+        let orbit = orbit_reached(&belt, Start::REST).unwrap_or_else(|why| panic!("{why}"));
+        assert_eq!(orbit.period, std::f64::consts::TAU / 0.5, "{amplitude}");
+        assert_eq!(orbit.verdict(), Verdict::Stable, "{amplitude}");
+    }
+}
+
 /// The response at D = 7 creeps along a nearly locked curve to an orbit of ten periods, which is what it is.
 #[test]
 fn a_creep_along_a_nearly_locked_curve_ends_on_its_orbit() {

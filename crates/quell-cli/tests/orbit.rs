@@ -288,7 +288,7 @@ fn thresholds_are_asked_in_si() {
         "--to",
         "6500",
     ]);
-    assert!(told.starts_with("dither.amplitude_n from 5000 N to 6500 N,"), "{told}");
+    assert!(told.contains("\ndither.amplitude_n from 5000 N to 6500 N,"), "{told}");
     let newtons = format!("{:.3} N", number(&local["value_n"]));
     assert!(told.contains(&newtons), "{newtons}: {told}");
     for (name, unit) in [("value_n", "N"), ("from_n", "N"), ("displacement_m", "m")] {

@@ -20,6 +20,9 @@ fn valid(value: &Json, schema: &Json, root: &Json) -> bool {
         "pattern" => value.as_str().is_none_or(measure::has_unit),
         "anyOf" => schemas(argument).any(|schema| valid(value, schema, root)),
         "not" => !valid(value, argument, root),
+        "type" if argument.is_array() => {
+            schemas(argument).any(|one| valid(value, &serde_json::json!({ "type": one }), root))
+        }
         "type" => match argument.as_str() {
             Some("object") => value.is_object(),
             Some("array") => value.is_array(),

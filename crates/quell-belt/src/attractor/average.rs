@@ -35,13 +35,17 @@ pub(super) struct Moments {
 }
 
 impl Moments {
-    /// Of a section.
+    /// Of a section, about its first state: a section that is one state has no spread, where rounding of squares would leave 10⁻⁸ of
+    /// its distance from the origin.
     pub(super) fn of(section: &[(f64, f64)]) -> Self {
         let mut sums = Sums::default();
+        let (first_x, first_v) = section.first().copied().unwrap_or_default();
         for (weight, &(x, v)) in weights(section.len()).iter().zip(section) {
-            sums.add(*weight, x, v);
+            sums.add(*weight, x - first_x, v - first_v);
         }
-        sums.moments()
+        let moments = sums.moments();
+        let [x, v] = moments.centre;
+        Self { centre: [x + first_x, v + first_v], ..moments }
     }
 
     /// Root of the mean square distance from the centre.
@@ -83,6 +87,14 @@ impl Sums {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn one_state_has_no_spread() {
+        for state in [(0.517_215_1, 0.126_522_8), (1e8, -3.0)] {
+            let moments = Moments::of(&[state; 64]);
+            assert_eq!((moments.centre, moments.size()), ([state.0, state.1], 0.0));
+        }
+    }
 
     #[test]
     fn a_quasi_periodic_mean_converges_fast() {

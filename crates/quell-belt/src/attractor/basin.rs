@@ -110,6 +110,6 @@ impl Group {
             return quiet && self.quiet;
         }
         let size = self.summary.size.max(run.summary.size);
-        self.summary.distance(&run.summary) <= ALIKE * size + floor
+        self.summary.distance(&run.summary, floor) <= ALIKE * size + floor
     }
 }

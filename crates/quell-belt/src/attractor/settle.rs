@@ -129,9 +129,9 @@ impl Summary {
         }
     }
 
-    /// The largest difference of centre, size and shape, a length.
-    pub(super) fn distance(&self, other: &Self) -> f64 {
-        self.moments.distance(&other.moments, self.size.max(other.size))
+    /// The largest difference of centre, size and shape, a length; motions smaller than `least` count as that large.
+    pub(super) fn distance(&self, other: &Self, least: f64) -> f64 {
+        self.moments.distance(&other.moments, self.size.max(other.size).max(least))
     }
 }
 
@@ -378,15 +378,16 @@ impl Course {
         let size = now.size;
         let allowed = patience.closeness * size;
         let last = self.earlier.last()?;
-        let change = now.distance(last);
-        if size < POINT * scale {
-            return (change < POINT * scale).then_some(change);
+        let least = POINT * scale;
+        let change = now.distance(last, least);
+        if size < least {
+            return (change < least).then_some(change);
         }
         if forgets && change <= 0.1 * allowed {
             return Some(change);
         }
         let second = self.earlier.iter().rev().nth(1)?;
-        let before = last.distance(second);
+        let before = last.distance(second, least);
         let ratio = change / before;
         // It shrinks evenly: what is left is a geometric sum.
         if ratio < 0.9 && change <= allowed * (1.0 - ratio) && before <= 10.0 * allowed {
@@ -394,17 +395,18 @@ impl Course {
         }
         // It wavers without a trend.
         let third = self.earlier.iter().rev().nth(2)?;
-        let wavers = [change, before, second.distance(third)].into_iter().fold(0.0, f64::max);
-        if wavers <= allowed / 3.0 && now.distance(third) <= 0.5 * allowed {
+        let wavers =
+            [change, before, second.distance(third, least)].into_iter().fold(0.0, f64::max);
+        if wavers <= allowed / 3.0 && now.distance(third, least) <= 0.5 * allowed {
             return Some(wavers);
         }
-        self.drift().filter(|drift| *drift <= allowed / 3.0)
+        self.drift(least).filter(|drift| *drift <= allowed / 3.0)
     }
 
     /// By how much two windows differ, each a quarter of all blocks, the newest and the one before. A slow motion that is
     /// nearly locked to the dither creeps around its curve for many blocks, and each block sees another part of it: what
     /// does not change then is the average over many of them.
-    fn drift(&self) -> Option<f64> {
+    fn drift(&self, least: f64) -> Option<f64> {
         if !self.compares() {
             return None;
         }
@@ -412,7 +414,7 @@ impl Course {
         let window = blocks / 4;
         let (rest, newest) = self.earlier.split_at(blocks - window);
         let (_, before) = rest.split_at(rest.len() - window);
-        Some(Summary::averaged(newest).distance(&Summary::averaged(before)))
+        Some(Summary::averaged(newest).distance(&Summary::averaged(before), least))
     }
 
     /// Whether windows of the blocks that are kept are compared when the next block is over.

@@ -129,10 +129,12 @@ fn a_store_of_another_map_is_left_as_it_is() {
     );
 }
 
+/// What a stranger makes of the bytes of a file.
+type Changed<'c> = &'c dyn Fn(&[u8]) -> Vec<u8>;
+
 #[test]
 fn metadata_are_proven() {
     let (place, store) = whole("metadata");
-    type Changed<'c> = &'c dyn Fn(&[u8]) -> Vec<u8>;
     let changes: [(&str, Changed<'_>); 6] = [
         ("efficiency/zarr.json", &|bytes| {
             let text = String::from_utf8_lossy(bytes);

@@ -34,15 +34,18 @@ pub struct FrictionCurve {
     pub points: Vec<Point>,
 }
 
-/// Slip velocities of a picture: past the law's own velocity, the belt's, and the fast motion's, up to the end of the law's
-/// range.
+/// Slip velocities of a picture: past the law's own velocity, the belt's, and the fast motion's, up to where slip and
+/// dither together leave the law's range.
 pub fn grid(belt: &Belt) -> Vec<f64> {
     let law = belt.friction();
     let fast = belt.fast_velocity();
     let reached = 1.5 * belt.belt_velocity().max(fast);
     let scale = law.velocity_scale();
     let own = if law.has_velocity() || reached == 0.0 { 2.0 * scale } else { 0.0 };
-    let end = law.range().map_or(f64::INFINITY, |range| range.upper).min(own.max(reached));
+    // The average at a slip velocity meets that and the fast velocity together.
+    let within = law.range().map_or(f64::INFINITY, |range| range.upper);
+    let within = if within > fast { within - fast } else { within };
+    let end = within.min(own.max(reached));
     let mut side: Vec<f64> =
         (1..=POINTS).map(|k| (end * f64::from(k) / f64::from(POINTS)).min(end)).collect();
     // At the largest fast velocity the effective friction has a corner.
