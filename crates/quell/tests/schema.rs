@@ -90,7 +90,7 @@ fn schema_and_reader_agree() {
     let sweep = |lines: &str| more(&format!("[[sweep]]\nparameter = 'dither.phase'\n{lines}"));
     let law = |text: &str, law: &str| {
         let (start, rest) =
-            (text.find("law").expect("a law"), text.find("[dither]").or(text.find("[[dither]]")));
+            (text.find("law").expect("a law"), text.find("[[dither]]").or(text.find("[dither]")));
         text[..start].to_owned()
             + law
             + "\n"

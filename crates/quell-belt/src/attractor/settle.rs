@@ -379,10 +379,12 @@ impl Course {
         let allowed = patience.closeness * size;
         let last = self.earlier.last()?;
         let least = POINT * scale;
-        let change = now.distance(last, least);
         if size < least {
+            // Without slow motion the shape is that of the forced motion, and is compared relative to it.
+            let change = now.distance(last, now.moments.size());
             return (change < least).then_some(change);
         }
+        let change = now.distance(last, least);
         if forgets && change <= 0.1 * allowed {
             return Some(change);
         }

@@ -44,7 +44,12 @@ pub fn grid(belt: &Belt) -> Vec<f64> {
     let own = if law.has_velocity() || reached == 0.0 { 2.0 * scale } else { 0.0 };
     // The average at a slip velocity meets that and the fast velocity together.
     let within = law.range().map_or(f64::INFINITY, |range| range.upper);
-    let within = if within > fast { within - fast } else { within };
+    let within = match within - fast {
+        // Rounding must not lead out of the range again.
+        rest if rest > 0.0 && rest + fast > within => rest.next_down(),
+        rest if rest > 0.0 => rest,
+        _ => within,
+    };
     let end = within.min(own.max(reached));
     let mut side: Vec<f64> =
         (1..=POINTS).map(|k| (end * f64::from(k) / f64::from(POINTS)).min(end)).collect();
