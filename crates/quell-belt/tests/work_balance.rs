@@ -82,7 +82,8 @@ fn random_belt(random: &mut Random) -> (Belt, Start) {
                 Direction::Normal => left * random.pick(&[0.1, 0.5, 1.0]),
             };
             if direction == Direction::Normal {
-                left = (left - amplitude).max(0.0);
+                // Rounded down: all of them together may not exceed the load.
+                left = ((left - amplitude) * (1.0 - f64::EPSILON)).max(0.0);
             }
             Dither {
                 direction,

@@ -46,7 +46,7 @@ thread_local! {
     static LEFT: Cell<u64> = const { Cell::new(u64::MAX) };
 }
 
-/// Does `work`, in which all runs on this thread take at most so many steps together (a look may come [`EVERY`] steps
+/// Does `work`, in which all runs on this thread take at most so many steps together (a look may come `EVERY` steps
 /// late); those after that end at once, with the reason.
 pub fn within<T>(steps: u64, work: impl FnOnce() -> T) -> T {
     /// Gives the outer question what is left of its own, also where the work panics.

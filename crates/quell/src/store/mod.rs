@@ -18,7 +18,7 @@
 //! which follow from the study and from `map.json`: a store in which they differ is refused.
 //!
 //! A store may come from a stranger. Nothing outside its folder is read, written or removed: no
-//! symbolic link inside is followed ([`folder`]), and a store that holds one, or a pipe in place of a
+//! symbolic link inside is followed (`folder`), and a store that holds one, or a pipe in place of a
 //! file, is refused before anything in it is written or removed; so is the store of another map.
 //!
 //! One process writes alone ([`Store::open`]), or several on any number of machines share the
