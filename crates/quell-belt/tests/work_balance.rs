@@ -171,7 +171,12 @@ impl Observer for Balance<'_> {
         }
         let speed = segment.velocity(0.0).abs().max(segment.velocity(duration).abs());
         let size = segment.displacement(0.0).abs().max(speed).max(self.belt.normal_load());
-        let residual = (gained - work).abs() / (TOLERANCE * size * size);
+        // The phase of the dither is one number here, Rτ: its rounding is work that the engine, which counts time in two numbers,
+        // does not do.
+        let phase = self.fastest * segment.clock().time();
+        let force = self.belt.total_amplitude(Direction::Tangential);
+        let rounding = f64::EPSILON * phase * force * speed * duration;
+        let residual = ((gained - work).abs() - rounding) / (TOLERANCE * size * size);
         assert!(residual.is_finite());
         self.worst = self.worst.max(residual);
     }
