@@ -147,7 +147,7 @@ def test_what_would_be_left_out_is_refused(call: Any, key: str, belt: quell.Belt
 
 @pytest.mark.parametrize(
     "given",
-    ["12", b"12", 0.1, True, (True, 0.1), ("0", "1"), {0.1, 0.2}, {0.1: 1.0, 0.2: 2.0}, (0.1,), (0.1, 0.2, 0.3), (0.1, np.inf),
+    ["12", b"12", 0.1, True, (True, 0.1), ("0", "one"), {0.1, 0.2}, {0.1: 1.0, 0.2: 2.0}, (0.1,), (0.1, 0.2, 0.3), (0.1, np.inf),
      np.array([True, False]), np.array([[0.1], [0.2]])],
 )  # fmt: skip
 def test_what_is_no_pair_of_numbers_is_refused(given: Any, belt: quell.Belt, disc: quell.Disc) -> None:

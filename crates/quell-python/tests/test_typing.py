@@ -30,7 +30,7 @@ left: list[int] = belt.map("efficiency", store="m.zarr", shard="1/2").left_shard
 BAD = """
 import quell
 
-quell.Belt(damping_ratio="none")
+quell.Belt(damping_ratio=[0.1])
 quell.Belt(belt_velcity=0.1)
 quell.Dither("sideways", "sine")
 quell.Stribeck(mu=0.4)

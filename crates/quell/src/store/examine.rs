@@ -21,6 +21,15 @@ const MOMENT: Duration = Duration::from_millis(50);
 /// and whether it is the store of this map.
 pub(super) fn examined(path: &Path, layout: &Layout, identity: &Json) -> Result<(), Failure> {
     let root = Folder::open(path).map_err(|error| unwritable(path, &error))?;
+    // That it is the store of another map is said first: its folders may be others for that reason.
+    if matches!(root.entry(OWN), Ok(Entry::Folder)) {
+        let own = root.folder(OWN).map_err(|error| unwritable(path, &error))?;
+        if matches!(own.entry(IDENTITY), Ok(Entry::File))
+            && let Some(there) = known(path, &own)?
+        {
+            compared(path, &there, identity)?;
+        }
+    }
     // Folders below that of an array: c, and one an axis but for the last, which is in the names of chunks.
     let arrays = layout.arrays().map(|array| (layout::name(array), array.dimensionality()));
     let expected: HashMap<&str, usize> = arrays.chain([(OWN, 1)]).collect();
@@ -33,13 +42,7 @@ pub(super) fn examined(path: &Path, layout: &Layout, identity: &Json) -> Result<
             None => {}
         }
     }
-    match root.entry(OWN) {
-        Ok(_) => {}
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
-        Err(error) => return Err(unwritable(path, &error)),
-    }
-    let own = root.folder(OWN).map_err(|error| unwritable(path, &error))?;
-    known(path, &own)?.map_or(Ok(()), |there| compared(path, &there, identity))
+    Ok(())
 }
 
 /// Refuses links, pipes and whatever else is neither a file nor a folder; and a folder that is deeper than any of a store.
