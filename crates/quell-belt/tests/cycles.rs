@@ -1,7 +1,7 @@
 //! Limit cycles without dither, and folds of responses.
 
 use quell_belt::attractor::{Reached, orbit_reached, ramped, reached};
-use quell_belt::orbit::cycle::cycles;
+use quell_belt::orbit::cycle::{cycles, free_end};
 use quell_belt::orbit::threshold::{Ending, Kind, local};
 use quell_belt::orbit::{NoOrbit, Orbit, Verdict, from_sliding};
 use quell_belt::simulation::{EventKind, EventRecorder, Start, simulate};
@@ -66,6 +66,29 @@ fn an_unstable_cycle_lies_between_sliding_and_squeal() {
         let mut watch = EventRecorder::default();
         simulate(&belt, start, 3000.0, 1e-12, &mut watch).expect("no stall");
         assert_eq!(!watch.events.is_empty(), sticks, "{share}");
+    }
+}
+
+/// Without damping and with constant friction every turn returns to itself: a continuum has no limit cycle.
+#[test]
+fn a_continuum_of_free_oscillations_has_no_limit_cycle() {
+    let friction = LawKind::Coulomb.build(&[0.3, 0.3, 0.0]).expect("a valid law");
+    let belt = Belt::new(0.0, 1.0, 0.9767, friction, Vec::new()).expect("valid");
+    assert_eq!(cycles(&belt), Ok(Vec::new()));
+    assert_eq!(free_end(&belt, Start::REST), Err(NoOrbit::NoLimit));
+}
+
+/// With Coulomb friction and a static level, turns that slip throughout decay and those that stick grow: between them the growth
+/// jumps over zero, and no turn returns to itself.
+#[test]
+fn a_jump_of_the_cycle_map_is_no_cycle() {
+    let friction = LawKind::Coulomb.build(&[0.75, 1.0, 0.0]).expect("a valid law");
+    for velocity in [0.001, 0.01, 0.1] {
+        let belt = Belt::new(0.02, 1.0, velocity, friction.clone(), Vec::new()).expect("valid");
+        for cycle in cycles(&belt).expect("no stall") {
+            assert_eq!(cycle.count(EventKind::Stick), 1, "{velocity}: {cycle:?}");
+            assert!(cycle.residual < 1e-9, "{velocity}: {cycle:?}");
+        }
     }
 }
 

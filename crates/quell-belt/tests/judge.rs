@@ -6,7 +6,7 @@ use quell_belt::attractor::{
 use quell_belt::orbit::cycle::{FreeEnd, cycles, free_end, keeps_vibrating};
 use quell_belt::orbit::threshold::{self, local_thresholds};
 use quell_belt::orbit::{Verdict, from_sliding, near};
-use quell_belt::response::{Effect, Solver, Undefined, respond};
+use quell_belt::response::{Effect, Solver, Uncertain, Undefined, respond};
 use quell_belt::simulation::Start;
 use quell_belt::start::InitialState;
 use quell_model::{Belt, Direction, Dither, Expression, Friction, LawKind, Waveform};
@@ -135,6 +135,7 @@ fn every_effect_has_its_word() {
     for (belt, start, effect) in [
         (with_sine(&slow, 0.6, 10.0), Start::REST, Effect::Quenches),
         (with_sine(&slow, 0.3, 10.0), Start::REST, Effect::Reduces),
+        (slow.clone(), Start::REST, Effect::Unknown(Uncertain::NoDither)),
         // Below resonance the dither's own motion is in the band.
         (with_sine(&slow, 0.6, 0.9), Start::REST, Effect::Increases),
         // Sliding is stable at v₀ = 1; the same dither makes it squeal from rest and leaves it quiet from the base response.

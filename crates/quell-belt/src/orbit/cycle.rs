@@ -37,6 +37,10 @@ const SMALLEST: f64 = 1e-3;
 /// within this distance. The map's relative rounding is 10⁻⁸ there, below the growth that the search compares.
 const NEGLIGIBLE: f64 = 1e-6;
 
+/// Relative growth over a turn at which it returns to itself: a root is located to 10⁻¹⁴ of its size, so that only a growth that jumps
+/// over zero leaves more than this.
+const RETURNS: f64 = 1e-6;
+
 /// The next lowest point after a state, its time, and whether the mass stuck on the way.
 struct Turn {
     displacement: f64,
@@ -115,9 +119,11 @@ impl CycleMap<'_> {
         let mut found = Vec::new();
         for (at, &(lower, below)) in grid.iter().enumerate().skip(1) {
             let (upper, above) = grid[at - 1];
-            if below * above < 0.0 {
+            // Without any damping every turn returns to itself, and signs are rounding.
+            let sure = below.abs().max(above.abs()) > SAME;
+            if sure && below * above < 0.0 {
                 found.extend(self.root(lower, upper)?);
-            } else if let Some(&next) = grid.get(at + 1) {
+            } else if let Some(&next) = grid.get(at + 1).filter(|_| sure) {
                 found.extend(self.pair([next, (lower, below), (upper, above)])?);
             }
         }
@@ -127,12 +133,14 @@ impl CycleMap<'_> {
         Ok(found)
     }
 
-    /// The size between two at which the growth changes sign.
+    /// The size between two at which the growth changes sign. Where it jumps over zero no turn returns to itself: larger ones stick and
+    /// grow, smaller ones only slip and decay.
     fn root(&self, lower: f64, upper: f64) -> Result<Option<f64>, NoOrbit> {
         let closeness = Closeness { absolute: 0.0, relative: 1e-14 };
         // A change of sign of finite values has a root: the search itself has nothing to complain about.
         let root = try_find_root(|size| self.growth(size), lower, upper, closeness)?;
-        Ok(root.ok().map(|root| root.location))
+        let returns = root.ok().filter(|root| root.residual.abs() <= RETURNS);
+        Ok(returns.map(|root| root.location))
     }
 
     /// Two sizes about a dip of the growth towards zero between three sizes of the grid, where it changes sign twice: near the

@@ -65,6 +65,8 @@ impl Effect {
 /// Why an effect is unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Uncertain {
+    /// No dither acts.
+    NoDither,
     /// Where the undithered run ends.
     Undithered(Undefined),
     /// The record still changes, and where the dithered run ends does not decide.
@@ -76,6 +78,7 @@ pub enum Uncertain {
 impl fmt::Display for Uncertain {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::NoDither => f.write_str("no dither acts"),
             Self::Undithered(why) => why.fmt(f),
             Self::StillChanging => f.write_str(
                 "the vibration with dither still changes within the record; settle for longer",
@@ -121,6 +124,9 @@ impl Ending {
 
 /// The effect of a belt's dither from a start, from what was measured and from where the run ends.
 pub fn effect(belt: &Belt, start: Start, compared: &Compared, ending: Ending) -> Effect {
+    if belt.dithers().iter().all(|dither| dither.amplitude == 0.0) {
+        return Effect::Unknown(Uncertain::NoDither);
+    }
     let quiet_without = match compared.efficiency() {
         Err(why @ Undefined::UnditheredUnknown) => {
             return Effect::Unknown(Uncertain::Undithered(why));

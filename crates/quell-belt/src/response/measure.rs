@@ -15,6 +15,9 @@ use crate::simulation::{
     simulate_many_with,
 };
 
+/// Amplitude, relative to F, of which nothing is left but the engine's error and rounding: it need not settle.
+const NOTHING: f64 = 1e-9;
+
 /// A belt and where it starts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
@@ -50,6 +53,8 @@ pub struct Measured {
     pub largest_slip: f64,
     /// Stick, release and reversal events in the record.
     pub events: u64,
+    /// F, the scale of lengths.
+    load: f64,
 }
 
 impl Measured {
@@ -59,6 +64,7 @@ impl Measured {
         let difference = (first - second).abs();
         difference <= HALVES_AGREE * first.max(second)
             || difference <= HALVES_NEGLIGIBLE * reference
+            || first.max(second) <= NOTHING * self.load
     }
 
     /// Whether M of the halves agree relatively: nothing grows or falls by more than a hundredth over half a record.
@@ -244,6 +250,7 @@ impl<O> Watch<O> {
             minimum_normal_load: cost::minimum_normal_load(belt, self.sampling.from, length),
             largest_slip: self.slip.speed,
             events: end.events,
+            load: belt.normal_load(),
         };
         (measured, self.observer)
     }

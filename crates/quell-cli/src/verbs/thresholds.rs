@@ -188,7 +188,7 @@ fn text(study: &Study, done: &Thresholds) -> String {
         let _ = writeln!(text, "runs {}:", protocol.name().replace('_', " "));
         let first = becomes(switches.first);
         if switches.changes.is_empty() {
-            let _ = writeln!(text, "  {first} everywhere");
+            let _ = writeln!(text, "  {first} at every value of the range");
         } else {
             let _ = writeln!(text, "  {:<14}  {first}", figure(question.from));
         }

@@ -146,10 +146,11 @@ impl FrictionCurve {
         fields.finish()
     }
 
-    /// Where the slip velocities, with the fast motion, leave the range of the law.
+    /// Where the slip velocities, or that of the belt, leave the range of the law together with the fast motion.
     pub fn warnings(&self, study: &Study) -> Vec<String> {
         let speeds = self.points.iter().map(|point| point.slip_velocity.abs());
-        range::averaged_at(study, speeds.fold(0.0, f64::max))
+        let fastest = speeds.fold(study.belt().belt_velocity(), f64::max);
+        range::averaged_at(study, fastest)
     }
 
     /// As a dataset.

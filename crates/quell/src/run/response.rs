@@ -87,12 +87,13 @@ impl Steady {
             let change = if loss < 0.0 { "raises" } else { "lowers" };
             format!("{change} the mean friction by {}", percent(loss.abs()))
         });
-        let power = response
-            .dither_power
-            .map(|power| format!("takes a power of {}", in_words(study, Quantity::Power, power)));
+        let power = response.dither_power.map(|power| {
+            let verb = if power < 0.0 { "returns to its actuator" } else { "takes" };
+            format!("{verb} a mean power of {}", in_words(study, Quantity::Power, power.abs()))
+        });
         let stroke = response.dither_stroke.map(|stroke| {
             let stroke = in_words(study, Quantity::Displacement, stroke);
-            format!("a stroke of {stroke} peak to peak")
+            format!("needs a stroke of {stroke} peak to peak")
         });
         let parts: Vec<String> = [loss, power, stroke].into_iter().flatten().collect();
         match parts.as_slice() {

@@ -206,8 +206,13 @@ const VERDICTS: Kind = Kind::Word { words: &["unstable", "stable"], unknown: "un
 const EFFECTS: Kind = Kind::Word { words: &Effect::NAMES, unknown: "unknown" };
 
 /// What an effect can be instead of known.
-const OF_EFFECT: &[Status] =
-    &[Status::Stalled, Status::NoSquealingStart, Status::UnditheredUnknown, Status::StillChanging];
+const OF_EFFECT: &[Status] = &[
+    Status::Stalled,
+    Status::NoSquealingStart,
+    Status::UnditheredUnknown,
+    Status::StillChanging,
+    Status::NoDither,
+];
 
 /// Words of a flag.
 const SETTLED: Kind = Kind::Word { words: &["no", "yes"], unknown: "unknown" };

@@ -185,6 +185,7 @@ impl From<Undefined> for Status {
 impl From<Uncertain> for Status {
     fn from(why: Uncertain) -> Self {
         match why {
+            Uncertain::NoDither => Self::NoDither,
             Uncertain::Undithered(why) => why.into(),
             Uncertain::StillChanging => Self::StillChanging,
             Uncertain::Stalled(_) => Self::Stalled,

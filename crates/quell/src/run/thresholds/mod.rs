@@ -104,7 +104,11 @@ pub fn value_in_words(study: &Study, path: &str, value: f64) -> String {
     if study.scales().is_none() {
         return value.to_string();
     }
-    in_words(study, quantity_of(study, path), value)
+    match quantity_of(study, path) {
+        // Its path says ζ, whatever key the study has.
+        Quantity::DampingRatio => super::digits(value),
+        quantity => in_words(study, quantity, value),
+    }
 }
 
 /// What a number of the equations measures.
