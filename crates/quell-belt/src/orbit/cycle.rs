@@ -169,12 +169,14 @@ impl CycleMap<'_> {
         if self.growth(least)? * growth >= 0.0 { Ok(None) } else { self.root(least, smallest) }
     }
 
-    /// The cycle of a size.
+    /// The cycle of a size; `None` where its size is not determined.
     fn cycle(&self, size: f64) -> Result<Option<Orbit>, NoOrbit> {
         let start = self.lowest(size);
         let Some(turn) = turn(self.belt, start)? else { return Ok(None) };
         let state = [start.displacement, start.velocity];
-        Ok(Some(orbit_at(self.belt, &state, turn.time, true)?))
+        let cycle = orbit_at(self.belt, &state, turn.time, true)?;
+        // In a continuum of free oscillations the size is what rounding made it.
+        Ok(cycle.multiplier_error.is_finite().then_some(cycle))
     }
 }
 
@@ -228,8 +230,12 @@ pub fn squeal(belt: &Belt) -> Result<Option<Start>, NoOrbit> {
         return Ok(Some(released(belt)));
     }
     // The turn after a release shrinks: the next smaller cycle attracts it.
-    let sizes = map.fixed_sizes(largest)?;
-    Ok(sizes.first().map(|size| map.lowest(*size)))
+    for size in map.fixed_sizes(largest)? {
+        if map.cycle(size)?.is_some_and(|cycle| cycle.verdict() != Verdict::Unstable) {
+            return Ok(Some(map.lowest(size)));
+        }
+    }
+    Ok(None)
 }
 
 /// Where an undithered run from a state ends.
