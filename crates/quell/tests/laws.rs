@@ -264,14 +264,14 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     quiet(&friction::run(&inside, &at).json(&inside));
     warns(&friction::run(&outside, &at).json(&outside));
     // Outside, the belt's own slip with the dither leaves the range whatever the grid.
-    let of: [(&Study, &dyn Fn(&Json)); 2] = [(&inside, &quiet), (&outside, &warns)];
-    for (study, says) in of {
+    for study in [&inside, &outside] {
         let grid = friction::grid(study.belt());
         let end = grid.last().copied().expect("points");
         // With dither the average at a slip velocity meets the fast velocity beyond it.
         let met = end + study.belt().fast_velocity();
         assert!((met - 0.2 * 3f64.sqrt()).abs() < 1e-15, "{end}");
-        says(&friction::run(study, &grid).json(study));
+        let said = friction::run(study, &grid).json(study);
+        if std::ptr::eq(study, &inside) { quiet(&said) } else { warns(&said) }
     }
     quiet(&stability::run(&inside).json(&inside));
     warns(&stability::run(&outside).json(&outside));
