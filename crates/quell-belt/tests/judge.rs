@@ -70,6 +70,22 @@ fn a_creep_along_a_nearly_locked_curve_ends_on_its_orbit() {
     assert_eq!(orbit.verdict(), Verdict::Stable);
 }
 
+/// A dither of no amplitude leaves a limit cycle as it is, whatever its frequency: the section's moments have no relation to it.
+#[test]
+fn a_limit_cycle_does_not_depend_on_the_frequency_of_no_dither() {
+    let belt = undithered(LawKind::Decreasing, 0.005, 0.05);
+    let frequency = std::f64::consts::TAU / cycles(&belt).expect("no stall")[0].period;
+    for frequency_ratio in [10.0, 1.45, 1.396, 1.0, 0.6] {
+        let belt = with_sine(&belt, 0.0, frequency_ratio);
+        let scene = Scene::new(&belt).expect("a strobe");
+        let settled = settle(&scene, Start::REST, Patience::SWEEP).expect("no stall");
+        let attractor = measure(&scene, &settled).expect("no stall").expect("settled");
+        assert_eq!(attractor.kind, Kind::Cycle, "{frequency_ratio}");
+        let found = attractor.frequency(scene.strobe.period).expect("it turns");
+        assert!((found - frequency).abs() < 1e-12, "{frequency_ratio}: {found} {frequency}");
+    }
+}
+
 /// The squeal of the Stribeck law shrinks to nothing at the Hopf point, not before: starts, cycles, thresholds and orbits say so.
 #[test]
 fn squeal_ends_at_the_hopf_point() {

@@ -127,8 +127,19 @@ pub fn measure(scene: &Scene<'_>, settled: &Settled) -> Result<Option<Attractor>
             let kind = Kind::Periodic { periods: 1, radius: quiet.radius };
             Ok(Some(Attractor { quiet: true, ..seen(scene, kind, state, 1)? }))
         }
-        (Outcome::Quiet | Outcome::Elsewhere, _) => elsewhere(scene, settled.state).map(Some),
+        (Outcome::Quiet | Outcome::Elsewhere, _) => match settled.cycle {
+            Some(period) => cycle(scene, settled.state, period).map(Some),
+            None => elsewhere(scene, settled.state).map(Some),
+        },
     }
+}
+
+/// The limit cycle without dither through a state, of a known period: nothing has to be read from a section, whose moments have
+/// no relation to it.
+fn cycle(scene: &Scene<'_>, state: Start, period: f64) -> Result<Attractor, Stalled> {
+    let attractor = seen(scene, Kind::Cycle, state, RECORD.max(BLOCKS * block(scene)))?;
+    let rotation = Some(Rotation::of_cycle(scene.strobe.period / period));
+    Ok(Attractor { rotation, ..attractor })
 }
 
 /// What the records of a settled run show.
@@ -165,11 +176,7 @@ fn elsewhere(scene: &Scene<'_>, state: Start) -> Result<Attractor, Stalled> {
             seen(scene, kind, orbit.start, periods as usize)
         }
         Found::Section { from, periods, steady } => {
-            let kind = match steady {
-                true if scene.is_autonomous() => Kind::Cycle,
-                true => Kind::QuasiPeriodic,
-                false => Kind::Unclassified,
-            };
+            let kind = if steady { Kind::QuasiPeriodic } else { Kind::Unclassified };
             seen(scene, kind, from, periods)
         }
     }

@@ -48,6 +48,11 @@ impl Rotation {
         Self { turns_per_period: turns as f64 / f64::from(periods), error: 0.0, ratio: Some(ratio) }
     }
 
+    /// Of a limit cycle without dither, which makes so many turns in a period of the strobe: exact, and not modulo 1.
+    pub(super) fn of_cycle(turns_per_period: f64) -> Self {
+        Self { turns_per_period, error: 0.0, ratio: None }
+    }
+
     /// Whether a motion of so many periods has filled its curve: measured against every fraction p/q of a small denominator it
     /// has moved by more than 1/q of a turn, the gap between the q states that it nearly repeats.
     pub(super) fn fills(&self, periods: usize) -> bool {

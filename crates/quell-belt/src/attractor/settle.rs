@@ -93,6 +93,8 @@ pub struct Settled {
     pub periods: u64,
     /// Its last block.
     pub(super) summary: Summary,
+    /// Period τ of the limit cycle on which it ends, without dither.
+    pub(super) cycle: Option<f64>,
 }
 
 /// What is kept of a block.
@@ -251,7 +253,8 @@ fn undithered(scene: &Scene<'_>, starts: &[Start]) -> Vec<Result<Settled, Stalle
                 Err(why) => return Err(stall(why)),
             };
             let summary = place.map_or_else(|| Summary::of_state(state), |place| summaries[place]);
-            Ok(Settled { outcome, state, periods: 0, summary })
+            let cycle = place.map(|place| cycles[place].period);
+            Ok(Settled { outcome, state, periods: 0, summary, cycle })
         })
         .collect()
 }
@@ -345,7 +348,7 @@ impl Course {
     }
 
     fn over(&self, outcome: Outcome, summary: Summary) -> Settled {
-        Settled { outcome, state: self.state, periods: self.periods, summary }
+        Settled { outcome, state: self.state, periods: self.periods, summary, cycle: None }
     }
 
     /// Whether it is at the quiet response, or on a way there that is known.
