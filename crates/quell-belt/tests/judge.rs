@@ -83,6 +83,8 @@ fn a_limit_cycle_does_not_depend_on_the_frequency_of_no_dither() {
         assert_eq!(attractor.kind, Kind::Cycle, "{frequency_ratio}");
         let found = attractor.frequency(scene.strobe.period).expect("it turns");
         assert!((found - frequency).abs() < 1e-12, "{frequency_ratio}: {found} {frequency}");
+        let orbit = orbit_reached(&belt, Start::REST).expect("a cycle");
+        assert!(orbit.is_free && (orbit.period * frequency - std::f64::consts::TAU).abs() < 1e-12);
     }
 }
 

@@ -15,6 +15,7 @@ use super::rotation::Rotation;
 use super::settle::{Outcome, Patience, Settled, block, settle};
 use super::strobe::Scene;
 use super::watch::Watch;
+use crate::orbit::cycle::{FreeEnd, free_end};
 use crate::orbit::{NoOrbit, Orbit, Verdict, from_sliding, near};
 use crate::simulation::{DEFAULT_TOLERANCE, Observer, Segment, Stalled, Start, simulate};
 
@@ -239,12 +240,17 @@ fn gap(a: (f64, f64), b: (f64, f64)) -> f64 {
     libm::hypot(a.0 - b.0, a.1 - b.1)
 }
 
-/// The periodic orbit on which a run from a state at τ = 0 ends.
+/// The periodic orbit on which a run from a state at τ = 0 ends; a limit cycle of its own period where no dither acts.
 ///
 /// # Errors
 /// [`NoOrbit`]; [`NoOrbit::NoPeriod`] where the run does not end on a closed orbit of up to 200 common periods.
 pub fn orbit_reached(belt: &Belt, start: Start) -> Result<Orbit, NoOrbit> {
     let scene = Scene::new(belt)?;
+    if scene.is_autonomous()
+        && let FreeEnd::Cycle(cycle) = free_end(belt, start)?
+    {
+        return Ok(cycle);
+    }
     let settled = settle(&scene, start, Patience::SWEEP).map_err(NoOrbit::Stalled)?;
     match settled.outcome {
         Outcome::Unsettled(why) => Err(NoOrbit::Unsettled(why)),
