@@ -9,6 +9,7 @@
 
 pub mod attractor;
 pub mod averaging;
+mod band;
 mod contraction;
 pub mod orbit;
 pub mod response;

@@ -103,13 +103,13 @@ fn squeal_ends_at_the_hopf_point() {
         let end = free_end(&at, Start::REST).expect("an end");
         assert_eq!(matches!(end, FreeEnd::Cycle(_)), squeals, "{share}");
         assert_eq!(keeps_vibrating(&at, Start::REST), Ok(squeals), "{share}");
-        let ends = if squeals { Reached::Elsewhere } else { Reached::Sliding };
+        let ends = if squeals { Reached::Elsewhere } else { Reached::Base };
         assert_eq!(reached(&at, Start::REST), Ok(ends), "{share}");
     }
     let squeal = |belt: &Belt| Ok(InitialState::Squealing.resolve(belt).ok());
     let found = switches(&belt, "belt.belt_velocity", (0.15, 0.25), 10, 1e-6, squeal);
     let changes = found.expect("valid").changes;
-    assert_eq!((changes.len(), changes[0].becomes), (1, Reached::Sliding));
+    assert_eq!((changes.len(), changes[0].becomes), (1, Reached::Base));
     assert!((changes[0].value / hopf - 1.0).abs() < 2e-6, "{changes:?}");
 }
 

@@ -182,7 +182,7 @@ fn thresholds_from_rest() {
         let range = (expected - 0.11, expected + 0.09);
         let found = switches(&belt, "dither.amplitude", range, 2, 2e-4, |_| Ok(Some(Start::REST)))
             .expect("runs");
-        assert_eq!((found.first, found.changes.len()), (Reached::Sliding, 1), "{found:?}");
+        assert_eq!((found.first, found.changes.len()), (Reached::Base, 1), "{found:?}");
         let change = found.changes[0];
         assert_eq!(change.becomes, Reached::Elsewhere);
         assert!((change.value - expected).abs() < 5e-3, "{phase}: {}", change.value);
@@ -213,6 +213,6 @@ fn a_start_that_fails_is_not_quenched() {
     let unknown = vec![(2.0, why), (3.0, why)];
     let (first, changes) = (Reached::Unknown, Vec::new());
     assert_eq!(ends(Err(why)), Switches { first, changes, unknown });
-    let (first, changes, unknown) = (Reached::Sliding, Vec::new(), Vec::new());
+    let (first, changes, unknown) = (Reached::Base, Vec::new(), Vec::new());
     assert_eq!(ends(Ok(None)), Switches { first, changes, unknown });
 }

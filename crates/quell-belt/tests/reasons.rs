@@ -29,9 +29,10 @@ fn orbits() {
         &[&place[..], &["a multiplier is 1"]].concat(),
     );
     told(&NoOrbit::Another { distance: 0.125, at }, &["0.25", "-0.5", "1.2e-1", "another one"]);
-    told(&NoOrbit::Ends { share: 0.75 }, &["0.7500000", "none beyond"]);
-    told(&NoOrbit::LostOnTheWay { share: 0.75 }, &["0.7500000", "could not be followed"]);
+    told(&NoOrbit::Ends { share: 0.75 }, &["0.75 of the dither", "none beyond"]);
+    told(&NoOrbit::LostOnTheWay { share: 0.75 }, &["0.75 of the dither", "could not be followed"]);
     told(&NoOrbit::NoPeriod { most: 200 }, &["200 periods"]);
+    told(&NoOrbit::AtRest, &["comes to rest"]);
     told(&NoOrbit::Unsettled(Unsettled::Moving), &["has not settled", "still moved"]);
     told(&NoOrbit::NoLimit, &["neither to a known limit cycle"]);
     told(&NoOrbit::Invalid { value: -3.0 }, &["-3"]);

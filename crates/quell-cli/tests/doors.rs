@@ -170,7 +170,7 @@ fn thresholds_answer_with_the_number() {
     assert_eq!(
         sentence("quench.toml", amplitude, ["0.3", "0.4"], &["--from-rest"]),
         "The base response is unstable at every D from 0.3 to 0.4 (no threshold in this range). \
-         Started from rest, the dither quenches at no D from 0.3 to 0.4."
+         Started from rest, the dither quenches nowhere for D from 0.3 to 0.4."
     );
     // Several intervals, and a branch that turns back.
     let law = DECREASING.map(|change| ["--set", change]).concat();

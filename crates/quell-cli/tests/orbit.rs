@@ -222,31 +222,26 @@ fn runs_from_rest_have_both_thresholds_in_any_window() {
     }
 }
 
-/// Where the response of sliding is lost, thresholds that were found stay, and where runs end beyond is told to be unknown.
+/// Where the base response is lost, thresholds that were found stay, and runs still say where they end: without slow vibration, as
+/// `response` says of the same runs, on orbits of one and of three periods of the dither.
 #[test]
 fn what_cannot_be_followed_does_not_take_the_rest_along() {
-    let found = thresholds(
-        "studies/own-friction-law.toml",
-        "dither.amplitude",
-        ["0.8", "2"],
-        &["--from-rest"],
-    );
+    const OWN: &str = "studies/own-friction-law.toml";
+    let found = thresholds(OWN, "dither.amplitude", ["0.8", "2"], &["--from-rest"]);
     assert_eq!(found["covered"], false);
     let local = found["local"][0]["value"].as_f64().expect("a threshold");
     assert!((local - 0.990_450_5).abs() < 1e-6, "{local}");
     assert_eq!(found["at_from"]["from_rest"], "not quenched");
-    let ends: Vec<&str> = found["from_rest"]
-        .as_array()
-        .expect("changes")
-        .iter()
-        .filter_map(|it| it["becomes"].as_str())
-        .collect();
-    assert_eq!(ends, ["quenched", "unknown"]);
-    let warning = found["warnings"][0].as_str().expect("a warning");
-    assert!(
-        warning.contains("from rest") && warning.contains("could not be followed"),
-        "{warning}"
-    );
+    let changes = found["from_rest"].as_array().expect("changes");
+    let becomes: Vec<_> = changes.iter().filter_map(|it| it["becomes"].as_str()).collect();
+    assert_eq!((becomes, found["warnings"].as_array().map(Vec::len)), (vec!["quenched"], Some(0)));
+    for (amplitude, ends) in
+        [("1.05", "base response"), ("1.13807", "another response without slow vibration")]
+    {
+        let set = format!("dither.amplitude={amplitude}");
+        let (found, _) = quell(&["response", OWN, "--set", &set]);
+        assert_eq!((&found["effect"], &found["ends_on"]), (&"quenches".into(), &ends.into()));
+    }
 }
 
 /// In a study in SI a question in newtons and seconds is the one in numbers of the equations.

@@ -40,7 +40,9 @@ impl System {
 pub fn schema() -> Json {
     let mut definitions = Map::new();
     for system in [System::Scaled, System::Si] {
-        for section in [Section::Belt, Section::Initial, Section::Dither, Section::Solver] {
+        for section in
+            [Section::Belt, Section::Initial, Section::Dither, Section::Solver, Section::Response]
+        {
             definitions.insert(name(section, system), table(section, system));
         }
         definitions.insert(name(Section::Friction, system), friction(system));
@@ -97,6 +99,7 @@ fn root(system: System) -> Json {
                 ],
             },
             "solver": { "$ref": reference(Section::Solver, system) },
+            "response": { "$ref": reference(Section::Response, system) },
             "sweep": { "type": "array", "items": { "$ref": "#/$defs/sweep" } },
         },
         "required": ["belt", "friction"],
@@ -215,6 +218,9 @@ fn table(section: Section, system: System) -> Json {
     };
     if !several.is_empty() {
         object["allOf"] = several.into_iter().map(one).collect::<Vec<_>>().into();
+    }
+    if section == Section::Response {
+        object["not"] = json!({ "required": ["band", "band_hz"] });
     }
     if section == Section::Initial {
         let numbers: Vec<Json> = vocabulary::keys_of(section)
@@ -362,6 +368,7 @@ fn belongs(key: &Key, system: System) -> bool {
         }
         Role::Twin(..) | Role::Scale(_) | Role::FrictionForce(..) => system == System::Si,
         Role::Speeds { si } => si == (system == System::Si),
+        Role::Band { hertz } => !hertz || system == System::Si,
         _ => true,
     }
 }
@@ -398,6 +405,9 @@ fn property(key: &Key) -> Json {
         Role::Speeds { .. } => {
             json!({ "type": "array", "items": { "type": "number", "minimum": 0 }, "minItems": FEWEST })
         }
+        Role::Band { .. } => json!({
+            "type": "array", "items": { "type": "number", "minimum": 0 }, "minItems": 2, "maxItems": 2,
+        }),
         Role::Terms => json!({ "type": "integer", "minimum": 1, "maximum": MOST_TERMS }),
         Role::AxisNumber | Role::Constant => json!({ "type": "number" }),
         Role::AxisPoints => json!({ "type": "integer", "minimum": 2, "maximum": MOST_POINTS }),
@@ -440,7 +450,7 @@ fn about(key: &Key) -> String {
             format!("{}: {}, in {}", parameter.symbol, key.about, key.unit_in_words())
         }
         Role::Scale(scale) => format!("{}: {}, in {}", scale.symbol, key.about, key.unit()),
-        Role::Speeds { .. } | Role::FrictionForce(..) => {
+        Role::Speeds { .. } | Role::Band { .. } | Role::FrictionForce(..) => {
             format!("{}, in {}", key.about, key.unit())
         }
         _ => key.about.to_owned(),

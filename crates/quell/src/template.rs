@@ -43,6 +43,7 @@ templates!(
     "own-law",
     "measured-law",
     "every-start",
+    "worse",
     "map",
     "disc",
     "disc-dither",

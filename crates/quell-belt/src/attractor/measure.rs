@@ -11,8 +11,8 @@ use quell_numerics::roots::{Closeness, find_root};
 
 use super::average::Moments;
 use super::quiet::STEPS;
-use super::rotation::Rotation;
-use super::settle::{Outcome, Patience, Settled, block, settle};
+use super::rotation::{Rotation, looks, looks_of_an_orbit};
+use super::settle::{ONE_STATE, Outcome, Patience, Settled, block, settle};
 use super::strobe::Scene;
 use super::watch::Watch;
 use crate::orbit::cycle::{FreeEnd, free_end};
@@ -38,10 +38,6 @@ const SHRINKS: f64 = 0.5;
 /// Distance of a return, relative to the size, that is closed already.
 const CLOSED: f64 = 1e-7;
 
-/// The same relative to F: states nearer than this are one, as everywhere (`settle`'s NEAR). Below, the size of a section is rounding,
-/// and a distance relative to it says nothing.
-const ONE_STATE: f64 = 1e-6;
-
 /// Most numbers of periods that are shot for one section: beyond the first few returns a curve is filled.
 const MOST_SHOTS: usize = 4;
 
@@ -65,7 +61,9 @@ pub enum Kind {
     Cycle,
     /// A closed curve, filled.
     QuasiPeriodic,
-    /// Settled, but neither of both.
+    /// Rest: a belt that does not move holds the mass.
+    Rest,
+    /// Settled, but none of these.
     Unclassified,
 }
 
@@ -76,6 +74,7 @@ impl Kind {
             Self::Periodic { periods, .. } => format!("period-{periods}"),
             Self::Cycle => "limit cycle".to_owned(),
             Self::QuasiPeriodic => "quasi-periodic".to_owned(),
+            Self::Rest => "at rest".to_owned(),
             Self::Unclassified => "unclassified".to_owned(),
         }
     }
@@ -87,6 +86,9 @@ pub struct Attractor {
     /// What it is.
     pub kind: Kind,
     /// Whether it is the response that sliding becomes.
+    pub base: bool,
+    /// Whether no slow motion of its own is left: it has the dither's own period, or so few that all its lines lie above the band
+    /// of slow vibration; or without dither is steady sliding or rest.
     pub quiet: bool,
     /// A state on it at τ = 0.
     pub state: Start,
@@ -126,10 +128,13 @@ pub fn measure(scene: &Scene<'_>, settled: &Settled) -> Result<Option<Attractor>
             let state =
                 Start { time: 0.0, displacement: quiet.displacement, velocity: quiet.velocity };
             let kind = Kind::Periodic { periods: 1, radius: quiet.radius };
-            Ok(Some(Attractor { quiet: true, ..seen(scene, kind, state, 1)? }))
+            Ok(Some(Attractor { base: true, ..seen(scene, kind, state, 1)? }))
         }
         (Outcome::Quiet | Outcome::Elsewhere, _) => match settled.cycle {
             Some(period) => cycle(scene, settled.state, period).map(Some),
+            None if settled.is_at_rest(scene) => {
+                seen(scene, Kind::Rest, settled.state, 1).map(Some)
+            }
             None => elsewhere(scene, settled.state).map(Some),
         },
     }
@@ -156,11 +161,13 @@ fn records(scene: &Scene<'_>, state: Start) -> Result<Found, Stalled> {
     let mut from = state;
     let mut record = 1;
     loop {
-        let (section, end) = section(scene, from)?;
-        if let Some((periods, orbit)) = orbit(scene, &section, end) {
+        let (watch, end) = watched(scene, from)?;
+        let section = watch.section();
+        if let Some((periods, orbit)) = orbit(scene, &section, end, MOST_PERIODS) {
             return Ok(Found::Orbit(periods, orbit));
         }
-        let rotation = Rotation::of_curve(&section, Moments::of(&section).centre);
+        let looks = looks(scene.strobe.period);
+        let rotation = Rotation::of_curve(&watch.states().collect::<Vec<_>>(), looks);
         let steady = rotation.error <= STEADY && rotation.fills(record as usize * section.len());
         if steady || record == RECORDS {
             return Ok(Found::Section { from, periods: section.len(), steady });
@@ -183,22 +190,46 @@ fn elsewhere(scene: &Scene<'_>, state: Start) -> Result<Attractor, Stalled> {
     }
 }
 
-/// States of a record, and the state after it.
-fn section(scene: &Scene<'_>, start: Start) -> Result<(Vec<(f64, f64)>, Start), Stalled> {
+/// A record, and the state after it.
+fn watched<'a>(scene: &Scene<'a>, start: Start) -> Result<(Watch<'a>, Start), Stalled> {
     let period = scene.strobe.period;
     let periods = RECORD.max(BLOCKS * block(scene));
-    let mut watch = Watch::new(period, periods);
+    let mut watch = Watch::looking(period, periods, looks(period));
     let until = periods as f64 * period;
     let end = simulate(scene.belt, start, until, DEFAULT_TOLERANCE, &mut watch)?;
-    Ok((watch.section(), Start { time: 0.0, ..end.restart() }))
+    Ok((watch, Start { time: 0.0, ..end.restart() }))
 }
 
-/// The closed orbit to which the last states of a section return.
-fn orbit(scene: &Scene<'_>, section: &[(f64, f64)], end: Start) -> Option<(u32, Orbit)> {
+/// Whether a run that has settled has no slow motion of its own left: it ends on the base response, at rest, or on a response of
+/// the dither's own period or of so few that all its lines lie above the band.
+///
+/// # Errors
+/// [`Stalled`].
+pub(super) fn ends_quietly(scene: &Scene<'_>, settled: &Settled) -> Result<bool, Stalled> {
+    match settled.outcome {
+        Outcome::Quiet => Ok(true),
+        Outcome::Unsettled(_) => Ok(false),
+        Outcome::Elsewhere if scene.is_autonomous() => Ok(settled.is_at_rest(scene)),
+        Outcome::Elsewhere => {
+            let (watch, end) = watched(scene, settled.state)?;
+            let most = scene.strobe.periods_above_the_band() as usize;
+            Ok(orbit(scene, &watch.section(), end, most).is_some())
+        }
+    }
+}
+
+/// The closed orbit of at most so many periods to which the last states of a section return.
+fn orbit(
+    scene: &Scene<'_>,
+    section: &[(f64, f64)],
+    end: Start,
+    most: usize,
+) -> Option<(u32, Orbit)> {
     // A cycle without dither has its own period; at the strobe no state need return.
     if scene.is_autonomous() {
         return None;
     }
+    // Below, the size of a section is rounding, and a distance relative to it says nothing.
     let least = ONE_STATE * scene.belt.normal_load();
     let size = Moments::of(section).size();
     // The largest return after n periods among the n states before a place.
@@ -211,7 +242,7 @@ fn orbit(scene: &Scene<'_>, section: &[(f64, f64)], end: Start) -> Option<(u32, 
             || (late <= RETURNS * size && late <= SHRINKS * returns(*n, 2 * n))
     };
     let own = (ITS_OWN * size).max(least);
-    (1..=MOST_PERIODS).filter(may_be_closed).take(MOST_SHOTS).find_map(|n| {
+    (1..=most).filter(may_be_closed).take(MOST_SHOTS).find_map(|n| {
         let periods = u32::try_from(n).ok()?;
         let orbit = near(scene.belt, end, periods).ok()?;
         let attracts =
@@ -255,6 +286,7 @@ pub fn orbit_reached(belt: &Belt, start: Start) -> Result<Orbit, NoOrbit> {
     match settled.outcome {
         Outcome::Unsettled(why) => Err(NoOrbit::Unsettled(why)),
         Outcome::Quiet => from_sliding(belt, STEPS),
+        Outcome::Elsewhere if settled.is_at_rest(&scene) => Err(NoOrbit::AtRest),
         Outcome::Elsewhere => match records(&scene, settled.state).map_err(NoOrbit::Stalled)? {
             Found::Orbit(_, orbit) => Ok(orbit),
             Found::Section { .. } => {
@@ -268,33 +300,40 @@ pub fn orbit_reached(belt: &Belt, start: Start) -> Result<Orbit, NoOrbit> {
 fn seen(scene: &Scene<'_>, kind: Kind, state: Start, periods: usize) -> Result<Attractor, Stalled> {
     let period = scene.strobe.period;
     let length = periods as f64 * period;
+    let is_orbit = matches!(kind, Kind::Periodic { .. });
+    let looks = if is_orbit { looks_of_an_orbit(period) } else { looks(period) };
     let mut watch = (
-        Watch::new(period, periods),
+        Watch::looking(period, periods, looks),
         Extremes { lowest: f64::INFINITY, highest: f64::NEG_INFINITY },
     );
     simulate(scene.belt, state, length, DEFAULT_TOLERANCE, &mut watch)?;
     let (watch, extremes) = watch;
+    let stick_fraction = watch.stuck / length;
+    // Held by a belt that does not move: nothing of the dither is seen in the motion.
+    let rests = scene.belt.belt_velocity() == 0.0 && extremes.highest == extremes.lowest;
+    let kind = if rests { Kind::Rest } else { kind };
     let section = watch.section();
-    let centre = Moments::of(&section).centre;
+    let states = || watch.states().collect::<Vec<_>>();
     let rotation = match kind {
-        Kind::Periodic { periods: 1, .. } => None,
-        Kind::Periodic { .. } => {
-            let count = section.len() as f64;
-            let sum = section.iter().fold((0.0, 0.0), |sum, (x, v)| (sum.0 + x, sum.1 + v));
-            Some(Rotation::of_orbit(&section, [sum.0 / count, sum.1 / count]))
-        }
+        Kind::Periodic { periods: 1, .. } | Kind::Rest => None,
+        Kind::Periodic { .. } => Some(Rotation::of_orbit(&states(), looks)),
         Kind::Cycle | Kind::QuasiPeriodic | Kind::Unclassified => {
-            Some(Rotation::of_curve(&section, centre))
+            Some(Rotation::of_curve(&states(), looks))
         }
     };
     Ok(Attractor {
         kind,
-        quiet: false,
+        base: false,
+        quiet: match kind {
+            Kind::Periodic { periods, .. } => periods <= scene.strobe.periods_above_the_band(),
+            Kind::Rest => true,
+            Kind::Cycle | Kind::QuasiPeriodic | Kind::Unclassified => false,
+        },
         state,
         section,
         lowest: extremes.lowest,
         highest: extremes.highest,
-        stick_fraction: watch.stuck / length,
+        stick_fraction,
         rotation,
     })
 }

@@ -1,12 +1,34 @@
 //! Rotation number: how many turns the slow motion makes in a period of the strobe, and the fraction at which it locks.
 //!
-//! A turn is counted about the centre of the section, clockwise in the (x, x′) plane as the mass goes. On a closed orbit of q
+//! A turn is counted about the mean of the motion at each phase of the period, clockwise in the (x, x′) plane as the mass goes, and
+//! followed with at least ten looks in 2π, so that a turn is not mistaken for none or for two. On a closed orbit of q
 //! periods the turns are an exact integer p, and the response is locked at p/q; the slow frequency is 2πp/(qT). On a
-//! closed curve the turns of each period are averaged with the bump of `average`, and the error is the difference of the
-//! two halves of the record. Limit: turns are counted modulo 1, which is no limit where the dither is twice as
-//! fast as the slow motion or faster.
+//! closed curve the turns are averaged with the bump of `average`, and the error is the difference of the
+//! two halves of the record. Limit: beyond `MOST_LOOKS` a period (R < 0.04) whole turns may be missed.
 
-use super::average::{mean, weights};
+use std::f64::consts::TAU;
+
+use super::average::{Moments, mean, weights};
+
+/// Looks in 2π, the time of a slow turn.
+const LOOKS: f64 = 10.0;
+
+/// Fewest looks in a period of a closed orbit: the two states of an orbit of two periods lie half a turn apart, which way is not seen.
+const LOOKS_OF_AN_ORBIT: usize = 4;
+
+/// Most looks a period.
+const MOST_LOOKS: usize = 256;
+
+/// How often a motion is looked at in a period of the strobe, to see it turn.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
+pub(super) fn looks(period: f64) -> usize {
+    ((LOOKS * period / TAU).ceil() as usize).clamp(1, MOST_LOOKS)
+}
+
+/// The same for a closed orbit, which is short.
+pub(super) fn looks_of_an_orbit(period: f64) -> usize {
+    looks(period).max(LOOKS_OF_AN_ORBIT)
+}
 
 /// Fractions up to this denominator are distinguished from a quasi-periodic motion by how far it has moved. Of the 1024 periods of a
 /// record an irrational number p/q + 1/(√5q²) needs 2.2 q.
@@ -33,13 +55,19 @@ pub struct Rotation {
 }
 
 impl Rotation {
-    /// Of a closed orbit of the section: its states once round.
-    pub(super) fn of_orbit(section: &[(f64, f64)], centre: [f64; 2]) -> Self {
-        let closed = section.iter().copied().chain(section.first().copied());
-        let turns = increments(&closed.collect::<Vec<_>>(), centre).iter().sum::<f64>().round();
+    /// Of a closed orbit: its states once round, so many `looks` a period.
+    pub(super) fn of_orbit(states: &[(f64, f64)], looks: usize) -> Self {
+        let count = (states.len() / looks) as f64;
+        let centres = centres(states, looks, |phase| {
+            let sum = phase.iter().fold((0.0, 0.0), |sum, (x, v)| (sum.0 + x, sum.1 + v));
+            [sum.0 / count, sum.1 / count]
+        });
+        let mut closed = states.to_vec();
+        closed.extend(states.first().copied());
+        let turns = increments(&closed, &centres).iter().sum::<f64>().round();
         #[expect(clippy::cast_possible_truncation, reason = "a whole number below the length")]
         let turns = turns as i64;
-        let periods = u32::try_from(section.len()).unwrap_or(u32::MAX).max(1);
+        let periods = u32::try_from(states.len() / looks).unwrap_or(u32::MAX).max(1);
         let common = divisor(turns.unsigned_abs(), u64::from(periods)).max(1);
         let ratio = Ratio {
             turns: turns / i64::try_from(common).unwrap_or(1),
@@ -63,10 +91,11 @@ impl Rotation {
         })
     }
 
-    /// Of a long section of motion on a closed curve.
-    pub(super) fn of_curve(section: &[(f64, f64)], centre: [f64; 2]) -> Self {
-        let steps = increments(section, centre);
-        let over = |steps: &[f64]| mean(&weights(steps.len()), steps.iter().copied());
+    /// Of a long record of motion on a closed curve, so many `looks` a period.
+    pub(super) fn of_curve(states: &[(f64, f64)], looks: usize) -> Self {
+        let steps = increments(states, &centres(states, looks, |phase| Moments::of(phase).centre));
+        let each = looks as f64;
+        let over = |steps: &[f64]| each * mean(&weights(steps.len()), steps.iter().copied());
         let (first, second) = steps.split_at(steps.len() / 2);
         Self {
             turns_per_period: over(&steps),
@@ -76,13 +105,27 @@ impl Rotation {
     }
 }
 
-/// Turns between neighbours of a section, each in (−½, ½].
-fn increments(section: &[(f64, f64)], [cx, cv]: [f64; 2]) -> Vec<f64> {
-    let angle = |&(x, v): &(f64, f64)| libm::atan2(v - cv, x - cx);
-    section
+/// The centre of the states at each phase of the period.
+fn centres(
+    states: &[(f64, f64)],
+    looks: usize,
+    centre: impl Fn(&[(f64, f64)]) -> [f64; 2],
+) -> Vec<[f64; 2]> {
+    let at = |phase| states.iter().skip(phase).step_by(looks).copied().collect::<Vec<_>>();
+    (0..looks).map(|phase| centre(&at(phase))).collect()
+}
+
+/// Turns between neighbours of a record about the centres of their phases, each in (−½, ½].
+fn increments(states: &[(f64, f64)], centres: &[[f64; 2]]) -> Vec<f64> {
+    let angles: Vec<f64> = states
+        .iter()
+        .zip(centres.iter().cycle())
+        .map(|((x, v), [cx, cv])| libm::atan2(v - cv, x - cx))
+        .collect();
+    angles
         .windows(2)
         .map(|pair| {
-            let turn = (angle(&pair[0]) - angle(&pair[1])) / std::f64::consts::TAU;
+            let turn = (pair[0] - pair[1]) / TAU;
             turn - (turn - 0.5).ceil()
         })
         .collect()
@@ -118,15 +161,35 @@ mod tests {
         };
         let number = 0.1 * 2.0_f64.sqrt();
         let section: Vec<(f64, f64)> = (0..1024).map(|k| point(number * f64::from(k))).collect();
-        let found = Rotation::of_curve(&section, [1.0, 0.0]);
+        let found = Rotation::of_curve(&section, 1);
         assert!((found.turns_per_period - number).abs() <= found.error.max(1e-12), "{found:?}");
         assert!(found.error < 1e-6, "{found:?}");
         let section: Vec<(f64, f64)> = (0..68).map(|k| point(f64::from(5 * k) / 68.0)).collect();
-        let found = Rotation::of_orbit(&section, [1.0, 0.0]);
+        let found = Rotation::of_orbit(&section, 1);
         assert_eq!(found.ratio, Some(Ratio { turns: 5, periods: 68 }));
         // Twice round: the same fraction in lowest terms.
         let twice: Vec<(f64, f64)> = (0..26).map(|k| point(f64::from(k) / 13.0)).collect();
-        let found = Rotation::of_orbit(&twice, [1.0, 0.0]);
+        let found = Rotation::of_orbit(&twice, 1);
         assert_eq!(found.ratio, Some(Ratio { turns: 1, periods: 13 }));
+    }
+
+    /// A motion that turns 1.3 times a period, and one that closes after two periods with three turns: seen with looks between, where
+    /// the section alone would say 0.3, and half a turn in either direction.
+    #[test]
+    fn whole_turns_are_counted() {
+        let looks = looks(9.0);
+        assert_eq!(looks, 15);
+        // The forced motion turns too, and is no turn of the slow one.
+        let state = |k: u32, number: f64| {
+            let (slow, forced) = (TAU * number * f64::from(k), TAU * f64::from(k));
+            let (slow, forced) = (slow / looks as f64, forced / looks as f64);
+            (slow.cos() + 3.0 * forced.cos(), -slow.sin() - 3.0 * forced.sin())
+        };
+        let record: Vec<_> = (0..15 * 1024).map(|k| state(k, 0.9 * 2.0_f64.sqrt())).collect();
+        let found = Rotation::of_curve(&record, looks);
+        assert!((found.turns_per_period - 0.9 * 2.0_f64.sqrt()).abs() < 1e-6, "{found:?}");
+        let orbit: Vec<_> = (0..30).map(|k| state(k, 1.5)).collect();
+        let found = Rotation::of_orbit(&orbit, looks);
+        assert_eq!(found.ratio, Some(Ratio { turns: 3, periods: 2 }));
     }
 }

@@ -47,6 +47,9 @@ const NUDGE: f64 = 1e-4;
 /// Size of a section, relative to F, below which it is one state.
 const POINT: f64 = 1e-7;
 
+/// The same in what a run has settled on: within this distance a state counts as the base response too.
+pub(super) const ONE_STATE: f64 = NEAR;
+
 /// Fewest blocks whose quarters are compared, and twice the number between two comparisons. A size that changes by less
 /// than a third of 10⁻³ between two windows of 8 blocks changes by less than 7·10⁻⁷ a period (of 64 periods a block, the
 /// fewest): nearer to a threshold than that a run is taken for settled.
@@ -430,6 +433,13 @@ impl Course {
 }
 
 impl Settled {
+    /// Whether it ends at rest, held by friction on a belt that does not move.
+    pub(super) fn is_at_rest(&self, scene: &Scene<'_>) -> bool {
+        let moments = &self.summary.moments;
+        let still = ONE_STATE * scene.belt.normal_load();
+        scene.is_autonomous() && scene.belt.belt_velocity() == 0.0 && moments.size() <= still
+    }
+
     /// Why it has not settled, where it has not.
     pub fn why(&self) -> Option<Unsettled> {
         match self.outcome {

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use quell_model::Belt;
 
 use super::quiet::Quiet;
+use crate::band::BAND_END;
 use crate::orbit::{NoOrbit, common_period};
 
 /// Looks at an undithered belt in one slow period 2π: often enough that a turn is not mistaken for none.
@@ -33,6 +34,20 @@ impl Strobe {
             Err(why) => Err(why),
         }
     }
+
+    /// Most periods of a response of which every line, a multiple of 2π/(qT), lies above the band of slow vibration; 1 where
+    /// the dither's own period is that of a line in the band, for what is in step with it has no motion of its own.
+    pub(super) fn periods_above_the_band(&self) -> u32 {
+        let most = TAU / (self.period * BAND_END);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+        let most = (most.ceil() - 1.0) as u32;
+        most.max(1)
+    }
+
+    /// Whether a response of the dither's own period may vibrate in the band of slow vibration: its lines are multiples of 2π/T.
+    pub fn reaches_the_band(&self) -> bool {
+        self.dithered && TAU / self.period <= BAND_END
+    }
 }
 
 /// A belt, its strobe, and the response that sliding becomes under its dither, where that was found.
@@ -54,6 +69,11 @@ impl<'a> Scene<'a> {
     pub fn new(belt: &'a Belt) -> Result<Self, NoOrbit> {
         let strobe = Strobe::of(belt)?;
         Ok(Self { belt, strobe, quiet: Quiet::of(belt, strobe) })
+    }
+
+    /// Whether a dither acts whose own responses may vibrate in the band of slow vibration.
+    pub fn reaches_the_band(&self) -> bool {
+        !self.is_autonomous() && self.strobe.reaches_the_band()
     }
 
     /// Whether no dither acts.

@@ -9,23 +9,31 @@
 
 use quell_model::Belt;
 
-use super::settle::{Outcome, Patience, settle};
+use super::measure::ends_quietly;
+use super::settle::{Outcome, Patience, Settled, settle};
 use super::strobe::Scene;
 use crate::orbit::family::{Forced, Setting};
 use crate::orbit::threshold::NoThresholds;
 use crate::orbit::{NoOrbit, Verdict, common_period};
-use crate::simulation::{DEFAULT_TOLERANCE, Start, simulate};
+use crate::simulation::{DEFAULT_TOLERANCE, Stalled, Start, simulate};
 
 /// Half the width of an interval, relative to its value, up to which it is reported as a value: ten times what thresholds ask of
 /// bisection (10⁻⁵). Wider intervals are those at which it stopped, and are reported with their error.
 const NARROW: f64 = 1e-4;
 
+/// For a run that cannot end on the base response, because that is unstable: only another response without slow motion would be
+/// news, and that attracts within this time. What still moves then vibrates.
+const OFF_AN_UNSTABLE_BASE: Patience = Patience { periods: 20_000, ..Patience::SWEEP };
+
 /// Where a run ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Reached {
-    /// On the base response: quenched.
-    Sliding,
-    /// On another response.
+    /// On the base response.
+    Base,
+    /// On another response without a slow motion of its own: of the dither's period, or of so few that all its lines lie above
+    /// the band of slow vibration.
+    Forced,
+    /// On a response that vibrates slowly.
     Elsewhere,
     /// It had not settled when its time was over.
     Unsettled,
@@ -33,31 +41,46 @@ pub enum Reached {
     Unknown,
 }
 
-impl From<Outcome> for Reached {
-    fn from(outcome: Outcome) -> Self {
-        match outcome {
-            Outcome::Quiet => Self::Sliding,
+impl Reached {
+    /// Whether no slow motion of its own is left, and the self-excited vibration is over; `None` where that is not known.
+    pub fn is_quiet(self) -> Option<bool> {
+        match self {
+            Self::Base | Self::Forced => Some(true),
+            Self::Elsewhere => Some(false),
+            Self::Unsettled | Self::Unknown => None,
+        }
+    }
+
+    /// Whether both answer alike what a start is asked for: whether its run ends quietly.
+    fn agrees(self, other: Self) -> bool {
+        self == other || (self.is_quiet() == Some(true) && other.is_quiet() == Some(true))
+    }
+
+    fn of(scene: &Scene<'_>, settled: &Settled) -> Result<Self, Stalled> {
+        Ok(match settled.outcome {
+            Outcome::Quiet => Self::Base,
+            Outcome::Elsewhere if ends_quietly(scene, settled)? => Self::Forced,
             Outcome::Elsewhere => Self::Elsewhere,
             Outcome::Unsettled(_) => Self::Unsettled,
-        }
+        })
     }
 }
 
 /// Where the run of a belt from `start` ends. `start.time` is a whole number of common periods of the dithers.
 ///
 /// # Errors
-/// [`NoOrbit`]: no common period, a base response that could not be followed to the dither's amplitude, or the engine stopped.
-/// Where the base response ends below that amplitude, or is unstable, a run ends elsewhere.
+/// [`NoOrbit`]: no common period, or the engine stopped; and where the run has not settled and the base response, which it may be
+/// nearing, could not be followed to the dither's amplitude.
 pub fn reached(belt: &Belt, start: Start) -> Result<Reached, NoOrbit> {
     let scene = Scene::new(belt)?;
-    match &scene.quiet {
-        // Nothing ends on an unstable response, however long it takes to settle elsewhere.
-        Ok(quiet) if quiet.verdict == Verdict::Unstable => return Ok(Reached::Elsewhere),
-        Err(why) if !why.is_absence() => return Err(*why),
-        Ok(_) | Err(_) => {}
+    let is_unstable = scene.quiet.as_ref().is_ok_and(|quiet| quiet.verdict == Verdict::Unstable);
+    let patience = if is_unstable { OFF_AN_UNSTABLE_BASE } else { Patience::SWEEP };
+    let settled = settle(&scene, start, patience).map_err(NoOrbit::Stalled)?;
+    match (Reached::of(&scene, &settled).map_err(NoOrbit::Stalled)?, &scene.quiet) {
+        (Reached::Unsettled, Err(why)) if !why.is_absence() => Err(*why),
+        (Reached::Unsettled, _) if is_unstable => Ok(Reached::Elsewhere),
+        (reached, _) => Ok(reached),
     }
-    let settled = settle(&scene, start, Patience::SWEEP).map_err(NoOrbit::Stalled)?;
-    Ok(settled.outcome.into())
 }
 
 /// Where a run is after its dither has grown from nothing over a time `over`, in equal steps, one a common period (at
@@ -130,7 +153,7 @@ pub fn switches(
     start: impl Fn(&Belt) -> Result<Option<Start>, NoOrbit>,
 ) -> Result<Switches, NoThresholds> {
     let found = |belt: &Belt| -> Result<Reached, NoOrbit> {
-        start(belt)?.map_or(Ok(Reached::Sliding), |start| reached(belt, start))
+        start(belt)?.map_or(Ok(Reached::Base), |start| reached(belt, start))
     };
     let mut unknown = Vec::new();
     let mut tried = |value: f64| {
@@ -161,14 +184,14 @@ fn bisected(
     closeness: f64,
     out: &mut Vec<Switch>,
 ) -> Result<(), NoThresholds> {
-    if last == next {
+    if last.agrees(next) {
         return Ok(());
     }
     while (high - low).abs() > closeness * high.abs().max(low.abs()) {
         let middle = 0.5 * (low + high);
         match tried(middle)? {
-            it if it == last => low = middle,
-            it if it == next => high = middle,
+            it if it.agrees(last) => low = middle,
+            it if it.agrees(next) => high = middle,
             Reached::Unsettled | Reached::Unknown => break,
             third => {
                 bisected(tried, [(low, last), (middle, third)], closeness, out)?;
@@ -200,14 +223,14 @@ mod tests {
     /// A third answer between two is searched for on both sides.
     #[test]
     fn every_change_between_two_values_is_found() {
-        use Reached::{Elsewhere, Sliding, Unknown};
+        use Reached::{Base, Elsewhere, Unknown};
         for (answers, expected) in [
-            (vec![(0.0, Sliding), (0.3, Elsewhere)], vec![(0.3, Elsewhere)]),
+            (vec![(0.0, Base), (0.3, Elsewhere)], vec![(0.3, Elsewhere)]),
             (
-                vec![(0.0, Sliding), (0.4, Elsewhere), (0.6, Unknown)],
+                vec![(0.0, Base), (0.4, Elsewhere), (0.6, Unknown)],
                 vec![(0.4, Elsewhere), (0.6, Unknown)],
             ),
-            (vec![(0.0, Sliding)], vec![]),
+            (vec![(0.0, Base)], vec![]),
         ] {
             let found = changes(&answers, 1e-6);
             assert_eq!(found.len(), expected.len(), "{found:?}");
@@ -217,7 +240,7 @@ mod tests {
             }
         }
         // Where the middle is unknown the change lies somewhere between, and the error says so.
-        let found = changes(&[(0.0, Sliding), (0.4, Unknown), (0.6, Elsewhere)], 1e-6);
+        let found = changes(&[(0.0, Base), (0.4, Unknown), (0.6, Elsewhere)], 1e-6);
         assert_eq!((found.len(), found[0].error), (1, 0.5));
         assert!(!found[0].is_close());
     }

@@ -34,6 +34,8 @@ static STATES_RULE: LazyLock<[[f64; STATES]; 2]> =
 /// Watches a block that starts at τ = 0.
 pub(super) struct Watch<'a> {
     sampler: Sampler,
+    /// Samples a period.
+    looks: usize,
     length: f64,
     sums: Sums,
     /// Time spent in stick.
@@ -46,8 +48,14 @@ pub(super) struct Watch<'a> {
 impl<'a> Watch<'a> {
     /// A watch over `periods` of the strobe.
     pub(super) fn new(period: f64, periods: usize) -> Self {
+        Self::looking(period, periods, 1)
+    }
+
+    /// The same with so many looks a period.
+    pub(super) fn looking(period: f64, periods: usize, looks: usize) -> Self {
         Self {
-            sampler: Sampler::new(0.0, period, periods),
+            sampler: Sampler::new(0.0, period / looks as f64, periods * looks),
+            looks,
             length: periods as f64 * period,
             sums: Sums::default(),
             stuck: 0.0,
@@ -70,8 +78,12 @@ impl<'a> Watch<'a> {
 
     /// The section, one state a period.
     pub(super) fn section(&self) -> Vec<(f64, f64)> {
-        let states = self.sampler.samples.iter();
-        states.map(|sample| (sample.displacement, sample.velocity)).collect()
+        self.states().step_by(self.looks).collect()
+    }
+
+    /// The states of all looks.
+    pub(super) fn states(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.sampler.samples.iter().map(|sample| (sample.displacement, sample.velocity))
     }
 
     /// Mean rate at which areas shrink, and its error, where it was watched.

@@ -200,6 +200,8 @@ pub enum NoOrbit {
         /// The number.
         most: u32,
     },
+    /// The run comes to rest on a belt that does not move.
+    AtRest,
     /// The run had not settled when its periods were over.
     Unsettled(Unsettled),
     /// The undithered run converges neither to a known limit cycle nor to stable steady sliding.
@@ -245,18 +247,23 @@ impl fmt::Display for NoOrbit {
             ),
             Self::Ends { share } => write!(
                 f,
-                "the response that sliding becomes ends when the dither has {share:.7} of its amplitude: \
-                 there is none beyond; look near a state, or for what a run ends on"
+                "the base response ends at {} of the dither's amplitude: there is none beyond; look near a state, or \
+                 for what a run ends on",
+                rounded(*share)
             ),
             Self::LostOnTheWay { share } => write!(
                 f,
-                "the response that sliding becomes could not be followed beyond {share:.7} of the dither's amplitude"
+                "the base response could not be followed beyond {} of the dither's amplitude",
+                rounded(*share)
             ),
             Self::NoPeriod { most } => write!(
                 f,
                 "the run ends on a response that does not repeat within {most} periods of the dither: \
                  it is quasi-periodic, or locked at a longer period"
             ),
+            Self::AtRest => {
+                f.write_str("without dither the mass comes to rest on a belt that does not move: there is no orbit")
+            }
             Self::Unsettled(why) => write!(f, "the run has not settled: {}", why.about()),
             Self::NoLimit => f.write_str(
                 "the run converges neither to a known limit cycle nor to stable steady sliding",
@@ -265,6 +272,11 @@ impl fmt::Display for NoOrbit {
             Self::Stalled(stalled) => stalled.fmt(f),
         }
     }
+}
+
+/// A number with seven significant digits, however small.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.6e}").parse().unwrap_or(value)
 }
 
 impl std::error::Error for NoOrbit {}

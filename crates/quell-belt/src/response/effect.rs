@@ -8,11 +8,11 @@ use std::fmt;
 
 use quell_model::Belt;
 
+use super::Undefined;
 use super::measure::Compared;
-use super::{BAND_END, Undefined};
-use crate::attractor::{Kind, Patience, Reached, Scene, measure, reached, settle};
+use crate::attractor::{Reached, Strobe, reached};
 use crate::orbit::NoOrbit;
-use crate::simulation::{Stalled, Start};
+use crate::simulation::Start;
 
 /// Below this share of the undithered vibration nothing is left of it: a response is quenched.
 pub const QUENCHED: f64 = 0.01;
@@ -71,8 +71,11 @@ pub enum Uncertain {
     Undithered(Undefined),
     /// The record still changes, and where the dithered run ends does not decide.
     StillChanging,
-    /// The engine stopped while the end of the run was sought.
-    Stalled(Stalled),
+    /// The record does not resolve what the dither changes: E is 1 within this.
+    Unresolved {
+        /// How far the halves of the records differ, relatively.
+        within: f64,
+    },
 }
 
 impl fmt::Display for Uncertain {
@@ -83,7 +86,12 @@ impl fmt::Display for Uncertain {
             Self::StillChanging => f.write_str(
                 "the vibration with dither still changes within the record; settle for longer",
             ),
-            Self::Stalled(stalled) => stalled.fmt(f),
+            Self::Unresolved { within } => {
+                write!(
+                    f,
+                    "it changes the vibration by less than the record resolves ({within:.1e} of it)"
+                )
+            }
         }
     }
 }
@@ -111,19 +119,21 @@ impl Ending {
     /// Word in outputs.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Reached(Reached::Sliding) => "base response",
+            Self::Reached(Reached::Base) => "base response",
+            Self::Reached(Reached::Forced) => "another response without slow vibration",
             Self::Reached(Reached::Elsewhere) => "another response",
             Self::Reached(Reached::Unsettled | Reached::Unknown) | Self::Unknown(_) => "unknown",
         }
     }
 
-    fn is_base(self) -> bool {
-        self == Self::Reached(Reached::Sliding)
+    /// Whether no slow motion is left but what the dither itself forces.
+    fn is_quiet(self) -> bool {
+        matches!(self, Self::Reached(reached) if reached.is_quiet() == Some(true))
     }
 }
 
 /// The effect of a belt's dither from a start, from what was measured and from where the run ends.
-pub fn effect(belt: &Belt, start: Start, compared: &Compared, ending: Ending) -> Effect {
+pub fn effect(belt: &Belt, compared: &Compared, ending: Ending) -> Effect {
     if belt.dithers().iter().all(|dither| dither.amplitude == 0.0) {
         return Effect::Unknown(Uncertain::NoDither);
     }
@@ -134,8 +144,7 @@ pub fn effect(belt: &Belt, start: Start, compared: &Compared, ending: Ending) ->
         Err(Undefined::UnditheredSettles | Undefined::UnditheredAtRest) => true,
         Ok(_) => false,
     };
-    let rests = ending.is_base() && !forced_in_band(belt);
-    if rests {
+    if ending.is_quiet() && Strobe::of(belt).is_ok_and(|strobe| !strobe.reaches_the_band()) {
         return if quiet_without { Effect::Quiet } else { Effect::Quenches };
     }
     let dithered = &compared.dithered;
@@ -147,22 +156,17 @@ pub fn effect(belt: &Belt, start: Start, compared: &Compared, ending: Ending) ->
     };
     let nothing = if quiet_without { Effect::Quiet } else { Effect::Quenches };
     if negligible {
-        // Nothing is seen of a vibration that may still grow, unless the record is steady or the run ends on a forced response.
-        return match (dithered.is_steady(), ending) {
-            (true, _) => nothing,
-            (false, Ending::Reached(Reached::Elsewhere)) => match ends_on_its_period(belt, start) {
-                Ok(true) => nothing,
-                Ok(false) => Effect::Unknown(Uncertain::StillChanging),
-                Err(stalled) => Effect::Unknown(Uncertain::Stalled(stalled)),
-            },
-            (false, _) => Effect::Unknown(Uncertain::StillChanging),
-        };
+        // Nothing is seen of a vibration that may still grow, unless the record is steady or the run is known to end without one.
+        let done = dithered.is_steady() || ending.is_quiet();
+        return if done { nothing } else { Effect::Unknown(Uncertain::StillChanging) };
     }
     if !compared.settled() && !dithered.is_steady() {
         return Effect::Unknown(Uncertain::StillChanging);
     }
+    let within = dithered.unsteadiness().max(compared.undithered.unsteadiness());
     match quiet_without {
         true => Effect::Causes,
+        false if (ratio - 1.0).abs() <= within => Effect::Unknown(Uncertain::Unresolved { within }),
         false if ratio < 1.0 => Effect::Reduces,
         false => Effect::Increases,
     }
@@ -172,17 +176,4 @@ pub fn effect(belt: &Belt, start: Start, compared: &Compared, ending: Ending) ->
 pub(super) fn still_decays(effect: Effect, compared: &Compared) -> bool {
     let ratio = compared.dithered.lines.whole / compared.undithered.lines.whole;
     effect == Effect::Quenches && ratio >= QUENCHED
-}
-
-/// Whether a dither itself lies in the band of slow vibration.
-fn forced_in_band(belt: &Belt) -> bool {
-    belt.dithers().iter().any(|it| it.amplitude > 0.0 && it.frequency_ratio <= BAND_END)
-}
-
-/// Whether a run ends on a response of the dither's own period, which has no slow vibration.
-fn ends_on_its_period(belt: &Belt, start: Start) -> Result<bool, Stalled> {
-    let Ok(scene) = Scene::new(belt) else { return Ok(false) };
-    let settled = settle(&scene, start, Patience::SWEEP)?;
-    let attractor = measure(&scene, &settled)?;
-    Ok(attractor.is_some_and(|it| matches!(it.kind, Kind::Periodic { periods: 1, .. })))
 }

@@ -37,21 +37,26 @@ pub(super) struct Sampling {
     pub(super) count: usize,
 }
 
+/// How often the displacement of a belt is sampled in 2π, a whole number.
+pub fn samples_per_slow_period(belt: &Belt) -> f64 {
+    let fastest = belt
+        .dithers()
+        .iter()
+        .filter(|dither| dither.amplitude > 0.0)
+        .fold(0.0_f64, |rate, dither| rate.max(dither.frequency_ratio));
+    let wanted = SAMPLES_PER_SLOW_PERIOD.max(SAMPLES_PER_DITHER_PERIOD * fastest);
+    (wanted / 32.0).ceil() * 32.0
+}
+
 impl Sampling {
     /// The samples of a record of `belt` that starts at `from`.
     pub(super) fn of(belt: &Belt, from: f64, solver: &Solver) -> Self {
-        let fastest = belt
-            .dithers()
-            .iter()
-            .filter(|dither| dither.amplitude > 0.0)
-            .fold(0.0_f64, |rate, dither| rate.max(dither.frequency_ratio));
-        let wanted = SAMPLES_PER_SLOW_PERIOD.max(SAMPLES_PER_DITHER_PERIOD * fastest);
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "a count of samples"
         )]
-        let per_slow_period = (wanted / 32.0).ceil() as usize * 32;
+        let per_slow_period = samples_per_slow_period(belt) as usize;
         Self {
             from,
             step: TAU / per_slow_period as f64,

@@ -18,6 +18,9 @@ use crate::simulation::{
 /// Amplitude, relative to F, of which nothing is left but the engine's error and rounding: it need not settle.
 const NOTHING: f64 = 1e-9;
 
+/// Relative error of M from the engine and from rounding, where its halves agree by chance.
+const ROUNDING: f64 = 1e-9;
+
 /// A belt and where it starts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
@@ -65,6 +68,14 @@ impl Measured {
         difference <= HALVES_AGREE * first.max(second)
             || difference <= HALVES_NEGLIGIBLE * reference
             || first.max(second) <= NOTHING * self.load
+    }
+
+    /// By what share M of the halves differ: as closely as the record tells M.
+    pub(super) fn unsteadiness(&self) -> f64 {
+        let [first, second] = self.lines.halves;
+        let largest = first.max(second);
+        let difference = (first - second).abs();
+        if largest > 0.0 { (difference / largest).max(ROUNDING) } else { 0.0 }
     }
 
     /// Whether M of the halves agree relatively: nothing grows or falls by more than a hundredth over half a record.

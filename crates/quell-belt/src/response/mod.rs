@@ -26,16 +26,15 @@ use std::fmt;
 use quell_model::Belt;
 pub use quell_numerics::spectrum::{Peak, Spectrum};
 
+pub use crate::band::BAND_END;
 use crate::simulation::{DEFAULT_TOLERANCE, Sampler, Stalled, Start};
 pub use effect::{Effect, Ending, QUENCHED, Uncertain, effect};
 pub use effective::{WindowMean, measured_effective_friction};
 pub use isocline::amplitude_at_efficiency;
 use listener::Sampling;
+pub use listener::samples_per_slow_period;
 pub use measure::{Case, Compared, Measured, Wanted, compare_many, measure_many};
 pub use record::Record;
-
-/// Upper end of the band in which M is taken, in ω₀ (2.27).
-pub const BAND_END: f64 = 1.9;
 
 /// Two halves of a record agree when their M differ by less than this share.
 pub const HALVES_AGREE: f64 = 0.01;
@@ -160,7 +159,7 @@ pub fn respond(belt: &Belt, start: Start, solver: &Solver) -> Result<Response, S
     let vibrates = measure::keeps_vibrating_without(&case)?;
     let compared = Compared { dithered, undithered, vibrates };
     let ending = Ending::of(belt, start);
-    let effect = effect(belt, start, &compared, ending);
+    let effect = effect(belt, &compared, ending);
     Ok(Response {
         effect,
         ending,

@@ -16,7 +16,7 @@ use crate::answer::Answer;
 use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments, inputs};
 use crate::interrupt;
 use crate::progress::Bar;
-use crate::table::figure;
+use crate::table::{figure, figure_of};
 
 /// Finds the responses that starts in a window end on, and the share of each
 #[derive(Debug, Args)]
@@ -144,10 +144,11 @@ fn text(study: &Study, done: &Basins) -> String {
     let _ = writeln!(text, "{}", done.sentence(study));
     let _ = writeln!(text, "  {}", done.starts_in_words(study));
     match (&done.varied, done.portraits.as_slice()) {
-        (None, [portrait]) => text += &attractors(portrait),
+        (None, [portrait]) => text += &attractors(study, portrait),
         (varied, portraits) => {
             let path = varied.as_ref().map_or("", |varied| varied.path.as_str());
-            let _ = writeln!(text, "\n  {path:<18}  quiet response  share of starts that reach it");
+            let _ =
+                writeln!(text, "\n  {path:<18}  base response   share of starts that fall quiet");
             for portrait in portraits {
                 let value = portrait.value.map_or_else(String::new, figure);
                 let local = portrait.local.as_ref().map_or("unknown", |verdict| verdict.name());
@@ -170,7 +171,7 @@ fn text(study: &Study, done: &Basins) -> String {
     text
 }
 
-fn attractors(portrait: &Portrait) -> String {
+fn attractors(study: &Study, portrait: &Portrait) -> String {
     let mut text = String::new();
     for (basin, share) in portrait.gathered.basins.iter().zip(&portrait.shares) {
         let attractor = &basin.attractor;
@@ -181,8 +182,8 @@ fn attractors(portrait: &Portrait) -> String {
             100.0 * share.fraction,
             100.0 * share.low,
             100.0 * share.high,
-            words(attractor, portrait.period),
-            figure(attractor.size()),
+            words(study, attractor, portrait.period),
+            figure_of(study, Quantity::Displacement, attractor.size()),
             figure(attractor.stick_fraction),
         );
     }

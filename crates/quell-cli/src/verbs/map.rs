@@ -7,7 +7,7 @@ use clap::Args;
 use quell::input::Inputs;
 use quell::output::Output;
 use quell::picture;
-use quell::run::map::{Extreme, Map, run as map};
+use quell::run::map::{Extreme, Map, plural, run as map};
 use quell::store::Store;
 use quell::sweep::{
     Entry, Grid, MOST_THREADS, Plan, QUANTITIES, Quantity, Running, Status, System,
@@ -189,11 +189,12 @@ fn text(done: &Map) -> String {
             }
         }
         for (word, count) in &summary.words {
-            let _ = writeln!(text, "  {word}  {count} points");
+            let _ = writeln!(text, "  {word}  {count} point{}", plural(*count));
         }
         for (status, count) in &summary.states {
             if *status != Status::Known {
-                let _ = writeln!(text, "  {}  {count} points: {}", status.name(), status.about());
+                let points = format!("{count} point{}", plural(*count));
+                let _ = writeln!(text, "  {}  {points}: {}", status.name(), status.about());
             }
         }
     }
@@ -201,7 +202,7 @@ fn text(done: &Map) -> String {
 }
 
 fn heading(entry: &Entry, done: &Map) -> String {
-    let field = &done.plan().sheet().fields()[entry.value];
+    let field = &done.plan().sheet().fields()[done.told(entry)];
     let unit = match field.unit.as_str() {
         "" | "1" => String::new(),
         unit => format!(" [{unit}]"),

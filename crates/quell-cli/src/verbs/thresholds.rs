@@ -186,7 +186,7 @@ fn text(study: &Study, done: &Thresholds) -> String {
     }
     for (protocol, switches) in &done.protocols {
         let _ = writeln!(text, "runs {}:", protocol.name().replace('_', " "));
-        let first = becomes(switches.first);
+        let first = becomes(switches.first, done.in_band);
         if switches.changes.is_empty() {
             let _ = writeln!(text, "  {first} at every value of the range");
         } else {
@@ -199,7 +199,11 @@ fn text(study: &Study, done: &Thresholds) -> String {
             } else {
                 format!(", to ± {}", figure(switch.error))
             };
-            let _ = writeln!(text, "  {value:<14}  {} above{error}", becomes(switch.becomes));
+            let _ = writeln!(
+                text,
+                "  {value:<14}  {} above{error}",
+                becomes(switch.becomes, done.in_band)
+            );
         }
     }
     text

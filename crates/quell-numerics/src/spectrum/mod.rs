@@ -26,6 +26,9 @@ use crate::roots::{Closeness, find_root};
 /// Times the record is lengthened by zeros; the lines are that much closer than the record resolves.
 pub const ZERO_PADDING: usize = 4;
 
+/// Noise bandwidth of the Hann window, in bins of the unpadded record (Harris 1978, table 1).
+const HANN_NOISE_BANDWIDTH: f64 = 1.5;
+
 /// Amplitude spectrum: lines at equal steps of angular frequency from 0 to the Nyquist frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum {
@@ -134,6 +137,27 @@ impl Spectrum {
     /// Angular frequencies of all lines, from 0 to the Nyquist frequency.
     pub fn frequencies(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
         (0..self.amplitudes.len()).map(|j| self.frequency(j))
+    }
+
+    /// Root mean square of what the record has between two angular frequencies, and of its rate of change: sums over the
+    /// lines between them, in which a tone counts with the noise bandwidth of the window, 3/2 bins of the unpadded record.
+    /// `None` where the spectrum ends below `high`.
+    #[must_use]
+    pub fn root_mean_square(&self, low: f64, high: f64) -> Option<[f64; 2]> {
+        let last = self.frequency(self.amplitudes.len() - 1);
+        if high > last * (1.0 + 1e-12) {
+            return None;
+        }
+        // Records of length scales 10⁻³⁰⁰ or 10³⁰⁰ must not lose their square.
+        let scale = self.amplitudes.iter().fold(f64::MIN_POSITIVE, |m, a| m.max(*a));
+        let inside = |line: &(f64, f64)| (low..=high).contains(&line.0);
+        let lines = self.frequencies().zip(self.amplitudes.iter().copied()).filter(inside);
+        let sums = lines.fold([0.0; 2], |[square, of_rate], (frequency, amplitude)| {
+            let power = (amplitude / scale) * (amplitude / scale);
+            [square + power, frequency.mul_add(frequency * power, of_rate)]
+        });
+        let tones = 0.5 / (HANN_NOISE_BANDWIDTH * ZERO_PADDING as f64);
+        Some(sums.map(|sum| scale * libm::sqrt(sum * tones)))
     }
 
     /// Spectral amplitudes of all lines, in the unit of the samples.
@@ -301,5 +325,25 @@ mod tests {
         let mut broken = x;
         broken[5] = f64::NAN;
         assert_eq!(Spectrum::of(&broken, 1.0), Err(SpectrumError::NotFinite { index: 5 }));
+    }
+
+    /// Two tones and a band about each: √½ of its amplitude, whatever lies outside, and that times its frequency.
+    #[test]
+    fn a_band_has_the_root_mean_square_of_its_tones() {
+        let (step, count) = (0.05, 4000);
+        let x: Vec<f64> = (0..count)
+            .map(|k| {
+                let t = step * f64::from(k);
+                3.0 * libm::cos(1.037 * t) + 0.02 * libm::sin(7.3 * t + 0.4) - 5.0
+            })
+            .collect();
+        let spectrum = Spectrum::of(&x, step).expect("a record");
+        let half = core::f64::consts::FRAC_1_SQRT_2;
+        for (low, high, amplitude, frequency) in [(0.5, 1.5, 3.0, 1.037), (6.0, 9.0, 0.02, 7.3)] {
+            let [found, rate] = spectrum.root_mean_square(low, high).expect("inside");
+            assert!((found / (amplitude * half) - 1.0).abs() < 1e-3, "{found}");
+            assert!((rate / (amplitude * half * frequency) - 1.0).abs() < 2e-3, "{rate}");
+        }
+        assert!(spectrum.root_mean_square(1.0, 63.0).is_none());
     }
 }

@@ -340,6 +340,9 @@ class Belt(Study):
         "rest" (the default), "sliding", "squealing", (x, x′), in m and m/s in a study in SI, or an :class:`Initial`.
     solver :
         A :class:`Solver`.
+    band :
+        (lower, upper) frequency, in ω₀, of a band in which the level of the vibration is compared with and without dither.
+        In SI ``band_hz``, in Hz.
     axes :
         Axes of a map: see :meth:`Study.map`.
     title :
@@ -369,6 +372,8 @@ class Belt(Study):
         dither: Dither | Iterable[Dither] | None = None,
         initial: Literal["rest", "sliding", "squealing"] | tuple[float, float] | Initial | None = None,
         solver: Solver | None = None,
+        band: tuple[Number, Number] | None = None,
+        band_hz: tuple[Number, Number] | None = None,
         axes: Axes | None = None,
         title: str | None = None,
         mass_kg: Number | None = None,
@@ -379,7 +384,7 @@ class Belt(Study):
         belt_velocity_m_per_s: Number | None = None,
         **unknown: Unknown,
     ) -> None:
-        belt = Table(**given(locals(), "friction", "dither", "initial", "solver", "axes", "title"))
+        belt = Table(**given(locals(), "friction", "dither", "initial", "solver", "band", "band_hz", "axes", "title"))
         if initial is not None:
             si = any(name in belt.given for name in ("mass_kg", "stiffness_n_per_m", "natural_frequency_hz"))
             belt.given["initial"] = start(initial, si)
@@ -389,6 +394,7 @@ class Belt(Study):
             friction=friction,
             dither=several(dither),
             solver=solver,
+            response=levels(band, band_hz),
             sweep=axes_tables(axes),
         )
 
@@ -402,6 +408,17 @@ def start(initial: object, si: bool) -> object:
             return Initial(displacement_m=initial[0], velocity_m_per_s=initial[1])
         return Initial(displacement=initial[0], velocity=initial[1])
     return initial
+
+
+def levels(band: object, band_hz: object) -> object:
+    """The table of a band; invalid values are passed through and rejected by the reader."""
+    given = {name: listed(value) for name, value in (("band", band), ("band_hz", band_hz)) if value is not None}
+    return Table(**given) if given else None
+
+
+def listed(value: object) -> object:
+    """A tuple as a list."""
+    return list(value) if isinstance(value, tuple) else value
 
 
 def several(given: object) -> object:

@@ -73,8 +73,11 @@ pub fn thresholds(study: &Study, done: &Thresholds) -> Figure {
     }
     for (protocol, switches) in &done.protocols {
         for switch in &switches.changes {
-            let label =
-                format!("{}: {} above", protocol.name().replace('_', " "), becomes(switch.becomes));
+            let label = format!(
+                "{}: {} above",
+                protocol.name().replace('_', " "),
+                becomes(switch.becomes, done.in_band)
+            );
             let rule = Rule::vertical(ruler.place(switch.value)).style(LineStyle::Dashed);
             panel = panel.with(rule.label(label));
         }

@@ -67,7 +67,7 @@ impl Case {
         let local = local(name, &scene)?;
         let settled = ends(name, &study, &scene)?;
         let attractor = measure(&scene, &settled).map_err(|why| failed(name, &why))?;
-        let quiet = settled.outcome == Outcome::Quiet;
+        let quiet = attractor.as_ref().is_some_and(|it| it.quiet);
         Ok(Self { amplitude, study, local, quiet, attractor, period: scene.strobe.period })
     }
 

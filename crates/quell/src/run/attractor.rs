@@ -6,8 +6,8 @@ use quell_model::Belt;
 use quell_model::units::Quantity;
 use serde_json::json;
 
-use super::digits;
 use super::orbit::refused;
+use super::{digits, in_words};
 use crate::complaint::Failure;
 use crate::fields::Fields;
 use crate::study::Study;
@@ -18,25 +18,32 @@ pub(super) fn scene(belt: &Belt) -> Result<Scene<'_>, Failure> {
 }
 
 /// The attractor in words: what it is, and at which frequency it turns.
-pub fn words(attractor: &Attractor, period: f64) -> String {
-    let frequency = attractor.frequency(period);
-    let frequency = frequency
-        .map_or_else(String::new, |frequency| format!(", slow frequency {frequency:.5} ω₀"));
+pub fn words(study: &Study, attractor: &Attractor, period: f64) -> String {
+    let frequency = attractor.frequency(period).map_or_else(String::new, |frequency| {
+        let unit = if study.scales().is_some() { "" } else { " ω₀" };
+        format!(", slow frequency {}{unit}", in_words(study, Quantity::FrequencyRatio, frequency))
+    });
     let ratio = attractor.rotation.and_then(|rotation| rotation.ratio);
     match (attractor.kind, ratio) {
         (Kind::Periodic { periods: 1, .. }, _) if attractor.size() == 0.0 => {
             "steady sliding".to_owned()
         }
-        (Kind::Periodic { periods: 1, .. }, _) => "the period of the dither".to_owned(),
+        (Kind::Periodic { periods: 1, .. }, _) if attractor.base => {
+            "the base response, of the dither's period".to_owned()
+        }
+        (Kind::Periodic { periods: 1, .. }, _) => {
+            "another response of the dither's period".to_owned()
+        }
         (Kind::Periodic { periods, .. }, Some(ratio)) => {
             let turns = if ratio.turns == 1 { "turn" } else { "turns" };
+            let each = if ratio.periods == 1 { "period" } else { "periods" };
             let closed = if periods == ratio.periods {
                 String::new()
             } else {
                 format!(", closed after {periods}")
             };
             format!(
-                "locked: {} {turns} in {} periods{closed}{frequency}",
+                "locked: {} {turns} in {} {each}{closed}{frequency}",
                 ratio.turns, ratio.periods
             )
         }
@@ -61,6 +68,10 @@ pub(super) fn put(fields: &mut Fields, attractor: &Attractor, period: f64) {
             let why = || "a quasi-periodic response has no period".to_owned();
             ("quasi-periodic", Err(why()), Err(why()))
         }
+        Kind::Rest => {
+            let why = || "at rest nothing repeats".to_owned();
+            ("rest", Err(why()), Err(why()))
+        }
         Kind::Unclassified => {
             let why = || "no period up to 200 and no steady rotation number was found".to_owned();
             ("unclassified", Err(why()), Err(why()))
@@ -69,6 +80,7 @@ pub(super) fn put(fields: &mut Fields, attractor: &Attractor, period: f64) {
     fields
         .plain("kind", kind)
         .plain("quiet", attractor.quiet)
+        .plain("base_response", attractor.base)
         .known("periods", Quantity::Count, periods)
         .known("multiplier", Quantity::Ratio, radius)
         .number("displacement", Quantity::Displacement, attractor.state.displacement)
@@ -112,25 +124,35 @@ pub(super) fn put_section(fields: &mut Fields, attractor: &Attractor) {
     );
 }
 
-/// Why the response of sliding is not known, in words.
+/// Why the base response is not known, in words.
 pub(super) fn unknown(why: &NoOrbit) -> String {
-    format!("the response that sliding becomes was not found: {why}")
+    match why {
+        NoOrbit::Ends { share } => {
+            format!("the base response ends at {} of the dither's amplitude", digits(*share))
+        }
+        NoOrbit::LostOnTheWay { share } => format!(
+            "the base response could not be followed beyond {} of the dither's amplitude",
+            digits(*share)
+        ),
+        why => format!("the base response was not found: {why}"),
+    }
 }
 
 /// A number of the study in words.
 pub(super) fn number(study: &Study, unit: &str, value: f64) -> String {
     let text = digits(value);
-    if study.scales().is_some() && unit != "1" { format!("{text} {unit}") } else { text }
+    if study.scales().is_some() && !unit.starts_with('1') { format!("{text} {unit}") } else { text }
 }
 
 /// Words of the column `kind`.
-pub(super) const KINDS: [(u8, &str); 6] = [
+pub(super) const KINDS: [(u8, &str); 7] = [
     (0, "period-1"),
     (1, "locked"),
     (2, "quasi-periodic"),
     (3, "unclassified"),
     (4, "unsettled"),
     (5, "limit-cycle"),
+    (6, "rest"),
 ];
 
 /// Words of the column `local_verdict`.
@@ -145,6 +167,7 @@ pub(super) fn kind_code(attractor: Option<&Attractor>) -> u8 {
         Some(Kind::QuasiPeriodic) => 2,
         Some(Kind::Unclassified) => 3,
         Some(Kind::Cycle) => 5,
+        Some(Kind::Rest) => 6,
         None => 4,
     }
 }

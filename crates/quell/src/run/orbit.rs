@@ -208,6 +208,7 @@ pub(super) fn refused(why: NoOrbit) -> Failure {
         | NoOrbit::Ends { .. }
         | NoOrbit::LostOnTheWay { .. }
         | NoOrbit::NoPeriod { .. }
+        | NoOrbit::AtRest
         | NoOrbit::Unsettled(_)
         | NoOrbit::NoLimit
         | NoOrbit::Invalid { .. } => {

@@ -1,17 +1,25 @@
 //! `response`: the steady response, what the dither does to it, and what it costs.
 
 use quell_belt::attractor::Reached;
-use quell_belt::response::{BAND_END, Effect, Ending, Response, respond};
+use quell_belt::response::{
+    BAND_END, Effect, Ending, Record, Response, respond, samples_per_slow_period,
+};
 use quell_belt::simulation::{Sample, Start};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::range::SlipMet;
 use super::{failed, in_words, start, start_in_words};
-use crate::complaint::Failure;
+use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::Dataset;
 use crate::fields::Fields;
 use crate::study::Study;
+
+/// Levels beyond this are told as such: what is left is the engine's error and rounding.
+const MOST_DECIBELS: f64 = 120.0;
+
+/// Most samples of a record that is kept.
+const MOST_SAMPLES: f64 = 4_194_304.0;
 
 /// A steady response with its start.
 #[derive(Clone, Debug)]
@@ -32,6 +40,7 @@ pub struct Steady {
 /// [`Failure::Wrong`] where the study starts squealing and cannot; [`Failure::Failed`] if the
 /// engine stops.
 pub fn run(study: &Study) -> Result<Steady, Failure> {
+    record_fits(study)?;
     let start = start(study)?;
     let response = respond(study.belt(), start, study.solver()).map_err(failed)?;
     let moves = study.belt().belt_velocity() > 0.0;
@@ -41,6 +50,21 @@ pub fn run(study: &Study) -> Result<Steady, Failure> {
     slip.add_start(belt, start);
     slip.add_start(&belt.undithered(), start);
     Ok(Steady { start, response, moves, slip })
+}
+
+/// Refuses a record that would not fit into memory: fast dithers are sampled several times a period.
+fn record_fits(study: &Study) -> Result<(), Failure> {
+    let solver = study.solver();
+    let each = samples_per_slow_period(study.belt());
+    let most = (MOST_SAMPLES / each).floor();
+    if f64::from(solver.record_periods) <= most {
+        return Ok(());
+    }
+    let shorter = format!(
+        "at most {most}: each slow period of this dither takes {each} samples, and at most {MOST_SAMPLES} are kept"
+    );
+    let key = "solver.record_periods";
+    Err(Complaint::new(Fault::Value, key, Origin::Whole, solver.record_periods, shorter).into())
 }
 
 impl Steady {
@@ -58,7 +82,14 @@ impl Steady {
             |_| String::new(),
             |ratio| {
                 let level = self.level();
-                let level = level.map_or_else(String::new, |level| format!(", {level:.1} dB"));
+                let told = |level: f64| {
+                    if level < -MOST_DECIBELS {
+                        format!(", below −{MOST_DECIBELS} dB")
+                    } else {
+                        format!(", {level:.1} dB")
+                    }
+                };
+                let level = level.map_or_else(String::new, told);
                 format!("the residual vibration E below {BAND_END} ω₀ is {}{level}", percent(ratio))
             },
         );
@@ -77,7 +108,7 @@ impl Steady {
             }
             Effect::Unknown(why) => format!("the effect of this dither is unknown: {why}"),
         };
-        format!("Started {from}, {what}.{}", self.cost(study))
+        format!("Started {from}, {what}.{}{}", self.of_the_band(study), self.cost(study))
     }
 
     /// The cost of the dither in a sentence of its own.
@@ -124,6 +155,45 @@ impl Steady {
     pub fn level(&self) -> Option<f64> {
         let ratio = self.response.efficiency.ok().filter(|ratio| *ratio > 0.0)?;
         Some(20.0 * ratio.log10())
+    }
+
+    /// The levels in the band that the study asks for.
+    pub fn in_band(&self, study: &Study) -> Option<InBand> {
+        let band = study.band()?;
+        let [low, high] = band;
+        let of = |record: &Record| record.spectrum.root_mean_square(low, high);
+        let both = of(&self.response.record).zip(of(&self.response.undithered_record));
+        let values = both.ok_or_else(|| {
+            let last = self.response.record.spectrum.frequencies().last().unwrap_or_default();
+            let last = in_words(study, Quantity::FrequencyRatio, last);
+            format!("the record has no frequencies above {last}")
+        });
+        Some(InBand { band, values })
+    }
+
+    /// The levels in the band in a sentence of its own.
+    fn of_the_band(&self, study: &Study) -> String {
+        let Some(InBand { band, values }) = self.in_band(study) else { return String::new() };
+        let unit = if study.scales().is_some() { "" } else { " ω₀" };
+        let [low, high] = band.map(|end| in_words(study, Quantity::FrequencyRatio, end));
+        let levels = values.and_then(|(with, without)| {
+            Ok([level(with[0], without[0])?, level(with[1], without[1])?])
+        });
+        let told = match levels {
+            Ok([displacement, velocity]) => {
+                let change = |level: f64| {
+                    let way = if level > 0.0 { "rises" } else { "falls" };
+                    format!("{way} by {}", decibels(level.abs()))
+                };
+                format!(
+                    "the level of the displacement {}, that of the velocity {}",
+                    change(displacement),
+                    change(velocity)
+                )
+            }
+            Err(why) => format!("there is no level: {why}"),
+        };
+        format!(" From {low}{unit} to {high}{unit} {told}.")
     }
 
     /// What a reader of the numbers should know.
@@ -190,7 +260,11 @@ impl Steady {
                     Err(why) => why.to_string(),
                 }),
             )
-            .number("undithered_amplitude", Quantity::Displacement, response.undithered_amplitude)
+            .number("undithered_amplitude", Quantity::Displacement, response.undithered_amplitude);
+        if let Some(band) = self.in_band(study) {
+            fields.nested("band", band.fields(study));
+        }
+        fields
             .plain("settled", response.settled)
             .plain("undithered_settled", response.undithered_settled)
             .number("mean_friction", Quantity::Force, response.mean_friction)
@@ -259,6 +333,59 @@ impl Steady {
     }
 }
 
+/// Levels in a band of frequencies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InBand {
+    /// Its ends, in ω₀.
+    pub band: [f64; 2],
+    /// Root mean square of displacement and velocity with dither, and without; or why there is none.
+    pub values: Result<([f64; 2], [f64; 2]), String>,
+}
+
+impl InBand {
+    fn fields(self, study: &Study) -> Fields {
+        let [low, high] = self.band;
+        let mut fields = Fields::new(study.scales());
+        fields.number("from", Quantity::FrequencyRatio, low).number(
+            "to",
+            Quantity::FrequencyRatio,
+            high,
+        );
+        let names = [("displacement", Quantity::Displacement), ("velocity", Quantity::Velocity)];
+        for (place, (name, quantity)) in names.into_iter().enumerate() {
+            let values = self.values.clone();
+            let both = values.map(|(with, without)| (with[place], without[place]));
+            let (with, without) = (both.clone().map(|it| it.0), both.clone().map(|it| it.1));
+            let level = both.and_then(|(with, without)| level(with, without));
+            fields
+                .known(&format!("{name}_rms"), quantity, with)
+                .known(&format!("undithered_{name}_rms"), quantity, without)
+                .known(&format!("{name}_level_db"), Quantity::Ratio, level);
+        }
+        fields
+    }
+}
+
+/// A change of level in a sentence.
+fn decibels(size: f64) -> String {
+    if size > MOST_DECIBELS {
+        format!("more than {MOST_DECIBELS} dB")
+    } else {
+        format!("{size:.1} dB")
+    }
+}
+
+/// 20 lg of two root mean squares, in dB.
+fn level(with: f64, without: f64) -> Result<f64, String> {
+    if without == 0.0 {
+        return Err("without dither nothing vibrates in the band".to_owned());
+    }
+    if with == 0.0 {
+        return Err("with dither nothing vibrates in the band".to_owned());
+    }
+    Ok(20.0 * (with / without).log10())
+}
+
 /// Why it is unknown where a run ends.
 fn why_end_unknown(ending: Ending) -> Option<String> {
     match ending {
@@ -266,7 +393,7 @@ fn why_end_unknown(ending: Ending) -> Option<String> {
         Ending::Reached(Reached::Unsettled | Reached::Unknown) => {
             Some("the run had not settled when its periods were over".to_owned())
         }
-        Ending::Reached(Reached::Sliding | Reached::Elsewhere) => None,
+        Ending::Reached(Reached::Base | Reached::Forced | Reached::Elsewhere) => None,
     }
 }
 

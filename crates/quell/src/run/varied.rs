@@ -164,6 +164,12 @@ impl Named {
             (Some(number), Some(per_unit)) => {
                 Ok(Self { path: number, key: path.to_owned(), per_unit })
             }
+            (_, _) if is_of_several(path) => {
+                let allowed = format!(
+                    "one number of the equations; {path} changes several of them: `bifurcation` and `map` vary it"
+                );
+                Err(Box::new(Complaint::option(option, path, allowed)))
+            }
             (meant, _) => {
                 let [amplitude, velocity] = [DITHER_AMPLITUDE, BELT_VELOCITY]
                     .map(|parameter| key_of(study, parameter.path));
@@ -195,6 +201,12 @@ impl Named {
         let refused = study.with(&self.key, given).err().unwrap_or_default();
         refused.into_iter().map(move |complaint| told(complaint, option))
     }
+}
+
+/// Whether a key changes several numbers of the equations at once: mass, stiffness, friction in newtons.
+fn is_of_several(path: &str) -> bool {
+    let role = resolve(path).map(|address| address.key.role);
+    matches!(role, Ok(Role::Scale(_) | Role::FrictionForce(..)))
 }
 
 /// The key by which a study gives a number of the equations: in SI where the study is.

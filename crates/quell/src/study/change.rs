@@ -217,7 +217,8 @@ fn replaces(key: &Key, sibling: &Key, of_a_disc: bool) -> bool {
         // The mass stays: stiffness and natural frequency say the same of it.
         (_, Role::Scale(scale), Role::Scale(other)) => ![scale, other].contains(&MASS),
         (Section::Initial, role, other) => is_word(role) || is_word(other),
-        (Section::Friction, Role::Speeds { .. }, Role::Speeds { .. }) => true,
+        (Section::Friction, Role::Speeds { .. }, Role::Speeds { .. })
+        | (_, Role::Band { .. }, Role::Band { .. }) => true,
         (Section::Sweep, role, other) => {
             (role == Role::AxisValues) != (other == Role::AxisValues)
                 && key.name != "parameter"

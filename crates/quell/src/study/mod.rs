@@ -29,6 +29,7 @@ mod friction;
 mod measures;
 pub mod mirror;
 mod reader;
+mod response;
 mod revision;
 mod solver;
 mod subject;
@@ -51,6 +52,7 @@ pub struct Study {
     belt: Belt,
     initial: InitialState,
     solver: Solver,
+    band: Option<[f64; 2]>,
     scales: Option<Scales>,
     sweeps: Vec<Sweep>,
     mirror: Table,
@@ -187,12 +189,13 @@ impl Study {
         let (friction, measured) =
             friction.map_or((None, None), |read| (Some(read.law), read.measured));
         let solver = solver::read(&mut reader, &mirror);
+        let band = response::read(&mut reader, &mirror);
         let sweeps = sweep::read(&mut reader, &mirror);
         let built = build(&mut reader, belt, friction, dithers);
         let scales = reader.known_scales();
         let complaints = reader.into_complaints();
-        let parts = (built, belt.initial, solver, sweeps);
-        let (Some(belt), Some(initial), Some(solver), Some(sweeps)) = parts else {
+        let parts = (built, belt.initial, solver, band, sweeps);
+        let (Some(belt), Some(initial), Some(solver), Some(band), Some(sweeps)) = parts else {
             return Err(complaints);
         };
         if !complaints.is_empty() {
@@ -203,6 +206,7 @@ impl Study {
             belt,
             initial,
             solver,
+            band,
             scales,
             sweeps,
             mirror,
@@ -236,6 +240,11 @@ impl Study {
         &self.solver
     }
 
+    /// The band in which a level of the response is asked for, in ω₀.
+    pub fn band(&self) -> Option<[f64; 2]> {
+        self.band
+    }
+
     /// Mass and stiffness of a study in SI.
     pub fn scales(&self) -> Option<Scales> {
         self.scales
@@ -258,7 +267,8 @@ impl Study {
 }
 
 /// Tables and keys of a belt study outside any table.
-const ROOT: &[&str] = &["schema", "title", "belt", "friction", "dither", "solver", "sweep"];
+const ROOT: &[&str] =
+    &["schema", "title", "belt", "friction", "dither", "solver", "response", "sweep"];
 
 /// Reads what stands outside the tables; the title.
 fn root(reader: &mut Reader, mirror: &Table, names: &[&str]) -> Option<String> {

@@ -218,8 +218,7 @@ fn responses(
             outcomes[at] = compared.map_err(|_| Status::Stalled).and_then(|compared| {
                 let start = starts[at]?;
                 let belt = points[at].belt();
-                let effect =
-                    with_effect.then(|| effect(belt, start, &compared, Ending::of(belt, start)));
+                let effect = with_effect.then(|| effect(belt, &compared, Ending::of(belt, start)));
                 let steady = Steady::from(&compared);
                 let largest_slip = steady.largest_slip.max(first);
                 Ok((Steady { largest_slip, ..steady }, effect))

@@ -30,6 +30,8 @@ pub enum Status {
     UnditheredUnknown = 13,
     /// The effect: the vibration still changes within the record, and where the run ends does not decide.
     StillChanging = 14,
+    /// The effect: the record does not resolve what the dither changes.
+    Unresolved = 15,
     /// A criterion of zero within its error.
     WithinError = 20,
     /// The belt is exactly as fast as the fast motion.
@@ -67,6 +69,7 @@ impl Status {
         Self::OnlyNormalDither,
         Self::UnditheredUnknown,
         Self::StillChanging,
+        Self::Unresolved,
         Self::WithinError,
         Self::AtCorner,
         Self::SetValued,
@@ -108,6 +111,7 @@ impl Status {
             Self::OnlyNormalDither => "only_normal_dither",
             Self::UnditheredUnknown => "undithered_unknown",
             Self::StillChanging => "still_changing",
+            Self::Unresolved => "unresolved",
             Self::WithinError => "within_error",
             Self::AtCorner => "at_corner",
             Self::SetValued => "set_valued_friction",
@@ -145,6 +149,7 @@ impl Status {
             Self::StillChanging => {
                 "the vibration still changes within the record: settle for longer"
             }
+            Self::Unresolved => "the dither changes the vibration by less than its record resolves",
             Self::OnlyNormalDither => {
                 "all dither is normal: the model has no normal motion on which it could work"
             }
@@ -188,7 +193,7 @@ impl From<Uncertain> for Status {
             Uncertain::NoDither => Self::NoDither,
             Uncertain::Undithered(why) => why.into(),
             Uncertain::StillChanging => Self::StillChanging,
-            Uncertain::Stalled(_) => Self::Stalled,
+            Uncertain::Unresolved { .. } => Self::Unresolved,
         }
     }
 }

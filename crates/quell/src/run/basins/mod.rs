@@ -61,7 +61,9 @@ pub struct Portrait {
     pub gathered: Gathered,
     /// The share of each attractor.
     pub shares: Vec<Share>,
-    /// The share of starts that end on the response of sliding; none where no end is known. Its upper bound counts starts in
+    /// Whether responses of the dither's own period may vibrate in the band of slow vibration (R ≤ 1.9).
+    pub in_band: bool,
+    /// The share of starts that end without a slow motion; none where no end is known. Its upper bound counts starts in
     /// of which the end is not known.
     pub quiet: Option<Share>,
     /// The share of starts of which the end is not known.
@@ -209,6 +211,7 @@ impl Portrait {
         Self {
             value,
             period: scene.strobe.period,
+            in_band: scene.reaches_the_band(),
             local: scene.quiet.as_ref().map(|quiet| quiet.verdict).map_err(unknown),
             shares,
             quiet,

@@ -39,7 +39,7 @@ impl Portrait {
                 _ => format!("where {count} starts end is not known"),
             };
             return match &self.local {
-                Ok(verdict) => format!("The quiet response is {}; {nowhere}.", verdict.name()),
+                Ok(verdict) => format!("The base response is {}; {nowhere}.", verdict.name()),
                 Err(why) => format!("W{}; {why}.", &nowhere[1..]),
             };
         }
@@ -48,39 +48,31 @@ impl Portrait {
         } else {
             format!("{known} start{} whose end is known", plural(known))
         };
-        let others = self.gathered.basins.iter().filter(|basin| !basin.attractor.quiet).count();
-        let elsewhere = match others {
-            0 => String::new(),
-            1 if unknown == 0 => "; the others end on one more attractor".to_owned(),
-            1 => "; one more attractor was met".to_owned(),
-            _ if unknown > 0 => format!("; {others} more attractors were met"),
-            _ => format!("; the others end on {others} more attractors"),
+        let local = match &self.local {
+            Ok(verdict) => format!("the base response is {}", verdict.name()),
+            Err(why) => why.clone(),
         };
-        let reached = self.quiet.filter(|share| share.starts > 0);
-        let told = match (&self.local, reached) {
-            (Ok(Verdict::Stable), Some(share)) if share.starts == known => {
-                format!("The quiet response is stable, and every one of {starts} reaches it.")
+        let falls = if self.in_band { "falls into step with the dither" } else { "falls quiet" };
+        let fall = falls.replacen("falls", "fall", 1);
+        let told = match self.quiet.filter(|share| share.starts > 0) {
+            Some(share) if share.starts == known => {
+                let every = match known {
+                    1 => "The start".to_owned(),
+                    _ => format!("Every one of {starts}"),
+                };
+                format!("{every} {falls}; {local}.")
             }
-            (Ok(Verdict::Stable), Some(share)) => {
-                format!(
-                    "The quiet response is stable, but only {} of {count} starts reach it{elsewhere}.",
-                    percent(share)
-                )
+            Some(share) => {
+                let elsewhere = self.elsewhere();
+                format!("Only {} of {count} starts {fall}{elsewhere}; {local}.", percent(share))
             }
-            (Ok(Verdict::Stable), None) => {
-                format!("The quiet response is stable, but none of {starts} reaches it.")
-            }
-            (Ok(verdict), _) => format!(
-                "The quiet response is {}: no start stays on it; {starts} end{} on {} attractor{}.",
-                verdict.name(),
-                if known == 1 { "s" } else { "" },
-                self.gathered.basins.len(),
-                plural(self.gathered.basins.len())
-            ),
-            (Err(why), _) => {
+            None => {
                 let basins = self.gathered.basins.len();
-                let end = if known == 1 { "ends" } else { "end" };
-                format!("{starts} {end} on {basins} attractor{}; {why}.", plural(basins))
+                let none = match known {
+                    1 => format!("The start does not {fall}: it ends"),
+                    _ => format!("None of {starts} {falls}: they end"),
+                };
+                format!("{none} on {basins} attractor{}; {local}.", plural(basins))
             }
         };
         match unknown {
@@ -88,6 +80,18 @@ impl Portrait {
             unknown => {
                 format!("{told} Of {unknown} start{} the end is not known.", plural(unknown))
             }
+        }
+    }
+
+    /// What other attractors starts end on, where some fall quiet.
+    fn elsewhere(&self) -> String {
+        let others = self.gathered.basins.iter().filter(|basin| !basin.attractor.quiet).count();
+        match (others, self.gathered.unknown()) {
+            (0, _) => String::new(),
+            (1, 0) => ", the others end on one more attractor".to_owned(),
+            (1, _) => "; one more attractor was met".to_owned(),
+            (_, 0) => format!(", the others end on {others} more attractors"),
+            _ => format!("; {others} more attractors were met"),
         }
     }
 
@@ -165,7 +169,7 @@ impl Basins {
                 if let (Some((least, low)), Some((most, high))) = (least, most) {
                     let _ = write!(
                         text,
-                        " the share of starts that reach the quiet response lies between {low:.1} % (at {}) and {high:.1} % (at {})",
+                        " the share of starts that fall quiet lies between {low:.1} % (at {}) and {high:.1} % (at {})",
                         value(least),
                         value(most)
                     );
@@ -187,7 +191,7 @@ impl Basins {
                 if only_local > 0 {
                     let _ = write!(
                         text,
-                        "; at {only_local} of {} values it is stable, but not every start reaches it",
+                        "; at {only_local} of {} values the base response is stable, but not every start falls quiet",
                         portraits.len()
                     );
                 }
@@ -250,12 +254,12 @@ impl Basins {
             let portraits = self.portraits.iter().map(|portrait| {
                 let mut inner = Fields::new(scales);
                 inner.plain("value", portrait.value);
-                put_portrait(&mut inner, portrait, false);
+                put_portrait(&mut inner, study, portrait, false);
                 inner
             });
             fields.list("portraits", portraits);
         } else if let [portrait] = self.portraits.as_slice() {
-            put_portrait(&mut fields, portrait, true);
+            put_portrait(&mut fields, study, portrait, true);
             fields.plain("ends", portrait.ends());
         }
         fields.plain("warnings", self.warnings(study));
@@ -305,8 +309,10 @@ impl Basins {
         let quiet: Vec<u8> = labels.iter().map(quiet).collect();
         let mut dataset = Dataset::new(study, "basins");
         for (place, basin) in portrait.gathered.basins.iter().enumerate() {
-            dataset = dataset
-                .fact(format!("attractor {place}: {}", words(&basin.attractor, portrait.period)));
+            dataset = dataset.fact(format!(
+                "attractor {place}: {}",
+                words(study, &basin.attractor, portrait.period)
+            ));
         }
         let words = vec![(0, "no"), (1, "yes"), (2, "unknown")];
         let dataset = if let Some((x, v)) = self.starts.axes() {
@@ -341,7 +347,7 @@ impl Basins {
 /// One of the numbers of a share.
 type PartOfShare = fn(Share) -> f64;
 
-fn put_portrait(fields: &mut Fields, portrait: &Portrait, section: bool) {
+fn put_portrait(fields: &mut Fields, study: &Study, portrait: &Portrait, section: bool) {
     match &portrait.local {
         Ok(verdict) => fields.plain("local_verdict", verdict.name()),
         Err(why) => fields.unknown("local_verdict", why.as_str()),
@@ -358,7 +364,7 @@ fn put_portrait(fields: &mut Fields, portrait: &Portrait, section: bool) {
     let scales = fields.scales();
     let attractors = portrait.gathered.basins.iter().zip(&portrait.shares).map(|(basin, share)| {
         let mut inner = Fields::new(scales);
-        inner.plain("words", words(&basin.attractor, portrait.period));
+        inner.plain("words", words(study, &basin.attractor, portrait.period));
         put_share(&mut inner, *share);
         put(&mut inner, &basin.attractor, portrait.period);
         if section {

@@ -16,6 +16,7 @@ fn unknown_ends_reach_nothing() {
     let mut portrait = Portrait {
         value: None,
         period: 1.0,
+        in_band: false,
         local: Ok(Verdict::Stable),
         gathered,
         shares: Vec::new(),
@@ -24,7 +25,7 @@ fn unknown_ends_reach_nothing() {
     };
     assert_eq!(
         portrait.sentence(),
-        "The quiet response is stable; where 3 starts end is not known."
+        "The base response is stable; where 3 starts end is not known."
     );
     let at = |value: f64| Portrait { value: Some(value), ..portrait.clone() };
     let range = Range { parameter: "belt.belt_velocity".into(), from: 1.0, to: 2.0, points: 2 };

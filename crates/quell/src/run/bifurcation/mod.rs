@@ -62,6 +62,8 @@ pub struct Point {
     pub value: f64,
     /// Period of the section, τ.
     pub period: f64,
+    /// Whether responses of the dither's own period may vibrate in the band of slow vibration (R ≤ 1.9).
+    pub in_band: bool,
     /// Whether the response of sliding is stable here, whether or not the sweep is on it; or why that is not known.
     pub local: Result<Verdict, String>,
     /// What the sweep is on; or why it has not settled.
@@ -164,7 +166,8 @@ fn point(study: &Study, value: f64, begun: Start) -> Result<(Point, Start), Fail
     let response = attractor.ok_or_else(|| settled.why().unwrap_or(Unsettled::Moving));
     let local = scene.quiet.as_ref().map(|quiet| quiet.verdict).map_err(unknown);
     let period = scene.strobe.period;
-    Ok((Point { value, period, local, response, periods: settled.periods }, end))
+    let in_band = scene.reaches_the_band();
+    Ok((Point { value, period, in_band, local, response, periods: settled.periods }, end))
 }
 
 /// Stretches in which both directions were swept and show different responses.
@@ -177,7 +180,8 @@ fn hysteresis(study: &Study, branches: &[Branch]) -> Vec<(f64, f64)> {
         let apart = match (&one.response, &other.response) {
             (Ok(one), Ok(other)) => {
                 let most = one.size().max(other.size());
-                (one.size() - other.size()).abs() > APART * most + APART_AT_LEAST * scale
+                one.quiet != other.quiet
+                    || (one.size() - other.size()).abs() > APART * most + APART_AT_LEAST * scale
             }
             _ => false,
         };

@@ -25,8 +25,9 @@ impl Bifurcation {
                 continue;
             };
             let quiet = |point: &Point| match point.quiet() {
+                Some(true) if point.in_band => "in step with the dither",
                 Some(true) => "quiet",
-                Some(false) => "not quiet",
+                Some(false) => "vibrating",
                 None => "unsettled",
             };
             let mut parts = vec![format!(
@@ -35,7 +36,7 @@ impl Bifurcation {
                 value(first.value)
             )];
             for jump in branch.jumps() {
-                let word = if jump.to_quiet { "falls silent" } else { "is lost" };
+                let word = if jump.to_quiet { "falls quiet" } else { "begins to vibrate" };
                 parts.push(format!(
                     "{word} between {} and {}",
                     value(jump.before),
@@ -48,10 +49,11 @@ impl Bifurcation {
         if self.branches.len() == 2 {
             sentences.push(match self.hysteresis.as_slice() {
                 [] if self.has_settled() => {
-                    "Both directions show the same responses: no hysteresis.".to_owned()
+                    "Both directions show responses of the same size: no hysteresis.".to_owned()
                 }
                 [] if self.both_settle() => {
-                    "Both directions show the same responses wherever both have settled.".to_owned()
+                    "Both directions show responses of the same size wherever both have settled."
+                        .to_owned()
                 }
                 [] => "At no value have both directions settled.".to_owned(),
                 stretches => {
@@ -121,7 +123,7 @@ impl Bifurcation {
                 inner.plain("periods_to_settle", point.periods);
                 match &point.response {
                     Ok(attractor) => {
-                        inner.plain("words", words(attractor, point.period));
+                        inner.plain("words", words(study, attractor, point.period));
                         put(&mut inner, attractor, point.period);
                         put_section(&mut inner, attractor);
                     }
@@ -254,6 +256,7 @@ mod tests {
         let point = |value: f64| Point {
             value,
             period: 1.0,
+            in_band: false,
             local: Ok(Verdict::Stable),
             response: Err(Unsettled::Moving),
             periods: 7,

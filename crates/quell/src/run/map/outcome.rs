@@ -27,7 +27,7 @@ pub struct Map {
 /// A value and the point where it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {
-    /// The value, in the numbers of the equations.
+    /// The value, in SI where the study is.
     pub value: f64,
     /// Values of the axes there.
     pub place: Vec<f64>,
@@ -78,6 +78,11 @@ impl Map {
         })
     }
 
+    /// The array whose numbers are told: in SI where the study is.
+    pub fn told(&self, entry: &Entry) -> usize {
+        entry.twin.unwrap_or(entry.value)
+    }
+
     /// What each variable comes to, in the order of the sheet's entries.
     pub fn summaries(&self) -> Vec<Summary> {
         self.plan.sheet().entries().iter().map(|entry| self.summary(entry)).collect()
@@ -114,8 +119,12 @@ impl Map {
             }
             _ => Vec::new(),
         };
+        // Numbers in SI are proportional to those of the equations, so that the order is the same.
+        let told = self.told(entry);
         let extreme = |found: Option<(f64, usize)>| {
-            found.map(|(value, point)| Extreme { value, place: grid.values_at(point) })
+            let (value, point) = found?;
+            let value = self.value(told, entry, point).unwrap_or(value);
+            Some(Extreme { value, place: grid.values_at(point) })
         };
         Summary { least: extreme(least), most: extreme(most), words, states }
     }
@@ -284,9 +293,16 @@ impl Map {
 fn reasons(summary: &Summary) -> String {
     let unknown = summary.states.iter().filter(|(status, _)| !status.has_number());
     let reasons: Vec<String> = unknown
-        .map(|(status, count)| format!("{} ({count} points): {}", status.name(), status.about()))
+        .map(|(status, count)| {
+            format!("{} ({count} point{}): {}", status.name(), plural(*count), status.about())
+        })
         .collect();
     reasons.join("; ")
+}
+
+/// The ending of a noun after a count.
+pub fn plural(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
 }
 
 /// A list in row-major order as lists of lists.

@@ -1,11 +1,12 @@
 //! `thresholds`: values of a parameter at which the response changes: local ones by Floquet multipliers, and for runs
 //! from given starts the values at which dither begins or ceases to quench. `tell` says it in sentences.
 
-use quell_belt::attractor::{Reached, Switches, ramped, switches};
+use quell_belt::attractor::{Reached, Strobe, Switches, ramped, switches};
 use quell_belt::orbit::NoOrbit;
 pub use quell_belt::orbit::family::Signature;
 pub use quell_belt::orbit::threshold::{Change, Ending, Kind, Local, Threshold};
 use quell_belt::orbit::threshold::{NoThresholds, local};
+use quell_belt::response::BAND_END;
 use quell_belt::simulation::{Start, within};
 use quell_belt::start::NoSquealingStart;
 use quell_model::units::Quantity;
@@ -92,6 +93,8 @@ pub struct Thresholds {
     pub protocols: Vec<(Protocol, Switches)>,
     /// The slip that the responses meet at both ends and at the thresholds, and the runs at their beginning.
     pub slip: SlipMet,
+    /// Whether responses of the dither's own period may vibrate in the band of slow vibration (R ≤ 1.9), somewhere in the range.
+    pub in_band: bool,
 }
 
 /// The key of a number of the equations, in SI where the study is.
@@ -212,7 +215,12 @@ fn found(study: &Study, question: Question) -> Result<Thresholds, Failure> {
         protocols.push((protocol, found));
     }
     let slip = slip_met(study, &question, &local, &protocols);
-    Ok(Thresholds { question, local, protocols, slip })
+    let reaches = |value: f64| {
+        let belt = belt.with(path, value).ok();
+        belt.and_then(|belt| Strobe::of(&belt).ok()).is_some_and(|it| it.reaches_the_band())
+    };
+    let in_band = reaches(from) || reaches(to);
+    Ok(Thresholds { question, local, protocols, slip, in_band })
 }
 
 /// The slip of the responses at the thresholds, of steady sliding at both ends, and of the runs of protocols there and at
@@ -248,13 +256,15 @@ fn slip_met(
     slip
 }
 
-/// What runs do beyond a switch.
-pub fn becomes(reached: Reached) -> &'static str {
-    match reached {
-        Reached::Sliding => "quenched",
-        Reached::Elsewhere => "not quenched",
-        Reached::Unsettled => "unsettled",
-        Reached::Unknown => "unknown",
+/// What runs do beyond a switch. A dither in the band of the vibration itself is no end of it: runs fall into step with it or not.
+pub fn becomes(reached: Reached, in_band: bool) -> &'static str {
+    match (reached, in_band) {
+        (Reached::Base | Reached::Forced, false) => "quenched",
+        (Reached::Base | Reached::Forced, true) => "in step with the dither",
+        (Reached::Elsewhere, false) => "not quenched",
+        (Reached::Elsewhere, true) => "not in step with the dither",
+        (Reached::Unsettled, _) => "unsettled",
+        (Reached::Unknown, _) => "unknown",
     }
 }
 
@@ -307,13 +317,13 @@ impl Thresholds {
         }
         let mut first = object();
         for (protocol, switches) in &self.protocols {
-            first.plain(protocol.name(), becomes(switches.first));
+            first.plain(protocol.name(), becomes(switches.first, self.in_band));
             let switches = switches.changes.iter().map(|it| {
                 let mut inner = object();
                 inner
                     .number("value", quantity, it.value)
                     .number("error", quantity, it.error)
-                    .plain("becomes", becomes(it.becomes));
+                    .plain("becomes", becomes(it.becomes, self.in_band));
                 inner
             });
             fields.list(protocol.name(), switches);
@@ -343,9 +353,16 @@ impl Thresholds {
                 "where the run {runs} ends at {path} = {value} is not known: {why}{others}"
             ))
         };
+        let in_band = (self.in_band && !self.protocols.is_empty()).then(|| {
+            format!(
+                "dither acts at or below {BAND_END} ω₀, in the band of the vibration itself: a run in step with it \
+                 still vibrates there; `response` says how much remains"
+            )
+        });
         self.slip
             .warnings(study)
             .into_iter()
+            .chain(in_band)
             .chain(self.protocols.iter().filter_map(told))
             .collect()
     }

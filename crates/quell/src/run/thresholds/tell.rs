@@ -1,6 +1,6 @@
 //! What `thresholds` answers, in sentences: where the base response is stable, and from where on each start is quenched.
 
-use quell_belt::attractor::{Reached, Switch, Switches};
+use quell_belt::attractor::{Switch, Switches};
 use quell_belt::orbit::Verdict;
 use quell_model::units::Quantity;
 
@@ -167,7 +167,8 @@ impl Thresholds {
         let told = match (stable.len(), intervals.as_slice()) {
             (0, all) => {
                 let unstable = all.iter().all(|it| it.answer == Verdict::Unstable);
-                let none = if end.is_none() { " (no threshold in this range)" } else { "" };
+                let covered = end.is_none() && self.local.ending == Ending::Covered;
+                let none = if covered { " (no threshold in this range)" } else { "" };
                 if unstable {
                     format!("{subject} is unstable at every {}{none}", parameter.whole(all))
                 } else {
@@ -175,8 +176,9 @@ impl Thresholds {
                 }
             }
             (_, [only]) if only.to.of_range => {
-                let every = parameter.interval(only);
-                format!("{subject} is stable {every} (no threshold in this range)")
+                let covered = self.local.ending == Ending::Covered;
+                let none = if covered { " (no threshold in this range)" } else { "" };
+                format!("{subject} is stable {}{none}", parameter.interval(only))
             }
             (1, all) => {
                 let only = stable[0];
@@ -257,17 +259,21 @@ impl Thresholds {
     /// From where on runs of a start are quenched.
     fn of_runs(&self, parameter: &Parameter<'_>, switches: &Switches, dithered: bool) -> String {
         let intervals = runs(self.question.from, self.question.to, switches);
-        let of = |wanted: &[Reached]| -> Vec<&Interval<Reached>> {
-            intervals.iter().filter(|it| wanted.contains(&it.answer)).collect()
+        let of = |wanted: Option<bool>| -> Vec<&Interval<Option<bool>>> {
+            intervals.iter().filter(|it| it.answer == wanted).collect()
         };
-        let verb = if dithered { "the dither quenches" } else { "the run ends in steady sliding" };
-        let quenched = of(&[Reached::Sliding]);
+        let verb = match (dithered, self.in_band) {
+            (false, _) => "the run ends in steady sliding",
+            (true, true) => "the run falls into step with the dither",
+            (true, false) => "the dither quenches",
+        };
+        let quenched = of(Some(true));
         let told = if quenched.is_empty() {
-            format!("{verb} at no {}", parameter.whole(&intervals))
+            format!("{verb} nowhere for {}", parameter.whole(&intervals))
         } else {
             format!("{verb} {}", parameter.intervals(quenched))
         };
-        let open = of(&[Reached::Unsettled, Reached::Unknown]);
+        let open = of(None);
         if open.is_empty() {
             return told;
         }
@@ -299,7 +305,7 @@ fn listed(each: &[String], and: &str) -> String {
 }
 
 /// The intervals in which runs have the same outcome.
-fn runs(from: f64, to: f64, switches: &Switches) -> Vec<Interval<Reached>> {
+fn runs(from: f64, to: f64, switches: &Switches) -> Vec<Interval<Option<bool>>> {
     let limit = |switch: &Switch| Limit {
         value: switch.value,
         error: (!switch.is_close()).then_some(switch.error),
@@ -309,7 +315,10 @@ fn runs(from: f64, to: f64, switches: &Switches) -> Vec<Interval<Reached>> {
     let begins = std::iter::once((Limit::of_range(from), switches.first))
         .chain(switches.changes.iter().map(|switch| (limit(switch), switch.becomes)));
     let ends = switches.changes.iter().map(limit).chain(std::iter::once(Limit::of_range(to)));
-    let each = begins.zip(ends).map(|((from, answer), to)| Interval { from, to, answer });
+    let each = begins.zip(ends).map(|((from, reached), to)| {
+        let answer = reached.is_quiet();
+        Interval { from, to, answer }
+    });
     merged(each.collect())
 }
 

@@ -156,6 +156,7 @@ impl Reader {
             Role::Number(parameter) => !si || parameter.si.is_empty() || parameter.is_pure(),
             Role::Twin(..) | Role::Scale(_) | Role::FrictionForce(..) => si,
             Role::Speeds { si: in_si } => in_si == si,
+            Role::Band { hertz } => !hertz || si,
             _ => true,
         })
     }
@@ -201,7 +202,12 @@ pub(super) fn is_si(root: &Table) -> bool {
             for (name, _) in table.iter() {
                 match vocabulary::key(*section, name).map(|key| key.role) {
                     Some(Role::Scale(_)) => return true,
-                    Some(Role::Twin(..) | Role::Speeds { si: true } | Role::FrictionForce(..)) => {
+                    Some(
+                        Role::Twin(..)
+                        | Role::Speeds { si: true }
+                        | Role::Band { hertz: true }
+                        | Role::FrictionForce(..),
+                    ) => {
                         twins = true;
                     }
                     Some(Role::Speeds { si: false }) => plain = true,

@@ -151,7 +151,9 @@ impl Reader {
         let twin_key = join(prefix, twins.first().unwrap_or(&parameter.si[0]).key);
         if matches!(self.units, Units::Si(_)) {
             let Some(node) = plain else { return };
-            let instead = if twins.is_empty() { "give" } else { "drop it and keep" };
+            // What an option sets is given in another way; what stands in the file beside its twin is dropped.
+            let is_set = matches!(node.origin, Origin::Argument(_));
+            let instead = if twins.is_empty() || is_set { "give" } else { "drop it and keep" };
             let allowed = format!(
                 "this study is in SI, {plain_key} is dimensionless: {instead} {twin_key} ({})",
                 parameter.si[0].unit

@@ -11,6 +11,7 @@ pub(super) fn all() -> Vec<Key> {
     keys.extend(numbers());
     keys.extend(own_law());
     keys.extend(disc());
+    keys.extend(band());
     keys.extend(axis());
     keys.sort_by_key(|key| Section::ALL.iter().position(|section| *section == key.section));
     keys
@@ -130,6 +131,17 @@ fn disc() -> Vec<Key> {
             "parts of the equations that are left out",
         ),
     ]
+}
+
+/// Keys of the band of a level.
+fn band() -> Vec<Key> {
+    let key = |name, hertz| Key {
+        section: Section::Response,
+        name,
+        role: Role::Band { hertz },
+        about: "lower and upper end of a band in which the level of the vibration is compared with and without dither",
+    };
+    vec![key("band", false), key("band_hz", true)]
 }
 
 /// Keys of an axis.

@@ -51,6 +51,8 @@ pub enum Section {
     Dither,
     /// `[solver]`.
     Solver,
+    /// `[response]`.
+    Response,
     /// `[[sweep]]`.
     Sweep,
 }
@@ -68,6 +70,7 @@ impl Section {
         Self::DiscLoad,
         Self::Dither,
         Self::Solver,
+        Self::Response,
         Self::Sweep,
     ];
 
@@ -84,6 +87,7 @@ impl Section {
             Self::DiscLoad => "disc.load",
             Self::Dither => "dither",
             Self::Solver => "solver",
+            Self::Response => "response",
             Self::Sweep => "sweep",
         }
     }
@@ -103,6 +107,7 @@ impl Section {
             Self::Constants => "named numbers of a formula",
             Self::Dither => "one dither force; several as [[dither]]",
             Self::Solver => "accuracy and length of the computations",
+            Self::Response => "what is measured of a response besides the band of slow vibration",
             Self::Sweep => "one axis of a map; several in order",
         }
     }
@@ -135,6 +140,11 @@ pub enum Role {
     Speeds {
         /// In metres per second.
         si: bool,
+    },
+    /// The two ends of a band of frequencies, in hertz or in ω₀.
+    Band {
+        /// In hertz.
+        hertz: bool,
     },
     /// The number of terms of a fit.
     Terms,
@@ -191,6 +201,8 @@ impl Key {
             Role::FrictionForce(_, unit) => unit,
             Role::Speeds { si: true } => "m/s",
             Role::Speeds { si: false } => Quantity::Velocity.scaled_unit(),
+            Role::Band { hertz: true } => "Hz",
+            Role::Band { hertz: false } => Quantity::FrequencyRatio.scaled_unit(),
             _ => "1",
         }
     }
@@ -220,6 +232,8 @@ impl Key {
             Role::Twin(_, twin) => Some(twin.unit.trim_end_matches(" (rms)")),
             Role::Scale(scale) => Some(scale.unit),
             Role::Speeds { si: true } => Some("m/s"),
+            Role::Band { hertz: true } => Some("Hz"),
+            Role::FrictionForce(_, unit) => Some(unit),
             Role::Constant => Some("1"),
             _ => None,
         }

@@ -1,0 +1,69 @@
+//! `[response]`: optional; the band in which a level is asked for.
+
+use quell_model::parameter::Bounds;
+use quell_model::units::Quantity;
+
+use super::mirror::{Node, Table, Value};
+use super::reader::Reader;
+use super::vocabulary::Section;
+use crate::complaint::{Complaint, Fault};
+
+const BAND: &str = "response.band";
+const BAND_HZ: &str = "response.band_hz";
+
+/// Reads `[response]`: the ends of the band in ω₀, `None` without one; nothing where it is wrong.
+#[expect(clippy::option_option, reason = "wrong, absent, there")]
+pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Option<[f64; 2]>> {
+    let Some(node) = root.get("response") else { return Some(None) };
+    let table = reader.table("response", node)?;
+    reader.unknown_keys(table, Section::Response, "response", &[]);
+    match (table.get("band"), table.get("band_hz")) {
+        (None, None) => Some(None),
+        (Some(node), None) => Some(Some(ends(reader, BAND, node, "ω₀")?)),
+        (None, Some(node)) => in_hertz(reader, node).map(Some),
+        (Some(_), Some(node)) => {
+            let allowed = format!("say either {BAND} or {BAND_HZ}, not both");
+            let complaint =
+                Complaint::new(Fault::Conflict, BAND_HZ, node.origin, node.given(), allowed);
+            reader.complain(complaint);
+            None
+        }
+    }
+}
+
+fn in_hertz(reader: &mut Reader, node: &Node) -> Option<[f64; 2]> {
+    if !reader.is_si() {
+        let allowed =
+            format!("this study is dimensionless, {BAND_HZ} is in SI: give {BAND}, in ω₀");
+        let complaint = Complaint::new(Fault::Mixed, BAND_HZ, node.origin, node.given(), allowed);
+        reader.complain(complaint.suggesting(Some(BAND.to_owned())));
+        return None;
+    }
+    let ends = ends(reader, BAND_HZ, node, "Hz")?;
+    let scales = reader.known_scales()?;
+    Some(ends.map(|end| scales.from_si(Quantity::FrequencyRatio, end)))
+}
+
+/// Two frequencies in rising order.
+fn ends(reader: &mut Reader, key: &str, node: &Node, unit: &str) -> Option<[f64; 2]> {
+    let Value::List(list) = &node.value else {
+        let allowed = format!("a list of two frequencies in {unit}; this is {}", node.kind());
+        reader.wrong(key, node, allowed);
+        return None;
+    };
+    let [low, high] = list.as_slice() else {
+        let allowed = format!("two frequencies in {unit}; these are {}", list.len());
+        reader.wrong(key, node, allowed);
+        return None;
+    };
+    let mut end = |place: usize, node: &Node| {
+        reader.within(&format!("{key}[{place}]"), node, Bounds::NOT_NEGATIVE, unit, false)
+    };
+    let (low, high) = (end(0, low), end(1, high));
+    let (low, high) = (low?, high?);
+    if low < high {
+        return Some([low, high]);
+    }
+    reader.wrong(key, node, format!("two frequencies in {unit}, the second above the first"));
+    None
+}
