@@ -85,6 +85,111 @@ fn plain_numbers_of_options_are_in_si() {
     );
 }
 
+const DRIVE: &str = r#"title = "A drive in newtons"
+[belt]
+mass_kg = 20
+natural_frequency_hz = 30
+damping_ratio = 0.005
+normal_force_n = 200
+belt_velocity_m_per_s = 0.001
+[friction]
+law = "coulomb"
+friction_force_n = "60N"
+static_friction_force_n = 80
+[dither]
+direction = "tangential"
+waveform = "sine"
+frequency_hz = 300
+amplitude_n = 45
+[response]
+band_hz = [10, "50Hz"]
+"#;
+
+/// The base response of this drive ends at 37.3 N; from 39.7 N on runs end on another response of the dither's period, without any
+/// slow vibration. Every verb says so.
+#[test]
+fn quenched_means_the_same_in_every_verb() {
+    let place = place("si_drive");
+    place.write("drive.toml", DRIVE);
+    let response = place.good(&["response", "drive.toml"]);
+    assert_eq!(response["effect"], "quenches");
+    assert_eq!(response["ends_on"], "another response without slow vibration");
+    let range = ["--parameter", "dither.amplitude_n", "--from", "35", "--to", "50"];
+    let found = place.good(&[&["thresholds", "drive.toml", "--from-rest"][..], &range].concat());
+    let changes = found["from_rest"].as_array().expect("changes");
+    assert_eq!((changes.len(), &changes[0]["becomes"]), (1, &"quenched".into()), "{found}");
+    let value = changes[0]["value_n"].as_f64().expect("newtons");
+    assert!((value - 39.673).abs() < 0.01, "{value}");
+    let swept = ["bifurcation", "drive.toml", "--points", "4", "--up"];
+    let swept = place.good(&[&swept[..], &range].concat());
+    let quiet: Vec<_> =
+        swept["up"].as_array().expect("points").iter().map(|it| it["quiet"].clone()).collect();
+    assert_eq!(quiet, [false, true, true, true]);
+    let basins = place.good(&["basins", "drive.toml", "--sample", "20"]);
+    assert_eq!(
+        (&basins["quiet_fraction"], &basins["attractors"][0]["base_response"]),
+        (&1.0.into(), &false.into())
+    );
+    let told = basins["sentence"].as_str().expect("words");
+    assert!(
+        told.starts_with("Every one of 20 starts falls quiet; the base response ends at 0.829"),
+        "{told}"
+    );
+}
+
+/// A dither within the band of the vibration itself quenches nothing by being followed.
+#[test]
+fn a_slow_dither_is_no_end_of_vibration() {
+    let place = place("si_slow");
+    let slow = ["--set", "dither.frequency_ratio=0.9", "--set", "dither.amplitude=0.6"];
+    let response = place.good(&[&["response", "scaled.toml"][..], &slow].concat());
+    assert_eq!(response["effect"], "increases");
+    let range =
+        ["--parameter", "dither.amplitude", "--from", "0.01", "--to", "0.04", "--from-rest"];
+    let found = place.good(&[&["thresholds", "scaled.toml"][..], &slow, &range].concat());
+    let told = found["sentence"].as_str().expect("words");
+    assert!(!told.contains("quench") && told.contains("into step with the dither"), "{told}");
+    assert!(found["warnings"].to_string().contains("`response` says how much remains"), "{found}");
+}
+
+/// The level in a band is that of the lines between its ends; it is given with its root mean squares, in hertz too.
+#[test]
+fn a_band_has_its_level() {
+    let place = place("si_band");
+    place.write("drive.toml", DRIVE);
+    let reduced = ["response", "drive.toml", "--set", "dither.amplitude_n=20"];
+    let found = place.good(&reduced);
+    let band = &found["band"];
+    let number = |name: &str| band[name].as_f64().expect(name);
+    assert!((number("from_hz") - 10.0).abs() < 1e-12 && (number("to_hz") - 50.0).abs() < 1e-12);
+    let level = 20.0 * (number("displacement_rms") / number("undithered_displacement_rms")).log10();
+    assert!((number("displacement_level_db") - level).abs() < 1e-12);
+    assert!(found["sentence"].as_str().expect("words").contains("From 10 Hz to 50 Hz the level"));
+    let in_ratios = place.good(
+        &[&reduced[..], &["--set", "response.band=[0.3333333333333333, 1.6666666666666667]"]]
+            .concat(),
+    );
+    assert!(
+        (in_ratios["band"]["displacement_level_db"].as_f64().expect("a level") - level).abs()
+            < 1e-9
+    );
+    let beyond = place.good(&[&reduced[..], &["--set", "response.band_hz=[10, 1e6]"]].concat());
+    assert!(beyond["band"]["displacement_level_db"].is_null());
+    assert!(beyond["why"].to_string().contains("no frequencies above"), "{}", beyond["why"]);
+    for (set, key) in [
+        ("response.band_hz=[50, 10]", "response.band_hz"),
+        ("response.band_hz=[10]", "response.band_hz"),
+        ("response.band_hz=10", "response.band_hz"),
+        ("response.band_hz=[-1, 10]", "response.band_hz[0]"),
+        ("response.bend_hz=[1, 10]", "response.bend_hz"),
+    ] {
+        let errors = place.refused(&["check", "drive.toml", "--set", set]);
+        assert_eq!(errors[0]["key"], key, "{set}: {errors:?}");
+    }
+    let errors = place.refused(&["check", "scaled.toml", "--set", "response.band_hz=[1, 10]"]);
+    assert_eq!(errors[0]["suggestion"], "response.band", "{errors:?}");
+}
+
 #[test]
 fn wrong_units_are_refused_with_what_is_expected() {
     let place = place("si_wrong");

@@ -155,7 +155,7 @@ mod tests {
     fn a_planted_rotation_is_found() {
         // A curve that is no circle, walked unevenly: the number of turns does not mind.
         let point = |turns: f64| {
-            let angle = std::f64::consts::TAU * turns;
+            let angle = TAU * turns;
             let angle = angle + 0.4 * angle.sin();
             (1.0 + 2.0 * angle.cos() + 0.3 * (2.0 * angle).cos(), -angle.sin())
         };

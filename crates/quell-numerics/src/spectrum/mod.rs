@@ -144,8 +144,10 @@ impl Spectrum {
     /// `None` where the spectrum ends below `high`.
     #[must_use]
     pub fn root_mean_square(&self, low: f64, high: f64) -> Option<[f64; 2]> {
+        // Lines on the ends of the band lie inside, whichever way the ends are rounded.
+        let (low, high) = (low * (1.0 - 1e-9), high * (1.0 + 1e-9));
         let last = self.frequency(self.amplitudes.len() - 1);
-        if high > last * (1.0 + 1e-12) {
+        if high > last * (1.0 + 2e-9) {
             return None;
         }
         // Records of length scales 10⁻³⁰⁰ or 10³⁰⁰ must not lose their square.
