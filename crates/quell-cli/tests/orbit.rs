@@ -244,6 +244,20 @@ fn what_cannot_be_followed_does_not_take_the_rest_along() {
     }
 }
 
+/// A branch that ends before the range does is not the last word: at the other end a base response exists, and is announced.
+#[test]
+fn a_base_response_beyond_the_end_of_a_branch_is_announced() {
+    let ask = |from: &str| thresholds(STUDY, "belt.belt_velocity", [from, "3"], &[]);
+    let found = ask("0.3");
+    assert_eq!((&found["covered"], &found["resumes"]), (&false.into(), &true.into()));
+    let told = found["sentence"].as_str().expect("words");
+    assert!(told.contains("at v₀ = 3 a base response exists again"), "{told}");
+    assert!(!told.contains("no threshold in this range"), "{told}");
+    let rest = ask("0.7");
+    assert_eq!((&rest["covered"], &rest["resumes"]), (&true.into(), &false.into()));
+    assert!(rest["local"].as_array().is_some_and(|found| !found.is_empty()), "{rest}");
+}
+
 /// In a study in SI a question in newtons and seconds is the one in numbers of the equations.
 #[test]
 fn thresholds_are_asked_in_si() {

@@ -1,7 +1,7 @@
 //! `thresholds`: values of a parameter at which the response changes: local ones by Floquet multipliers, and for runs
 //! from given starts the values at which dither begins or ceases to quench. `tell` says it in sentences.
 
-use quell_belt::attractor::{Reached, Strobe, Switches, ramped, switches};
+use quell_belt::attractor::{Reached, Scene, Strobe, Switches, ramped, switches};
 use quell_belt::orbit::NoOrbit;
 pub use quell_belt::orbit::family::Signature;
 pub use quell_belt::orbit::threshold::{Change, Ending, Kind, Local, Threshold};
@@ -89,6 +89,8 @@ pub struct Thresholds {
     pub question: Question,
     /// By multipliers, with the branch of responses on which they lie.
     pub local: Local,
+    /// Whether a base response exists at the last value although this branch ends before it.
+    pub resumes: bool,
     /// By runs from a start.
     pub protocols: Vec<(Protocol, Switches)>,
     /// The slip that the responses meet at both ends and at the thresholds, and the runs at their beginning.
@@ -193,6 +195,9 @@ fn found(study: &Study, question: Question) -> Result<Thresholds, Failure> {
     let (from, to) = (question.from, question.to);
     let local =
         local(belt, path, from, to, STEPS).map_err(|why| told(study, why, path, "--from"))?;
+    let last = belt.with(path, to).ok();
+    let resumes = local.ending != Ending::Covered
+        && last.is_some_and(|belt| Scene::new(&belt).is_ok_and(|scene| scene.quiet.is_ok()));
     let mut protocols = Vec::new();
     for &protocol in &question.protocols {
         let initial = protocol.initial();
@@ -220,7 +225,7 @@ fn found(study: &Study, question: Question) -> Result<Thresholds, Failure> {
         belt.and_then(|belt| Strobe::of(&belt).ok()).is_some_and(|it| it.reaches_the_band())
     };
     let in_band = reaches(from) || reaches(to);
-    Ok(Thresholds { question, local, protocols, slip, in_band })
+    Ok(Thresholds { question, local, resumes, protocols, slip, in_band })
 }
 
 /// The slip of the responses at the thresholds, of steady sliding at both ends, and of the runs of protocols there and at
@@ -310,6 +315,7 @@ impl Thresholds {
             .number("from", quantity, question.from)
             .number("to", quantity, question.to)
             .plain("covered", self.local.ending == Ending::Covered)
+            .plain("resumes", self.resumes)
             .list("local", local)
             .list("signature_changes", changes);
         if question.ramp > 0.0 {

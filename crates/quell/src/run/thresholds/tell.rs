@@ -213,36 +213,38 @@ impl Thresholds {
         said_already: bool,
     ) -> String {
         let at = |value: f64| parameter.value(Limit::of_range(value));
+        let beyond = if self.resumes {
+            let last = at(self.question.to);
+            format!(
+                "at {last} a base response exists again, and a range that begins beyond finds its thresholds"
+            )
+        } else {
+            "beyond, runs end on another response".to_owned()
+        };
         match (end, self.local.ending) {
             (Some(end), _) if said_already => {
                 let ends = if end.kind == Kind::Fold { "turns back" } else { "ends" };
-                format!(" There it {ends}; beyond, runs end on another response.")
+                format!(" There it {ends}; {beyond}.")
             }
             (Some(end), _) if end.kind == Kind::Fold || self.local.ending == Ending::Covered => {
-                format!(
-                    " It turns back at {} ({}); beyond, runs end on another response.",
-                    at(end.value),
-                    end.kind.name()
-                )
+                format!(" It turns back at {} ({}); {beyond}.", at(end.value), end.kind.name())
             }
-            (Some(end), _) => format!(
-                " It ends at {} ({}); beyond, runs end on another response.",
-                at(end.value),
-                end.kind.name()
-            ),
+            (Some(end), _) => {
+                format!(" It ends at {} ({}); {beyond}.", at(end.value), end.kind.name())
+            }
             (None, Ending::Covered) => String::new(),
             (
                 None,
                 Ending::TurnedBack { at: value } | Ending::LostTurning { furthest: value, .. },
             ) => {
-                format!(" It turns back at {}; beyond, runs end on another response.", at(value))
+                format!(" It turns back at {}; {beyond}.", at(value))
             }
-            (None, Ending::Touch { at: value }) => format!(
-                " It ends at {}, where it touches v_r = 0; beyond, runs end on another response.",
-                at(value)
-            ),
+            (None, Ending::Touch { at: value }) => {
+                format!(" It ends at {}, where it touches v_r = 0; {beyond}.", at(value))
+            }
             (None, Ending::Lost { at: value }) => {
-                format!(" It could not be continued beyond {}; what follows is unknown.", at(value))
+                let then = if self.resumes { beyond.as_str() } else { "what follows is unknown" };
+                format!(" It could not be continued beyond {}; {then}.", at(value))
             }
         }
     }
