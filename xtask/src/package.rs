@@ -9,8 +9,17 @@ use std::process::Command;
 use crate::manifest;
 
 /// Crates in the order in which they are published: each after those it uses.
-const ORDER: &[&str] =
-    &["quell-numerics", "quell-model", "quell-belt", "quell-disc", "quell", "quell-cli"];
+const ORDER: &[&str] = &[
+    "quell-numerics",
+    "quell-model",
+    "quell-belt",
+    "quell-disc",
+    "quell-plot",
+    "quell-study",
+    "quell",
+    "quell-reproduce",
+    "quell-cli",
+];
 
 /// Packs every crate.
 ///

@@ -4,8 +4,8 @@ use std::sync::Mutex;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use quell::reproduce::Step;
 use quell::sweep::Progress;
+use quell_reproduce::Step;
 
 use crate::answer::tell;
 

@@ -266,7 +266,7 @@ fn pictures_are_those_of_reproduce() {
             count += 1;
             let path = folder.join(link);
             let stem = file.trim_end_matches(".svg");
-            let entry = quell::reproduce::ENTRIES.iter().find(|entry| entry.stem() == stem);
+            let entry = quell_reproduce::ENTRIES.iter().find(|entry| entry.stem() == stem);
             let entry = entry.unwrap_or_else(|| panic!("{}: {link}", page.display()));
             if made.contains(&path) {
                 continue;

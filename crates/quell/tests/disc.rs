@@ -288,7 +288,8 @@ fn the_answer_of_each_run_is_one_object_with_its_names() {
 /// First-order theory calls R from 3.05 to 6 clear; the exact exponents grow from 4.4 on.
 #[test]
 fn a_clear_frequency_is_verified_by_the_exact_equations() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/which-dither-frequency.toml");
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/which-dither-frequency.toml");
     let text = fs::read_to_string(&path).expect("a study");
     let study = good(&text);
     let question =

@@ -17,7 +17,7 @@ use quell::{Change, DiscStudy, Study, picture};
 use serde_json::Value as Json;
 
 fn path(name: &str) -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("studies").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies").join(name)
 }
 
 fn belt(name: &str, changes: &[&str]) -> Study {

@@ -100,7 +100,7 @@ fn mutated(text: &str, dice: &mut Dice) -> String {
 }
 
 fn studies() -> Vec<String> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies");
     let mut files: Vec<PathBuf> =
         fs::read_dir(folder).expect("studies").map(|file| file.expect("a file").path()).collect();
     files.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));

@@ -14,7 +14,10 @@ const NOTHING: &[&str] = &[];
 const MATHEMATICS: &[&str] = &["quell-numerics"];
 const NOUNS: &[&str] = &["quell-model", "quell-numerics"];
 const PHYSICS: &[&str] = &["quell-belt", "quell-disc", "quell-model", "quell-numerics"];
-const FRONT_DOOR: &[&str] = &["quell", "quell-model"];
+const ENGINES_AND_STUDIES: &[&str] =
+    &["quell-belt", "quell-disc", "quell-model", "quell-numerics", "quell-plot", "quell-study"];
+const CLIENT: &[&str] = &["quell", "quell-belt", "quell-disc", "quell-model", "quell-numerics"];
+const FRONT_DOOR: &[&str] = &["quell", "quell-model", "quell-reproduce"];
 
 const fn layer(
     name: &'static str,
@@ -31,7 +34,10 @@ pub(crate) const LAYERS: &[Layer] = &[
     layer("quell-model",    MATHEMATICS, "nouns are valid values: they know no engine that works on them"),
     layer("quell-belt",     NOUNS,       "physics is pure functions of valid values, and no system knows another"),
     layer("quell-disc",     NOUNS,       "physics is pure functions of valid values, and no system knows another"),
-    layer("quell",          PHYSICS,     "the front door runs the physics; it does not know who knocks"),
+    layer("quell-plot",     NOTHING,     "a figure is data with a renderer: it knows no physics and no study"),
+    layer("quell-study",    PHYSICS,     "a study is read and checked here, and computed elsewhere"),
+    layer("quell",          ENGINES_AND_STUDIES, "the front door runs the physics; it does not know who knocks"),
+    layer("quell-reproduce", CLIENT,     "the dissertation is a client of the front door; only doors use it"),
     layer("quell-cli",      FRONT_DOOR,  "a door parses and shows: no physics, and no other door"),
     layer("quell-python",   FRONT_DOOR,  "a door parses and shows: no physics, and no other door"),
     layer("quell-explorer", FRONT_DOOR,  "a door parses and shows: no physics, and no other door"),
@@ -62,18 +68,18 @@ const fn confined(
 /// Dependencies that are confined, and where.
 #[rustfmt::skip]
 pub(crate) const CONFINED: &[Confined] = &[
-    confined("rayon",      &["quell"],              false, "threads belong to the front door: engines are pure, their bits free of scheduling"),
-    confined("toml",       &["quell", "xtask"],     false, "study files are read in one place; xtask reads manifests"),
+    confined("rayon",      &["quell", "quell-reproduce"],            false, "threads belong to the front door: engines are pure, their bits free of scheduling"),
+    confined("toml",       &["quell-study", "xtask"],    false, "study files are read in one place; xtask reads manifests"),
     confined("zarrs",      &["quell"],              false, "stores are written in one place, atomically"),
-    confined("kuva",       &["quell"],              false, "plots are made from datasets, in the front door"),
-    confined("png",        &["quell"],              false, "plots are made from datasets, in the front door"),
-    confined("resvg",      &["quell"],              false, "plots are made from datasets, in the front door"),
-    confined("rustix",     &["quell"],              false, "files of strangers are opened in one place"),
+    confined("kuva",       &["quell-plot"],         false, "pictures are drawn in one place"),
+    confined("png",        &["quell-plot"],         true,  "pictures are drawn in one place; tests look at them"),
+    confined("resvg",      &["quell-plot"],         false, "pictures are drawn in one place"),
+    confined("rustix",     &["quell", "quell-study"], false, "files of strangers are opened in two places: studies and stores"),
     confined("nix",        &["quell-cli"],          false, "signals concern whoever owns the process"),
     confined("clap",       &["quell-cli"],          false, "arguments of a command line concern the command line alone"),
     confined("indicatif",  &["quell-cli"],          false, "progress bars concern the command line alone"),
     confined("pyo3",       &["quell-python"],       false, "bindings never leak into the core"),
     confined("numpy",      &["quell-python"],       false, "bindings never leak into the core"),
-    confined("serde",      &["quell", "quell-cli"], false, "files mirror their text apart from the valid types"),
-    confined("serde_json", &["quell", "quell-cli", "quell-python"], true,  "as serde; tests of any crate may read reference numbers"),
+    confined("serde",      &["quell-cli"],          false, "files mirror their text apart from the valid types"),
+    confined("serde_json", &["quell", "quell-cli", "quell-plot", "quell-python", "quell-reproduce", "quell-study"], true,  "as serde; tests of any crate may read reference numbers"),
 ];

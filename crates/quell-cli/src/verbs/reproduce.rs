@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use quell::Failure;
-use quell::reproduce::{ENTRIES, Pace, Reproduction, find, run as reproduce};
+use quell_reproduce::{ENTRIES, Pace, Reproduction, find, run as reproduce};
 
 use crate::answer::Answer;
 use crate::progress::Entries;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use quell::reproduce::{ENTRIES, Pace, find, run};
+use quell_reproduce::{ENTRIES, Pace, find, run};
 
 use crate::{call, convert};
 

@@ -1,0 +1,52 @@
+//! Figures as SVG text and PNG bytes; `quell::picture::write` makes files of them.
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree};
+
+use super::error::PlotError;
+use super::figure::Figure;
+use super::{draw, fonts};
+
+/// Pixels of a PNG to one unit of the picture (1/96 inch): 192 dots per inch.
+const PIXELS_PER_UNIT: f64 = 2.0;
+
+impl Figure {
+    /// The picture as SVG. Equal figures give equal text.
+    #[must_use]
+    pub fn to_svg(&self) -> String {
+        draw::figure(self)
+    }
+
+    /// The picture as PNG, 192 dots per inch. Equal figures give equal bytes.
+    ///
+    /// # Errors
+    /// [`PlotError::PixelSize`] when it is too large, [`PlotError::Raster`] when the rasteriser fails.
+    pub fn to_png(&self) -> Result<Vec<u8>, PlotError> {
+        png(&self.to_svg())
+    }
+}
+
+fn png(svg: &str) -> Result<Vec<u8>, PlotError> {
+    let options = Options {
+        font_family: fonts::BUNDLED_FAMILY.to_string(),
+        fontdb: fonts::database(),
+        ..Options::default()
+    };
+    let tree = Tree::from_str(svg, &options)
+        .map_err(|source| PlotError::Raster { source: Box::new(source) })?;
+    let pixels = |units: f32| {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "the cast saturates; the pixel map refuses what is too large"
+        )]
+        let pixels = (f64::from(units) * PIXELS_PER_UNIT).round() as u32;
+        pixels
+    };
+    let (width, height) = (pixels(tree.size().width()), pixels(tree.size().height()));
+    let mut pixmap = Pixmap::new(width, height).ok_or(PlotError::PixelSize { width, height })?;
+    #[expect(clippy::cast_possible_truncation, reason = "a small constant")]
+    let scale = PIXELS_PER_UNIT as f32;
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
+    pixmap.encode_png().map_err(|source| PlotError::Raster { source: Box::new(source) })
+}

@@ -1,0 +1,227 @@
+//! Claims about single responses from rest, figures 2.10, 2.11, 3.12, 3.13, 4.11, and about other starts.
+
+use quell_belt::attractor::{Patience, Scene, gather, settle_many};
+use quell_belt::simulation::Start;
+use quell_model::{Direction, LawKind, Waveform};
+
+use super::super::sections::{Case, Change, Columns};
+use super::super::source::failed;
+use super::chapter2::{LIGHT, belt, source};
+use super::sheet::{Sheet, digits, list};
+use quell::complaint::Failure;
+
+/// What a figure claims: amplitudes that are stable and not, and between which of them that changes.
+struct Printed {
+    figure: &'static str,
+    /// The columns called stable.
+    stable: &'static [f64],
+    /// "Becomes unstable for D ≥": the first unstable column.
+    unstable_from: f64,
+    /// "Stabilised for D ≥".
+    stable_from: f64,
+    /// What averaging predicts for both, as printed.
+    averaged: [&'static str; 2],
+}
+
+const TANGENTIAL: [Printed; 4] = [
+    Printed {
+        figure: "2.10",
+        stable: &[0.0, 2.5, 10.0],
+        unstable_from: 3.0,
+        stable_from: 10.0,
+        averaged: ["4.3", "9.8"],
+    },
+    Printed {
+        figure: "2.11",
+        stable: &[0.0, 6.5, 15.0],
+        unstable_from: 7.0,
+        stable_from: 15.0,
+        averaged: ["10", "15"],
+    },
+    Printed {
+        figure: "3.12",
+        stable: &[0.0, 3.0, 13.0],
+        unstable_from: 4.0,
+        stable_from: 13.0,
+        averaged: ["5.4", "12.7"],
+    },
+    Printed {
+        figure: "3.13",
+        stable: &[0.0, 2.0, 6.5],
+        unstable_from: 2.5,
+        stable_from: 6.5,
+        averaged: ["3.3", "6.3"],
+    },
+];
+
+/// Figures 2.10, 2.11, 3.12, 3.13: the claims of one.
+pub(super) fn tangential(sheet: &mut Sheet, figure: &str) -> Result<(), Failure> {
+    let printed = TANGENTIAL
+        .iter()
+        .find(|printed| printed.figure == figure)
+        .ok_or_else(|| failed("claims", &format!("nothing is printed about figure {figure}")))?;
+    let columns = sheet.shared.columns(figure, &source(figure)?.study()?)?;
+    columns_claim(sheet, figure, figure, &columns, printed.stable);
+    borders(sheet, printed, &columns);
+    let place = format!("Figure {figure}");
+    for ((change, averaged), (word, claim)) in columns
+        .local
+        .iter()
+        .zip(printed.averaged)
+        .zip([("unstable", "lower"), ("stable again", "upper")])
+    {
+        let name = format!("{figure}-local-{claim}");
+        let statement = format!(
+            "the response is {word} from D_T = (averaging as printed, exact Floquet threshold as measured)"
+        );
+        sheet.number(&name, &place, &statement, averaged, &[change.amplitude]);
+    }
+    let vibrating = columns.cases.iter().filter(|case| !case.quiet);
+    let frequencies: Vec<f64> = vibrating.filter_map(Case::frequency).collect();
+    let name = format!("{figure}-period-10");
+    let statement =
+        "the unstable response is close to period-10: its low frequency is at or near ω₀";
+    sheet
+        .number(&name, &place, statement, "1.0", &frequencies)
+        .note("turns of the section a period, times R");
+    Ok(())
+}
+
+/// Which columns settle from rest.
+fn columns_claim(sheet: &mut Sheet, stem: &str, figure: &str, columns: &Columns, stable: &[f64]) {
+    let of = |quiet: bool| -> Vec<f64> {
+        columns.cases.iter().filter(|case| case.quiet == quiet).map(|case| case.amplitude).collect()
+    };
+    let (settles, vibrates) = (of(true), of(false));
+    let others: Vec<f64> =
+        columns.cases.iter().map(|case| case.amplitude).filter(|d| !stable.contains(d)).collect();
+    let plain = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
+    let statement =
+        format!("from rest D = {} settle, D = {} do not", plain(stable), plain(&others));
+    let measured = format!("settle: {}; do not: {}", plain(&settles), plain(&vibrates));
+    let holds = settles == stable;
+    sheet.statement(
+        [&format!("{stem}-columns"), &format!("Figure {figure}"), &statement],
+        measured,
+        &settles,
+        holds,
+    );
+}
+
+/// "Becomes unstable for D ≥ 3": the threshold from rest lies between the last stable and the first unstable column.
+fn borders(sheet: &mut Sheet, printed: &Printed, columns: &Columns) {
+    let name = printed.figure;
+    for (word, claim, to, first) in [
+        ("unstable", "lower", false, printed.unstable_from),
+        ("stable again", "upper", true, printed.stable_from),
+    ] {
+        let before = columns
+            .cases
+            .iter()
+            .map(|case| case.amplitude)
+            .filter(|d| *d < first)
+            .fold(0.0, f64::max);
+        let found: Vec<f64> = columns
+            .from_rest
+            .iter()
+            .filter(|change| change.to == to)
+            .map(|change| change.amplitude)
+            .collect();
+        let holds = found.iter().any(|it| before < *it && *it <= first);
+        let statement = format!("from rest it is {word} for D ≥ {first}, not yet at {before}");
+        let claim = sheet.statement(
+            [&format!("{name}-from-rest-{claim}"), &format!("Figure {name}"), &statement],
+            format!("threshold {}", list(&found)),
+            &found,
+            holds,
+        );
+        if !to && let Some(Change { amplitude, .. }) = columns.local.first() {
+            claim.note(format!(
+                "the quiet response is stable up to {}: between both a stick-slip vibration coexists with it, and rest lies in the \
+                 basin of that",
+                digits(*amplitude, 6)
+            ));
+        }
+    }
+}
+
+/// Figure 4.11 with a waveform: that of its caption, or a sine.
+pub(super) fn normal(sheet: &mut Sheet, waveform: Waveform) -> Result<(), Failure> {
+    let waveform = waveform.name();
+    let study = source("4.11")?.changed(&[&format!("dither.waveform={waveform}")])?;
+    let columns = sheet.shared.columns("4.11", &study)?;
+    let stem = format!("4.11-{waveform}");
+    columns_claim(sheet, &stem, &format!("4.11, {waveform}"), &columns, &[0.0, 0.6, 0.95]);
+    let spreads: Vec<f64> = columns.cases.iter().filter_map(spread).collect();
+    let thresholds: Vec<f64> = columns.local.iter().map(|change| change.amplitude).collect();
+    let statement =
+        "from rest it is stable at D_N = 0.6, unstable from 0.7, and nearly stable at 0.9 to 0.95";
+    // Peak of the section where the text calls it unstable, against what is left at its end.
+    let pattern = spreads.len() == 6
+        && spreads[1] < 1e-6
+        && spreads[2] > 0.01
+        && spreads[3] > 0.01
+        && spreads[5] < 0.2 * spreads[2];
+    sheet
+        .statement(
+            [&format!("{stem}-pattern"), &format!("Figure 4.11, {waveform}"), statement],
+            format!("size of the section {}", list(&spreads)),
+            &spreads,
+            pattern,
+        )
+        .note(format!("the quiet response changes stability at D_N = {}", list(&thresholds)));
+    Ok(())
+}
+
+/// Extent along x of the section of a response, where the run ended on one.
+fn spread(case: &Case) -> Option<f64> {
+    let displacements = case.attractor.as_ref()?.section.iter().map(|(x, _)| *x);
+    let (low, high) = displacements
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    (low <= high).then_some(high - low)
+}
+
+/// "Multiple solutions have not been encountered", normal dither: 11 × 9 starts, x from −1 to 1.5, x′ from −1 to 1.
+pub(super) fn other_starts(sheet: &mut Sheet) -> Result<(), Failure> {
+    let cases = [
+        (LawKind::Stribeck, LIGHT, 0.05, Waveform::Sine, 0.9, 10.0),
+        (LawKind::Decreasing, LIGHT, 0.05, Waveform::Sine, 0.6, 7.0),
+        (LawKind::Decreasing, LIGHT, 0.05, Waveform::Sine, 0.9, 7.0),
+        (LawKind::Decreasing, 0.2, 0.075, Waveform::Square, 0.6, 5.0),
+        (LawKind::Decreasing, 0.2, 0.075, Waveform::Sine, 0.8, 5.0),
+    ];
+    let starts: Vec<Start> = (0..99)
+        .map(|k| Start {
+            time: 0.0,
+            displacement: -1.0 + 0.25 * f64::from(k % 11),
+            velocity: -1.0 + 0.25 * f64::from(k / 11),
+        })
+        .collect();
+    let (mut found, mut unknown) = (Vec::new(), 0);
+    for (law, damping, velocity, waveform, amplitude, ratio) in cases {
+        let dither = Some((Direction::Normal, waveform, amplitude, ratio));
+        let belt = belt(law, damping, velocity, dither)?;
+        let scene = Scene::new(&belt).map_err(|why| failed("claims", &why))?;
+        let ends = settle_many(&scene, &starts, Patience::BASIN);
+        let basins = gather(&scene, &ends).map_err(|why| failed("claims", &why))?;
+        found.push(basins.basins.len() as f64);
+        unknown += basins.unknown();
+    }
+    let holds = found.iter().all(|count| *count == 1.0);
+    sheet
+        .statement(
+            [
+                "4-other-starts",
+                "after Figure 4.11",
+                "normal dither: multiple solutions have not been encountered on a grid of initial conditions",
+            ],
+            format!(
+                "responses that 11 × 9 starts end on, five cases: {}; starts still on their way at the end: {unknown}",
+                list(&found)
+            ),
+            &found,
+            holds,
+        )
+        .note("x from −1 to 1.5, x′ from −1 to 1; figures 4.3(c), 4.4(b), 4.4(c), 4.11 square D_N = 0.6 and sine D_N = 0.8");
+    Ok(())
+}

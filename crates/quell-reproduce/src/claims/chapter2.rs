@@ -1,0 +1,366 @@
+//! Claims of chapter 2: friction laws, responses under sinusoidal tangential dither, averaging.
+
+use quell_belt::averaging::{
+    AveragingOptions, Becomes, CriticalAmplitude, EverywhereStable, FastWave,
+    Response as FastResponse, closed_band, critical_amplitudes, everywhere_stable_amplitude,
+};
+use quell_belt::response::{Solver, respond};
+use quell_belt::simulation::{EventKind, EventRecorder, Sampler, Start, simulate};
+use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
+
+use super::super::responses::{Case, cases, fundamental};
+use super::super::source::failed;
+use super::super::{ENTRIES, Source};
+use super::sheet::{Sheet, digits, list, shares};
+use quell::complaint::Failure;
+
+/// Below this share of the undithered vibration the dissertation calls it suppressed (figure 2.8 takes 5 %).
+pub(super) const SUPPRESSED: f64 = 0.05;
+
+/// Damping ratio of most figures.
+pub(super) const LIGHT: f64 = 0.005;
+
+/// The dissertation's law of a kind.
+pub(super) fn law(kind: LawKind) -> Result<Friction, Failure> {
+    kind.build(&[0.4, 0.2857, 0.2]).map_err(|_| failed("claims", &"the law is not valid"))
+}
+
+/// A belt with one dither, F = 1.
+pub(super) fn belt(
+    kind: LawKind,
+    damping_ratio: f64,
+    belt_velocity: f64,
+    dither: Option<(Direction, Waveform, f64, f64)>,
+) -> Result<Belt, Failure> {
+    let dithers = dither.map(|(direction, waveform, amplitude, frequency_ratio)| Dither {
+        direction,
+        waveform,
+        amplitude,
+        frequency_ratio,
+        phase: 0.0,
+    });
+    Belt::new(damping_ratio, 1.0, belt_velocity, law(kind)?, dithers.into_iter().collect())
+        .map_err(|_| failed("claims", &"the belt is not valid"))
+}
+
+/// The study of a figure.
+pub(super) fn source(name: &str) -> Result<Source, Failure> {
+    ENTRIES
+        .iter()
+        .find(|entry| entry.name == name)
+        .map(super::super::Entry::source)
+        .ok_or_else(|| failed("claims", &format!("there is no figure {name}")))
+}
+
+/// E of each case, where it is defined.
+pub(super) fn efficiencies(cases: &[Case]) -> Vec<f64> {
+    cases.iter().filter_map(|case| case.response.efficiency.ok()).collect()
+}
+
+/// Whether E lies between suppression and no effect.
+pub(super) fn partial(efficiency: f64) -> bool {
+    (SUPPRESSED..1.0).contains(&efficiency)
+}
+
+/// Critical amplitudes of averaging, where the exact fast motion may take the place of αG.
+pub(super) fn critical(
+    belt: &Belt,
+    response: FastResponse,
+) -> Result<Vec<CriticalAmplitude>, Failure> {
+    let options = AveragingOptions { response, ..AveragingOptions::default() };
+    critical_amplitudes(belt, options).map_err(|error| failed("claims", &error))
+}
+
+/// Fundamental of the undithered stick-slip, from the exact times at which the mass sticks.
+fn stick_slip_frequency(belt: &Belt) -> Result<f64, Failure> {
+    let mut recorder = EventRecorder::default();
+    let tolerance = Solver::default().tolerance;
+    simulate(belt, Start::REST, 600.0, tolerance, &mut recorder)
+        .map_err(|error| failed("claims", &error))?;
+    let sticks: Vec<f64> = recorder
+        .events
+        .iter()
+        .filter(|event| event.kind == EventKind::Stick)
+        .map(|event| event.time)
+        .collect();
+    match sticks.as_slice() {
+        [.., before, last] => Ok(std::f64::consts::TAU / (last - before)),
+        _ => Err(failed("claims", &"the undithered belt does not stick")),
+    }
+}
+
+/// Figures 2.2, 2.3: laws and the undithered cycle.
+pub(super) fn friction_laws(sheet: &mut Sheet) -> Result<(), Failure> {
+    let undithered = belt(LawKind::Stribeck, LIGHT, 0.05, None)?;
+    let frequency = stick_slip_frequency(&undithered)?;
+    sheet
+        .number(
+            "2.3-undithered-fundamental",
+            "Figures 2.3, 3.7",
+            "fundamental of the undithered stick-slip, Stribeck law (ω₀)",
+            "0.666",
+            &[frequency],
+        )
+        .note("a record of 66 or 94.25 has a spectral line at 0.666");
+    let misprinted = undithered
+        .with("friction.minimum_coefficient", 0.2587)
+        .map_err(|_| failed("claims", &"the misprinted law is not valid"))?;
+    sheet
+        .number(
+            "2.2-minimum-coefficient",
+            "before Figure 2.2, Figure 4.2",
+            "the same fundamental with μ_m = 0.2587",
+            "0.666",
+            &[stick_slip_frequency(&misprinted)?],
+        )
+        .note("so 0.2587 is a misprint of 0.2857");
+    let decreasing = law(LawKind::Decreasing)?;
+    let share = (decreasing.coefficient(decreasing.velocity_scale()) - 0.2857) / (0.4 - 0.2857);
+    sheet.number(
+        "2.8-share-at-reference",
+        "after (2.8)",
+        "(μ − μ_m)/(μ_s − μ_m) at v_m",
+        "0.368",
+        &[share],
+    );
+    Ok(())
+}
+
+/// Figure 2.3.
+pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
+    let cases = cases(&source("2.3")?)?;
+    let found = efficiencies(&cases);
+    let dithered = fundamental(&cases[0].response.record.spectrum);
+    sheet
+        .number(
+            "2.3-dithered-fundamental",
+            "Figure 2.3(a)",
+            "fundamental at D_T = 0.3 (ω₀)",
+            "0.746",
+            dithered.as_slice(),
+        )
+        .note("locked to the dither at 10·5/68");
+    let stuck = |case: &Case| {
+        let samples = &case.response.undithered_record.samples;
+        samples.iter().filter(|sample| sample.sticking).count() as f64 / samples.len() as f64
+    };
+    let (with, without) = (cases[0].response.stick_fraction, stuck(&cases[0]));
+    sheet.statement(
+        [
+            "2.3-stick-durations",
+            "Figure 2.3(a)",
+            "sticking is a great deal shorter than without dither",
+        ],
+        format!("stick fraction {} against {}", digits(with, 3), digits(without, 3)),
+        &[with, without],
+        with < 0.7 * without,
+    );
+    let names = ["2.3-partial", "Figure 2.3(a), (b)", "partial cancellation at D_T = 0.3, 0.4"];
+    sheet.statement(
+        names,
+        format!("E = {}", shares(&found[..2])),
+        &found[..2],
+        found[..2].iter().all(|e| partial(*e)),
+    );
+    let names =
+        ["2.3-suppressed", "Figure 2.3(c)", "self-excited vibration suppressed at D_T = 0.5"];
+    sheet.statement(
+        names,
+        format!("E = {}", shares(&found[2..])),
+        &found[2..],
+        found[2] < SUPPRESSED,
+    );
+    let peaks = &cases[2].response.peaks;
+    let strongest = peaks.iter().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude));
+    sheet.number(
+        "2.3-forced-frequency",
+        "Figure 2.3(c)",
+        "frequency of what remains at D_T = 0.5 (ω₀)",
+        "10",
+        &strongest.map(|peak| peak.frequency).into_iter().collect::<Vec<_>>(),
+    );
+    Ok(())
+}
+
+/// "The amplitude of the steady-state response can be reduced further by decreasing the dither frequency ratio."
+pub(super) fn forced_response(sheet: &mut Sheet) -> Result<(), Failure> {
+    let amplitude = |ratio: f64| -> Result<f64, Failure> {
+        let dither = Some((Direction::Tangential, Waveform::Sine, 0.5, ratio));
+        let belt = belt(LawKind::Stribeck, LIGHT, 0.05, dither)?;
+        let response = respond(&belt, Start::REST, &Solver::default())
+            .map_err(|error| failed("claims", &error))?;
+        let near = response.peaks.iter().filter(|peak| (peak.frequency - ratio).abs() < 0.1);
+        Ok(near.map(|peak| peak.amplitude).fold(0.0, f64::max))
+    };
+    let ratios = [10.0, 9.0, 8.0];
+    let amplitudes = ratios.map(amplitude).into_iter().collect::<Result<Vec<f64>, Failure>>()?;
+    let holds = amplitudes.windows(2).all(|pair| pair[1] < pair[0]);
+    let linear: Vec<f64> = ratios.iter().map(|r| 0.5 / (r * r - 1.0)).collect();
+    sheet
+        .statement(
+            [
+                "2.3-forced-amplitude",
+                "before Figure 2.3",
+                "the steady amplitude can be reduced further by decreasing the frequency ratio",
+            ],
+            format!("amplitude at R = 10, 9, 8: {}", list(&amplitudes)),
+            &amplitudes,
+            holds,
+        )
+        .note(format!("the linear oscillator's is D/(R² − 1) = {}: it grows", list(&linear)));
+    Ok(())
+}
+
+/// Upper edge of the unstable belt velocities under a sine.
+fn upper(law: &Friction, alpha: f64) -> Option<f64> {
+    closed_band(law, LIGHT, 1.0, Waveform::Sine, alpha).ok().and_then(|band| band.upper)
+}
+
+/// Figure 2.6.
+pub(super) fn stribeck_map(sheet: &mut Sheet) -> Result<(), Failure> {
+    let law = law(LawKind::Stribeck)?;
+    let words = "Stribeck: undithered sliding is stable above v₀";
+    sheet.number("2.6-undithered", "Figure 2.6", words, "0.2", upper(&law, 0.0).as_slice());
+    let wave = FastWave::Integral(Waveform::Sine);
+    let everywhere = everywhere_stable_amplitude(&law, LIGHT, 1.0, wave, Direction::Tangential);
+    let EverywhereStable::From { amplitude_ratio: tip, .. } =
+        everywhere.map_err(|error| failed("claims", &error))?
+    else {
+        return Err(failed("claims", &"figure 2.6 has no tip"));
+    };
+    let words = "Stribeck: α* grows linearly with v₀ up to";
+    sheet.number("2.6-linear-up-to", "Figure 2.6", words, "0.16", &[tip]);
+    let mut worst: f64 = 0.0;
+    for k in 1..=16 {
+        let v = tip * f64::from(k) / 17.0;
+        let found = critical(&belt_at(LawKind::Stribeck, v)?, FastResponse::Limit)?;
+        let star = found.last().map_or(f64::MAX, |change| change.amplitude_ratio);
+        worst = worst.max((star / v - 1.0).abs());
+    }
+    let measured = format!("largest deviation {}", digits(worst, 2));
+    let words = ["2.6-linear", "Figure 2.6", "there α* = v₀, on a straight line"];
+    sheet.statement(words, measured, &[worst], worst < 1e-9);
+    let grid = (0..=40).map(|k| tip * f64::from(k) / 41.0);
+    let edges: Vec<f64> = grid.filter_map(|alpha| upper(&law, alpha)).collect();
+    let falls = edges.len() == 41 && edges.windows(2).all(|pair| pair[1] < pair[0]);
+    let measured = format!("from {} to {}", digits(edges[0], 4), digits(edges[edges.len() - 1], 4));
+    let words = ["2.6-upper-edge", "Figure 2.6", "Stribeck: the upper edge falls as α grows"];
+    sheet.statement(words, measured, &edges, falls);
+    let mut destabilised = 0;
+    for k in 1..=50 {
+        let belt = belt_at(LawKind::Stribeck, 0.006 * f64::from(k))?;
+        let found = critical(&belt, FastResponse::Limit)?;
+        destabilised += u8::from(found.iter().any(|change| change.becomes == Becomes::Unstable));
+    }
+    let measured = format!("{destabilised} of 50 belt velocities up to 0.3 are destabilised");
+    let words =
+        ["2.6-never-destabilised", "Figure 2.6", "Stribeck: a larger dither never destabilises"];
+    sheet.statement(words, measured, &[f64::from(destabilised)], destabilised == 0);
+    Ok(())
+}
+
+/// Figure 2.7.
+pub(super) fn decreasing_map(sheet: &mut Sheet) -> Result<(), Failure> {
+    let law = law(LawKind::Decreasing)?;
+    let words = "decreasing: undithered sliding is stable above v₀";
+    sheet
+        .number("2.7-undithered", "Figure 2.7", words, "0.8", upper(&law, 0.0).as_slice())
+        .note("only locally: see 2.7-undithered-from-afar");
+    let mut widths = Vec::new();
+    for v in [1.0, 1.5, 2.0] {
+        let found = critical(&belt_at(LawKind::Decreasing, v)?, FastResponse::Limit)?;
+        widths
+            .extend(found.windows(2).map(|pair| pair[1].amplitude_ratio - pair[0].amplitude_ratio));
+    }
+    let narrows =
+        widths.len() == 3 && widths.windows(2).all(|pair| 0.0 < pair[1] && pair[1] < pair[0]);
+    let measured = format!("width in α at v₀ = 1, 1.5, 2: {}", list(&widths));
+    let words = [
+        "2.7-narrower",
+        "Figure 2.7",
+        "decreasing: the band becomes narrower as the belt velocity grows",
+    ];
+    sheet.statement(words, measured, &widths, narrows);
+    Ok(())
+}
+
+/// ζ = 0.005, R = 10, a sine.
+fn belt_at(kind: LawKind, belt_velocity: f64) -> Result<Belt, Failure> {
+    belt(kind, LIGHT, belt_velocity, Some((Direction::Tangential, Waveform::Sine, 1.0, 10.0)))
+}
+
+/// Decreasing law above its critical velocity: stable without dither, and not with.
+pub(super) fn destabilisation(sheet: &mut Sheet) -> Result<(), Failure> {
+    let undithered = belt(LawKind::Decreasing, LIGHT, 1.0, None)?;
+    let late = |displacement: f64| -> Result<f64, Failure> {
+        let start = Start { displacement, ..Start::REST };
+        let mut sampler = Sampler::new(1500.0, 0.05, 500);
+        simulate(&undithered, start, 1526.0, 1e-12, &mut sampler)
+            .map_err(|error| failed("claims", &error))?;
+        let low =
+            sampler.samples.iter().fold(f64::INFINITY, |low, sample| low.min(sample.displacement));
+        let high = sampler
+            .samples
+            .iter()
+            .fold(f64::NEG_INFINITY, |high, sample| high.max(sample.displacement));
+        Ok(high - low)
+    };
+    let (rest, afar) = (late(0.0)?, late(1.5)?);
+    let names = [
+        "2.7-undithered-from-rest",
+        "Figure 2.7",
+        "decreasing, v₀ = 1: the undithered system is stable (from rest)",
+    ];
+    sheet.statement(
+        names,
+        format!("peak-to-peak {} at τ = 1500", digits(rest, 2)),
+        &[rest],
+        rest < 0.05,
+    );
+    let names = ["2.7-undithered-from-afar", "Figure 2.7", "the same from x = 1.5"];
+    sheet
+        .statement(
+            names,
+            format!("peak-to-peak {} at τ = 1500", digits(afar, 3)),
+            &[afar],
+            afar < 0.05,
+        )
+        .note(
+            "a stick-slip cycle coexists with stable sliding; averaging judges small motions only",
+        );
+    averaged_thresholds(sheet)
+}
+
+/// "Unstable for α_T = 0.43", "stable for α_T > 0.98" at v₀ = 1; 10 ≤ D_T ≤ 15 at v₀ = 1.5.
+fn averaged_thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
+    let rows = [
+        (1.0, 0, "2.10", Some("0.43"), "4.3"),
+        (1.0, 1, "2.10", Some("0.98"), "9.8"),
+        (1.5, 0, "2.11", None, "10"),
+        (1.5, 1, "2.11", None, "15"),
+    ];
+    for (velocity, which, figure, ratio, amplitude) in rows {
+        let belt = belt_at(LawKind::Decreasing, velocity)?;
+        let found = critical(&belt, FastResponse::Limit)?.get(which).copied();
+        let sharper = critical(&belt, FastResponse::Oscillator)?.get(which).copied();
+        let place = format!("Figures 2.7, {figure}");
+        let becomes = ["unstable", "stable again"][which];
+        let statement = format!("averaging, v₀ = {velocity}: {becomes} from");
+        let stem = format!("2.7-v{velocity}-{}", ["unstable", "stable"][which]);
+        if let Some(printed) = ratio {
+            let value = found.map(|change| change.amplitude_ratio);
+            let (name, statement) = (format!("{stem}-ratio"), format!("{statement} α ="));
+            let claim = sheet.number(&name, &place, &statement, printed, value.as_slice());
+            if which == 1 {
+                claim.note("averaging gives α = v₀ exactly; 0.98 is a value of a plotting grid");
+            }
+        }
+        let value = found.map(|change| change.amplitude);
+        let sharper = sharper.map_or_else(String::new, |change| {
+            format!("with the exact fast motion {}", digits(change.amplitude, 6))
+        });
+        let statement = format!("{statement} D_T =");
+        sheet.number(&stem, &place, &statement, amplitude, value.as_slice()).note(sharper);
+    }
+    Ok(())
+}

@@ -1,0 +1,427 @@
+//! Claims of chapter 5: the disc. Printed f is in units of 10⁻⁴ of the consistent one; see `reproduce::disc`.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use quell_disc::boundaries::{Marginal, boundaries};
+use quell_disc::partition::crossings;
+use quell_disc::resonance::{Resonance, Waves};
+use quell_disc::{Disc, Dither, Load, dithered};
+use quell_numerics::floquet::Effort;
+use quell_numerics::quadrature::{QuadratureOptions, integrate};
+
+use super::super::disc::{
+    FRICTION_PER_PRINTED, PRINTED_INDUCED, PRINTED_UNDITHERED, STRENGTH_PER_PRINTED, study,
+};
+use super::super::source::failed;
+use super::chapter2::source;
+use super::sheet::{Sheet, digits, list};
+use quell::complaint::Failure;
+
+/// The print's unit of f.
+const UNIT: f64 = 1e-4 * FRICTION_PER_PRINTED;
+
+/// A disc of the dissertation: N_r, N_θ, printed m = c = k, ξ, dither.
+fn disc(modes: [u32; 2], size: f64, damping: f64, dither: Dither) -> Result<Disc, Failure> {
+    let changes = [
+        format!("disc.radial_modes={}", modes[0]),
+        format!("disc.nodal_diameters={}", modes[1]),
+        format!("disc.modal_damping={damping:?}"),
+    ];
+    let study = study(&source("table-5.1")?, &changes.each_ref().map(String::as_str))?;
+    let strength = size * STRENGTH_PER_PRINTED;
+    let load = Load::new(strength, strength, strength, 1.0);
+    Disc::new(study.disc().modes().to_vec(), vec![load], dither, 0.0)
+        .map_err(|_| failed("claims", &"a disc of chapter 5 is not valid"))
+}
+
+const TANGENTIAL: Dither = Dither::Tangential { amplitude: 1.0, frequency_ratio: 2.7 };
+const NORMAL: Dither = Dither::Normal { amplitude: 1.0, frequency_ratio: 2.7 };
+
+fn at(disc: &Disc, speed: f64) -> Result<Disc, Failure> {
+    disc.at_speed(speed).map_err(|_| failed("claims", &"a speed of chapter 5 is not valid"))
+}
+
+/// Growth at a speed and a printed friction (in 10⁻⁴).
+fn growth(disc: &Disc, speed: f64, printed: f64) -> Result<f64, Failure> {
+    let disc = at(disc, speed)?
+        .with("disc.load.friction", printed * UNIT)
+        .map_err(|_| failed("claims", &"a friction of chapter 5 is not valid"))?;
+    let found = dithered::growth(&disc, Effort::default()).map_err(|why| failed("claims", &why))?;
+    Ok(found.rate)
+}
+
+/// Printed friction (in 10⁻⁴) from which an undithered, undamped disc is unstable at a speed.
+fn threshold(disc: &Disc, speed: f64) -> Result<f64, Failure> {
+    let found = boundaries(&at(disc, speed)?)
+        .map_err(|_| failed("claims", &"a boundary of chapter 5 is not known"))?;
+    let positive = found.iter().filter_map(|boundary| match boundary.friction {
+        Marginal::At(friction) if friction > 0.0 => Some(friction / UNIT),
+        _ => None,
+    });
+    Ok(positive.fold(f64::INFINITY, f64::min))
+}
+
+/// Speeds over (0, 1), closer where they are small.
+fn speeds() -> impl Iterator<Item = f64> {
+    (1..400).map(|k| f64::from(k) / 400.0)
+}
+
+fn meetings(disc: &Disc, dithered: bool) -> Result<Vec<Resonance>, Failure> {
+    let waves = Waves::new(disc).map_err(|why| failed("claims", &why))?;
+    let found = if dithered { waves.dithered(0.0..=1.0) } else { waves.undithered(0.0..=1.0) };
+    Ok(found.into_iter().filter(|resonance| resonance.speed > 1e-9).collect())
+}
+
+/// Tables 5.1 and 5.2.
+pub(super) fn tables(sheet: &mut Sheet) -> Result<(), Failure> {
+    let disc = disc([1, 2], 0.1, 0.0, TANGENTIAL)?;
+    for (table, printed, dithered, star) in
+        [("5.1", &PRINTED_UNDITHERED[..], false, ""), ("5.2", &PRINTED_INDUCED[..], true, "*")]
+    {
+        for (index, (resonance, printed)) in
+            meetings(&disc, dithered)?.iter().zip(printed).enumerate()
+        {
+            let number = index + 1;
+            sheet
+                .number(
+                    &format!("{table}-speed-{number}"),
+                    &format!("Table {table}"),
+                    &format!("Ω_{number}{star}: {}", resonance.label()),
+                    printed,
+                    &[resonance.speed],
+                )
+                .note("b/a = 0.5; with the printed 0.05 no digit comes out");
+        }
+    }
+    let found = meetings(&disc, true)?;
+    let can: Vec<f64> = found.iter().filter(|it| it.can_be_unstable()).map(|it| it.speed).collect();
+    sheet
+        .statement(
+            [
+                "5.9-first-three",
+                "Figures 5.9–5.15",
+                "of the eight induced speeds only Ω_1*, Ω_2*, Ω_3* show as tongues",
+            ],
+            list(&can),
+            &can,
+            can.len() == 3 && found[..3].iter().all(Resonance::can_be_unstable),
+        )
+        .note("forward with backward waves share damping, waves without diameters do not couple: (5.55b) and (5.56b) tell places only");
+    Ok(())
+}
+
+/// Thresholds without dither.
+pub(super) fn thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
+    for (size, printed) in [(0.1, "2"), (0.2, "3.5"), (0.3, "5")] {
+        let disc = disc([1, 2], size, 0.0, Dither::None)?;
+        let mut highest = 0.0f64;
+        for speed in speeds().skip(3) {
+            highest = highest.max(threshold(&disc, speed)?);
+        }
+        sheet
+            .number(
+                &format!("5.9-all-unstable-{size}"),
+                "Text of figures 5.9–5.11",
+                &format!("f in 10⁻⁵ from which all speeds are unstable, m = c = k = {size}"),
+                printed,
+                &[10.0 * highest],
+            )
+            .note(
+                "with the unit of f, r₀ and ρha² chosen to fit such statements: see the captions",
+            );
+    }
+    for (name, size, printed) in [("a", 0.1, 0.1), ("b", 0.01, 0.01)] {
+        let disc = disc([1, 2], size, 0.0, Dither::None)?;
+        let mut stable = 0.0;
+        for speed in speeds() {
+            stable += f64::from(u8::from(threshold(&disc, speed)? > printed)) / 399.0;
+        }
+        sheet.statement(
+            [
+                &format!("5.3{name}-mostly-stable"),
+                &format!("Figure 5.3({name})"),
+                &format!("mostly stable for f below {printed:?}·10⁻⁴"),
+            ],
+            format!("{} % of the speeds", digits(100.0 * stable, 3)),
+            &[stable],
+            stable > 0.5,
+        );
+    }
+    let counts: Result<Vec<f64>, Failure> = [[1, 2], [1, 5], [2, 5]]
+        .into_iter()
+        .map(|modes| {
+            let mut speeds: Vec<f64> = meetings(&disc(modes, 0.1, 0.0, Dither::None)?, false)?
+                .iter()
+                .map(|resonance| resonance.speed)
+                .collect();
+            speeds.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+            Ok(speeds.len() as f64)
+        })
+        .collect();
+    let counts = counts?;
+    sheet
+        .statement(
+            ["5.4-more-bands", "Figures 5.4, 5.5", "more modes add unstable speeds"],
+            format!("{} meetings of waves", list(&counts)),
+            &counts,
+            counts.windows(2).all(|pair| pair[1] > pair[0]),
+        )
+        .note("the old bands are found again at 1.188 times the speed: the unit of speed is that of the set of modes");
+    Ok(())
+}
+
+/// Normal dither.
+pub(super) fn normal(sheet: &mut Sheet) -> Result<(), Failure> {
+    let still = disc([1, 2], 0.3, 0.0, Dither::None)?;
+    let shaken = disc([1, 2], 0.3, 0.0, NORMAL)?;
+    let first = |speed: f64| -> Result<f64, Failure> {
+        let found = crossings(&at(&shaken, speed)?)
+            .map_err(|_| failed("claims", &"a boundary of chapter 5 is not known"))?;
+        Ok(found.first().map_or(f64::INFINITY, |crossing| crossing.factor / UNIT))
+    };
+    for (printed, from, to) in [("0.7", 0.66, 0.75), ("0.88", 0.85, 0.92)] {
+        let mut best = (0.0, 0.0, 0.0);
+        for k in 0..=90 {
+            let speed = from + (to - from) * f64::from(k) / 90.0;
+            let (without, with) = (threshold(&still, speed)?, first(speed)?);
+            if with.is_finite() && with - without > best.1 {
+                best = (speed, with - without, with);
+            }
+        }
+        sheet
+            .number(
+                &format!("5.7-peak-{printed}"),
+                "Text of figure 5.7",
+                "speed near which normal dither stabilises over a small range of friction",
+                printed,
+                &[best.0],
+            )
+            .note(format!(
+                "the threshold there rises by {} to {} (10⁻⁴)",
+                digits(best.1, 2),
+                digits(best.2, 2)
+            ));
+    }
+    let mut unstable = [0.0; 2];
+    for k in 1..40 {
+        for l in 1..40 {
+            let (speed, friction) = (f64::from(k) / 40.0, f64::from(l) / 20.0);
+            for (share, disc) in unstable.iter_mut().zip([&still, &shaken]) {
+                *share += f64::from(u8::from(growth(disc, speed, friction)? > 1e-10)) / 1521.0;
+            }
+        }
+    }
+    sheet.statement(
+        [
+            "5.7-not-suppressed",
+            "Text of figures 5.7, 5.8",
+            "normal dither does not suppress the unstable region",
+        ],
+        format!(
+            "unstable share {} without, {} with",
+            digits(unstable[0], 3),
+            digits(unstable[1], 3)
+        ),
+        &unstable,
+        (unstable[0] - unstable[1]).abs() < 0.02,
+    );
+    Ok(())
+}
+
+/// Largest growth over a range of speeds and printed frictions (10⁻⁴).
+fn largest(disc: &Disc, speeds: [f64; 2], frictions: &[f64]) -> Result<f64, Failure> {
+    let mut most = f64::NEG_INFINITY;
+    for k in 0..=120 {
+        let speed = speeds[0] + (speeds[1] - speeds[0]) * f64::from(k) / 120.0;
+        for &friction in frictions {
+            most = most.max(growth(disc, speed, friction)?);
+        }
+    }
+    Ok(most)
+}
+
+/// Tangential dither.
+pub(super) fn tangential(sheet: &mut Sheet) -> Result<(), Failure> {
+    let reversed = |theta: f64| theta.cos().signum() * theta.cos() / PI;
+    let breaks = [FRAC_PI_2, 3.0 * FRAC_PI_2];
+    let fundamental = integrate(reversed, 0.0, TAU, &breaks, &QuadratureOptions::default())
+        .map_err(|why| failed("claims", &why))?
+        .value;
+    let words = [
+        "5.30-fundamental",
+        "(5.30)",
+        "fundamental of a friction that alternates between ±F_θ, in F_θ",
+    ];
+    sheet.formula(words, 1.0, fundamental).note(
+        "it is 4/π: thresholds under tangential dither are printed 27 % too high; α = 4/π mends them",
+    );
+    for (size, present) in [(0.1, true), (0.3, false)] {
+        let disc = disc([1, 2], size, 0.0, TANGENTIAL)?;
+        let mut rates = Vec::new();
+        for k in 0..=120 {
+            rates.push(growth(&disc, 0.5 + 0.12 * f64::from(k) / 120.0, 1.7)?);
+        }
+        // Beyond a stable gap: not the tongue of Ω_3*, which has grown wide.
+        let gap = rates.iter().position(|rate| *rate < 0.0).unwrap_or(rates.len());
+        let found = rates[gap..].iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let word = if present { "present" } else { "absent" };
+        sheet.statement(
+            [
+                &format!("5.9-fourth-{size}"),
+                "Text of figures 5.9–5.11",
+                &format!("the tongue of Ω_4* is {word} for m = c = k = {size}"),
+            ],
+            format!("largest growth {} beyond the tongue of Ω_3*, f = 1.7·10⁻⁴", digits(found, 2)),
+            &[found],
+            (found > 0.0) == present,
+        );
+    }
+    for damping in [1e-4, 1e-3] {
+        let found = largest(
+            &disc([1, 2], 0.3, damping, TANGENTIAL)?,
+            [0.005, 0.25],
+            &[0.5, 1.0, 1.5, 2.0],
+        )?;
+        sheet.statement(
+            [
+                &format!("5.14-vanish-{damping:?}"),
+                "Text of figures 5.14, 5.15",
+                &format!("with ξ = {damping:?} the original tongues are gone for f up to 2·10⁻⁴"),
+            ],
+            format!("largest growth {}", digits(found, 2)),
+            &[found],
+            found < 0.0,
+        );
+    }
+    let disc = disc([1, 2], 0.3, 0.0, TANGENTIAL)?;
+    let places = meetings(&disc, false)?;
+    for (index, printed) in [(0, 1.0), (3, 0.3)] {
+        let place = places[index].speed;
+        // Revived tongues lie below their places, and are narrow: look close.
+        let low = 0.5 * printed;
+        let mut found = f64::NEG_INFINITY;
+        for k in 0..=400 {
+            let part = 10f64.powf(-6.0 + 5.0 * f64::from(k) / 400.0);
+            found = found.max(growth(&disc, place * (1.0 - part), low)?);
+        }
+        sheet
+            .statement(
+                [
+                    &format!("5.12-revived-{}", index + 1),
+                    "Text of figures 5.9–5.12",
+                    &format!("the tongue of Ω_{} occurs only from f = {printed}·10⁻⁴ on", index + 1),
+                ],
+                format!("growth {} at half of that", digits(found, 2)),
+                &[found],
+                found < 1e-12,
+            )
+            .note("there is no threshold at ξ = 0: the tongue is there for every f, its growth goes with f⁴, and a grid or an \
+                   integrator with damping of its own loses it");
+    }
+    Ok(())
+}
+
+/// Places beside a meeting, in parts of its speed: the first before it, the others within its tongue.
+const BESIDE: [f64; 12] =
+    [-0.02, 0.001, 0.005, 0.01, 0.02, 0.03, 0.05, 0.08, 0.12, 0.16, 0.2, 0.25];
+
+/// Modal damping without dither: which tongues are left.
+pub(super) fn damping(sheet: &mut Sheet) -> Result<(), Failure> {
+    for (damping, printed) in
+        [(0.0, &[1, 2, 3, 4][..]), (1e-5, &[1, 2, 3, 4]), (1e-4, &[2, 3]), (1e-3, &[2])]
+    {
+        let disc = disc([1, 2], 0.3, damping, Dither::None)?;
+        let (mut left, mut depths) = (Vec::new(), Vec::new());
+        for (index, place) in meetings(&disc, false)?.iter().take(4).enumerate() {
+            let mut thresholds = Vec::new();
+            for part in BESIDE {
+                thresholds.push(first_unstable(&disc, place.speed * (1.0 + part))?);
+            }
+            // A tongue is a notch: the threshold falls behind the meeting, by more than a step of the search.
+            let lowest = thresholds[1..].iter().copied().fold(f64::INFINITY, f64::min);
+            let depth = lowest / thresholds[0];
+            depths.push(depth);
+            if depth < 0.92 {
+                left.push(index + 1);
+            }
+        }
+        let words = |list: &[usize]| {
+            list.iter().map(|index| format!("Ω_{index}")).collect::<Vec<_>>().join(", ")
+        };
+        sheet.statement(
+            [
+                &format!("5.12-left-{damping:?}"),
+                "Figures 5.12–5.15, left",
+                &format!(
+                    "without dither and with ξ = {damping:?} the tongues of {} are there",
+                    words(printed)
+                ),
+            ],
+            format!("{}; threshold over that before the meeting: {}", words(&left), list(&depths)),
+            &depths,
+            left == printed,
+        );
+    }
+    Ok(())
+}
+
+/// Steps of a search for a threshold.
+const STEPS: u32 = 75;
+
+/// Lowest printed friction (10⁻⁴) at which an undithered disc is unstable, to a step of 5 %.
+fn first_unstable(disc: &Disc, speed: f64) -> Result<f64, Failure> {
+    for step in 0..STEPS {
+        let friction = 0.01 * 1.05f64.powi(i32::try_from(step).unwrap_or(0));
+        if growth(disc, speed, friction)? > 1e-12 {
+            return Ok(friction);
+        }
+    }
+    Ok(f64::INFINITY)
+}
+
+/// Tangential dither and light modal damping: where the last two of the original tongues begin.
+pub(super) fn revived(sheet: &mut Sheet) -> Result<(), Failure> {
+    let disc = disc([1, 2], 0.3, 1e-5, TANGENTIAL)?;
+    let places = meetings(&disc, false)?;
+    // Revived tongues lie below their places.
+    let begins = |place: f64| -> Result<Option<f64>, Failure> {
+        for step in 20..=100 {
+            let friction = 0.02 * f64::from(step);
+            for k in 0..=60 {
+                if growth(&disc, place * (1.0 - 0.05 * f64::from(k) / 60.0), friction)? > 0.0 {
+                    return Ok(Some(friction));
+                }
+            }
+        }
+        Ok(None)
+    };
+    let mut found = Vec::new();
+    for place in places.iter().take(4) {
+        found.push(begins(place.speed)?);
+    }
+    let values: Vec<f64> = found.iter().flatten().copied().collect();
+    sheet.statement(
+        [
+            "5.13-left",
+            "Text of figure 5.13",
+            "with ξ = 10⁻⁵ only the tongues of Ω_3 and Ω_4 are left for f up to 2·10⁻⁴",
+        ],
+        format!("{} of the four begin below that", values.len()),
+        &values,
+        found[..2].iter().all(Option::is_none) && found[2..].iter().all(Option::is_some),
+    );
+    for (index, printed) in [(2, "1.4"), (3, "1.8")] {
+        let measured: Vec<f64> = found[index].into_iter().collect();
+        let number = index + 1;
+        sheet
+            .number(
+                &format!("5.13-begins-{number}"),
+                "Text of figure 5.13",
+                &format!("f in 10⁻⁴ at which the tongue of Ω_{number} begins, ξ = 10⁻⁵"),
+                printed,
+                &measured,
+            )
+            .note("the two numbers fit with Ω_3 and Ω_4 interchanged in the text, within what the open parameters leave");
+    }
+    Ok(())
+}

@@ -1,0 +1,117 @@
+//! Claims on the isoline E = 5 % of figures 2.8, 2.9, 3.10, 3.11, 4.9 and 4.10 against D = α*R.
+//!
+//! E falls continuously to 0 at the threshold of averaging, so that 5 % is met before it, also for
+//! R → ∞: the ratio D(5 %)/(α*R) says by how much.
+
+use quell_belt::averaging::{Becomes, Response as FastResponse};
+use quell_belt::response::{Solver, amplitude_at_efficiency};
+use quell_belt::simulation::Start;
+use quell_model::{Direction, LawKind, Waveform};
+use rayon::prelude::*;
+
+use super::super::source::failed;
+use super::chapter2::{LIGHT, SUPPRESSED, belt, critical};
+use super::sheet::Sheet;
+use quell::complaint::Failure;
+
+/// Relative closeness of D.
+const CLOSENESS: f64 = 1e-4;
+
+/// Settling time; near the threshold the decreasing law takes long.
+const SETTLE: f64 = 1200.0;
+
+/// "Coincides almost exactly": within a tenth.
+const COINCIDES: f64 = 0.1;
+
+/// A point of the isoline: law, waveform, v₀ and R.
+type Point = (LawKind, Waveform, f64, f64);
+
+const LAWS: [LawKind; 2] = [LawKind::Stribeck, LawKind::Decreasing];
+
+/// Every combination of laws, the waveforms, belt velocities and frequency ratios.
+fn points(waveforms: &[Waveform], velocities: &[f64], ratios: &[f64]) -> Vec<Point> {
+    let mut points = Vec::new();
+    for law in LAWS {
+        for &waveform in waveforms {
+            for &velocity in velocities {
+                points.extend(ratios.iter().map(|&ratio| (law, waveform, velocity, ratio)));
+            }
+        }
+    }
+    points
+}
+
+/// D(5 %)/(α*R) of each point. The crossing is searched in 0.7…1.15 α*R.
+fn ratios(direction: Direction, points: &[Point]) -> Result<Vec<f64>, Failure> {
+    let solver = Solver { settle: SETTLE, ..Solver::default() };
+    points
+        .par_iter()
+        .map(|&(kind, waveform, velocity, ratio)| {
+            let missing = |what: &str| failed("claims", &format!("{what} at R = {ratio}"));
+            // The amplitude itself does not matter: both methods set it.
+            let dither = (direction, waveform, 0.5, ratio);
+            let belt = belt(kind, LIGHT, velocity, Some(dither))?;
+            let amplitude = critical(&belt, FastResponse::Limit)?
+                .into_iter()
+                .find(|found| found.becomes == Becomes::Stable)
+                .ok_or_else(|| missing("no averaged threshold"))?
+                .amplitude;
+            // Normal dither beyond F would open the contact.
+            let most = match direction {
+                Direction::Tangential => f64::INFINITY,
+                Direction::Normal => 0.999 * belt.normal_load(),
+            };
+            let range = 0.7 * amplitude..=most.min(1.15 * amplitude);
+            amplitude_at_efficiency(&belt, Start::REST, &solver, SUPPRESSED, range, CLOSENESS)
+                .map(|found| found / amplitude)
+                .ok_or_else(|| missing("no crossing of 5 %"))
+        })
+        .collect()
+}
+
+fn extent(values: &[f64]) -> [f64; 2] {
+    values
+        .iter()
+        .fold([f64::INFINITY, 0.0], |[least, most], &value| [value.min(least), value.max(most)])
+}
+
+/// Tangential dither: R = 5, 10, 20.
+pub(super) fn tangential(sheet: &mut Sheet) -> Result<(), Failure> {
+    let four = [0.05, 0.1, 0.125, 0.15];
+    let three = [0.05, 0.1, 0.15];
+    let others = [Waveform::Triangle, Waveform::Square];
+    for ratio in [5.0, 10.0, 20.0] {
+        for (name, place, waveforms, velocities) in [
+            ("2.8", "Figures 2.8, 2.9", &[Waveform::Sine][..], &four[..]),
+            ("3.10", "Figures 3.10, 3.11", &others[..], &three[..]),
+        ] {
+            let found = ratios(Direction::Tangential, &points(waveforms, velocities, &[ratio]))?;
+            let extent = extent(&found);
+            let [name, statement] = [
+                format!("{name}-isocline-{ratio}"),
+                format!("E = 5 % coincides almost exactly with D = α*R: D/(α*R), R = {ratio}"),
+            ];
+            sheet
+                .number_within(COINCIDES, [&name, place, &statement], "1.00", &extent)
+                .note(format!(
+                    "least and most of {} cases; always below: E falls continuously to 0 at the threshold, also for R → ∞",
+                    found.len()
+                ));
+        }
+    }
+    Ok(())
+}
+
+/// Normal dither, sine, v₀ of figures 4.9 and 4.10: R_N = 3…7.
+pub(super) fn normal(sheet: &mut Sheet) -> Result<(), Failure> {
+    for (law, place, name) in [
+        (LawKind::Stribeck, "Figure 4.9", "4.9-isocline"),
+        (LawKind::Decreasing, "Figure 4.10", "4.10-isocline"),
+    ] {
+        let rows = [4.0, 5.0, 6.0, 7.0].map(|ratio| (law, Waveform::Sine, 0.05, ratio));
+        let found = ratios(Direction::Normal, &rows)?;
+        let statement = "E = 5 % coincides with D = α*R: D/(α*R), R_N = 4, 5, 6, 7";
+        sheet.number_within(COINCIDES, [name, place, statement], "1.00", &found);
+    }
+    Ok(())
+}

@@ -1,0 +1,169 @@
+//! The table of claims: what the dissertation says, what independent numerics measure, and the verdict.
+//!
+//! A claim is made by a function that measures (`chapter2` to `chapter5`, `attractors`, `isocline`); the verdict follows from printed and
+//! measured values by the rules of [`Verdict`], never from words. The verdict on record stands in [`LEDGER`]; a test holds
+//! every claim to it, so that none changes unseen.
+
+use quell_model::Waveform;
+use rayon::prelude::*;
+use serde_json::{Value as Json, json};
+
+use super::product::{Cell, Product, Table};
+use super::shared::Shared;
+use super::source::Source;
+use quell::complaint::Failure;
+
+mod attractors;
+mod chapter2;
+mod chapter3;
+mod chapter3_formulas;
+mod chapter4;
+mod chapter5;
+mod isocline;
+mod ledger;
+mod sheet;
+
+pub use ledger::{Expected, LEDGER};
+pub use sheet::{Claim, Verdict};
+
+use sheet::Sheet;
+
+/// Measures a few claims and writes them down.
+type Section = fn(&mut Sheet) -> Result<(), Failure>;
+
+/// In the order of the dissertation.
+const SECTIONS: &[Section] = &[
+    chapter2::friction_laws,
+    chapter2::responses,
+    chapter2::forced_response,
+    chapter2::stribeck_map,
+    chapter2::decreasing_map,
+    chapter2::destabilisation,
+    chapter3::waveforms,
+    chapter3_formulas::formulas,
+    chapter3::everywhere_stable,
+    chapter3::thresholds,
+    chapter3::responses,
+    isocline::tangential,
+    chapter4::responses,
+    chapter4::effective_friction,
+    chapter4::stability_maps,
+    isocline::normal,
+    |sheet| attractors::tangential(sheet, "2.10"),
+    |sheet| attractors::tangential(sheet, "2.11"),
+    |sheet| attractors::tangential(sheet, "3.12"),
+    |sheet| attractors::tangential(sheet, "3.13"),
+    |sheet| attractors::normal(sheet, Waveform::Square),
+    |sheet| attractors::normal(sheet, Waveform::Sine),
+    attractors::other_starts,
+    chapter4::formulas,
+    chapter5::tables,
+    chapter5::thresholds,
+    chapter5::normal,
+    chapter5::tangential,
+    chapter5::damping,
+    chapter5::revived,
+];
+
+/// Measures every claim, on all cores; the order is that of the dissertation.
+///
+/// # Errors
+/// [`Failure`] if a run stops or an average has no value.
+pub fn measure() -> Result<Vec<Claim>, Failure> {
+    measure_with(&Shared::default())
+}
+
+/// The same, with what figures have measured already.
+fn measure_with(shared: &Shared) -> Result<Vec<Claim>, Failure> {
+    let sections: Result<Vec<Vec<Claim>>, Failure> = SECTIONS
+        .par_iter()
+        .map(|section| {
+            let mut sheet = Sheet { shared: shared.clone(), ..Sheet::default() };
+            section(&mut sheet).map(|()| sheet.claims)
+        })
+        .collect();
+    Ok(sections?.concat())
+}
+
+/// The table as a product.
+pub(super) fn product(source: &Source) -> Result<Product, Failure> {
+    let claims = measure_with(&source.shared)?;
+    let columns = ["claim", "where", "statement", "printed", "measured", "verdict", "note"]
+        .map(|name| (name, "1"));
+    let mut table = Table::new("", &columns);
+    for claim in &claims {
+        let verdict = claim.verdict.to_string();
+        let cells = [
+            &claim.name,
+            &claim.place,
+            &claim.statement,
+            &claim.printed,
+            &claim.measured,
+            &verdict,
+            &claim.note,
+        ];
+        table.row(cells.map(|text| Cell::Text(text.clone())));
+    }
+    let caption = "Claims of the dissertation: printed, measured, verdict.".to_owned();
+    Ok(Product { caption, tables: vec![table], claims, ..Product::default() })
+}
+
+/// How many have a verdict of this kind.
+pub(super) fn count<'a>(claims: impl IntoIterator<Item = &'a Claim>, name: &str) -> usize {
+    claims.into_iter().filter(|claim| claim.verdict.name() == name).count()
+}
+
+/// The table as JSON.
+pub fn json(claims: &[Claim]) -> Json {
+    claims
+        .iter()
+        .map(|claim| {
+            json!({
+                "claim": claim.name,
+                "where": claim.place,
+                "statement": claim.statement,
+                "printed": claim.printed,
+                "measured": claim.measured,
+                "measured_values": claim.values,
+                "verdict": claim.verdict.to_string(),
+                "deviation": claim.verdict.deviation(),
+                "tolerance": claim.tolerance,
+                "expected": claim.expected.map(Expected::name),
+                "as_expected": claim.as_expected(),
+                "why": claim.why(),
+                "note": claim.note,
+            })
+        })
+        .collect()
+}
+
+/// The table as Markdown.
+pub fn markdown(claims: &[Claim]) -> String {
+    let count = |name| count(claims, name);
+    let mut text = format!(
+        "# Claims of the dissertation\n\n{} claims: {} reproduced, {} reproduced within a stated deviation, \
+         {} not reproduced, {} printed formulas wrong.\n\n\
+         | where | claim | printed | measured | verdict | note |\n|---|---|---|---|---|---|\n",
+        claims.len(),
+        count("reproduced"),
+        count("reproduced within"),
+        count("not reproduced"),
+        count("printed formula wrong"),
+    );
+    for claim in claims {
+        let verdict = claim.verdict.to_string();
+        let cells = [
+            &claim.place,
+            &claim.statement,
+            &claim.printed,
+            &claim.measured,
+            &verdict,
+            &claim.note,
+        ];
+        let cells = cells.map(|cell| cell.replace('|', "\\|"));
+        text += "| ";
+        text += &cells.join(" | ");
+        text += " |\n";
+    }
+    text
+}

@@ -1,0 +1,209 @@
+//! Figures 5.3 to 5.5 and 5.7 to 5.15: growth rate of the disc over speed and friction.
+//!
+//! Where the print has stable and unstable, here is the growth rate, with the line of zero, and hatching where it has no sign within
+//! its error. Speeds are those of the study's axis and further ones beside every meeting of waves.
+
+use quell_disc::dithered::DitheredDisc;
+use quell_disc::system::System;
+use quell_disc::{Disc, Dither, Growth, Verdict, undithered};
+use quell_numerics::floquet::Effort;
+use rayon::prelude::*;
+
+use super::super::product::{Product, Table};
+use super::super::source::{Source, failed, letter};
+use super::{FRICTION_PER_PRINTED, OPEN, STRENGTH_PER_PRINTED, study};
+use quell::cite::Task;
+use quell::complaint::Failure;
+use quell::picture::{self, MapAxis, MapKind};
+use quell::plot::{Axis, Figure, Legend, Panel, SharedLegend, Sharing, Size, Spread};
+use quell::study::DiscStudy;
+use quell::sweep::Grid;
+
+/// Growth rates below this are drawn on a linear scale.
+const LINEAR: f64 = 1e-5;
+/// Frictions at which the edges of predicted tongues are told.
+const EDGES: usize = 80;
+
+/// Growth over the axes of a study.
+pub(crate) struct Growths {
+    /// Speeds Ω.
+    pub(crate) speeds: Vec<f64>,
+    /// Frictions f*.
+    pub(crate) frictions: Vec<f64>,
+    /// Speed by speed.
+    pub(crate) values: Vec<Growth>,
+}
+
+/// Growth of a disc over speeds and frictions, speed by speed on all cores.
+pub(crate) fn growths(
+    source: &Source,
+    disc: &Disc,
+    speeds: Vec<f64>,
+    frictions: Vec<f64>,
+) -> Result<Growths, Failure> {
+    let told = |why: &dyn std::fmt::Display| failed(source.name, &why);
+    let rows: Result<Vec<Vec<Growth>>, Failure> = speeds
+        .par_iter()
+        .map(|&speed| {
+            let unit = disc.at_speed(speed).and_then(|disc| disc.with("disc.load.friction", 1.0));
+            let unit = unit.map_err(|_| told(&"a disc of the map is not valid"))?;
+            let dithered = DitheredDisc::new(&unit).map_err(|why| told(&why))?;
+            let system = System::new(&unit);
+            frictions
+                .iter()
+                .map(|&friction| match &dithered {
+                    Some(dithered) => dithered.growth(friction, Effort::default()),
+                    None => undithered::growth_of(&system, &[friction]),
+                })
+                .map(|growth| growth.map_err(|why| told(&why)))
+                .collect()
+        })
+        .collect();
+    Ok(Growths { values: rows?.concat(), speeds, frictions })
+}
+
+/// The axes of a study: speeds with those beside meetings of waves, and frictions.
+fn axes(source: &Source, study: &DiscStudy) -> Result<[Vec<f64>; 2], Failure> {
+    let grid = Grid::of(study)?;
+    let values = |path: &str| {
+        let axis = grid.axes().iter().find(|axis| axis.path == path);
+        axis.map(|axis| axis.values.clone())
+            .ok_or_else(|| failed(source.name, &"an axis is missing"))
+    };
+    Ok([values("disc.load.speed")?, values("disc.load.friction")?])
+}
+
+/// Figures 5.3 to 5.5: two sizes of mass, damper and spring, no dither.
+pub(crate) fn sizes(source: &Source) -> Result<Product, Failure> {
+    let small = format!("{}", 0.01 * STRENGTH_PER_PRINTED);
+    let first = study(source, &[])?;
+    let [_, frictions] = axes(source, &first)?;
+    let ends = [frictions[0], frictions[frictions.len() - 1]].map(|friction| 0.1 * friction);
+    let changes = [
+        format!("disc.load.mass={small}"),
+        format!("disc.load.damping={small}"),
+        format!("disc.load.stiffness={small}"),
+        format!("sweep[1].from={}", ends[0]),
+        format!("sweep[1].to={}", ends[1]),
+    ];
+    let second = study(source, &changes.each_ref().map(String::as_str))?;
+    let studies = [(first.clone(), first.disc().clone()), (second.clone(), second.disc().clone())];
+    let modes = first.disc().modes().len();
+    let caption = format!(
+        "Figure {}. Growth rate of the undithered disc over speed and friction, {modes} modes, (a) $m$ = $c$ = $k$ = 0.1, \
+         (b) 0.01 as printed; red grows, blue decays. Speeds are in the lowest critical speed of this set of modes, which changes by \
+         1.188 from $N_θ$ = 2 to 5. {OPEN}",
+        source.name
+    );
+    draw(source, &studies, ["$m$ = $c$ = $k$ = 0.1", "$m$ = $c$ = $k$ = 0.01"], caption)
+}
+
+/// Figures 5.7 to 5.15: without and with dither.
+pub(crate) fn figure(source: &Source) -> Result<Product, Failure> {
+    let study = study(source, &[])?;
+    let disc = study.disc();
+    let studies = [(study.clone(), disc.undithered()), (study.clone(), disc.clone())];
+    let (kind, ratio) = match disc.dither() {
+        Dither::Normal { frequency_ratio, .. } => ("normal", frequency_ratio),
+        Dither::Tangential { frequency_ratio, .. } => ("tangential", frequency_ratio),
+        Dither::None => ("no", 0.0),
+    };
+    let revived = match disc.dither() {
+        Dither::Tangential { .. } => "; in (b) those of table 5.1 as the second order revives them",
+        Dither::Normal { .. } | Dither::None => "",
+    };
+    let printed = disc.loads().first().map_or(0.0, |load| load.mass / STRENGTH_PER_PRINTED);
+    let damping = disc.get("disc.modal_damping").unwrap_or(0.0);
+    let caption = format!(
+        "Figure {}. Growth rate of the disc over speed and friction, (a) without dither, (b) with {kind} dither, $α$ = 1, $R$ = {ratio}; \
+         $m$ = $c$ = $k$ = {printed:.1} as printed, $ξ$ = {damping}; red grows, blue decays. Dashed: tongues by first-order theory{revived}. {OPEN}",
+        source.name
+    );
+    draw(source, &studies, ["without dither", "with dither"], caption)
+}
+
+fn draw(
+    source: &Source,
+    studies: &[(DiscStudy, Disc); 2],
+    titles: [&str; 2],
+    caption: String,
+) -> Result<Product, Failure> {
+    let columns = [
+        ("panel", "1"),
+        ("speed", "ω_ref"),
+        ("friction", "1"),
+        ("friction_as_printed", "1"),
+        ("growth_rate", "ω_ref"),
+        ("growth_rate_error", "ω_ref"),
+        ("verdict", "1"),
+    ];
+    let mut table = Table::new("", &columns);
+    let mut panels = Vec::new();
+    for (index, (study, disc)) in studies.iter().enumerate() {
+        let [speeds, frictions] = axes(source, study)?;
+        let done = growths(source, disc, speeds, frictions)?;
+        let name = letter(index).to_string();
+        let mut values = done.values.iter();
+        for speed in &done.speeds {
+            for (friction, growth) in done.frictions.iter().zip(values.by_ref()) {
+                table.row([
+                    name.as_str().into(),
+                    (*speed).into(),
+                    (*friction).into(),
+                    (friction / FRICTION_PER_PRINTED).into(),
+                    growth.rate.into(),
+                    growth.error.into(),
+                    growth.verdict().name().into(),
+                ]);
+            }
+        }
+        let panel = panel(&done, disc, index == 1).map_err(|why| failed(source.name, &why))?;
+        panels.push(panel.title(format!("({name}) {}", titles[index])).legend(Legend::None));
+    }
+    let figure = Figure::grid(2, panels)
+        .sharing_x(Sharing::Aligned)
+        .legend(SharedLegend::Below)
+        .size(Size::Frame(390.0, 280.0));
+    let study = &studies[0].0;
+    Ok(Product::of_disc(figure, caption, study).by(&[Task::Stability]).table(table))
+}
+
+fn panel(done: &Growths, disc: &Disc, bar: bool) -> Result<Panel, quell::plot::PlotError> {
+    let logarithmic = done.frictions.len() > 2
+        && (done.frictions[1] / done.frictions[0] - done.frictions[2] / done.frictions[1]).abs()
+            < 1e-6;
+    // Printed f, in the unit that suits the range.
+    let unit = 1e4 / FRICTION_PER_PRINTED;
+    let across = Axis::new("speed").symbol("Ω").log();
+    let up = Axis::new("friction as printed").symbol("f").unit("10⁻⁴");
+    let up = if logarithmic { up.log() } else { up };
+    let ends = (done.speeds.first(), done.speeds.last());
+    let over = match (ends, done.frictions.last()) {
+        ((Some(from), Some(to)), Some(high)) => {
+            let low = done.frictions.first().copied().unwrap_or(0.0).max(1e-3 * high);
+            let step = |k: usize| libm::pow(high / low, k as f64 / (EDGES - 1) as f64);
+            let frictions: Vec<f64> = (0..EDGES).map(|k| low * step(k)).collect();
+            picture::disc::tongues(disc, (*from, *to), &frictions, |f| f * unit)
+        }
+        _ => Vec::new(),
+    };
+    let map = picture::Map {
+        axes: vec![
+            MapAxis { axis: across, values: done.speeds.clone() },
+            MapAxis { axis: up, values: done.frictions.iter().map(|f| f * unit).collect() },
+        ],
+        quantity: Axis::new("growth rate").symbol("Re ρ"),
+        kind: MapKind::Growth(Spread::SignedLog(LINEAR)),
+        values: done
+            .values
+            .iter()
+            .map(|growth| match growth.verdict() {
+                Verdict::Undecided => Err(0),
+                _ => Ok(growth.rate),
+            })
+            .collect(),
+        reasons: vec!["undecided: zero within its error".to_owned()],
+        over,
+    };
+    picture::map_panel(&map, bar)
+}

@@ -1,0 +1,47 @@
+//! Chapter 5: tables 5.1 and 5.2, figures 5.2 to 5.15.
+//!
+//! The print leaves open the outer radius, the true b/a and r₀/a and the unit of its f axis. b/a = 0.5 gives all thirteen printed
+//! speeds; r₀/a = 0.75 and ρha² = 1 (m*, c*, k* = 0.4244 × printed) with the printed f as 10⁻⁴ of the consistent one
+//! (f* = 4244 × printed) fit the statements of the text. They were chosen to fit, not read; every caption says so.
+
+pub(super) mod map;
+mod modes;
+mod responses;
+mod tables;
+
+pub(super) use map::{figure as maps, sizes};
+pub(super) use modes::figure as modes;
+pub(super) use responses::figure as responses;
+pub(super) use tables::{PRINTED_INDUCED, PRINTED_UNDITHERED, induced, undithered};
+
+use std::path::Path;
+
+use super::source::Source;
+use quell::complaint::Failure;
+use quell::study::{Change, DiscStudy};
+
+/// f* of a printed f.
+pub(super) const FRICTION_PER_PRINTED: f64 = 1e4 * STRENGTH_PER_PRINTED;
+
+/// m*, c*, k* of printed ones: 1/(π(1 − (b/a)²)) with b/a = 0.5.
+pub(super) const STRENGTH_PER_PRINTED: f64 = 1.0 / (0.75 * std::f64::consts::PI);
+
+/// The study of an entry.
+///
+/// # Errors
+/// Complaints about the study file, which a test excludes.
+pub(super) fn study(source: &Source, changes: &[&str]) -> Result<DiscStudy, Failure> {
+    let changes: Result<Vec<Change>, _> =
+        changes.iter().map(|change| Change::parse(change, "reproduce")).collect();
+    let mut changes = changes?;
+    let folder = Path::new("");
+    if source.most_points.is_some() {
+        let fine = DiscStudy::parse(source.text, &changes, folder)?;
+        changes.extend(source.coarser(fine.sweeps())?);
+    }
+    Ok(DiscStudy::parse(source.text, &changes, folder)?)
+}
+
+/// What every caption says of the open parameters.
+pub(super) const OPEN: &str = "Open in the print and chosen to fit its text: $b$/$a$ = 0.5, $r_0$/$a$ = 0.75, $ρha^2$ = 1 \
+     (m*, c*, k* = 0.4244 × printed), and the printed $f$ as 10⁻⁴ of the consistent one.";

@@ -1,0 +1,55 @@
+//! Figure 5.2: shapes of three modes of the plate, φ(r) cos jθ.
+
+use quell_disc::plate::{ModeSet, Plate, PlateMode, Reference};
+
+use super::super::product::{Product, Table};
+use super::super::source::{Source, failed, letter};
+use super::study;
+use quell::cite::Task;
+use quell::complaint::Failure;
+use quell::picture;
+use quell::plot::{Figure, Sharing, Size};
+
+/// (radial number, nodal diameters) of the panels.
+const SHOWN: [(usize, u32); 3] = [(1, 2), (2, 0), (2, 3)];
+/// Points of a radial profile in the table.
+const RADII: usize = 101;
+
+/// Figure 5.2.
+pub(crate) fn figure(source: &Source) -> Result<Product, Failure> {
+    let study = study(source, &[])?;
+    let told = |why: &dyn std::fmt::Display| failed(source.name, &why);
+    let plate = Plate::new(0.5, 0.3).map_err(|why| told(&why))?;
+    let set = ModeSet::new(&plate, 2, 3, Reference::Critical).map_err(|why| told(&why))?;
+    let columns = [("radial", "1"), ("diameters", "1"), ("radius", "a"), ("shape", "1")];
+    let mut table = Table::new("", &columns);
+    let mut panels = Vec::new();
+    for (index, (radial, diameters)) in SHOWN.into_iter().enumerate() {
+        let wanted = |mode: &&PlateMode| (mode.radial, mode.diameters) == (radial, diameters);
+        let Some(mode) = set.modes().iter().find(wanted) else { continue };
+        for k in 0..RADII {
+            let radius = 0.5 + 0.5 * (k as f64 / (RADII - 1) as f64);
+            let value = mode.shape.value(radius);
+            let (radial, diameters) = (radial as f64, f64::from(diameters));
+            table.row([radial.into(), diameters.into(), radius.into(), value.into()]);
+        }
+        let title = format!(
+            "({}) $i$ = {radial}, $j$ = {diameters}: $k^2$ = {:.3}",
+            letter(index),
+            mode.frequency_parameter
+        );
+        panels.push(
+            picture::disc::shape(mode, plate.inner_radius_ratio())
+                .map_err(|why| told(&why))?
+                .title(title),
+        );
+    }
+    let figure = Figure::grid(3, panels)
+        .sharing_x(Sharing::All)
+        .sharing_y(Sharing::All)
+        .size(Size::Frame(230.0, 230.0));
+    let caption = "Figure 5.2. Modes of the annular plate clamped at its inner and free at its outer edge, $b$/$a$ = 0.5, $ν$ = 0.3: \
+                   deflection $φ$($r$) cos $jθ$ with unit mean square over the plate, red up, blue down, black at rest; $k^2$ is the \
+                   frequency parameter.";
+    Ok(Product::of_disc(figure, caption, &study).by(&[Task::Modes]).table(table))
+}

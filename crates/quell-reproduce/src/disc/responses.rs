@@ -1,0 +1,47 @@
+//! Figure 5.6: what the real part of an exponent says, on one degree of freedom.
+//!
+//! x = e^{ρτ} cos τ with Re ρ = 0.03, 0, −0.03: the print gives no numbers.
+
+use super::super::product::{Product, Table};
+use super::super::source::{Source, letter};
+use super::study;
+use quell::complaint::Failure;
+use quell::plot::{Axis, Figure, Legend, Line, LineStyle, Panel, Role, Sharing, Size};
+
+/// Re ρ of the three panels.
+const RATES: [f64; 3] = [0.03, 0.0, -0.03];
+/// End of the time axis.
+const END: f64 = 60.0;
+/// Points of a curve.
+const POINTS: u32 = 900;
+
+/// Figure 5.6.
+pub(crate) fn figure(source: &Source) -> Result<Product, Failure> {
+    let study = study(source, &[])?;
+    let columns = [("panel", "1"), ("growth_rate", "1"), ("time", "1"), ("displacement", "1")];
+    let mut table = Table::new("", &columns);
+    let mut panels = Vec::new();
+    for (index, rate) in RATES.into_iter().enumerate() {
+        let times: Vec<f64> =
+            (0..=POINTS).map(|k| END * f64::from(k) / f64::from(POINTS)).collect();
+        let value = |time: f64| libm::exp(rate * time) * libm::cos(time);
+        let name = letter(index).to_string();
+        for &time in &times {
+            table.row([name.as_str().into(), rate.into(), time.into(), value(time).into()]);
+        }
+        let envelope = |sign: f64| times.iter().map(move |t| (*t, sign * libm::exp(rate * t)));
+        let role = [Role::Unstable, Role::Undecided, Role::Stable][index];
+        let sign = ["> 0", "= 0", "< 0"][index];
+        let panel = Panel::new(
+            Axis::new("time").symbol("τ").between(0.0, END),
+            Axis::new("displacement").symbol("x"),
+        )
+        .with(Line::pieces(Role::Guide, [envelope(1.0), envelope(-1.0)]).style(LineStyle::Dashed))
+        .with(Line::new(role, times.iter().map(|time| (*time, value(*time)))));
+        panels.push(panel.title(format!("({name}) Re $ρ$ {sign}")).legend(Legend::None));
+    }
+    let figure = Figure::grid(3, panels).sharing_x(Sharing::All).size(Size::Frame(250.0, 180.0));
+    let caption = "Figure 5.6. Responses of one degree of freedom, $x$ = $e^{ρτ}$ cos $τ$ with Re $ρ$ = 0.03, 0, −0.03, and their \
+                   envelopes; the print gives no numbers.";
+    Ok(Product::of_disc(figure, caption, &study).by(&[]).table(table))
+}

@@ -1,0 +1,175 @@
+//! Figures 2.4, 2.5, 3.3, 3.4: effective friction μ̄(v_r) = ⟨μ(v_r − αG)⟩ under tangential dither of growing amplitude.
+//!
+//! Inside |v_r| < αG_max the jump of the law is smoothed; outside the curve is lifted (Stribeck) or falls more steeply
+//! (decreasing). Closed forms of `quell_belt::averaging`; for the decreasing law under a triangle the print's (3.38a) is
+//! drawn too.
+
+use quell_belt::averaging::{FastMotion, FastWave, effective};
+use quell_model::{LawKind, Waveform};
+
+use super::print::{self, LawNumbers};
+use super::product::{Product, Table};
+use super::source::{Source, failed, letter, parameters, short, values, waveform_name};
+use quell::cite::Task;
+use quell::complaint::Failure;
+use quell::plot::{
+    Axis, Figure, Legend, Line, LineStyle, Panel, Place, Role, Rule, SharedLegend, Sharing, Size,
+};
+use quell::study::Study;
+
+/// Slip velocities shown, in v_m.
+const FROM: f64 = -1.0;
+const TO: f64 = 2.0;
+const POINTS: u32 = 360;
+
+/// Figures 2.4 and 2.5: a sine.
+pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+    let study = source.study()?;
+    let mut table = empty_table();
+    let panel = panel(source, &study, Waveform::Sine, &mut table)?
+        .legend(Legend::Inside(Place::BottomRight));
+    let caption = format!(
+        "Figure {}. Effective {} friction under sinusoidal tangential dither of five amplitudes. {}.",
+        source.name,
+        super::source::law_name(study.belt().friction().kind()),
+        parameters(&study),
+    );
+    Ok(Product::new(Figure::single(panel), caption, &study).by(&[Task::Friction]).table(table))
+}
+
+/// Figures 3.3 and 3.4: three waveforms.
+pub(super) fn three(source: &Source) -> Result<Product, Failure> {
+    let study = source.study()?;
+    let mut table = empty_table();
+    let mut panels = Vec::new();
+    let studies = source.with_waveforms()?;
+    for (index, (waveform, study)) in studies.iter().enumerate() {
+        let title = format!("({}) {}", letter(index), waveform_name(*waveform));
+        panels.push(panel(source, study, *waveform, &mut table)?.title(title));
+    }
+    let law = study.belt().friction().kind();
+    let note = match law {
+        LawKind::Decreasing => {
+            " Dotted in (b): as printed (3.38a), whose error functions carry exp(−γ − |$v_r$|/$v_m$) in place of exp(γ − |$v_r$|/$v_m$); it does \
+             not even meet (3.38b) at |$v_r$| = π$α$/4."
+        }
+        _ => "",
+    };
+    let caption = format!(
+        "Figure {}. Effective {} friction under tangential dither of three waveforms and five amplitudes. {}.{note}",
+        source.name,
+        super::source::law_name(law),
+        parameters(&study),
+    );
+    let figure = Figure::grid(3, panels)
+        .sharing_x(Sharing::All)
+        .sharing_y(Sharing::All)
+        .legend(SharedLegend::Below)
+        .size(Size::Frame(270.0, 250.0));
+    let product =
+        Product::new(figure, caption, &study).also(studies.iter().map(|(_, study)| study));
+    Ok(product.by(&[Task::Friction]).table(table))
+}
+
+fn empty_table() -> Table {
+    Table::new(
+        "",
+        &[
+            ("waveform", "1"),
+            ("amplitude_ratio_over_reference", "1"),
+            ("slip_velocity_over_reference", "1"),
+            ("effective_coefficient", "1"),
+            ("effective_slope", "1/velocity"),
+            ("printed_coefficient", "1"),
+        ],
+    )
+}
+
+fn panel(
+    source: &Source,
+    study: &Study,
+    waveform: Waveform,
+    table: &mut Table,
+) -> Result<Panel, Failure> {
+    let belt = study.belt();
+    let law = belt.friction();
+    let vm = law.velocity_scale();
+    let static_level = law.static_coefficient();
+    let mut panel = Panel::new(
+        Axis::new("slip velocity").symbol("v_r/v_m").between(FROM, TO),
+        Axis::new("effective friction")
+            .symbol("\\bar{μ}")
+            .between(-0.45, if law.kind() == LawKind::Stribeck { 0.75 } else { 0.45 }),
+    )
+    .with(Rule::horizontal(0.0));
+    let mut printed = Vec::new();
+    for (index, amplitude) in values(study, "dither.amplitude").into_iter().enumerate() {
+        let alpha = amplitude / belt.dithers()[0].frequency_ratio;
+        let corner = alpha * waveform.peak_integral() / vm;
+        let motion = FastMotion::single(FastWave::Integral(waveform), alpha);
+        let as_printed = |w: f64| {
+            let inside = law.kind() == LawKind::Decreasing
+                && waveform == Waveform::Triangle
+                && w.abs() < corner;
+            inside.then(|| {
+                print::effective_338a(LawNumbers::DISSERTATION, w.abs() * vm, alpha).copysign(w)
+            })
+        };
+        let mut pieces = vec![Vec::new()];
+        for w in grid(corner) {
+            if alpha == 0.0 && w == 0.0 {
+                // The law's own jump.
+                pieces.last_mut().into_iter().for_each(|piece| piece.push((0.0, -static_level)));
+                pieces.push(vec![(0.0, static_level)]);
+                continue;
+            }
+            let found =
+                effective(law, &motion, w * vm).map_err(|error| failed(source.name, &error))?;
+            pieces.last_mut().into_iter().for_each(|piece| piece.push((w, found.coefficient)));
+            table.row([
+                waveform.name().into(),
+                (alpha / vm).into(),
+                w.into(),
+                found.coefficient.into(),
+                Some(found.slope).filter(|slope| slope.is_finite()).into(),
+                as_printed(w).into(),
+            ]);
+        }
+        if alpha > 0.0 {
+            printed.push(
+                grid(corner)
+                    .into_iter()
+                    .filter_map(|w| Some((w, as_printed(w)?)))
+                    .collect::<Vec<_>>(),
+            );
+        } else {
+            let jump = [(0.0, -static_level), (0.0, static_level)];
+            panel = panel.with(Line::new(Role::Guide, jump).style(LineStyle::Solid));
+        }
+        let label = format!("$α$/$v_m$ = {}", short(alpha / vm));
+        panel = panel.with(Line::pieces(Role::Series(index), pieces).label(label));
+    }
+    printed.retain(|piece| !piece.is_empty());
+    if !printed.is_empty() {
+        let line = Line::pieces(Role::Printed, printed).style(LineStyle::Dotted).width(1.1);
+        panel = panel.with(line.label("as printed (3.38a)"));
+    }
+    Ok(panel)
+}
+
+/// Even steps, crowded on the inner side of the corners ±`corner`, where the slope is infinite.
+fn grid(corner: f64) -> Vec<f64> {
+    let mut grid: Vec<f64> =
+        (0..=POINTS).map(|k| FROM + (TO - FROM) * f64::from(k) / f64::from(POINTS)).collect();
+    if corner > 0.0 {
+        for k in 1..12 {
+            let near = corner * (1.0 - 0.25f64.powi(k));
+            grid.extend([near, -near]);
+        }
+        grid.extend([corner, -corner]);
+        grid.retain(|w| (FROM..=TO).contains(w));
+    }
+    grid.sort_unstable_by(f64::total_cmp);
+    grid.dedup();
+    grid
+}

@@ -1,0 +1,260 @@
+//! Figures 2.8, 2.9, 3.10, 3.11, 4.9, 4.10: isolines of the residual vibration E in the plane of R and D.
+//!
+//! The study is the first panel. Further panels change the belt velocity and the waveform; the range of D grows with the averaged
+//! boundary D = α*R, of which a panel shows the same share each. Drawn over: that boundary, and the sharper one with the
+//! oscillator's own response at each R in place of αG (for a sine D = v₀(R² − 1)/R).
+
+use std::sync::atomic::AtomicBool;
+
+use quell_belt::averaging::{Becomes, Response};
+use quell_model::{Direction, Waveform};
+
+use super::product::{Cell, Product, Table};
+use super::source::{Source, failed, law_name, letter, parameters, short, values, waveform_name};
+use quell::cite::Task;
+use quell::complaint::Failure;
+use quell::picture::{self, MapAxis, MapKind};
+use quell::plot::{
+    Axis, Figure, Legend, Line, LineStyle, Panel, Role, SharedLegend, Sharing, Size,
+};
+use quell::run::map::{Map, boundaries, run};
+use quell::study::Study;
+use quell::sweep::{Plan, Quantity, Running, Status};
+
+/// Belt velocities of figures 2.8 and 2.9.
+const FOUR_VELOCITIES: [f64; 4] = [0.05, 0.1, 0.125, 0.15];
+
+/// Belt velocities of figures 3.10 and 3.11.
+const THREE_VELOCITIES: [f64; 3] = [0.05, 0.1, 0.15];
+
+/// The isoline that the dissertation compares with averaging.
+const FIVE_PER_CENT: f64 = 5.0;
+
+/// A panel: what is changed in the study, and its title.
+struct Case {
+    belt_velocity: f64,
+    waveform: Waveform,
+}
+
+/// Figures 2.8 and 2.9: four belt velocities.
+pub(super) fn velocities(source: &Source) -> Result<Product, Failure> {
+    let waveform = source.study()?.belt().dithers()[0].waveform;
+    let cases = FOUR_VELOCITIES.map(|belt_velocity| Case { belt_velocity, waveform });
+    figure(source, &cases, 2)
+}
+
+/// Figures 3.10 and 3.11: three waveforms from top to bottom, three belt velocities.
+pub(super) fn waveforms(source: &Source) -> Result<Product, Failure> {
+    let cases: Vec<Case> = Waveform::ALL
+        .iter()
+        .flat_map(|&waveform| {
+            THREE_VELOCITIES.map(|belt_velocity| Case { belt_velocity, waveform })
+        })
+        .collect();
+    figure(source, &cases, THREE_VELOCITIES.len())
+}
+
+/// Figures 4.9 and 4.10: one panel.
+pub(super) fn single(source: &Source) -> Result<Product, Failure> {
+    let belt = source.study()?.belt().clone();
+    let (belt_velocity, waveform) = (belt.belt_velocity(), belt.dithers()[0].waveform);
+    figure(source, &[Case { belt_velocity, waveform }], 1)
+}
+
+fn figure(source: &Source, cases: &[Case], columns: usize) -> Result<Product, Failure> {
+    let first = source.study()?;
+    let mut data = Table::new(
+        "",
+        &[
+            ("panel", "1"),
+            ("waveform", "1"),
+            ("belt_velocity", "length (velocity/ω0)"),
+            ("frequency_ratio", "1"),
+            ("amplitude", "length (force/k)"),
+            ("efficiency", "1"),
+            ("status", "1"),
+        ],
+    );
+    let mut edges = Table::new(
+        "boundary",
+        &[
+            ("panel", "1"),
+            ("curve", "1"),
+            ("frequency_ratio", "1"),
+            ("amplitude", "length (force/k)"),
+        ],
+    );
+    let (mut panels, mut studies) = (Vec::new(), Vec::new());
+    for (index, case) in cases.iter().enumerate() {
+        let study = study_of(source, &first, case)?;
+        let done = efficiency(source, &study)?;
+        let name = letter(index).to_string();
+        record(&mut data, &name, case, &done);
+        let lines = boundary(&done, &name, &mut edges);
+        let title = match (columns, cases.len() > 4) {
+            (1, _) => None,
+            (_, false) => Some(format!("({name}) $v_0$ = {}", case.belt_velocity)),
+            (_, true) => Some(format!(
+                "({name}) {}, $v_0$ = {}",
+                waveform_name(case.waveform),
+                case.belt_velocity
+            )),
+        };
+        let panel = panel(source, &study, &done, lines)?;
+        panels.push(match title {
+            Some(title) => panel.title(title).legend(Legend::None),
+            None => panel.legend(Legend::Above),
+        });
+        studies.push(study);
+    }
+    let figure = if columns == 1 {
+        Figure::grid(1, panels).size(Size::Frame(400.0, 300.0))
+    } else {
+        // Each panel has its own range of D, which grows with its boundary.
+        Figure::grid(columns, panels)
+            .sharing_x(Sharing::Aligned)
+            .legend(SharedLegend::Below)
+            .size(Size::Frame(if columns == 2 { 330.0 } else { 270.0 }, 230.0))
+    };
+    let product = Product::new(figure, caption(source, &first), &first).also(&studies);
+    Ok(product.by(&[Task::Response, Task::Stability]).table(data).table(edges))
+}
+
+/// The study of a panel: its sweep of D goes as far beyond the averaged boundary as the first panel's.
+fn study_of(source: &Source, first: &Study, case: &Case) -> Result<Study, Failure> {
+    let dither = first.belt().dithers()[0];
+    let furthest = values(first, "dither.amplitude").last().copied().unwrap_or(1.0);
+    let reach = case.belt_velocity / first.belt().belt_velocity()
+        * (dither.waveform.peak_integral() / case.waveform.peak_integral());
+    let to = furthest * reach;
+    let points = values(first, "dither.amplitude").len() as f64;
+    let changes = [
+        format!("belt.belt_velocity={}", case.belt_velocity),
+        format!("dither.waveform={}", case.waveform.name()),
+        format!("sweep[1].from={}", short(to / points)),
+        format!("sweep[1].to={}", short(to)),
+    ];
+    // The first panel is the study as it stands, so that `quell map` gives the same.
+    if reach == 1.0 {
+        return Ok(first.clone());
+    }
+    source.changed(&changes.each_ref().map(String::as_str))
+}
+
+/// E over the study's axes.
+fn efficiency(source: &Source, study: &Study) -> Result<Map, Failure> {
+    let quantity = Quantity::named("efficiency", "reproduce")?;
+    let plan = Plan::new(study, &[quantity])?;
+    let axes: Vec<&str> = plan.grid().axes().iter().map(|axis| axis.path.as_str()).collect();
+    if axes != ["dither.frequency_ratio", "dither.amplitude"] {
+        return Err(failed(source.name, &"the axes are not R and D"));
+    }
+    let never = AtomicBool::new(false);
+    run(plan, None, Running { threads: None, stop: &never, progress: &() })
+}
+
+fn record(table: &mut Table, panel: &str, case: &Case, done: &Map) {
+    let grid = done.plan().grid();
+    let entry = &done.plan().sheet().entries()[0];
+    for point in 0..grid.len() {
+        let place = grid.values_at(point);
+        table.row([
+            panel.into(),
+            case.waveform.name().into(),
+            case.belt_velocity.into(),
+            place[0].into(),
+            place[1].into(),
+            done.number(entry, point).into(),
+            Cell::from(done.status(entry, point).name()),
+        ]);
+    }
+}
+
+/// D = α*R of averaging, and the same with the oscillator's own response.
+fn boundary(done: &Map, panel: &str, table: &mut Table) -> Vec<Line> {
+    let grid = done.plan().grid();
+    let furthest = grid.axes()[1].values.last().copied().unwrap_or(1.0);
+    let mut lines = Vec::new();
+    for boundary in boundaries(grid) {
+        let (name, label, role, style) = match boundary.response {
+            Response::Limit => {
+                ("averaging", "averaging, $D$ = $α^*R$", Role::Boundary, LineStyle::Solid)
+            }
+            Response::Oscillator => {
+                ("sharper", "with the exact fast motion", Role::Exact, LineStyle::Dashed)
+            }
+        };
+        if boundary.becomes != Becomes::Stable {
+            continue;
+        }
+        for &(ratio, amplitude) in &boundary.points {
+            table.row([panel.into(), name.into(), ratio.into(), amplitude.into()]);
+        }
+        // The line ends at the edge of the panel.
+        let points = boundary.points.into_iter().filter(|point| point.1 <= 1.2 * furthest);
+        lines.push(Line::new(role, points.collect::<Vec<_>>()).style(style).label(label));
+    }
+    lines
+}
+
+fn panel(source: &Source, study: &Study, done: &Map, lines: Vec<Line>) -> Result<Panel, Failure> {
+    let grid = done.plan().grid();
+    let entry = &done.plan().sheet().entries()[0];
+    let symbols = match study.belt().dithers()[0].direction {
+        Direction::Tangential => ("R_T", "D_T"),
+        Direction::Normal => ("R_N", "D_N"),
+    };
+    let axes = [("frequency ratio", symbols.0), ("dither amplitude", symbols.1)];
+    let states: Vec<Status> = (0..grid.len()).map(|point| done.status(entry, point)).collect();
+    let mut unknown: Vec<Status> =
+        states.iter().copied().filter(|status| !status.has_number()).collect();
+    unknown.sort_unstable();
+    unknown.dedup();
+    let value = |point: usize| {
+        done.number(entry, point)
+            .ok_or_else(|| unknown.iter().position(|it| *it == states[point]).unwrap_or(0))
+    };
+    let map = picture::Map {
+        axes: axes
+            .iter()
+            .zip(grid.axes())
+            .map(|((name, symbol), axis)| MapAxis {
+                axis: Axis::new(*name).symbol(*symbol),
+                values: axis.values.clone(),
+            })
+            .collect(),
+        quantity: Axis::new("residual vibration").symbol("E"),
+        kind: MapKind::Efficiency,
+        values: (0..grid.len()).map(value).collect(),
+        reasons: unknown.iter().map(|status| status.about().to_owned()).collect(),
+        over: lines.into_iter().map(Into::into).collect(),
+    };
+    picture::map_panel(&map, false).map_err(|error| failed(source.name, &error))
+}
+
+fn caption(source: &Source, study: &Study) -> String {
+    let belt = study.belt();
+    let dither = belt.dithers()[0];
+    let direction = match dither.direction {
+        Direction::Tangential => "tangential",
+        Direction::Normal => "normal",
+    };
+    let closing = match dither.direction {
+        Direction::Tangential => "",
+        Direction::Normal => {
+            " $D_N$ < $F$ keeps the contact closed; the print's line is $α_N^*$ with $μ$($v_0$)$α_N$ in place of $α$."
+        }
+    };
+    format!(
+        "Figure {}. Residual vibration $E$ (2.27) under {direction} dither with the {} law, from rest: isolines in per cent. Solid: averaged boundary \
+         $D$ = $α^*R$, which the print compares with $E$ = {FIVE_PER_CENT} %; dashed: with the exact fast motion of the oscillator. \
+         $ζ$ = {}, {}. Record: $τ$ < {} discarded, {} slow periods, mean removed, Hann window; the print gives \
+         none, nor the ranges of its axes.{closing}",
+        source.name,
+        law_name(belt.friction().kind()),
+        belt.damping_ratio(),
+        parameters(study),
+        study.solver().settle,
+        study.solver().record_periods,
+    )
+}

@@ -1,0 +1,403 @@
+//! `reproduce`: every figure and table of the dissertation again, with its data, and a table of its claims.
+//!
+//! One entry of [`ENTRIES`] is one figure or table: a name, a study file that holds its parameters, and a function that
+//! makes a [`Product`] of them. A further figure is one more line there.
+//!
+//! | file | what |
+//! |---|---|
+//! | `source` | study files of the entries, their cases |
+//! | `shared` | measurements that several entries need, made once |
+//! | `product`, `write` | pictures, tables of data, and their files |
+//! | `laws`, `waveforms`, `effective_friction`, `stability_map`, `responses`, `sections`, `efficiency_map`, `measured_friction` | the kinds of figures |
+//! | `disc` | tables and figures of chapter 5 |
+//! | `print` | formulas as the dissertation prints them, right or wrong |
+//! | `claims` | claim, printed, measured, tolerance, verdict, expected verdict |
+//! | `report` | the page that holds everything, and a table of it |
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use serde_json::{Value as Json, json};
+
+use quell::complaint::{Complaint, Failure};
+use quell::study::suggest;
+
+pub mod claims;
+mod disc;
+mod effective_friction;
+mod efficiency_map;
+mod laws;
+mod measured_friction;
+mod print;
+mod product;
+mod report;
+mod responses;
+mod sections;
+mod shared;
+mod source;
+mod stability_map;
+mod waveforms;
+mod write;
+
+use shared::Shared;
+
+pub use product::{Cell, Column, Product, Table};
+pub use source::Source;
+
+/// One figure or table of the dissertation.
+#[derive(Clone, Copy)]
+pub struct Entry {
+    /// Name on the command line: `2.3`, `claims`.
+    pub name: &'static str,
+    /// What it shows, in one line.
+    pub about: &'static str,
+    /// Text of its study file; empty for a table that has its own.
+    study: &'static str,
+    make: fn(&Source) -> Result<Product, Failure>,
+}
+
+/// A figure whose parameters stand in `studies/figure-NAME.toml`.
+macro_rules! figure {
+    ($name:literal, $about:literal, $make:path) => {
+        Entry {
+            name: $name,
+            about: $about,
+            study: include_str!(concat!("../studies/figure-", $name, ".toml")),
+            make: $make,
+        }
+    };
+}
+
+/// A table whose parameters stand in `studies/NAME.toml`.
+macro_rules! table {
+    ($name:literal, $about:literal, $make:path) => {
+        Entry {
+            name: $name,
+            about: $about,
+            study: include_str!(concat!("../studies/", $name, ".toml")),
+            make: $make,
+        }
+    };
+}
+
+/// Everything that can be reproduced, in the order of the dissertation.
+pub const ENTRIES: &[Entry] = &[
+    figure!("2.2", "Stribeck and decreasing friction law", laws::figure),
+    figure!("2.3", "responses, Stribeck law, sinusoidal tangential dither", responses::figure),
+    figure!("2.4", "effective friction, Stribeck law", effective_friction::figure),
+    figure!("2.5", "effective friction, decreasing law", effective_friction::figure),
+    figure!("2.6", "stability map, Stribeck law", stability_map::single),
+    figure!("2.7", "stability map, decreasing law", stability_map::single),
+    figure!(
+        "2.8",
+        "residual vibration, Stribeck law, four belt velocities",
+        efficiency_map::velocities
+    ),
+    figure!(
+        "2.9",
+        "residual vibration, decreasing law, four belt velocities",
+        efficiency_map::velocities
+    ),
+    figure!("2.10", "responses and sections, decreasing law, sine, v₀ = 1", sections::figure),
+    figure!("2.11", "responses and sections, decreasing law, sine, v₀ = 1.5", sections::figure),
+    figure!("3.2", "dither waveforms and their integrals", waveforms::figure),
+    figure!("3.3", "effective friction, Stribeck law, three waveforms", effective_friction::three),
+    figure!(
+        "3.4",
+        "effective friction, decreasing law, three waveforms",
+        effective_friction::three
+    ),
+    figure!("3.5", "stability maps, Stribeck law, three waveforms", stability_map::three),
+    figure!("3.6", "stability maps, decreasing law, three waveforms", stability_map::three),
+    figure!("3.7", "responses, Stribeck law, sinusoidal tangential dither", responses::figure),
+    figure!("3.8", "responses, Stribeck law, triangular tangential dither", responses::figure),
+    figure!("3.9", "responses, Stribeck law, square tangential dither", responses::figure),
+    figure!("3.10", "residual vibration, Stribeck law, three waveforms", efficiency_map::waveforms),
+    figure!(
+        "3.11",
+        "residual vibration, decreasing law, three waveforms",
+        efficiency_map::waveforms
+    ),
+    figure!("3.12", "responses and sections, decreasing law, triangle", sections::figure),
+    figure!("3.13", "responses and sections, decreasing law, square", sections::figure),
+    figure!("4.2", "Stribeck and decreasing friction law", laws::figure),
+    figure!("4.3", "responses, Stribeck law, sinusoidal normal dither", responses::figure),
+    figure!("4.4", "responses, decreasing law, sinusoidal normal dither", responses::figure),
+    figure!("4.5", "effective friction from simulation, Stribeck law", measured_friction::figure),
+    figure!("4.6", "effective friction from simulation, decreasing law", measured_friction::figure),
+    figure!("4.7", "stability maps, Stribeck law, normal dither", stability_map::three),
+    figure!("4.8", "stability maps, decreasing law, normal dither", stability_map::three),
+    figure!("4.9", "residual vibration, Stribeck law, normal dither", efficiency_map::single),
+    figure!("4.10", "residual vibration, decreasing law, normal dither", efficiency_map::single),
+    figure!(
+        "4.11",
+        "responses and sections, normal dither, square and sine",
+        sections::square_and_sine
+    ),
+    table!("table-5.1", "speeds at which waves of the disc meet", disc::undithered),
+    table!("table-5.2", "speeds at which dither makes waves of the disc meet", disc::induced),
+    figure!("5.2", "modes of the annular plate", disc::modes),
+    figure!("5.3", "growth of the disc, N = (1, 2), no dither", disc::sizes),
+    figure!("5.4", "growth of the disc, N = (1, 5), no dither", disc::sizes),
+    figure!("5.5", "growth of the disc, N = (2, 5), no dither", disc::sizes),
+    figure!("5.6", "responses that grow, stay, decay", disc::responses),
+    figure!("5.7", "growth of the disc, normal dither, ξ = 0", disc::maps),
+    figure!("5.8", "growth of the disc, normal dither, ξ = 10⁻³", disc::maps),
+    figure!("5.9", "growth of the disc, tangential dither, m = c = k = 0.1", disc::maps),
+    figure!("5.10", "growth of the disc, tangential dither, m = c = k = 0.2", disc::maps),
+    figure!("5.11", "growth of the disc, tangential dither, m = c = k = 0.3", disc::maps),
+    figure!("5.12", "growth of the disc, tangential dither, ξ = 0", disc::maps),
+    figure!("5.13", "growth of the disc, tangential dither, ξ = 10⁻⁵", disc::maps),
+    figure!("5.14", "growth of the disc, tangential dither, ξ = 10⁻⁴", disc::maps),
+    figure!("5.15", "growth of the disc, tangential dither, ξ = 10⁻³", disc::maps),
+    Entry {
+        name: "claims",
+        about: "numerical claims and formulas: printed, measured, verdict",
+        study: "",
+        make: claims::product,
+    },
+];
+
+impl Entry {
+    /// Makes the figure or table.
+    ///
+    /// # Errors
+    /// [`Failure`] if a run stops or an average has no value.
+    pub fn product(&self) -> Result<Product, Failure> {
+        (self.make)(&self.source())
+    }
+
+    /// The same with at most so many points along each axis of its sweeps: a quick look.
+    ///
+    /// # Errors
+    /// As [`Entry::product`].
+    pub fn coarse_product(&self, most_points: usize) -> Result<Product, Failure> {
+        (self.make)(&Source { most_points: Some(most_points), ..self.source() })
+    }
+
+    /// The product at this pace, with what the run has measured already.
+    fn at(&self, pace: Pace, shared: &Shared) -> Result<Product, Failure> {
+        let most_points = match pace {
+            Pace::Full => None,
+            Pace::Quick => Some(QUICK_POINTS),
+        };
+        (self.make)(&Source { most_points, shared: shared.clone(), ..self.source() })
+    }
+
+    /// Its name and study file.
+    pub fn source(&self) -> Source {
+        Source {
+            name: self.name,
+            about: self.about,
+            text: self.study,
+            most_points: None,
+            shared: Shared::default(),
+        }
+    }
+
+    /// What its files are called, without extension.
+    pub fn stem(&self) -> String {
+        match self.name.chars().next() {
+            Some(first) if first.is_ascii_digit() => format!("figure-{}", self.name),
+            _ => self.name.to_owned(),
+        }
+    }
+}
+
+impl fmt::Debug for Entry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Entry")
+            .field("name", &self.name)
+            .field("about", &self.about)
+            .finish_non_exhaustive()
+    }
+}
+
+/// The entries of these names, in the order of [`ENTRIES`]; all of them where no name is given.
+///
+/// # Errors
+/// A complaint for each unknown name, with the known ones.
+pub fn find(names: &[String]) -> Result<Vec<Entry>, Vec<Complaint>> {
+    use quell::complaint::{Fault, Origin};
+    let known = || ENTRIES.iter().map(|entry| entry.name);
+    let complaints: Vec<Complaint> = names
+        .iter()
+        .filter(|name| !known().any(|entry| entry == bare(name)))
+        .map(|name| {
+            let list: Vec<&str> = known().collect();
+            Complaint::new(
+                Fault::Value,
+                "NAME",
+                Origin::Whole,
+                name.as_str(),
+                format!("one of {}", list.join(", ")),
+            )
+            .suggesting(suggest::word(bare(name), known()))
+        })
+        .collect();
+    if !complaints.is_empty() {
+        return Err(complaints);
+    }
+    let wanted =
+        |entry: &&Entry| names.is_empty() || names.iter().any(|name| bare(name) == entry.name);
+    Ok(ENTRIES.iter().filter(wanted).copied().collect())
+}
+
+/// `figure-2.3` means 2.3.
+fn bare(name: &str) -> &str {
+    name.strip_prefix("figure-").unwrap_or(name)
+}
+
+/// One entry that has been written.
+#[derive(Clone, Debug)]
+pub struct Written {
+    /// Its entry.
+    pub entry: Entry,
+    /// Its files.
+    pub files: Vec<PathBuf>,
+    /// What was made; the rows of its tables of data are in the files.
+    pub product: Product,
+    /// How long it took.
+    pub elapsed: Duration,
+}
+
+impl Written {
+    /// As JSON.
+    pub fn json(&self) -> Json {
+        let files: Vec<String> = self.files.iter().map(|file| file.display().to_string()).collect();
+        let mut object = json!({
+            "name": self.entry.name,
+            "about": self.entry.about,
+            "files": files,
+            "caption": self.product.plain_caption(),
+            "seconds": self.elapsed.as_secs_f64(),
+        });
+        if !self.product.claims.is_empty() {
+            object["claims"] = claims::json(&self.product.claims);
+        }
+        object
+    }
+}
+
+/// How fine the grids of the figures are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Pace {
+    /// As their study files say.
+    #[default]
+    Full,
+    /// At most a few points along each axis of a map: a quicker look; claims are measured in full.
+    Quick,
+}
+
+/// Most points along an axis of a map in a quick look.
+const QUICK_POINTS: usize = 12;
+
+/// What is heard while entries are made.
+#[derive(Clone, Copy, Debug)]
+pub enum Step<'a> {
+    /// Work on an entry begins.
+    Begun(&'a Entry),
+    /// An entry is written.
+    Done(&'a Written),
+}
+
+/// Everything that was made.
+#[derive(Clone, Debug)]
+pub struct Reproduction {
+    /// The entries, in the order of [`ENTRIES`].
+    pub written: Vec<Written>,
+    /// The report: one page that needs no other file.
+    pub report: PathBuf,
+    /// The same as a Markdown table.
+    pub table: PathBuf,
+}
+
+impl Reproduction {
+    /// Claims whose verdict is not the expected one.
+    pub fn changed(&self) -> Vec<&claims::Claim> {
+        let claims = self.written.iter().flat_map(|done| &done.product.claims);
+        claims.filter(|claim| !claim.as_expected()).collect()
+    }
+
+    /// Claims whose verdict is not the expected one, in words.
+    pub fn warnings(&self) -> Vec<String> {
+        let told = |claim: &claims::Claim| {
+            let expected = claim.expected.map_or("nothing on record", |expected| expected.name());
+            format!("{}: {}, expected: {expected}", claim.name, claim.verdict)
+        };
+        self.changed().into_iter().map(told).collect()
+    }
+
+    /// As JSON, for what was written into `directory`.
+    pub fn json(&self, directory: &Path, pace: Pace) -> Json {
+        let entries: Vec<Json> = self.written.iter().map(Written::json).collect();
+        json!({
+            "ok": true,
+            "directory": directory.display().to_string(),
+            "report": self.report.display().to_string(),
+            "table": self.table.display().to_string(),
+            "quick": pace == Pace::Quick,
+            "entries": entries,
+            "warnings": self.warnings(),
+        })
+    }
+}
+
+/// Makes `entries` and writes them into `directory`, which is made if it is missing, with a report; two at a time.
+/// `progress` hears of each.
+///
+/// # Errors
+/// A complaint where the directory cannot be written; the first failure otherwise. What was written stays.
+pub fn run(
+    entries: &[Entry],
+    directory: &Path,
+    pace: Pace,
+    progress: impl Fn(Step) + Sync,
+) -> Result<Reproduction, Failure> {
+    write::prepare(directory)?;
+    let shared = Shared::default();
+    let next = AtomicUsize::new(0);
+    let done: Mutex<Vec<(usize, Result<Written, Failure>)>> = Mutex::new(Vec::new());
+    // The claims take longest: whoever begins with them ends with the others.
+    let mut order: Vec<usize> = (0..entries.len()).collect();
+    order.sort_by_key(|place| entries[*place].name != "claims");
+    let work = || {
+        while let Some(&place) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let entry = &entries[place];
+            progress(Step::Begun(entry));
+            let outcome = one(entry, directory, pace, &shared);
+            match &outcome {
+                Ok(written) => progress(Step::Done(written)),
+                Err(_) => next.store(entries.len(), Ordering::Relaxed),
+            }
+            if let Ok(mut done) = done.lock() {
+                done.push((place, outcome));
+            }
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..entries.len().min(2) {
+            scope.spawn(work);
+        }
+    });
+    let mut done = done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    done.sort_by_key(|(place, _)| *place);
+    let written: Vec<Written> =
+        done.into_iter().map(|(_, outcome)| outcome).collect::<Result<_, Failure>>()?;
+    let page = report::html(&written, pace);
+    let table = report::markdown(&written, pace);
+    let report = write::file(directory, "report.html", page.as_bytes())?;
+    let table = write::file(directory, "report.md", table.as_bytes())?;
+    Ok(Reproduction { written, report, table })
+}
+
+fn one(entry: &Entry, directory: &Path, pace: Pace, shared: &Shared) -> Result<Written, Failure> {
+    let began = Instant::now();
+    let product = entry.at(pace, shared)?;
+    let files = write::product(&product, &entry.stem(), directory)?;
+    Ok(Written { entry: *entry, files, product, elapsed: began.elapsed() })
+}

@@ -1,0 +1,201 @@
+//! Figures 4.5 and 4.6: effective friction measured on trajectories under normal dither (4.30), (4.31).
+//!
+//! The dissertation does not say from which trajectories. Here: free decays from the study's displacements at its belt
+//! velocities, window means over one dither period without stick, and their medians in bins of the slip velocity
+//! against the averaging approximation with both terms of (4.23) and the law itself. Windows across which the slow velocity
+//! changes by more than 0.02 are left out: averaging holds it fixed.
+
+use quell_belt::averaging::{AveragingOptions, FastMotion, NormalOrder, effective};
+use quell_belt::response::{WindowMean, measured_effective_friction};
+use quell_belt::simulation::Start;
+
+use super::product::{Product, Table};
+use super::source::{Source, failed, law_name, letter, parameters, values};
+use quell::cite::Task;
+use quell::complaint::Failure;
+use quell::plot::{Axis, Figure, Line, Panel, Points, Role, SharedLegend, Sharing, Size};
+use quell::study::Study;
+
+/// Length of a decay.
+const DURATION: f64 = 40.0;
+/// Window edges per dither period.
+const WINDOWS_PER_PERIOD: usize = 8;
+/// Width of a bin of the slip velocity.
+pub(super) const BIN: f64 = 0.004;
+/// Fewest windows in a bin that is shown.
+const FEWEST: usize = 5;
+/// Most that the slow slip velocity may change across a window that counts.
+const DRIFT: f64 = 0.02;
+/// Slip velocities shown.
+const TO: f64 = 0.3;
+const POINTS: u32 = 300;
+
+/// One panel: what was measured, and what averaging says at the same places.
+pub(super) struct Case {
+    /// D_N.
+    pub(super) amplitude: f64,
+    /// Windows with positive slip.
+    windows: Vec<WindowMean>,
+    /// (v_r, median of f/N, number of windows) of each bin.
+    pub(super) bins: Vec<(f64, f64, usize)>,
+    /// (v_r, μ̄) of the averaging approximation.
+    pub(super) averaged: Vec<(f64, f64)>,
+}
+
+/// Measures the cases of a figure.
+pub(super) fn cases(source: &Source) -> Result<Vec<Case>, Failure> {
+    let study = source.study()?;
+    let ratio = study.belt().dithers()[0].frequency_ratio;
+    values(&study, "dither.amplitude")
+        .into_iter()
+        .map(|amplitude| {
+            let starts: Vec<Start> = values(&study, "belt.initial.displacement")
+                .into_iter()
+                .map(|displacement| Start { time: 0.0, displacement, velocity: 0.0 })
+                .collect();
+            let mut windows = Vec::new();
+            for velocity in values(&study, "belt.belt_velocity") {
+                let study = study
+                    .with("dither.amplitude", amplitude)?
+                    .with("belt.belt_velocity", velocity)?;
+                let found = measured_effective_friction(
+                    study.belt(),
+                    ratio,
+                    &starts,
+                    DURATION,
+                    WINDOWS_PER_PERIOD,
+                    study.solver().tolerance,
+                );
+                windows.extend(found.map_err(|error| failed(source.name, &error))?);
+            }
+            windows.retain(|window| {
+                let slow = window.drift.is_some_and(|drift| drift.abs() < DRIFT);
+                slow && window.slip_velocity > 0.0 && window.slip_velocity < TO
+            });
+            let averaged = averaged(source, &study.with("dither.amplitude", amplitude)?)?;
+            Ok(Case { amplitude, bins: medians(&windows), windows, averaged })
+        })
+        .collect()
+}
+
+pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+    let study = source.study()?;
+    let law = study.belt().friction();
+    let mut bins = Table::new(
+        "",
+        &[
+            ("amplitude", "length (force/k)"),
+            ("slip_velocity", "length (velocity/ω0)"),
+            ("measured_coefficient", "1"),
+            ("windows", "1"),
+            ("averaged_coefficient", "1"),
+            ("law_coefficient", "1"),
+        ],
+    );
+    let mut panels = Vec::new();
+    for (index, case) in cases(source)?.iter().enumerate() {
+        for &(v, median, count) in &case.bins {
+            let averaged = interpolated(&case.averaged, v);
+            bins.row(
+                [case.amplitude, v, median, count as f64, averaged, law.coefficient(v)]
+                    .map(Into::into),
+            );
+        }
+        let law_curve = (0..=POINTS)
+            .map(|k| TO * f64::from(k) / f64::from(POINTS))
+            .map(|v| (v, law.coefficient(v)));
+        let title = format!("({}) $D_N$ = {}", letter(index), case.amplitude);
+        panels.push(
+            Panel::new(
+                Axis::new("mean slip velocity").symbol("⟨v_r⟩").between(0.0, TO),
+                Axis::new("friction").symbol("⟨f/N⟩, \\bar{μ}, μ").between(0.0, 0.42),
+            )
+            .title(title)
+            .with(
+                Points::new(
+                    Role::Guide,
+                    case.windows.iter().map(|w| (w.slip_velocity, w.coefficient)),
+                )
+                .size(1.2)
+                .label("single windows"),
+            )
+            .with(
+                Line::new(Role::Undithered, law_curve)
+                    .label(format!("{} law", law_name(law.kind()))),
+            )
+            .with(
+                Points::new(Role::Exact, case.bins.iter().map(|&(v, median, _)| (v, median)))
+                    .size(2.8)
+                    .label("simulation, medians"),
+            )
+            .with(Line::new(Role::Averaged, case.averaged.iter().copied()).label("averaging")),
+        );
+    }
+    let figure = Figure::grid(2, panels)
+        .sharing_x(Sharing::All)
+        .sharing_y(Sharing::All)
+        .legend(SharedLegend::Below)
+        .size(Size::Frame(340.0, 220.0));
+    let displacements = values(&study, "belt.initial.displacement");
+    let caption = format!(
+        "Figure {}. Effective friction with the {} law under sinusoidal normal dither: means of $f/N$ and of the slip velocity over one \
+         dither period of free decays from $x_0$ between {} and {} at {} belt velocities (4.30), (4.31); windows with stick, and those across which the \
+         slow velocity changes by more than {DRIFT}, are dropped; dots are \
+         medians in bins of {BIN}. Solid: averaging with both terms of (4.23). $ζ$ = {}, $R_N$ = {}, {}. The print does not say from which \
+         trajectories its points come.",
+        source.name,
+        law_name(law.kind()),
+        displacements.first().copied().unwrap_or_default(),
+        displacements.last().copied().unwrap_or_default(),
+        values(&study, "belt.belt_velocity").len(),
+        study.belt().damping_ratio(),
+        study.belt().dithers()[0].frequency_ratio,
+        parameters(&study),
+    );
+    let product = Product::new(figure, caption, &study);
+    Ok(product.by(&[Task::Simulate, Task::Friction]).table(bins))
+}
+
+/// μ̄(v) of (4.28) with φ′ of (4.23).
+fn averaged(source: &Source, study: &Study) -> Result<Vec<(f64, f64)>, Failure> {
+    let options =
+        AveragingOptions { normal_order: NormalOrder::Second, ..AveragingOptions::default() };
+    (1..=POINTS)
+        .map(|k| {
+            let v = TO * f64::from(k) / f64::from(POINTS);
+            let found = FastMotion::of(study.belt(), v, options)
+                .and_then(|motion| effective(study.belt().friction(), &motion, v))
+                .map_err(|error| failed(source.name, &error))?;
+            Ok((v, found.coefficient))
+        })
+        .collect()
+}
+
+fn medians(windows: &[WindowMean]) -> Vec<(f64, f64, usize)> {
+    let mut bins: std::collections::BTreeMap<u64, Vec<f64>> = std::collections::BTreeMap::new();
+    for window in windows {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 < v_r < TO")]
+        let bin = (window.slip_velocity / BIN).floor() as u64;
+        bins.entry(bin).or_default().push(window.coefficient);
+    }
+    bins.into_iter()
+        .filter(|(_, values)| values.len() >= FEWEST)
+        .map(|(bin, mut values)| {
+            values.sort_unstable_by(f64::total_cmp);
+            let half = values.len() / 2;
+            let median = if values.len() % 2 == 1 {
+                values[half]
+            } else {
+                0.5 * (values[half - 1] + values[half])
+            };
+            ((bin as f64 + 0.5) * BIN, median, values.len())
+        })
+        .collect()
+}
+
+/// Linear between neighbouring points of a curve with ascending x.
+pub(super) fn interpolated(curve: &[(f64, f64)], x: f64) -> f64 {
+    let after = curve.partition_point(|point| point.0 < x).clamp(1, curve.len() - 1);
+    let (before, after) = (curve[after - 1], curve[after]);
+    before.1 + (after.1 - before.1) * (x - before.0) / (after.0 - before.0)
+}

@@ -1,0 +1,207 @@
+//! What an entry makes: a picture, its caption, tables of data.
+
+use std::fmt::Write as _;
+
+use super::claims::Claim;
+use quell::cite::{self, Sources, Task};
+use quell::plot::Figure;
+use quell::study::{DiscStudy, Study};
+
+/// A figure or table, ready to be written.
+#[derive(Clone, Debug, Default)]
+pub struct Product {
+    /// The picture; a table of claims has none.
+    pub figure: Option<Figure>,
+    /// Caption with parameters and departures from the print; symbols between dollars.
+    pub caption: String,
+    /// The data behind the picture.
+    pub tables: Vec<Table>,
+    /// The claims of the table of claims.
+    pub claims: Vec<Claim>,
+    /// Study text and changes, for the header of the data.
+    pub provenance: Vec<String>,
+    /// What it rests on: equations, and where the print was corrected.
+    pub sources: Sources,
+}
+
+impl Product {
+    /// A figure with its data; the caption is put below the picture too.
+    pub fn new(figure: Figure, caption: impl Into<String>, study: &Study) -> Self {
+        Self { sources: cite::sources(study), ..Self::told(caption, study.text(), study.changes()) }
+            .drawn(figure)
+    }
+
+    /// A figure of a disc.
+    pub(super) fn of_disc(figure: Figure, caption: impl Into<String>, study: &DiscStudy) -> Self {
+        Self::table_of_disc(caption, study).drawn(figure)
+    }
+
+    /// A table of a disc without a picture.
+    pub(super) fn table_of_disc(caption: impl Into<String>, study: &DiscStudy) -> Self {
+        Self {
+            sources: cite::sources_of_disc(study),
+            ..Self::told(caption, study.text(), study.changes())
+        }
+    }
+
+    fn drawn(self, figure: Figure) -> Self {
+        Self { figure: Some(figure.caption(self.caption.clone())), ..self }
+    }
+
+    /// It rests on what these computations need, not on all that its study could be asked.
+    #[must_use]
+    pub fn by(mut self, tasks: &[Task]) -> Self {
+        self.sources = self.sources.of_tasks(tasks);
+        self
+    }
+
+    /// It was made of these studies too.
+    #[must_use]
+    pub fn also<'a>(mut self, studies: impl IntoIterator<Item = &'a Study>) -> Self {
+        for study in studies {
+            self.sources.extend(&cite::sources(study));
+        }
+        self
+    }
+
+    /// Caption, text and changes.
+    fn told(caption: impl Into<String>, text: &str, changes: &[String]) -> Self {
+        // A symbol, its sign and its number stay on one line.
+        let caption = caption.into().replace(" = ", "\u{a0}=\u{a0}");
+        let mut provenance: Vec<String> =
+            changes.iter().map(|change| format!("changed: {change}")).collect();
+        provenance.push("study:".to_owned());
+        provenance.extend(text.lines().map(|line| format!("  {line}")));
+        Self { caption, provenance, ..Self::default() }
+    }
+
+    /// Adds a table of data.
+    #[must_use]
+    pub fn table(mut self, table: Table) -> Self {
+        self.tables.push(table);
+        self
+    }
+
+    /// The caption without the marks of typesetting.
+    pub fn plain_caption(&self) -> String {
+        self.caption
+            .replace("\\bar{μ}", "μ̄")
+            .replace(['$', '{', '}', '\\'], "")
+            .replace('\u{a0}', " ")
+    }
+
+    /// A table as CSV: comment lines (`#`) with caption, units and study, names, rows.
+    pub fn csv(&self, table: &Table) -> String {
+        let mut text = String::new();
+        let mut lines = vec![format!("quell {} reproduce", env!("CARGO_PKG_VERSION"))];
+        lines.extend((!self.caption.is_empty()).then(|| self.plain_caption()));
+        let units: Vec<String> = table
+            .columns
+            .iter()
+            .map(|column| format!("{} [{}]", column.name, column.unit))
+            .collect();
+        lines.push(format!("units: {}", units.join(", ")));
+        lines.extend(self.provenance.iter().cloned());
+        for line in &lines {
+            let _ = writeln!(text, "# {}", line.trim_end());
+        }
+        let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
+        text += &names.join(",");
+        text.push('\n');
+        for row in &table.rows {
+            let cells: Vec<String> = row.iter().map(Cell::csv).collect();
+            text += &cells.join(",");
+            text.push('\n');
+        }
+        text
+    }
+}
+
+/// Name and unit of a column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Name.
+    pub name: String,
+    /// Unit; `1` for a pure number.
+    pub unit: &'static str,
+}
+
+/// One value of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// A number.
+    Number(f64),
+    /// A word or sentence.
+    Text(String),
+    /// There is none.
+    Empty,
+}
+
+impl Cell {
+    fn csv(&self) -> String {
+        match self {
+            // Shortest digits that read back as the same number.
+            Self::Number(value) if value.is_finite() => format!("{value:?}"),
+            Self::Text(text) if text.contains([',', '"', '\n']) => {
+                format!("\"{}\"", text.replace('"', "\"\""))
+            }
+            Self::Text(text) => text.clone(),
+            Self::Number(_) | Self::Empty => String::new(),
+        }
+    }
+}
+
+impl From<f64> for Cell {
+    fn from(value: f64) -> Self {
+        Self::Number(value)
+    }
+}
+
+impl From<&str> for Cell {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl From<Option<f64>> for Cell {
+    fn from(value: Option<f64>) -> Self {
+        value.map_or(Self::Empty, Self::Number)
+    }
+}
+
+/// Rows of cells under named columns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// What follows the figure's name in the file's: empty for the main table.
+    pub part: &'static str,
+    /// The columns.
+    pub columns: Vec<Column>,
+    /// The rows, each as long as the columns.
+    pub rows: Vec<Vec<Cell>>,
+}
+
+impl Table {
+    /// An empty table with these (name, unit) columns.
+    pub fn new(part: &'static str, columns: &[(&str, &'static str)]) -> Self {
+        let columns =
+            columns.iter().map(|&(name, unit)| Column { name: name.to_owned(), unit }).collect();
+        Self { part, columns, rows: Vec::new() }
+    }
+
+    /// Adds a row.
+    pub fn row(&mut self, cells: impl IntoIterator<Item = Cell>) {
+        self.rows.push(cells.into_iter().collect());
+    }
+
+    /// A table of whole columns of one length.
+    pub fn of_columns(part: &'static str, columns: Vec<(String, &'static str, Vec<f64>)>) -> Self {
+        let length = columns.iter().map(|(_, _, values)| values.len()).max().unwrap_or(0);
+        let rows = (0..length)
+            .map(|row| {
+                columns.iter().map(|(_, _, values)| values.get(row).copied().into()).collect()
+            })
+            .collect();
+        let columns = columns.into_iter().map(|(name, unit, _)| Column { name, unit }).collect();
+        Self { part, columns, rows }
+    }
+}

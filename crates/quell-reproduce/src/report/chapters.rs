@@ -1,0 +1,167 @@
+//! Every figure and table of the report: picture, caption, claims, equations, corrections, study, data, run time.
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use std::fmt::Write as _;
+
+use super::super::Written;
+use super::super::claims::Claim;
+use super::html::{Page, escape, symbols, table};
+use super::{claims, summary};
+use crate::Cell;
+use quell::plot;
+
+/// Rows of data that a table without a picture shows.
+const ROWS: usize = 20;
+
+/// Titles of the chapters by the first digit of their figures.
+const CHAPTERS: [(char, &str); 4] = [
+    ('2', "Chapter 2: tangential dither, a sine"),
+    ('3', "Chapter 3: three waveforms"),
+    ('4', "Chapter 4: normal dither"),
+    ('5', "Chapter 5: the disc"),
+];
+
+/// Writes them, chapter by chapter.
+pub(super) fn write(page: &mut Page, written: &[Written]) {
+    let all = summary::claims(written);
+    for (digit, title) in CHAPTERS {
+        let of: Vec<&Written> = written
+            .iter()
+            .filter(|done| done.entry.name.trim_start_matches("table-").starts_with(digit))
+            .collect();
+        if of.is_empty() {
+            continue;
+        }
+        page.section(&format!("chapter-{digit}"), title);
+        for done in of {
+            write_one(page, done, &claims::of(&done.entry, &all));
+        }
+    }
+}
+
+fn write_one(page: &mut Page, done: &Written, claims: &[&Claim]) {
+    let anchor = done.entry.stem();
+    let number = done.entry.name.trim_start_matches("table-");
+    let kind = if done.entry.name.starts_with("table") { "Table" } else { "Figure" };
+    let short = if kind == "Table" { format!("T {number}") } else { number.to_owned() };
+    page.entry(&anchor, &short, done.entry.about);
+    page.put(&format!(
+        "<article id=\"{anchor}\"><h3>{kind} {number}: {}</h3>",
+        escape(done.entry.about)
+    ));
+    page.put(&format!(
+        "<figure>{}<figcaption>{}</figcaption></figure>",
+        shown(done),
+        plot::html(&done.product.caption)
+    ));
+    if !claims.is_empty() {
+        let items = claims
+            .iter()
+            .map(|claim| {
+                format!(
+                    "<li>{} <a href=\"#claim-{}\">{}</a>{}</li>",
+                    claims::chip(claim),
+                    escape(&claim.name),
+                    symbols(&claim.statement),
+                    compared(claim)
+                )
+            })
+            .collect::<Vec<String>>()
+            .concat();
+        page.put(&format!("<ul class=\"beside\">{items}</ul>"));
+    }
+    page.put(&details(done));
+    page.put("</article>");
+}
+
+/// Printed and measured, where both are there.
+fn compared(claim: &Claim) -> String {
+    match (claim.printed.as_str(), claim.measured.as_str()) {
+        ("", "") => String::new(),
+        ("", measured) => format!(": {}", symbols(measured)),
+        (printed, measured) => {
+            format!(": printed {}, measured {}", symbols(printed), symbols(measured))
+        }
+    }
+}
+
+/// The picture, or the first rows of the data.
+fn shown(done: &Written) -> String {
+    match &done.product.figure {
+        Some(figure) => {
+            // The caption stands below it as text.
+            let svg = figure.clone().caption("").to_svg();
+            format!(
+                "<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">",
+                escape(&done.product.plain_caption()),
+                STANDARD.encode(svg)
+            )
+        }
+        None => done.product.tables.first().map(rows).unwrap_or_default(),
+    }
+}
+
+fn rows(data: &super::super::Table) -> String {
+    let names: Vec<String> =
+        data.columns.iter().map(|column| escape(&column.name.replace('_', " "))).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let cell = |cell: &Cell| match cell {
+        Cell::Number(value) => format!("{value:.6}"),
+        Cell::Text(text) => escape(text),
+        Cell::Empty => "–".to_owned(),
+    };
+    table("data", &names, data.rows.iter().take(ROWS).map(|row| row.iter().map(cell).collect()))
+}
+
+/// Data files, equations, corrections, study, run time.
+fn details(done: &Written) -> String {
+    let files: Vec<String> = done
+        .files
+        .iter()
+        .filter_map(|file| file.file_name()?.to_str())
+        .map(|name| format!("<a href=\"{0}\">{0}</a>", escape(name)))
+        .collect();
+    let sources = &done.product.sources;
+    let mut used: Vec<&str> = sources.citations.iter().map(|citation| citation.used).collect();
+    used.dedup();
+    let mut seen: Vec<&str> = Vec::new();
+    used.retain(|text| {
+        !seen.contains(text) && {
+            seen.push(text);
+            true
+        }
+    });
+    let list = |items: &[String]| -> String {
+        let items =
+            items.iter().map(|item| format!("<li>{item}</li>")).collect::<Vec<String>>().concat();
+        format!("<ul>{items}</ul>")
+    };
+    let equations: Vec<String> = used.iter().map(|text| symbols(text)).collect();
+    let corrections: Vec<String> = sources
+        .corrections
+        .iter()
+        .map(|it| format!("<b>{}</b> {}", symbols(it.equations), symbols(it.right)))
+        .collect();
+    let mut html = format!(
+        "<dl><dt>Files</dt><dd>{}</dd><dt>Run time</dt><dd>{:.2} s</dd></dl>",
+        files.join(" · "),
+        done.elapsed.as_secs_f64()
+    );
+    let mut fold = |title: String, inside: String| {
+        let _ = write!(html, "<details><summary>{title}</summary>{inside}</details>");
+    };
+    if !equations.is_empty() {
+        fold(format!("Equations used ({})", equations.len()), list(&equations));
+    }
+    if !corrections.is_empty() {
+        fold(format!("Corrections applied ({})", corrections.len()), list(&corrections));
+    }
+    if !done.entry.source().text.is_empty() {
+        fold(
+            "Study".to_owned(),
+            format!("<pre><code>{}</code></pre>", escape(done.entry.source().text)),
+        );
+    }
+    html
+}

@@ -1,0 +1,38 @@
+//! The report as a Markdown table: one line a figure or table, with its files, claims and run time.
+
+use std::fmt::Write as _;
+
+use super::super::{Pace, Written};
+use super::{claims, summary};
+
+/// The table.
+pub(crate) fn markdown(written: &[Written], pace: Pace) -> String {
+    let all = summary::claims(written);
+    let mut text = "# The dissertation, reproduced\n\n".to_owned();
+    if pace == Pace::Quick {
+        text += "Quick: maps have coarser grids than their studies say.\n\n";
+    }
+    text += "| name | what | claims that hold | corrections applied | files | seconds |\n|---|---|---|---|---|---|\n";
+    for done in written {
+        let of = claims::of(&done.entry, &all);
+        let holding = of.iter().filter(|claim| claim.verdict.holds()).count();
+        let counted =
+            if of.is_empty() { String::new() } else { format!("{holding} of {}", of.len()) };
+        let files: Vec<String> = done
+            .files
+            .iter()
+            .filter_map(|file| file.file_name()?.to_str())
+            .map(|name| format!("[{name}]({name})"))
+            .collect();
+        let _ = writeln!(
+            text,
+            "| {} | {} | {counted} | {} | {} | {:.2} |",
+            done.entry.name,
+            done.entry.about,
+            done.product.sources.corrections.len(),
+            files.join(", "),
+            done.elapsed.as_secs_f64()
+        );
+    }
+    text
+}

@@ -1,0 +1,47 @@
+//! The report of `reproduce`: one page that holds everything, and the same as a Markdown table.
+//!
+//! [`html`] needs no other file: pictures are inside it. Data files lie beside it and are linked. The page opens with
+//! what holds and what does not and why, and goes on with every figure and table, the claims, the errata and the sources.
+
+mod chapters;
+mod claims;
+mod errata;
+mod html;
+mod markdown;
+mod summary;
+
+use super::{Pace, Written};
+use quell::cite::Sources;
+
+pub(super) use markdown::markdown;
+
+/// The page.
+pub(super) fn html(written: &[Written], pace: Pace) -> String {
+    let mut page = html::Page::new("The dissertation, reproduced");
+    summary::write(&mut page, written, pace);
+    chapters::write(&mut page, written);
+    claims::write(&mut page, written);
+    errata::write(&mut page);
+    sources(&mut page, written);
+    page.finish()
+}
+
+/// The literature behind what was made.
+fn sources(page: &mut html::Page, written: &[Written]) {
+    let mut all = Sources::default();
+    for done in written {
+        all.extend(&done.product.sources);
+    }
+    let unique = all.unique();
+    if unique.is_empty() {
+        return;
+    }
+    page.section("sources", "Sources");
+    let items: Vec<String> = unique
+        .iter()
+        .map(|source| {
+            format!("<li><code>{}</code> {}</li>", source.key, html::escape(source.reference))
+        })
+        .collect();
+    page.put(&format!("<ul class=\"sources\">{}</ul>", items.concat()));
+}

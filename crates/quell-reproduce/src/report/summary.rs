@@ -1,0 +1,148 @@
+//! The opening of the report: how many claims hold, which do not, and why.
+
+use std::time::Duration;
+
+use super::super::claims::{Claim, Verdict, count};
+use super::super::{Pace, Written};
+use super::claims::chip;
+use super::html::{Page, escape, symbols, table};
+use quell::cite::MICHAUX_2005;
+
+/// Kinds of verdict in the order of the summary, with what they mean.
+const KINDS: [(&str, &str, &str); 4] = [
+    ("reproduced", "holds", "rounds to the printed number; the statement holds"),
+    ("reproduced within", "within", "off by no more than the claim's tolerance"),
+    (
+        "printed formula wrong",
+        "wrong",
+        "the printed formula differs from its own definition; the right one is among the errata",
+    ),
+    ("not reproduced", "fails", "further off than the tolerance, or the statement does not hold"),
+];
+
+/// Writes it.
+pub(super) fn write(page: &mut Page, written: &[Written], pace: Pace) {
+    let claims: Vec<&Claim> = claims(written);
+    page.put(&format!(
+        "<header><p class=\"kicker\">Quell {} · reproduce{}</p><h1>The dissertation, reproduced</h1>\
+         <p class=\"source\">{}</p>\
+         <p class=\"lead\">Does a fast added vibration, dither, silence friction-induced vibration, as this dissertation says? Every \
+         figure and table was computed again from its study file, every number and formula that could be measured was measured. {}</p></header>",
+        env!("CARGO_PKG_VERSION"),
+        if pace == Pace::Quick { " --quick" } else { "" },
+        escape(MICHAUX_2005.reference),
+        made(written, pace),
+    ));
+    if claims.is_empty() {
+        return;
+    }
+    page.section("summary", "What holds, what does not, and why");
+    overview(page, &claims);
+    changed(page, &claims);
+    exceptions(page, &claims);
+}
+
+/// The claims among what was made.
+pub(super) fn claims(written: &[Written]) -> Vec<&Claim> {
+    written.iter().flat_map(|done| &done.product.claims).collect()
+}
+
+/// How much was made, in how much time.
+fn made(written: &[Written], pace: Pace) -> String {
+    let pictures = written.iter().filter(|done| done.product.figure.is_some()).count();
+    let work: Duration = written.iter().map(|done| done.elapsed).sum();
+    let quick = match pace {
+        Pace::Full => "",
+        Pace::Quick => {
+            " <strong>This is the quick report: maps have coarser grids than their studies say; claims are measured in full.</strong>"
+        }
+    };
+    format!(
+        "{pictures} pictures and {} tables of data, {:.0} s of work.{quick}",
+        written.iter().map(|done| done.product.tables.len()).sum::<usize>(),
+        work.as_secs_f64()
+    )
+}
+
+fn overview(page: &mut Page, claims: &[&Claim]) {
+    let total = claims.len();
+    let share = |count: usize| 100.0 * count as f64 / total as f64;
+    let counts = KINDS.map(|(name, ..)| count(claims.iter().copied(), name));
+    let bar = KINDS
+        .iter()
+        .zip(counts)
+        .map(|((name, class, _), count)| {
+            format!(
+                "<span class=\"{class}\" style=\"width:{:.3}%\" title=\"{count} {name}\"></span>",
+                share(count)
+            )
+        })
+        .collect::<Vec<String>>()
+        .concat();
+    let cards = KINDS
+        .iter()
+        .zip(counts)
+        .map(|((name, class, about), count)| {
+            format!("<li class=\"{class}\"><b>{count}</b> <em>{name}</em><span>{about}</span></li>")
+        })
+        .collect::<Vec<String>>()
+        .concat();
+    page.put(&format!(
+        "<p>Of <strong>{total}</strong> claims:</p><div class=\"bar\">{bar}</div><ul class=\"cards\">{cards}</ul>"
+    ));
+}
+
+/// A verdict that is not the expected one is said first and loudly.
+fn changed(page: &mut Page, claims: &[&Claim]) {
+    let changed: Vec<&&Claim> = claims.iter().filter(|claim| !claim.as_expected()).collect();
+    if changed.is_empty() {
+        page.put("<p class=\"calm\">Every verdict is the expected one.</p>");
+        return;
+    }
+    let items = changed
+        .iter()
+        .map(|claim| {
+            let expected =
+                claim.expected.map_or("no verdict on record", |expected| expected.name());
+            format!(
+                "<li><a href=\"#claim-{0}\">{0}</a>: {1}, expected: {expected}</li>",
+                escape(&claim.name),
+                claim.verdict
+            )
+        })
+        .collect::<Vec<String>>()
+        .concat();
+    page.put(&format!("<div class=\"alarm\"><strong>Verdicts that are not the expected ones</strong><ul>{items}</ul></div>"));
+}
+
+/// What does not hold, with the reason.
+fn exceptions(page: &mut Page, claims: &[&Claim]) {
+    let rows = |wanted: fn(&Verdict) -> bool| {
+        claims.iter().filter(move |claim| wanted(&claim.verdict)).map(|claim| {
+            let reason = match claim.why() {
+                "" => symbols(&claim.note),
+                why => symbols(why),
+            };
+            vec![
+                format!("<a href=\"#claim-{}\">{}</a>", escape(&claim.name), escape(&claim.place)),
+                symbols(&claim.statement),
+                symbols(&claim.printed),
+                symbols(&claim.measured),
+                format!("{}{}", chip(claim), reason),
+            ]
+        })
+    };
+    let names = ["where", "claim", "printed", "measured", "why"];
+    page.put("<h3>Claims that do not hold</h3>");
+    page.put(&table(
+        "claims",
+        &names,
+        rows(|verdict| matches!(verdict, Verdict::NotReproduced { .. })),
+    ));
+    page.put("<h3>Printed formulas that are wrong</h3>");
+    page.put(&table(
+        "claims",
+        &names,
+        rows(|verdict| matches!(verdict, Verdict::FormulaWrong { .. })),
+    ));
+}

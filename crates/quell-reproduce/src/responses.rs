@@ -1,0 +1,214 @@
+//! Figures 2.3, 3.7–3.9, 4.3, 4.4: displacement, velocity and spectrum, with and without dither.
+//!
+//! Rows: x(τ), x′(τ) from rest, and the spectral amplitudes of the steady record (settling time discarded, mean removed,
+//! Hann). One column for each amplitude of the study's sweep.
+
+use quell_belt::response::{BAND_END, Response, Spectrum, respond};
+use quell_belt::simulation::{Sample, Sampler, simulate};
+use quell_model::{Belt, Direction, LawKind};
+
+use super::product::{Product, Table};
+use super::source::{Source, failed, law_name, letter, parameters, values, waveform_name};
+use quell::cite::Task;
+use quell::complaint::Failure;
+use quell::plot::{Axis, Figure, Legend, Line, Panel, Role, Rule, SharedLegend, Sharing, Size};
+use quell::run;
+use quell::study::Study;
+
+/// Time shown.
+const UNTIL: f64 = 80.0;
+/// Samples per dither period.
+const SAMPLES_PER_PERIOD: f64 = 40.0;
+/// Smallest spectral amplitude shown.
+const FLOOR: f64 = 1e-5;
+
+/// One column of the figure.
+pub(super) struct Case {
+    /// Its study.
+    pub(super) study: Study,
+    /// D.
+    pub(super) amplitude: f64,
+    /// The steady response.
+    pub(super) response: Response,
+}
+
+/// The steady responses of the study's amplitudes.
+pub(super) fn cases(source: &Source) -> Result<Vec<Case>, Failure> {
+    let study = source.study()?;
+    values(&study, "dither.amplitude")
+        .into_iter()
+        .map(|amplitude| {
+            let study = study.with("dither.amplitude", amplitude)?;
+            let start = run::start(&study)?;
+            let response = respond(study.belt(), start, study.solver())
+                .map_err(|error| failed(source.name, &error))?;
+            Ok(Case { study, amplitude, response })
+        })
+        .collect()
+}
+
+pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+    let study = source.study()?;
+    let dither = study.belt().dithers()[0];
+    let cases = cases(source)?;
+    let step = std::f64::consts::TAU / dither.frequency_ratio / SAMPLES_PER_PERIOD;
+    let undithered = history(source, &study, &study.belt().undithered(), step)?;
+    let mut histories =
+        vec![("time".to_owned(), "1/ω0", undithered.iter().map(|s| s.time).collect())];
+    histories.extend(columns_of("undithered", &undithered));
+    let top = dither.frequency_ratio * 1.25;
+    let shown = |response: &Response| {
+        response.record.spectrum.frequencies().take_while(|ω| *ω <= top).count()
+    };
+    let first = &cases[0].response;
+    let (spectrum, without) = (&first.record.spectrum, &first.undithered_record.spectrum);
+    let mut spectra = vec![
+        (
+            "frequency".to_owned(),
+            "ω0",
+            spectrum.frequencies().take(shown(first)).collect::<Vec<f64>>(),
+        ),
+        (
+            "undithered_amplitude".to_owned(),
+            "length",
+            without.amplitudes()[..shown(first)].to_vec(),
+        ),
+    ];
+    let mut rows: [Vec<Panel>; 3] = Default::default();
+    for (index, case) in cases.iter().enumerate() {
+        let samples = history(source, &case.study, case.study.belt(), step)?;
+        let name = letter(index);
+        histories.extend(columns_of(&name.to_string(), &samples));
+        let amplitudes = &case.response.record.spectrum.amplitudes()[..shown(first)];
+        spectra.push((format!("{name}_amplitude"), "length", amplitudes.to_vec()));
+        let [displacement, velocity] = histories_of(case, name, &samples, &undithered);
+        rows[0].push(displacement);
+        rows[1].push(velocity);
+        rows[2].push(spectrum_panel(case, top));
+    }
+    let figure =
+        Figure::grid(3, rows.into_iter().flatten().map(|panel| panel.legend(Legend::None)))
+            .sharing_y(Sharing::Aligned)
+            .legend(SharedLegend::Above)
+            .size(Size::Frame(270.0, 165.0));
+    let caption = caption(source, &study, &cases[0].response);
+    Ok(Product::new(figure, caption, &study)
+        .by(&[Task::Simulate, Task::Response])
+        .table(Table::of_columns("", histories))
+        .table(Table::of_columns("spectrum", spectra)))
+}
+
+/// Frequency of the largest peak in the band of E.
+pub(super) fn fundamental(spectrum: &Spectrum) -> Option<f64> {
+    let peaks = spectrum.peaks(1e-3).into_iter().filter(|peak| peak.frequency <= BAND_END);
+    peaks.max_by(|a, b| a.amplitude.total_cmp(&b.amplitude)).map(|peak| peak.frequency)
+}
+
+/// Displacement and velocity of a run as columns of a table.
+pub(super) fn columns_of(name: &str, samples: &[Sample]) -> [(String, &'static str, Vec<f64>); 2] {
+    let column = |value: fn(&Sample) -> f64| samples.iter().map(value).collect();
+    [
+        (format!("{name}_displacement"), "length", column(|s| s.displacement)),
+        (format!("{name}_velocity"), "length (velocity/ω0)", column(|s| s.velocity)),
+    ]
+}
+
+/// Displacement and velocity of a case beside those without dither.
+fn histories_of(case: &Case, name: char, samples: &[Sample], undithered: &[Sample]) -> [Panel; 2] {
+    let belt = case.study.belt();
+    let symbol = if belt.dithers()[0].direction == Direction::Normal { "D_N" } else { "D_T" };
+    let efficiency = match &case.response.efficiency {
+        Ok(ratio) => format!(", $E$ = {ratio:.2}"),
+        Err(_) => String::new(),
+    };
+    let title = format!("({name}) ${symbol}$ = {}{efficiency}", case.amplitude);
+    let pair = |value: fn(&Sample) -> f64| {
+        let curve = |role, samples: &[Sample]| {
+            Line::new(role, samples.iter().map(|s| (s.time, value(s))).collect::<Vec<_>>())
+        };
+        [
+            curve(Role::Dithered, samples).width(1.0).label("with dither"),
+            curve(Role::Undithered, undithered).label("without dither"),
+        ]
+    };
+    let velocity = Axis::new("velocity").symbol("x′").up_to(1.7 * belt.belt_velocity());
+    [
+        Panel::new(time_axis(), Axis::new("displacement").symbol("x"))
+            .title(title)
+            .with_all(pair(|s| s.displacement)),
+        Panel::new(time_axis(), velocity)
+            .with_all(pair(|s| s.velocity))
+            .with(Rule::horizontal(belt.belt_velocity()).label("$v_0$")),
+    ]
+}
+
+fn time_axis() -> Axis {
+    Axis::new("time").symbol("τ").between(0.0, UNTIL)
+}
+
+fn spectrum_panel(case: &Case, top: f64) -> Panel {
+    let Response { record, undithered_record, .. } = &case.response;
+    let curve = |role, spectrum: &Spectrum| {
+        let amplitudes = spectrum.amplitudes().iter().map(|amplitude| amplitude.max(0.1 * FLOOR));
+        let points: Vec<(f64, f64)> =
+            spectrum.frequencies().zip(amplitudes).take_while(|(ω, _)| *ω <= top).collect();
+        Line::new(role, points)
+    };
+    Panel::new(
+        Axis::new("frequency").symbol("ω").between(0.0, top),
+        Axis::new("amplitude").symbol("|X(ω)|").log().between(FLOOR, 0.5),
+    )
+    .with(curve(Role::Undithered, &undithered_record.spectrum))
+    .with(curve(Role::Dithered, &record.spectrum).width(1.1))
+    .with(Rule::vertical(case.study.belt().dithers()[0].frequency_ratio))
+}
+
+/// Samples of the first [`UNTIL`] of a run.
+fn history(source: &Source, study: &Study, belt: &Belt, step: f64) -> Result<Vec<Sample>, Failure> {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a count of samples"
+    )]
+    let count = (UNTIL / step).floor() as usize + 1;
+    let start = run::start(study)?;
+    let mut sampler = Sampler::new(0.0, step, count);
+    simulate(belt, start, UNTIL + step, study.solver().tolerance, &mut sampler)
+        .map_err(|error| failed(source.name, &error))?;
+    Ok(sampler.samples)
+}
+
+fn caption(source: &Source, study: &Study, response: &Response) -> String {
+    let belt = study.belt();
+    let dither = belt.dithers()[0];
+    let (direction, symbol) = match dither.direction {
+        Direction::Tangential => ("tangential", "R_T"),
+        Direction::Normal => ("normal", "R_N"),
+    };
+    let fundamental = match (
+        belt.friction().kind(),
+        fundamental(&response.undithered_record.spectrum),
+    ) {
+        (LawKind::Stribeck, Some(frequency)) => {
+            format!(
+                " The fundamental without dither, printed as 0.666 $ω_0$, is {frequency:.3} $ω_0$."
+            )
+        }
+        _ => String::new(),
+    };
+    format!(
+        "Figure {}. Responses from rest with the {} law and {} {direction} dither (solid) and without dither (dashed): displacement, \
+         velocity, and spectral amplitude of the steady displacement. $ζ$ = {}, $v_0$ = {}, ${symbol}$ = {}, {}. $E$ is the largest \
+         amplitude below {BAND_END} $ω_0$ over that without dither (2.27). Spectra: $τ$ < {} discarded, {} slow periods kept, mean \
+         removed, Hann window; the print gives no record.{fundamental}",
+        source.name,
+        law_name(belt.friction().kind()),
+        waveform_name(dither.waveform),
+        belt.damping_ratio(),
+        belt.belt_velocity(),
+        dither.frequency_ratio,
+        parameters(study),
+        study.solver().settle,
+        study.solver().record_periods,
+    )
+}

@@ -1,0 +1,394 @@
+//! Figures 2.10, 2.11, 3.12, 3.13, 4.11: displacement, velocity and Poincaré section from rest, one column for each amplitude.
+//!
+//! What the prints judge by eye is measured: where the run from rest ends, whether the response of sliding is stable at that
+//! amplitude, and between which amplitudes either of them changes, bisected to `CLOSENESS`.
+
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use quell_belt::attractor::{Attractor, Outcome, Patience, Scene, Settled, measure, settle};
+use quell_belt::orbit::Verdict;
+use quell_belt::simulation::{Sample, Sampler, simulate};
+use quell_model::{Direction, Waveform};
+
+use super::product::{Cell, Product, Table};
+use super::responses::columns_of;
+use super::source::{Source, failed, law_name, letter, parameters, short, values, waveform_name};
+use quell::cite::Task;
+use quell::complaint::Failure;
+use quell::plot::{
+    Axis, Figure, Legend, Line, Marker, Panel, Points, Role, Rule, SharedLegend, Sharing, Size,
+};
+use quell::run;
+use quell::study::Study;
+
+/// Time shown, in decay times 1/ζ of the free oscillator, and its bounds.
+const DECAY_TIMES: f64 = 2.0;
+const SHOWN: [f64; 2] = [80.0, 300.0];
+
+/// Samples per dither period.
+const SAMPLES_PER_PERIOD: f64 = 12.0;
+
+/// Periods of the section from the start of the run, as far as a grey trail shows where it goes.
+const TRANSIENT: usize = 900;
+
+/// States of a settled section that are drawn.
+const SETTLED: usize = 400;
+
+/// Most periods of a run. With fewer a run that is still settling counts as
+/// vibrating and shows no settled section; with more, one at a threshold only takes longer to say so.
+const MOST_PERIODS: u64 = 40_000;
+
+/// Closeness of a threshold, relative.
+const CLOSENESS: f64 = 1e-5;
+
+/// One column of a figure.
+#[derive(Debug)]
+pub(super) struct Case {
+    /// D.
+    pub(super) amplitude: f64,
+    /// Its study.
+    pub(super) study: Study,
+    /// Whether the response of sliding is stable.
+    pub(super) local: Verdict,
+    /// Whether the run from the start of the study ends on it.
+    pub(super) quiet: bool,
+    /// What it ends on.
+    pub(super) attractor: Option<Attractor>,
+    /// Period of the section.
+    pub(super) period: f64,
+}
+
+impl Case {
+    fn new(name: &str, study: &Study, amplitude: f64) -> Result<Self, Failure> {
+        let study = study.with("dither.amplitude", amplitude)?;
+        let belt = study.belt().clone();
+        let scene = Scene::new(&belt).map_err(|why| failed(name, &why))?;
+        let local = local(name, &scene)?;
+        let settled = ends(name, &study, &scene)?;
+        let attractor = measure(&scene, &settled).map_err(|why| failed(name, &why))?;
+        let quiet = attractor.as_ref().is_some_and(|it| it.quiet);
+        Ok(Self { amplitude, study, local, quiet, attractor, period: scene.strobe.period })
+    }
+
+    /// Slow frequency (ω₀), where the response turns.
+    pub(super) fn frequency(&self) -> Option<f64> {
+        self.attractor.as_ref()?.frequency(self.period)
+    }
+}
+
+/// Whether the response of sliding is stable.
+fn local(name: &str, scene: &Scene<'_>) -> Result<Verdict, Failure> {
+    scene.quiet.as_ref().map(|quiet| quiet.verdict).map_err(|why| failed(name, why))
+}
+
+/// Where the run from the start of the study ends.
+fn ends(name: &str, study: &Study, scene: &Scene<'_>) -> Result<Settled, Failure> {
+    let start = run::start(study)?;
+    let patience = Patience { periods: MOST_PERIODS, ..Patience::SWEEP };
+    settle(scene, start, patience).map_err(|why| failed(name, &why))
+}
+
+/// Amplitudes between neighbouring columns at which something changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Change {
+    /// The amplitude.
+    pub(super) amplitude: f64,
+    /// Whether it holds above.
+    pub(super) to: bool,
+}
+
+/// The columns of a figure with one waveform, and what changes between them.
+#[derive(Debug)]
+pub(super) struct Columns {
+    pub(super) study: Study,
+    pub(super) cases: Vec<Case>,
+    /// Where the response of sliding gains or loses stability.
+    pub(super) local: Vec<Change>,
+    /// Where the run from rest begins or ceases to end on it.
+    pub(super) from_rest: Vec<Change>,
+}
+
+impl Columns {
+    /// Measures every column of a study.
+    pub(super) fn of(name: &str, study: Study) -> Result<Self, Failure> {
+        let cases: Vec<Case> = values(&study, "dither.amplitude")
+            .into_iter()
+            .map(|amplitude| Case::new(name, &study, amplitude))
+            .collect::<Result<_, Failure>>()?;
+        let of = |holds: fn(&Case) -> bool| {
+            cases.iter().map(|case| (case.amplitude, holds(case))).collect::<Vec<_>>()
+        };
+        let stable = of(|case| case.local == Verdict::Stable);
+        let local =
+            changes(&study, &stable, |_, scene| Ok(local(name, scene)? == Verdict::Stable))?;
+        let quiet = of(|case| case.quiet);
+        let from_rest = changes(&study, &quiet, |study, scene| {
+            Ok(ends(name, study, scene)?.outcome == Outcome::Quiet)
+        })?;
+        Ok(Self { study, cases, local, from_rest })
+    }
+}
+
+/// Bisects each change between neighbours; a pair of changes between two columns is missed.
+fn changes(
+    study: &Study,
+    known: &[(f64, bool)],
+    holds: impl Fn(&Study, &Scene<'_>) -> Result<bool, Failure>,
+) -> Result<Vec<Change>, Failure> {
+    let mut found = Vec::new();
+    for pair in known.windows(2) {
+        let [(mut low, before), (mut high, after)] = [pair[0], pair[1]];
+        if before == after {
+            continue;
+        }
+        while high - low > CLOSENESS * high {
+            let middle = 0.5 * (low + high);
+            let study = study.with("dither.amplitude", middle)?;
+            let belt = study.belt().clone();
+            let scene = Scene::new(&belt).map_err(|why| failed("reproduce", &why))?;
+            if holds(&study, &scene)? == before { low = middle } else { high = middle }
+        }
+        found.push(Change { amplitude: 0.5 * (low + high), to: after });
+    }
+    Ok(found)
+}
+
+/// One waveform: that of the study.
+pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+    of_waveforms(source, &[source.shared.columns(source.name, &source.study()?)?])
+}
+
+/// Figure 4.11: square as its caption says, and sine, which its text describes.
+pub(super) fn square_and_sine(source: &Source) -> Result<Product, Failure> {
+    let of = |waveform: Waveform| {
+        let study = source.changed(&[&format!("dither.waveform={}", waveform.name())])?;
+        source.shared.columns(source.name, &study)
+    };
+    let [square, sine] = [of(Waveform::Square)?, of(Waveform::Sine)?];
+    of_waveforms(source, &[square, sine])
+}
+
+fn of_waveforms(source: &Source, blocks: &[Arc<Columns>]) -> Result<Product, Failure> {
+    let several = blocks.len() > 1;
+    let mut panels = Vec::new();
+    let mut histories: Vec<(String, &'static str, Vec<f64>)> = Vec::new();
+    let mut sections = Table::new("section", SECTION);
+    let mut summary = Table::new("", SUMMARY);
+    let columns = blocks.first().map_or(1, |block| block.cases.len());
+    for block in blocks {
+        let waveform = waveform_name(block.study.belt().dithers()[0].waveform);
+        let mut rows: [Vec<Panel>; 3] = Default::default();
+        for (index, case) in block.cases.iter().enumerate() {
+            let name = letter(index);
+            let samples = history(source, case)?;
+            let transient = strobe(source, case)?;
+            let prefix = if several { format!("{waveform}_{name}") } else { name.to_string() };
+            if histories.is_empty() {
+                let time = samples.iter().map(|s| s.time).collect();
+                histories.push(("time".to_owned(), "1/ω0", time));
+            }
+            histories.extend(columns_of(&prefix, &samples));
+            let settled = case.attractor.as_ref().map_or(&[][..], |it| it.section.as_slice());
+            for (part, states) in [("from rest", transient.as_slice()), ("settled", settled)] {
+                for &(x, v) in states {
+                    sections.row([
+                        Cell::from(waveform),
+                        Cell::from(name.to_string().as_str()),
+                        case.amplitude.into(),
+                        Cell::from(part),
+                        x.into(),
+                        v.into(),
+                    ]);
+                }
+            }
+            summary.row(told(waveform, name, case));
+            let [x, v, section] =
+                drawn(case, &title(block, several, name, case), &samples, &transient);
+            rows[0].push(x);
+            rows[1].push(v);
+            rows[2].push(section);
+        }
+        panels.extend(rows.into_iter().flatten());
+    }
+    let figure = Figure::grid(columns, panels.into_iter().map(|panel| panel.legend(Legend::None)))
+        .sharing_y(Sharing::Aligned)
+        .legend(SharedLegend::Above)
+        .size(Size::Frame(150.0, 118.0));
+    let study = blocks[0].study.clone();
+    Ok(Product::new(figure, caption(source, blocks), &study)
+        .by(&[Task::Simulate, Task::Stability])
+        .table(summary)
+        .table(sections)
+        .table(Table::of_columns("history", histories)))
+}
+
+/// Columns of the table of sections.
+const SECTION: &[(&str, &str)] = &[
+    ("waveform", "word"),
+    ("case", "word"),
+    ("amplitude", "length (force/k)"),
+    ("part", "word"),
+    ("displacement", "length"),
+    ("velocity", "length (velocity/ω0)"),
+];
+
+const SUMMARY: &[(&str, &str)] = &[
+    ("waveform", "word"),
+    ("case", "word"),
+    ("amplitude", "length (force/k)"),
+    ("from_rest", "word"),
+    ("quiet_response", "word"),
+    ("kind", "word"),
+    ("peak_to_peak", "length"),
+    ("stick_fraction", "1"),
+    ("rotation_number", "1"),
+    ("frequency", "ω0"),
+];
+
+/// A row of the summary.
+fn told(waveform: &str, name: char, case: &Case) -> Vec<Cell> {
+    let attractor = case.attractor.as_ref();
+    let of = |value: fn(&Attractor) -> f64| Cell::from(attractor.map(value));
+    let kind = attractor.map_or_else(|| "not settled".to_owned(), |it| it.kind.words());
+    vec![
+        waveform.into(),
+        name.to_string().as_str().into(),
+        case.amplitude.into(),
+        if case.quiet { "settles" } else { "vibrates" }.into(),
+        case.local.name().into(),
+        kind.as_str().into(),
+        of(Attractor::size),
+        of(|it| it.stick_fraction),
+        attractor.and_then(|it| it.rotation).map(|it| it.turns_per_period).into(),
+        case.frequency().into(),
+    ]
+}
+
+fn title(block: &Columns, several: bool, name: char, case: &Case) -> String {
+    let dither = block.study.belt().dithers()[0];
+    let symbol = if dither.direction == Direction::Normal { "D_N" } else { "D_T" };
+    let waveform =
+        if several { format!("{}, ", waveform_name(dither.waveform)) } else { String::new() };
+    format!("({name}) {waveform}${symbol}$ = {}", short(case.amplitude))
+}
+
+/// The three panels of a column.
+fn drawn(case: &Case, title: &str, samples: &[Sample], transient: &[(f64, f64)]) -> [Panel; 3] {
+    let belt_velocity = case.study.belt().belt_velocity();
+    let role = if case.quiet { Role::Dithered } else { Role::Unstable };
+    let until = samples.last().map_or(1.0, |sample| sample.time);
+    let time = || Axis::new("time").symbol("τ").between(0.0, until);
+    let curve = |value: fn(&Sample) -> f64| {
+        Line::new(role, samples.iter().map(|s| (s.time, value(s))).collect::<Vec<_>>()).width(0.6)
+    };
+    let displacement = Panel::new(time(), Axis::new("displacement").symbol("x"))
+        .title(title)
+        .with(curve(|s| s.displacement));
+    let velocity = Panel::new(time(), Axis::new("velocity").symbol("x′"))
+        .with(curve(|s| s.velocity))
+        .with(Rule::horizontal(belt_velocity));
+    let settled = case.attractor.as_ref().map_or(&[][..], |it| it.section.as_slice());
+    let step = settled.len().div_ceil(SETTLED).max(1);
+    let states: Vec<(f64, f64)> = settled.iter().step_by(step).copied().collect();
+    let (marker, size) = if states.len() == 1 { (Marker::Disc, 5.0) } else { (Marker::Disc, 1.8) };
+    let label = if case.quiet { "settles" } else { "vibrates" };
+    let section =
+        Panel::new(Axis::new("displacement").symbol("x"), Axis::new("velocity").symbol("x′"))
+            .with(
+                Points::new(Role::Guide, transient.iter().copied())
+                    .size(1.2)
+                    .label("section from rest"),
+            )
+            .with(Points::new(role, states).marker(marker).size(size).label(label));
+    [displacement, velocity, section]
+}
+
+/// Samples of the time shown.
+fn history(source: &Source, case: &Case) -> Result<Vec<Sample>, Failure> {
+    let decay = DECAY_TIMES / case.study.belt().damping_ratio();
+    let until = decay.clamp(SHOWN[0], SHOWN[1]);
+    let step = case.period / SAMPLES_PER_PERIOD;
+    sampled(source, case, step, count(until / step))
+}
+
+/// States of the first periods.
+fn strobe(source: &Source, case: &Case) -> Result<Vec<(f64, f64)>, Failure> {
+    let samples = sampled(source, case, case.period, TRANSIENT)?;
+    Ok(samples.iter().map(|sample| (sample.displacement, sample.velocity)).collect())
+}
+
+fn sampled(source: &Source, case: &Case, step: f64, count: usize) -> Result<Vec<Sample>, Failure> {
+    let start = run::start(&case.study)?;
+    let mut sampler = Sampler::new(0.0, step, count);
+    let until = count as f64 * step;
+    simulate(case.study.belt(), start, until, case.study.solver().tolerance, &mut sampler)
+        .map_err(|error| failed(source.name, &error))?;
+    Ok(sampler.samples)
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of samples")]
+fn count(steps: f64) -> usize {
+    steps.floor().max(1.0) as usize + 1
+}
+
+fn caption(source: &Source, blocks: &[Arc<Columns>]) -> String {
+    let study = &blocks[0].study;
+    let belt = study.belt();
+    let dither = belt.dithers()[0];
+    let (direction, d, r) = match dither.direction {
+        Direction::Tangential => ("tangential", "D_T", "R_T"),
+        Direction::Normal => ("normal", "D_N", "R_N"),
+    };
+    let mut text = format!(
+        "Figure {}. Responses from rest with the {} law and {direction} dither: displacement, velocity, and Poincaré section at \
+         ${r}τ$ = 2πn (grey: the first {TRANSIENT} periods; blue: settled on the period of the dither; red: vibrates for ever). \
+         $ζ$ = {}, $v_0$ = {}, ${r}$ = {}, {}.",
+        source.name,
+        law_name(belt.friction().kind()),
+        belt.damping_ratio(),
+        belt.belt_velocity(),
+        dither.frequency_ratio,
+        parameters(study),
+    );
+    for block in blocks {
+        let waveform = waveform_name(block.study.belt().dithers()[0].waveform);
+        let _ = write!(
+            text,
+            " Measured, {waveform}: from rest it {}; the quiet response itself {}.",
+            list(&block.from_rest, d, ["vibrates", "settles"]),
+            list(&block.local, d, ["is unstable", "is stable"]),
+        );
+    }
+    text + &departure(source.name)
+}
+
+/// What a figure departs in from the print.
+fn departure(name: &str) -> String {
+    match name {
+        "2.11" => " The caption prints $v_0$ = 1.0; text and responses are those of 1.5.".to_owned(),
+        "4.11" => " The caption says square; the pattern of the text appears with a sine.".to_owned(),
+        _ => " Below the local threshold the quiet response and a stick-slip vibration coexist: what simulation from rest finds \
+               lower than averaging is the border between them."
+            .to_owned(),
+    }
+}
+
+fn list(changes: &[Change], symbol: &str, words: [&str; 2]) -> String {
+    let parts: Vec<String> = changes
+        .iter()
+        .map(|change| {
+            format!(
+                "{} above ${symbol}$ = {}",
+                words[usize::from(change.to)],
+                short4(change.amplitude)
+            )
+        })
+        .collect();
+    if parts.is_empty() { "does not change".to_owned() } else { parts.join(", ") }
+}
+
+/// Four decimals.
+fn short4(value: f64) -> String {
+    format!("{value:.4}")
+}

@@ -1,0 +1,32 @@
+//! Measurements that a figure and the table of claims both need, made once in a run.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use super::sections::Columns;
+use quell::complaint::Failure;
+use quell::study::Study;
+
+/// A measurement that one thread makes while the others that want it wait.
+type Once<T> = Arc<OnceLock<Result<Arc<T>, Failure>>>;
+
+/// What the entries of one run have measured so far; a copy is another handle to the same.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Shared {
+    columns: Arc<Mutex<BTreeMap<String, Once<Columns>>>>,
+}
+
+impl Shared {
+    /// The columns of a study of single responses.
+    ///
+    /// They are measured on the thread that asks first: one that waited here for work in the thread pool could be waited
+    /// for by all of the pool.
+    pub(super) fn columns(&self, name: &str, study: &Study) -> Result<Arc<Columns>, Failure> {
+        let key = format!("{}\n{:?}", study.text(), study.changes());
+        let once = {
+            let mut known = self.columns.lock().unwrap_or_else(PoisonError::into_inner);
+            Arc::clone(known.entry(key).or_default())
+        };
+        once.get_or_init(|| Columns::of(name, study.clone()).map(Arc::new)).clone()
+    }
+}

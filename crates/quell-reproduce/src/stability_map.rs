@@ -1,0 +1,410 @@
+//! Figures 2.6, 2.7, 3.5, 3.6, 4.7, 4.8: where averaged steady sliding is unstable, in the plane of α and v₀.
+//!
+//! At each α the unstable band is αG_max ≤ v₀ ≤ the upper edge of (3.43)–(3.59), in closed form. Normal dither is the same
+//! map with (α_T, v₀) → (α_T/μ(v₀), v₀), the substitution of (4.33)–(4.42). Drawn too: the boundary with the oscillator's
+//! own response at the study's R in place of αG (for a sine α = DR/(R² − 1)), and the print's upper edge for
+//! the triangle, (3.47), (4.35), where it is wrong.
+
+use quell_belt::averaging::{
+    AveragingOptions, EverywhereStable, FastWave, NoBand, Response, closed_band,
+    everywhere_stable_amplitude, unstable_bands,
+};
+use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
+
+use super::print::{self, LawNumbers};
+use super::product::{Product, Table};
+use super::source::{Source, failed, law_name, letter, parameters, values, waveform_name};
+use quell::cite::Task;
+use quell::complaint::Failure;
+use quell::plot::{
+    Axis, Figure, Legend, Line, LineStyle, Note, Panel, Points, Region, Role, Rule, SharedLegend,
+    Sharing, Size,
+};
+use quell::study::Study;
+
+/// Points on an edge.
+const POINTS: u32 = 240;
+/// Points on an edge that needs quadrature.
+const FEWER_POINTS: u32 = 48;
+
+/// A curve of (α, v₀).
+type Curve = Vec<(f64, f64)>;
+
+/// The plane of one panel.
+struct Plane<'a> {
+    source: &'a Source,
+    belt: &'a Belt,
+    waveform: Waveform,
+    direction: Direction,
+    /// Largest α and v₀ shown.
+    reach: (f64, f64),
+}
+
+/// An unstable region: its edges from α = 0 on, and the α beyond which there is none.
+struct Unstable {
+    damping_ratio: f64,
+    lower: Curve,
+    upper: Curve,
+    /// (α^L, α^L G_max) where it exists.
+    tip: Option<(f64, f64)>,
+}
+
+/// Figures 2.6 and 2.7: one waveform, one damping ratio.
+pub(super) fn single(source: &Source) -> Result<Product, Failure> {
+    let study = source.study()?;
+    let mut table = empty_table();
+    let panel = panel(source, &study, study.belt().dithers()[0].waveform, &mut table)?;
+    let caption = format!(
+        "{} $ζ$ = {}, {}. {}",
+        opening(source, &study),
+        study.belt().damping_ratio(),
+        parameters(&study),
+        closing(&study, false)
+    );
+    Ok(Product::new(Figure::single(panel), caption, &study).by(&[Task::Stability]).table(table))
+}
+
+/// Figures 3.5, 3.6, 4.7, 4.8: three waveforms, three damping ratios.
+pub(super) fn three(source: &Source) -> Result<Product, Failure> {
+    let study = source.study()?;
+    let mut table = empty_table();
+    let mut panels = Vec::new();
+    let studies = source.with_waveforms()?;
+    for (index, (waveform, study)) in studies.iter().enumerate() {
+        let title = format!("({}) {}", letter(index), waveform_name(*waveform));
+        panels.push(panel(source, study, *waveform, &mut table)?.title(title).legend(Legend::None));
+    }
+    let damping: Vec<String> =
+        values(&study, "belt.damping_ratio").iter().map(f64::to_string).collect();
+    let caption = format!(
+        "{} $ζ$ = {}; {}. {}",
+        opening(source, &study),
+        damping.join(", "),
+        parameters(&study),
+        closing(&study, true)
+    );
+    let figure = Figure::grid(3, panels)
+        .sharing_x(Sharing::All)
+        .sharing_y(Sharing::All)
+        .legend(SharedLegend::Below)
+        .size(Size::Frame(270.0, 250.0));
+    let product =
+        Product::new(figure, caption, &study).also(studies.iter().map(|(_, study)| study));
+    Ok(product.by(&[Task::Stability]).table(table))
+}
+
+fn opening(source: &Source, study: &Study) -> String {
+    let dither = study.belt().dithers()[0];
+    format!(
+        "Figure {}. Stability map with the {} law and {} dither: in the shaded region averaged steady sliding is unstable, \
+         2$ζ$ + $F$ d$\\bar{{μ}}$/d$v$ < 0.",
+        source.name,
+        law_name(study.belt().friction().kind()),
+        dither.direction.name(),
+    )
+}
+
+/// What the picture shows beyond the print, and where it departs from it.
+fn closing(study: &Study, three: bool) -> String {
+    let belt = study.belt();
+    let dither = belt.dithers()[0];
+    let normal = dither.direction == Direction::Normal;
+    let stribeck = belt.friction().kind() == LawKind::Stribeck;
+    let ratio = dither.frequency_ratio;
+    let damping = if three { format!(", $ζ$ = {}", belt.damping_ratio()) } else { String::new() };
+    let mut sentences = vec![format!(
+        "Dash-dotted: the boundary at $R$ = {ratio} with the exact fast motion of the oscillator in place of \
+         $αG$, for a sine $α$ = $DR$/($R^2$ − 1){damping}."
+    )];
+    if three && stribeck {
+        let equation = if normal { "(4.35)" } else { "(3.47)" };
+        sentences.push(format!(
+            "Dotted in (b): the upper edge as printed {equation}, with π²/48 in place of π²/30."
+        ));
+    }
+    if normal {
+        sentences.push(format!(
+            "$α_N$ = $D_N$/$R_N$ cannot exceed $F$/$R_N$ (4.29), marked for $R_N$ = {ratio}; $α$ of chapter 3 is \
+             replaced by $μ$($v_0$)$α_N$."
+        ));
+    }
+    if normal && stribeck {
+        sentences.push(
+            "The square's $α^L$ is half of (4.38), which repeats the triangle's (4.36).".to_owned(),
+        );
+    }
+    if !stribeck && !normal && !three {
+        let wave = FastWave::Integral(dither.waveform);
+        let (law, load) = (belt.friction(), belt.normal_load());
+        let tip =
+            everywhere_stable_amplitude(law, belt.damping_ratio(), load, wave, dither.direction);
+        if let Ok(EverywhereStable::From { amplitude_ratio, .. }) = tip {
+            sentences.push(format!("The band closes only at $α^L$ = {amplitude_ratio:.0}."));
+        }
+    }
+    if !stribeck && !normal {
+        sentences.push(
+            "Stability is local: a stick-slip cycle can coexist with stable sliding.".to_owned(),
+        );
+    }
+    sentences.join(" ")
+}
+
+fn empty_table() -> Table {
+    Table::new(
+        "",
+        &[
+            ("waveform", "1"),
+            ("damping_ratio", "1"),
+            ("curve", "1"),
+            ("amplitude_ratio", "length (velocity/ω0)"),
+            ("belt_velocity", "length (velocity/ω0)"),
+        ],
+    )
+}
+
+fn panel(
+    source: &Source,
+    study: &Study,
+    waveform: Waveform,
+    table: &mut Table,
+) -> Result<Panel, Failure> {
+    let belt = study.belt();
+    let dither = belt.dithers()[0];
+    let last = |path: &str| values(study, path).last().copied();
+    let velocity = last("belt.belt_velocity").unwrap_or(1.0);
+    let normal = dither.direction == Direction::Normal;
+    let alpha = match (normal, belt.friction().kind()) {
+        (false, _) => last("dither.amplitude").unwrap_or(1.0) / dither.frequency_ratio,
+        // The print goes beyond what a closed contact allows.
+        (true, LawKind::Stribeck) => 0.8,
+        (true, _) => 6.0,
+    };
+    let plane =
+        Plane { source, belt, waveform, direction: dither.direction, reach: (alpha, velocity) };
+    let mut damping = values(study, "belt.damping_ratio");
+    if damping.is_empty() {
+        damping.push(belt.damping_ratio());
+    }
+    let symbol = if normal { "α_N" } else { "α_T" };
+    let mut panel = Panel::new(
+        Axis::new("dither amplitude").symbol(symbol).between(0.0, alpha),
+        Axis::new("belt velocity").symbol("v_0").between(0.0, velocity),
+    );
+    let regions: Result<Vec<Unstable>, Failure> =
+        damping.iter().map(|&zeta| plane.unstable(zeta)).collect();
+    let regions = regions?;
+    let lone = regions.len() == 1;
+    for region in &regions {
+        panel =
+            panel.with(Region::between(Role::Unstable, region.lower.clone(), region.upper.clone()));
+    }
+    for (index, region) in regions.iter().enumerate() {
+        let role = if lone { Role::Boundary } else { Role::Series([1, 2, 0][index % 3]) };
+        let label =
+            if lone { "averaging".to_owned() } else { format!("$ζ$ = {}", region.damping_ratio) };
+        panel = panel
+            .with(Line::pieces(role, [region.lower.clone(), region.upper.clone()]).label(label));
+        plane.record(table, region.damping_ratio, "lower", &region.lower);
+        plane.record(table, region.damping_ratio, "upper", &region.upper);
+    }
+    panel = plane.sharper(panel, belt.damping_ratio(), table)?;
+    panel = plane.printed(panel, &damping, table);
+    panel = plane.tips(panel, &regions, lone);
+    Ok(plane.words(panel, &regions))
+}
+
+impl Plane<'_> {
+    fn law(&self) -> &Friction {
+        self.belt.friction()
+    }
+
+    /// α of the axis for the tangential α at v₀.
+    fn along(&self, alpha: f64, v: f64) -> (f64, f64) {
+        match self.direction {
+            Direction::Tangential => (alpha, v),
+            Direction::Normal => (alpha / self.law().coefficient(v), v),
+        }
+    }
+
+    /// Largest tangential α that the axis shows.
+    fn largest(&self) -> f64 {
+        match self.direction {
+            Direction::Tangential => self.reach.0,
+            Direction::Normal => self.reach.0 * self.law().static_coefficient(),
+        }
+    }
+
+    fn unstable(&self, damping_ratio: f64) -> Result<Unstable, Failure> {
+        let load = self.belt.normal_load();
+        let wave = FastWave::Integral(self.waveform);
+        let tip = self.tip(damping_ratio, wave)?;
+        let end = tip.unwrap_or(f64::INFINITY).min(self.largest());
+        let mut region = Unstable {
+            damping_ratio,
+            lower: Vec::new(),
+            upper: Vec::new(),
+            tip: tip.map(|alpha| self.along(alpha, alpha * wave.peak())),
+        };
+        for k in 0..=POINTS {
+            let alpha = end * f64::from(k) / f64::from(POINTS);
+            match closed_band(self.law(), damping_ratio, load, self.waveform, alpha) {
+                Ok(band) => {
+                    region.lower.push(self.along(alpha, band.lower));
+                    // Without an upper edge the band leaves the plane.
+                    region.upper.push(self.along(alpha, band.upper.unwrap_or(10.0 * self.reach.1)));
+                }
+                Err(NoBand::Stable) => {}
+                Err(why) => return Err(failed("figure", &why)),
+            }
+        }
+        if let Some(tip) = region.tip.filter(|_| end < self.largest()) {
+            region.lower.push(tip);
+            region.upper.push(tip);
+        }
+        Ok(region)
+    }
+
+    /// The boundary with the oscillator's own response in place of αG.
+    fn sharper(
+        &self,
+        panel: Panel,
+        damping_ratio: f64,
+        table: &mut Table,
+    ) -> Result<Panel, Failure> {
+        let ratio = self.belt.dithers()[0].frequency_ratio;
+        let edges = if self.waveform == Waveform::Sine {
+            // The same curves over a shorter α.
+            let region = self.unstable(damping_ratio)?;
+            let shorter = (ratio * ratio - 1.0) / (ratio * ratio);
+            [region.lower, region.upper].map(|curve| {
+                curve.into_iter().map(|(alpha, v)| (alpha * shorter, v)).collect::<Curve>()
+            })
+        } else {
+            self.oscillator_edges(damping_ratio, ratio)?
+        };
+        self.record(table, damping_ratio, "lower_oscillator", &edges[0]);
+        self.record(table, damping_ratio, "upper_oscillator", &edges[1]);
+        let line = Line::pieces(Role::Exact, edges).style(LineStyle::DashDotted).width(0.9);
+        Ok(panel.with(line.label(format!("exact fast motion, $R$ = {ratio}"))))
+    }
+
+    /// Edges of the bands under the oscillator's response to a triangle or square, by quadrature.
+    fn oscillator_edges(&self, damping_ratio: f64, ratio: f64) -> Result<[Curve; 2], Failure> {
+        let load = self.belt.normal_load();
+        let wave = FastWave::Oscillator { waveform: self.waveform, frequency_ratio: ratio };
+        let tip = self.tip(damping_ratio, wave)?;
+        let end = tip.unwrap_or(f64::INFINITY).min(self.largest());
+        let options =
+            AveragingOptions { response: Response::Oscillator, ..AveragingOptions::default() };
+        let mut edges: [Curve; 2] = Default::default();
+        for k in 0..=FEWER_POINTS {
+            let alpha = end * f64::from(k) / f64::from(FEWER_POINTS);
+            let dither = Dither {
+                direction: Direction::Tangential,
+                waveform: self.waveform,
+                amplitude: alpha * ratio,
+                frequency_ratio: ratio,
+                phase: 0.0,
+            };
+            let belt = Belt::new(damping_ratio, load, 1.0, self.law().clone(), vec![dither])
+                .map_err(|_| failed(self.source.name, &"a belt of the map is not valid"))?;
+            let bands =
+                unstable_bands(&belt, options).map_err(|error| failed(self.source.name, &error))?;
+            let Some(band) = bands.last() else { break };
+            edges[0].push(self.along(alpha, band.lower));
+            edges[1].push(self.along(alpha, band.upper.unwrap_or(10.0 * self.reach.1)));
+        }
+        if let Some(alpha) = tip.filter(|tip| *tip < self.largest()) {
+            let tip = self.along(alpha, alpha * wave.peak());
+            for edge in &mut edges {
+                edge.push(tip);
+            }
+        }
+        Ok(edges)
+    }
+
+    /// α^L of tangential dither, none where it does not exist.
+    fn tip(&self, damping_ratio: f64, wave: FastWave) -> Result<Option<f64>, Failure> {
+        let load = self.belt.normal_load();
+        let everywhere = everywhere_stable_amplitude(
+            self.law(),
+            damping_ratio,
+            load,
+            wave,
+            Direction::Tangential,
+        );
+        Ok(match everywhere.map_err(|error| failed(self.source.name, &error))? {
+            EverywhereStable::From { amplitude_ratio, .. } => Some(amplitude_ratio),
+            EverywhereStable::Always => Some(0.0),
+            EverywhereStable::Never { .. } => None,
+        })
+    }
+
+    /// The print's upper edge for Stribeck and triangle, up to its own α^L.
+    fn printed(&self, panel: Panel, damping: &[f64], table: &mut Table) -> Panel {
+        if self.waveform != Waveform::Triangle || self.law().kind() != LawKind::Stribeck {
+            return panel;
+        }
+        let numbers = LawNumbers::DISSERTATION;
+        let mut pieces = Vec::new();
+        for &zeta in damping {
+            let end = print::everywhere_348(numbers, zeta);
+            let edge: Curve = (0..=POINTS)
+                .map(|k| end * f64::from(k) / f64::from(POINTS))
+                .map(|alpha| self.along(alpha, print::upper_edge_347(numbers, zeta, alpha)))
+                .collect();
+            self.record(table, zeta, "upper_printed", &edge);
+            pieces.push(edge);
+        }
+        let equation = if self.direction == Direction::Normal { "(4.35)" } else { "(3.47)" };
+        let line = Line::pieces(Role::Printed, pieces).style(LineStyle::Dotted).width(1.1);
+        panel.with(line.label(format!("as printed {equation}")))
+    }
+
+    /// Marks α^L where the plane shows it.
+    fn tips(&self, mut panel: Panel, regions: &[Unstable], lone: bool) -> Panel {
+        let shown = |tip: &(f64, f64)| tip.0 <= self.reach.0 && tip.1 <= self.reach.1;
+        let tips: Curve = regions.iter().filter_map(|region| region.tip).filter(shown).collect();
+        if tips.is_empty() {
+            return panel;
+        }
+        if lone {
+            let alpha = tips[0].0;
+            panel = panel.with(Rule::vertical(alpha).label(format!("$α^L$ = {alpha:.4}")));
+        }
+        panel.with(Points::new(Role::Boundary, tips).label("$α^L$"))
+    }
+
+    /// "stable", "unstable", and where (4.29) ends.
+    fn words(&self, mut panel: Panel, regions: &[Unstable]) -> Panel {
+        let stribeck = self.law().kind() == LawKind::Stribeck;
+        // In the region of the lightest damping, where it is wide.
+        if let Some(region) = regions.last().filter(|region| !region.lower.is_empty()) {
+            let v = if stribeck { 0.75 } else { 0.85 } * region.upper[0].1;
+            let edge = region.lower.iter().take_while(|point| point.1 < v).last();
+            panel = panel.with(Note::new(0.5 * edge.map_or(0.0, |point| point.0), v, "unstable"));
+        }
+        let above = if stribeck { 0.55 } else { 0.3 };
+        for (alpha, v) in [(0.65, 0.1), (above, 0.93)] {
+            panel = panel.with(Note::new(alpha * self.reach.0, v * self.reach.1, "stable"));
+        }
+        if self.direction == Direction::Normal {
+            let limit = self.belt.normal_load() / self.belt.dithers()[0].frequency_ratio;
+            panel = panel.with(Rule::vertical(limit).label("$F$/$R_N$"));
+        }
+        panel
+    }
+
+    fn record(&self, table: &mut Table, damping_ratio: f64, curve: &str, points: &Curve) {
+        for &(alpha, v) in points {
+            table.row([
+                self.waveform.name().into(),
+                damping_ratio.into(),
+                curve.into(),
+                alpha.into(),
+                v.into(),
+            ]);
+        }
+    }
+}

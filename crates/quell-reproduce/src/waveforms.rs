@@ -1,0 +1,85 @@
+//! Figure 3.2: two cycles of the waveforms g and of their zero-mean integrals G.
+
+use std::f64::consts::TAU;
+
+use quell_model::Waveform;
+
+use super::product::{Product, Table};
+use super::source::{Source, letter, waveform_name};
+use quell::cite::Task;
+use quell::complaint::Failure;
+use quell::plot::{Axis, Figure, Legend, Line, Panel, Role, Rule, Sharing};
+
+const CYCLES: u32 = 2;
+const POINTS_PER_CYCLE: u32 = 240;
+
+pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+    let study = source.study()?;
+    let mut columns = vec![("cycles".to_owned(), "1", cycles().collect::<Vec<f64>>())];
+    let mut rows: [Vec<Panel>; 2] = [Vec::new(), Vec::new()];
+    let studies = source.with_waveforms()?;
+    for (index, &(waveform, _)) in studies.iter().enumerate() {
+        let name = waveform.name();
+        columns.push((
+            format!("{name}_g"),
+            "1",
+            cycles().map(|c| waveform.value(TAU * c)).collect(),
+        ));
+        columns.push((
+            format!("{name}_G"),
+            "1",
+            cycles().map(|c| waveform.integral(TAU * c)).collect(),
+        ));
+        let title = format!("({}) {}", letter(index), waveform_name(waveform));
+        rows[0].push(
+            axes("waveform", "g", "")
+                .title(title)
+                .with(Line::pieces(Role::Exact, force(waveform)))
+                .legend(Legend::None),
+        );
+        let peak = waveform.peak_integral();
+        let label = ["$G_{max}$ = 1", "$G_{max}$ = π/4", "$G_{max}$ = π/2"][index];
+        rows[1].push(
+            axes("integral", "G", "cycles $τ$/2π")
+                .with(Rule::horizontal(peak).label(label))
+                .with(Line::new(Role::Averaged, cycles().map(|c| (c, waveform.integral(TAU * c)))))
+                .legend(Legend::None),
+        );
+    }
+    let figure = Figure::grid(3, rows.into_iter().flatten())
+        .sharing_x(Sharing::Aligned)
+        .sharing_y(Sharing::Aligned);
+    let caption = "Figure 3.2. Two cycles of the dither waveforms $g$ (3.4)–(3.6), odd and of unit amplitude, and their \
+        zero-mean integrals $G$, which are even (the text after (3.25) calls them odd).";
+    let product = Product::new(figure, caption, &study)
+        .also(studies.iter().map(|(_, study)| study))
+        .by(&[Task::Friction]);
+    Ok(product.table(Table::of_columns("", columns)))
+}
+
+fn axes(name: &str, symbol: &str, below: &str) -> Panel {
+    Panel::new(
+        Axis::new(below).between(0.0, f64::from(CYCLES)).ticks([0.0, 0.5, 1.0, 1.5, 2.0]),
+        Axis::new(name)
+            .symbol(symbol)
+            .between(-2.0, 2.0)
+            .ticks([-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5]),
+    )
+    .with(Rule::horizontal(0.0))
+}
+
+fn cycles() -> impl Iterator<Item = f64> {
+    (0..=CYCLES * POINTS_PER_CYCLE).map(|k| f64::from(k) / f64::from(POINTS_PER_CYCLE))
+}
+
+/// g, with upright strokes where it jumps.
+fn force(waveform: Waveform) -> Vec<Vec<(f64, f64)>> {
+    if waveform == Waveform::Square {
+        let corners = (0..2 * CYCLES).flat_map(|half| {
+            let level = if half % 2 == 0 { 1.0 } else { -1.0 };
+            [(0.5 * f64::from(half), level), (0.5 * f64::from(half + 1), level)]
+        });
+        return vec![std::iter::once((0.0, 0.0)).chain(corners).collect()];
+    }
+    vec![cycles().map(|c| (c, waveform.value(TAU * c))).collect()]
+}

@@ -1,0 +1,250 @@
+//! Every entry of `reproduce` is made, its data have their columns, its claims their verdicts.
+
+use std::path::Path;
+
+use quell::{Failure, Subject};
+use quell_reproduce::claims::{self, LEDGER, Verdict};
+use quell_reproduce::{Cell, ENTRIES, Entry, Pace, find, run};
+
+fn entry(name: &str) -> &'static Entry {
+    ENTRIES.iter().find(|entry| entry.name == name).expect(name)
+}
+
+/// Names of the columns of each table of an entry.
+fn columns(name: &str) -> Vec<Vec<String>> {
+    let product = entry(name).product().expect(name);
+    product
+        .tables
+        .iter()
+        .map(|table| table.columns.iter().map(|column| column.name.clone()).collect())
+        .collect()
+}
+
+#[test]
+fn every_entry_is_made() {
+    // The claims are measured below.
+    for entry in ENTRIES.iter().filter(|entry| entry.name != "claims") {
+        let made = if entry.about.starts_with("efficiency") || entry.about.starts_with("growth") {
+            entry.coarse_product(6)
+        } else {
+            entry.product()
+        };
+        let product = made.unwrap_or_else(|failure| panic!("{}: {failure}", entry.name));
+        assert!(!product.tables.is_empty(), "{} has data", entry.name);
+        for table in &product.tables {
+            assert!(table.rows.len() > 3, "{} has rows", entry.name);
+            for row in &table.rows {
+                assert_eq!(row.len(), table.columns.len(), "{}", entry.name);
+                let finite =
+                    |cell: &Cell| !matches!(cell, Cell::Number(value) if !value.is_finite());
+                assert!(row.iter().all(finite), "{}: {row:?}", entry.name);
+            }
+            let csv = product.csv(table);
+            let written = csv.lines().filter(|line| !line.starts_with('#')).count();
+            assert_eq!(written, table.rows.len() + 1, "{}", entry.name);
+        }
+        let Some(figure) = &product.figure else {
+            let number = entry.name.trim_start_matches("table-");
+            assert!(
+                product.caption.starts_with(&format!("Table {number}. ")),
+                "{}",
+                product.caption
+            );
+            continue;
+        };
+        let caption = format!("Figure {}. ", entry.name);
+        assert!(product.caption.starts_with(&caption), "{}", product.caption);
+        assert!(!product.plain_caption().contains(['$', '{', '\\']), "{}", product.plain_caption());
+        assert!(figure.to_svg().len() > 5000);
+    }
+}
+
+#[test]
+fn data_have_their_columns() {
+    let names = |list: &str| -> Vec<String> { list.split(' ').map(str::to_owned).collect() };
+    let curves = "waveform amplitude_ratio_over_reference slip_velocity_over_reference effective_coefficient \
+         effective_slope printed_coefficient";
+    let map = "waveform damping_ratio curve amplitude_ratio belt_velocity";
+    let measured =
+        "amplitude slip_velocity measured_coefficient windows averaged_coefficient law_coefficient";
+    let laws = "slip_velocity_over_reference stribeck_coefficient decreasing_coefficient";
+    for (name, list) in [
+        ("2.2", laws),
+        ("4.2", laws),
+        ("2.4", curves),
+        ("3.4", curves),
+        ("2.6", map),
+        ("4.8", map),
+        ("4.5", measured),
+        ("3.2", "cycles sine_g sine_G triangle_g triangle_G square_g square_G"),
+    ] {
+        assert_eq!(columns(name), [names(list)], "{name}");
+    }
+    let histories = "time undithered_displacement undithered_velocity a_displacement a_velocity b_displacement \
+         b_velocity c_displacement c_velocity";
+    let spectra = "frequency undithered_amplitude a_amplitude b_amplitude c_amplitude";
+    assert_eq!(columns("2.3"), [names(histories), names(spectra)]);
+}
+
+#[test]
+fn study_files_are_valid_and_belong_to_their_figures() {
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies");
+    let mut count = 0;
+    for file in std::fs::read_dir(&directory).expect("studies") {
+        let path = file.expect("a file").path();
+        // Data that studies name lie beside them.
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).expect("text");
+        let study = Subject::parse(&text, &[], &directory)
+            .unwrap_or_else(|complaints| panic!("{}: {complaints:?}", path.display()));
+        let title = study.title().expect("a title").to_owned();
+        let stem = path.file_stem().and_then(|stem| stem.to_str()).expect("a name").to_owned();
+        if let Some(number) = stem.strip_prefix("figure-") {
+            assert!(title.starts_with(&format!("Figure {number}: ")), "{title}");
+            assert_eq!(entry(number).source().text, text);
+        } else if let Some(number) = stem.strip_prefix("table-") {
+            assert!(title.starts_with(&format!("Table {number}: ")), "{title}");
+            assert_eq!(entry(&stem).source().text, text);
+        }
+        count += 1;
+    }
+    assert!(count > ENTRIES.len());
+}
+
+/// A curve of figure 2.3 at one place, known from other integrators: the undithered amplitude M₀ and E at D_T = 0.3, 0.4.
+#[test]
+fn spectra_of_figure_2_3_have_the_known_peaks() {
+    let product = entry("2.3").product().expect("made");
+    let spectra = &product.tables[1];
+    let largest = |column: usize| {
+        let cells = spectra.rows.iter().filter_map(|row| match (&row[0], &row[column]) {
+            (Cell::Number(frequency), Cell::Number(amplitude)) if *frequency <= 1.9 => {
+                Some(*amplitude)
+            }
+            _ => None,
+        });
+        cells.fold(0.0, f64::max)
+    };
+    let undithered = largest(1);
+    assert!((undithered - 0.128_794).abs() < 1e-3 * undithered, "{undithered}");
+    for (column, efficiency) in [(2, 0.4999), (3, 0.2589)] {
+        let found = largest(column) / undithered;
+        assert!((found - efficiency).abs() < 0.01 * efficiency, "{found} {efficiency}");
+    }
+    assert!(largest(4) < 1e-6);
+}
+
+/// Every claim has the verdict on record, and every verdict on record its claim: one that changes fails here.
+#[test]
+fn verdicts_are_those_on_record() {
+    let claims = claims::measure().expect("measured");
+    let changed: Vec<String> = claims
+        .iter()
+        .filter(|claim| !claim.as_expected())
+        .map(|claim| format!("{}: {}, on record {:?}", claim.name, claim.verdict, claim.expected))
+        .collect();
+    assert!(changed.is_empty(), "claims::LEDGER differs:\n{}", changed.join("\n"));
+    let measured: Vec<&str> = claims.iter().map(|claim| claim.name.as_str()).collect();
+    let on_record: Vec<&str> = LEDGER.iter().map(|(name, _)| *name).collect();
+    assert_eq!(measured, on_record, "one line of claims::LEDGER for each claim, in their order");
+    for claim in &claims {
+        let holds = claim.verdict.holds() || matches!(claim.verdict, Verdict::FormulaWrong { .. });
+        assert_eq!(holds, claim.why().is_empty(), "{} says why it does not hold", claim.name);
+        assert_eq!(claim.tolerance.is_some(), !claim.printed.is_empty(), "{}", claim.name);
+    }
+    // Formulas that are wrong, by name: the errata tell of each.
+    let wrong = claims.iter().filter(|claim| matches!(claim.verdict, Verdict::FormulaWrong { .. }));
+    assert_eq!(wrong.count(), 18);
+    let value = |name: &str| claims.iter().find(|claim| claim.name == name).expect(name).values[0];
+    for (name, known, tolerance) in [
+        ("2.3-undithered-fundamental", 0.654_435, 1e-6),
+        ("2.3-dithered-fundamental", 0.735_29, 1e-4),
+        ("2.7-undithered", 0.809_135_878_048, 1e-11),
+        ("2.7-v1-unstable", 4.366_05, 1e-5),
+        ("3.38a", 0.092_020_364_605_888_12, 1e-13),
+        ("B.4", 2.068_384_752_523, 1e-11),
+        ("3.61-triangle-stable", 40.0 / std::f64::consts::PI, 1e-11),
+        ("4.38", 0.379_493_225_521, 1e-11),
+    ] {
+        assert!((value(name) - known).abs() <= tolerance, "{name}: {} {known}", value(name));
+    }
+    let mut names: Vec<&str> = claims.iter().map(|claim| claim.name.as_str()).collect();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), claims.len(), "names are unique");
+    assert!(claims::markdown(&claims).contains("| (3.38a), (B.10a) |"));
+}
+
+#[test]
+fn names_are_known_or_listed() {
+    let all = find(&[]).expect("all");
+    assert_eq!(all.len(), ENTRIES.len());
+    let some = find(&["figure-3.2".to_owned(), "2.2".to_owned()]).expect("two");
+    assert_eq!(some.iter().map(|entry| entry.name).collect::<Vec<_>>(), ["2.2", "3.2"]);
+    let complaints =
+        find(&["2.3".to_owned(), "claim".to_owned(), "9.9".to_owned()]).expect_err("two unknown");
+    assert_eq!(complaints.len(), 2);
+    assert_eq!(complaints[0].suggestion.as_deref(), Some("claims"));
+    assert!(complaints[1].allowed.contains("2.2, 2.3, 2.4"));
+}
+
+#[test]
+fn files_are_written_whole_into_a_new_directory() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let directory = folder.path().join("new/deeper");
+    let entries = find(&["2.2".to_owned(), "2.6".to_owned(), "3.2".to_owned()]).expect("known");
+    let written = run(&entries, &directory, Pace::Full, |_| ()).expect("written").written;
+    assert_eq!(
+        written.iter().map(|done| done.entry.name).collect::<Vec<_>>(),
+        ["2.2", "2.6", "3.2"]
+    );
+    let mut names: Vec<String> = std::fs::read_dir(&directory)
+        .expect("made")
+        .map(|file| file.expect("a file").file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    let expected: Vec<String> = ["2.2", "2.6", "3.2"]
+        .iter()
+        .flat_map(|name| {
+            ["csv", "png", "svg"].map(|extension| format!("figure-{name}.{extension}"))
+        })
+        .chain(["report.html".to_owned(), "report.md".to_owned()])
+        .collect();
+    assert_eq!(names, expected);
+    // The report needs nothing but itself: pictures are inside, and nothing is fetched.
+    let page = std::fs::read_to_string(directory.join("report.html")).expect("a report");
+    assert_eq!(page.matches("<img ").count(), 3);
+    assert_eq!(page.matches("src=\"data:image/svg+xml;base64,").count(), 3);
+    for outside in ["<script", "src=\"http", "<link", "@import", "url("] {
+        assert!(!page.contains(outside), "{outside}");
+    }
+    for inside in [
+        "id=\"figure-2.6\"",
+        "Corrections applied",
+        "Equations used",
+        "law = &quot;stribeck&quot;",
+        "Run time",
+    ] {
+        assert!(page.contains(inside), "{inside}");
+    }
+    let table = std::fs::read_to_string(directory.join("report.md")).expect("a table");
+    assert!(table.contains("[figure-2.6.csv](figure-2.6.csv)"), "{table}");
+    // Once more, over what stands there: the same bytes.
+    let first = std::fs::read(directory.join("figure-2.6.png")).expect("read");
+    run(&entries, &directory, Pace::Full, |_| ()).expect("written again");
+    assert_eq!(std::fs::read(directory.join("figure-2.6.png")).expect("read"), first);
+}
+
+#[test]
+fn a_directory_that_cannot_be_made_is_refused_before_any_work() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("occupied");
+    std::fs::write(&file, "a file").expect("written");
+    let failure = run(&find(&[]).expect("all"), &file, Pace::Full, |_| panic!("nothing is made"))
+        .expect_err("refused");
+    let Failure::Wrong(complaints) = failure else { panic!("{failure}") };
+    assert_eq!(complaints[0].key, "--out");
+    assert!(complaints[0].to_string().contains("occupied"), "{}", complaints[0]);
+}

@@ -1,0 +1,123 @@
+//! Files that a study was read from: opened only where they are files, and never outputs.
+
+use std::fs::{self, File, Metadata};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+/// Reads a regular file that is at most so long. A pipe or a device, which may have no end or never an answer, is not
+/// opened: what the path leads to is looked up before, the file is opened without waiting, and looked up again.
+///
+/// # Errors
+/// Those of the file system; where it is no regular file, or longer than `most`.
+pub(crate) fn read_regular(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let regular = |found: &Metadata| {
+        let refused = || io::Error::other("it is not a regular file");
+        if found.is_file() { Ok(()) } else { Err(refused()) }
+    };
+    regular(&fs::metadata(path)?)?;
+    let file = open_at_once(path)?;
+    regular(&file.metadata()?)?;
+    let mut bytes = Vec::new();
+    file.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        return Err(io::Error::other(format!("it is larger than {} MiB", most >> 20)));
+    }
+    Ok(bytes)
+}
+
+/// Opens a file for reading, and never waits for whoever writes a pipe.
+#[cfg(unix)]
+fn open_at_once(path: &Path) -> io::Result<File> {
+    use rustix::fs::{Mode, OFlags, open};
+    let flags = OFlags::RDONLY | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::CLOEXEC;
+    Ok(open(path, flags, Mode::empty())?.into())
+}
+
+#[cfg(not(unix))]
+fn open_at_once(path: &Path) -> io::Result<File> {
+    File::open(path)
+}
+
+/// The files that a study was read from.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Inputs {
+    files: Vec<PathBuf>,
+    /// Whether its text came from standard input.
+    standard_input: bool,
+}
+
+/// A file that a study was read from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Input {
+    name: String,
+}
+
+impl Input {
+    /// Why it is no output.
+    pub fn refusal(&self) -> String {
+        format!("would overwrite {}, which the study is read from; choose another name", self.name)
+    }
+}
+
+impl Inputs {
+    /// No file is read.
+    pub const NONE: Self = Self { files: Vec::new(), standard_input: false };
+
+    /// These files; `-` is standard input.
+    pub(crate) fn of<'p>(paths: impl IntoIterator<Item = &'p Path>) -> Self {
+        let mut inputs = Self::NONE;
+        for path in paths {
+            if path == Path::new("-") {
+                inputs.standard_input = true;
+            } else {
+                inputs.files.push(path.to_owned());
+            }
+        }
+        inputs
+    }
+
+    /// The file that `path` is, by whatever name: through links, or as a second name of the same file.
+    pub fn at(&self, path: &Path) -> Option<Input> {
+        let found = fs::metadata(path).ok().filter(Metadata::is_file)?;
+        if self.standard_input && is_standard_input(&found) {
+            return Some(Input { name: "the file that is standard input".to_owned() });
+        }
+        let same = |file: &&PathBuf| is_same(file, path, &found);
+        self.files.iter().find(same).map(|file| Input { name: file.display().to_string() })
+    }
+
+    /// A file that is in the folder `path`, or is it.
+    pub fn inside(&self, path: &Path) -> Option<Input> {
+        let folder = path.canonicalize().ok()?;
+        let within = |file: &&PathBuf| file.canonicalize().is_ok_and(|it| it.starts_with(&folder));
+        self.files.iter().find(within).map(|file| Input { name: file.display().to_string() })
+    }
+}
+
+/// Whether a file is the one that was `found` at `path`.
+#[cfg(unix)]
+fn is_same(file: &Path, _path: &Path, found: &Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let identity = |it: &Metadata| (it.dev(), it.ino());
+    fs::metadata(file).is_ok_and(|file| identity(&file) == identity(found))
+}
+
+#[cfg(not(unix))]
+fn is_same(file: &Path, path: &Path, _found: &Metadata) -> bool {
+    matches!((file.canonicalize(), path.canonicalize()), (Ok(file), Ok(path)) if file == path)
+}
+
+/// Whether the file that was found is the one that is standard input.
+#[cfg(unix)]
+fn is_standard_input(found: &Metadata) -> bool {
+    use std::os::fd::AsFd;
+    use std::os::unix::fs::MetadataExt;
+    let handle = io::stdin().as_fd().try_clone_to_owned();
+    let there = handle.and_then(|handle| File::from(handle).metadata());
+    there.is_ok_and(|it| (it.dev(), it.ino()) == (found.dev(), found.ino()))
+}
+
+#[cfg(not(unix))]
+fn is_standard_input(_found: &Metadata) -> bool {
+    false
+}

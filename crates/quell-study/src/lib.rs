@@ -1,0 +1,38 @@
+//! Study files: text → document → a valid [`Study`], with every complaint at once.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`study`] | the study of a belt or of a disc, its keys, and changes to it |
+//! | [`complaint`] | what is wrong, where, and what is allowed |
+//! | [`quantity`] | numbers with units in options and arguments |
+//! | [`input`] | the files that a study was read from, which are never outputs |
+//! | [`schema`] | the JSON Schema of a study file |
+//!
+//! Nothing is computed here: the engines take the belt or the disc of a study, and the front door runs them.
+//!
+//! ```
+//! use quell_study::Study;
+//!
+//! let text = "
+//!     [belt]
+//!     damping_ratio = 0.005
+//!     normal_load = 1.0
+//!     belt_velocity = 0.05
+//!     [friction]
+//!     law = \"coulomb\"
+//!     coefficient = 0.3
+//! ";
+//! let study = Study::parse(text, &[]).expect("valid");
+//! assert_eq!(study.belt().belt_velocity(), 0.05);
+//! let wrong = Study::parse(&text.replace("0.05", "-1"), &[]).expect_err("a belt moves forwards");
+//! assert_eq!(wrong[0].key, "belt.belt_velocity");
+//! ```
+
+pub mod complaint;
+pub mod input;
+pub mod quantity;
+pub mod schema;
+pub mod study;
+
+pub use complaint::{Complaint, Failure, Fault, Origin};
+pub use study::{Change, DiscStudy, Study, Subject};

@@ -1,0 +1,177 @@
+//! Quantities on the command line and in Python: `0.5`, `0.5s`, `20 mm/s`.
+//!
+//! A plain number is in the system of the study: in SI where the study is, else one of the equations. A number with
+//! a unit needs a study in SI; angles and ratios have units (`30deg`, `2%`) in any.
+
+use quell_model::units::measure::{self, Unread};
+use quell_model::units::{Quantity, Scales};
+use serde_json::Value as Json;
+
+use crate::complaint::Complaint;
+use crate::study::{DiscStudy, vocabulary};
+
+/// Unit of a quantity in the numbers of the equations. The lengths of a study in SI are metres.
+pub fn unit_of(quantity: Quantity, si: bool) -> String {
+    let unit = quantity.scaled_unit();
+    if si { unit.replacen("length", "m", 1) } else { unit.to_owned() }
+}
+
+/// Reads a quantity into the number of the equations.
+///
+/// # Errors
+/// A complaint about `option` where the text is not a finite number, the unit is not one of
+/// the quantity, or a unit is given to a study without SI.
+pub fn parse(
+    text: &str,
+    quantity: Quantity,
+    scales: Option<Scales>,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    let text = text.trim();
+    let unit = match (quantity, quantity.si_unit()) {
+        (Quantity::Angle, _) => Some("rad"),
+        (Quantity::Ratio, _) => Some("1"),
+        (_, Some((unit, _))) => Some(unit).filter(|_| scales.is_some()),
+        (_, None) => None,
+    };
+    let found = measured(text, unit, quantity.scaled_unit(), option)?;
+    let found = scales.map_or(found, |scales| scales.from_si(quantity, found));
+    if found.is_finite() {
+        return Ok(found);
+    }
+    let allowed = format!("a smaller number of {}", unit.unwrap_or(quantity.scaled_unit()));
+    Err(Box::new(Complaint::option(option, text, allowed)))
+}
+
+/// Reads a speed or a frequency of a disc into ω_ref: a plain number is in hertz where the study has numbers in SI, else in
+/// ω_ref; one with a unit (`20kHz`, `900rpm`) needs a study that says what ω_ref is.
+///
+/// # Errors
+/// A complaint about `option`.
+pub fn frequency(
+    text: &str,
+    study: Option<&DiscStudy>,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    // Of a study that could not be read it is not known what ω_ref is: units are no fault there.
+    let hertz = study.map_or(Some(1.0), DiscStudy::reference_hz);
+    let in_hertz = study.is_some_and(DiscStudy::is_si) || measure::has_unit(text);
+    match hertz.filter(|_| in_hertz) {
+        Some(hertz) => measured(text, Some("Hz"), "", option).map(|found| found / hertz),
+        None => measured(text, None, "ω_ref", option),
+    }
+}
+
+/// Reads a value of the number that a path names, in the unit of its key. Where the path names none, which is for its
+/// own reader to refuse, the unit is not looked at.
+///
+/// # Errors
+/// As [`parse`].
+pub fn value_of_key(text: &str, path: &str, option: &'static str) -> Result<f64, Box<Complaint>> {
+    let Ok(address) = vocabulary::resolve(path) else {
+        return measured(text, Some("1"), "", option).or(Ok(0.0));
+    };
+    measured(text, address.key.measured_in(), address.key.unit_in_words(), option)
+}
+
+/// A finite number in a unit, or in the words for numbers without one.
+fn measured(
+    text: &str,
+    unit: Option<&'static str>,
+    otherwise: &'static str,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    let text = text.trim();
+    let why = match measure::read(text, unit) {
+        Ok(number) if number.is_finite() => return Ok(number),
+        Err(why) if measure::has_unit(text) => Some(why),
+        _ => None,
+    };
+    let wanted = match (unit, otherwise) {
+        (None | Some("1"), "" | "1") => "a finite number".to_owned(),
+        (None, unit) => format!("a finite number in {unit}"),
+        (Some("1"), _) => "a finite number, or one in %".to_owned(),
+        (Some(unit), _) => {
+            format!("a finite number in {unit}, or one with a unit such as 0.5{unit}")
+        }
+    };
+    let allowed = match why {
+        None => wanted,
+        Some(why @ Unread::NoUnitHere(_)) => format!(
+            "{wanted}: {why}; units need a study in SI, with belt.mass_kg and its keys in SI"
+        ),
+        Some(why) => format!("{wanted}: {why}"),
+    };
+    Err(Box::new(Complaint::option(option, text, allowed)))
+}
+
+/// Longest time τ of a run, 1.6·10⁸ slow periods: nobody waits for longer ones.
+pub const MOST_TIME: f64 = 1e9;
+
+/// Reads how long a run lasts.
+///
+/// # Errors
+/// As [`parse`], and where nobody could wait for it.
+pub fn duration(
+    text: &str,
+    scales: Option<Scales>,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    let time = parse(text, Quantity::Time, scales, option)?;
+    bearable(time, text, option)
+}
+
+/// Refuses a time τ that no run could cover, reported as it was given.
+///
+/// # Errors
+/// A complaint about `option`.
+pub fn bearable(
+    time: f64,
+    given: impl Into<Json>,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    if (0.0..=MOST_TIME).contains(&time) {
+        return Ok(time);
+    }
+    let allowed = format!("a time from 0, where a run starts, to τ = {MOST_TIME:e}");
+    Err(Box::new(Complaint::option(option, given, allowed)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_understood_in_a_study_in_si() {
+        let scales = Scales::new(2.0, 200.0).ok();
+        let time = |text| {
+            parse(text, Quantity::Time, scales, "--until").map_err(|complaint| complaint.allowed)
+        };
+        assert_eq!(time("3"), Ok(30.0));
+        assert_eq!(time("3s"), Ok(30.0));
+        assert_eq!(time("3000 ms"), Ok(30.0));
+        assert_eq!(time("-1e0s"), Ok(-10.0));
+        for wrong in ["", "s", "fast", "3m", "nan", "inf", "infs", "1e999", "1e308h", "--json"] {
+            assert!(time(wrong).is_err(), "{wrong}");
+        }
+        assert!(time("3m").is_err_and(|allowed| allowed.contains("in s")));
+        assert_eq!(parse("50mm/s", Quantity::Velocity, scales, "--at").ok(), Some(0.005));
+    }
+
+    #[test]
+    fn a_value_is_in_the_unit_of_its_key() {
+        let of = |text, path| value_of_key(text, path, "--from").map_err(|told| told.allowed);
+        assert_eq!(of("5kN", "dither.amplitude_n"), Ok(5000.0));
+        assert_eq!(of("5000", "dither.amplitude_n"), Ok(5000.0));
+        assert_eq!(of("90deg", "dither.phase"), Ok(std::f64::consts::FRAC_PI_2));
+        assert_eq!(of("2%", "belt.damping_ratio"), Ok(0.02));
+        assert!(of("5m", "dither.amplitude_n").expect_err("a length").contains("in N"));
+        assert!(of("5kN", "dither.amplitude").expect_err("no unit").contains("mass_kg"));
+    }
+
+    #[test]
+    fn units_need_a_study_in_si() {
+        let told = parse("3s", Quantity::Time, None, "--until").expect_err("no scales");
+        assert!(told.allowed.contains("mass_kg") && told.key == "--until");
+    }
+}

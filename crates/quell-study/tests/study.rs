@@ -1,0 +1,695 @@
+//! Studies, good and bad: what is read, and every complaint that must be told.
+
+use std::f64::consts::{PI, TAU};
+
+use quell_study::study::{Axis, InitialState};
+use quell_study::{Change, Complaint, Fault, Study};
+
+const GOOD: &str = r#"schema = 1
+title = "Stribeck belt"
+[belt]
+damping_ratio = 0.005
+normal_load = 1.0
+belt_velocity = 0.05
+[friction]
+law = "stribeck"
+static_coefficient = 0.4
+minimum_coefficient = 0.2857
+reference_velocity = 0.2
+[dither]
+direction = "tangential"
+waveform = "sine"
+amplitude = 0.4
+frequency_ratio = 10
+"#;
+
+const SI: &str = r#"schema = 1
+[belt]
+mass_kg = 2.5
+stiffness_n_per_m = 1.0e6
+damping_n_s_per_m = 15.8
+normal_force_n = 350.0
+belt_velocity_m_per_s = 0.02
+[friction]
+law = "decreasing"
+static_coefficient = 0.4
+minimum_coefficient = 0.2857
+reference_velocity_m_per_s = 0.03
+[[dither]]
+direction = "normal"
+waveform = "triangle"
+amplitude_n_rms = 60.0
+frequency_hz = 2000.0
+[[dither]]
+direction = "tangential"
+waveform = "square"
+amplitude_n = 40.0
+frequency_hz = 3000.0
+phase = 0.5
+"#;
+
+fn set(changes: &[&str]) -> Vec<Change> {
+    changes.iter().map(|text| Change::parse(text, "--set").expect("path=value")).collect()
+}
+
+fn good(changes: &[&str]) -> Study {
+    Study::parse(GOOD, &set(changes)).unwrap_or_else(|errors| panic!("{errors:?}"))
+}
+
+fn complaints(text: &str, changes: &[&str]) -> Vec<Complaint> {
+    Study::parse(text, &set(changes)).expect_err(text)
+}
+
+/// What one complaint must say: fault, key, line, a part of what is allowed, suggestion.
+type Said = (Fault, &'static str, Option<usize>, &'static str, Option<&'static str>);
+
+fn check(text: &str, expected: &[Said]) {
+    let told = complaints(text, &[]);
+    let told: Vec<_> = told.iter().collect();
+    for (fault, key, line, allowed, suggestion) in expected {
+        let found =
+            told.iter().find(|complaint| complaint.fault == *fault && complaint.key == *key);
+        let Some(found) = found else {
+            panic!("no complaint {fault:?} about {key} in {told:#?}\n{text}");
+        };
+        assert_eq!(found.origin.line(), *line, "{found}");
+        assert!(found.allowed.contains(allowed), "{found}: wants {allowed:?}");
+        assert_eq!(found.suggestion.as_deref(), *suggestion, "{found}");
+    }
+    assert_eq!(told.len(), expected.len(), "{told:#?}");
+}
+
+#[test]
+fn a_good_study_is_read() {
+    let study = good(&[]);
+    assert_eq!(study.title(), Some("Stribeck belt"));
+    assert_eq!(study.belt().get("dither.frequency_ratio"), Some(10.0));
+    assert_eq!(study.belt().get("friction.minimum_coefficient"), Some(0.2857));
+    assert_eq!(study.initial(), InitialState::Rest);
+    assert_eq!((study.solver().tolerance, study.solver().record_periods), (1e-12, 60));
+    assert_eq!(study.solver().settle, 1200.0);
+    assert!(study.scales().is_none() && study.sweeps().is_empty());
+}
+
+/// Replacements in the good study, and what must be said about each.
+const WRONG: &[(&str, &str, Said)] = &[
+    ("= 0.005", "= -0.1", (Fault::Value, "belt.damping_ratio", Some(4), "≥ 0", None)),
+    ("= 0.005", "= nan", (Fault::Value, "belt.damping_ratio", Some(4), "≥ 0", None)),
+    ("= 0.005", "= inf", (Fault::Value, "belt.damping_ratio", Some(4), "finite", None)),
+    ("= 0.005", "= 1e999", (Fault::Value, "belt.damping_ratio", Some(4), "finite", None)),
+    ("= 0.005", "= \"0.1\"", (Fault::Value, "belt.damping_ratio", Some(4), "without quotes", None)),
+    ("= 0.005", "= true", (Fault::Value, "belt.damping_ratio", Some(4), "number", None)),
+    ("= 0.005", "= [1]", (Fault::Value, "belt.damping_ratio", Some(4), "an array", None)),
+    ("= 0.005", "= 1979-05-27", (Fault::Value, "belt.damping_ratio", Some(4), "a date", None)),
+    (
+        "normal_load = 1.0",
+        "normal_load = 0",
+        (Fault::Value, "belt.normal_load", Some(5), "> 0", None),
+    ),
+    ("normal_load = 1.0\n", "", (Fault::Missing, "belt.normal_load", Some(3), "> 0", None)),
+    (
+        "frequency_ratio = 10",
+        "frequency_ratio = 0",
+        (Fault::Value, "dither.frequency_ratio", Some(16), "(0, 100000]", None),
+    ),
+    (
+        "amplitude = 0.4",
+        "amplitude = -1",
+        (Fault::Value, "dither.amplitude", Some(15), "≥ 0", None),
+    ),
+    (
+        "0.2857",
+        "0.5",
+        (Fault::Value, "friction.minimum_coefficient", Some(10), "static_coefficient = 0.4", None),
+    ),
+    (
+        "\"stribeck\"",
+        "\"stribek\"",
+        (Fault::Value, "friction.law", Some(8), "\"decreasing\"", Some("\"stribeck\"")),
+    ),
+    ("\"stribeck\"", "3", (Fault::Value, "friction.law", Some(8), "\"decreasing\"", None)),
+    ("law = \"stribeck\"\n", "", (Fault::Missing, "friction.law", Some(7), "\"decreasing\"", None)),
+    (
+        "\"sine\"",
+        "\"sin\"",
+        (Fault::Value, "dither.waveform", Some(14), "\"square\"", Some("\"sine\"")),
+    ),
+    (
+        "\"tangential\"",
+        "\"sideways\"",
+        (Fault::Value, "dither.direction", Some(13), "\"normal\"", None),
+    ),
+    ("schema = 1", "schema = 2", (Fault::Value, "schema", Some(1), "1", None)),
+    ("title = \"Stribeck belt\"", "title = 3", (Fault::Value, "title", Some(2), "a string", None)),
+    ("title", "titel", (Fault::Unknown, "titel", Some(2), "title", Some("title"))),
+    ("[friction]", "[frction]", (Fault::Unknown, "frction", Some(7), "friction", Some("friction"))),
+    (
+        "[dither]",
+        "[solver]\ntolerance = 0.5\n[dither]",
+        (Fault::Value, "solver.tolerance", Some(13), "0.001", None),
+    ),
+    (
+        "[dither]",
+        "[solver]\nrecord_periods = 2.5\n[dither]",
+        (Fault::Value, "solver.record_periods", Some(13), "whole", None),
+    ),
+    (
+        "[dither]",
+        "[solver]\nsettle = -1\n[dither]",
+        (Fault::Value, "solver.settle", Some(13), "[0", None),
+    ),
+    (
+        "[dither]",
+        "[solver]\nsteps = 1\n[dither]",
+        (Fault::Unknown, "solver.steps", Some(13), "tolerance", None),
+    ),
+    (
+        "[dither]",
+        "solver = 1\n[dither]",
+        (Fault::Unknown, "friction.solver", Some(12), "law", None),
+    ),
+    (
+        "[friction]",
+        "initial = 3\n[friction]",
+        (Fault::Value, "belt.initial", Some(7), "a table", None),
+    ),
+    (
+        "[friction]",
+        "[belt.initial]\nstate = \"resting\"\n[friction]",
+        (Fault::Value, "belt.initial.state", Some(8), "\"sliding\"", Some("\"rest\"")),
+    ),
+    (
+        "[friction]",
+        "[belt.initial]\nstate = \"rest\"\nvelocity = 1\n[friction]",
+        (Fault::Conflict, "belt.initial.state", Some(8), "not both", None),
+    ),
+    (
+        "[friction]",
+        "[belt.initial]\ndisplacement = nan\n[friction]",
+        (Fault::Value, "belt.initial.displacement", Some(8), "finite", None),
+    ),
+    (
+        "amplitude = 0.4",
+        "amplitude_n = 0.4",
+        (
+            Fault::Mixed,
+            "dither.amplitude_n",
+            Some(15),
+            "dither.amplitude",
+            Some("dither.amplitude"),
+        ),
+    ),
+    (
+        "[dither]",
+        "[system]\n[dither]",
+        (Fault::NotBuilt, "system", Some(12), "not built yet", None),
+    ),
+    ("schema = 1", "schema = 1\nschema = 1", (Fault::Syntax, "study", Some(2), "duplicate", None)),
+    ("schema = 1", "schema == 1", (Fault::Syntax, "study", Some(1), "", None)),
+];
+
+#[test]
+fn one_wrong_value_gives_one_complaint() {
+    let wrong = |from: &str, to: &str| GOOD.replace(from, to);
+    for (from, to, said) in WRONG {
+        if *from == "[friction]" && *to == "[frction]" {
+            let table = (Fault::Missing, "friction", None, "[friction]", None);
+            check(&wrong(from, to), &[*said, table]);
+        } else {
+            check(&wrong(from, to), &[*said]);
+        }
+    }
+}
+
+#[test]
+fn normal_dither_beyond_the_load_is_refused() {
+    let text =
+        GOOD.replace("\"tangential\"", "\"normal\"").replace("amplitude = 0.4", "amplitude = 1.5");
+    check(&text, &[(Fault::Value, "dither.amplitude", Some(15), "pull the contact apart", None)]);
+    let text = SI.replace("amplitude_n_rms = 60.0", "amplitude_n_rms = 300.0");
+    let told = complaints(&text, &[]);
+    assert_eq!((told.len(), told[0].key.as_str()), (1, "dither[0].amplitude_n_rms"));
+    assert!(told[0].allowed.contains("normal_force_n = 350 N"), "{}", told[0]);
+    let given = told[0].value.as_f64().expect("a number");
+    assert!((given - 300.0).abs() < 1e-10, "{given}");
+}
+
+#[test]
+fn all_complaints_come_at_once_in_the_order_of_the_text() {
+    let text = r#"schema = 1
+colour = "red"
+[belt]
+dampng_ratio = 0.1
+damping_ratio = -1
+normal_load = 1
+belt_velocity = "fast"
+[friction]
+law = "stribeck"
+static_coefficient = 0.1
+minimum_coefficient = 0.2
+reference_velocity = 0
+[[dither]]
+direction = "normal"
+waveform = "sine"
+amplitude = 2
+frequency_ratio = 10
+[[dither]]
+direction = "tangential"
+waveform = "sine"
+amplitude = nan
+frequency_ratio = 0
+phse = 1
+"#;
+    check(
+        text,
+        &[
+            (Fault::Unknown, "colour", Some(2), "title", None),
+            (
+                Fault::Unknown,
+                "belt.dampng_ratio",
+                Some(4),
+                "damping_ratio",
+                Some("belt.damping_ratio"),
+            ),
+            (Fault::Value, "belt.damping_ratio", Some(5), "≥ 0", None),
+            (Fault::Value, "belt.belt_velocity", Some(7), "number", None),
+            (Fault::Value, "friction.minimum_coefficient", Some(11), "at most", None),
+            (Fault::Value, "friction.reference_velocity", Some(12), "> 0", None),
+            (Fault::Value, "dither[1].amplitude", Some(21), "≥ 0", None),
+            (Fault::Value, "dither[1].frequency_ratio", Some(22), "(0, 100000]", None),
+            (Fault::Unknown, "dither[1].phse", Some(23), "phase", Some("dither[1].phase")),
+        ],
+    );
+    // With the second dither right, the first one's separation is told beside the rest.
+    let text =
+        text.replace("= nan", "= 1").replace("frequency_ratio = 0\n", "frequency_ratio = 3\n");
+    let told = complaints(&text, &[]);
+    assert!(
+        told.iter().any(|complaint| complaint.allowed.contains("pull the contact apart")),
+        "{told:#?}"
+    );
+    let lines: Vec<_> = told.iter().filter_map(|complaint| complaint.origin.line()).collect();
+    assert!(lines.is_sorted() && lines.len() == told.len(), "{lines:?}");
+}
+
+#[test]
+fn a_disc_is_no_study_of_a_belt() {
+    check(
+        "schema = 1\n[disc]\ninner_radius_ratio = 0.5\n[disc.load]\nmass = 0.1\n",
+        &[(Fault::Conflict, "disc", Some(2), "about a belt", None)],
+    );
+}
+
+#[test]
+fn si_and_the_numbers_of_the_equations_give_the_same_belt() {
+    let si = Study::parse(SI, &[]).unwrap_or_else(|errors| panic!("{errors:?}"));
+    let (mass, stiffness) = (2.5_f64, 1.0e6_f64);
+    let omega = (stiffness / mass).sqrt();
+    let plain = format!(
+        "schema = 1\n[belt]\ndamping_ratio = {:e}\nnormal_load = {:e}\nbelt_velocity = {:e}\n\
+         [friction]\nlaw = \"decreasing\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\n\
+         reference_velocity = {:e}\n[[dither]]\ndirection = \"normal\"\nwaveform = \"triangle\"\n\
+         amplitude = {:e}\nfrequency_ratio = {:e}\n[[dither]]\ndirection = \"tangential\"\n\
+         waveform = \"square\"\namplitude = {:e}\nfrequency_ratio = {:e}\nphase = 0.5\n",
+        15.8 / (2.0 * mass * omega),
+        350.0 / stiffness,
+        0.02 / omega,
+        0.03 / omega,
+        60.0 * 3f64.sqrt() / stiffness,
+        TAU * 2000.0 / omega,
+        40.0 / stiffness,
+        2.0 * PI * 3000.0 / omega,
+    );
+    let plain = Study::parse(&plain, &[]).unwrap_or_else(|errors| panic!("{errors:?}"));
+    for path in [
+        "belt.damping_ratio",
+        "belt.normal_load",
+        "belt.belt_velocity",
+        "friction.static_coefficient",
+        "friction.minimum_coefficient",
+        "friction.reference_velocity",
+        "dither[0].amplitude",
+        "dither[0].frequency_ratio",
+        "dither[1].amplitude",
+        "dither[1].frequency_ratio",
+        "dither[1].phase",
+    ] {
+        let (a, b) = (si.belt().get(path), plain.belt().get(path));
+        let (a, b) = a.zip(b).expect(path);
+        assert!((a - b).abs() <= 1e-15 * b.abs(), "{path}: {a} {b}");
+    }
+    assert_eq!(si.scales().map(|scales| scales.mass_kg()), Some(2.5));
+}
+
+#[test]
+fn a_belt_in_si_may_give_its_natural_frequency_and_damping_ratio() {
+    let plain = Study::parse(SI, &[]).expect("valid");
+    let scales = plain.scales().expect("in SI");
+    let hertz = scales.angular_frequency() / TAU;
+    let ratio = plain.belt().damping_ratio();
+    let stiffness = SI.lines().find(|line| line.starts_with("stiffness_n_per_m")).expect("there");
+    let stated = SI
+        .replace(stiffness, &format!("natural_frequency_hz = {hertz:?}"))
+        .replace("damping_n_s_per_m = 15.8", &format!("damping_ratio = {ratio:?}"));
+    let other = Study::parse(&stated, &[]).expect("valid");
+    let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 4e-15, "{a} {b}");
+    assert_eq!(other.belt().damping_ratio(), ratio);
+    close(other.belt().normal_load(), plain.belt().normal_load());
+    close(other.scales().expect("in SI").stiffness_n_per_m(), scales.stiffness_n_per_m());
+    // Each may stand alone, and `--set` takes one in the place of the other.
+    let half = SI.replace("damping_n_s_per_m = 15.8", "damping_ratio = 0.005");
+    assert_eq!(Study::parse(&half, &[]).expect("valid").belt().damping_ratio(), 0.005);
+    let changes = set(&["belt.natural_frequency_hz=0.1kHz", "belt.damping_ratio=2%"]);
+    let changed = Study::parse(SI, &changes).expect("valid");
+    close(changed.scales().expect("in SI").angular_frequency(), 200.0 * PI);
+    assert_eq!(changed.belt().damping_ratio(), 0.02);
+    // Both at once is a contradiction.
+    for (line, more, key) in [
+        (stiffness, "natural_frequency_hz = 100", "belt.natural_frequency_hz"),
+        ("damping_n_s_per_m = 15.8", "damping_ratio = 0.01", "belt.damping_ratio"),
+    ] {
+        let both = SI.replace(line, &format!("{line}\n{more}"));
+        let complaints = Study::parse(&both, &[]).expect_err("both are given");
+        assert_eq!(complaints.len(), 1, "{complaints:?}");
+        assert_eq!((complaints[0].fault, complaints[0].key.as_str()), (Fault::Conflict, key));
+        assert!(complaints[0].allowed.contains("not both"), "{}", complaints[0].allowed);
+    }
+    let missing = SI.replace(&format!("{stiffness}\n"), "");
+    let complaints = Study::parse(&missing, &[]).expect_err("nothing says it");
+    assert!(complaints[0].allowed.contains("or belt.natural_frequency_hz"), "{complaints:?}");
+}
+
+#[test]
+fn numbers_may_have_units() {
+    let with = |changes: &[&str]| Study::parse(SI, &set(changes));
+    let (plain, units) = (
+        with(&[
+            "belt.belt_velocity_m_per_s=0.1",
+            "belt.mass_kg=2.5",
+            "dither[0].phase=1.5707963267948966",
+        ]),
+        with(&[
+            "belt.belt_velocity_m_per_s=0.36km/h",
+            "belt.mass_kg=2500 g",
+            "dither[0].phase=90deg",
+        ]),
+    );
+    let (plain, units) = (plain.expect("valid"), units.expect("valid"));
+    assert_eq!(plain.belt(), units.belt());
+    assert_eq!(plain.settings(), units.settings());
+    // In the file as well, and for the ends of an axis.
+    let text = SI.replace("normal_force_n = 350.0", "normal_force_n = '0.35 kN'");
+    assert_eq!(Study::parse(&text, &[]).expect("valid").belt(), with(&[]).expect("valid").belt());
+    let axis = "[[sweep]]\nparameter = 'dither[0].frequency_hz'\nfrom = '1kHz'\nto = '4000 Hz'\npoints = 3\n";
+    let swept = Study::parse(&format!("{SI}{axis}"), &[]).expect("valid");
+    assert_eq!(swept.sweeps()[0].axis.values().collect::<Vec<_>>(), [1000.0, 2500.0, 4000.0]);
+    let listed = with(&["sweep[0].parameter=belt.normal_force_n", "sweep[0].values=[0.3kN, 350]"]);
+    let listed = listed.expect("valid");
+    assert_eq!(listed.sweeps()[0].axis.values().collect::<Vec<_>>(), [300.0, 350.0]);
+    // A unit of another dimension, one that is not a unit, and one in a study without SI.
+    for (text, key, told) in [
+        ("belt.normal_force_n=5m", "belt.normal_force_n", "in N; m measures something else"),
+        ("belt.normal_force_n=5kg", "belt.normal_force_n", "kg measures something else"),
+        ("belt.normal_force_n=5 stone", "belt.normal_force_n", "stone is not a unit"),
+        ("solver.record_periods=5s", "solver.record_periods", "no unit, and s is one"),
+    ] {
+        let complaints = with(&[text]).expect_err(text);
+        assert_eq!(complaints[0].key, key);
+        assert!(complaints[0].allowed.contains(told), "{text}: {}", complaints[0].allowed);
+    }
+    let complaints = Study::parse(GOOD, &set(&["belt.normal_load=5N"])).expect_err("no SI");
+    assert!(complaints[0].allowed.contains("units need a study in SI"), "{complaints:?}");
+}
+
+#[test]
+fn hints_are_keys_that_the_study_has() {
+    for (path, si, scaled) in [
+        ("belt.normal_laod", "belt.normal_force_n", "belt.normal_load"),
+        ("belt.initial.displacment", "belt.initial.displacement_m", "belt.initial.displacement"),
+        ("belt.initial.velocty", "belt.initial.velocity_m_per_s", "belt.initial.velocity"),
+        ("solver.setle", "solver.settle_s", "solver.settle"),
+        ("dither[0].amplitud", "dither[0].amplitude_n", "dither[0].amplitude"),
+    ] {
+        for (text, wanted) in [(SI, si), (GOOD, scaled)] {
+            let complaints =
+                Study::parse(text, &set(&[&format!("{path}=1")])).expect_err("no such key");
+            let hint = complaints.iter().find_map(|it| it.suggestion.as_deref());
+            assert_eq!(hint, Some(wanted), "{path}: {complaints:?}");
+        }
+    }
+}
+
+#[test]
+fn systems_do_not_mix() {
+    let mixed = SI.replace("normal_force_n", "normal_load");
+    let line = 1 + SI.lines().position(|line| line.starts_with("normal_force_n")).expect("there");
+    check(
+        &mixed,
+        &[(
+            Fault::Mixed,
+            "belt.normal_load",
+            Some(line),
+            "normal_force_n",
+            Some("belt.normal_force_n"),
+        )],
+    );
+    let both = SI.replace("amplitude_n = 40.0", "amplitude_n = 40.0\namplitude_n_rms = 40.0");
+    check(&both, &[(Fault::Conflict, "dither[1].amplitude_n_rms", Some(22), "not both", None)]);
+    let solver = format!("{SI}[solver]\nsettle = 100\n");
+    check(
+        &solver,
+        &[(Fault::Mixed, "solver.settle", Some(25), "settle_s", Some("solver.settle_s"))],
+    );
+    let no_mass = SI.replace("mass_kg = 2.5\n", "");
+    check(&no_mass, &[(Fault::Missing, "belt.mass_kg", Some(2), "kg", None)]);
+    let negative = SI.replace("mass_kg = 2.5", "mass_kg = -2.5").replace("= 350.0", "= -3");
+    check(
+        &negative,
+        &[
+            (Fault::Value, "belt.mass_kg", Some(3), "> 0", None),
+            (Fault::Value, "belt.normal_force_n", Some(6), "> 0", None),
+        ],
+    );
+}
+
+#[test]
+fn suggestions_are_in_the_system_of_the_study() {
+    let told = complaints(&SI.replace("damping_n_s_per_m", "dampng_ratio"), &[]);
+    let unknown = told.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
+    // The damping ratio is a key of a study in SI as well.
+    assert_eq!(unknown.suggestion.as_deref(), Some("belt.damping_ratio"));
+    let told = complaints(&SI.replace("normal_force_n", "normal_laod"), &[]);
+    let unknown = told.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
+    assert_eq!(unknown.suggestion.as_deref(), Some("belt.normal_force_n"));
+    let told = complaints(&GOOD.replace("amplitude = 0.4", "amplitud_n = 0.4"), &[]);
+    let unknown = told.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
+    assert_eq!(unknown.suggestion.as_deref(), Some("dither.amplitude"));
+}
+
+#[test]
+fn set_reaches_every_key() {
+    let study = good(&[
+        "belt.damping_ratio=0.1",
+        "friction.law=decreasing",
+        "dither.waveform=\"square\"",
+        "dither[0].amplitude=0.9",
+        "dither.phase=1",
+        "belt.initial.state=sliding",
+        "solver.tolerance=1e-9",
+        "title=another",
+    ]);
+    assert_eq!(study.belt().damping_ratio(), 0.1);
+    assert_eq!(study.belt().friction().kind().name(), "decreasing");
+    assert_eq!(study.belt().dithers()[0].waveform.name(), "square");
+    assert_eq!(study.belt().dithers()[0].amplitude, 0.9);
+    assert_eq!(study.initial(), InitialState::Sliding);
+    assert_eq!((study.solver().tolerance, study.title()), (1e-9, Some("another")));
+    let si = Study::parse(SI, &set(&["dither[0].amplitude_n=100", "belt.normal_force_n=400"]));
+    let si = si.unwrap_or_else(|errors| panic!("{errors:?}"));
+    assert_eq!(si.belt().normal_load(), 400.0 / 1.0e6);
+    assert_eq!(si.belt().dithers()[0].amplitude, 100.0 / 1.0e6);
+    // A later state takes the place of an earlier one.
+    let study = good(&["belt.initial.state=sliding", "belt.initial.displacement=2"]);
+    assert_eq!(study.initial(), InitialState::Explicit { displacement: 2.0, velocity: 0.0 });
+}
+
+#[test]
+fn set_complains_about_what_it_cannot_reach() {
+    let one = |changes: &[&str]| {
+        let told = complaints(GOOD, changes);
+        assert_eq!(told.len(), 1, "{told:#?}");
+        told.into_iter().next().expect("one")
+    };
+    let unknown = one(&["belt.belt_velocty=0.1"]);
+    assert_eq!(
+        (unknown.fault, unknown.suggestion.as_deref()),
+        (Fault::Unknown, Some("belt.belt_velocity"))
+    );
+    assert_eq!(unknown.origin.line(), None);
+    assert_eq!(one(&["dither[1].amplitude=1"]).fault, Fault::Conflict);
+    assert_eq!(one(&["disc.inner_radius_ratio=1"]).fault, Fault::Conflict);
+    assert_eq!(one(&["belt.normal_load=-1"]).key, "belt.normal_load");
+    assert_eq!(one(&["belt.normal_force_n=3"]).fault, Fault::Mixed);
+    let told = complaints(SI, &["dither.phase=1", "belt.belt_velocity=1"]);
+    assert!(
+        told.iter()
+            .any(|complaint| complaint.fault == Fault::Conflict && complaint.key == "dither.phase")
+    );
+    assert!(
+        told.iter()
+            .any(|complaint| complaint.fault == Fault::Mixed
+                && complaint.key == "belt.belt_velocity")
+    );
+    assert!(Change::parse("belt.belt_velocity", "--set").is_err());
+}
+
+#[test]
+fn axes_are_read_and_checked() {
+    let text = format!(
+        "{GOOD}[[sweep]]\nparameter = \"dither.amplitude\"\nfrom = 0.05\nto = 1.0\npoints = 20\n\
+         [[sweep]]\nparameter = \"dither.frequency_ratio\"\nvalues = [5, 10.0]\n\
+         [[sweep]]\nparameter = \"belt.belt_velocity\"\nfrom = 0.01\nto = 1\npoints = 3\nspacing = \"log\"\n"
+    );
+    let study = Study::parse(&text, &[]).unwrap_or_else(|errors| panic!("{errors:?}"));
+    assert_eq!(study.sweeps().len(), 3);
+    assert_eq!(study.sweeps()[1].axis, Axis::Values(vec![5.0, 10.0]));
+    assert!((study.sweeps()[2].axis.value(1) - 0.1).abs() < 1e-16);
+    let changed = study.with("dither.amplitude", 0.7).expect("valid");
+    assert_eq!(changed.belt().dithers()[0].amplitude, 0.7);
+
+    let axis = |lines: &str| format!("{GOOD}[[sweep]]\n{lines}\n");
+    let said =
+        |fault, key, line, allowed, suggestion| -> Said { (fault, key, line, allowed, suggestion) };
+    for (lines, expected) in [
+        (
+            "parameter = \"dither.amplitud\"\nvalues = [1]",
+            said(Fault::Value, "sweep[0].parameter", Some(18), "path", Some("dither.amplitude")),
+        ),
+        (
+            "parameter = \"friction.law\"\nvalues = [1]",
+            said(Fault::Value, "sweep[0].parameter", Some(18), "a number", None),
+        ),
+        ("values = [1]", said(Fault::Missing, "sweep[0].parameter", Some(17), "path", None)),
+        (
+            "parameter = \"dither.phase\"\nvalues = []",
+            said(Fault::Value, "sweep[0].values", Some(19), "at least one", None),
+        ),
+        (
+            "parameter = \"dither.phase\"\nvalues = [nan]",
+            said(Fault::Value, "sweep[0].values[0]", Some(19), "finite", None),
+        ),
+        (
+            "parameter = \"dither.phase\"\nvalues = [1]\npoints = 3",
+            said(Fault::Conflict, "sweep[0].points", Some(20), "not both", None),
+        ),
+        (
+            "parameter = \"dither.phase\"\nfrom = 0\nto = 1\npoints = 1",
+            said(Fault::Value, "sweep[0].points", Some(21), "[2", None),
+        ),
+        (
+            "parameter = \"dither.phase\"\nfrom = 0\nto = 1\npoints = 3\nspacing = \"log\"",
+            said(Fault::Value, "sweep[0].from", Some(19), "> 0", None),
+        ),
+        (
+            "parameter = \"dither.amplitude\"\nvalues = [-1]",
+            said(Fault::Value, "sweep[0].parameter", Some(17), "≥ 0", None),
+        ),
+        (
+            "parameter = \"dither[3].amplitude\"\nvalues = [1]",
+            said(Fault::Conflict, "sweep[0].parameter", Some(17), "one [dither]", None),
+        ),
+        (
+            "parameter = \"dither.amplitude_n\"\nvalues = [1]",
+            said(
+                Fault::Mixed,
+                "sweep[0].parameter",
+                Some(17),
+                "dimensionless",
+                Some("dither.amplitude"),
+            ),
+        ),
+    ] {
+        check(&axis(lines), &[expected]);
+    }
+}
+
+#[test]
+fn axes_are_added_one_after_the_other_and_take_the_place_of_others() {
+    let axis = |index: usize, path: &str| {
+        [format!("sweep[{index}].parameter={path}"), format!("sweep[{index}].values=[0.1, 0.2]")]
+    };
+    let both: Vec<String> =
+        [axis(0, "dither.amplitude"), axis(1, "belt.belt_velocity")].concat().into_iter().collect();
+    let study = good(&both.iter().map(String::as_str).collect::<Vec<_>>());
+    let paths = |study: &Study| -> Vec<String> {
+        study.sweeps().iter().map(|sweep| sweep.path.clone()).collect()
+    };
+    assert_eq!(paths(&study), ["dither.amplitude", "belt.belt_velocity"]);
+    // An axis beyond the next one is still refused.
+    assert!(complaints(GOOD, &["sweep[1].parameter=dither.amplitude"])[0].fault == Fault::Conflict);
+
+    let mut table = quell_study::study::mirror::Table::default();
+    let value = |text| quell_study::study::mirror::Node::from_argument(text, "axes");
+    table.set("parameter", value("belt.normal_load"));
+    table.set("values", value("[1, 2, 3]"));
+    let other = study.sweeping(&[table]).expect("valid");
+    assert_eq!(paths(&other), ["belt.normal_load"]);
+    let told = ["sweep[0].parameter=\"belt.normal_load\"", "sweep[0].values=[1,2,3]"];
+    assert_eq!(other.changes(), told);
+    assert!(study.sweeping(&[]).expect("valid").sweeps().is_empty());
+}
+
+/// A key that another law has is told with the keys of this law: itself is no suggestion.
+#[test]
+fn a_key_of_another_law_is_told_with_its_law() {
+    let formula = ["friction.law=expression", "friction.coefficient=0.3*exp(-v)"];
+    for (changes, key, law) in [
+        (&formula[..], "friction.minimum_coefficient", "expression"),
+        (&["friction.coefficient=0.3"], "friction.coefficient", "stribeck"),
+        (&["friction.terms=2"], "friction.terms", "stribeck"),
+        (&["friction.constants.a=1"], "friction.constants", "stribeck"),
+    ] {
+        let told = complaints(GOOD, changes);
+        let found = told.iter().find(|it| it.key == key).unwrap_or_else(|| panic!("{told:?}"));
+        assert_eq!((found.fault, &found.suggestion), (Fault::Unknown, &None), "{found}");
+        let (keys, whose) = found.allowed.split_once(" for ").expect("whose keys");
+        assert_eq!(whose, format!("law = \"{law}\""));
+        let name = key.trim_start_matches("friction.");
+        assert!(keys.starts_with("law") && keys.split(", ").all(|it| it != name), "{keys}");
+    }
+    let told = complaints(GOOD, &["friction.minimum_coeficient=0.3"]);
+    assert!(told[0].suggestion.is_some(), "{told:?}");
+}
+
+#[test]
+fn a_table_is_set_key_by_key() {
+    for (change, key, example) in [
+        ("belt=3", "belt", "belt.damping_ratio"),
+        ("friction={}", "friction", "friction.law"),
+        ("dither[0]=1", "dither[0]", "dither.direction"),
+    ] {
+        let told = complaints(GOOD, &[change]);
+        assert_eq!((told.len(), told[0].fault, told[0].key.as_str()), (1, Fault::Value, key));
+        assert!(told[0].allowed.contains(&format!("key by key, such as {example}")), "{}", told[0]);
+    }
+}
+
+#[test]
+fn bounds_are_told_without_runs_of_zeros() {
+    use quell_model::parameter::Bounds;
+    let told = |lower, upper| Bounds { lower, lower_included: true, upper }.to_string();
+    assert_eq!(told(1e-300, f64::INFINITY), "a finite number ≥ 1e-300");
+    assert_eq!(told(0.0, 1e30), "a number in [0, 1e30]");
+    assert_eq!(told(-0.5, 20000.0), "a number in [-0.5, 20000]");
+}
+
+#[test]
+fn a_study_without_a_version_is_of_the_present_one() {
+    let study = good(&[]);
+    let without = GOOD.replace("schema = 1\n", "");
+    let bare = Study::parse(&without, &[]).expect("valid");
+    assert_eq!(bare.settings(), study.settings());
+    assert!(bare.settings().iter().any(|(path, value)| path == "schema" && value == "1.0"));
+    let set = Study::parse(&without, &set(&["schema=2"])).expect_err("no such version");
+    assert_eq!((set.len(), set[0].key.as_str()), (1, "schema"));
+}
