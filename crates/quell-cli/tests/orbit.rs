@@ -236,7 +236,7 @@ fn what_cannot_be_followed_does_not_take_the_rest_along() {
     let becomes: Vec<_> = changes.iter().filter_map(|it| it["becomes"].as_str()).collect();
     assert_eq!((becomes, found["warnings"].as_array().map(Vec::len)), (vec!["quenched"], Some(0)));
     for (amplitude, ends) in
-        [("1.05", "base response"), ("1.13807", "another response without slow vibration")]
+        [("1.05", "base response"), ("1.13807", "another response without slow motion of its own")]
     {
         let set = format!("dither.amplitude={amplitude}");
         let (found, _) = quell(&["response", OWN, "--set", &set]);

@@ -55,6 +55,9 @@ pub(super) const ONE_STATE: f64 = NEAR;
 /// fewest): nearer to a threshold than that a run is taken for settled.
 const WINDOWS: usize = 32;
 
+/// Longest run τ, in 32 000 slow periods: what moves for longer moves for ever, as far as a run can tell.
+const LONGEST: f64 = 2e5;
+
 /// How long and how closely.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patience {
@@ -162,6 +165,13 @@ struct Course {
     watches_area: bool,
     /// Whether it looked settled where areas grow.
     dwelt: bool,
+}
+
+/// Most periods of a run: as many as are asked for, but no longer than `LONGEST` where the strobe is slow.
+fn most_periods(scene: &Scene<'_>, patience: Patience) -> u64 {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+    let longest = (LONGEST / scene.strobe.period).ceil() as u64;
+    patience.periods.min(longest.max(FEWEST as u64))
 }
 
 /// Runs one start until it has settled.
@@ -343,7 +353,7 @@ impl Course {
             // A comparison of windows is too far from the next one for areas to be watched after it.
             self.watches_area = self.compares();
         }
-        if self.periods >= patience.periods {
+        if self.periods >= most_periods(scene, patience) {
             let why = if self.dwelt { Unsettled::Dwelling } else { Unsettled::Moving };
             return Some(self.over(Outcome::Unsettled(why), now));
         }

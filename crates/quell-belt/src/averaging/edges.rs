@@ -16,7 +16,7 @@ use quell_model::friction::{SlidingLaw, Stribeck};
 use quell_model::{Belt, Friction, Waveform};
 use quell_numerics::special::ln;
 
-use super::criterion::Criterion;
+use super::criterion::{Criterion, UndecidedBecause, Verdict};
 use super::decreasing::scaled_mean_exponential;
 use super::effective::{AveragingError, effective, single, undithered};
 use super::fast_motion::{AveragingOptions, FastMotion};
@@ -181,10 +181,11 @@ fn searched_edge(
 pub fn unstable_bands(belt: &Belt, options: AveragingOptions) -> Result<Vec<Band>, AveragingError> {
     let law = belt.friction();
     let motion = |v: f64| FastMotion::of(belt, v, options);
-    let mut value = |v: f64| -> Result<f64, AveragingError> {
+    let criterion = |v: f64| -> Result<Criterion, AveragingError> {
         let effective = effective(law, &motion(v)?, v)?;
-        Ok(Criterion::new(belt.damping_ratio(), belt.normal_load(), effective).value)
+        Ok(Criterion::new(belt.damping_ratio(), belt.normal_load(), effective))
     };
+    let value = |v: f64| criterion(v).map(|found| found.value);
     let vm = law.velocity_scale();
     // Fast velocity at most: the coefficient that drives normal dither is largest at the static level or far out.
     let reach = motion(vm)?.largest_slip()?.max(motion(1e-9 * vm)?.largest_slip()?);
@@ -204,7 +205,7 @@ pub fn unstable_bands(belt: &Belt, options: AveragingOptions) -> Result<Vec<Band
     }
     points.retain(|v| *v > 0.0);
     points.sort_unstable_by(f64::total_cmp);
-    let changes = sign_changes(&mut value, &points, &corners)?;
+    let changes = sign_changes(value, &points, &corners)?;
     let mut bands = Vec::new();
     let starts_unstable = value(points[0])? < 0.0;
     let mut open = starts_unstable.then_some((0.0, None));
@@ -220,5 +221,15 @@ pub fn unstable_bands(belt: &Belt, options: AveragingOptions) -> Result<Vec<Band
     if let Some((lower, lower_crossing)) = open {
         bands.push(Band { lower, lower_crossing, upper: None });
     }
-    Ok(bands)
+    // Where the criterion is zero throughout, without damping and without a slope, nothing grows.
+    let last = points.last().copied().unwrap_or(0.0);
+    let mut growing = Vec::with_capacity(bands.len());
+    for band in bands {
+        let inside = band.upper.map_or(last, |upper| 0.5 * (band.lower + upper));
+        let neutral = Verdict::Undecided { why: UndecidedBecause::WithinError };
+        if criterion(inside)?.verdict != neutral {
+            growing.push(band);
+        }
+    }
+    Ok(growing)
 }

@@ -173,6 +173,14 @@ pub struct Local {
     pub ending: Ending,
 }
 
+impl Local {
+    /// No response at the first value: nothing was followed.
+    pub fn nowhere(from: f64) -> Self {
+        let ending = Ending::Lost { at: from };
+        Self { thresholds: Vec::new(), changes: Vec::new(), branch: Vec::new(), ending }
+    }
+}
+
 /// Why there are no thresholds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoThresholds {

@@ -120,7 +120,7 @@ impl Ending {
     pub fn name(self) -> &'static str {
         match self {
             Self::Reached(Reached::Base) => "base response",
-            Self::Reached(Reached::Forced) => "another response without slow vibration",
+            Self::Reached(Reached::Forced) => "another response without slow motion of its own",
             Self::Reached(Reached::Elsewhere) => "another response",
             Self::Reached(Reached::Unsettled | Reached::Unknown) | Self::Unknown(_) => "unknown",
         }

@@ -76,6 +76,8 @@ impl Sampling {
 pub(super) struct Listener {
     sampling: Sampling,
     band: LowBand,
+    /// Where lines are no longer looked for.
+    band_end: f64,
     tones: Vec<Tone>,
 }
 
@@ -105,13 +107,14 @@ impl Listener {
         Self {
             sampling,
             band: LowBand::new(sampling.count, sampling.step, decimation),
+            band_end: band_end(belt, sampling),
             tones: frequencies.into_iter().map(tone).collect(),
         }
     }
 
     /// M of the record and of its halves.
     pub(super) fn largest_lines(&self) -> LargestLines {
-        self.band.largest_lines(BAND_END)
+        self.band.largest_lines(self.band_end)
     }
 
     /// Peak-to-peak displacement at the frequencies of the tangential dithers: twice the
@@ -160,6 +163,17 @@ impl Listener {
             tone.hear(displacement, number, &self.sampling);
         }
     }
+}
+
+/// The end of the band of slow vibration, or less where the window would spread the line of a dither just above it into the band:
+/// two lines of the unpadded half of a record.
+fn band_end(belt: &Belt, sampling: Sampling) -> f64 {
+    let reach = 4.0 * sampling.per_slow_period as f64 / sampling.count as f64;
+    let above = belt
+        .dithers()
+        .iter()
+        .filter(|dither| dither.amplitude > 0.0 && dither.frequency_ratio > BAND_END);
+    above.fold(BAND_END, |end, dither| end.min(dither.frequency_ratio - reach))
 }
 
 impl Tone {

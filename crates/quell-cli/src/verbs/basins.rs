@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use clap::Args;
 use quell::run::attractor::words;
-use quell::run::basins::{Basins, Layout, Portrait, Question, run as basins};
+use quell::run::basins::{Basins, Layout, Portrait, Question, quiescence, run as basins};
 use quell::run::varied::Range;
 use quell::sweep::Running;
 use quell::{Complaint, Failure, Fault, Origin, Study, picture};
@@ -147,8 +147,8 @@ fn text(study: &Study, done: &Basins) -> String {
         (None, [portrait]) => text += &attractors(study, portrait),
         (varied, portraits) => {
             let path = varied.as_ref().map_or("", |varied| varied.path.as_str());
-            let _ =
-                writeln!(text, "\n  {path:<18}  base response   share of starts that fall quiet");
+            let [_, fall] = quiescence(done.in_band());
+            let _ = writeln!(text, "\n  {path:<18}  base response   share of starts that {fall}");
             for portrait in portraits {
                 let value = portrait.value.map_or_else(String::new, figure);
                 let local = portrait.local.as_ref().map_or("unknown", |verdict| verdict.name());
@@ -175,14 +175,18 @@ fn attractors(study: &Study, portrait: &Portrait) -> String {
     let mut text = String::new();
     for (basin, share) in portrait.gathered.basins.iter().zip(&portrait.shares) {
         let attractor = &basin.attractor;
-        let quiet = if attractor.quiet { "quiet, " } else { "" };
+        let quiet = match (attractor.quiet, portrait.in_band) {
+            (true, false) => "quiet, ",
+            (true, true) => "in step with the dither, ",
+            (false, _) => "",
+        };
         let _ = writeln!(
             text,
             "  {:>6.2} % ({:.2} to {:.2})  {quiet}{}, peak-to-peak {}, stick fraction {}",
             100.0 * share.fraction,
             100.0 * share.low,
             100.0 * share.high,
-            words(study, attractor, portrait.period),
+            words(portrait.scales, attractor, portrait.period),
             figure_of(study, Quantity::Displacement, attractor.size()),
             figure(attractor.stick_fraction),
         );

@@ -68,7 +68,7 @@ fn text(study: &Study, done: &Bifurcation) -> String {
     let _ = writeln!(text, "{}", done.sentence(study));
     for branch in &done.branches {
         let _ = writeln!(text, "\n{}:", branch.direction.name());
-        for stretch in stretches(study, branch) {
+        for stretch in stretches(branch) {
             let _ = writeln!(text, "  {stretch}");
         }
     }
@@ -76,7 +76,7 @@ fn text(study: &Study, done: &Bifurcation) -> String {
 }
 
 /// Neighbouring values at which the same is to be said, one line each.
-fn stretches(study: &Study, branch: &Branch) -> Vec<String> {
+fn stretches(branch: &Branch) -> Vec<String> {
     let told = |place: usize| {
         let point = &branch.points[place];
         match &point.response {
@@ -84,7 +84,7 @@ fn stretches(study: &Study, branch: &Branch) -> Vec<String> {
             Ok(attractor) if attractor.rotation.is_some_and(|it| it.ratio.is_none()) => {
                 attractor.kind.words()
             }
-            Ok(attractor) => words(study, attractor, point.period),
+            Ok(attractor) => words(point.scales, attractor, point.period),
             Err(_) => "not settled".to_owned(),
         }
     };

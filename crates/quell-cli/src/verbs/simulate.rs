@@ -21,7 +21,7 @@ pub(crate) struct Arguments {
     /// Duration τ; in a study in SI seconds, or a time such as 50ms
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: String,
-    /// Lists every event; with --save also as a file of its own, such as run-events.csv beside run.csv
+    /// Lists every event; with --save also as a file of its own, such as run_events.csv beside run.csv
     #[arg(long)]
     events: bool,
     #[command(flatten)]

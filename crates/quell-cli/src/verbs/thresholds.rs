@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use clap::Args;
 use quell::run::curves::{Curves, Question as CurveQuestion, run as curves};
 use quell::run::thresholds::{
-    Protocol, Question, Thresholds, becomes, path_in_words, quantity_of, run as thresholds, side,
-    value_in_words,
+    Protocol, Question, TRIED, Thresholds, becomes, path_in_words, quantity_of, run as thresholds,
+    side, value_in_words,
 };
 use quell::{Complaint, Failure, Fault, Origin, Study, picture};
 
@@ -185,7 +185,12 @@ fn text(study: &Study, done: &Thresholds) -> String {
         let _ = writeln!(text, "  {:<14}  {below} below, {above} above", figure(change.value));
     }
     for (protocol, switches) in &done.protocols {
-        let _ = writeln!(text, "runs {}:", protocol.name().replace('_', " "));
+        let _ = writeln!(
+            text,
+            "runs {} (at {} values; pairs of changes between two of them are not seen):",
+            protocol.name().replace('_', " "),
+            TRIED + 1
+        );
         let first = becomes(switches.first, done.in_band);
         if switches.changes.is_empty() {
             let _ = writeln!(text, "  {first} at every value of the range");

@@ -164,6 +164,9 @@ impl Change {
                 let allowed = match count {
                     0 => format!("the study has no [{name}]"),
                     1 => format!("the study has one [{name}]: {name}[0]"),
+                    _ if index.is_some() => {
+                        format!("the study has {count} of them: {name}[0] to {name}[{}]", count - 1)
+                    }
                     _ => format!("say which one: {name}[0] to {name}[{}]", count - 1),
                 };
                 return Err(Box::new(self.complaint(Fault::Conflict, allowed)));

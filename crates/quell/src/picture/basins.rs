@@ -58,7 +58,7 @@ pub(crate) fn plane(study: &Study, done: &Basins, portrait: &Portrait) -> Result
         let name = if basins[place].attractor.quiet {
             "quiet".to_owned()
         } else {
-            words(study, &basins[place].attractor, portrait.period)
+            words(portrait.scales, &basins[place].attractor, portrait.period)
         };
         (role(basins, place), format!("{name}: {share:.1} %"))
     };

@@ -3,11 +3,11 @@
 use quell_belt::attractor::{Attractor, Kind, Scene};
 use quell_belt::orbit::{NoOrbit, Verdict};
 use quell_model::Belt;
-use quell_model::units::Quantity;
+use quell_model::units::{Quantity, Scales};
 use serde_json::json;
 
 use super::orbit::refused;
-use super::{digits, in_words};
+use super::{digits, in_scales};
 use crate::complaint::Failure;
 use crate::fields::Fields;
 use crate::study::Study;
@@ -18,10 +18,10 @@ pub(super) fn scene(belt: &Belt) -> Result<Scene<'_>, Failure> {
 }
 
 /// The attractor in words: what it is, and at which frequency it turns.
-pub fn words(study: &Study, attractor: &Attractor, period: f64) -> String {
+pub fn words(scales: Option<Scales>, attractor: &Attractor, period: f64) -> String {
     let frequency = attractor.frequency(period).map_or_else(String::new, |frequency| {
-        let unit = if study.scales().is_some() { "" } else { " ω₀" };
-        format!(", slow frequency {}{unit}", in_words(study, Quantity::FrequencyRatio, frequency))
+        let unit = if scales.is_some() { "" } else { " ω₀" };
+        format!(", slow frequency {}{unit}", in_scales(scales, Quantity::FrequencyRatio, frequency))
     });
     let ratio = attractor.rotation.and_then(|rotation| rotation.ratio);
     match (attractor.kind, ratio) {
@@ -125,7 +125,7 @@ pub(super) fn put_section(fields: &mut Fields, attractor: &Attractor) {
 }
 
 /// Why the base response is not known, in words.
-pub(super) fn unknown(why: &NoOrbit) -> String {
+pub(in crate::run) fn unknown(why: &NoOrbit) -> String {
     match why {
         NoOrbit::Ends { share } => {
             format!("the base response ends at {} of the dither's amplitude", digits(*share))

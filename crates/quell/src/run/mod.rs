@@ -24,7 +24,7 @@ use quell_belt::simulation::{Stalled, Start, within};
 use quell_belt::start::NoSquealingStart;
 
 use quell_model::parameter::BELT_VELOCITY;
-use quell_model::units::Quantity;
+use quell_model::units::{Quantity, Scales};
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::study::vocabulary::in_system;
@@ -88,7 +88,12 @@ pub fn start_in_words(study: &Study) -> String {
 
 /// A quantity in a sentence: six digits, in SI where the study is.
 pub(crate) fn in_words(study: &Study, quantity: Quantity, value: f64) -> String {
-    match study.scales().zip(quantity.si_unit()) {
+    in_scales(study.scales(), quantity, value)
+}
+
+/// The same of a study with these scales.
+fn in_scales(scales: Option<Scales>, quantity: Quantity, value: f64) -> String {
+    match scales.zip(quantity.si_unit()) {
         Some((scales, (unit, _))) => format!("{} {unit}", digits(scales.to_si(quantity, value))),
         None => digits(value),
     }

@@ -201,7 +201,9 @@ pub fn samples(study: &Study, orbit: &Orbit) -> Vec<Sample> {
 pub(super) fn refused(why: NoOrbit) -> Failure {
     let key = match why {
         NoOrbit::NoDither => "dither",
-        NoOrbit::Incommensurate => "dither.frequency_ratio",
+        NoOrbit::Incommensurate => {
+            return Failure::Failed { key: "dither".to_owned(), why: why.to_string() };
+        }
         NoOrbit::NotConverged { .. }
         | NoOrbit::Degenerate { .. }
         | NoOrbit::Another { .. }

@@ -2,7 +2,7 @@
 
 use quell_belt::attractor::Reached;
 use quell_belt::response::{
-    BAND_END, Effect, Ending, Record, Response, respond, samples_per_slow_period,
+    BAND_END, Effect, Ending, Record, Response, Uncertain, respond, samples_per_slow_period,
 };
 use quell_belt::simulation::{Sample, Start};
 use quell_model::units::Quantity;
@@ -108,7 +108,15 @@ impl Steady {
             }
             Effect::Unknown(why) => format!("the effect of this dither is unknown: {why}"),
         };
-        format!("Started {from}, {what}.{}{}", self.of_the_band(study), self.cost(study))
+        let left = match (response.effect, response.ending) {
+            (Effect::Quenches, Ending::Reached(Reached::Elsewhere)) => {
+                " A slow vibration of that size stays: `thresholds`, `basins` and `bifurcation` call this \
+                 response vibrating."
+            }
+            _ => "",
+        };
+        let (band, cost) = (self.of_the_band(study), self.cost(study));
+        format!("Started {from}, {what}.{left}{band}{cost}")
     }
 
     /// The cost of the dither in a sentence of its own.
@@ -116,7 +124,10 @@ impl Steady {
         let response = &self.response;
         let loss = self.friction_loss().ok().map(|loss| {
             let change = if loss < 0.0 { "raises" } else { "lowers" };
-            format!("{change} the mean friction by {}", percent(loss.abs()))
+            format!(
+                "{change} the mean friction by {} of that of steady sliding",
+                percent(loss.abs())
+            )
         });
         let power = response.dither_power.map(|power| {
             let verb = if power < 0.0 { "returns to its actuator" } else { "takes" };
@@ -143,7 +154,9 @@ impl Steady {
     /// Why it is undefined.
     pub fn friction_loss(&self) -> Result<f64, String> {
         let response = &self.response;
-        if self.moves {
+        if response.effect == Effect::Unknown(Uncertain::NoDither) {
+            Err(Uncertain::NoDither.to_string())
+        } else if self.moves {
             Ok(1.0 - response.mean_friction / response.mean_friction_undithered)
         } else {
             Err("the belt does not move (v₀ = 0), so there is no steady sliding to compare with"
@@ -163,6 +176,16 @@ impl Steady {
         let [low, high] = band;
         let of = |record: &Record| record.spectrum.root_mean_square(low, high);
         let both = of(&self.response.record).zip(of(&self.response.undithered_record));
+        // The window spreads a tone over four lines of the unpadded record.
+        let resolved = 4.0 / f64::from(study.solver().record_periods);
+        if high - low < resolved {
+            let resolved = in_words(study, Quantity::FrequencyRatio, resolved);
+            let unit = if study.scales().is_some() { "" } else { " ω₀" };
+            let why = format!(
+                "the band is narrower than {resolved}{unit}, what the record resolves; raise solver.record_periods"
+            );
+            return Some(InBand { band, values: Err(why) });
+        }
         let values = both.ok_or_else(|| {
             let last = self.response.record.spectrum.frequencies().last().unwrap_or_default();
             let last = in_words(study, Quantity::FrequencyRatio, last);

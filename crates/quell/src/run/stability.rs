@@ -78,6 +78,12 @@ fn averaged(belt: &Belt, options: AveragingOptions) -> Averaged {
     }
 }
 
+/// Whether neither damping nor the slope of the law decides anything at the belt's velocity.
+fn is_neutral(belt: &Belt) -> bool {
+    let slope = belt.friction().slope(belt.belt_velocity());
+    belt.damping_rate(slope, belt.normal_load()) == 0.0
+}
+
 fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, String> {
     let &[dither] = belt.dithers() else {
         return Err(match belt.dithers() {
@@ -93,6 +99,9 @@ fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, Stri
         dither.direction,
     );
     match found.map_err(|why| why.to_string())? {
+        EverywhereStable::Always if is_neutral(belt) => {
+            Err("without damping and without a slope of the law nothing grows or decays".to_owned())
+        }
         EverywhereStable::Always => Ok(0.0),
         EverywhereStable::From { amplitude_ratio, .. } => Ok(amplitude_ratio),
         EverywhereStable::Never { why } => Err(match why {
@@ -358,6 +367,17 @@ impl Stability {
             let amplitude = in_words(study, Quantity::Force, amplitude);
             let what =
                 format!("at the critical amplitude D = {amplitude} slip and dither together reach");
+            warnings.push(range::sentence(study, &range, &what, slip));
+        }
+        let everywhere = averaged.iter().filter_map(|it| it.everywhere_stable.as_ref().ok());
+        let ratio = everywhere.fold(0.0_f64, |most, ratio| most.max(*ratio));
+        let frequency = belt.dithers().first().map_or(0.0, |dither| dither.frequency_ratio);
+        let slip = range::at_amplitude(belt, ratio * frequency);
+        if slip > range.upper {
+            let ratio = in_words(study, Quantity::Velocity, ratio);
+            let what = format!(
+                "at α = {ratio}, from which every belt velocity is stable, slip and dither together reach"
+            );
             warnings.push(range::sentence(study, &range, &what, slip));
         }
         let bands = averaged.iter().filter_map(|it| it.unstable_bands.as_ref().ok());

@@ -56,6 +56,8 @@ impl Varied {
             };
             for complaint in wrong {
                 if complaint.fault == Fault::Value {
+                    // The value of the option, not what it makes of other numbers.
+                    let complaint = Complaint { value: given_number(value), ..complaint };
                     complaints.push(told(complaint, end));
                 } else {
                     // Where it was written says nothing: it is this option.
@@ -170,6 +172,11 @@ impl Named {
                 );
                 Err(Box::new(Complaint::option(option, path, allowed)))
             }
+            (Some(number), _) if is_root_mean_square(path) => {
+                let peak = key_of(study, &number);
+                let allowed = format!("{peak}, a peak: a root mean square depends on the waveform");
+                Err(Box::new(Complaint::option(option, path, allowed).suggesting(Some(peak))))
+            }
             (meant, _) => {
                 let [amplitude, velocity] = [DITHER_AMPLITUDE, BELT_VELOCITY]
                     .map(|parameter| key_of(study, parameter.path));
@@ -201,6 +208,10 @@ impl Named {
         let refused = study.with(&self.key, given).err().unwrap_or_default();
         refused.into_iter().map(move |complaint| told(complaint, option))
     }
+}
+
+fn is_root_mean_square(path: &str) -> bool {
+    matches!(resolve(path).map(|address| address.key.role), Ok(Role::Twin(_, twin)) if twin.rms)
 }
 
 /// Whether a key changes several numbers of the equations at once: mass, stiffness, friction in newtons.

@@ -9,6 +9,8 @@
 mod share;
 mod starts;
 mod tell;
+
+pub use tell::quiescence;
 #[cfg(test)]
 mod tests;
 
@@ -19,6 +21,7 @@ use quell_belt::attractor::{
 };
 use quell_belt::orbit::Verdict;
 use quell_belt::simulation::{Stalled, within};
+use quell_model::units::Scales;
 use rayon::prelude::*;
 
 use super::attractor::{scene, unknown};
@@ -61,6 +64,8 @@ pub struct Portrait {
     pub gathered: Gathered,
     /// The share of each attractor.
     pub shares: Vec<Share>,
+    /// Mass and stiffness there, of a study in SI: they may be what is followed.
+    pub scales: Option<Scales>,
     /// Whether responses of the dither's own period may vibrate in the band of slow vibration (R ≤ 1.9).
     pub in_band: bool,
     /// The share of starts that end without a slow motion; none where no end is known. Its upper bound counts starts in
@@ -186,13 +191,20 @@ fn portraits(
         .map(|(place, scene)| {
             let gather = || gather(scene, &whole(place));
             let gathered = within(STEPS_OF_MANY_SEARCHES, gather).map_err(failed)?;
-            Ok(Portrait::new(studies[place].0, scene, starts, gathered))
+            let (value, study) = &studies[place];
+            Ok(Portrait::new(*value, study.scales(), scene, starts, gathered))
         })
         .collect()
 }
 
 impl Portrait {
-    fn new(value: Option<f64>, scene: &Scene<'_>, starts: &Starts, gathered: Gathered) -> Self {
+    fn new(
+        value: Option<f64>,
+        scales: Option<Scales>,
+        scene: &Scene<'_>,
+        starts: &Starts,
+        gathered: Gathered,
+    ) -> Self {
         let layout = starts.layout();
         let inside = |holds: &dyn Fn(&Label) -> bool| -> Vec<bool> {
             gathered.labels.iter().map(holds).collect()
@@ -210,6 +222,7 @@ impl Portrait {
         let unknown_share = Share::of(layout, &open);
         Self {
             value,
+            scales,
             period: scene.strobe.period,
             in_band: scene.reaches_the_band(),
             local: scene.quiet.as_ref().map(|quiet| quiet.verdict).map_err(unknown),

@@ -27,6 +27,16 @@ fn plural(count: usize) -> &'static str {
     if count == 1 { "" } else { "s" }
 }
 
+/// What a start does that ends without a slow motion, singular and plural. A dither in the band of the vibration itself leaves
+/// nothing quiet.
+pub fn quiescence(in_band: bool) -> [&'static str; 2] {
+    if in_band {
+        ["falls into step with the dither", "fall into step with the dither"]
+    } else {
+        ["falls quiet", "fall quiet"]
+    }
+}
+
 impl Portrait {
     /// Whether starts end on the response of sliding, in one sentence.
     pub fn sentence(&self) -> String {
@@ -52,8 +62,7 @@ impl Portrait {
             Ok(verdict) => format!("the base response is {}", verdict.name()),
             Err(why) => why.clone(),
         };
-        let falls = if self.in_band { "falls into step with the dither" } else { "falls quiet" };
-        let fall = falls.replacen("falls", "fall", 1);
+        let [falls, fall] = quiescence(self.in_band);
         let told = match self.quiet.filter(|share| share.starts > 0) {
             Some(share) if share.starts == known => {
                 let every = match known {
@@ -148,12 +157,18 @@ impl Basins {
         )
     }
 
+    /// Whether responses of the dither's own period may vibrate in the band of slow vibration, at any value.
+    pub fn in_band(&self) -> bool {
+        self.portraits.iter().any(|portrait| portrait.in_band)
+    }
+
     /// What was found, in one sentence or a few.
     pub fn sentence(&self, study: &Study) -> String {
         match (&self.varied, self.portraits.as_slice()) {
             (None, [portrait]) => portrait.sentence(),
             (Some(varied), portraits) => {
                 let path = &varied.path;
+                let [falls, fall] = quiescence(self.in_band());
                 let value = |portrait: &Portrait| {
                     portrait
                         .value
@@ -169,7 +184,7 @@ impl Basins {
                 if let (Some((least, low)), Some((most, high))) = (least, most) {
                     let _ = write!(
                         text,
-                        " the share of starts that fall quiet lies between {low:.1} % (at {}) and {high:.1} % (at {})",
+                        " the share of starts that {fall} lies between {low:.1} % (at {}) and {high:.1} % (at {})",
                         value(least),
                         value(most)
                     );
@@ -191,7 +206,7 @@ impl Basins {
                 if only_local > 0 {
                     let _ = write!(
                         text,
-                        "; at {only_local} of {} values the base response is stable, but not every start falls quiet",
+                        "; at {only_local} of {} values the base response is stable, but not every start {falls}",
                         portraits.len()
                     );
                 }
@@ -254,12 +269,12 @@ impl Basins {
             let portraits = self.portraits.iter().map(|portrait| {
                 let mut inner = Fields::new(scales);
                 inner.plain("value", portrait.value);
-                put_portrait(&mut inner, study, portrait, false);
+                put_portrait(&mut inner, portrait, false);
                 inner
             });
             fields.list("portraits", portraits);
         } else if let [portrait] = self.portraits.as_slice() {
-            put_portrait(&mut fields, study, portrait, true);
+            put_portrait(&mut fields, portrait, true);
             fields.plain("ends", portrait.ends());
         }
         fields.plain("warnings", self.warnings(study));
@@ -311,7 +326,7 @@ impl Basins {
         for (place, basin) in portrait.gathered.basins.iter().enumerate() {
             dataset = dataset.fact(format!(
                 "attractor {place}: {}",
-                words(study, &basin.attractor, portrait.period)
+                words(portrait.scales, &basin.attractor, portrait.period)
             ));
         }
         let words = vec![(0, "no"), (1, "yes"), (2, "unknown")];
@@ -347,7 +362,7 @@ impl Basins {
 /// One of the numbers of a share.
 type PartOfShare = fn(Share) -> f64;
 
-fn put_portrait(fields: &mut Fields, study: &Study, portrait: &Portrait, section: bool) {
+fn put_portrait(fields: &mut Fields, portrait: &Portrait, section: bool) {
     match &portrait.local {
         Ok(verdict) => fields.plain("local_verdict", verdict.name()),
         Err(why) => fields.unknown("local_verdict", why.as_str()),
@@ -361,10 +376,10 @@ fn put_portrait(fields: &mut Fields, study: &Study, portrait: &Portrait, section
         let unknown = || "where its starts end is not known".to_owned();
         fields.known(name, Quantity::Ratio, portrait.quiet.map(which).ok_or_else(unknown));
     }
-    let scales = fields.scales();
+    let scales = portrait.scales;
     let attractors = portrait.gathered.basins.iter().zip(&portrait.shares).map(|(basin, share)| {
         let mut inner = Fields::new(scales);
-        inner.plain("words", words(study, &basin.attractor, portrait.period));
+        inner.plain("words", words(portrait.scales, &basin.attractor, portrait.period));
         put_share(&mut inner, *share);
         put(&mut inner, &basin.attractor, portrait.period);
         if section {

@@ -16,6 +16,7 @@ fn unknown_ends_reach_nothing() {
     let mut portrait = Portrait {
         value: None,
         period: 1.0,
+        scales: None,
         in_band: false,
         local: Ok(Verdict::Stable),
         gathered,

@@ -7,9 +7,10 @@ mod tell;
 
 use std::sync::atomic::Ordering;
 
-use quell_belt::attractor::{Attractor, Patience, Unsettled, measure, settle};
+use quell_belt::attractor::{Attractor, Kind, Patience, Unsettled, measure, settle};
 use quell_belt::orbit::Verdict;
 use quell_belt::simulation::{Start, within};
+use quell_model::units::Scales;
 
 use super::attractor::{scene, unknown};
 use super::range::SlipMet;
@@ -24,6 +25,9 @@ const APART: f64 = 0.02;
 
 /// The same relative to F, for responses without slow motion.
 const APART_AT_LEAST: f64 = 1e-4;
+
+/// Turns a period by which two closed curves differ at most to count as one: ten times what a steady record allows.
+const TURN_ALIKE: f64 = 1e-4;
 
 /// What is asked.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +64,8 @@ impl Direction {
 pub struct Point {
     /// The parameter.
     pub value: f64,
+    /// Mass and stiffness there, of a study in SI: they may be what is varied.
+    pub scales: Option<Scales>,
     /// Period of the section, τ.
     pub period: f64,
     /// Whether responses of the dither's own period may vibrate in the band of slow vibration (R ≤ 1.9).
@@ -167,7 +173,8 @@ fn point(study: &Study, value: f64, begun: Start) -> Result<(Point, Start), Fail
     let local = scene.quiet.as_ref().map(|quiet| quiet.verdict).map_err(unknown);
     let period = scene.strobe.period;
     let in_band = scene.reaches_the_band();
-    Ok((Point { value, period, in_band, local, response, periods: settled.periods }, end))
+    let scales = study.scales();
+    Ok((Point { value, scales, period, in_band, local, response, periods: settled.periods }, end))
 }
 
 /// Stretches in which both directions were swept and show different responses.
@@ -178,6 +185,7 @@ fn hysteresis(study: &Study, branches: &[Branch]) -> Vec<(f64, f64)> {
     let mut open = false;
     for (one, other) in up.points.iter().zip(down.points.iter().rev()) {
         let apart = match (&one.response, &other.response) {
+            (Ok(one), Ok(other)) if is_one_torus(one, other) => one.quiet != other.quiet,
             (Ok(one), Ok(other)) => {
                 let most = one.size().max(other.size());
                 one.quiet != other.quiet
@@ -193,6 +201,19 @@ fn hysteresis(study: &Study, branches: &[Branch]) -> Vec<(f64, f64)> {
         open = apart;
     }
     stretches
+}
+
+/// Whether two responses may be the same although their records have other sizes: closed curves that turn alike, or what is
+/// no closed orbit and no curve, whose record shows only a part of it.
+fn is_one_torus(one: &Attractor, other: &Attractor) -> bool {
+    let turns = |it: &Attractor| it.rotation.map(|rotation| rotation.turns_per_period);
+    match (one.kind, other.kind) {
+        (Kind::Unclassified, _) | (_, Kind::Unclassified) => true,
+        (Kind::QuasiPeriodic, Kind::QuasiPeriodic) => turns(one)
+            .zip(turns(other))
+            .is_some_and(|(one, other)| (one - other).abs() <= TURN_ALIKE),
+        _ => false,
+    }
 }
 
 impl Point {

@@ -36,7 +36,12 @@ impl Bifurcation {
                 value(first.value)
             )];
             for jump in branch.jumps() {
-                let word = if jump.to_quiet { "falls quiet" } else { "begins to vibrate" };
+                let in_band = branch.points.iter().any(|point| point.in_band);
+                let word = match (jump.to_quiet, in_band) {
+                    (true, false) => "falls quiet",
+                    (true, true) => "falls into step with the dither",
+                    (false, _) => "begins to vibrate",
+                };
                 parts.push(format!(
                     "{word} between {} and {}",
                     value(jump.before),
@@ -113,7 +118,7 @@ impl Bifurcation {
             .plain("start", start_in_words(study));
         for branch in &self.branches {
             let points = branch.points.iter().map(|point| {
-                let mut inner = Fields::new(scales);
+                let mut inner = Fields::new(point.scales);
                 inner.plain("value", point.value);
                 match &point.local {
                     Ok(verdict) => inner.plain("local_verdict", verdict.name()),
@@ -123,7 +128,7 @@ impl Bifurcation {
                 inner.plain("periods_to_settle", point.periods);
                 match &point.response {
                     Ok(attractor) => {
-                        inner.plain("words", words(study, attractor, point.period));
+                        inner.plain("words", words(point.scales, attractor, point.period));
                         put(&mut inner, attractor, point.period);
                         put_section(&mut inner, attractor);
                     }
@@ -170,11 +175,18 @@ impl Bifurcation {
                 let rotation = attractor.and_then(|it| it.rotation);
                 let ratio = rotation.and_then(|it| it.ratio);
                 let of = |value: Option<f64>| value.unwrap_or(f64::NAN);
+                // Columns are scaled by the study as it is; where mass or stiffness vary, that is made good here.
+                let other = |quantity: Quantity| match (point.scales, study.scales()) {
+                    (Some(own), Some(all)) => own.si_per_unit(quantity) / all.si_per_unit(quantity),
+                    _ => 1.0,
+                };
+                let (velocity, hertz) =
+                    (other(Quantity::Velocity), other(Quantity::FrequencyRatio));
                 for (x, v) in section {
                     let row = [
                         point.value,
                         *x,
-                        *v,
+                        *v * velocity,
                         of(attractor.map(Attractor::size)),
                         of(attractor.map(|it| it.stick_fraction)),
                         of(attractor.and_then(periods)),
@@ -182,7 +194,7 @@ impl Bifurcation {
                         of(rotation.map(|it| it.error)),
                         of(ratio.map(|it| it.turns as f64)),
                         of(ratio.map(|it| f64::from(it.periods))),
-                        of(attractor.and_then(|it| it.frequency(point.period))),
+                        of(attractor.and_then(|it| it.frequency(point.period))) * hertz,
                         point.periods as f64,
                     ];
                     numbers.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
@@ -255,6 +267,7 @@ mod tests {
         let varied = Varied::new(&study, "--parameter", &range).expect("valid");
         let point = |value: f64| Point {
             value,
+            scales: None,
             period: 1.0,
             in_band: false,
             local: Ok(Verdict::Stable),

@@ -93,10 +93,11 @@ impl Map {
         let mut states: BTreeMap<Status, usize> = BTreeMap::new();
         let mut least: Option<(f64, usize)> = None;
         let mut most = least;
+        let told = self.told(entry);
         let numbers = self.plan.sheet().fields()[entry.value].content == Content::Numbers;
         for point in 0..grid.len() {
             *states.entry(self.status(entry, point)).or_default() += 1;
-            let Some(value) = self.number(entry, point).filter(|_| numbers) else {
+            let Some(value) = self.value(told, entry, point).filter(|_| numbers) else {
                 continue;
             };
             if least.is_none_or(|(lowest, _)| value < lowest) {
@@ -119,12 +120,8 @@ impl Map {
             }
             _ => Vec::new(),
         };
-        // Numbers in SI are proportional to those of the equations, so that the order is the same.
-        let told = self.told(entry);
         let extreme = |found: Option<(f64, usize)>| {
-            let (value, point) = found?;
-            let value = self.value(told, entry, point).unwrap_or(value);
-            Some(Extreme { value, place: grid.values_at(point) })
+            found.map(|(value, point)| Extreme { value, place: grid.values_at(point) })
         };
         Summary { least: extreme(least), most: extreme(most), words, states }
     }

@@ -12,6 +12,7 @@ use quell_belt::start::NoSquealingStart;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::attractor::unknown;
 use super::orbit::refused;
 use super::range::SlipMet;
 use super::varied::{Named, ascending, key_of};
@@ -27,8 +28,8 @@ mod tell;
 /// Least number of values between which an orbit is followed.
 const STEPS: u32 = 40;
 
-/// Values that are tried of a protocol.
-const TRIED: u32 = 40;
+/// Equal steps between values that are tried of a start; changes between two of them that cancel each other are not seen.
+pub const TRIED: u32 = 40;
 
 /// Relative closeness of a protocol's threshold.
 const CLOSENESS: f64 = 1e-5;
@@ -89,6 +90,8 @@ pub struct Thresholds {
     pub question: Question,
     /// By multipliers, with the branch of responses on which they lie.
     pub local: Local,
+    /// Why there is no base response at the first value, where runs alone are judged.
+    pub no_base: Option<NoOrbit>,
     /// Whether a base response exists at the last value although this branch ends before it.
     pub resumes: bool,
     /// By runs from a start.
@@ -129,6 +132,13 @@ pub(super) fn told(study: &Study, why: NoThresholds, path: &str, option: &'stati
         NoThresholds::Invalid { value } => {
             Complaint::option(option, words(value), format!("values that {key} can take")).into()
         }
+        NoThresholds::Start(why) if why.is_absence() || is_lost(why) => Failure::Failed {
+            key: "thresholds".to_owned(),
+            why: format!(
+                "{} at the first value: begin where there is a base response, or ask for runs (--from-rest, --from-squeal, …)",
+                unknown(&why)
+            ),
+        },
         NoThresholds::Start(why) => refused(why),
         NoThresholds::Lost { at } => Failure::Failed {
             key: "thresholds".to_owned(),
@@ -193,8 +203,16 @@ fn found(study: &Study, question: Question) -> Result<Thresholds, Failure> {
     let question = understood(study, question)?;
     let path = question.parameter.as_str();
     let (from, to) = (question.from, question.to);
-    let local =
-        local(belt, path, from, to, STEPS).map_err(|why| told(study, why, path, "--from"))?;
+    let (local, no_base) = match local(belt, path, from, to, STEPS) {
+        Ok(local) => (local, None),
+        // Runs have ends without a base response too.
+        Err(NoThresholds::Start(why))
+            if !question.protocols.is_empty() && (why.is_absence() || is_lost(why)) =>
+        {
+            (Local::nowhere(from), Some(why))
+        }
+        Err(why) => return Err(told(study, why, path, "--from")),
+    };
     let last = belt.with(path, to).ok();
     let resumes = local.ending != Ending::Covered
         && last.is_some_and(|belt| Scene::new(&belt).is_ok_and(|scene| scene.quiet.is_ok()));
@@ -225,7 +243,12 @@ fn found(study: &Study, question: Question) -> Result<Thresholds, Failure> {
         belt.and_then(|belt| Strobe::of(&belt).ok()).is_some_and(|it| it.reaches_the_band())
     };
     let in_band = reaches(from) || reaches(to);
-    Ok(Thresholds { question, local, resumes, protocols, slip, in_band })
+    Ok(Thresholds { question, local, no_base, resumes, protocols, slip, in_band })
+}
+
+/// Whether the base response could not be followed, rather than that it does not exist.
+fn is_lost(why: NoOrbit) -> bool {
+    matches!(why, NoOrbit::LostOnTheWay { .. })
 }
 
 /// The slip of the responses at the thresholds, of steady sliding at both ends, and of the runs of protocols there and at
@@ -335,7 +358,7 @@ impl Thresholds {
             fields.list(protocol.name(), switches);
         }
         if !self.protocols.is_empty() {
-            fields.nested("at_from", first);
+            fields.nested("at_from", first).plain("values_tried", TRIED + 1);
         }
         fields.plain("warnings", self.warnings(study));
         fields.finish()

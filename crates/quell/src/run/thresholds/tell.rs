@@ -2,9 +2,11 @@
 
 use quell_belt::attractor::{Switch, Switches};
 use quell_belt::orbit::Verdict;
+use quell_model::Dither;
 use quell_model::units::Quantity;
 
 use super::{Ending, Kind, Protocol, Threshold, Thresholds, path_in_words, quantity_of};
+use crate::run::attractor::unknown;
 use crate::run::in_words;
 use crate::study::Study;
 
@@ -115,7 +117,9 @@ impl Thresholds {
     /// Where the base response is stable, and from where on the dither quenches from each start.
     pub fn sentence(&self, study: &Study) -> String {
         let parameter = Parameter::of(study, &self.question.parameter);
-        let dithered = !study.belt().dithers().is_empty();
+        let acts = |dither: &Dither| dither.amplitude > 0.0;
+        let is_varied = self.question.parameter.starts_with("dither");
+        let dithered = is_varied || study.belt().dithers().iter().any(acts);
         let mut sentences = vec![self.of_the_base_response(&parameter, dithered)];
         // Starts with the same answer are said together.
         let mut answers: Vec<(Vec<String>, String)> = Vec::new();
@@ -160,6 +164,18 @@ impl Thresholds {
     }
 
     fn of_the_base_response(&self, parameter: &Parameter<'_>, dithered: bool) -> String {
+        if let Some(why) = &self.no_base {
+            let first = parameter.value(Limit::of_range(self.question.from));
+            let last = parameter.value(Limit::of_range(self.question.to));
+            let again = if self.resumes {
+                format!(
+                    "; at {last} there is one, and a range that begins beyond finds its thresholds"
+                )
+            } else {
+                String::new()
+            };
+            return format!("At {first} {}{again}.", unknown(why));
+        }
         let subject = if dithered { "the base response" } else { "steady sliding" };
         let (intervals, end) = self.base_response();
         let is_stable = |it: &&Interval<Verdict>| it.answer == Verdict::Stable;
