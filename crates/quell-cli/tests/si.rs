@@ -137,6 +137,94 @@ fn quenched_means_the_same_in_every_verb() {
     );
 }
 
+/// Where mass or stiffness are swept, frequencies and velocities are those of each value, as `--set` has them.
+#[test]
+fn swept_scales_are_those_of_each_value() {
+    let place = place("si_scales");
+    let range = ["--parameter", "belt.natural_frequency_hz", "--from", "4kHz", "--to", "6kHz"];
+    let swept = ["bifurcation", "pad.toml", "--up", "--points", "2", "--save", "up.csv"];
+    let found = place.good(&[&swept[..], &range].concat());
+    let amplitude = ["--parameter", "dither.amplitude_n", "--from", "4kN", "--to", "4.1kN"];
+    for (point, hertz) in found["up"].as_array().expect("points").iter().zip(["4kHz", "6kHz"]) {
+        let set = format!("belt.natural_frequency_hz={hertz}");
+        let alone = ["bifurcation", "pad.toml", "--up", "--points", "2", "--set", &set];
+        let alone = place.good(&[&alone[..], &amplitude].concat());
+        let number = |point: &Json, name: &str| point[name].as_f64().expect(name);
+        let (one, other) = (number(point, "frequency_hz"), number(&alone["up"][0], "frequency_hz"));
+        assert!((one / other - 1.0).abs() < 1e-2, "{hertz}: {one} {other}");
+        let omega = number(point, "velocity_m_per_s") / number(point, "velocity");
+        let expected = std::f64::consts::TAU * number(point, "value");
+        assert!((omega / expected - 1.0).abs() < 1e-12, "{hertz}: {omega}");
+    }
+    place.write(
+        "sweep.toml",
+        format!("{PAD}[[sweep]]\nparameter = \"belt.natural_frequency_hz\"\nvalues = [4000, 5000, 6000]\n"),
+    );
+    let output =
+        place.quell(&["map", "sweep.toml", "--quantity", "mean-friction", "--save", "map.csv"]);
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    let number = |word: &str| -> f64 {
+        let line = text.lines().find(|line| line.trim_start().starts_with(word)).expect("a line");
+        line.split_whitespace().nth(1).and_then(|it| it.parse().ok()).expect("a number")
+    };
+    let csv = fs::read_to_string(place.folder.join("map.csv")).expect("saved");
+    let mut rows = csv.lines().filter(|line| !line.starts_with('#')).map(|row| row.split(','));
+    let at = rows.next().expect("names").position(|name| name == "mean_friction_n").expect("N");
+    let all: Vec<f64> = rows.map(|mut row| row.nth(at).expect("N").parse().expect("N")).collect();
+    let (least, most) = all.iter().fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(*x), b.max(*x)));
+    assert!((number("least") / least - 1.0).abs() < 1e-6, "{text}{all:?}");
+    assert!((number("most") / most - 1.0).abs() < 1e-6, "{text}{all:?}");
+}
+
+/// Just above the band the window would spread the line of the dither into it: that is no vibration.
+#[test]
+fn a_dither_just_above_the_band_does_not_leak_into_it() {
+    let place = place("si_leak");
+    for ratio in ["1.905", "1.95", "2.05"] {
+        let set = format!("dither.frequency_ratio={ratio}");
+        let found = place.good(&["response", "scaled.toml", "--set", &set]);
+        assert_eq!((&found["effect"], &found["settled"]), (&"quenches".into(), &true.into()));
+        assert!(found["efficiency"].as_f64().is_some_and(|ratio| ratio < 0.01), "{found}");
+    }
+}
+
+/// Runs have ends where no base response begins the range.
+#[test]
+fn runs_are_judged_without_a_base_response() {
+    let place = place("si_no_base");
+    let ask = |from: &str, more: &[&str]| {
+        let slow = ["thresholds", "scaled.toml", "--set", "dither.frequency_ratio=1"];
+        let range = ["--parameter", "dither.amplitude", "--from", from, "--to", "0.7"];
+        [&slow[..], &range, more].concat().iter().map(|it| (*it).to_owned()).collect::<Vec<_>>()
+    };
+    let good =
+        |words: Vec<String>| place.good(&words.iter().map(String::as_str).collect::<Vec<_>>());
+    let value = |found: &Json| found["from_rest"][0]["value"].as_f64().expect("a threshold");
+    let (without, with) = (good(ask("0.1", &["--from-rest"])), good(ask("0.01", &["--from-rest"])));
+    assert!((value(&without) / value(&with) - 1.0).abs() < 1e-4);
+    let told = without["sentence"].as_str().expect("words");
+    assert!(told.starts_with("At D = 0.1 the base response ends at 0.392"), "{told}");
+    let words = ask("0.1", &[]);
+    let (found, status) = place.json(&words.iter().map(String::as_str).collect::<Vec<_>>());
+    assert_eq!((status, &found["errors"][0]["key"]), (1, &"thresholds".into()));
+    assert!(found.to_string().contains("--from-rest"), "{found}");
+}
+
+/// Without damping and without a slope of the law nothing grows: no belt velocity is unstable.
+#[test]
+fn neutral_friction_is_not_unstable() {
+    let place = place("si_neutral");
+    let neutral = "[belt]\ndamping_ratio = 0\nnormal_load = 1\nbelt_velocity = 2\n[friction]\nlaw = \"coulomb\"\n\
+        coefficient = 0.3\n[dither]\ndirection = \"tangential\"\nwaveform = \"sine\"\namplitude = 1.5\nfrequency_ratio = 10\n";
+    place.write("neutral.toml", neutral);
+    let found = place.good(&["stability", "neutral.toml"]);
+    assert_eq!(found["limit"]["verdict"].as_str().or(found["verdict"].as_str()), Some("undecided"));
+    let text =
+        String::from_utf8(place.quell(&["stability", "neutral.toml"]).stdout).expect("UTF-8");
+    assert!(text.contains("unstable belt velocities   none"), "{text}");
+    assert!(!text.contains("stable at every v₀ from α  0"), "{text}");
+}
+
 /// A dither within the band of the vibration itself quenches nothing by being followed.
 #[test]
 fn a_slow_dither_is_no_end_of_vibration() {
@@ -173,6 +261,8 @@ fn a_band_has_its_level() {
         (in_ratios["band"]["displacement_level_db"].as_f64().expect("a level") - level).abs()
             < 1e-9
     );
+    let narrow = place.good(&[&reduced[..], &["--set", "response.band_hz=[20, 20.5]"]].concat());
+    assert!(narrow["why"].to_string().contains("narrower than"), "{}", narrow["why"]);
     let beyond = place.good(&[&reduced[..], &["--set", "response.band_hz=[10, 1e6]"]].concat());
     assert!(beyond["band"]["displacement_level_db"].is_null());
     assert!(beyond["why"].to_string().contains("no frequencies above"), "{}", beyond["why"]);
