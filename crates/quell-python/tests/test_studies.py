@@ -166,6 +166,15 @@ def test_a_belt_may_give_its_natural_frequency() -> None:
         belt_in_si(natural_frequency_hz=hertz)
 
 
+def test_a_belt_may_name_a_band_of_frequencies() -> None:
+    solver = quell.Solver(settle=60.0, record_periods=60)
+    response = quell.Belt(**BELT, dither=DITHER, solver=solver, band=(0.5, 0.9)).response()
+    level = 20 * np.log10(response.band_displacement_rms / response.band_undithered_displacement_rms)
+    assert response.band_displacement_level_db == pytest.approx(level)
+    with pytest.raises(quell.StudyError, match="band_hz is in SI"):
+        quell.Belt(**BELT, band_hz=(100, 200))
+
+
 def test_numpy_numbers_are_numbers() -> None:
     one = quell.Belt(**{**BELT, "belt_velocity": np.float64(0.05), "normal_load": np.int64(1)}, dither=DITHER)
     assert one == quell.Belt(**BELT, dither=DITHER)
@@ -198,7 +207,11 @@ def keys(table: str) -> set[str]:
 @pytest.mark.parametrize(
     ("cls", "table", "also"),
     [
-        (quell.Belt, "belt", {"friction", "dither", "initial", "solver", "axes", "title"}),
+        (
+            quell.Belt,
+            "belt",
+            {"friction", "dither", "initial", "solver", "axes", "title"} | keys("response"),
+        ),
         (quell.Initial, "belt.initial", set()),
         (quell.Dither, "dither", set()),
         (quell.Solver, "solver", set()),

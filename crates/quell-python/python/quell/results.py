@@ -277,7 +277,8 @@ class Response(Result):
     effect: str
     """Effect of the dither: "quenches", "reduces", "increases", "causes" (quiet without, vibrating with), "quiet" or "unknown"."""
     ends_on: str
-    """Where the dithered run ends: "base response", "another response" or "unknown"."""
+    """Where the dithered run ends: "base response", "another response without slow motion of its own", "another response" or
+    "unknown"."""
     amplitude: float
     """Largest spectral amplitude with 0 < ω ≤ 1.9 ω₀: a length."""
     undithered_amplitude: float
@@ -306,6 +307,14 @@ class Response(Result):
     """Least normal force over k: a length."""
     peaks: list[dict[str, float]]
     """Peaks of the spectrum: ``frequency`` (ω₀), ``amplitude``."""
+    band_displacement_level_db: float | None
+    """Change of the level of the displacement in the band of a study with one, in dB."""
+    band_velocity_level_db: float | None
+    """The same of the velocity."""
+    band_displacement_rms: float | None
+    """Root mean square of the displacement in the band: a length; ``band_undithered_displacement_rms`` without dither."""
+    band_velocity_rms: float | None
+    """Root mean square of the velocity in the band: a length; ``band_undithered_velocity_rms`` without dither."""
 
 
 class Orbit(Result):

@@ -194,6 +194,29 @@ impl Steady {
         Some(InBand { band, values })
     }
 
+    /// The levels in the band, null without one.
+    fn put_band(&self, study: &Study, fields: &mut Fields) {
+        let band = self.in_band(study);
+        let band = band.as_ref().ok_or_else(|| "the study names no band of frequencies".to_owned());
+        let end = |place: usize| band.clone().map(|band| band.band[place]);
+        fields.known("band_from", Quantity::FrequencyRatio, end(0)).known(
+            "band_to",
+            Quantity::FrequencyRatio,
+            end(1),
+        );
+        let values = band.and_then(|band| band.values.clone());
+        let names = [("displacement", Quantity::Displacement), ("velocity", Quantity::Velocity)];
+        for (place, (name, quantity)) in names.into_iter().enumerate() {
+            let both = values.clone().map(|(with, without)| (with[place], without[place]));
+            let (with, without) = (both.clone().map(|it| it.0), both.clone().map(|it| it.1));
+            let level = both.and_then(|(with, without)| level(with, without));
+            fields
+                .known(&format!("band_{name}_rms"), quantity, with)
+                .known(&format!("band_undithered_{name}_rms"), quantity, without)
+                .known(&format!("band_{name}_level_db"), Quantity::Ratio, level);
+        }
+    }
+
     /// The levels in the band in a sentence of its own.
     fn of_the_band(&self, study: &Study) -> String {
         let Some(InBand { band, values }) = self.in_band(study) else { return String::new() };
@@ -284,9 +307,7 @@ impl Steady {
                 }),
             )
             .number("undithered_amplitude", Quantity::Displacement, response.undithered_amplitude);
-        if let Some(band) = self.in_band(study) {
-            fields.nested("band", band.fields(study));
-        }
+        self.put_band(study, &mut fields);
         fields
             .plain("settled", response.settled)
             .plain("undithered_settled", response.undithered_settled)
@@ -363,30 +384,6 @@ pub struct InBand {
     pub band: [f64; 2],
     /// Root mean square of displacement and velocity with dither, and without; or why there is none.
     pub values: Result<([f64; 2], [f64; 2]), String>,
-}
-
-impl InBand {
-    fn fields(self, study: &Study) -> Fields {
-        let [low, high] = self.band;
-        let mut fields = Fields::new(study.scales());
-        fields.number("from", Quantity::FrequencyRatio, low).number(
-            "to",
-            Quantity::FrequencyRatio,
-            high,
-        );
-        let names = [("displacement", Quantity::Displacement), ("velocity", Quantity::Velocity)];
-        for (place, (name, quantity)) in names.into_iter().enumerate() {
-            let values = self.values.clone();
-            let both = values.map(|(with, without)| (with[place], without[place]));
-            let (with, without) = (both.clone().map(|it| it.0), both.clone().map(|it| it.1));
-            let level = both.and_then(|(with, without)| level(with, without));
-            fields
-                .known(&format!("{name}_rms"), quantity, with)
-                .known(&format!("undithered_{name}_rms"), quantity, without)
-                .known(&format!("{name}_level_db"), Quantity::Ratio, level);
-        }
-        fields
-    }
 }
 
 /// A change of level in a sentence.
