@@ -21,7 +21,8 @@ chores:
   licences  licences of all dependencies against the accepted ones
   package   every crate packed for publication, in order
   python    the wheel, in an environment of its own (target/python), and the tests of Python
-  test      everything that must hold before a change is merged, tests last";
+  test      everything that must hold before a change is merged, tests last;
+            --quick: without documentation, the slow tests and Python";
 
 fn main() -> ExitCode {
     if std::env::var_os(coverage::COMPILES).is_some() {
@@ -37,7 +38,8 @@ fn main() -> ExitCode {
         ["licences"] => licences::run(&root),
         ["package"] => package::run(&root),
         ["python"] => python::run(&root),
-        ["test"] => test::run(&root),
+        ["test"] => test::run(&root, false),
+        ["test", "--quick"] => test::run(&root, true),
         _ => {
             eprintln!("{USAGE}");
             return ExitCode::from(2);

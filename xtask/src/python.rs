@@ -114,6 +114,8 @@ fn command(program: &mut Command) -> Result<(), String> {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
 
     #[test]
@@ -128,6 +130,26 @@ mod tests {
             count += 1;
         }
         assert!(count > 5);
+    }
+
+    /// Every dependency of the wheel has the features that it has in the workspace, so that nothing is compiled a second time.
+    #[test]
+    fn the_wheel_shares_what_the_tests_compile() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let crates = |of: &[&str]| -> BTreeSet<String> {
+            let mut tree = Command::new(&cargo);
+            tree.args(["tree", "--offline", "--format", "{p} {f}", "--prefix", "none"]);
+            let text = answer(tree.args(of).current_dir(&root)).expect("cargo tree");
+            text.lines().map(|line| line.trim_end_matches(" (*)").to_owned()).collect()
+        };
+        let wheel = crates(&["--package", "quell-python", "--edges", "normal,build"]);
+        let all = crates(&["--workspace", "--edges", "all"]);
+        let others: Vec<_> = wheel.difference(&all).collect();
+        assert!(
+            wheel.len() > 50 && others.is_empty(),
+            "{others:?}: give quell-python the features"
+        );
     }
 
     #[test]

@@ -192,20 +192,18 @@ fn a_dither_just_above_the_band_does_not_leak_into_it() {
 #[test]
 fn runs_are_judged_without_a_base_response() {
     let place = place("si_no_base");
-    let ask = |from: &str, more: &[&str]| {
-        let slow = ["thresholds", "scaled.toml", "--set", "dither.frequency_ratio=1"];
-        let range = ["--parameter", "dither.amplitude", "--from", from, "--to", "0.7"];
-        [&slow[..], &range, more].concat().iter().map(|it| (*it).to_owned()).collect::<Vec<_>>()
+    place.write("drive.toml", DRIVE);
+    let ask = |from: &'static str, more: &[&'static str]| {
+        let range = ["--parameter", "dither.amplitude_n", "--from", from, "--to", "45"];
+        [&["thresholds", "drive.toml"][..], &range, more].concat()
     };
-    let good =
-        |words: Vec<String>| place.good(&words.iter().map(String::as_str).collect::<Vec<_>>());
-    let value = |found: &Json| found["from_rest"][0]["value"].as_f64().expect("a threshold");
-    let (without, with) = (good(ask("0.1", &["--from-rest"])), good(ask("0.01", &["--from-rest"])));
+    let value = |found: &Json| found["from_rest"][0]["value_n"].as_f64().expect("a threshold");
+    let without = place.good(&ask("38", &["--from-rest"]));
+    let with = place.good(&ask("35", &["--from-rest"]));
     assert!((value(&without) / value(&with) - 1.0).abs() < 1e-4);
     let told = without["sentence"].as_str().expect("words");
-    assert!(told.starts_with("At D = 0.1 the base response ends at 0.392"), "{told}");
-    let words = ask("0.1", &[]);
-    let (found, status) = place.json(&words.iter().map(String::as_str).collect::<Vec<_>>());
+    assert!(told.starts_with("At D = 38 N the base response ends at 0.98"), "{told}");
+    let (found, status) = place.json(&ask("38", &[]));
     assert_eq!((status, &found["errors"][0]["key"]), (1, &"thresholds".into()));
     assert!(found.to_string().contains("--from-rest"), "{found}");
 }

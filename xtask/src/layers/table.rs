@@ -80,6 +80,6 @@ pub(crate) const CONFINED: &[Confined] = &[
     confined("indicatif",  &["quell-cli"],          false, "progress bars concern the command line alone"),
     confined("pyo3",       &["quell-python"],       false, "bindings never leak into the core"),
     confined("numpy",      &["quell-python"],       false, "bindings never leak into the core"),
-    confined("serde",      &["quell-cli"],          false, "files mirror their text apart from the valid types"),
+    confined("serde",      &["quell-python"],       false, "no type of ours is serialised; it is there for its features alone"),
     confined("serde_json", &["quell", "quell-cli", "quell-plot", "quell-python", "quell-reproduce", "quell-study"], true,  "as serde; tests of any crate may read reference numbers"),
 ];
