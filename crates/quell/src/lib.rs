@@ -1,4 +1,151 @@
-//! Front door of Quell.
+//! The front door of Quell: a study in, an answer out.
+//!
+//! A [`Study`] is a belt with its friction law and its dither, read from the text of a study file and valid once it exists. Each
+//! question is one function in [`run`]; its outcome has the numbers, a sentence (`sentence`), the same object that the command line
+//! prints with `--json` (`json`), warnings, and datasets where there are arrays. [`picture`] draws outcomes.
+//!
+//! # Does this dither quench the vibration, and at what cost?
+//!
+//! ```
+//! use quell::Study;
+//! use quell::run::response;
+//!
+//! # fn main() -> Result<(), quell::Failure> {
+//! let text = r#"
+//!     [belt]
+//!     damping_ratio = 0.005
+//!     normal_load = 1.0
+//!     belt_velocity = 0.05
+//!     [friction]
+//!     law = "stribeck"
+//!     static_coefficient = 0.4
+//!     minimum_coefficient = 0.2857
+//!     reference_velocity = 0.2
+//!     [dither]
+//!     direction = "tangential"
+//!     waveform = "sine"
+//!     amplitude = 0.52
+//!     frequency_ratio = 10.0
+//! "#;
+//! let study = Study::parse(text, &[])?;
+//! let steady = response::run(&study)?;
+//! assert_eq!(steady.response.effect.name(), "quenches");
+//! println!("{}", steady.sentence(&study));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # From which amplitude on?
+//!
+//! ```
+//! # use quell::Study;
+//! use quell::run::thresholds::{self, Protocol, Question};
+//!
+//! # fn main() -> Result<(), quell::Failure> {
+//! # let text = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.05\n[friction]\nlaw = \"stribeck\"\n\
+//! #     static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[dither]\n\
+//! #     direction = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.52\nfrequency_ratio = 10.0\n";
+//! # let study = Study::parse(text, &[])?;
+//! let question = Question {
+//!     parameter: "dither.amplitude".to_owned(),
+//!     from: 0.4,
+//!     to: 0.6,
+//!     protocols: vec![Protocol::Rest],
+//!     ..Question::default()
+//! };
+//! let found = thresholds::run(&study, question)?;
+//! assert!((found.local.thresholds[0].value - 0.4965619).abs() < 1e-7);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Over a whole range of amplitudes?
+//!
+//! ```
+//! # use quell::Study;
+//! use std::sync::atomic::AtomicBool;
+//!
+//! use quell::run::map;
+//! use quell::sweep::{Plan, Quantity, Running};
+//!
+//! # fn main() -> Result<(), quell::Failure> {
+//! # let text = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.05\n[friction]\nlaw = \"stribeck\"\n\
+//! #     static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[dither]\n\
+//! #     direction = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.52\nfrequency_ratio = 10.0\n";
+//! let axis = "[[sweep]]\nparameter = \"dither.amplitude\"\nfrom = 0.1\nto = 0.6\npoints = 6\n";
+//! let study = Study::parse(&format!("{text}{axis}"), &[])?;
+//! let plan = Plan::new(&study, &[Quantity::named("criterion", "quantity")?])?;
+//! let running = Running { threads: None, stop: &AtomicBool::new(false), progress: &() };
+//! let map = map::run(plan, None, running)?;
+//! let least = map.summaries()[0].least.clone().expect("known everywhere");
+//! assert_eq!(least.place.len(), 1);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Does this disc squeal?
+//!
+//! ```
+//! use quell::DiscStudy;
+//! use quell::run::disc::stability;
+//!
+//! # fn main() -> Result<(), quell::Failure> {
+//! let text = r#"
+//!     [disc]
+//!     inner_radius_ratio = 0.5
+//!     poisson_ratio = 0.3
+//!     radial_modes = 1
+//!     nodal_diameters = 2
+//!     [disc.load]
+//!     radius_ratio = 0.75
+//!     stiffness = 0.1
+//!     friction = 0.05
+//!     speed = 0.4
+//! "#;
+//! let study = DiscStudy::parse(text, &[], "".as_ref())?;
+//! let found = stability::run(&study)?;
+//! println!("{}", found.sentence(&study));
+//! assert!(found.growth.rate > 0.0);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # With a friction law of my own?
+//!
+//! A formula of the slip velocity `v`, proven finite and not negative up to the velocities that are met:
+//!
+//! ```
+//! use quell::Study;
+//! use quell::run::stability;
+//!
+//! # fn main() -> Result<(), quell::Failure> {
+//! let text = r#"
+//!     [belt]
+//!     damping_ratio = 0.005
+//!     normal_load = 1.0
+//!     belt_velocity = 0.2
+//!     [friction]
+//!     law = "expression"
+//!     coefficient = "0.3 + 0.1*exp(-abs(v)/c)"
+//!     constants = { c = 0.1 }
+//! "#;
+//! let study = Study::parse(text, &[])?;
+//! let found = stability::run(&study)?;
+//! println!("{}", found.sentence(&study));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Where things are
+//!
+//! | module | what |
+//! |---|---|
+//! | [`run`] | one function per question, with its outcome |
+//! | [`study`], [`complaint`], [`schema`] | studies and what is wrong with them (`quell-study`) |
+//! | [`sweep`], [`store`] | maps: points, quantities, threads; stores that survive interruptions |
+//! | [`picture`], [`plot`] | the pictures of outcomes; figures as data (`quell-plot`) |
+//! | [`dataset`], [`fields`], [`output`] | labelled arrays, JSON objects, files written whole or not at all |
+//! | [`cite`], [`template`] | sources of a study's computations; commented studies to start from |
 
 pub mod cite;
 pub mod dataset;
