@@ -130,7 +130,7 @@
 //!     constants = { c = 0.1 }
 //! "#;
 //! let study = Study::parse(text, &[])?;
-//! let found = stability::run(&study)?;
+//! let found = stability::run(&study);
 //! println!("{}", found.sentence(&study));
 //! # Ok(())
 //! # }
