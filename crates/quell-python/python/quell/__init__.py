@@ -1,4 +1,4 @@
-"""Quell finds the dither that silences friction-induced vibration, and tells how sure it is.
+"""Quell finds the dither that silences friction-induced vibration, and quantifies its confidence.
 
 ::
 
