@@ -44,7 +44,7 @@ pub(super) fn text(path: &Path) -> Result<String, Box<Complaint>> {
         io::stdin().lock().take(LARGEST + 1).read_to_end(&mut bytes)
     } else {
         if path.is_dir() {
-            return Err(complaint("is a directory; a study file is wanted".into()));
+            return Err(complaint("is a directory; expected a study file".into()));
         }
         File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
     };

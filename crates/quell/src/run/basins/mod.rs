@@ -68,10 +68,10 @@ pub struct Portrait {
     pub scales: Option<Scales>,
     /// Whether responses of the dither's own period may vibrate in the band of slow vibration (R ≤ 1.9).
     pub in_band: bool,
-    /// The share of starts that end without a slow motion; none where no end is known. Its upper bound counts starts in
-    /// of which the end is not known.
+    /// The share of starts that end without a slow motion; none where no outcome is known. Its upper bound includes the starts
+    /// of unknown outcome.
     pub quiet: Option<Share>,
-    /// The share of starts of which the end is not known.
+    /// The share of starts of unknown outcome.
     pub unknown: Share,
 }
 

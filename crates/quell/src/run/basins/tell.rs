@@ -45,18 +45,18 @@ impl Portrait {
         let known = count - unknown;
         if known == 0 {
             let nowhere = match count {
-                1 => "where the start ends is not known".to_owned(),
-                _ => format!("where {count} starts end is not known"),
+                1 => "the outcome of the start is unknown".to_owned(),
+                _ => format!("the outcome of {count} starts is unknown"),
             };
             return match &self.local {
                 Ok(verdict) => format!("The base response is {}; {nowhere}.", verdict.name()),
-                Err(why) => format!("W{}; {why}.", &nowhere[1..]),
+                Err(why) => format!("T{}; {why}.", &nowhere[1..]),
             };
         }
         let starts = if unknown == 0 {
             format!("{count} start{}", plural(count))
         } else {
-            format!("{known} start{} whose end is known", plural(known))
+            format!("{known} start{} with a known outcome", plural(known))
         };
         let local = match &self.local {
             Ok(verdict) => format!("the base response is {}", verdict.name()),
@@ -87,7 +87,7 @@ impl Portrait {
         match unknown {
             0 => told,
             unknown => {
-                format!("{told} Of {unknown} start{} the end is not known.", plural(unknown))
+                format!("{told} The outcome of {unknown} start{} is unknown.", plural(unknown))
             }
         }
     }
@@ -129,10 +129,10 @@ impl Basins {
         match self.starts.layout() {
             Layout::Grid { .. } => {
                 "a grid: each start stands for its cell of the window; the bounds give or take half of each cell beside the border, and \
-                 parts of a basin smaller than a cell are not seen; starts whose end is not known are in the upper bound of the quiet fraction"
+                 parts of a basin smaller than a cell are not seen; starts of unknown outcome are in the upper bound of the quiet fraction"
             }
             Layout::Sample { .. } => {
-                "a random sample of the window, evenly spread: the bounds are Wilson's 95 % interval; starts whose end is not known are in \
+                "a random sample of the window, evenly spread: the bounds are Wilson's 95 % interval; starts of unknown outcome are in \
                  the upper bound of the quiet fraction"
             }
         }
@@ -189,7 +189,7 @@ impl Basins {
                         value(most)
                     );
                 } else {
-                    text.push_str(" no end of any start is known");
+                    text.push_str(" the outcome of no start is known");
                 }
                 let only_local = portraits
                     .iter()
@@ -199,7 +199,7 @@ impl Basins {
                 if open > 0 && least.is_some() {
                     let _ = write!(
                         text,
-                        "; at {open} of {} values some ends are not known",
+                        "; at {open} of {} values some outcomes are unknown",
                         portraits.len()
                     );
                 }
@@ -373,7 +373,7 @@ fn put_portrait(fields: &mut Fields, portrait: &Portrait, section: bool) {
         ("quiet_fraction_high", |share| share.high),
     ];
     for (name, which) in shares {
-        let unknown = || "where its starts end is not known".to_owned();
+        let unknown = || "the outcome of its starts is unknown".to_owned();
         fields.known(name, Quantity::Ratio, portrait.quiet.map(which).ok_or_else(unknown));
     }
     let scales = portrait.scales;

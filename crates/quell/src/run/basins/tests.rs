@@ -26,7 +26,7 @@ fn unknown_ends_reach_nothing() {
     };
     assert_eq!(
         portrait.sentence(),
-        "The base response is stable; where 3 starts end is not known."
+        "The base response is stable; the outcome of 3 starts is unknown."
     );
     let at = |value: f64| Portrait { value: Some(value), ..portrait.clone() };
     let range = Range { parameter: "belt.belt_velocity".into(), from: 1.0, to: 2.0, points: 2 };
@@ -40,7 +40,7 @@ fn unknown_ends_reach_nothing() {
         slip: SlipMet::default(),
     };
     let told = found.sentence(&study);
-    assert!(told.ends_with(" no end of any start is known."), "{told}");
+    assert!(told.ends_with(" the outcome of no start is known."), "{told}");
     let json = found.json(&study);
     for name in ["quiet_fraction", "quiet_fraction_low", "quiet_fraction_high"] {
         assert!(json["portraits"][0][name].is_null(), "{json}");
@@ -48,7 +48,7 @@ fn unknown_ends_reach_nothing() {
     }
     assert!(!found.dataset(&study).csv().contains("NaN"));
     portrait.local = Err("it was not found".to_owned());
-    assert_eq!(portrait.sentence(), "Where 3 starts end is not known; it was not found.");
+    assert_eq!(portrait.sentence(), "The outcome of 3 starts is unknown; it was not found.");
 }
 
 /// Starts that may end anywhere are in the upper bound alone.

@@ -56,7 +56,7 @@ pub fn run(study: &DiscStudy) -> Result<Stability, Failure> {
     };
     let (changes, out_of_reach) = match disc.dither() {
         _ if parts != Contributions::ALL => (
-            Err("they are told of the whole disc, and parts of this one are left out".to_owned()),
+            Err("they are reported for a whole disc, and parts of this one are left out".to_owned()),
             false,
         ),
         Dither::None => still(study),
