@@ -165,15 +165,20 @@ impl Listener {
     }
 }
 
+/// Least end of the band, in ω₀: self-excited vibration lies at about the natural frequency, 1, and a band that ended below it would
+/// call a vibration quenched because it is not looked for.
+const LEAST_BAND_END: f64 = 1.5;
+
 /// The end of the band of slow vibration, or less where the window would spread the line of a dither just above it into the band:
-/// two lines of the unpadded half of a record.
+/// two lines of the unpadded half of a record. A record too short to tell both apart keeps the whole band, and that line with it.
 fn band_end(belt: &Belt, sampling: Sampling) -> f64 {
     let reach = 4.0 * sampling.per_slow_period as f64 / sampling.count as f64;
     let above = belt
         .dithers()
         .iter()
         .filter(|dither| dither.amplitude > 0.0 && dither.frequency_ratio > BAND_END);
-    above.fold(BAND_END, |end, dither| end.min(dither.frequency_ratio - reach))
+    let ends = above.map(|dither| dither.frequency_ratio - reach);
+    ends.filter(|end| *end >= LEAST_BAND_END).fold(BAND_END, f64::min)
 }
 
 impl Tone {
