@@ -175,11 +175,8 @@ fn attractors(study: &Study, portrait: &Portrait) -> String {
     let mut text = String::new();
     for (basin, share) in portrait.gathered.basins.iter().zip(&portrait.shares) {
         let attractor = &basin.attractor;
-        let quiet = match (attractor.quiet, portrait.in_band) {
-            (true, false) => "quiet, ",
-            (true, true) => "in step with the dither, ",
-            (false, _) => "",
-        };
+        let quiet = portrait.quiet_word(attractor);
+        let quiet = quiet.map_or_else(String::new, |word| format!("{word}, "));
         let _ = writeln!(
             text,
             "  {:>6.2} % ({:.2} to {:.2})  {quiet}{}, peak-to-peak {}, stick fraction {}",

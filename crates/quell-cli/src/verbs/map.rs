@@ -7,7 +7,8 @@ use clap::Args;
 use quell::input::Inputs;
 use quell::output::Output;
 use quell::picture;
-use quell::run::map::{Extreme, Map, plural, run as map};
+use quell::run::map::{Extreme, Map, run as map};
+use quell::run::plural;
 use quell::store::Store;
 use quell::sweep::{
     Entry, Grid, MOST_THREADS, Plan, QUANTITIES, Quantity, Running, Status, System,

@@ -55,11 +55,10 @@ pub(crate) fn plane(study: &Study, done: &Basins, portrait: &Portrait) -> Result
     let basins = &portrait.gathered.basins;
     let outcome = |place: usize| {
         let share = 100.0 * portrait.shares[place].fraction;
-        let name = if basins[place].attractor.quiet {
-            "quiet".to_owned()
-        } else {
-            words(portrait.scales, &basins[place].attractor, portrait.period)
-        };
+        let attractor = &basins[place].attractor;
+        let name = portrait
+            .quiet_word(attractor)
+            .map_or_else(|| words(portrait.scales, attractor, portrait.period), str::to_owned);
         (role(basins, place), format!("{name}: {share:.1} %"))
     };
     let mut over: Vec<Layer> = Vec::new();

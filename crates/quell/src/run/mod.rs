@@ -106,6 +106,11 @@ fn digits(value: f64) -> String {
         .map_or(text, |rounded| format!("{rounded:?}").trim_end_matches(".0").to_owned())
 }
 
+/// The ending of a noun after a count.
+pub fn plural(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
+}
+
 /// What a stopped verb says.
 fn stopped(verb: &str) -> Failure {
     Failure::Failed { key: verb.to_owned(), why: "stopped; nothing is kept".to_owned() }

@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
-use quell_belt::attractor::Label;
+use quell_belt::attractor::{Attractor, Label};
 use quell_belt::orbit::Verdict;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
 use super::super::attractor::{VERDICTS, number, put, put_section, verdict_code, words};
-use super::super::in_words;
+use super::super::{in_words, plural};
 use super::{Basins, Layout, Portrait, Share};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
@@ -23,10 +23,6 @@ fn percent(share: Share) -> String {
     format!("{} % ({} to {} %)", digits(share.fraction), digits(share.low), digits(share.high))
 }
 
-fn plural(count: usize) -> &'static str {
-    if count == 1 { "" } else { "s" }
-}
-
 /// What a start does that ends without a slow motion, singular and plural. A dither in the band of the vibration itself leaves
 /// nothing quiet.
 pub fn quiescence(in_band: bool) -> [&'static str; 2] {
@@ -38,6 +34,11 @@ pub fn quiescence(in_band: bool) -> [&'static str; 2] {
 }
 
 impl Portrait {
+    /// What a quiet attractor is called; `None` of one that vibrates.
+    pub fn quiet_word(&self, attractor: &Attractor) -> Option<&'static str> {
+        attractor.quiet.then_some(if self.in_band { "in step with the dither" } else { "quiet" })
+    }
+
     /// Whether starts end on the response of sliding, in one sentence.
     pub fn sentence(&self) -> String {
         let count = self.gathered.labels.len();

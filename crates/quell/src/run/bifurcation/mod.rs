@@ -96,6 +96,8 @@ pub struct Jump {
     pub after: f64,
     /// Whether the sweep is on the quiet response afterwards.
     pub to_quiet: bool,
+    /// Whether the dither lies in the band of slow vibration there.
+    pub in_band: bool,
 }
 
 /// Sweeps of one parameter.
@@ -226,11 +228,15 @@ impl Point {
 impl Branch {
     /// Where the quiet response is left or reached.
     pub fn jumps(&self) -> Vec<Jump> {
-        let known: Vec<(f64, bool)> =
-            self.points.iter().filter_map(|point| Some((point.value, point.quiet()?))).collect();
+        let known: Vec<(&Point, bool)> =
+            self.points.iter().filter_map(|point| Some((point, point.quiet()?))).collect();
         let changes = known.windows(2).filter(|pair| pair[0].1 != pair[1].1);
         changes
-            .map(|pair| Jump { before: pair[0].0, after: pair[1].0, to_quiet: pair[1].1 })
+            .map(|pair| {
+                let ((before, _), (after, to_quiet)) = (pair[0], pair[1]);
+                let in_band = after.in_band;
+                Jump { before: before.value, after: after.value, to_quiet, in_band }
+            })
             .collect()
     }
 }

@@ -36,8 +36,7 @@ impl Bifurcation {
                 value(first.value)
             )];
             for jump in branch.jumps() {
-                let in_band = branch.points.iter().any(|point| point.in_band);
-                let word = match (jump.to_quiet, in_band) {
+                let word = match (jump.to_quiet, jump.in_band) {
                     (true, false) => "falls quiet",
                     (true, true) => "falls into step with the dither",
                     (false, _) => "begins to vibrate",

@@ -12,7 +12,7 @@ use crate::store::{Found, Store};
 use crate::sweep::{self, Data, Plan, Running};
 
 pub use boundary::{Boundary, boundaries};
-pub use outcome::{Extreme, Map, Summary, plural};
+pub use outcome::{Extreme, Map, Summary};
 pub use shared::{Part, Sharded, Shared};
 
 /// Computes a map. With a store every finished chunk is kept there, and what it has already is

@@ -7,7 +7,7 @@ use quell_model::units::Quantity;
 use serde_json::{Map as Object, Value as Json, json};
 
 use crate::dataset::{Array, Dataset};
-use crate::run::in_words;
+use crate::run::{in_words, plural};
 use crate::study::Subject;
 use crate::sweep::{Content, Data, Entry, Plan, Status};
 
@@ -295,11 +295,6 @@ fn reasons(summary: &Summary) -> String {
         })
         .collect();
     reasons.join("; ")
-}
-
-/// The ending of a noun after a count.
-pub fn plural(count: usize) -> &'static str {
-    if count == 1 { "" } else { "s" }
 }
 
 /// A list in row-major order as lists of lists.
