@@ -34,23 +34,27 @@ enum Action {
     Python,
 }
 
+const FORMATTING: Step = Step {
+    name: "formatting",
+    action: Action::Cargo(&["fmt", "--all", "--check"]),
+    advice: "run `cargo fmt --all`",
+};
+
+const ARROWS: Step = Step {
+    name: "layers",
+    action: Action::Layers,
+    advice: "turn the arrow round, or move the code",
+};
+
 #[rustfmt::skip]
 const STEPS: &[Step] = &[
-    Step {
-        name: "formatting",
-        action: Action::Cargo(&["fmt", "--all", "--check"]),
-        advice: "run `cargo fmt --all`",
-    },
+    FORMATTING,
     Step {
         name: "lints",
         action: Action::Cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]),
         advice: "mend what clippy names, or `#[expect(lint, reason = \"…\")]`",
     },
-    Step {
-        name: "layers",
-        action: Action::Layers,
-        advice: "turn the arrow round, or move the code",
-    },
+    ARROWS,
     Step {
         name: "licences",
         action: Action::Licences,
@@ -88,16 +92,8 @@ const SLOW: &[&str] = &[
 /// The steps of `--quick`: without documentation, the slow tests and Python.
 #[rustfmt::skip]
 const QUICK: &[Step] = &[
-    Step {
-        name: "formatting",
-        action: Action::Cargo(&["fmt", "--all", "--check"]),
-        advice: "run `cargo fmt --all`",
-    },
-    Step {
-        name: "layers",
-        action: Action::Layers,
-        advice: "turn the arrow round, or move the code",
-    },
+    FORMATTING,
+    ARROWS,
     Step {
         name: "tests but the slow ones",
         action: Action::Quick,

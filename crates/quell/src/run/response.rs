@@ -18,7 +18,8 @@ use crate::study::Study;
 /// Levels beyond this are told as such: what is left is the engine's error and rounding.
 const MOST_DECIBELS: f64 = 120.0;
 
-/// Most samples of a record that is kept.
+/// Most samples of a record that is kept: with its twin without dither and both spectra about a gigabyte. Larger, a fast dither
+/// could take all memory; smaller, it would take shorter records.
 const MOST_SAMPLES: f64 = 4_194_304.0;
 
 /// A steady response with its start.
