@@ -10,7 +10,7 @@ use quell_belt::averaging::{
     criterion, critical_amplitudes, everywhere_stable_amplitude, undithered_critical_velocity,
     unstable_bands,
 };
-use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
+use quell_model::{Belt, Direction, Dither, Expression, Friction, LawKind, Waveform};
 
 /// The laws with closed forms.
 const CLOSED: [LawKind; 2] = [LawKind::Stribeck, LawKind::Decreasing];
@@ -104,6 +104,26 @@ fn roots_against_closed_forms() {
         }
     }
     assert!(met > 40, "{met}");
+}
+
+/// Without damping a falling law is unstable from the fast velocity on, however far: named or as a formula, of which slopes far out
+/// are zero within their error. A law without a slope has no unstable velocity.
+#[test]
+fn only_what_is_neutral_throughout_is_no_band() {
+    let formula = |text: &str| {
+        Friction::Expression(Expression::new(text, &[], Some(0.4), 1.0).expect("valid"))
+    };
+    let named = LawKind::Decreasing.build(&[0.4, 0.2857, 0.2]).expect("valid");
+    let falling = formula("0.2857 + 0.1143*exp(-abs(v)/0.2)");
+    for (law, bands) in [(named, 1), (falling, 1), (formula("0.3"), 0)] {
+        let sine = dither(Direction::Tangential, Waveform::Sine, 6.0, 10.0);
+        let belt = belt(0.0, 1.0, &law, vec![sine]);
+        let found = unstable_bands(&belt, AveragingOptions::default()).expect("ok");
+        assert_eq!(found.len(), bands, "{law:?} {found:?}");
+        for band in found {
+            assert!((band.lower - 0.6).abs() < 1e-9 && band.upper.is_none(), "{band:?}");
+        }
+    }
 }
 
 /// Bands found from the criterion are the closed ones, tangential; for normal dither their edges satisfy α = μ(v₀)α_N.

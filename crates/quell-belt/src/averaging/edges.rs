@@ -221,13 +221,25 @@ pub fn unstable_bands(belt: &Belt, options: AveragingOptions) -> Result<Vec<Band
     if let Some((lower, lower_crossing)) = open {
         bands.push(Band { lower, lower_crossing, upper: None });
     }
-    // Where the criterion is zero throughout, without damping and without a slope, nothing grows.
-    let last = points.last().copied().unwrap_or(0.0);
+    // Where the criterion is zero throughout, without damping and without a slope, nothing grows. One place would not say so: far
+    // out a law that falls exponentially has no slope beyond rounding either.
+    let neutral = Verdict::Undecided { why: UndecidedBecause::WithinError };
+    let grows = |band: &Band| -> Result<bool, AveragingError> {
+        let is_inside = |v: &f64| *v > band.lower && band.upper.is_none_or(|upper| *v < upper);
+        let mut inside = points.iter().copied().filter(is_inside).peekable();
+        if inside.peek().is_none() {
+            return Ok(true);
+        }
+        for v in inside {
+            if criterion(v)?.verdict != neutral {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    };
     let mut growing = Vec::with_capacity(bands.len());
     for band in bands {
-        let inside = band.upper.map_or(last, |upper| 0.5 * (band.lower + upper));
-        let neutral = Verdict::Undecided { why: UndecidedBecause::WithinError };
-        if criterion(inside)?.verdict != neutral {
+        if grows(&band)? {
             growing.push(band);
         }
     }
