@@ -55,7 +55,8 @@ pub(super) const ONE_STATE: f64 = NEAR;
 /// fewest): nearer to a threshold than that a run is taken for settled.
 const WINDOWS: usize = 32;
 
-/// Longest run τ, in 32 000 slow periods: what moves for longer moves for ever, as far as a run can tell.
+/// Longest run τ, 32 000 slow periods: 1.6 times what the 200 000 periods of [`Patience::SWEEP`] last at R = 10. A slower strobe
+/// would otherwise run for minutes; shorter, runs close to a threshold would be reported as unsettled.
 const LONGEST: f64 = 2e5;
 
 /// How long and how closely.

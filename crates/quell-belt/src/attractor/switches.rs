@@ -21,8 +21,9 @@ use crate::simulation::{DEFAULT_TOLERANCE, Stalled, Start, simulate};
 /// bisection (10⁻⁵). Wider intervals are those at which it stopped, and are reported with their error.
 const NARROW: f64 = 1e-4;
 
-/// For a run that cannot end on the base response, because that is unstable: only another response without slow motion would be
-/// news, and that attracts within this time. What still moves then vibrates.
+/// For a run that cannot end on the base response, because that is unstable. What still moves after 2000 slow periods (at R = 10)
+/// counts as vibrating: a response without slow motion that attracts more slowly than that is missed, which is so in a narrow
+/// interval about a threshold.
 const OFF_AN_UNSTABLE_BASE: Patience = Patience { periods: 20_000, ..Patience::SWEEP };
 
 /// Where a run ends.

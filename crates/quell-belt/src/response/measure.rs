@@ -18,8 +18,9 @@ use crate::simulation::{
 /// Amplitude, relative to F, of which nothing is left but the engine's error and rounding: it need not settle.
 const NOTHING: f64 = 1e-9;
 
-/// Relative error of M from the engine and from rounding, where its halves agree by chance.
-const ROUNDING: f64 = 1e-9;
+/// Relative error of M from the engine and from rounding, where its halves agree by chance: a thousand times the tolerance of a
+/// step, as [`NOTHING`]. Smaller, noise would decide whether a dither increases or reduces.
+const ROUNDING: f64 = NOTHING;
 
 /// A belt and where it starts.
 #[derive(Clone, Debug, PartialEq)]
