@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[2]
 ENVIRONMENT = ROOT / "target" / "peers"
 PYTHON = ENVIRONMENT / "bin" / "python"
 PEERS = ROOT / "benches" / "peers"
-SPEED = ["cargo", "run", "--quiet", "--release", "--package", "quell-belt", "--example", "speed"]
+SPEED = ["cargo", "run", "--quiet", "--release", "--package", "quell-dynamics", "--example", "speed"]
 
 
 def last_line(command):

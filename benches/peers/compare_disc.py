@@ -21,7 +21,7 @@ def last_line(command):
 if not PYTHON.exists():
     venv.create(ENVIRONMENT, with_pip=True)
     subprocess.run([PYTHON, "-m", "pip", "install", "--quiet", "scipy"], check=True)
-speed = ["cargo", "run", "--quiet", "--release", "--package", "quell-disc", "--example", "speed"]
+speed = ["cargo", "run", "--quiet", "--release", "--package", "quell-disc", "--example", "disc_speed"]
 before = last_line(speed)
 peer = last_line([PYTHON, ROOT / "benches" / "peers" / "numpy_disc.py"])
 # Once more: a machine that changed its speed meanwhile shows here.

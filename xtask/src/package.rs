@@ -12,7 +12,8 @@ use crate::manifest;
 const ORDER: &[&str] = &[
     "quell-numerics",
     "quell-model",
-    "quell-belt",
+    "quell-linear",
+    "quell-dynamics",
     "quell-disc",
     "quell-plot",
     "quell-study",

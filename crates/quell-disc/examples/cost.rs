@@ -10,9 +10,11 @@ mod clock;
 use std::hint::black_box;
 
 use quell_disc::dithered::DitheredDisc;
+use quell_disc::equations::System;
 use quell_disc::plate::{ModeSet, Plate, Reference};
-use quell_disc::system::System;
-use quell_disc::{Disc, Dither, Load, Mode, undithered};
+use quell_disc::undithered;
+use quell_model::Disc;
+use quell_model::disc::{DiscDither, Load, Mode};
 use quell_numerics::floquet::Effort;
 
 /// Passes over the points.
@@ -29,7 +31,7 @@ fn modes(radial: usize, diameters: u32) -> Vec<Mode> {
     set.expect("modes with a critical speed").at_radius(0.75, 1e-4).expect("on the plate")
 }
 
-fn disc(modes: &[Mode], dither: Dither) -> Disc {
+fn disc(modes: &[Mode], dither: DiscDither) -> Disc {
     let load = Load::new(0.3, 0.3, 0.3, 1.0);
     Disc::new(modes.to_vec(), vec![load], dither, SPEED).expect("valid")
 }
@@ -52,11 +54,11 @@ fn main() {
     let sets = [(1, 1), (1, 2), (1, 4), (2, 5), (2, 8), (3, 8), (3, 10), (3, 12), (4, 12)];
     for (radial, diameters) in sets {
         let modes = modes(radial, diameters);
-        let system = System::new(&disc(&modes, Dither::None));
+        let system = System::new(&disc(&modes, DiscDither::None));
         let eigenvalues = fastest(|friction| {
             black_box(undithered::growth_of(&system, &[friction]).expect("finite"));
         });
-        let dither = Dither::Normal { amplitude: 1.0, frequency_ratio: 2.7 };
+        let dither = DiscDither::Normal { amplitude: 1.0, frequency_ratio: 2.7 };
         let prepared = DitheredDisc::new(&disc(&modes, dither)).expect("finite").expect("dithered");
         let exponents = fastest(|friction| {
             black_box(prepared.exponent(friction, Effort::default()).expect("finite"));

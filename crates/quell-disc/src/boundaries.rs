@@ -15,8 +15,9 @@ use std::fmt;
 
 use quell_numerics::eigen::{Decomposition, EigenError};
 
-use crate::disc::Disc;
-use crate::system::{Contribution, Contributions, System};
+use crate::equations::System;
+use quell_model::Disc;
+use quell_model::disc::{Contribution, Contributions};
 
 /// Below this fraction of |y||u| a displacement counts as zero.
 const OUT_OF_REACH: f64 = 1e-10;

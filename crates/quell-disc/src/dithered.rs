@@ -9,10 +9,11 @@ use quell_numerics::eigen::EigenError;
 use quell_numerics::floquet::{ConstantFlow, Effort, Exponent, Floquet, Phase};
 use quell_numerics::matrix::Matrix;
 
-use crate::disc::Disc;
-use crate::growth::Growth;
-use crate::system::{Contributions, System};
+use crate::equations::System;
 use crate::undithered;
+use quell_linear::growth::Growth;
+use quell_model::Disc;
+use quell_model::disc::Contributions;
 
 /// A disc whose friction is dithered, prepared for any factor on the friction of its loads.
 #[derive(Clone, Debug)]

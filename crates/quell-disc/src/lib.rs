@@ -2,24 +2,17 @@
 //! and a spring that rotate over it, and the follower force of friction; with and without dither.
 //!
 //! * [`plate`]: frequencies and shapes of the plate, every mode found twice;
-//! * [`mode`], [`disc`]: modes, loads and dither, valid by construction;
-//! * [`system`]: the equations of motion, assembled from contributions that can be switched off;
+//! * [`equations`]: the equations of motion, assembled from contributions that can be switched off;
 //! * [`undithered`], [`boundaries`]: eigenvalues, Campbell diagram, exact boundaries f(Ω) at ξ = 0;
 //! * [`dithered`], [`partition`]: Floquet exponents with error bounds, boundary curves by D-partition;
-//! * [`resonance`]: where waves meet, which meetings can be unstable, tongues, clear dither frequencies;
-//! * [`growth`]: growth rate, error and verdict.
+//! * [`resonance`]: where waves meet, which meetings can be unstable, tongues, clear dither frequencies.
+//!
+//! The disc itself, its modes, loads and dither, is a noun of `quell-model`.
 
 pub mod boundaries;
-pub mod disc;
 pub mod dithered;
-pub mod growth;
-pub mod mode;
+pub mod equations;
 pub mod partition;
 pub mod plate;
 pub mod resonance;
-pub mod system;
 pub mod undithered;
-
-pub use disc::{Disc, Dither};
-pub use growth::{Growth, Verdict};
-pub use mode::{Load, Mode};

@@ -26,7 +26,7 @@ use std::fmt;
 use num_complex::Complex64;
 use quell_numerics::eigen::Tridiagonal;
 
-use crate::disc::Disc;
+use quell_model::Disc;
 
 /// Largest H: time grows with its square, and with this one ten modes took 17 s on a 2.1 GHz Xeon. A smaller one refuses slow
 /// dithers that could be waited for.

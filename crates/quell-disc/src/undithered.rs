@@ -6,9 +6,10 @@
 use num_complex::Complex64;
 use quell_numerics::eigen::{Decomposition, EigenError};
 
-use crate::disc::Disc;
-use crate::growth::Growth;
-use crate::system::{Contributions, System};
+use crate::equations::System;
+use quell_linear::growth::Growth;
+use quell_model::Disc;
+use quell_model::disc::Contributions;
 
 /// Least error bound: assembling the matrix rounds its entries too.
 const FLOOR: f64 = 1e-14;

@@ -4,17 +4,20 @@
 use std::f64::consts::PI;
 
 use quell_disc::dithered;
+use quell_disc::equations::System;
 use quell_disc::plate::{ModeSet, Plate, RadialShape, Reference};
 use quell_disc::resonance::Waves;
-use quell_disc::system::{Contribution, Contributions, System};
 use quell_disc::undithered;
-use quell_disc::{Disc, Dither, Load, Mode, Verdict};
+use quell_linear::growth::Verdict;
+use quell_model::Disc;
+use quell_model::disc::{Contribution, Contributions};
+use quell_model::disc::{DiscDither, Load, Mode};
 use quell_numerics::eigen::eigenvalues;
 use quell_numerics::floquet::Effort;
 use quell_numerics::matrix::Matrix;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
-const TANGENTIAL: Dither = Dither::Tangential { amplitude: 1.0, frequency_ratio: 2.7 };
+const TANGENTIAL: DiscDither = DiscDither::Tangential { amplitude: 1.0, frequency_ratio: 2.7 };
 
 fn set(inner: f64, diameters: u32) -> ModeSet {
     let plate = Plate::new(inner, 0.3).expect("a plate");
@@ -27,13 +30,13 @@ fn modes(damping: f64) -> Vec<Mode> {
 }
 
 /// m = c = k = `strength`, friction in units of it.
-fn disc(strength: f64, friction: f64, damping: f64, dither: Dither, speed: f64) -> Disc {
+fn disc(strength: f64, friction: f64, damping: f64, dither: DiscDither, speed: f64) -> Disc {
     let load = Load::new(strength, strength, strength, friction * strength);
     Disc::new(modes(damping), vec![load], dither, speed).expect("valid")
 }
 
 fn growth(disc: &Disc) -> f64 {
-    if disc.dither() == Dither::None {
+    if disc.dither() == DiscDither::None {
         undithered::growth(disc).expect("finite").rate
     } else {
         dithered::growth(disc, Effort::default()).expect("finite").rate
@@ -100,7 +103,7 @@ fn normalisation_of_real_and_complex_modes() {
     let (strength, friction, speed) = (1e-4, 4.0, 0.6);
     let mode = modes(0.0)[2];
     let load = Load::new(strength, strength, strength, friction * strength);
-    let disc = Disc::new(vec![mode], vec![load], Dither::None, speed).expect("valid");
+    let disc = Disc::new(vec![mode], vec![load], DiscDither::None, speed).expect("valid");
     let rate = |square: f64| {
         -square / (2.0 * mode.ratio) * strength * (mode.ratio + 2.0 * speed - 2.0 * friction)
     };
@@ -134,7 +137,7 @@ fn geometry_of_the_tables() {
 /// Modal damping rests in the disc. Without the circulatory pair, the free disc would be unstable beyond Ω = β/q.
 #[test]
 fn damping_turns_with_the_disc() {
-    let disc = Disc::new(modes(1e-3), vec![Load::new(0.0, 0.0, 0.0, 0.0)], Dither::None, 1.3)
+    let disc = Disc::new(modes(1e-3), vec![Load::new(0.0, 0.0, 0.0, 0.0)], DiscDither::None, 1.3)
         .expect("valid");
     let rate = |parts: Contributions| undithered::growth_with(&disc, parts).expect("finite").rate;
     close(rate(Contributions::ALL), -1.771_548e-3, 1e-5);
@@ -152,7 +155,7 @@ fn reference_frequency_depends_on_the_modes() {
 /// (5.18), (5.25), (5.32): with A_pq″, A_pq′ inside the double sum, as printed, the verdict flips.
 #[test]
 fn indices_of_the_double_sum() {
-    let disc = disc(0.3, 1.0 / 3.0, 0.0, Dither::None, 0.2);
+    let disc = disc(0.3, 1.0 / 3.0, 0.0, DiscDither::None, 0.2);
     let right = undithered::growth(&disc).expect("finite");
     let system = System::new(&disc);
     // As printed: every row of the load's mass and damper acts on its own coordinate, with the sum of all shapes.
@@ -219,7 +222,7 @@ fn first_harmonic_of_a_reversed_friction() {
         integrate(wave, 0.0, 2.0 * PI, &[0.5 * PI, 1.5 * PI], &QuadratureOptions::default());
     close(first.expect("converges").value, 4.0 / PI, 1e-12);
     let largest = |friction: f64, rate: &dyn Fn(&Disc) -> f64, amplitude: f64| {
-        let dither = Dither::Tangential { amplitude, frequency_ratio: 2.7 };
+        let dither = DiscDither::Tangential { amplitude, frequency_ratio: 2.7 };
         let speeds = (0..=30).map(|k| 0.3182 + 4e-4 * f64::from(k));
         let discs = speeds.map(|speed| disc(0.1, friction / 0.1, 0.0, dither, speed));
         discs.map(|disc| rate(&disc)).fold(f64::MIN, f64::max)
@@ -267,7 +270,7 @@ fn exponential(a: &Matrix, time: f64) -> Matrix {
 /// twice the mass are half the load, and the growth is another.
 #[test]
 fn loads_are_ratios_to_the_mass_of_the_plate() {
-    let rate = |strength: f64| growth(&disc(strength, 1.5, 0.0, Dither::None, 0.12));
+    let rate = |strength: f64| growth(&disc(strength, 1.5, 0.0, DiscDither::None, 0.12));
     let (one, half) = (rate(0.1), rate(0.05));
     assert!(one > 0.0 && (half / one - 1.0).abs() > 0.1, "{one} {half}");
 }
@@ -291,7 +294,7 @@ fn revived_tongues_have_no_threshold() {
 /// Table 5.1 leaves Ω = 0 out, where the cosine and sine of one mode meet: an exponent stays imaginary whatever the load.
 #[test]
 fn standstill_is_a_meeting() {
-    let slow = |speed: f64, friction: f64| disc(0.1, friction, 0.0, Dither::None, speed);
+    let slow = |speed: f64, friction: f64| disc(0.1, friction, 0.0, DiscDither::None, speed);
     let waves = Waves::new(&slow(0.0, 0.4)).expect("waves");
     assert!(waves.undithered(0.0..=1.0).iter().any(|resonance| resonance.speed == 0.0));
     for friction in [0.1, 0.4, 0.8] {
@@ -325,15 +328,15 @@ fn only_three_of_eight_can_be_unstable() {
 /// "Neither dither suppresses the undithered instabilities": tangential dither takes the mean friction that drives them.
 #[test]
 fn tangential_dither_takes_the_first_tongues_away() {
-    let tongue = |dither: Dither| {
+    let tongue = |dither: DiscDither| {
         let rates =
             (0..=80).map(|k| growth(&disc(0.1, 0.4, 0.0, dither, 0.06 + 5e-4 * f64::from(k))));
         rates.fold(f64::MIN, f64::max)
     };
-    let (without, with) = (tongue(Dither::None), tongue(TANGENTIAL));
+    let (without, with) = (tongue(DiscDither::None), tongue(TANGENTIAL));
     close(without, 6.165e-4, 0.02);
     assert!(with < 1e-3 * without, "{with} {without}");
-    let normal = tongue(Dither::Normal { amplitude: 1.0, frequency_ratio: 2.7 });
+    let normal = tongue(DiscDither::Normal { amplitude: 1.0, frequency_ratio: 2.7 });
     assert!(normal > 0.5 * without, "normal dither leaves them: {normal}");
 }
 
@@ -343,10 +346,10 @@ fn tangential_dither_takes_the_first_tongues_away() {
 fn unit_of_the_friction_axis() {
     for speed in [0.25, 0.5, 0.75] {
         let limit = 1.0 + speed;
-        assert!(growth(&disc(0.01, 0.95 * limit, 0.0, Dither::None, speed)) < 0.0);
-        assert!(growth(&disc(0.01, 1.05 * limit, 0.0, Dither::None, speed)) > 0.0);
+        assert!(growth(&disc(0.01, 0.95 * limit, 0.0, DiscDither::None, speed)) < 0.0);
+        assert!(growth(&disc(0.01, 1.05 * limit, 0.0, DiscDither::None, speed)) > 0.0);
         // "Unstable at every speed above 2·10⁻⁵" for c = 0.1: the printed number itself does nothing.
-        assert!(growth(&disc(0.1, 2e-5 / 0.1, 0.0, Dither::None, speed)) < 0.0);
-        assert!(growth(&disc(0.1, 1e4 * 2.2e-5 / 0.1, 0.0, Dither::None, speed)) > 0.0);
+        assert!(growth(&disc(0.1, 2e-5 / 0.1, 0.0, DiscDither::None, speed)) < 0.0);
+        assert!(growth(&disc(0.1, 1e4 * 2.2e-5 / 0.1, 0.0, DiscDither::None, speed)) > 0.0);
     }
 }

@@ -6,7 +6,8 @@
 
 use num_complex::Complex64;
 use quell_disc::dithered::DitheredDisc;
-use quell_disc::{Disc, Dither, Load, Mode};
+use quell_model::Disc;
+use quell_model::disc::{DiscDither, Load, Mode};
 use quell_numerics::floquet::Effort;
 
 const HARMONICS: i32 = 24;
@@ -85,10 +86,10 @@ fn the_hill_determinant_vanishes_at_the_exponents_of_the_splitting() {
                 modes.push(mode(1, 11.793635, -2.02319, damping));
             }
             for dither in [
-                Dither::Normal { amplitude: 0.5, frequency_ratio: 2.7 },
-                Dither::Normal { amplitude: 1.0, frequency_ratio: 4.1 },
-                Dither::Tangential { amplitude: 1.0, frequency_ratio: 2.7 },
-                Dither::Tangential { amplitude: 0.8, frequency_ratio: 0.9 },
+                DiscDither::Normal { amplitude: 0.5, frequency_ratio: 2.7 },
+                DiscDither::Normal { amplitude: 1.0, frequency_ratio: 4.1 },
+                DiscDither::Tangential { amplitude: 1.0, frequency_ratio: 2.7 },
+                DiscDither::Tangential { amplitude: 0.8, frequency_ratio: 0.9 },
             ] {
                 for speed in [0.05, 0.2, 0.37, 0.61, 0.88] {
                     let load = Load::new(0.2, 0.15, 0.3, 1.0);

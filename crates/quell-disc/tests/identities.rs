@@ -6,13 +6,15 @@ use num_complex::Complex64;
 use quell_disc::boundaries::{Marginal, NoBoundary, boundaries};
 use quell_disc::dithered::{self, DitheredDisc};
 use quell_disc::partition::{NoPartition, crossings};
-use quell_disc::system::{Contribution, Contributions};
 use quell_disc::undithered::{self, eigenvalues};
-use quell_disc::{Disc, Dither, Growth, Load, Mode, Verdict};
+use quell_linear::growth::{Growth, Verdict};
+use quell_model::Disc;
+use quell_model::disc::{Contribution, Contributions};
+use quell_model::disc::{DiscDither, Load, Mode};
 use quell_numerics::floquet::Effort;
 
-const NORMAL: Dither = Dither::Normal { amplitude: 1.0, frequency_ratio: 2.7 };
-const TANGENTIAL: Dither = Dither::Tangential { amplitude: 1.0, frequency_ratio: 2.7 };
+const NORMAL: DiscDither = DiscDither::Normal { amplitude: 1.0, frequency_ratio: 2.7 };
+const TANGENTIAL: DiscDither = DiscDither::Tangential { amplitude: 1.0, frequency_ratio: 2.7 };
 
 /// Modes of the disc b/a = 0.5, r₀/a = 0.75, ν = 0.3 with zero to two, or five, nodal diameters, and with the second
 /// radial family beside them.
@@ -39,7 +41,7 @@ fn modes(set: &str, damping: f64) -> Vec<Mode> {
         .collect()
 }
 
-fn disc(set: &str, damping: f64, load: Load, dither: Dither, speed: f64) -> Disc {
+fn disc(set: &str, damping: f64, load: Load, dither: DiscDither, speed: f64) -> Disc {
     Disc::new(modes(set, damping), vec![load], dither, speed).expect("valid")
 }
 
@@ -88,7 +90,7 @@ fn marginal_lines_are_undecided() {
         assert!((speed - printed).abs() < 6e-4, "{speed} {printed}");
         // Little friction: nothing grows, and one exponent stays on the axis.
         for friction in [0.0, 0.003, 0.01] {
-            for dither in [Dither::None, NORMAL, TANGENTIAL] {
+            for dither in [DiscDither::None, NORMAL, TANGENTIAL] {
                 let load = Load::new(0.1, 0.1, 0.1, friction);
                 let found = of(&disc("1,2", 0.0, load, dither, *speed));
                 let at = format!("Ω = {speed}, f = {friction}, {dither:?}: {found:?}");
@@ -99,7 +101,7 @@ fn marginal_lines_are_undecided() {
         }
     }
     // Off the lines the same disc has a verdict.
-    let found = of(&disc("1,2", 0.0, Load::new(0.1, 0.1, 0.1, 0.01), Dither::None, 0.3));
+    let found = of(&disc("1,2", 0.0, Load::new(0.1, 0.1, 0.1, 0.01), DiscDither::None, 0.3));
     assert_eq!(found.verdict(), Verdict::Stable);
 }
 
@@ -110,7 +112,8 @@ fn a_free_disc_decays_with_the_damping_of_its_modes_at_any_speed() {
         for speed in [0.0, 0.3, 1.0, 1.3, 5.0] {
             let modes = modes(set, damping);
             let lowest = modes.iter().map(|mode| mode.ratio).fold(f64::INFINITY, f64::min);
-            let free = Disc::new(modes.clone(), Vec::new(), Dither::None, speed).expect("valid");
+            let free =
+                Disc::new(modes.clone(), Vec::new(), DiscDither::None, speed).expect("valid");
             let found = of(&free);
             let gap = (found.rate + damping * lowest).abs();
             assert!(gap <= found.error, "{set}, Ω = {speed}: {gap:e} {found:?}");
@@ -128,7 +131,7 @@ fn a_free_disc_decays_with_the_damping_of_its_modes_at_any_speed() {
 #[test]
 fn damping_that_turns_with_the_load_would_shake_a_free_disc() {
     // Why the circulatory pair is needed: Ω = 1.3, ξ = 10⁻³, no contact.
-    let free = Disc::new(modes("1,2", 1e-3), Vec::new(), Dither::None, 1.3).expect("valid");
+    let free = Disc::new(modes("1,2", 1e-3), Vec::new(), DiscDither::None, 1.3).expect("valid");
     let parts = Contributions::ALL.without(Contribution::CirculatoryDamping);
     let turning = undithered::growth_with(&free, parts).expect("finite").rate;
     assert!((turning - 6.0e-4).abs() < 1e-5, "{turning}");
@@ -146,10 +149,10 @@ fn two_opposite_half_pads_split_into_even_and_odd_diameters() {
             let split = |odd: usize| {
                 let chosen =
                     modes(set, 1e-4).into_iter().filter(|m| m.diameters % 2 == odd).collect();
-                Disc::new(chosen, vec![whole.clone()], Dither::None, speed).expect("valid")
+                Disc::new(chosen, vec![whole.clone()], DiscDither::None, speed).expect("valid")
             };
             let both =
-                Disc::new(modes(set, 1e-4), pads.clone(), Dither::None, speed).expect("valid");
+                Disc::new(modes(set, 1e-4), pads.clone(), DiscDither::None, speed).expect("valid");
             let mut parts = values(&split(0));
             parts.extend(values(&split(1)));
             let found = values(&both);
@@ -181,7 +184,7 @@ fn two_opposite_half_pads_split_into_even_and_odd_diameters() {
 
 #[test]
 fn turning_all_loads_changes_nothing() {
-    for dither in [Dither::None, NORMAL, TANGENTIAL] {
+    for dither in [DiscDither::None, NORMAL, TANGENTIAL] {
         let [straight, turned] = [0.0, 0.7].map(|turn| {
             let loads = vec![
                 Load::new(0.1, 0.1, 0.2, 0.2).at_angle(turn),
@@ -199,7 +202,7 @@ fn turning_all_loads_changes_nothing() {
 #[test]
 fn faint_dither_is_nearly_none() {
     // Growth changes with the square of the dither: α = 10⁻⁷ must give the eigenvalue, by the other method.
-    let faint = Dither::Normal { amplitude: 1e-7, frequency_ratio: 2.7 };
+    let faint = DiscDither::Normal { amplitude: 1e-7, frequency_ratio: 2.7 };
     for speed in [0.062, 0.3, 0.7, 0.95] {
         let dithered = disc("1,5", 1e-4, Load::new(0.3, 0.3, 0.3, 0.6), faint, speed);
         let (found, plain) = (of(&dithered), of(&dithered.undithered()));
@@ -227,7 +230,7 @@ fn exact_boundaries_are_marginal_and_linear_in_the_damper() {
     for set in ["1,2", "2,5"] {
         for speed in [0.05, 0.3, 0.77, 0.95] {
             let at = |damping: f64, friction: f64| {
-                disc(set, 0.0, Load::new(0.2, damping, 0.3, friction), Dither::None, speed)
+                disc(set, 0.0, Load::new(0.2, damping, 0.3, friction), DiscDither::None, speed)
             };
             let found = boundaries(&at(0.1, 0.0)).expect("conservative");
             let doubled = boundaries(&at(0.2, 0.0)).expect("conservative");
@@ -250,10 +253,10 @@ fn exact_boundaries_are_marginal_and_linear_in_the_damper() {
         }
     }
     // At rest the two waves of each pair coincide: one combination of each is out of reach.
-    let rest = disc("1,2", 0.0, Load::new(0.1, 0.1, 0.1, 0.1), Dither::None, 0.0);
+    let rest = disc("1,2", 0.0, Load::new(0.1, 0.1, 0.1, 0.1), DiscDither::None, 0.0);
     let found = boundaries(&rest).expect("conservative");
     assert_eq!(found.iter().filter(|b| b.friction == Marginal::Always).count(), 2, "{found:?}");
-    let damped = disc("1,2", 1e-4, Load::new(0.1, 0.1, 0.1, 0.1), Dither::None, 0.3);
+    let damped = disc("1,2", 1e-4, Load::new(0.1, 0.1, 0.1, 0.1), DiscDither::None, 0.3);
     assert_eq!(boundaries(&damped), Err(NoBoundary::DampedModes));
 }
 
@@ -291,10 +294,10 @@ fn crossings_of_the_partition_are_marginal() {
             }
         }
     }
-    let plain = disc("1,2", 0.0, Load::new(0.1, 0.1, 0.1, 1.0), Dither::None, 0.3);
+    let plain = disc("1,2", 0.0, Load::new(0.1, 0.1, 0.1, 1.0), DiscDither::None, 0.3);
     assert_eq!(crossings(&plain), Err(NoPartition::Undithered));
     // A dither a hundred times slower than the waves is refused, where it would take hours.
-    let slow = Dither::Normal { amplitude: 0.8, frequency_ratio: 0.01 };
+    let slow = DiscDither::Normal { amplitude: 0.8, frequency_ratio: 0.01 };
     let slow = disc("1,2", 0.0, Load::new(0.1, 0.1, 0.1, 1.0), slow, 0.3);
     assert!(matches!(crossings(&slow), Err(NoPartition::TooManyHarmonics { harmonics: 200.. })));
     // A friction whose square overflows leaves no eigenvalues at any frequency: that is not "no boundary".
@@ -316,7 +319,7 @@ fn phases_of_dither_are_phases() {
             .collect()
     };
     let growth = |friction, phases| {
-        let dither = Dither::Tangential { amplitude: 1.0, frequency_ratio: 3.9 };
+        let dither = DiscDither::Tangential { amplitude: 1.0, frequency_ratio: 3.9 };
         let modes = vec![mode(1, 1.8), mode(2, 2.0), mode(3, 3.1)];
         let disc = Disc::new(modes, loads(friction, phases), dither, 0.3).expect("valid");
         DitheredDisc::new(&disc)
@@ -347,14 +350,14 @@ fn every_growing_motion_is_listed() {
         let modes = vec![mode(1, 1.8), mode(2, 2.0), mode(3, 3.1)];
         Disc::new(modes, vec![Load::new(0.05, 0.02, 0.1, 0.3)], dither, 0.3).expect("valid")
     };
-    let still = disc(Dither::None);
+    let still = disc(DiscDither::None);
     let listed = undithered::growing_with(&still, Contributions::ALL).expect("finite");
     let all = eigenvalues(&still).expect("finite");
     let growing = all.iter().filter(|value| value.im >= 0.0 && value.re > 1e-12).count();
     assert!(listed.len() == growing && growing > 1, "{listed:?} {all:?}");
     assert_eq!(listed[0].rate, undithered::growth(&still).expect("finite").rate);
     assert!(listed.is_sorted_by(|a, b| a.rate >= b.rate));
-    let shaken = disc(Dither::Normal { amplitude: 0.0, frequency_ratio: 40.0 });
+    let shaken = disc(DiscDither::Normal { amplitude: 0.0, frequency_ratio: 40.0 });
     let prepared = DitheredDisc::new(&shaken).expect("finite").expect("dithered");
     // Without amplitude the exponents are the eigenvalues.
     let found = prepared.growing(Effort::default()).expect("finite");

@@ -2,8 +2,11 @@
 
 use std::path::Path;
 
-use quell_disc::system::{Contribution, Contributions};
-use quell_disc::{Disc, Dither, Load, Mode, Verdict, dithered, undithered};
+use quell_disc::{dithered, undithered};
+use quell_linear::growth::Verdict;
+use quell_model::Disc;
+use quell_model::disc::{Contribution, Contributions};
+use quell_model::disc::{DiscDither, Load, Mode};
 use quell_numerics::floquet::Effort;
 use serde_json::Value;
 
@@ -44,9 +47,13 @@ fn growth_rates_without_dither() {
         let model = &reference["models"][point["model"].as_str().expect("a name")];
         let [m, c, k, f] = ["m", "c", "k", "f"].map(|key| number(&point[key]));
         let modes = modes(model, number(&point["xi"]));
-        let disc =
-            Disc::new(modes, vec![Load::new(m, c, k, f)], Dither::None, number(&point["Omega"]))
-                .expect("valid");
+        let disc = Disc::new(
+            modes,
+            vec![Load::new(m, c, k, f)],
+            DiscDither::None,
+            number(&point["Omega"]),
+        )
+        .expect("valid");
         let parts = match point["damp"].as_str() {
             Some("diag") => Contributions::ALL.without(Contribution::CirculatoryDamping),
             _ => Contributions::ALL,
@@ -79,8 +86,8 @@ fn growth_rates_with_dither() {
         let [strength, friction] = [number(&point["m=c=k"]), number(&point["f"])];
         let (amplitude, frequency_ratio) = (number(&point["alpha"]), number(&point["R"]));
         let dither = match point["dither"].as_str() {
-            Some("normal") => Dither::Normal { amplitude, frequency_ratio },
-            _ => Dither::Tangential { amplitude, frequency_ratio },
+            Some("normal") => DiscDither::Normal { amplitude, frequency_ratio },
+            _ => DiscDither::Tangential { amplitude, frequency_ratio },
         };
         let load = Load::new(strength, strength, strength, friction);
         let disc = Disc::new(

@@ -5,6 +5,7 @@
 //! Friction-Induced Oscillations through Use of High-Frequency Dither Signals*.
 
 pub mod belt;
+pub mod disc;
 pub mod dither;
 pub mod friction;
 mod invalid;
@@ -13,6 +14,7 @@ pub mod units;
 pub mod waveform;
 
 pub use belt::Belt;
+pub use disc::Disc;
 pub use dither::{Direction, Dither};
 pub use friction::{
     Coulomb, Expression, Friction, LawKind, Samples, SlidingLaw, StribeckExponential,

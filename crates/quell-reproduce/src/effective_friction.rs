@@ -1,10 +1,10 @@
 //! Figures 2.4, 2.5, 3.3, 3.4: effective friction μ̄(v_r) = ⟨μ(v_r − αG)⟩ under tangential dither of growing amplitude.
 //!
 //! Inside |v_r| < αG_max the jump of the law is smoothed; outside the curve is lifted (Stribeck) or falls more steeply
-//! (decreasing). Closed forms of `quell_belt::averaging`; for the decreasing law under a triangle the print's (3.38a) is
+//! (decreasing). Closed forms of `quell_linear::averaging`; for the decreasing law under a triangle the print's (3.38a) is
 //! drawn too.
 
-use quell_belt::averaging::{FastMotion, FastWave, effective};
+use quell_linear::averaging::{FastMotion, FastWave, effective};
 use quell_model::{LawKind, Waveform};
 
 use super::print::{self, LawNumbers};

@@ -6,7 +6,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use quell_belt::averaging::{Becomes, Response};
+use quell_linear::averaging::{Becomes, Response};
 use quell_model::{Direction, Waveform};
 
 use super::product::{Cell, Product, Table};

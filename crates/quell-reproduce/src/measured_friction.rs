@@ -5,9 +5,9 @@
 //! against the averaging approximation with both terms of (4.23) and the law itself. Windows across which the slow velocity
 //! changes by more than 0.02 are left out: averaging holds it fixed.
 
-use quell_belt::averaging::{AveragingOptions, FastMotion, NormalOrder, effective};
-use quell_belt::response::{WindowMean, measured_effective_friction};
-use quell_belt::simulation::Start;
+use quell_dynamics::response::{WindowMean, measured_effective_friction};
+use quell_dynamics::simulation::Start;
+use quell_linear::averaging::{AveragingOptions, FastMotion, NormalOrder, effective};
 
 use super::product::{Product, Table};
 use super::source::{Source, failed, law_name, letter, parameters, values};

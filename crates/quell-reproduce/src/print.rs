@@ -1,5 +1,5 @@
 //! Formulas as the dissertation prints them, for comparison with the right ones. Where a formula here is wrong, its
-//! doc says how; the right one is in `quell_belt::averaging`.
+//! doc says how; the right one is in `quell_linear::averaging`.
 
 use std::f64::consts::{FRAC_2_SQRT_PI, PI};
 

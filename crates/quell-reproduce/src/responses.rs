@@ -3,8 +3,8 @@
 //! Rows: x(τ), x′(τ) from rest, and the spectral amplitudes of the steady record (settling time discarded, mean removed,
 //! Hann). One column for each amplitude of the study's sweep.
 
-use quell_belt::response::{BAND_END, Response, Spectrum, respond};
-use quell_belt::simulation::{Sample, Sampler, simulate};
+use quell_dynamics::response::{BAND_END, Response, Spectrum, respond};
+use quell_dynamics::simulation::{Sample, Sampler, simulate};
 use quell_model::{Belt, Direction, LawKind};
 
 use super::product::{Product, Table};

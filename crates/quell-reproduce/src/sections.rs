@@ -6,9 +6,9 @@
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use quell_belt::attractor::{Attractor, Outcome, Patience, Scene, Settled, measure, settle};
-use quell_belt::orbit::Verdict;
-use quell_belt::simulation::{Sample, Sampler, simulate};
+use quell_dynamics::attractor::{Attractor, Outcome, Patience, Scene, Settled, measure, settle};
+use quell_dynamics::orbit::Verdict;
+use quell_dynamics::simulation::{Sample, Sampler, simulate};
 use quell_model::{Direction, Waveform};
 
 use super::product::{Cell, Product, Table};

@@ -5,7 +5,7 @@
 //! own response at the study's R in place of αG (for a sine α = DR/(R² − 1)), and the print's upper edge for
 //! the triangle, (3.47), (4.35), where it is wrong.
 
-use quell_belt::averaging::{
+use quell_linear::averaging::{
     AveragingOptions, EverywhereStable, FastWave, NoBand, Response, closed_band,
     everywhere_stable_amplitude, unstable_bands,
 };

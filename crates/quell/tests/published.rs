@@ -6,9 +6,9 @@ use quell::Study;
 use quell::run::orbit::{Response, Wanted, run as orbit};
 use quell::run::simulate::{Options, run as simulate};
 use quell::run::thresholds::{Kind, Question, run as thresholds};
-use quell_belt::orbit::cycle::cycles;
-use quell_belt::orbit::{Orbit, Verdict};
-use quell_belt::simulation::{Event, EventKind, EventRecorder, simulate as trajectory};
+use quell_dynamics::orbit::cycle::cycles;
+use quell_dynamics::orbit::{Orbit, Verdict};
+use quell_dynamics::simulation::{Event, EventKind, EventRecorder, simulate as trajectory};
 use quell_model::units::Quantity;
 use serde_json::Value;
 

@@ -91,12 +91,13 @@ mod tests {
     fn planted_arrows_upwards_and_sideways_are_named() {
         for (name, package) in [
             ("quell-numerics", "quell-model"),
-            ("quell-model", "quell-belt"),
-            ("quell-belt", "quell-disc"),
-            ("quell-disc", "quell-belt"),
-            ("quell-belt", "quell"),
+            ("quell-model", "quell-dynamics"),
+            ("quell-dynamics", "quell-disc"),
+            ("quell-linear", "quell-dynamics"),
+            ("quell-disc", "quell-dynamics"),
+            ("quell-dynamics", "quell"),
             ("quell", "quell-cli"),
-            ("quell-cli", "quell-belt"),
+            ("quell-cli", "quell-dynamics"),
             ("quell-cli", "quell-python"),
             ("quell-explorer", "quell-numerics"),
             ("xtask", "quell-numerics"),
@@ -113,12 +114,12 @@ mod tests {
     fn arrows_downwards_are_free() {
         for (name, package) in [
             ("quell-model", "quell-numerics"),
-            ("quell-belt", "quell-model"),
+            ("quell-dynamics", "quell-model"),
             ("quell-disc", "quell-numerics"),
-            ("quell", "quell-belt"),
+            ("quell", "quell-dynamics"),
             ("quell-cli", "quell"),
             ("quell-python", "quell"),
-            ("quell-belt", "libm"),
+            ("quell-dynamics", "libm"),
         ] {
             assert_eq!(verdict(name, package, Use::Normal), Vec::<String>::new());
         }
@@ -127,9 +128,9 @@ mod tests {
     #[test]
     fn planted_confined_dependencies_are_named() {
         for (name, package) in [
-            ("quell-belt", "rayon"),
+            ("quell-dynamics", "rayon"),
             ("quell-model", "toml"),
-            ("quell-belt", "zarrs"),
+            ("quell-dynamics", "zarrs"),
             ("quell-cli", "kuva"),
             ("quell-cli", "resvg"),
             ("quell", "clap"),
@@ -153,9 +154,9 @@ mod tests {
 
     #[test]
     fn only_tests_may_read_reference_numbers_anywhere() {
-        assert!(verdict("quell-belt", "serde_json", Use::Dev).is_empty());
-        assert_eq!(verdict("quell-belt", "serde_json", Use::Build).len(), 1);
-        assert_eq!(verdict("quell-belt", "toml", Use::Dev).len(), 1);
+        assert!(verdict("quell-dynamics", "serde_json", Use::Dev).is_empty());
+        assert_eq!(verdict("quell-dynamics", "serde_json", Use::Build).len(), 1);
+        assert_eq!(verdict("quell-dynamics", "toml", Use::Dev).len(), 1);
     }
 
     #[test]

@@ -13,10 +13,20 @@ pub(crate) struct Layer {
 const NOTHING: &[&str] = &[];
 const MATHEMATICS: &[&str] = &["quell-numerics"];
 const NOUNS: &[&str] = &["quell-model", "quell-numerics"];
-const PHYSICS: &[&str] = &["quell-belt", "quell-disc", "quell-model", "quell-numerics"];
-const ENGINES_AND_STUDIES: &[&str] =
-    &["quell-belt", "quell-disc", "quell-model", "quell-numerics", "quell-plot", "quell-study"];
-const CLIENT: &[&str] = &["quell", "quell-belt", "quell-disc", "quell-model", "quell-numerics"];
+const LINEAR: &[&str] = &["quell-linear", "quell-model", "quell-numerics"];
+const PHYSICS: &[&str] =
+    &["quell-disc", "quell-dynamics", "quell-linear", "quell-model", "quell-numerics"];
+const ENGINES_AND_STUDIES: &[&str] = &[
+    "quell-disc",
+    "quell-dynamics",
+    "quell-linear",
+    "quell-model",
+    "quell-numerics",
+    "quell-plot",
+    "quell-study",
+];
+const CLIENT: &[&str] =
+    &["quell", "quell-disc", "quell-dynamics", "quell-linear", "quell-model", "quell-numerics"];
 const FRONT_DOOR: &[&str] = &["quell", "quell-model", "quell-reproduce"];
 
 const fn layer(
@@ -32,8 +42,9 @@ const fn layer(
 pub(crate) const LAYERS: &[Layer] = &[
     layer("quell-numerics", NOTHING,     "mathematics knows no physics: it serves belts, discs and what will come"),
     layer("quell-model",    MATHEMATICS, "nouns are valid values: they know no engine that works on them"),
-    layer("quell-belt",     NOUNS,       "physics is pure functions of valid values, and no system knows another"),
-    layer("quell-disc",     NOUNS,       "physics is pure functions of valid values, and no system knows another"),
+    layer("quell-linear",   NOUNS,       "linear questions about steady sliding: no trajectory is computed here"),
+    layer("quell-dynamics", LINEAR,      "motion, its orbits and attractors: no file, no thread and no particular kind of structure"),
+    layer("quell-disc",     LINEAR,      "what only a disc has; its motion is that of any structure"),
     layer("quell-plot",     NOTHING,     "a figure is data with a renderer: it knows no physics and no study"),
     layer("quell-study",    PHYSICS,     "a study is read and checked here, and computed elsewhere"),
     layer("quell",          ENGINES_AND_STUDIES, "the front door runs the physics; it does not know who knocks"),

@@ -6,7 +6,7 @@
 //! compares truncations fixes one reference for the disc instead.
 
 use super::{Plate, PlateError, PlateMode};
-use crate::mode::Mode;
+use quell_model::disc::Mode;
 
 /// The frequency that everything is measured in.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -18,7 +18,7 @@ use super::places::Family;
 use super::tongue::{Resonance, Tongue};
 use super::wave::Wave;
 use super::waves::{Order, Waves};
-use crate::disc::Dither;
+use quell_model::disc::DiscDither;
 
 /// Dither frequencies that keep a range of speeds clear, and what blocks the others.
 #[derive(Debug, Clone, PartialEq)]
@@ -105,9 +105,9 @@ pub fn clear_frequencies(
 ) -> Result<Clearance, ClearanceError> {
     let waves = waves.clone().with_order(Order::First);
     let original_suppressed = match waves.dither {
-        Dither::None => return Err(ClearanceError::NoDither),
-        Dither::Normal { .. } => false,
-        Dither::Tangential { .. } => true,
+        DiscDither::None => return Err(ClearanceError::NoDither),
+        DiscDither::Normal { .. } => false,
+        DiscDither::Tangential { .. } => true,
     };
     let proper = |range: &RangeInclusive<f64>| {
         range.start() <= range.end() && range.start().is_finite() && range.end().is_finite()
@@ -172,8 +172,8 @@ pub fn within(waves: &Waves, speeds: RangeInclusive<f64>) -> Vec<Nearby> {
         }
     }
     let still = match waves.dither {
-        Dither::Tangential { .. } => waves.clone().with_order(Order::Second),
-        Dither::None | Dither::Normal { .. } => first,
+        DiscDither::Tangential { .. } => waves.clone().with_order(Order::Second),
+        DiscDither::None | DiscDither::Normal { .. } => first,
     };
     // Undithered tongues are narrow beside their distance from Ω = 0 … 1; half a unit of speed reaches every one.
     let wide = start - 0.5..=end + 0.5;

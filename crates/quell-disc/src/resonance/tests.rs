@@ -2,10 +2,10 @@
 
 use super::places::Place;
 use super::*;
-use crate::disc::{Disc, Dither};
 use crate::dithered::growth;
-use crate::mode::{Load, Mode};
 use crate::plate::{ModeSet, Plate, Reference};
+use quell_model::disc::{Disc, DiscDither};
+use quell_model::disc::{Load, Mode};
 use quell_numerics::floquet::Effort;
 
 /// b/a = 0.5, r₀/a = 0.75, ν = 0.3, N = (1, 2).
@@ -20,13 +20,13 @@ fn load(size: f64, friction: f64) -> Load {
     Load::new(size, size, size, friction)
 }
 
-fn waves_of(modes: &[Mode], load: &Load, dither: Dither) -> Waves {
+fn waves_of(modes: &[Mode], load: &Load, dither: DiscDither) -> Waves {
     Waves::new(&Disc::new(modes.to_vec(), vec![load.clone()], dither, 0.0).expect("valid"))
         .expect("one load")
 }
 
-fn tangential(frequency_ratio: f64) -> Dither {
-    Dither::Tangential { amplitude: 1.0, frequency_ratio }
+fn tangential(frequency_ratio: f64) -> DiscDither {
+    DiscDither::Tangential { amplitude: 1.0, frequency_ratio }
 }
 
 /// Tables 5.1 and 5.2, every printed digit, and which of the second can be unstable.
@@ -55,7 +55,7 @@ fn tables_of_the_dissertation() {
     }
     // Without mean friction the undithered pairs are not driven; without dither they are.
     assert!(undithered.iter().all(|resonance| !resonance.can_be_unstable()));
-    let plain = waves_of(&modes(0.0), &load(0.1, 0.1), Dither::None);
+    let plain = waves_of(&modes(0.0), &load(0.1, 0.1), DiscDither::None);
     let found = plain.undithered(0.01..=0.99);
     assert!(found.iter().all(Resonance::can_be_unstable));
     assert!(found.iter().all(|resonance| resonance.threshold == Some(0.0)));
@@ -63,7 +63,7 @@ fn tables_of_the_dissertation() {
 }
 
 /// Largest growth rate at a speed by the exact equations.
-fn exact(modes: &[Mode], load: &Load, dither: Dither, speed: f64) -> f64 {
+fn exact(modes: &[Mode], load: &Load, dither: DiscDither, speed: f64) -> f64 {
     let disc = Disc::new(modes.to_vec(), vec![load.clone()], dither, speed).expect("valid");
     growth(&disc, Effort::default()).expect("finite").rate
 }
@@ -86,7 +86,7 @@ fn undithered_tongues_converge() {
         let mut errors = Vec::new();
         for size in [0.1, 0.025, 0.00625] {
             let load = load(size, 0.4 * size);
-            let waves = waves_of(&modes, &load, Dither::None);
+            let waves = waves_of(&modes, &load, DiscDither::None);
             let resonance = waves.undithered(0.01..=0.99)[index];
             let Tongue::Between { lower, upper, peak_growth, .. } = resonance.tongue else {
                 panic!("{resonance:?}");
@@ -96,7 +96,7 @@ fn undithered_tongues_converge() {
                 "K < 0: the tongue is above its place"
             );
             let width = upper - lower;
-            let growth = |speed: f64| exact(&modes, &load, Dither::None, speed);
+            let growth = |speed: f64| exact(&modes, &load, DiscDither::None, speed);
             let exact = largest(growth, lower, upper);
             let (mut inside, mut outside) = (lower + 0.4 * width, lower + 1.6 * width);
             for _ in 0..60 {
@@ -187,8 +187,8 @@ fn pair_growth(waves: &Waves, resonance: &Resonance, speed: f64) -> f64 {
 fn tongue_agrees_with_its_own_pair() {
     let (modes, size) = (modes(1e-4), 0.05);
     let cases = [
-        (Dither::None, 0.03, Order::First),
-        (Dither::Normal { amplitude: 0.8, frequency_ratio: 2.7 }, 0.03, Order::First),
+        (DiscDither::None, 0.03, Order::First),
+        (DiscDither::Normal { amplitude: 0.8, frequency_ratio: 2.7 }, 0.03, Order::First),
         (tangential(2.7), 0.2, Order::First),
         (tangential(2.7), 0.2, Order::Second),
     ];
@@ -237,7 +237,7 @@ fn tongue_agrees_with_its_own_pair() {
 /// A backward wave by itself: f = c(β/l + Ω) + 2ξβ²/(l g²); forward ones never.
 #[test]
 fn single_waves() {
-    let (waves, speed) = (waves_of(&modes(1e-3), &load(0.1, 0.0), Dither::None), 0.4);
+    let (waves, speed) = (waves_of(&modes(1e-3), &load(0.1, 0.0), DiscDither::None), 0.4);
     let mut backward = 0;
     for wave in waves.waves() {
         let growth = |friction: f64| waves.with_friction(friction).growth_rate(wave, speed);
@@ -259,7 +259,7 @@ fn single_waves() {
 #[test]
 fn a_wave_that_grows_alone_reaches_into_the_range() {
     // Backward waves meet backward ones at a sum of frequencies: 2·2 + 4Ω = 6.
-    let dither = Dither::Normal { amplitude: 0.5, frequency_ratio: 6.0 };
+    let dither = DiscDither::Normal { amplitude: 0.5, frequency_ratio: 6.0 };
     let waves = waves_of(&modes(1e-3), &load(0.1, 3.0), dither);
     let found = within(&waves, 0.2..=0.9);
     let alone = |it: &&Nearby| {
@@ -319,7 +319,7 @@ fn clear_intervals() {
     assert!(
         within(&free, speeds.clone()).iter().all(|n| !n.reaches_in || n.resonance.harmonic == 0)
     );
-    let plain = waves_of(&modes(0.0), &load(0.1, 0.3), Dither::None);
+    let plain = waves_of(&modes(0.0), &load(0.1, 0.3), DiscDither::None);
     assert_eq!(clear_frequencies(&plain, speeds.clone(), 2.0..=6.0), Err(ClearanceError::NoDither));
     let empty = 1.0..=0.0;
     assert_eq!(clear_frequencies(&waves, empty, 2.0..=6.0), Err(ClearanceError::Range));
@@ -328,7 +328,7 @@ fn clear_intervals() {
 #[test]
 fn what_the_theory_leaves_out_is_refused() {
     let refused = |loads: Vec<Load>| {
-        let disc = Disc::new(modes(0.0), loads, Dither::None, 0.0).expect("valid");
+        let disc = Disc::new(modes(0.0), loads, DiscDither::None, 0.0).expect("valid");
         Waves::new(&disc).expect_err("refused")
     };
     assert_eq!(refused(vec![load(0.1, 0.1), load(0.1, 0.1)]), WaveError::Loads(2));

@@ -16,9 +16,9 @@ use quell_numerics::roots::{Closeness, minimise};
 use super::clear::Clearance;
 use super::tongue::{Coupling, Tongue};
 use super::waves::{Order, Waves};
-use crate::disc::Disc;
 use crate::dithered;
-use crate::growth::{Growth, Verdict};
+use quell_linear::growth::{Growth, Verdict};
+use quell_model::Disc;
 
 /// Frequencies that are tried, over all clear intervals together: each takes some thirty exponents of 0.1 (three modes) to 2 ms
 /// (ten modes), so that an answer takes 0.1 to 3 s.

@@ -17,8 +17,8 @@
 use num_complex::Complex64;
 
 use super::wave::{Direction, SignedWave, Wave};
-use crate::disc::{Disc, Dither};
-use crate::mode::{Load, Mode};
+use quell_model::disc::{Disc, DiscDither};
+use quell_model::disc::{Load, Mode};
 
 /// How far the expansion goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,7 +35,7 @@ pub struct Waves {
     pub(super) modes: Vec<Mode>,
     pub(super) list: Vec<Wave>,
     pub(super) load: Load,
-    pub(super) dither: Dither,
+    pub(super) dither: DiscDither,
     pub(super) order: Order,
 }
 
@@ -124,10 +124,12 @@ impl Waves {
             return Err(WaveError::Frequency { frequency_ratio });
         }
         let dither = match self.dither {
-            Dither::None => Dither::None,
-            Dither::Normal { amplitude, .. } => Dither::Normal { amplitude, frequency_ratio },
-            Dither::Tangential { amplitude, .. } => {
-                Dither::Tangential { amplitude, frequency_ratio }
+            DiscDither::None => DiscDither::None,
+            DiscDither::Normal { amplitude, .. } => {
+                DiscDither::Normal { amplitude, frequency_ratio }
+            }
+            DiscDither::Tangential { amplitude, .. } => {
+                DiscDither::Tangential { amplitude, frequency_ratio }
             }
         };
         Ok(Self { dither, ..self.clone() })

@@ -1,7 +1,7 @@
 //! Claims about single responses from rest, figures 2.10, 2.11, 3.12, 3.13, 4.11, and about other starts.
 
-use quell_belt::attractor::{Patience, Scene, gather, settle_many};
-use quell_belt::simulation::Start;
+use quell_dynamics::attractor::{Patience, Scene, gather, settle_many};
+use quell_dynamics::simulation::Start;
 use quell_model::{Direction, LawKind, Waveform};
 
 use super::super::sections::{Case, Change, Columns};

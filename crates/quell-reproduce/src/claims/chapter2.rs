@@ -1,11 +1,11 @@
 //! Claims of chapter 2: friction laws, responses under sinusoidal tangential dither, averaging.
 
-use quell_belt::averaging::{
+use quell_dynamics::response::{Solver, respond};
+use quell_dynamics::simulation::{EventKind, EventRecorder, Sampler, Start, simulate};
+use quell_linear::averaging::{
     AveragingOptions, Becomes, CriticalAmplitude, EverywhereStable, FastWave,
     Response as FastResponse, closed_band, critical_amplitudes, everywhere_stable_amplitude,
 };
-use quell_belt::response::{Solver, respond};
-use quell_belt::simulation::{EventKind, EventRecorder, Sampler, Start, simulate};
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 
 use super::super::responses::{Case, cases, fundamental};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use quell_belt::averaging::{
+use quell_linear::averaging::{
     EverywhereStable, FastMotion, FastWave, Response as FastResponse, effective,
     everywhere_stable_amplitude,
 };

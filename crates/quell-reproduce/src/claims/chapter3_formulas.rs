@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use quell_belt::averaging::{
+use quell_linear::averaging::{
     Effective, FastMotion, FastWave, closed_band, effective, effective_by_quadrature,
 };
 use quell_model::{LawKind, Waveform};

@@ -1,6 +1,6 @@
 //! Claims of chapter 4: normal dither.
 
-use quell_belt::averaging::{
+use quell_linear::averaging::{
     AveragingOptions, EverywhereStable, FastWave, Response as FastResponse, criterion,
     everywhere_stable_amplitude, unstable_bands,
 };

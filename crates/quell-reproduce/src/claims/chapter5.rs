@@ -3,9 +3,11 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use quell_disc::boundaries::{Marginal, boundaries};
+use quell_disc::dithered;
 use quell_disc::partition::crossings;
 use quell_disc::resonance::{Resonance, Waves};
-use quell_disc::{Disc, Dither, Load, dithered};
+use quell_model::Disc;
+use quell_model::disc::{DiscDither, Load};
 use quell_numerics::floquet::Effort;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
@@ -21,7 +23,7 @@ use quell::complaint::Failure;
 const UNIT: f64 = 1e-4 * FRICTION_PER_PRINTED;
 
 /// A disc of the dissertation: N_r, N_θ, printed m = c = k, ξ, dither.
-fn disc(modes: [u32; 2], size: f64, damping: f64, dither: Dither) -> Result<Disc, Failure> {
+fn disc(modes: [u32; 2], size: f64, damping: f64, dither: DiscDither) -> Result<Disc, Failure> {
     let changes = [
         format!("disc.radial_modes={}", modes[0]),
         format!("disc.nodal_diameters={}", modes[1]),
@@ -34,8 +36,8 @@ fn disc(modes: [u32; 2], size: f64, damping: f64, dither: Dither) -> Result<Disc
         .map_err(|_| failed("claims", &"a disc of chapter 5 is not valid"))
 }
 
-const TANGENTIAL: Dither = Dither::Tangential { amplitude: 1.0, frequency_ratio: 2.7 };
-const NORMAL: Dither = Dither::Normal { amplitude: 1.0, frequency_ratio: 2.7 };
+const TANGENTIAL: DiscDither = DiscDither::Tangential { amplitude: 1.0, frequency_ratio: 2.7 };
+const NORMAL: DiscDither = DiscDither::Normal { amplitude: 1.0, frequency_ratio: 2.7 };
 
 fn at(disc: &Disc, speed: f64) -> Result<Disc, Failure> {
     disc.at_speed(speed).map_err(|_| failed("claims", &"a speed of chapter 5 is not valid"))
@@ -113,7 +115,7 @@ pub(super) fn tables(sheet: &mut Sheet) -> Result<(), Failure> {
 /// Thresholds without dither.
 pub(super) fn thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
     for (size, printed) in [(0.1, "2"), (0.2, "3.5"), (0.3, "5")] {
-        let disc = disc([1, 2], size, 0.0, Dither::None)?;
+        let disc = disc([1, 2], size, 0.0, DiscDither::None)?;
         let mut highest = 0.0f64;
         for speed in speeds().skip(3) {
             highest = highest.max(threshold(&disc, speed)?);
@@ -131,7 +133,7 @@ pub(super) fn thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
             );
     }
     for (name, size, printed) in [("a", 0.1, 0.1), ("b", 0.01, 0.01)] {
-        let disc = disc([1, 2], size, 0.0, Dither::None)?;
+        let disc = disc([1, 2], size, 0.0, DiscDither::None)?;
         let mut stable = 0.0;
         for speed in speeds() {
             stable += f64::from(u8::from(threshold(&disc, speed)? > printed)) / 399.0;
@@ -150,7 +152,7 @@ pub(super) fn thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
     let counts: Result<Vec<f64>, Failure> = [[1, 2], [1, 5], [2, 5]]
         .into_iter()
         .map(|modes| {
-            let mut speeds: Vec<f64> = meetings(&disc(modes, 0.1, 0.0, Dither::None)?, false)?
+            let mut speeds: Vec<f64> = meetings(&disc(modes, 0.1, 0.0, DiscDither::None)?, false)?
                 .iter()
                 .map(|resonance| resonance.speed)
                 .collect();
@@ -172,7 +174,7 @@ pub(super) fn thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
 
 /// Normal dither.
 pub(super) fn normal(sheet: &mut Sheet) -> Result<(), Failure> {
-    let still = disc([1, 2], 0.3, 0.0, Dither::None)?;
+    let still = disc([1, 2], 0.3, 0.0, DiscDither::None)?;
     let shaken = disc([1, 2], 0.3, 0.0, NORMAL)?;
     let first = |speed: f64| -> Result<f64, Failure> {
         let found = crossings(&at(&shaken, speed)?)
@@ -330,7 +332,7 @@ pub(super) fn damping(sheet: &mut Sheet) -> Result<(), Failure> {
     for (damping, printed) in
         [(0.0, &[1, 2, 3, 4][..]), (1e-5, &[1, 2, 3, 4]), (1e-4, &[2, 3]), (1e-3, &[2])]
     {
-        let disc = disc([1, 2], 0.3, damping, Dither::None)?;
+        let disc = disc([1, 2], 0.3, damping, DiscDither::None)?;
         let (mut left, mut depths) = (Vec::new(), Vec::new());
         for (index, place) in meetings(&disc, false)?.iter().take(4).enumerate() {
             let mut thresholds = Vec::new();

@@ -3,9 +3,9 @@
 //! E falls continuously to 0 at the threshold of averaging, so that 5 % is met before it, also for
 //! R → ∞: the ratio D(5 %)/(α*R) says by how much.
 
-use quell_belt::averaging::{Becomes, Response as FastResponse};
-use quell_belt::response::{Solver, amplitude_at_efficiency};
-use quell_belt::simulation::Start;
+use quell_dynamics::response::{Solver, amplitude_at_efficiency};
+use quell_dynamics::simulation::Start;
+use quell_linear::averaging::{Becomes, Response as FastResponse};
 use quell_model::{Direction, LawKind, Waveform};
 use rayon::prelude::*;
 

@@ -4,8 +4,11 @@
 //! its error. Speeds are those of the study's axis and further ones beside every meeting of waves.
 
 use quell_disc::dithered::DitheredDisc;
-use quell_disc::system::System;
-use quell_disc::{Disc, Dither, Growth, Verdict, undithered};
+use quell_disc::equations::System;
+use quell_disc::undithered;
+use quell_linear::growth::{Growth, Verdict};
+use quell_model::Disc;
+use quell_model::disc::DiscDither;
 use quell_numerics::floquet::Effort;
 use rayon::prelude::*;
 
@@ -104,13 +107,15 @@ pub(crate) fn figure(source: &Source) -> Result<Product, Failure> {
     let disc = study.disc();
     let studies = [(study.clone(), disc.undithered()), (study.clone(), disc.clone())];
     let (kind, ratio) = match disc.dither() {
-        Dither::Normal { frequency_ratio, .. } => ("normal", frequency_ratio),
-        Dither::Tangential { frequency_ratio, .. } => ("tangential", frequency_ratio),
-        Dither::None => ("no", 0.0),
+        DiscDither::Normal { frequency_ratio, .. } => ("normal", frequency_ratio),
+        DiscDither::Tangential { frequency_ratio, .. } => ("tangential", frequency_ratio),
+        DiscDither::None => ("no", 0.0),
     };
     let revived = match disc.dither() {
-        Dither::Tangential { .. } => "; in (b) those of table 5.1 as the second order revives them",
-        Dither::Normal { .. } | Dither::None => "",
+        DiscDither::Tangential { .. } => {
+            "; in (b) those of table 5.1 as the second order revives them"
+        }
+        DiscDither::Normal { .. } | DiscDither::None => "",
     };
     let printed = disc.loads().first().map_or(0.0, |load| load.mass / STRENGTH_PER_PRINTED);
     let damping = disc.get("disc.modal_damping").unwrap_or(0.0);

@@ -40,8 +40,8 @@ pub mod vocabulary;
 pub use change::Change;
 pub use disc::DiscStudy;
 pub use friction::Measured;
-pub use quell_belt::response::Solver;
-pub use quell_belt::start::InitialState;
+pub use quell_dynamics::response::Solver;
+pub use quell_dynamics::start::InitialState;
 pub use subject::Subject;
 pub use sweep::{Axis, Sweep};
 

@@ -1,6 +1,6 @@
 //! A correction of the print, as a value: what is printed, what is right, whom it concerns, where it is proved.
 
-use quell_disc::Dither;
+use quell_model::disc::DiscDither;
 use quell_model::{Belt, Direction, LawKind, Waveform};
 
 use super::{Task, has};
@@ -94,8 +94,8 @@ impl DiscKind {
         match self {
             Self::Any => true,
             Self::ComputedModes => matches!(study.source(), ModeSource::Plate(_)),
-            Self::Dithered => study.disc().dither() != Dither::None,
-            Self::Tangential => matches!(study.disc().dither(), Dither::Tangential { .. }),
+            Self::Dithered => study.disc().dither() != DiscDither::None,
+            Self::Tangential => matches!(study.disc().dither(), DiscDither::Tangential { .. }),
         }
     }
 }

@@ -38,12 +38,12 @@ const fn with(law: LawKind) -> Bears {
 
 /// A test of the belt's averages.
 const fn belt(name: &'static str) -> Proof {
-    Proof::Test { file: "crates/quell-belt/tests/averaging_errata.rs", name }
+    Proof::Test { file: "crates/quell-dynamics/tests/averaging_errata.rs", name }
 }
 
 /// A test of what the belt does in time.
 const fn motion(name: &'static str) -> Proof {
-    Proof::Test { file: "crates/quell-belt/tests/motion_errata.rs", name }
+    Proof::Test { file: "crates/quell-dynamics/tests/motion_errata.rs", name }
 }
 
 /// A test of the disc.

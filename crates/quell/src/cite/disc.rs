@@ -1,6 +1,6 @@
 //! What the computations of a disc rest on.
 
-use quell_disc::Dither;
+use quell_model::disc::DiscDither;
 
 use super::{
     CHAN_1994, Citation, IWAN_STAHL_1973, MICHAUX_2005, NAYFEH_MOOK_1979, TAKAHASHI_IMADA_1984,
@@ -23,14 +23,16 @@ pub(super) fn citations(study: &DiscStudy) -> Vec<Citation> {
         cite(Task::Modes, VOGEL_SKINNER_1965, "frequencies and shapes of the annular plate");
     }
     let motion = match study.disc().dither() {
-        Dither::None => "equations of motion (5.15), (5.18)",
-        Dither::Normal { .. } => "equations of motion under normal dither (5.22)–(5.25)",
-        Dither::Tangential { .. } => "equations of motion under tangential dither (5.31), (5.32)",
+        DiscDither::None => "equations of motion (5.15), (5.18)",
+        DiscDither::Normal { .. } => "equations of motion under normal dither (5.22)–(5.25)",
+        DiscDither::Tangential { .. } => {
+            "equations of motion under tangential dither (5.31), (5.32)"
+        }
     };
     cite(Task::Stability, MICHAUX_2005, motion);
     cite(Task::Stability, IWAN_STAHL_1973, "a disc under a load that goes round");
     cite(Task::Stability, CHAN_1994, "friction as a follower force");
-    if study.disc().dither() != Dither::None {
+    if study.disc().dither() != DiscDither::None {
         cite(
             Task::Stability,
             TAKAHASHI_IMADA_1984,

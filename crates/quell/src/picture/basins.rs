@@ -1,7 +1,7 @@
 //! Basins in the plane of starts, and the share of the quiet response over a parameter.
 
-use quell_belt::attractor::{Basin, Label};
-use quell_belt::orbit::Verdict;
+use quell_dynamics::attractor::{Basin, Label};
+use quell_dynamics::orbit::Verdict;
 use quell_model::units::Quantity;
 
 use super::bifurcation::{axis, stretches};

@@ -1,7 +1,7 @@
 //! Bifurcation diagrams: section, size and slow frequency over the parameter, up and down.
 
-use quell_belt::attractor::Attractor;
-use quell_belt::orbit::Verdict;
+use quell_dynamics::attractor::Attractor;
+use quell_dynamics::orbit::Verdict;
 use quell_model::units::Quantity;
 
 use super::caption::caption_of_run;

@@ -85,11 +85,11 @@ pub(super) fn caption_of_disc(study: &DiscStudy) -> String {
         ));
     }
     match disc.dither() {
-        quell_disc::Dither::None => parts.push("no dither".to_owned()),
-        quell_disc::Dither::Normal { amplitude, frequency_ratio } => {
+        quell_model::disc::DiscDither::None => parts.push("no dither".to_owned()),
+        quell_model::disc::DiscDither::Normal { amplitude, frequency_ratio } => {
             parts.push(format!("normal dither, $α$ = {amplitude}, $R$ = {frequency_ratio}"));
         }
-        quell_disc::Dither::Tangential { amplitude, frequency_ratio } => {
+        quell_model::disc::DiscDither::Tangential { amplitude, frequency_ratio } => {
             parts.push(format!("tangential dither, $α$ = {amplitude}, $R$ = {frequency_ratio}"));
         }
     }

@@ -2,7 +2,8 @@
 
 use quell_disc::plate::PlateMode;
 use quell_disc::resonance::{Order, Waves};
-use quell_disc::{Disc, Dither};
+use quell_model::Disc;
+use quell_model::disc::DiscDither;
 
 use super::caption::caption_of_disc;
 use super::undrawable;
@@ -181,8 +182,8 @@ pub fn tongues(
 ) -> Vec<Layer> {
     let Ok(waves) = Waves::new(disc) else { return Vec::new() };
     let order = match disc.dither() {
-        Dither::Tangential { .. } => Order::Second,
-        Dither::None | Dither::Normal { .. } => Order::First,
+        DiscDither::Tangential { .. } => Order::Second,
+        DiscDither::None | DiscDither::Normal { .. } => Order::First,
     };
     let count = waves.undithered(from..=to).len() + waves.dithered(from..=to).len();
     let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new(); 2 * count];

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use quell_belt::orbit::Orbit;
+use quell_dynamics::orbit::Orbit;
 use quell_model::units::Quantity;
 
 use super::caption::caption;
@@ -28,7 +28,7 @@ pub fn response(study: &Study, found: &Response) -> Result<Figure, Failure> {
 pub fn orbit(study: &Study, found: &Orbit) -> Figure {
     let belt = study.belt();
     let samples = samples(study, found);
-    let largest = |of: fn(&quell_belt::simulation::Sample) -> f64| {
+    let largest = |of: fn(&quell_dynamics::simulation::Sample) -> f64| {
         samples.iter().map(|sample| of(sample).abs()).fold(0.0, f64::max)
     };
     let x = Ruler::new(study, Quantity::Displacement, largest(|sample| sample.displacement));

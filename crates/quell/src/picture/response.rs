@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use quell_belt::response::BAND_END;
-use quell_belt::simulation::Sample;
+use quell_dynamics::response::BAND_END;
+use quell_dynamics::simulation::Sample;
 use quell_model::units::Quantity;
 use quell_numerics::spectrum::Spectrum;
 

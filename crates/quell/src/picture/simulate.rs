@@ -1,6 +1,6 @@
 //! Displacement and velocity over time, with and without dither.
 
-use quell_belt::simulation::Sample;
+use quell_dynamics::simulation::Sample;
 use quell_model::units::Quantity;
 
 use super::caption::caption_of_run;

@@ -1,6 +1,6 @@
 //! The criterion of averaged stability over the amplitude of the first dither.
 
-use quell_belt::averaging::{AveragingOptions, criterion};
+use quell_linear::averaging::{AveragingOptions, criterion};
 use quell_model::units::Quantity;
 use quell_model::{Belt, Direction};
 

@@ -4,7 +4,7 @@
 //! The boundaries of averaging are drawn over where the plane has them. Curves are broken and maps
 //! hatched where a number is not known; the legend says why.
 
-use quell_belt::averaging::{Becomes, Response};
+use quell_linear::averaging::{Becomes, Response};
 
 use super::map::{self, Map as Picture, MapAxis, MapKind};
 use super::undrawable;

@@ -1,7 +1,7 @@
 //! The modulus of the larger multiplier over a parameter, with its thresholds; and curves of thresholds in two parameters beside
 //! the boundaries of averaging.
 
-use quell_belt::orbit::threshold::Kind;
+use quell_dynamics::orbit::threshold::Kind;
 use quell_model::units::Quantity;
 
 use super::caption::caption;

@@ -1,7 +1,7 @@
 //! Attractors in outcomes: their names in JSON and in sentences, for `bifurcation` and `basins`.
 
-use quell_belt::attractor::{Attractor, Kind, Scene};
-use quell_belt::orbit::{NoOrbit, Verdict};
+use quell_dynamics::attractor::{Attractor, Kind, Scene};
+use quell_dynamics::orbit::{NoOrbit, Verdict};
 use quell_model::Belt;
 use quell_model::units::{Quantity, Scales};
 use serde_json::json;

@@ -1,11 +1,11 @@
 //! `thresholds --along`: curves of local thresholds in two parameters, beside the boundaries of averaging.
 
-use quell_belt::averaging::{
+pub use quell_dynamics::orbit::curve::{CurvePoint, Ending, ThresholdCurve};
+use quell_dynamics::orbit::curve::{CurvesFound, Open, OpenLine, Plane, curves};
+use quell_dynamics::simulation::within;
+use quell_linear::averaging::{
     AveragingOptions, CriticalAmplitude, Response as FastResponse, critical_amplitudes,
 };
-pub use quell_belt::orbit::curve::{CurvePoint, Ending, ThresholdCurve};
-use quell_belt::orbit::curve::{CurvesFound, Open, OpenLine, Plane, curves};
-use quell_belt::simulation::within;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
@@ -158,7 +158,7 @@ fn averaged(study: &Study, question: &Question) -> Vec<Averaged> {
                     let found = belt.with(&question.along, along).ok().and_then(|belt| {
                         let found = critical_amplitudes(&belt, options).ok()?;
                         let of_kind = |it: &&CriticalAmplitude| {
-                            (it.becomes == quell_belt::averaging::Becomes::Stable) == (index == 0)
+                            (it.becomes == quell_linear::averaging::Becomes::Stable) == (index == 0)
                         };
                         found.iter().find(of_kind).copied().filter(inside)
                     });

@@ -1,6 +1,6 @@
 //! `friction`: the law and what the dither makes of it, over the slip velocity.
 
-use quell_belt::averaging::{AveragingOptions, Effective, FastMotion, Side, effective};
+use quell_linear::averaging::{AveragingOptions, Effective, FastMotion, Side, effective};
 use quell_model::Belt;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;

@@ -20,8 +20,8 @@ pub mod stability;
 pub mod thresholds;
 pub mod varied;
 
-use quell_belt::simulation::{Stalled, Start, within};
-use quell_belt::start::NoSquealingStart;
+use quell_dynamics::simulation::{Stalled, Start, within};
+use quell_dynamics::start::NoSquealingStart;
 
 use quell_model::parameter::BELT_VELOCITY;
 use quell_model::units::{Quantity, Scales};

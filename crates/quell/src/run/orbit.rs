@@ -1,11 +1,11 @@
 //! `orbit`: the periodic response that sliding becomes under dither, one near a given state, or the one on which a run ends,
 //! with its Floquet multipliers; without dither the limit cycles, or steady sliding where there is none.
 
-use quell_belt::attractor::orbit_reached;
-use quell_belt::orbit::cycle::{cycle_reached, cycles, sliding_verdict};
-use quell_belt::orbit::{NoOrbit, from_sliding, near};
-pub use quell_belt::orbit::{Orbit, Verdict};
-use quell_belt::simulation::{
+use quell_dynamics::attractor::orbit_reached;
+use quell_dynamics::orbit::cycle::{cycle_reached, cycles, sliding_verdict};
+use quell_dynamics::orbit::{NoOrbit, from_sliding, near};
+pub use quell_dynamics::orbit::{Orbit, Verdict};
+use quell_dynamics::simulation::{
     DEFAULT_TOLERANCE, EventKind, Extremes, Observer, Sample, Sampler, Start, simulate, within,
 };
 use quell_model::Belt;

@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use quell_belt::simulation::{
+use quell_dynamics::simulation::{
     DEFAULT_TOLERANCE, LargestSlip, Observer, Run, Start, simulate, simulate_many,
 };
 use quell_model::Belt;

@@ -1,10 +1,10 @@
 //! `response`: the steady response, what the dither does to it, and what it costs.
 
-use quell_belt::attractor::Reached;
-use quell_belt::response::{
+use quell_dynamics::attractor::Reached;
+use quell_dynamics::response::{
     BAND_END, Effect, Ending, Record, Response, Uncertain, respond, samples_per_slow_period,
 };
-use quell_belt::simulation::{Sample, Start};
+use quell_dynamics::simulation::{Sample, Start};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use quell_belt::simulation::{
+use quell_dynamics::simulation::{
     Event, EventKind, EventRecorder, FinalState, LargestSlip, Sample, Sampler, Start, simulate,
 };
 use quell_model::units::Quantity;

@@ -4,8 +4,8 @@
 //! high frequency; `sharper` takes the oscillator's own response to the dither instead, and one
 //! more term of the fast motion under normal dither.
 
-pub use quell_belt::averaging::Side;
-use quell_belt::averaging::{
+pub use quell_linear::averaging::Side;
+use quell_linear::averaging::{
     AveragingError, AveragingOptions, Band, Becomes, Criterion, CriticalAmplitude, Crossing,
     EverywhereStable, NeverStable, NormalOrder, Response, UndecidedBecause, Verdict, criterion,
     critical_amplitudes, everywhere_stable_amplitude, fast_wave, unstable_bands,

@@ -4,8 +4,11 @@
 //! computed through the same arithmetic whether it has such neighbours or not, so that its bits do not depend on them.
 
 use quell_disc::dithered::DitheredDisc;
-use quell_disc::system::{Contribution, Contributions, System};
-use quell_disc::{Disc, Growth, undithered};
+use quell_disc::equations::System;
+use quell_disc::undithered;
+use quell_linear::growth::Growth;
+use quell_model::Disc;
+use quell_model::disc::{Contribution, Contributions};
 use quell_numerics::floquet::Effort;
 
 use super::evaluate::{Computation, Results};

@@ -3,14 +3,14 @@
 //! This is the one place that calls the engines for a map. Steady responses are computed for the
 //! whole chunk side by side; a point's result depends on its own study alone all the same.
 
-use quell_belt::averaging::{
-    AveragingError, AveragingOptions, Criterion, CriticalAmplitude, criterion, critical_amplitudes,
-};
-use quell_belt::response::{
+use quell_dynamics::response::{
     Case, Compared, Effect, Ending, Undefined, Wanted, compare_many, effect,
 };
-use quell_belt::simulation::{Start, within};
-use quell_disc::Growth;
+use quell_dynamics::simulation::{Start, within};
+use quell_linear::averaging::{
+    AveragingError, AveragingOptions, Criterion, CriticalAmplitude, criterion, critical_amplitudes,
+};
+use quell_linear::growth::Growth;
 use quell_model::{Belt, Dither};
 
 use super::status::Status;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use quell_disc::Disc;
+use quell_model::Disc;
 use serde_json::Value as Json;
 
 use super::refine;

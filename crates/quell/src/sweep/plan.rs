@@ -7,7 +7,7 @@ use super::evaluate::{Computation, evaluate};
 use super::grid::Grid;
 use super::quantity::{Quantity, SETTLED_NAME};
 use super::sheet::{Data, Sheet};
-use quell_disc::Disc;
+use quell_model::Disc;
 
 use crate::complaint::Complaint;
 use crate::study::{Study, Subject};

@@ -4,9 +4,9 @@
 //! computation it needs, and which variables it gives. Quantities with the same computation
 //! share it.
 
-use quell_belt::averaging::{Criterion, UndecidedBecause, Verdict};
-use quell_belt::response::Effect;
-use quell_disc::Growth;
+use quell_dynamics::response::Effect;
+use quell_linear::averaging::{Criterion, UndecidedBecause, Verdict};
+use quell_linear::growth::Growth;
 use quell_model::units;
 
 use super::evaluate::{Computation, Results, Steady};
@@ -347,9 +347,9 @@ fn grown_undithered(results: &Results) -> Result<Growth, Status> {
 
 fn decided(growth: Growth) -> Result<f64, Status> {
     match growth.verdict() {
-        quell_disc::Verdict::Unstable => Ok(0.0),
-        quell_disc::Verdict::Stable => Ok(1.0),
-        quell_disc::Verdict::Undecided => Err(Status::WithinError),
+        quell_linear::growth::Verdict::Unstable => Ok(0.0),
+        quell_linear::growth::Verdict::Stable => Ok(1.0),
+        quell_linear::growth::Verdict::Undecided => Err(Status::WithinError),
     }
 }
 

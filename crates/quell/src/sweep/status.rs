@@ -2,9 +2,9 @@
 //!
 //! Codes are fixed once published: stores keep them.
 
-use quell_belt::averaging::AveragingError;
-use quell_belt::response::{Uncertain, Undefined};
-use quell_belt::start::NoSquealingStart;
+use quell_dynamics::response::{Uncertain, Undefined};
+use quell_dynamics::start::NoSquealingStart;
+use quell_linear::averaging::AveragingError;
 
 /// State of one number of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

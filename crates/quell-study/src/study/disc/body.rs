@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use quell_disc::plate::PlateMaterial;
-use quell_disc::system::{Contribution, Contributions};
-use quell_disc::{Load, Mode};
+use quell_model::disc::{Contribution, Contributions};
+use quell_model::disc::{Load, Mode};
 use quell_model::parameter::disc::MODAL_DAMPING;
 use quell_model::units::DiscScales;
 

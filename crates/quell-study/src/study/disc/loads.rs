@@ -1,6 +1,6 @@
 //! `[disc.load]` and `[[disc.load]]`.
 
-use quell_disc::Load;
+use quell_model::disc::Load;
 use quell_model::parameter::disc::{
     DISC_SPEED, LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_MASS, LOAD_RADIUS,
     LOAD_STIFFNESS,

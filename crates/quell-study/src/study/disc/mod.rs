@@ -13,9 +13,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use quell_disc::plate::PlateMaterial;
-use quell_disc::system::{Contribution, Contributions};
-use quell_disc::{Disc, Dither};
 use quell_model::Direction;
+use quell_model::Disc;
+use quell_model::disc::DiscDither;
+use quell_model::disc::{Contribution, Contributions};
 use quell_model::parameter::DITHER_FREQUENCY_RATIO;
 use quell_model::parameter::disc::DISC_DITHER_AMPLITUDE;
 use quell_model::units::DiscScales;
@@ -299,8 +300,8 @@ impl DiscStudy {
 }
 
 /// `[dither]` of a disc.
-fn dither(reader: &mut Reader, mirror: &Table) -> Option<Dither> {
-    let Some(node) = mirror.get("dither") else { return Some(Dither::None) };
+fn dither(reader: &mut Reader, mirror: &Table) -> Option<DiscDither> {
+    let Some(node) = mirror.get("dither") else { return Some(DiscDither::None) };
     let node = match &node.value {
         Value::List(list) if list.len() == 1 => &list[0],
         _ => node,
@@ -341,7 +342,7 @@ fn dither(reader: &mut Reader, mirror: &Table) -> Option<Dither> {
     waveform?;
     let (amplitude, frequency_ratio) = (amplitude?, frequency_ratio?);
     Some(match direction? {
-        Direction::Normal => Dither::Normal { amplitude, frequency_ratio },
-        Direction::Tangential => Dither::Tangential { amplitude, frequency_ratio },
+        Direction::Normal => DiscDither::Normal { amplitude, frequency_ratio },
+        Direction::Tangential => DiscDither::Tangential { amplitude, frequency_ratio },
     })
 }

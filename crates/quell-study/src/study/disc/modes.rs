@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use quell_disc::Mode;
 use quell_disc::plate::PlateMaterial;
+use quell_model::disc::Mode;
 use quell_model::parameter::disc::{
     MODE_DAMPING, MODE_DIAMETERS, MODE_FREQUENCY, MODE_RATIO, MODE_SHAPE_AT_LOAD,
 };

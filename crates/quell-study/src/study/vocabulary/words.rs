@@ -1,6 +1,6 @@
 //! Lists of words that keys take.
 
-use quell_disc::system::Contribution;
+use quell_model::disc::Contribution;
 use quell_model::{Direction, LawKind, Waveform};
 
 /// A list of words.

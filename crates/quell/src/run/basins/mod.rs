@@ -16,11 +16,11 @@ mod tests;
 
 use std::sync::atomic::Ordering;
 
-use quell_belt::attractor::{
+use quell_dynamics::attractor::{
     Basins as Gathered, Label, Patience, Scene, Settled, gather, settle_many,
 };
-use quell_belt::orbit::Verdict;
-use quell_belt::simulation::{Stalled, within};
+use quell_dynamics::orbit::Verdict;
+use quell_dynamics::simulation::{Stalled, within};
 use quell_model::units::Scales;
 use rayon::prelude::*;
 

@@ -1,6 +1,6 @@
 //! The window of states and its starts.
 
-use quell_belt::simulation::Start;
+use quell_dynamics::simulation::Start;
 use quell_model::Belt;
 
 use super::super::evenly;

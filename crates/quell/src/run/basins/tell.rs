@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use quell_belt::attractor::{Attractor, Label};
-use quell_belt::orbit::Verdict;
+use quell_dynamics::attractor::{Attractor, Label};
+use quell_dynamics::orbit::Verdict;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 

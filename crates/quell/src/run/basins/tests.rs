@@ -1,6 +1,6 @@
 //! What is told where ends are not known.
 
-use quell_belt::attractor::{Basins as Gathered, Unsettled};
+use quell_dynamics::attractor::{Basins as Gathered, Unsettled};
 
 use super::*;
 

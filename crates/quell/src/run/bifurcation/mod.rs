@@ -7,9 +7,9 @@ mod tell;
 
 use std::sync::atomic::Ordering;
 
-use quell_belt::attractor::{Attractor, Kind, Patience, Unsettled, measure, settle};
-use quell_belt::orbit::Verdict;
-use quell_belt::simulation::{Start, within};
+use quell_dynamics::attractor::{Attractor, Kind, Patience, Unsettled, measure, settle};
+use quell_dynamics::orbit::Verdict;
+use quell_dynamics::simulation::{Start, within};
 use quell_model::units::Scales;
 
 use super::attractor::{scene, unknown};

@@ -1,6 +1,6 @@
 //! Sweeps as sentence, JSON, dataset.
 
-use quell_belt::attractor::{Attractor, Kind};
+use quell_dynamics::attractor::{Attractor, Kind};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -246,8 +246,8 @@ fn periods(attractor: &Attractor) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use quell_belt::attractor::Unsettled;
-    use quell_belt::orbit::Verdict;
+    use quell_dynamics::attractor::Unsettled;
+    use quell_dynamics::orbit::Verdict;
 
     use super::super::super::range::SlipMet;
     use super::super::Branch;

@@ -1,7 +1,7 @@
 //! `check` of a disc study: the study in numbers, once everything about it is right.
 
-use quell_disc::Dither;
 use quell_model::Direction;
+use quell_model::disc::DiscDither;
 use quell_model::parameter::disc::{
     DISC_SPEED, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_MASS, LOAD_STIFFNESS,
 };
@@ -96,15 +96,15 @@ pub fn source(study: &DiscStudy) -> String {
     }
 }
 
-fn dither(dither: Dither) -> Json {
+fn dither(dither: DiscDither) -> Json {
     match dither {
-        Dither::None => Json::Null,
-        Dither::Normal { amplitude, frequency_ratio } => json!({
+        DiscDither::None => Json::Null,
+        DiscDither::Normal { amplitude, frequency_ratio } => json!({
             "direction": Direction::Normal.name(),
             "amplitude": amplitude,
             "frequency_ratio": frequency_ratio,
         }),
-        Dither::Tangential { amplitude, frequency_ratio } => json!({
+        DiscDither::Tangential { amplitude, frequency_ratio } => json!({
             "direction": Direction::Tangential.name(),
             "amplitude": amplitude,
             "frequency_ratio": frequency_ratio,

@@ -67,7 +67,7 @@ pub fn run(study: &DiscStudy) -> Modes {
         .enumerate()
         .map(|(index, mode)| {
             let computed = plate.and_then(|plate| plate.set.modes().get(index));
-            let lower = |other: &(usize, &quell_disc::Mode)| {
+            let lower = |other: &(usize, &quell_model::disc::Mode)| {
                 other.1.diameters == mode.diameters
                     && (other.1.ratio, other.0) < (mode.ratio, index)
             };

@@ -3,13 +3,13 @@
 
 use std::ops::RangeInclusive;
 
-pub use quell_disc::Verdict;
 use quell_disc::resonance::{
     Blocked, Clearance, ClearanceError, Nearby, Tongue, Verified, WaveError, Waves,
     clear_frequencies, verified_frequency, within,
 };
 pub use quell_disc::resonance::{Order, Resonance};
-use quell_disc::system::Contributions;
+pub use quell_linear::growth::Verdict;
+use quell_model::disc::Contributions;
 use quell_model::parameter::{Bounds, DITHER_FREQUENCY_RATIO};
 use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};

@@ -3,8 +3,10 @@
 use quell_disc::boundaries::{Marginal, NoBoundary, boundaries};
 use quell_disc::dithered::DitheredDisc;
 use quell_disc::partition::{NoPartition, crossings};
-use quell_disc::system::Contributions;
-use quell_disc::{Dither, Growth, Verdict, undithered};
+use quell_disc::undithered;
+use quell_linear::growth::{Growth, Verdict};
+use quell_model::disc::Contributions;
+use quell_model::disc::DiscDither;
 use quell_model::units::Quantity;
 use quell_numerics::floquet::Effort;
 use serde_json::{Map, Value as Json, json};
@@ -59,8 +61,8 @@ pub fn run(study: &DiscStudy) -> Result<Stability, Failure> {
             Err("they are reported for a whole disc, and parts of this one are left out".to_owned()),
             false,
         ),
-        Dither::None => still(study),
-        Dither::Normal { .. } | Dither::Tangential { .. } => (shaken(study), false),
+        DiscDither::None => still(study),
+        DiscDither::Normal { .. } | DiscDither::Tangential { .. } => (shaken(study), false),
     };
     Ok(Stability { growth, undithered, unstable, changes, out_of_reach })
 }
@@ -137,9 +139,9 @@ impl Stability {
     pub fn sentence(&self, study: &DiscStudy) -> String {
         let speed = study.disc().speed();
         let under = match study.disc().dither() {
-            Dither::None => "without dither",
-            Dither::Normal { .. } => "under this normal dither",
-            Dither::Tangential { .. } => "under this tangential dither",
+            DiscDither::None => "without dither",
+            DiscDither::Normal { .. } => "under this normal dither",
+            DiscDither::Tangential { .. } => "under this tangential dither",
         };
         let Growth { rate, error, .. } = self.growth;
         match self.growth.verdict() {
@@ -183,7 +185,7 @@ impl Stability {
         object["ok"] = true.into();
         object["sentence"] = self.sentence(study).into();
         object["protocol"] = match study.disc().dither() {
-            Dither::None => "eigenvalues".into(),
+            DiscDither::None => "eigenvalues".into(),
             _ => "floquet".into(),
         };
         object["speed"] = study.disc().speed().into();

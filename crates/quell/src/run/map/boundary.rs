@@ -3,7 +3,7 @@
 //! Along a map with an axis `dither.amplitude`, the critical amplitudes of averaging at each value of the other
 //! axis, exact, not traced on the grid: D = αR with α from [`critical_amplitudes`].
 
-use quell_belt::averaging::{
+use quell_linear::averaging::{
     AveragingOptions, Becomes, CriticalAmplitude, Response, critical_amplitudes,
 };
 

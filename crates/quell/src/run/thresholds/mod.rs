@@ -1,14 +1,14 @@
 //! `thresholds`: values of a parameter at which the response changes: local ones by Floquet multipliers, and for runs
 //! from given starts the values at which dither begins or ceases to quench. `tell` says it in sentences.
 
-use quell_belt::attractor::{Reached, Scene, Strobe, Switches, ramped, switches};
-use quell_belt::orbit::NoOrbit;
-pub use quell_belt::orbit::family::Signature;
-pub use quell_belt::orbit::threshold::{Change, Ending, Kind, Local, Threshold};
-use quell_belt::orbit::threshold::{NoThresholds, local};
-use quell_belt::response::BAND_END;
-use quell_belt::simulation::{Start, within};
-use quell_belt::start::NoSquealingStart;
+use quell_dynamics::attractor::{Reached, Scene, Strobe, Switches, ramped, switches};
+use quell_dynamics::orbit::NoOrbit;
+pub use quell_dynamics::orbit::family::Signature;
+pub use quell_dynamics::orbit::threshold::{Change, Ending, Kind, Local, Threshold};
+use quell_dynamics::orbit::threshold::{NoThresholds, local};
+use quell_dynamics::response::BAND_END;
+use quell_dynamics::simulation::{Start, within};
+use quell_dynamics::start::NoSquealingStart;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -297,8 +297,8 @@ pub fn becomes(reached: Reached, in_band: bool) -> &'static str {
 }
 
 /// The verdict on one side of a threshold; "none" where this response does not exist there.
-pub fn side(verdict: Option<quell_belt::orbit::Verdict>) -> &'static str {
-    verdict.map_or("none", quell_belt::orbit::Verdict::name)
+pub fn side(verdict: Option<quell_dynamics::orbit::Verdict>) -> &'static str {
+    verdict.map_or("none", quell_dynamics::orbit::Verdict::name)
 }
 
 impl Thresholds {

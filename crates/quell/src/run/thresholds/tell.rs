@@ -1,7 +1,7 @@
 //! What `thresholds` answers, in sentences: where the base response is stable, and from where on each start is quenched.
 
-use quell_belt::attractor::{Switch, Switches};
-use quell_belt::orbit::Verdict;
+use quell_dynamics::attractor::{Switch, Switches};
+use quell_dynamics::orbit::Verdict;
 use quell_model::Dither;
 use quell_model::units::Quantity;
 

@@ -1,0 +1,102 @@
+//! Cost of a period map, of exact thresholds and of curves of them, on one core.
+//!
+//! Before criterion measures, two limits are held, each by the best of five attempts: a local threshold costs under
+//! 50 ms, a curve of 100 points under 5 s.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use criterion::{Criterion, criterion_group};
+use quell_dynamics::orbit::curve::{Plane, curves};
+use quell_dynamics::orbit::threshold::local_thresholds;
+use quell_dynamics::orbit::{from_sliding, near};
+use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+
+fn belt(waveform: Waveform, amplitude: f64) -> Belt {
+    let friction = LawKind::Decreasing.build(&[0.4, 0.2857, 0.2]).expect("a valid law");
+    let dither = Dither {
+        direction: Direction::Tangential,
+        waveform,
+        amplitude,
+        frequency_ratio: 10.0,
+        phase: 0.0,
+    };
+    Belt::new(0.005, 1.0, 1.0, friction, vec![dither]).expect("a valid belt")
+}
+
+fn both_thresholds(belt: &Belt) -> usize {
+    local_thresholds(belt, "dither.amplitude", 0.5, 10.5, 40).expect("followed").len()
+}
+
+/// Both thresholds of the amplitude over the belt's velocity, and the number of points.
+fn both_curves(belt: &Belt) -> usize {
+    let plane = Plane {
+        path: "dither.amplitude",
+        window: (0.1, 16.0),
+        along: "belt.belt_velocity",
+        between: (0.85, 1.5),
+    };
+    let found = curves(belt, plane, 3, 100).expect("curves").curves;
+    found.iter().map(|it| it.points.len()).sum()
+}
+
+fn orbits(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("orbits");
+    group.sample_size(10).measurement_time(Duration::from_secs(3));
+    let slip = belt(Waveform::Sine, 5.0);
+    let orbit = from_sliding(&slip, 8).expect("an orbit");
+    group.bench_function("orbit from its own state (two period maps)", |bencher| {
+        bencher.iter(|| near(black_box(&slip), orbit.start, 1));
+    });
+    for waveform in [Waveform::Sine, Waveform::Square] {
+        let belt = belt(waveform, 1.0);
+        assert_eq!(both_thresholds(&belt), 2);
+        group.bench_function(
+            format!("both thresholds of the amplitude, {}", waveform.name()),
+            |bencher| {
+                bencher.iter(|| both_thresholds(black_box(&belt)));
+            },
+        );
+    }
+    let belt = belt(Waveform::Sine, 1.0);
+    let points = both_curves(&belt);
+    assert!(points > 100);
+    group.bench_function(
+        format!("two curves over the belt's velocity, {points} points"),
+        |bencher| {
+            bencher.iter(|| both_curves(black_box(&belt)));
+        },
+    );
+    group.finish();
+}
+
+criterion_group!(benches, orbits);
+
+/// Shortest time of five attempts, s.
+fn shortest(mut work: impl FnMut()) -> f64 {
+    let attempt = |_| {
+        let begun = Instant::now();
+        work();
+        begun.elapsed().as_secs_f64()
+    };
+    (0..5).map(attempt).fold(f64::INFINITY, f64::min)
+}
+
+/// Panics when a threshold or a curve costs more than it may.
+fn hold_limits() {
+    let belt = belt(Waveform::Sine, 1.0);
+    let each = shortest(|| assert_eq!(both_thresholds(black_box(&belt)), 2)) / 2.0;
+    println!("a local threshold: {:.1} ms, at most 50", 1e3 * each);
+    assert!(each < 0.05, "a local threshold is too slow");
+    let mut points = 0;
+    let all = shortest(|| points = both_curves(black_box(&belt)));
+    let hundred = 100.0 * all / points as f64;
+    println!("100 points of a curve: {hundred:.3} s, at most 5");
+    assert!(hundred < 5.0, "a curve of thresholds is too slow");
+}
+
+fn main() {
+    hold_limits();
+    benches();
+    Criterion::default().configure_from_args().final_summary();
+}

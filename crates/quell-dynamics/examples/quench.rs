@@ -1,0 +1,52 @@
+//! How much dither quenches a belt: by averaging, exactly, and what a run from rest says.
+//!
+//! `cargo run --release --package quell-dynamics --example quench`; the book shows this file and its answer.
+
+use std::error::Error;
+use std::fmt::Write as _;
+
+use quell_dynamics::orbit::threshold::local;
+use quell_dynamics::response::{Solver, respond};
+use quell_dynamics::simulation::Start;
+use quell_linear::averaging::{AveragingOptions, critical_amplitudes};
+use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+
+/// The answer as text.
+///
+/// # Errors
+/// Values out of range, a run that stops, a threshold that cannot be followed.
+pub(crate) fn answer() -> Result<String, Box<dyn Error>> {
+    // μ_s, μ_m, v_m; then ζ, F, v₀: a belt that exists is valid.
+    let law = LawKind::Stribeck.build(&[0.4, 0.2857, 0.2]).map_err(|wrong| format!("{wrong:?}"))?;
+    let dither = Dither {
+        direction: Direction::Tangential,
+        waveform: Waveform::Sine,
+        amplitude: 0.4,
+        frequency_ratio: 10.0,
+        phase: 0.0,
+    };
+    let belt =
+        Belt::new(0.005, 1.0, 0.05, law, vec![dither]).map_err(|wrong| format!("{wrong:?}"))?;
+
+    let mut text = String::new();
+    for change in critical_amplitudes(&belt, AveragingOptions::default())? {
+        writeln!(text, "averaging: {:?} from D = {:.4}", change.becomes, change.amplitude)?;
+    }
+    let found = local(&belt, "dither.amplitude", 0.4, 0.6, 64)?;
+    for threshold in found.thresholds {
+        writeln!(text, "exactly: {} at D = {:.7}", threshold.kind.name(), threshold.value)?;
+    }
+    for amplitude in [0.3, 0.4, 0.52] {
+        let belt = belt.with("dither.amplitude", amplitude).map_err(|it| format!("{it:?}"))?;
+        let response = respond(&belt, Start::REST, &Solver::default())?;
+        let left = response.efficiency?;
+        writeln!(text, "from rest, D = {amplitude}: {:.1} % of the squeal is left", 100.0 * left)?;
+    }
+    Ok(text)
+}
+
+#[allow(dead_code, reason = "the test of the book calls `answer`")]
+fn main() -> Result<(), Box<dyn Error>> {
+    print!("{}", answer()?);
+    Ok(())
+}

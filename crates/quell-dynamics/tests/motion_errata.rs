@@ -1,0 +1,157 @@
+//! Where the dissertation's words and numbers about motions are wrong: each printed statement against exact trajectories
+//! and orbits.
+
+use core::f64::consts::TAU;
+
+use quell_dynamics::orbit::threshold::local_thresholds;
+use quell_dynamics::response::{Solver, respond};
+use quell_dynamics::simulation::{EventKind, EventRecorder, Sampler, Start, simulate};
+use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+
+const TOLERANCE: f64 = 1e-12;
+
+/// A belt of the dissertation with one dither, F = 1, v_m = 0.2.
+fn belt(
+    law: LawKind,
+    minimum: f64,
+    damping_ratio: f64,
+    belt_velocity: f64,
+    dither: Option<Dither>,
+) -> Belt {
+    let law = law.build(&[0.4, minimum, 0.2]).expect("valid");
+    Belt::new(damping_ratio, 1.0, belt_velocity, law, dither.into_iter().collect()).expect("valid")
+}
+
+fn dither(direction: Direction, waveform: Waveform, amplitude: f64, ratio: f64) -> Dither {
+    Dither { direction, waveform, amplitude, frequency_ratio: ratio, phase: 0.0 }
+}
+
+/// μ_m = 0.2587 is a misprint of 0.2857: the printed law squeals at 0.5925 ω₀, the text says 0.666 (measured: 0.6544).
+#[test]
+fn minimum_coefficient() {
+    let frequency = |minimum: f64| {
+        let belt = belt(LawKind::Stribeck, minimum, 0.005, 0.05, None);
+        let mut recorder = EventRecorder::default();
+        simulate(&belt, Start::REST, 600.0, TOLERANCE, &mut recorder).expect("no stall");
+        let sticks: Vec<f64> = recorder
+            .events
+            .iter()
+            .filter(|event| event.kind == EventKind::Stick)
+            .map(|event| event.time)
+            .collect();
+        TAU / (sticks[sticks.len() - 1] - sticks[sticks.len() - 2])
+    };
+    let (printed, right) = (frequency(0.2587), frequency(0.2857));
+    assert!((right - 0.654_435).abs() < 1e-6, "{right}");
+    assert!((printed - 0.5925).abs() < 1e-4, "{printed}");
+    assert!((right - 0.666).abs() < 0.02 * 0.666 && (printed - 0.666).abs() > 0.1 * 0.666);
+}
+
+/// "Reduced further by decreasing the frequency ratio": the forced part is D/(R² − 1) and grows.
+#[test]
+fn forced_amplitude_grows_as_the_ratio_falls() {
+    let amplitude = |ratio: f64| {
+        let sine = dither(Direction::Tangential, Waveform::Sine, 0.5, ratio);
+        let belt = belt(LawKind::Stribeck, 0.2857, 0.005, 0.05, Some(sine));
+        let response = respond(&belt, Start::REST, &Solver::default()).expect("no stall");
+        let near = response.peaks.iter().filter(|peak| (peak.frequency - ratio).abs() < 0.1);
+        near.map(|peak| peak.amplitude).fold(0.0, f64::max)
+    };
+    // At R = 10 the mass only just keeps sliding, and its forced motion is the linear one; below, friction turns round
+    // within each period and takes some of it.
+    let linear = |ratio: f64| 0.5 / (ratio * ratio - 1.0);
+    assert!((amplitude(10.0) / linear(10.0) - 1.0).abs() < 0.005, "{}", amplitude(10.0));
+    for ratio in [9.0, 8.0] {
+        assert!(amplitude(ratio) < linear(ratio) && amplitude(ratio) > 0.9 * linear(ratio));
+    }
+    assert!(amplitude(8.0) > amplitude(9.0) && amplitude(9.0) > amplitude(10.0));
+}
+
+/// Largest spectral amplitude of a record over 0 < ω ≤ 1.9, Hann window, with or without its mean.
+fn largest(samples: &[f64], step: f64, mean_removed: bool) -> f64 {
+    let count = samples.len() as f64;
+    let window: Vec<f64> =
+        (0..samples.len()).map(|k| 0.5 - 0.5 * (TAU * k as f64 / count).cos()).collect();
+    let sum: f64 = window.iter().sum();
+    let mean = samples.iter().zip(&window).map(|(x, w)| x * w).sum::<f64>() / sum;
+    let mean = if mean_removed { mean } else { 0.0 };
+    let at = |frequency: f64| {
+        let (mut re, mut im) = (0.0, 0.0);
+        for (k, (x, w)) in samples.iter().zip(&window).enumerate() {
+            let angle = frequency * step * k as f64;
+            re += w * (x - mean) * angle.cos();
+            im += w * (x - mean) * angle.sin();
+        }
+        2.0 * re.hypot(im) / sum
+    };
+    (1..=1900).map(|k| at(1e-3 * f64::from(k))).fold(0.0, f64::max)
+}
+
+/// E = M₁/M₀ (2.27) exceeds 1 whatever the dither as long as the mean is left in the record.
+#[test]
+fn efficiency_needs_the_mean_removed() {
+    let sine = dither(Direction::Tangential, Waveform::Sine, 0.45, 10.0);
+    let dithered = belt(LawKind::Stribeck, 0.2857, 0.005, 0.05, Some(sine));
+    let record = |belt: &Belt| -> Vec<f64> {
+        let mut sampler = Sampler::new(600.0, 0.1, 1257);
+        simulate(belt, Start::REST, 726.0, TOLERANCE, &mut sampler).expect("no stall");
+        sampler.samples.iter().map(|sample| sample.displacement).collect()
+    };
+    let (with, without) = (record(&dithered), record(&dithered.undithered()));
+    let efficiency = |removed: bool| largest(&with, 0.1, removed) / largest(&without, 0.1, removed);
+    let (printed, right) = (efficiency(false), efficiency(true));
+    assert!(printed > 1.0, "{printed}");
+    assert!((right - 0.127).abs() < 0.01, "{right}");
+}
+
+/// "Stable without dither above v₂": from x = 1.5 the same belt goes on squealing.
+#[test]
+fn a_cycle_coexists_with_stable_sliding() {
+    let belt = belt(LawKind::Decreasing, 0.2857, 0.005, 1.0, None);
+    let spread = |displacement: f64| {
+        let start = Start { displacement, ..Start::REST };
+        let mut sampler = Sampler::new(1500.0, 0.05, 500);
+        simulate(&belt, start, 1526.0, TOLERANCE, &mut sampler).expect("no stall");
+        let values = sampler.samples.iter().map(|sample| sample.displacement);
+        values.clone().fold(f64::MIN, f64::max) - values.fold(f64::MAX, f64::min)
+    };
+    assert!(spread(0.0) < 0.05);
+    assert!((spread(1.5) - 2.09).abs() < 0.02, "{}", spread(1.5));
+}
+
+/// Figure 4.11 is captioned as a square wave; its pattern (stable at 0.6, unstable from 0.7, stable again at 0.9 to 0.95)
+/// is the sine's.
+#[test]
+fn figure_4_11_shows_the_sine() {
+    let found = |waveform: Waveform| -> Vec<f64> {
+        let normal = dither(Direction::Normal, waveform, 0.1, 5.0);
+        let belt = belt(LawKind::Decreasing, 0.2857, 0.2, 0.075, Some(normal));
+        let thresholds = local_thresholds(&belt, "dither.amplitude", 0.1, 0.99, 60);
+        thresholds.expect("followed").iter().map(|threshold| threshold.value).collect()
+    };
+    for (waveform, known) in [
+        (Waveform::Square, [0.553_840_4, 0.614_698_468]),
+        (Waveform::Sine, [0.710_299_1, 0.965_369_470]),
+    ] {
+        let found = found(waveform);
+        assert_eq!(found.len(), 2, "{waveform:?}: {found:?}");
+        for (found, known) in found.iter().zip(known) {
+            assert!((found - known).abs() < 1e-6, "{waveform:?}: {found} {known}");
+        }
+    }
+}
+
+/// The caption of figure 2.11 prints v₀ = 1.0. At 1.5 the run from rest settles with D = 6.5 and vibrates with 14, as shown; at
+/// 1.0 it is the reverse.
+#[test]
+fn figure_2_11_is_at_one_and_a_half() {
+    let settles = |velocity: f64, amplitude: f64| {
+        let sine = dither(Direction::Tangential, Waveform::Sine, amplitude, 10.0);
+        let belt = belt(LawKind::Decreasing, 0.2857, 0.005, velocity, Some(sine));
+        let solver = Solver { settle: 4000.0, ..Solver::default() };
+        let response = respond(&belt, Start::REST, &solver).expect("no stall");
+        response.amplitude < 1e-3
+    };
+    assert_eq!([settles(1.5, 6.5), settles(1.5, 14.0)], [true, false]);
+    assert_eq!([settles(1.0, 6.5), settles(1.0, 14.0)], [false, true]);
+}

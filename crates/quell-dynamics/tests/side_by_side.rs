@@ -1,0 +1,153 @@
+//! A run has the same bits alone, in any lane, beside any neighbours, on any instruction set.
+
+use quell_dynamics::response::{Case, Solver, Wanted, compare_many, respond};
+use quell_dynamics::simulation::{
+    Event, EventRecorder, FinalState, InstructionSet, Run, Sample, Sampler, Start, simulate,
+    simulate_many_with,
+};
+use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+
+const TOLERANCE: f64 = 1e-11;
+
+/// Belts of every law, waveform and direction, with one dither, several and none, of different
+/// friction, length, start and phase.
+fn cases() -> Vec<(Belt, Start, f64)> {
+    let mut cases = Vec::new();
+    for (i, &law) in LawKind::NUMERIC.iter().enumerate() {
+        for (j, &waveform) in Waveform::ALL.iter().enumerate() {
+            for k in 0..7_u32 {
+                let x = f64::from(k) + 0.37 * i as f64 + 0.11 * j as f64;
+                let wave = |direction, amplitude, frequency_ratio| Dither {
+                    direction,
+                    waveform,
+                    amplitude,
+                    frequency_ratio,
+                    phase: 0.4 * x,
+                };
+                let tangential = wave(Direction::Tangential, 0.1 + 0.13 * x, 5.0 + 1.3 * x);
+                let normal = wave(Direction::Normal, 0.1 + 0.1 * x, 7.0 - 0.5 * x);
+                let slower = wave(Direction::Tangential, 0.05, 3.1 + 0.1 * x);
+                let dithers = match k {
+                    0 => vec![],
+                    1 | 2 => vec![tangential],
+                    3 | 4 => vec![normal],
+                    5 => vec![tangential, normal],
+                    _ => vec![tangential, slower, normal],
+                };
+                let (level, velocity, viscous) = (0.4 - 0.01 * x, 0.2 + 0.02 * x, 0.02 * x);
+                let values = match law {
+                    LawKind::Coulomb => vec![0.28, level, viscous],
+                    LawKind::StribeckExponential => {
+                        vec![0.28, level, velocity, f64::from(1 + k % 4), viscous]
+                    }
+                    _ => vec![level, 0.28, velocity],
+                };
+                let friction = law.build(&values).expect("a valid law");
+                let belt = Belt::new(0.005 * x, 1.0, 0.05 + 0.02 * x, friction, dithers);
+                let start = Start { time: 0.3 * x, displacement: 0.1 * x, velocity: 0.02 * x };
+                cases.push((belt.expect("a valid belt"), start, 40.0 + 9.0 * x));
+            }
+        }
+    }
+    cases
+}
+
+/// What a run is known by.
+type Trace = (FinalState, Vec<Event>, Vec<Sample>);
+
+fn watchers(cases: &[(Belt, Start, f64)]) -> Vec<(EventRecorder, Sampler)> {
+    cases
+        .iter()
+        .map(|(_, start, _)| (EventRecorder::default(), Sampler::new(start.time, 0.7, 50)))
+        .collect()
+}
+
+fn alone(cases: &[(Belt, Start, f64)]) -> Vec<Trace> {
+    cases
+        .iter()
+        .zip(watchers(cases))
+        .map(|((belt, start, until), mut watch)| {
+            let end = simulate(belt, *start, *until, TOLERANCE, &mut watch).expect("no stall");
+            (end, watch.0.events, watch.1.samples)
+        })
+        .collect()
+}
+
+fn together(set: InstructionSet, cases: &[(Belt, Start, f64)]) -> Vec<Trace> {
+    let mut watches = watchers(cases);
+    let runs = cases
+        .iter()
+        .zip(&mut watches)
+        .map(|((belt, start, until), observer)| Run {
+            belt,
+            start: *start,
+            until: *until,
+            observer,
+        })
+        .collect();
+    let ends = simulate_many_with(set, runs, TOLERANCE);
+    ends.into_iter()
+        .zip(watches)
+        .map(|(end, watch)| (end.expect("no stall"), watch.0.events, watch.1.samples))
+        .collect()
+}
+
+#[test]
+fn every_run_has_the_bits_it_has_alone() {
+    let mut cases = cases();
+    let mut expected = alone(&cases);
+    assert!(expected.iter().map(|(_, events, _)| events.len()).sum::<usize>() > 1000);
+    for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+        // Other lanes, other neighbours: the order is turned round by a step that shares no
+        // factor with the number of lanes.
+        for turn in [0, 5] {
+            cases.rotate_left(turn);
+            expected.rotate_left(turn);
+            for (number, (run, alone)) in together(set, &cases).iter().zip(&expected).enumerate() {
+                assert_eq!(run, alone, "{}, run {number}: {:?}", set.name(), cases[number].0);
+            }
+        }
+    }
+}
+
+#[test]
+fn unwatched_runs_have_the_same_bits_too() {
+    let cases = cases();
+    let expected = alone(&cases);
+    for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+        let mut nobody = vec![(); cases.len()];
+        let runs = cases
+            .iter()
+            .zip(&mut nobody)
+            .map(|((belt, start, until), observer)| Run {
+                belt,
+                start: *start,
+                until: *until,
+                observer,
+            })
+            .collect();
+        let ends = simulate_many_with(set, runs, TOLERANCE);
+        for (number, (end, (alone, ..))) in ends.into_iter().zip(&expected).enumerate() {
+            assert_eq!(end.as_ref(), Ok(alone), "{}, run {number}", set.name());
+        }
+    }
+}
+
+#[test]
+fn a_point_of_a_map_is_the_response_of_its_study() {
+    let solver = Solver { tolerance: 1e-10, settle: 30.0, record_periods: 6 };
+    let cases: Vec<Case> =
+        cases().into_iter().map(|(belt, start, _)| Case { belt, start }).collect();
+    let compared = compare_many(&cases, &solver, Wanted { dither_cost: true });
+    for (case, compared) in cases.iter().zip(compared) {
+        let alone = respond(&case.belt, case.start, &solver).expect("no stall");
+        let compared = compared.expect("no stall");
+        assert_eq!(compared.efficiency(), alone.efficiency, "{:?}", case.belt);
+        assert_eq!(compared.dithered.lines.whole, alone.amplitude);
+        assert_eq!(compared.dithered.stick_fraction, alone.stick_fraction);
+        assert_eq!(compared.dithered.mean_friction, alone.mean_friction);
+        assert_eq!(compared.dithered.dither_power, alone.dither_power);
+        assert_eq!(compared.dithered.dither_stroke, alone.dither_stroke);
+        assert_eq!(compared.settled(), alone.settled);
+    }
+}

@@ -1,0 +1,64 @@
+//! Averaging: what a fast dither makes of a friction law.
+//!
+//! The slow motion obeys Z″ + 2ζZ′ + Z = μ̄(v₀ − Z′)F with the effective friction μ̄ (2.21, 3.19, 4.27); steady sliding is
+//! unstable iff 2ζ + Fμ̄′(v₀) < 0 (2.26).
+//!
+//! ```
+//! use quell_linear::averaging::{AveragingOptions, Crossing, Response, critical_amplitudes};
+//! use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+//!
+//! let law = LawKind::Decreasing.build(&[0.4, 0.2857, 0.2])?;
+//! let dither = Dither {
+//!     direction: Direction::Tangential,
+//!     waveform: Waveform::Sine,
+//!     amplitude: 5.0,
+//!     frequency_ratio: 10.0,
+//!     phase: 0.0,
+//! };
+//! let belt = Belt::new(0.005, 1.0, 1.0, law, vec![dither])?;
+//! // Dither destabilises between a root and the jump where the fast velocity reaches the belt's.
+//! let options = AveragingOptions { response: Response::Oscillator, ..Default::default() };
+//! let critical = critical_amplitudes(&belt, options).expect("one dither");
+//! assert!((critical[0].amplitude - 4.322392).abs() < 1e-6); // exact: 4.322393
+//! assert!((critical[1].amplitude - 9.9).abs() < 1e-12 && critical[1].crossing == Crossing::Jump);
+//! # Ok::<(), Vec<quell_model::Invalid>>(())
+//! ```
+//!
+//! | file | what |
+//! |---|---|
+//! | `wave` | shape of the fast velocity of one dither: G, or the oscillator's own response |
+//! | `fast_motion` | fast slip and load of a belt's dithers, grouped by frequency |
+//! | `effective` | μ̄ and its frozen slope; which method serves which motion |
+//! | `stribeck`, `decreasing` | closed forms of one law |
+//! | `single_wave`, `periodic`, `independent` | quadrature: any law under one shape, a periodic sum, several frequencies |
+//! | `criterion` | 2ζ + Fμ̄′(v₀) and its verdict |
+//! | `critical_amplitudes`, `edges`, `everywhere_stable` | where the verdict changes: with α, with v₀, and α^L |
+
+mod criterion;
+mod critical_amplitudes;
+mod decreasing;
+mod edges;
+mod effective;
+mod everywhere_stable;
+mod fast_motion;
+mod independent;
+mod periodic;
+mod sign_changes;
+mod single_wave;
+mod stribeck;
+mod wave;
+
+pub use criterion::{Criterion, UndecidedBecause, Verdict, criterion};
+pub use critical_amplitudes::{Becomes, CriticalAmplitude, critical_amplitudes};
+pub use edges::{
+    Band, CriticalVelocity, NoBand, closed_band, undithered_critical_velocity, unstable_bands,
+};
+pub use effective::{AveragingError, Effective, Side, effective, effective_by_quadrature};
+pub use everywhere_stable::{EverywhereStable, NeverStable, everywhere_stable_amplitude};
+pub use fast_motion::{
+    AveragingOptions, FastMotion, LoadTerm, MAX_HARMONIC, NormalOrder, PeriodicMotion, Response,
+    SlipTerm, fast_wave,
+};
+pub use independent::MAX_GROUPS;
+pub use sign_changes::Crossing;
+pub use wave::FastWave;
