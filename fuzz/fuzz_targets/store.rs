@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
 
 use libfuzzer_sys::fuzz_target;
-use quell::Study;
+use quell::BeltStudy;
 use quell::run::map::run;
 use quell::store::{Found, Store};
 use quell::sweep::{Plan, Quantity, Running};
@@ -28,7 +28,7 @@ struct Whole {
 static WHOLE: LazyLock<Whole> = LazyLock::new(|| {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("whole.zarr");
-    let study = Study::parse(MAP, &[]).expect("valid");
+    let study = BeltStudy::parse(MAP, &[]).expect("valid");
     let quantity = Quantity::named("verdict", "fuzz").expect("known");
     let plan = Plan::new(&study, &[quantity]).expect("a plan");
     let store = Store::open(&path, &plan, false).expect("made");

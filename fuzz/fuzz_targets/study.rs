@@ -4,10 +4,10 @@
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use quell::Subject;
+use quell::Study;
 
 fuzz_target!(|text: &str| {
-    match Subject::parse(text, &[], Path::new("")) {
+    match Study::parse(text, &[], Path::new("")) {
         Ok(study) => {
             let again = study.at([]).expect("valid without its axes");
             assert_eq!(again.settings(), study.settings());

@@ -3,14 +3,15 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use quell::dataset::Dataset;
 use quell::input::Inputs;
+use quell::outcome::Outcome;
 use quell::output::Output;
 use quell::picture::{self, EXTENSIONS};
-use quell::plot::Figure;
-use quell::study::mirror::Node;
-use quell::{Change, Complaint, DiscStudy, Failure, Study, Subject};
+use quell::study::document::Node;
+use quell::{Change, Complaint, Failure, Study};
 use serde_json::Value as Json;
+
+use crate::answer::Answer;
 
 /// The study and its changes.
 #[derive(Debug, Args)]
@@ -30,19 +31,9 @@ pub(crate) struct StudyArguments {
 }
 
 impl StudyArguments {
-    /// Reads and checks the study of a belt.
+    /// Reads and checks the study, of any kind.
     pub(crate) fn read(&self) -> Result<Study, Failure> {
-        Ok(self.read_any()?.the_belt()?.clone())
-    }
-
-    /// Reads and checks the study of a disc.
-    pub(crate) fn read_disc(&self) -> Result<DiscStudy, Failure> {
-        Ok(self.read_any()?.the_disc()?.clone())
-    }
-
-    /// Reads and checks the study, of whatever it is about.
-    pub(crate) fn read_any(&self) -> Result<Subject, Failure> {
-        let mut complaints = Complaints::default();
+        let mut complaints = Gathered::default();
         let mut changes: Vec<Change> = self
             .set
             .iter()
@@ -52,14 +43,14 @@ impl StudyArguments {
             path: "solver.tolerance".to_owned(),
             node: Node::from_argument(text, "--tolerance"),
         }));
-        let study = complaints.take(Subject::read(&self.study, &changes));
+        let study = complaints.take(Study::read(&self.study, &changes));
         complaints.finish(study)
     }
 }
 
 /// The files that a study was read from: none where it could not be read, which ends the work anyway.
-pub(crate) fn inputs<S>(study: Option<&S>, of: impl Fn(&S) -> Inputs) -> Inputs {
-    study.map_or(Inputs::NONE, of)
+pub(crate) fn inputs(study: Option<&Study>) -> Inputs {
+    study.map_or(Inputs::NONE, Study::inputs)
 }
 
 /// Where the picture goes.
@@ -96,25 +87,20 @@ impl Plot {
         self.output.is_some()
     }
 
-    /// Draws what can fail to be drawn, and adds its path to the object.
-    pub(crate) fn try_write(
-        self,
-        figure: impl FnOnce() -> Result<Figure, Failure>,
-        object: &mut Json,
-    ) -> Result<(), Failure> {
-        if let Some(output) = self.output {
-            object["plotted"] = picture::write(&figure()?, output)?.into();
-        }
-        Ok(())
+    /// No picture.
+    pub(crate) fn none() -> Self {
+        Self { output: None }
     }
 
-    /// Draws it and adds its path to the object.
-    pub(crate) fn write(
-        self,
-        figure: impl FnOnce() -> Figure,
-        object: &mut Json,
-    ) -> Result<(), Failure> {
-        self.try_write(|| Ok(figure()), object)
+    /// Draws the picture of an outcome and adds its path to the object.
+    pub(crate) fn write(self, outcome: &dyn Outcome, object: &mut Json) -> Result<(), Failure> {
+        let Some(output) = self.output else { return Ok(()) };
+        let figure = outcome.figure().unwrap_or_else(|| {
+            let allowed = "there is no picture of this answer";
+            Err(Complaint::option("--plot", Json::Null, allowed).into())
+        });
+        object["plotted"] = picture::write(&figure?, output)?.into();
+        Ok(())
     }
 }
 
@@ -153,27 +139,46 @@ impl OutputArguments {
 }
 
 impl Outputs {
-    /// Writes the datasets, one a file, and adds their paths to the object.
-    pub(crate) fn write(self, datasets: &[Dataset], object: &mut Json) -> Result<(), Failure> {
+    /// No output.
+    pub(crate) fn none() -> Self {
+        Self { save: Vec::new() }
+    }
+
+    /// Writes the datasets of an outcome, one a file, and adds their paths to the object.
+    fn write(self, outcome: &dyn Outcome, object: &mut Json) -> Result<(), Failure> {
+        if self.save.is_empty() {
+            return Ok(());
+        }
         let mut saved = Vec::new();
-        for (output, dataset) in self.save.into_iter().zip(datasets) {
+        for (output, (_, dataset)) in self.save.into_iter().zip(outcome.datasets()) {
             saved.push(output.write(dataset.csv().as_bytes())?.display().to_string());
         }
-        if !saved.is_empty() {
-            object["saved"] = saved.into();
-        }
+        object["saved"] = saved.into();
         Ok(())
     }
 }
 
-/// Complaints from several places, told at once.
+/// The answer with its files: datasets saved, picture drawn.
+pub(crate) fn answer(
+    json: bool,
+    outcome: &dyn Outcome,
+    outputs: Outputs,
+    plot: Plot,
+) -> Result<Answer, Failure> {
+    let mut object = outcome.json();
+    outputs.write(outcome, &mut object)?;
+    plot.write(outcome, &mut object)?;
+    Ok(Answer::new(json, &object, || outcome.text()))
+}
+
+/// Complaints gathered from several places, reported together.
 #[derive(Debug, Default)]
-pub(crate) struct Complaints {
+pub(crate) struct Gathered {
     wrong: Vec<Complaint>,
     failed: Option<Failure>,
 }
 
-impl Complaints {
+impl Gathered {
     /// The value, or nothing and one more thing to complain about.
     pub(crate) fn take<T>(&mut self, result: Result<T, impl Into<Failure>>) -> Option<T> {
         match result.map_err(Into::into) {
@@ -189,7 +194,7 @@ impl Complaints {
         match (value, self.failed) {
             (Some(value), None) if self.wrong.is_empty() => Ok(value),
             (_, Some(failure)) if self.wrong.is_empty() => Err(failure),
-            _ => Err(Failure::Wrong(self.wrong)),
+            _ => Err(self.wrong.into()),
         }
     }
 }

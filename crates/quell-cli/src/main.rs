@@ -8,7 +8,6 @@ mod cli;
 mod help;
 mod interrupt;
 mod progress;
-mod table;
 mod verbs;
 
 fn main() -> ExitCode {

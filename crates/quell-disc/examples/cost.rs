@@ -9,11 +9,12 @@ mod clock;
 
 use std::hint::black_box;
 
-use quell_disc::dithered::DitheredDisc;
-use quell_disc::equations::System;
+use quell_disc::dithered;
+use quell_disc::equations::linearised;
 use quell_disc::plate::{ModeSet, Plate, Reference};
-use quell_disc::undithered;
+use quell_linear::eigenvalues;
 use quell_model::Disc;
+use quell_model::disc::Contributions;
 use quell_model::disc::{DiscDither, Load, Mode};
 use quell_numerics::floquet::Effort;
 
@@ -54,12 +55,14 @@ fn main() {
     let sets = [(1, 1), (1, 2), (1, 4), (2, 5), (2, 8), (3, 8), (3, 10), (3, 12), (4, 12)];
     for (radial, diameters) in sets {
         let modes = modes(radial, diameters);
-        let system = System::new(&disc(&modes, DiscDither::None));
+        let system =
+            linearised(&disc(&modes, DiscDither::None), Contributions::ALL).expect("finite");
         let eigenvalues = fastest(|friction| {
-            black_box(undithered::growth_of(&system, &[friction]).expect("finite"));
+            black_box(eigenvalues::growth(&system, &[friction]).expect("finite"));
         });
         let dither = DiscDither::Normal { amplitude: 1.0, frequency_ratio: 2.7 };
-        let prepared = DitheredDisc::new(&disc(&modes, dither)).expect("finite").expect("dithered");
+        let prepared =
+            dithered::prepared(&disc(&modes, dither)).expect("finite").expect("dithered");
         let exponents = fastest(|friction| {
             black_box(prepared.exponent(friction, Effort::default()).expect("finite"));
         });

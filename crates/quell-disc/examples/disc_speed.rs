@@ -9,10 +9,11 @@ mod clock;
 
 use std::hint::black_box;
 
-use quell_disc::dithered::DitheredDisc;
-use quell_disc::equations::System;
-use quell_disc::undithered;
+use quell_disc::dithered;
+use quell_disc::equations::linearised;
+use quell_linear::linearised::Linearised;
 use quell_model::Disc;
+use quell_model::disc::Contributions;
 use quell_model::disc::{DiscDither, Load, Mode};
 use quell_numerics::eigen::eigenvalues;
 use quell_numerics::floquet::Effort;
@@ -77,6 +78,10 @@ fn fastest(mut pass: impl FnMut()) -> f64 {
     1e6 * fastest / (SPEEDS * FRICTIONS) as f64
 }
 
+fn equations(disc: &Disc) -> Linearised {
+    linearised(disc, Contributions::ALL).expect("finite")
+}
+
 fn main() {
     // `speed 1_2` or `speed 2_5` runs one of the two.
     let only = std::env::args().nth(1);
@@ -85,8 +90,8 @@ fn main() {
         if only.as_deref().is_some_and(|only| only != name) {
             continue;
         }
-        let systems: Vec<System> =
-            (0..SPEEDS).map(|speed| System::new(&disc(modes, DiscDither::None, speed))).collect();
+        let systems: Vec<Linearised> =
+            (0..SPEEDS).map(|speed| equations(&disc(modes, DiscDither::None, speed))).collect();
         let matrices: Vec<_> = systems
             .iter()
             .flat_map(|system| (0..FRICTIONS).map(|f| system.state_matrix(&[friction(f)])))
@@ -99,9 +104,11 @@ fn main() {
         fields.push((format!("eigenvalues_{name}"), values));
         let growth = fastest(|| {
             for speed in 0..SPEEDS {
-                let system = System::new(&disc(modes, DiscDither::None, speed));
+                let system = equations(&disc(modes, DiscDither::None, speed));
                 for f in 0..FRICTIONS {
-                    black_box(undithered::growth_of(&system, &[friction(f)]).expect("finite"));
+                    black_box(
+                        quell_linear::eigenvalues::growth(&system, &[friction(f)]).expect("finite"),
+                    );
                 }
             }
         });
@@ -112,7 +119,7 @@ fn main() {
         ] {
             let exponents = fastest(|| {
                 for speed in 0..SPEEDS {
-                    let disc = DitheredDisc::new(&disc(modes, dither, speed)).expect("finite");
+                    let disc = dithered::prepared(&disc(modes, dither, speed)).expect("finite");
                     let disc = disc.expect("dithered");
                     for f in 0..FRICTIONS {
                         black_box(disc.exponent(friction(f), Effort::default()).expect("finite"));

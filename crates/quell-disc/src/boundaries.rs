@@ -15,7 +15,7 @@ use std::fmt;
 
 use quell_numerics::eigen::{Decomposition, EigenError};
 
-use crate::equations::System;
+use crate::equations::linearised;
 use quell_model::Disc;
 use quell_model::disc::{Contribution, Contributions};
 
@@ -86,11 +86,13 @@ pub fn boundaries(disc: &Disc) -> Result<Vec<Boundary>, NoBoundary> {
         return Err(NoBoundary::DampedModes);
     }
     let parts = Contributions::ALL.without(Contribution::Damper);
-    let system = System::assemble(disc, parts);
+    let system = linearised(&disc.undithered(), parts).map_err(NoBoundary::Eigenvalues)?;
     let decomposition =
         Decomposition::new(&system.state_matrix(&[0.0])).map_err(NoBoundary::Eigenvalues)?;
     let n = system.coordinates();
-    let (contact, slope) = (system.contact().row(0), system.slope().row(0));
+    let load = &system.contacts()[0];
+    let (contact, slope) =
+        (load.normal().unwrap_or_default(), load.slope_row().unwrap_or_default());
     let size = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
     let (contact_size, slope_size) = (size(contact), size(slope));
     let mut found = Vec::new();

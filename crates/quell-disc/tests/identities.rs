@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use num_complex::Complex64;
 use quell_disc::boundaries::{Marginal, NoBoundary, boundaries};
-use quell_disc::dithered::{self, DitheredDisc};
+use quell_disc::dithered;
 use quell_disc::partition::{NoPartition, crossings};
 use quell_disc::undithered::{self, eigenvalues};
 use quell_linear::growth::{Growth, Verdict};
@@ -216,7 +216,7 @@ fn faint_dither_is_nearly_none() {
 fn a_row_of_a_map_gives_the_bits_of_its_points() {
     for dither in [NORMAL, TANGENTIAL] {
         let row = disc("1,2", 1e-4, Load::new(0.1, 0.1, 0.1, 1.0), dither, 0.37);
-        let prepared = DitheredDisc::new(&row).expect("finite").expect("dithered");
+        let prepared = dithered::prepared(&row).expect("finite").expect("dithered");
         for factor in [0.01, 0.2, 1.5] {
             let alone = of(&row.with_friction_times(factor).expect("valid"));
             let shared = prepared.growth(factor, Effort::default()).expect("finite");
@@ -271,7 +271,7 @@ fn crossings_of_the_partition_are_marginal() {
             let load = Load::new(strength, strength, strength, 1.0);
             let disc = disc("1,2", damping, load, dither, speed);
             let name = format!("{dither:?}, Ω = {speed}, ξ = {damping}");
-            let prepared = DitheredDisc::new(&disc).expect("finite").expect("dithered");
+            let prepared = dithered::prepared(&disc).expect("finite").expect("dithered");
             let at = |factor| prepared.growth(factor, Effort::default()).expect("finite");
             let found = crossings(&disc).expect("one load, dithered");
             let mut leading = 0;
@@ -322,7 +322,7 @@ fn phases_of_dither_are_phases() {
         let dither = DiscDither::Tangential { amplitude: 1.0, frequency_ratio: 3.9 };
         let modes = vec![mode(1, 1.8), mode(2, 2.0), mode(3, 3.1)];
         let disc = Disc::new(modes, loads(friction, phases), dither, 0.3).expect("valid");
-        DitheredDisc::new(&disc)
+        dithered::prepared(&disc)
             .expect("finite")
             .expect("dithered")
             .growth(1.0, Effort { at_least: 1e-9, ..Effort::default() })
@@ -358,7 +358,7 @@ fn every_growing_motion_is_listed() {
     assert_eq!(listed[0].rate, undithered::growth(&still).expect("finite").rate);
     assert!(listed.is_sorted_by(|a, b| a.rate >= b.rate));
     let shaken = disc(DiscDither::Normal { amplitude: 0.0, frequency_ratio: 40.0 });
-    let prepared = DitheredDisc::new(&shaken).expect("finite").expect("dithered");
+    let prepared = dithered::prepared(&shaken).expect("finite").expect("dithered");
     // Without amplitude the exponents are the eigenvalues.
     let found = prepared.growing(Effort::default()).expect("finite");
     assert_eq!(found.len(), listed.len());

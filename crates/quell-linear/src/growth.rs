@@ -46,3 +46,26 @@ impl Growth {
         }
     }
 }
+
+/// Growth rate of small slow motions of one mass, Re ρ of ρ² + cρ + 1 = 0 with the averaged criterion c = 2ζ + Fμ̄′ (2.26).
+pub fn of_criterion(criterion: f64) -> f64 {
+    let half = 0.5 * criterion;
+    let overdamped = (half.abs() - 1.0).max(0.0) * (half.abs() + 1.0);
+    overdamped.sqrt() - half
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn growth_rates_solve_the_characteristic_equation() {
+        for criterion in [-0.3, 0.0, 0.01, 1.9] {
+            assert_eq!(of_criterion(criterion), -0.5 * criterion);
+        }
+        for criterion in [-5.0, 2.5, 40.0] {
+            let rate = of_criterion(criterion);
+            assert!((rate * rate + criterion * rate + 1.0).abs() < 1e-12 * criterion * criterion);
+        }
+    }
+}

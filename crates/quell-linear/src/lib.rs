@@ -1,7 +1,12 @@
 //! Linear questions about structures with friction contacts: pure functions of valid values.
 //!
-//! * [`averaging`]: effective friction under fast dither, stability of steady sliding, critical amplitudes;
-//! * [`growth`]: growth rate, its error and the verdict that they allow.
+//! * [`linearised`]: steady sliding of any system and the equations of small motions about it;
+//! * [`eigenvalues`], [`floquet`]: growth rates with bounds, without and with dither of the friction forces;
+//! * [`growth`]: growth rate, its error and the verdict that they allow;
+//! * [`averaging`]: effective friction under fast dither, stability of steady sliding, critical amplitudes, of one mass.
 
 pub mod averaging;
+pub mod eigenvalues;
+pub mod floquet;
 pub mod growth;
+pub mod linearised;

@@ -2,13 +2,18 @@
 //!
 //! x″ + 2ζx′ + x = μ(v₀ − x′)·(F + Σ D_N g_N) + Σ D_T g_T        (2.1, 3.1, 4.1)
 
-use crate::Invalid;
+use crate::Parametrisation;
 use crate::dither::{Direction, Dither};
 use crate::friction::{Friction, Surroundings};
 use crate::parameter::{
     BELT_VELOCITY, DAMPING_RATIO, DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE,
     NORMAL_LOAD, Parameter, indexed, split_index,
 };
+use crate::profile::{Profile, Wave};
+use crate::system::{Contact, Input, InputTarget, MassMatrix, Structure, System};
+use crate::units::Scales;
+use crate::{Invalid, InvalidValues};
+use quell_numerics::matrix::Matrix;
 
 /// Mass, spring, damper, contact, friction law and dither, in the numbers of the equations.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +24,8 @@ pub struct Belt {
     belt_velocity: f64,
     friction: Friction,
     dithers: Vec<Dither>,
+    /// Mass and stiffness, of a study in SI.
+    scales: Option<Scales>,
 }
 
 impl Belt {
@@ -33,7 +40,7 @@ impl Belt {
         belt_velocity: f64,
         friction: Friction,
         dithers: Vec<Dither>,
-    ) -> Result<Self, Vec<Invalid>> {
+    ) -> Result<Self, InvalidValues> {
         let mut complaints: Vec<Invalid> = [
             (DAMPING_RATIO, damping_ratio),
             (NORMAL_LOAD, normal_load),
@@ -45,13 +52,25 @@ impl Belt {
         for (index, dither) in dithers.iter().enumerate() {
             complaints.extend(dither.complaints(index, dithers.len()));
         }
-        let belt = Self { damping_ratio, normal_load, belt_velocity, friction, dithers };
+        let belt =
+            Self { damping_ratio, normal_load, belt_velocity, friction, dithers, scales: None };
         complaints.extend(belt.separation());
         if !complaints.is_empty() {
-            return Err(complaints);
+            return Err(InvalidValues::of(complaints));
         }
         let friction = belt.friction.placed(&belt.surroundings())?;
         Ok(Self { friction, ..belt })
+    }
+
+    /// The same belt with mass and stiffness, so that its numbers have values in SI.
+    #[must_use]
+    pub fn in_si(self, scales: Option<Scales>) -> Self {
+        Self { scales, ..self }
+    }
+
+    /// Mass and stiffness, where they are known.
+    pub fn scales(&self) -> Option<Scales> {
+        self.scales
     }
 
     /// What the friction law learns from the belt.
@@ -180,12 +199,12 @@ impl Belt {
     /// Value of a parameter by its path (`belt.damping_ratio`, `friction.…`, `dither.…`,
     /// `dither[1].…`), or `None` if there is no such number here.
     pub fn get(&self, path: &str) -> Option<f64> {
-        match self.place(path)? {
-            Place::DampingRatio => Some(self.damping_ratio),
-            Place::NormalLoad => Some(self.normal_load),
-            Place::BeltVelocity => Some(self.belt_velocity),
-            Place::Law => self.friction.get(path),
-            Place::Dither(index, parameter) => {
+        match self.number(path)? {
+            BeltNumber::DampingRatio => Some(self.damping_ratio),
+            BeltNumber::NormalLoad => Some(self.normal_load),
+            BeltNumber::BeltVelocity => Some(self.belt_velocity),
+            BeltNumber::Law => self.friction.get(path),
+            BeltNumber::Dither(index, parameter) => {
                 let dither = self.dithers.get(index)?;
                 Some(match parameter.path {
                     path if path == DITHER_AMPLITUDE.path => dither.amplitude,
@@ -199,16 +218,16 @@ impl Belt {
     /// The entry of the registry for a path, or `None` if there is no such number here or the study
     /// itself named it (a constant of a formula).
     pub fn parameter(&self, path: &str) -> Option<Parameter> {
-        match self.place(path)? {
-            Place::DampingRatio => Some(DAMPING_RATIO),
-            Place::NormalLoad => Some(NORMAL_LOAD),
-            Place::BeltVelocity => Some(BELT_VELOCITY),
-            Place::Law => {
+        match self.number(path)? {
+            BeltNumber::DampingRatio => Some(DAMPING_RATIO),
+            BeltNumber::NormalLoad => Some(NORMAL_LOAD),
+            BeltNumber::BeltVelocity => Some(BELT_VELOCITY),
+            BeltNumber::Law => {
                 let kind = self.friction.kind();
                 let mut known = kind.parameters().iter().chain(kind.options());
                 known.find(|parameter| parameter.path == path).copied()
             }
-            Place::Dither(_, parameter) => Some(parameter),
+            BeltNumber::Dither(_, parameter) => Some(parameter),
         }
     }
 
@@ -216,17 +235,17 @@ impl Belt {
     ///
     /// # Errors
     /// An unknown path, a value out of bounds, a relation that no longer holds.
-    pub fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>> {
+    pub fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues> {
         let mut next = self.clone();
-        let place = self
-            .place(path)
-            .ok_or_else(|| vec![Invalid::new(path, value, "a parameter of this belt")])?;
-        match place {
-            Place::DampingRatio => next.damping_ratio = value,
-            Place::NormalLoad => next.normal_load = value,
-            Place::BeltVelocity => next.belt_velocity = value,
-            Place::Law => next.friction = self.friction.with(path, value)?,
-            Place::Dither(index, parameter) => {
+        let number = self.number(path).ok_or_else(|| {
+            InvalidValues::from(Invalid::new(path, value, "a parameter of this belt"))
+        })?;
+        match number {
+            BeltNumber::DampingRatio => next.damping_ratio = value,
+            BeltNumber::NormalLoad => next.normal_load = value,
+            BeltNumber::BeltVelocity => next.belt_velocity = value,
+            BeltNumber::Law => next.friction = self.friction.with(path, value)?,
+            BeltNumber::Dither(index, parameter) => {
                 let dither = &mut next.dithers[index];
                 match parameter.path {
                     path if path == DITHER_AMPLITUDE.path => dither.amplitude = value,
@@ -242,6 +261,7 @@ impl Belt {
             next.friction,
             next.dithers,
         )
+        .map(|belt| belt.in_si(self.scales))
     }
 
     /// Path of a parameter of dither `index`, as the study file names it.
@@ -249,29 +269,82 @@ impl Belt {
         indexed("dither", index, self.dithers.len(), key)
     }
 
-    fn place(&self, path: &str) -> Option<Place> {
+    fn number(&self, path: &str) -> Option<BeltNumber> {
         if path == DAMPING_RATIO.path {
-            return Some(Place::DampingRatio);
+            return Some(BeltNumber::DampingRatio);
         }
         if path == NORMAL_LOAD.path {
-            return Some(Place::NormalLoad);
+            return Some(BeltNumber::NormalLoad);
         }
         if path == BELT_VELOCITY.path {
-            return Some(Place::BeltVelocity);
+            return Some(BeltNumber::BeltVelocity);
         }
         if self.friction.get(path).is_some() {
-            return Some(Place::Law);
+            return Some(BeltNumber::Law);
         }
         let (index, key) = split_index(path, "dither")?;
         let parameter = [DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE]
             .into_iter()
             .find(|parameter| parameter.key() == key)?;
-        (index < self.dithers.len()).then_some(Place::Dither(index, parameter))
+        (index < self.dithers.len()).then_some(BeltNumber::Dither(index, parameter))
+    }
+}
+
+impl Parametrisation for Belt {
+    fn parameter(&self, path: &str) -> Option<Parameter> {
+        Self::parameter(self, path)
+    }
+
+    fn get(&self, path: &str) -> Option<f64> {
+        Self::get(self, path)
+    }
+
+    fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues> {
+        Self::with(self, path, value)
+    }
+
+    fn si_per_unit(&self, path: &str) -> Option<f64> {
+        Some(self.scales?.si_per_unit(Self::parameter(self, path)?.quantity))
+    }
+
+    /// One coordinate of unit mass and stiffness; its contact is loaded by F, and normal dither has no reaction (4.1).
+    fn system(&self) -> System {
+        let one = |value: f64| Matrix::from_fn(1, 1, |_, _| value);
+        let structure = Structure::new(
+            vec!["x".to_owned()],
+            MassMatrix::identity(1),
+            one(2.0 * self.damping_ratio),
+            one(1.0),
+        );
+        let contact = Contact {
+            name: "belt".to_owned(),
+            tangent: Some(vec![1.0]),
+            normal: None,
+            slope: None,
+            normal_load: self.normal_load,
+            normal_stiffness: 0.0,
+            normal_damping: 0.0,
+            surface_velocity: Profile::constant(self.belt_velocity),
+            friction: self.friction.clone(),
+        };
+        let inputs = self.dithers.iter().map(|dither| Input {
+            target: match dither.direction {
+                Direction::Tangential => InputTarget::Force(vec![1.0]),
+                Direction::Normal => InputTarget::NormalLoad { contact: 0, reaction: false },
+            },
+            profile: Profile::default().with(Wave {
+                waveform: dither.waveform,
+                amplitude: dither.amplitude,
+                frequency: dither.frequency_ratio,
+                phase: dither.phase,
+            }),
+        });
+        System { structure, contacts: vec![contact], inputs: inputs.collect() }
     }
 }
 
 /// Where a path leads.
-enum Place {
+enum BeltNumber {
     DampingRatio,
     NormalLoad,
     BeltVelocity,
@@ -284,13 +357,37 @@ mod tests {
     use super::*;
     use crate::{LawKind, Waveform};
 
-    fn belt(dithers: Vec<Dither>) -> Result<Belt, Vec<Invalid>> {
+    fn belt(dithers: Vec<Dither>) -> Result<Belt, InvalidValues> {
         let law = LawKind::Stribeck.build(&[0.4, 0.2857, 0.2])?;
         Belt::new(0.005, 1.0, 0.05, law, dithers)
     }
 
     fn dither(direction: Direction, amplitude: f64) -> Dither {
         Dither { direction, waveform: Waveform::Sine, amplitude, frequency_ratio: 10.0, phase: 0.0 }
+    }
+
+    #[test]
+    fn the_system_of_a_belt_has_its_numbers() {
+        let belt = belt(vec![dither(Direction::Tangential, 0.3), dither(Direction::Normal, 0.5)])
+            .expect("valid");
+        let system = belt.system();
+        assert_eq!(system.structure.damping()[(0, 0)], 2.0 * belt.damping_ratio());
+        assert_eq!(system.contacts[0].normal_load, belt.normal_load());
+        for time in [0.0, 0.37, 2.1] {
+            let value = |index: usize| system.inputs[index].profile.value(time);
+            assert_eq!(value(0), belt.dither_force(Direction::Tangential, time));
+            assert_eq!(belt.normal_load() + value(1), belt.normal_load_at(time));
+        }
+    }
+
+    #[test]
+    fn si_values_follow_the_scales_and_stay_with_a_changed_belt() {
+        let belt = belt(Vec::new()).expect("valid");
+        assert_eq!(belt.si_per_unit("belt.normal_load"), None);
+        let scales = Scales::new(2.0, 200.0).expect("valid");
+        let belt = belt.in_si(Some(scales)).with("belt.normal_load", 2.0).expect("valid");
+        assert_eq!(belt.si_per_unit("belt.normal_load"), Some(200.0));
+        assert_eq!(belt.si_per_unit("belt.colour"), None);
     }
 
     #[test]

@@ -1,8 +1,9 @@
-//! What is said about a value that cannot be accepted.
+//! Invalid values: which key, which value, and what is allowed.
 
 use std::fmt;
+use std::ops::Deref;
 
-/// One complaint: which key, which value, what is allowed.
+/// One invalid value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Invalid {
     /// Path of the parameter as in a study file, such as `belt.damping_ratio`.
@@ -14,7 +15,7 @@ pub struct Invalid {
 }
 
 impl Invalid {
-    /// A complaint about `key`.
+    /// The value of `key` is not allowed.
     pub fn new(
         key: impl Into<String>,
         value: impl fmt::Display,
@@ -31,3 +32,72 @@ impl fmt::Display for Invalid {
 }
 
 impl std::error::Error for Invalid {}
+
+/// Every invalid value of one construction, at least one: the error of constructors.
+///
+/// It derefs to a slice of [`Invalid`], prints one line for each, and is an [`std::error::Error`], so that `?` works:
+///
+/// ```
+/// use quell_model::{Belt, Friction, LawKind};
+///
+/// fn belt(velocity: f64) -> Result<Belt, Box<dyn std::error::Error>> {
+///     let law = LawKind::Coulomb.build(&[0.3, 0.3])?;
+///     Ok(Belt::new(0.005, 1.0, velocity, law, Vec::new())?)
+/// }
+///
+/// assert!(belt(0.05).is_ok());
+/// let why = belt(-1.0).expect_err("a belt moves forwards");
+/// assert!(why.to_string().starts_with("belt.belt_velocity = -1: must be"));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InvalidValues(Vec<Invalid>);
+
+impl InvalidValues {
+    /// These values, at least one.
+    pub(crate) fn of(found: Vec<Invalid>) -> Self {
+        Self(found)
+    }
+
+    /// Each invalid value after `change`.
+    #[must_use]
+    pub fn map(self, change: impl FnMut(Invalid) -> Invalid) -> Self {
+        Self(self.0.into_iter().map(change).collect())
+    }
+}
+
+impl From<Invalid> for InvalidValues {
+    fn from(invalid: Invalid) -> Self {
+        Self(vec![invalid])
+    }
+}
+
+impl Deref for InvalidValues {
+    type Target = [Invalid];
+
+    fn deref(&self) -> &[Invalid] {
+        &self.0
+    }
+}
+
+impl IntoIterator for InvalidValues {
+    type Item = Invalid;
+    type IntoIter = std::vec::IntoIter<Invalid>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.into_iter()
+    }
+}
+
+impl fmt::Display for InvalidValues {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, invalid) in self.0.iter().enumerate() {
+            if index > 0 {
+                writeln!(f)?;
+            }
+            invalid.fmt(f)?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for InvalidValues {}

@@ -1,7 +1,13 @@
-//! Nouns of Quell: friction laws, waveforms, dither, valid parameters, units.
+//! Nouns of Quell: what a study describes, as valid values.
 //!
-//! A value that exists is valid: constructors return every complaint at once as
-//! [`Invalid`]. Symbols and equation numbers are those of Michaux (2005), *Suppression of
+//! * [`system`]: a linear structure with friction contacts and inputs, under every kind of study; [`profile`]: what
+//!   changes in time;
+//! * [`belt`], [`disc`]: the two kinds of system by their own numbers, behind one trait ([`Parametrisation`]);
+//! * [`friction`], [`waveform`], [`dither`]: laws, waves, and the dither of a belt;
+//! * [`parameter`], [`units`]: the registry of all numbers with symbols, bounds and units.
+//!
+//! A value that exists is valid: constructors return every invalid value at once, as
+//! [`InvalidValues`]. Symbols and equation numbers are those of Michaux (2005), *Suppression of
 //! Friction-Induced Oscillations through Use of High-Frequency Dither Signals*.
 
 pub mod belt;
@@ -10,6 +16,9 @@ pub mod dither;
 pub mod friction;
 mod invalid;
 pub mod parameter;
+mod parametrisation;
+pub mod profile;
+pub mod system;
 pub mod units;
 pub mod waveform;
 
@@ -17,7 +26,11 @@ pub use belt::Belt;
 pub use disc::Disc;
 pub use dither::{Direction, Dither};
 pub use friction::{
-    Coulomb, Expression, Friction, LawKind, Samples, SlidingLaw, StribeckExponential,
+    Coulomb, Expression, Friction, LawKind, LawParameters, LawSeries, Samples, SlidingLaw,
+    StribeckExponential,
 };
-pub use invalid::Invalid;
+pub use invalid::{Invalid, InvalidValues};
+pub use parametrisation::Parametrisation;
+pub use profile::Profile;
+pub use system::{Contact, Input, Structure, System};
 pub use waveform::Waveform;

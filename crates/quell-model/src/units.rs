@@ -3,7 +3,7 @@
 //! Lengths stay lengths: a study in SI has F = N₀/k, D = A/k, v₀ = V₀/ω₀ in metres, only
 //! time is counted in 1/ω₀. ω₀ = √(k/m), ζ = c/(2mω₀), R = 2πf/ω₀, τ = ω₀t.
 
-use crate::Invalid;
+use crate::{Invalid, InvalidValues};
 
 pub mod measure;
 
@@ -40,6 +40,16 @@ pub enum Quantity {
     LoadStiffness,
     /// Friction force over r₀M_pω_ref²; in SI newtons.
     LoadFriction,
+    /// A modulus of elasticity, always in pascals.
+    Modulus,
+    /// A density, always in kilograms per cubic metre.
+    Density,
+    /// A length of the plate, always in metres.
+    Length,
+    /// A frequency, always in hertz.
+    Frequency,
+    /// An angle, always in degrees.
+    Degrees,
 }
 
 impl Quantity {
@@ -60,13 +70,37 @@ impl Quantity {
             Self::LoadDamping => "1 (c/(M_pω_ref))",
             Self::LoadStiffness => "1 (k/(M_pω_ref²))",
             Self::LoadFriction => "1 (F_θ/(r₀M_pω_ref²))",
+            Self::Modulus => "Pa",
+            Self::Density => "kg/m³",
+            Self::Length => "m",
+            Self::Frequency => "Hz",
+            Self::Degrees => "degrees",
         }
+    }
+
+    /// The unit in which the number itself is given, where it is given in a unit in every study; its key carries it.
+    pub fn own_unit(self) -> Option<&'static str> {
+        Some(match self {
+            Self::Modulus => "Pa",
+            Self::Density => "kg/m³",
+            Self::Length => "m",
+            Self::Frequency => "Hz",
+            Self::Degrees => "deg",
+            _ => return None,
+        })
     }
 
     /// SI unit and the suffix that field and key names carry for it.
     pub fn si_unit(self) -> Option<(&'static str, &'static str)> {
         Some(match self {
-            Self::Ratio | Self::Count | Self::Angle => return None,
+            Self::Ratio
+            | Self::Count
+            | Self::Angle
+            | Self::Modulus
+            | Self::Density
+            | Self::Length
+            | Self::Frequency
+            | Self::Degrees => return None,
             Self::DampingRatio | Self::LoadDamping => ("N·s/m", "n_s_per_m"),
             Self::Force | Self::LoadFriction => ("N", "n"),
             Self::Velocity => ("m/s", "m_per_s"),
@@ -95,7 +129,7 @@ impl Scales {
     ///
     /// # Errors
     /// A complaint for each value that is not finite and positive.
-    pub fn new(mass_kg: f64, stiffness_n_per_m: f64) -> Result<Self, Vec<Invalid>> {
+    pub fn new(mass_kg: f64, stiffness_n_per_m: f64) -> Result<Self, InvalidValues> {
         let complaints: Vec<_> =
             [("belt.mass_kg", mass_kg), ("belt.stiffness_n_per_m", stiffness_n_per_m)]
                 .into_iter()
@@ -103,7 +137,7 @@ impl Scales {
                 .map(|(key, value)| Invalid::new(key, value, "a finite number > 0"))
                 .collect();
         if !complaints.is_empty() {
-            return Err(complaints);
+            return Err(InvalidValues::of(complaints));
         }
         let angular_frequency = (stiffness_n_per_m / mass_kg).sqrt();
         Ok(Self { mass_kg, stiffness_n_per_m, angular_frequency })
@@ -113,12 +147,12 @@ impl Scales {
     ///
     /// # Errors
     /// A complaint for each value that is not finite and positive.
-    pub fn of_natural_frequency(mass_kg: f64, hertz: f64) -> Result<Self, Vec<Invalid>> {
+    pub fn of_natural_frequency(mass_kg: f64, hertz: f64) -> Result<Self, InvalidValues> {
         let angular_frequency = std::f64::consts::TAU * hertz;
         let stiffness = mass_kg * angular_frequency * angular_frequency;
         if !(hertz.is_finite() && hertz > 0.0) {
             let key = "belt.natural_frequency_hz";
-            return Err(vec![Invalid::new(key, hertz, "a finite number > 0")]);
+            return Err(InvalidValues::from(Invalid::new(key, hertz, "a finite number > 0")));
         }
         let scales = Self::new(mass_kg, stiffness)?;
         Ok(Self { angular_frequency, ..scales })
@@ -143,7 +177,15 @@ impl Scales {
     pub fn si_per_unit(&self, quantity: Quantity) -> f64 {
         let omega = self.angular_frequency();
         match quantity {
-            Quantity::Ratio | Quantity::Count | Quantity::Angle | Quantity::Displacement => 1.0,
+            Quantity::Ratio
+            | Quantity::Count
+            | Quantity::Angle
+            | Quantity::Displacement
+            | Quantity::Modulus
+            | Quantity::Density
+            | Quantity::Length
+            | Quantity::Frequency
+            | Quantity::Degrees => 1.0,
             Quantity::DampingRatio => 2.0 * self.mass_kg * omega,
             // Stiffness and friction of a load: a force over a length of 1 m.
             Quantity::Force | Quantity::LoadStiffness | Quantity::LoadFriction => {
@@ -194,9 +236,15 @@ impl DiscScales {
             Quantity::LoadFriction => {
                 mass.zip(self.load_radius_m).map(|(mass, radius)| radius * mass * omega * omega)
             }
-            Quantity::Ratio | Quantity::Count | Quantity::Angle | Quantity::Displacement => {
-                Some(1.0)
-            }
+            Quantity::Ratio
+            | Quantity::Count
+            | Quantity::Angle
+            | Quantity::Displacement
+            | Quantity::Modulus
+            | Quantity::Density
+            | Quantity::Length
+            | Quantity::Frequency
+            | Quantity::Degrees => Some(1.0),
             Quantity::DampingRatio
             | Quantity::Force
             | Quantity::Velocity

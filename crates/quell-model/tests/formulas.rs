@@ -2,7 +2,8 @@
 
 use proptest::prelude::*;
 use quell_model::{
-    Belt, Direction, Dither, Expression, Friction, LawKind, Samples, SlidingLaw, Waveform,
+    Belt, Direction, Dither, Expression, Friction, LawKind, LawParameters, Samples, SlidingLaw,
+    Waveform,
 };
 
 fn constants() -> Vec<(String, f64)> {

@@ -1,11 +1,10 @@
-//! What a verb answered: facts, datasets, the picture. Handed over when they are asked for.
+//! The answer of a verb: facts, datasets and the picture, converted on request.
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use pyo3::prelude::*;
-use quell::dataset::Dataset;
-use quell::input::Inputs;
+use quell::outcome::Outcome;
 use quell::output::Output;
 use quell::picture::{self, EXTENSIONS};
 use quell::plot::Figure;
@@ -14,34 +13,15 @@ use serde_json::Value as Json;
 
 use crate::{call, convert};
 
-/// What every verb's outcome can tell.
-pub(crate) trait Answer: Send + Sync {
-    /// The object that the command line prints with `--json`; of a map without its arrays.
-    fn json(&self) -> Json;
-
-    /// The files that the study was read from: none of them is an output.
-    fn inputs(&self) -> Inputs;
-
-    /// Arrays, each dataset with its name; the first is the main one.
-    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
-        Vec::new()
-    }
-
-    /// The picture, where there is one.
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        None
-    }
-}
-
 /// The answer of a verb.
 #[pyclass(name = "NativeAnswer", module = "quell._quell", frozen)]
 pub(crate) struct NativeAnswer {
-    inner: Arc<dyn Answer>,
+    inner: Arc<dyn Outcome>,
 }
 
 impl NativeAnswer {
-    pub(crate) fn new(answer: impl Answer + 'static) -> Self {
-        Self { inner: Arc::new(answer) }
+    pub(crate) fn new(outcome: Box<dyn Outcome>) -> Self {
+        Self { inner: Arc::from(outcome) }
     }
 
     fn figure(&self) -> Result<Figure, Failure> {
@@ -56,7 +36,7 @@ impl NativeAnswer {
 impl NativeAnswer {
     /// What `--json` gives, as a dict.
     fn facts(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        convert::to_python(py, &self.inner.json())
+        convert::to_python(py, &self.inner.facts())
     }
 
     /// (name, (provenance, axes, arrays)) of every dataset.

@@ -5,7 +5,7 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyList;
-use quell::{Complaint, Failure, Origin};
+use quell::{Complaint, Complaints, Failure, Origin};
 
 use crate::convert;
 use crate::words::{in_python, key_in_python};
@@ -43,7 +43,7 @@ fn pythonic(mut complaint: Complaint) -> Complaint {
 }
 
 /// Complaints of a study that was not read from a file: lines of its text mean nothing to who made it.
-pub(crate) fn without_lines(complaints: Vec<Complaint>) -> Vec<Complaint> {
+pub(crate) fn without_lines(complaints: Complaints) -> Complaints {
     let without = |complaint| Complaint { origin: Origin::Whole, ..complaint };
-    complaints.into_iter().map(without).collect()
+    Complaints::from(complaints.into_iter().map(without).collect::<Vec<_>>())
 }

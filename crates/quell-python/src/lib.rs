@@ -15,6 +15,7 @@
 //! | `convert`, `errors`, `words` | JSON, arrays and complaints as Python knows them |
 
 mod answer;
+mod arguments;
 mod call;
 mod convert;
 mod errors;

@@ -9,7 +9,7 @@ use quell::sweep::Shard;
 
 use crate::answer::NativeAnswer;
 use crate::study::NativeStudy;
-use crate::verbs::map::{Counter, Done, Watched, plan};
+use crate::verbs::map::{Counter, Watched, plan};
 use crate::{call, convert, errors};
 
 /// A map in a store that other processes may write at the same time.
@@ -28,8 +28,8 @@ impl NativeShared {
         quantities: Vec<String>,
         path: PathBuf,
     ) -> PyResult<Self> {
-        let subject = study.subject();
-        let shared = call::run(py, move || Shared::open(&path, plan(&subject, &quantities)?))?;
+        let study = study.study();
+        let shared = call::run(py, move || Shared::open(&path, plan(&study, &quantities)?))?;
         Ok(Self { inner: Arc::new(shared) })
     }
 
@@ -95,7 +95,7 @@ impl NativeShared {
     /// The whole map.
     fn read(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
         let inner = Arc::clone(&self.inner);
-        call::run(py, move || inner.read().map(|map| NativeAnswer::new(Done(map))))
+        call::run(py, move || inner.read().map(|map| NativeAnswer::new(Box::new(map))))
     }
 }
 

@@ -5,14 +5,15 @@ use std::sync::Arc;
 
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
-use quell::run::basins::{Layout, Question as Window};
-use quell::run::bifurcation::Question as Sweep;
+use quell::run::basins::{BasinsRequest, Layout};
+use quell::run::bifurcation::SweepRequest;
 use quell::run::varied::Range;
-use quell::study::mirror::{Node, Table};
-use quell::{Change, Complaint, Failure, Subject, quantity};
-use quell_model::units::{Quantity, Scales};
+use quell::study::document::{Node, Table};
+use quell::{Change, Complaints, Failure, Study};
+use quell_model::units::Quantity;
 
 use crate::answer::NativeAnswer;
+use crate::arguments::{Pair, both, ends};
 use crate::verbs::map::Asked;
 use crate::verbs::{
     basins, bifurcation, check, cite, friction, map, modes, orbit, resonances, response, simulate,
@@ -23,7 +24,7 @@ use crate::{call, errors};
 /// A checked study.
 #[pyclass(name = "NativeStudy", module = "quell._quell", frozen)]
 pub(crate) struct NativeStudy {
-    subject: Arc<Subject>,
+    inner: Arc<Study>,
     /// Where a file of modes is looked for.
     folder: PathBuf,
     changes: Vec<(String, String)>,
@@ -33,38 +34,6 @@ pub(crate) struct NativeStudy {
     has_lines: bool,
     /// The file that it was read from, which is no output.
     file: Option<PathBuf>,
-}
-
-/// Two numbers in the system of the study, or with units.
-pub(crate) type Pair = (String, String);
-
-/// Two quantities in the numbers of the equations.
-pub(crate) fn both(
-    (first, second): &Pair,
-    quantity: Quantity,
-    scales: Option<Scales>,
-    option: &'static str,
-) -> Result<(f64, f64), Failure> {
-    let read = |text: &str| quantity::parse(text, quantity, scales, option);
-    Ok((read(first)?, read(second)?))
-}
-
-/// A state: displacement and velocity in the numbers of the equations.
-pub(crate) fn state(
-    (x, v): &Pair,
-    scales: Option<Scales>,
-    option: &'static str,
-) -> Result<(f64, f64), Failure> {
-    let x = quantity::parse(x, Quantity::Displacement, scales, option)?;
-    let v = quantity::parse(v, Quantity::Velocity, scales, option)?;
-    Ok((x, v))
-}
-
-/// The ends of a range of a parameter, in the unit of its key.
-pub(crate) fn ends(parameter: &str, (from, to): &Pair) -> Result<(f64, f64), Failure> {
-    let from = quantity::value_of_key(from, parameter, "--from")?;
-    let to = quantity::value_of_key(to, parameter, "--to")?;
-    Ok((from, to))
 }
 
 /// Keys and values of an axis.
@@ -78,30 +47,31 @@ impl NativeStudy {
         let (text, folder, changes, axes, has_lines, file) = parts;
         let (place, made, swept) = (folder.clone(), changes.clone(), axes.clone());
         let source = file.clone();
-        let subject = call::here(py, move || {
+        let study = call::here(py, move || {
             let changes: Vec<Change> = made.iter().map(change).collect();
-            let subject = Subject::parse(&text, &changes, &place);
-            let subject = subject.and_then(|subject| sweeping(subject, swept.as_deref()));
-            let subject = subject.map_err(|complaints| {
-                let told = if has_lines { complaints } else { errors::without_lines(complaints) };
-                Failure::Wrong(told)
+            let study = Study::parse_in(&text, &changes, &place);
+            let study = study.and_then(|study| sweeping(study, swept.as_deref()));
+            let study = study.map_err(|complaints| {
+                let complaints =
+                    if has_lines { complaints } else { errors::without_lines(complaints) };
+                Failure::Wrong(complaints)
             })?;
             Ok(match source {
-                Some(file) => subject.read_from(file),
-                None => subject,
+                Some(file) => study.read_from(file),
+                None => study,
             })
         })?;
-        Ok(Self { subject: Arc::new(subject), folder, changes, axes, has_lines, file })
+        Ok(Self { inner: Arc::new(study), folder, changes, axes, has_lines, file })
     }
 
     /// The study itself.
-    pub(crate) fn subject(&self) -> Arc<Subject> {
-        Arc::clone(&self.subject)
+    pub(crate) fn study(&self) -> Arc<Study> {
+        Arc::clone(&self.inner)
     }
 }
 
-fn sweeping(subject: Subject, axes: Option<&[Axis]>) -> Result<Subject, Vec<Complaint>> {
-    let Some(axes) = axes else { return Ok(subject) };
+fn sweeping(study: Study, axes: Option<&[Axis]>) -> Result<Study, Complaints> {
+    let Some(axes) = axes else { return Ok(study) };
     let table = |axis: &Axis| {
         let mut table = Table::default();
         for (key, value) in axis {
@@ -110,7 +80,7 @@ fn sweeping(subject: Subject, axes: Option<&[Axis]>) -> Result<Subject, Vec<Comp
         table
     };
     let tables: Vec<Table> = axes.iter().map(table).collect();
-    subject.sweeping(&tables)
+    study.sweeping(&tables)
 }
 
 fn change((path, value): &(String, String)) -> Change {
@@ -132,11 +102,11 @@ impl NativeStudy {
         // Whoever changes it may have gone elsewhere.
         let file = std::path::absolute(&path).ok();
         let folder = file.as_deref().unwrap_or(&path).parent().unwrap_or(Path::new("")).to_owned();
-        let subject = call::here(py, move || {
+        let study = call::here(py, move || {
             let changes: Vec<Change> = made.iter().map(change).collect();
-            Subject::read(&path, &changes)
+            Study::read(&path, &changes)
         })?;
-        Ok(Self { subject: Arc::new(subject), folder, changes, axes: None, has_lines: true, file })
+        Ok(Self { inner: Arc::new(study), folder, changes, axes: None, has_lines: true, file })
     }
 
     /// The same study with values changed, as `--set path=value` changes them.
@@ -154,7 +124,7 @@ impl NativeStudy {
 
     /// What makes this study again: text, folder, changes, axes, whether it has lines, and the file that it was read from.
     fn parts(&self) -> Parts {
-        let text = self.subject.text().to_owned();
+        let text = self.inner.text().to_owned();
         // Whoever makes it again may run elsewhere.
         let folder = std::env::current_dir()
             .map_or_else(|_| self.folder.clone(), |here| here.join(&self.folder));
@@ -165,32 +135,29 @@ impl NativeStudy {
     /// "belt" or "disc".
     #[getter]
     fn kind(&self) -> &'static str {
-        match *self.subject {
-            Subject::Belt(_) => "belt",
-            Subject::Disc(_) => "disc",
-        }
+        self.inner.kind().name()
     }
 
     /// The title, where there is one.
     #[getter]
     fn title(&self) -> Option<&str> {
-        self.subject.title()
+        self.inner.title()
     }
 
     /// Every value after its changes, as (path, value).
     #[getter]
     fn settings(&self) -> Vec<(String, String)> {
-        self.subject.settings()
+        self.inner.settings()
     }
 
     fn check(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
-        let subject = self.subject();
-        call::here(py, move || Ok(check::run(subject)))
+        let study = self.study();
+        call::here(py, move || check::run(&study))
     }
 
     fn cite(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
-        let subject = self.subject();
-        call::here(py, move || Ok(cite::run(&subject)))
+        let study = self.study();
+        call::here(py, move || cite::run(&study))
     }
 
     /// `at`: slip velocities in the system of the study, `texts`: such with units; a grid of them where there are none.
@@ -201,14 +168,14 @@ impl NativeStudy {
         at: Option<PyReadonlyArray1<'_, f64>>,
         texts: Vec<String>,
     ) -> PyResult<NativeAnswer> {
-        let subject = self.subject();
+        let study = self.study();
         let at = at.map(|at| at.as_array().to_vec());
-        call::run(py, move || friction::run(&subject, at, &texts))
+        call::run(py, move || friction::run(&study, at, &texts))
     }
 
     fn stability(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
-        let subject = self.subject();
-        call::run(py, move || stability::run(&subject))
+        let study = self.study();
+        call::run(py, move || stability::run(&study))
     }
 
     /// `until`: τ, or a time with its unit.
@@ -219,13 +186,13 @@ impl NativeStudy {
         events: bool,
         samples: bool,
     ) -> PyResult<NativeAnswer> {
-        let subject = self.subject();
-        call::run(py, move || simulate::run(&subject, &until, events, samples))
+        let study = self.study();
+        call::run(py, move || simulate::run(&study, &until, events, samples))
     }
 
     fn response(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
-        let subject = self.subject();
-        call::run(py, move || response::run(&subject))
+        let study = self.study();
+        call::run(py, move || response::run(&study))
     }
 
     /// `after`: the name of a start, or `start`, whose run is followed to its response.
@@ -238,8 +205,8 @@ impl NativeStudy {
         after: Vec<String>,
         start: Option<Pair>,
     ) -> PyResult<NativeAnswer> {
-        let subject = self.subject();
-        call::run(py, move || orbit::run(&subject, near.as_ref(), periods, &after, start.as_ref()))
+        let study = self.study();
+        call::run(py, move || orbit::run(&study, near.as_ref(), periods, &after, start.as_ref()))
     }
 
     /// `protocols`: names of starts, and a start of its own.
@@ -253,9 +220,9 @@ impl NativeStudy {
         start: Option<Pair>,
         ramp: String,
     ) -> PyResult<NativeAnswer> {
-        let subject = self.subject();
+        let study = self.study();
         call::run(py, move || {
-            thresholds::run(&subject, parameter, &range, (&protocols, start.as_ref()), &ramp)
+            thresholds::run(&study, parameter, &range, (&protocols, start.as_ref()), &ramp)
         })
     }
 
@@ -268,8 +235,8 @@ impl NativeStudy {
         along: String,
         between: Pair,
     ) -> PyResult<NativeAnswer> {
-        let subject = self.subject();
-        call::run(py, move || thresholds::run_along(&subject, parameter, &range, along, &between))
+        let study = self.study();
+        call::run(py, move || thresholds::run_along(&study, parameter, &range, along, &between))
     }
 
     /// `ways`: whether up and whether down is asked for.
@@ -288,8 +255,8 @@ impl NativeStudy {
             let (from, to) = ends(&parameter, &range)?;
             Ok(Range { parameter, from, to, points })
         })?;
-        let question = Sweep { range, up, down };
-        bifurcation::run(py, self.subject(), question, progress)
+        let request = SweepRequest { range, up, down };
+        bifurcation::run(py, self.study(), request, progress)
     }
 
     /// `window`: displacements and velocities; `layout`: a grid, or states and seed in place of it; `over`: a
@@ -304,9 +271,9 @@ impl NativeStudy {
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<NativeAnswer> {
-        let subject = self.subject();
+        let study = self.study();
         let (displacement, velocity, over) = call::here(py, move || {
-            let scales = subject.scales();
+            let scales = study.scales();
             let (displacement, velocity) = window;
             let read = |pair: Option<Pair>, quantity, option| {
                 pair.map(|pair| both(&pair, quantity, scales, option)).transpose()
@@ -325,13 +292,13 @@ impl NativeStudy {
             (_, Some((count, seed))) => Layout::Sample { count, seed },
             ((columns, rows), None) => Layout::Grid { columns, rows },
         };
-        let question = Window { displacement, velocity, layout, over };
-        basins::run(py, self.subject(), question, threads, progress)
+        let request = BasinsRequest { displacement, velocity, layout, over };
+        basins::run(py, self.study(), request, threads, progress)
     }
 
     fn modes(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
-        let subject = self.subject();
-        call::run(py, move || modes::run(&subject))
+        let study = self.study();
+        call::run(py, move || modes::run(&study))
     }
 
     #[pyo3(signature = (speeds, order, clear, frequency))]
@@ -343,8 +310,8 @@ impl NativeStudy {
         clear: Option<Pair>,
         frequency: Option<Pair>,
     ) -> PyResult<NativeAnswer> {
-        let subject = self.subject();
-        call::run(py, move || resonances::run(&subject, &order, [speeds, clear, frequency]))
+        let study = self.study();
+        call::run(py, move || resonances::run(&study, &order, [speeds, clear, frequency]))
     }
 
     /// `progress`: called with the points that are there and all points.
@@ -358,13 +325,13 @@ impl NativeStudy {
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<NativeAnswer> {
-        let asked = Asked { subject: self.subject(), quantities, store, resume, threads };
+        let asked = Asked { study: self.study(), quantities, store, resume, threads };
         map::run(py, asked, progress)
     }
 
     /// Changes of the text, axes included, as `path=value`.
     #[getter]
     fn changes(&self) -> Vec<String> {
-        self.subject.changes().to_vec()
+        self.inner.changes().to_vec()
     }
 }

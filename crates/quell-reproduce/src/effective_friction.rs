@@ -15,7 +15,7 @@ use quell::complaint::Failure;
 use quell::plot::{
     Axis, Figure, Legend, Line, LineStyle, Panel, Place, Role, Rule, SharedLegend, Sharing, Size,
 };
-use quell::study::Study;
+use quell::study::BeltStudy;
 
 /// Slip velocities shown, in v_m.
 const FROM: f64 = -1.0;
@@ -87,7 +87,7 @@ fn empty_table() -> Table {
 
 fn panel(
     source: &Source,
-    study: &Study,
+    study: &BeltStudy,
     waveform: Waveform,
     table: &mut Table,
 ) -> Result<Panel, Failure> {

@@ -18,7 +18,7 @@ use quell::plot::{
     Axis, Figure, Legend, Line, LineStyle, Panel, Role, SharedLegend, Sharing, Size,
 };
 use quell::run::map::{Map, boundaries, run};
-use quell::study::Study;
+use quell::study::BeltStudy;
 use quell::sweep::{Plan, Quantity, Running, Status};
 
 /// Belt velocities of figures 2.8 and 2.9.
@@ -121,7 +121,7 @@ fn figure(source: &Source, cases: &[Case], columns: usize) -> Result<Product, Fa
 }
 
 /// The study of a panel: its sweep of D goes as far beyond the averaged boundary as the first panel's.
-fn study_of(source: &Source, first: &Study, case: &Case) -> Result<Study, Failure> {
+fn study_of(source: &Source, first: &BeltStudy, case: &Case) -> Result<BeltStudy, Failure> {
     let dither = first.belt().dithers()[0];
     let furthest = values(first, "dither.amplitude").last().copied().unwrap_or(1.0);
     let reach = case.belt_velocity / first.belt().belt_velocity()
@@ -142,7 +142,7 @@ fn study_of(source: &Source, first: &Study, case: &Case) -> Result<Study, Failur
 }
 
 /// E over the study's axes.
-fn efficiency(source: &Source, study: &Study) -> Result<Map, Failure> {
+fn efficiency(source: &Source, study: &BeltStudy) -> Result<Map, Failure> {
     let quantity = Quantity::named("efficiency", "reproduce")?;
     let plan = Plan::new(study, &[quantity])?;
     let axes: Vec<&str> = plan.grid().axes().iter().map(|axis| axis.path.as_str()).collect();
@@ -197,7 +197,12 @@ fn boundary(done: &Map, panel: &str, table: &mut Table) -> Vec<Line> {
     lines
 }
 
-fn panel(source: &Source, study: &Study, done: &Map, lines: Vec<Line>) -> Result<Panel, Failure> {
+fn panel(
+    source: &Source,
+    study: &BeltStudy,
+    done: &Map,
+    lines: Vec<Line>,
+) -> Result<Panel, Failure> {
     let grid = done.plan().grid();
     let entry = &done.plan().sheet().entries()[0];
     let symbols = match study.belt().dithers()[0].direction {
@@ -232,7 +237,7 @@ fn panel(source: &Source, study: &Study, done: &Map, lines: Vec<Line>) -> Result
     picture::map_panel(&map, false).map_err(|error| failed(source.name, &error))
 }
 
-fn caption(source: &Source, study: &Study) -> String {
+fn caption(source: &Source, study: &BeltStudy) -> String {
     let belt = study.belt();
     let dither = belt.dithers()[0];
     let direction = match dither.direction {

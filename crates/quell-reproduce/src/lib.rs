@@ -23,7 +23,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value as Json, json};
 
-use quell::complaint::{Complaint, Failure};
+use quell::complaint::{Complaint, Complaints, Failure};
 use quell::study::suggest;
 
 pub mod claims;
@@ -221,7 +221,7 @@ impl fmt::Debug for Entry {
 ///
 /// # Errors
 /// A complaint for each unknown name, with the known ones.
-pub fn find(names: &[String]) -> Result<Vec<Entry>, Vec<Complaint>> {
+pub fn find(names: &[String]) -> Result<Vec<Entry>, Complaints> {
     use quell::complaint::{Fault, Origin};
     let known = || ENTRIES.iter().map(|entry| entry.name);
     let complaints: Vec<Complaint> = names
@@ -240,7 +240,7 @@ pub fn find(names: &[String]) -> Result<Vec<Entry>, Vec<Complaint>> {
         })
         .collect();
     if !complaints.is_empty() {
-        return Err(complaints);
+        return Err(complaints.into());
     }
     let wanted =
         |entry: &&Entry| names.is_empty() || names.iter().any(|name| bare(name) == entry.name);

@@ -14,7 +14,7 @@ use super::source::{Source, failed, law_name, letter, parameters, values};
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Line, Panel, Points, Role, SharedLegend, Sharing, Size};
-use quell::study::Study;
+use quell::study::BeltStudy;
 
 /// Length of a decay.
 const DURATION: f64 = 40.0;
@@ -157,7 +157,7 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
 }
 
 /// μ̄(v) of (4.28) with φ′ of (4.23).
-fn averaged(source: &Source, study: &Study) -> Result<Vec<(f64, f64)>, Failure> {
+fn averaged(source: &Source, study: &BeltStudy) -> Result<Vec<(f64, f64)>, Failure> {
     let options =
         AveragingOptions { normal_order: NormalOrder::Second, ..AveragingOptions::default() };
     (1..=POINTS)

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::claims::Claim;
 use quell::cite::{self, Sources, Task};
 use quell::plot::Figure;
-use quell::study::{DiscStudy, Study};
+use quell::study::{BeltStudy, DiscStudy};
 
 /// A figure or table, ready to be written.
 #[derive(Clone, Debug, Default)]
@@ -26,7 +26,7 @@ pub struct Product {
 
 impl Product {
     /// A figure with its data; the caption is put below the picture too.
-    pub fn new(figure: Figure, caption: impl Into<String>, study: &Study) -> Self {
+    pub fn new(figure: Figure, caption: impl Into<String>, study: &BeltStudy) -> Self {
         Self { sources: cite::sources(study), ..Self::told(caption, study.text(), study.changes()) }
             .drawn(figure)
     }
@@ -57,7 +57,7 @@ impl Product {
 
     /// It was made of these studies too.
     #[must_use]
-    pub fn also<'a>(mut self, studies: impl IntoIterator<Item = &'a Study>) -> Self {
+    pub fn also<'a>(mut self, studies: impl IntoIterator<Item = &'a BeltStudy>) -> Self {
         for study in studies {
             self.sources.extend(&cite::sources(study));
         }

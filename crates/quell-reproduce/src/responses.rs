@@ -13,7 +13,7 @@ use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Legend, Line, Panel, Role, Rule, SharedLegend, Sharing, Size};
 use quell::run;
-use quell::study::Study;
+use quell::study::BeltStudy;
 
 /// Time shown.
 const UNTIL: f64 = 80.0;
@@ -25,7 +25,7 @@ const FLOOR: f64 = 1e-5;
 /// One column of the figure.
 pub(super) struct Case {
     /// Its study.
-    pub(super) study: Study,
+    pub(super) study: BeltStudy,
     /// D.
     pub(super) amplitude: f64,
     /// The steady response.
@@ -164,7 +164,12 @@ fn spectrum_panel(case: &Case, top: f64) -> Panel {
 }
 
 /// Samples of the first [`UNTIL`] of a run.
-fn history(source: &Source, study: &Study, belt: &Belt, step: f64) -> Result<Vec<Sample>, Failure> {
+fn history(
+    source: &Source,
+    study: &BeltStudy,
+    belt: &Belt,
+    step: f64,
+) -> Result<Vec<Sample>, Failure> {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -178,7 +183,7 @@ fn history(source: &Source, study: &Study, belt: &Belt, step: f64) -> Result<Vec
     Ok(sampler.samples)
 }
 
-fn caption(source: &Source, study: &Study, response: &Response) -> String {
+fn caption(source: &Source, study: &BeltStudy, response: &Response) -> String {
     let belt = study.belt();
     let dither = belt.dithers()[0];
     let (direction, symbol) = match dither.direction {

@@ -20,7 +20,7 @@ use quell::plot::{
     Axis, Figure, Legend, Line, Marker, Panel, Points, Role, Rule, SharedLegend, Sharing, Size,
 };
 use quell::run;
-use quell::study::Study;
+use quell::study::BeltStudy;
 
 /// Time shown, in decay times 1/ζ of the free oscillator, and its bounds.
 const DECAY_TIMES: f64 = 2.0;
@@ -48,7 +48,7 @@ pub(super) struct Case {
     /// D.
     pub(super) amplitude: f64,
     /// Its study.
-    pub(super) study: Study,
+    pub(super) study: BeltStudy,
     /// Whether the response of sliding is stable.
     pub(super) local: Verdict,
     /// Whether the run from the start of the study ends on it.
@@ -60,7 +60,7 @@ pub(super) struct Case {
 }
 
 impl Case {
-    fn new(name: &str, study: &Study, amplitude: f64) -> Result<Self, Failure> {
+    fn new(name: &str, study: &BeltStudy, amplitude: f64) -> Result<Self, Failure> {
         let study = study.with("dither.amplitude", amplitude)?;
         let belt = study.belt().clone();
         let scene = Scene::new(&belt).map_err(|why| failed(name, &why))?;
@@ -83,7 +83,7 @@ fn local(name: &str, scene: &Scene<'_>) -> Result<Verdict, Failure> {
 }
 
 /// Where the run from the start of the study ends.
-fn ends(name: &str, study: &Study, scene: &Scene<'_>) -> Result<Settled, Failure> {
+fn ends(name: &str, study: &BeltStudy, scene: &Scene<'_>) -> Result<Settled, Failure> {
     let start = run::start(study)?;
     let patience = Patience { periods: MOST_PERIODS, ..Patience::SWEEP };
     settle(scene, start, patience).map_err(|why| failed(name, &why))
@@ -101,7 +101,7 @@ pub(super) struct Change {
 /// The columns of a figure with one waveform, and what changes between them.
 #[derive(Debug)]
 pub(super) struct Columns {
-    pub(super) study: Study,
+    pub(super) study: BeltStudy,
     pub(super) cases: Vec<Case>,
     /// Where the response of sliding gains or loses stability.
     pub(super) local: Vec<Change>,
@@ -111,7 +111,7 @@ pub(super) struct Columns {
 
 impl Columns {
     /// Measures every column of a study.
-    pub(super) fn of(name: &str, study: Study) -> Result<Self, Failure> {
+    pub(super) fn of(name: &str, study: BeltStudy) -> Result<Self, Failure> {
         let cases: Vec<Case> = values(&study, "dither.amplitude")
             .into_iter()
             .map(|amplitude| Case::new(name, &study, amplitude))
@@ -132,9 +132,9 @@ impl Columns {
 
 /// Bisects each change between neighbours; a pair of changes between two columns is missed.
 fn changes(
-    study: &Study,
+    study: &BeltStudy,
     known: &[(f64, bool)],
-    holds: impl Fn(&Study, &Scene<'_>) -> Result<bool, Failure>,
+    holds: impl Fn(&BeltStudy, &Scene<'_>) -> Result<bool, Failure>,
 ) -> Result<Vec<Change>, Failure> {
     let mut found = Vec::new();
     for pair in known.windows(2) {

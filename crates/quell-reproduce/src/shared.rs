@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::sections::Columns;
 use quell::complaint::Failure;
-use quell::study::Study;
+use quell::study::BeltStudy;
 
 /// A measurement that one thread makes while the others that want it wait.
 type Once<T> = Arc<OnceLock<Result<Arc<T>, Failure>>>;
@@ -21,7 +21,7 @@ impl Shared {
     ///
     /// They are measured on the thread that asks first: one that waited here for work in the thread pool could be waited
     /// for by all of the pool.
-    pub(super) fn columns(&self, name: &str, study: &Study) -> Result<Arc<Columns>, Failure> {
+    pub(super) fn columns(&self, name: &str, study: &BeltStudy) -> Result<Arc<Columns>, Failure> {
         let key = format!("{}\n{:?}", study.text(), study.changes());
         let once = {
             let mut known = self.columns.lock().unwrap_or_else(PoisonError::into_inner);

@@ -6,7 +6,7 @@ use quell_model::{LawKind, Waveform};
 
 use super::shared::Shared;
 use quell::complaint::Failure;
-use quell::study::{Axis, Change, Study, Sweep};
+use quell::study::{Axis, BeltStudy, Change, Sweep};
 
 /// An entry's name and study file.
 #[derive(Clone, Debug)]
@@ -28,7 +28,7 @@ impl Source {
     ///
     /// # Errors
     /// Complaints about the study file, which a test excludes.
-    pub fn study(&self) -> Result<Study, Failure> {
+    pub fn study(&self) -> Result<BeltStudy, Failure> {
         self.changed(&[])
     }
 
@@ -36,15 +36,15 @@ impl Source {
     ///
     /// # Errors
     /// Complaints about the changed study.
-    pub fn changed(&self, changes: &[&str]) -> Result<Study, Failure> {
+    pub fn changed(&self, changes: &[&str]) -> Result<BeltStudy, Failure> {
         let changes: Result<Vec<Change>, _> =
             changes.iter().map(|change| Change::parse(change, "reproduce")).collect();
         let mut changes = changes?;
         if self.most_points.is_some() {
-            let fine = Study::parse(self.text, &changes)?;
+            let fine = BeltStudy::parse(self.text, &changes)?;
             changes.extend(self.coarser(fine.sweeps())?);
         }
-        Ok(Study::parse(self.text, &changes)?)
+        Ok(BeltStudy::parse(self.text, &changes)?)
     }
 
     /// The changes that leave the axes of a study no more points than allowed; listed values stay.
@@ -64,7 +64,7 @@ impl Source {
     ///
     /// # Errors
     /// Complaints about a changed study.
-    pub fn with_waveforms(&self) -> Result<Vec<(Waveform, Study)>, Failure> {
+    pub fn with_waveforms(&self) -> Result<Vec<(Waveform, BeltStudy)>, Failure> {
         Waveform::ALL
             .iter()
             .map(|&waveform| {
@@ -76,7 +76,7 @@ impl Source {
 }
 
 /// Values of the axis that varies `path`; empty where the study has none.
-pub(super) fn values(study: &Study, path: &str) -> Vec<f64> {
+pub(super) fn values(study: &BeltStudy, path: &str) -> Vec<f64> {
     study
         .sweeps()
         .iter()
@@ -121,7 +121,7 @@ pub(super) fn failed(name: &str, why: &impl Display) -> Failure {
 }
 
 /// ζ, F, v_m, μ_s, μ_m of a caption.
-pub(super) fn parameters(study: &Study) -> String {
+pub(super) fn parameters(study: &BeltStudy) -> String {
     let belt = study.belt();
     let law = belt.friction();
     let values = law.values();

@@ -20,7 +20,7 @@ use quell::plot::{
     Axis, Figure, Legend, Line, LineStyle, Note, Panel, Points, Region, Role, Rule, SharedLegend,
     Sharing, Size,
 };
-use quell::study::Study;
+use quell::study::BeltStudy;
 
 /// Points on an edge.
 const POINTS: u32 = 240;
@@ -93,7 +93,7 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
     Ok(product.by(&[Task::Stability]).table(table))
 }
 
-fn opening(source: &Source, study: &Study) -> String {
+fn opening(source: &Source, study: &BeltStudy) -> String {
     let dither = study.belt().dithers()[0];
     format!(
         "Figure {}. Stability map with the {} law and {} dither: in the shaded region averaged steady sliding is unstable, \
@@ -105,7 +105,7 @@ fn opening(source: &Source, study: &Study) -> String {
 }
 
 /// What the picture shows beyond the print, and where it departs from it.
-fn closing(study: &Study, three: bool) -> String {
+fn closing(study: &BeltStudy, three: bool) -> String {
     let belt = study.belt();
     let dither = belt.dithers()[0];
     let normal = dither.direction == Direction::Normal;
@@ -165,7 +165,7 @@ fn empty_table() -> Table {
 
 fn panel(
     source: &Source,
-    study: &Study,
+    study: &BeltStudy,
     waveform: Waveform,
     table: &mut Table,
 ) -> Result<Panel, Failure> {

@@ -1,6 +1,7 @@
 //! What is said about input that cannot be accepted, and how a piece of work can fail.
 
 use std::fmt;
+use std::ops::Deref;
 
 use serde_json::{Value, json};
 
@@ -170,11 +171,71 @@ impl fmt::Display for Complaint {
     }
 }
 
+/// Every complaint about an input, at least one: the error of checks. `?` turns it into a [`Failure`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Complaints(Vec<Complaint>);
+
+impl Complaints {
+    /// These complaints and further ones.
+    #[must_use]
+    pub fn and(mut self, further: impl IntoIterator<Item = Complaint>) -> Self {
+        self.0.extend(further);
+        self
+    }
+}
+
+impl From<Vec<Complaint>> for Complaints {
+    fn from(complaints: Vec<Complaint>) -> Self {
+        Self(complaints)
+    }
+}
+
+impl From<Complaint> for Complaints {
+    fn from(complaint: Complaint) -> Self {
+        Self(vec![complaint])
+    }
+}
+
+impl From<Box<Complaint>> for Complaints {
+    fn from(complaint: Box<Complaint>) -> Self {
+        Self(vec![*complaint])
+    }
+}
+
+impl Deref for Complaints {
+    type Target = [Complaint];
+
+    fn deref(&self) -> &[Complaint] {
+        &self.0
+    }
+}
+
+impl IntoIterator for Complaints {
+    type Item = Complaint;
+    type IntoIter = std::vec::IntoIter<Complaint>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.into_iter()
+    }
+}
+
+impl fmt::Display for Complaints {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, complaint) in self.0.iter().enumerate() {
+            let end = if index + 1 < self.0.len() { "\n" } else { "" };
+            write!(f, "{complaint}{end}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Complaints {}
+
 /// Why a piece of work gave no result.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {
     /// The input is wrong: every complaint at once (exit status 2).
-    Wrong(Vec<Complaint>),
+    Wrong(Complaints),
     /// The input is right, but the work could not be done (exit status 1).
     Failed {
         /// What could not be done, such as the path that could not be written.
@@ -213,18 +274,24 @@ impl Failure {
 
 impl From<Complaint> for Failure {
     fn from(complaint: Complaint) -> Self {
-        Self::Wrong(vec![complaint])
+        Self::Wrong(complaint.into())
     }
 }
 
 impl From<Box<Complaint>> for Failure {
     fn from(complaint: Box<Complaint>) -> Self {
-        Self::Wrong(vec![*complaint])
+        Self::Wrong(complaint.into())
     }
 }
 
 impl From<Vec<Complaint>> for Failure {
     fn from(complaints: Vec<Complaint>) -> Self {
+        Self::Wrong(complaints.into())
+    }
+}
+
+impl From<Complaints> for Failure {
+    fn from(complaints: Complaints) -> Self {
         Self::Wrong(complaints)
     }
 }
@@ -232,13 +299,7 @@ impl From<Vec<Complaint>> for Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Wrong(complaints) => {
-                for (index, complaint) in complaints.iter().enumerate() {
-                    let end = if index + 1 < complaints.len() { "\n" } else { "" };
-                    write!(f, "{complaint}{end}")?;
-                }
-                Ok(())
-            }
+            Self::Wrong(complaints) => complaints.fmt(f),
             Self::Failed { key, why } => write!(f, "{key}: {why}"),
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`study`] | the study of a belt or of a disc, its keys, and changes to it |
+//! | [`study`] | the study of any kind, its keys, and changes to it |
 //! | [`complaint`] | what is wrong, where, and what is allowed |
 //! | [`quantity`] | numbers with units in options and arguments |
 //! | [`input`] | the files that a study was read from, which are never outputs |
@@ -23,7 +23,7 @@
 //!     coefficient = 0.3
 //! ";
 //! let study = Study::parse(text, &[]).expect("valid");
-//! assert_eq!(study.belt().belt_velocity(), 0.05);
+//! assert_eq!(study.belt()?.belt().belt_velocity(), 0.05);
 //! let wrong = Study::parse(&text.replace("0.05", "-1"), &[]).expect_err("a belt moves forwards");
 //! assert_eq!(wrong[0].key, "belt.belt_velocity");
 //! ```
@@ -34,5 +34,5 @@ pub mod quantity;
 pub mod schema;
 pub mod study;
 
-pub use complaint::{Complaint, Failure, Fault, Origin};
-pub use study::{Change, DiscStudy, Study, Subject};
+pub use complaint::{Complaint, Complaints, Failure, Fault, Origin};
+pub use study::{BeltStudy, Change, DiscStudy, Kind, Study};

@@ -1,7 +1,7 @@
 //! The JSON Schema accepts what the reader accepts, and refuses what a schema can refuse.
 
 use quell_model::units::measure;
-use quell_study::Study;
+use quell_study::BeltStudy;
 use quell_study::schema::schema;
 use serde_json::Value as Json;
 
@@ -77,7 +77,7 @@ const SI: &str = "schema = 1\n[belt]\nmass_kg = 1\nstiffness_n_per_m = 1\ndampin
 fn judged(text: &str) -> (bool, bool) {
     let schema = schema();
     let value: Json = toml::from_str(text).expect(text);
-    (valid(&value, &schema, &schema), Study::parse(text, &[]).is_ok())
+    (valid(&value, &schema, &schema), BeltStudy::parse(text, &[]).is_ok())
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use quell_study::study::{Axis, InitialState};
-use quell_study::{Change, Complaint, Fault, Study};
+use quell_study::{BeltStudy, Change, Complaints, Fault};
 
 const GOOD: &str = r#"schema = 1
 title = "Stribeck belt"
@@ -52,12 +52,12 @@ fn set(changes: &[&str]) -> Vec<Change> {
     changes.iter().map(|text| Change::parse(text, "--set").expect("path=value")).collect()
 }
 
-fn good(changes: &[&str]) -> Study {
-    Study::parse(GOOD, &set(changes)).unwrap_or_else(|errors| panic!("{errors:?}"))
+fn good(changes: &[&str]) -> BeltStudy {
+    BeltStudy::parse(GOOD, &set(changes)).unwrap_or_else(|errors| panic!("{errors:?}"))
 }
 
-fn complaints(text: &str, changes: &[&str]) -> Vec<Complaint> {
-    Study::parse(text, &set(changes)).expect_err(text)
+fn complaints(text: &str, changes: &[&str]) -> Complaints {
+    BeltStudy::parse(text, &set(changes)).expect_err(text)
 }
 
 /// What one complaint must say: fault, key, line, a part of what is allowed, suggestion.
@@ -302,7 +302,7 @@ fn a_disc_is_no_study_of_a_belt() {
 
 #[test]
 fn si_and_the_numbers_of_the_equations_give_the_same_belt() {
-    let si = Study::parse(SI, &[]).unwrap_or_else(|errors| panic!("{errors:?}"));
+    let si = BeltStudy::parse(SI, &[]).unwrap_or_else(|errors| panic!("{errors:?}"));
     let (mass, stiffness) = (2.5_f64, 1.0e6_f64);
     let omega = (stiffness / mass).sqrt();
     let plain = format!(
@@ -320,7 +320,7 @@ fn si_and_the_numbers_of_the_equations_give_the_same_belt() {
         40.0 / stiffness,
         2.0 * PI * 3000.0 / omega,
     );
-    let plain = Study::parse(&plain, &[]).unwrap_or_else(|errors| panic!("{errors:?}"));
+    let plain = BeltStudy::parse(&plain, &[]).unwrap_or_else(|errors| panic!("{errors:?}"));
     for path in [
         "belt.damping_ratio",
         "belt.normal_load",
@@ -343,7 +343,7 @@ fn si_and_the_numbers_of_the_equations_give_the_same_belt() {
 
 #[test]
 fn a_belt_in_si_may_give_its_natural_frequency_and_damping_ratio() {
-    let plain = Study::parse(SI, &[]).expect("valid");
+    let plain = BeltStudy::parse(SI, &[]).expect("valid");
     let scales = plain.scales().expect("in SI");
     let hertz = scales.angular_frequency() / TAU;
     let ratio = plain.belt().damping_ratio();
@@ -351,16 +351,16 @@ fn a_belt_in_si_may_give_its_natural_frequency_and_damping_ratio() {
     let stated = SI
         .replace(stiffness, &format!("natural_frequency_hz = {hertz:?}"))
         .replace("damping_n_s_per_m = 15.8", &format!("damping_ratio = {ratio:?}"));
-    let other = Study::parse(&stated, &[]).expect("valid");
+    let other = BeltStudy::parse(&stated, &[]).expect("valid");
     let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 4e-15, "{a} {b}");
     assert_eq!(other.belt().damping_ratio(), ratio);
     close(other.belt().normal_load(), plain.belt().normal_load());
     close(other.scales().expect("in SI").stiffness_n_per_m(), scales.stiffness_n_per_m());
     // Each may stand alone, and `--set` takes one in the place of the other.
     let half = SI.replace("damping_n_s_per_m = 15.8", "damping_ratio = 0.005");
-    assert_eq!(Study::parse(&half, &[]).expect("valid").belt().damping_ratio(), 0.005);
+    assert_eq!(BeltStudy::parse(&half, &[]).expect("valid").belt().damping_ratio(), 0.005);
     let changes = set(&["belt.natural_frequency_hz=0.1kHz", "belt.damping_ratio=2%"]);
-    let changed = Study::parse(SI, &changes).expect("valid");
+    let changed = BeltStudy::parse(SI, &changes).expect("valid");
     close(changed.scales().expect("in SI").angular_frequency(), 200.0 * PI);
     assert_eq!(changed.belt().damping_ratio(), 0.02);
     // Both at once is a contradiction.
@@ -369,19 +369,19 @@ fn a_belt_in_si_may_give_its_natural_frequency_and_damping_ratio() {
         ("damping_n_s_per_m = 15.8", "damping_ratio = 0.01", "belt.damping_ratio"),
     ] {
         let both = SI.replace(line, &format!("{line}\n{more}"));
-        let complaints = Study::parse(&both, &[]).expect_err("both are given");
+        let complaints = BeltStudy::parse(&both, &[]).expect_err("both are given");
         assert_eq!(complaints.len(), 1, "{complaints:?}");
         assert_eq!((complaints[0].fault, complaints[0].key.as_str()), (Fault::Conflict, key));
         assert!(complaints[0].allowed.contains("not both"), "{}", complaints[0].allowed);
     }
     let missing = SI.replace(&format!("{stiffness}\n"), "");
-    let complaints = Study::parse(&missing, &[]).expect_err("nothing says it");
+    let complaints = BeltStudy::parse(&missing, &[]).expect_err("nothing says it");
     assert!(complaints[0].allowed.contains("or belt.natural_frequency_hz"), "{complaints:?}");
 }
 
 #[test]
 fn numbers_may_have_units() {
-    let with = |changes: &[&str]| Study::parse(SI, &set(changes));
+    let with = |changes: &[&str]| BeltStudy::parse(SI, &set(changes));
     let (plain, units) = (
         with(&[
             "belt.belt_velocity_m_per_s=0.1",
@@ -399,9 +399,12 @@ fn numbers_may_have_units() {
     assert_eq!(plain.settings(), units.settings());
     // In the file as well, and for the ends of an axis.
     let text = SI.replace("normal_force_n = 350.0", "normal_force_n = '0.35 kN'");
-    assert_eq!(Study::parse(&text, &[]).expect("valid").belt(), with(&[]).expect("valid").belt());
+    assert_eq!(
+        BeltStudy::parse(&text, &[]).expect("valid").belt(),
+        with(&[]).expect("valid").belt()
+    );
     let axis = "[[sweep]]\nparameter = 'dither[0].frequency_hz'\nfrom = '1kHz'\nto = '4000 Hz'\npoints = 3\n";
-    let swept = Study::parse(&format!("{SI}{axis}"), &[]).expect("valid");
+    let swept = BeltStudy::parse(&format!("{SI}{axis}"), &[]).expect("valid");
     assert_eq!(swept.sweeps()[0].axis.values().collect::<Vec<_>>(), [1000.0, 2500.0, 4000.0]);
     let listed = with(&["sweep[0].parameter=belt.normal_force_n", "sweep[0].values=[0.3kN, 350]"]);
     let listed = listed.expect("valid");
@@ -417,7 +420,7 @@ fn numbers_may_have_units() {
         assert_eq!(complaints[0].key, key);
         assert!(complaints[0].allowed.contains(told), "{text}: {}", complaints[0].allowed);
     }
-    let complaints = Study::parse(GOOD, &set(&["belt.normal_load=5N"])).expect_err("no SI");
+    let complaints = BeltStudy::parse(GOOD, &set(&["belt.normal_load=5N"])).expect_err("no SI");
     assert!(complaints[0].allowed.contains("units need a study in SI"), "{complaints:?}");
 }
 
@@ -432,7 +435,7 @@ fn hints_are_keys_that_the_study_has() {
     ] {
         for (text, wanted) in [(SI, si), (GOOD, scaled)] {
             let complaints =
-                Study::parse(text, &set(&[&format!("{path}=1")])).expect_err("no such key");
+                BeltStudy::parse(text, &set(&[&format!("{path}=1")])).expect_err("no such key");
             let hint = complaints.iter().find_map(|it| it.suggestion.as_deref());
             assert_eq!(hint, Some(wanted), "{path}: {complaints:?}");
         }
@@ -504,7 +507,7 @@ fn set_reaches_every_key() {
     assert_eq!(study.belt().dithers()[0].amplitude, 0.9);
     assert_eq!(study.initial(), InitialState::Sliding);
     assert_eq!((study.solver().tolerance, study.title()), (1e-9, Some("another")));
-    let si = Study::parse(SI, &set(&["dither[0].amplitude_n=100", "belt.normal_force_n=400"]));
+    let si = BeltStudy::parse(SI, &set(&["dither[0].amplitude_n=100", "belt.normal_force_n=400"]));
     let si = si.unwrap_or_else(|errors| panic!("{errors:?}"));
     assert_eq!(si.belt().normal_load(), 400.0 / 1.0e6);
     assert_eq!(si.belt().dithers()[0].amplitude, 100.0 / 1.0e6);
@@ -550,7 +553,7 @@ fn axes_are_read_and_checked() {
          [[sweep]]\nparameter = \"dither.frequency_ratio\"\nvalues = [5, 10.0]\n\
          [[sweep]]\nparameter = \"belt.belt_velocity\"\nfrom = 0.01\nto = 1\npoints = 3\nspacing = \"log\"\n"
     );
-    let study = Study::parse(&text, &[]).unwrap_or_else(|errors| panic!("{errors:?}"));
+    let study = BeltStudy::parse(&text, &[]).unwrap_or_else(|errors| panic!("{errors:?}"));
     assert_eq!(study.sweeps().len(), 3);
     assert_eq!(study.sweeps()[1].axis, Axis::Values(vec![5.0, 10.0]));
     assert!((study.sweeps()[2].axis.value(1) - 0.1).abs() < 1e-16);
@@ -621,15 +624,15 @@ fn axes_are_added_one_after_the_other_and_take_the_place_of_others() {
     let both: Vec<String> =
         [axis(0, "dither.amplitude"), axis(1, "belt.belt_velocity")].concat().into_iter().collect();
     let study = good(&both.iter().map(String::as_str).collect::<Vec<_>>());
-    let paths = |study: &Study| -> Vec<String> {
+    let paths = |study: &BeltStudy| -> Vec<String> {
         study.sweeps().iter().map(|sweep| sweep.path.clone()).collect()
     };
     assert_eq!(paths(&study), ["dither.amplitude", "belt.belt_velocity"]);
     // An axis beyond the next one is still refused.
     assert!(complaints(GOOD, &["sweep[1].parameter=dither.amplitude"])[0].fault == Fault::Conflict);
 
-    let mut table = quell_study::study::mirror::Table::default();
-    let value = |text| quell_study::study::mirror::Node::from_argument(text, "axes");
+    let mut table = quell_study::study::document::Table::default();
+    let value = |text| quell_study::study::document::Node::from_argument(text, "axes");
     table.set("parameter", value("belt.normal_load"));
     table.set("values", value("[1, 2, 3]"));
     let other = study.sweeping(&[table]).expect("valid");
@@ -687,9 +690,9 @@ fn bounds_are_told_without_runs_of_zeros() {
 fn a_study_without_a_version_is_of_the_present_one() {
     let study = good(&[]);
     let without = GOOD.replace("schema = 1\n", "");
-    let bare = Study::parse(&without, &[]).expect("valid");
+    let bare = BeltStudy::parse(&without, &[]).expect("valid");
     assert_eq!(bare.settings(), study.settings());
     assert!(bare.settings().iter().any(|(path, value)| path == "schema" && value == "1.0"));
-    let set = Study::parse(&without, &set(&["schema=2"])).expect_err("no such version");
+    let set = BeltStudy::parse(&without, &set(&["schema=2"])).expect_err("no such version");
     assert_eq!((set.len(), set[0].key.as_str()), (1, "schema"));
 }

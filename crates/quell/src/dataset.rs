@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 use quell_model::units::{Quantity, Scales};
 
 use crate::fields::PER_VELOCITY;
-use crate::study::{Study, Subject};
+use crate::study::{BeltStudy, Study};
 
 /// One array with its name and unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,12 +79,12 @@ pub struct Dataset {
 
 impl Dataset {
     /// An empty dataset of a study.
-    pub fn new(study: &Study, verb: &'static str) -> Self {
-        Self::of(&Subject::from(study), verb)
+    pub fn new(study: &BeltStudy, verb: &'static str) -> Self {
+        Self::of(&Study::from(study), verb)
     }
 
     /// An empty dataset of a study of whatever it is about.
-    pub fn of(study: &Subject, verb: &'static str) -> Self {
+    pub fn of(study: &Study, verb: &'static str) -> Self {
         Self {
             provenance: Provenance {
                 verb,
@@ -295,7 +295,7 @@ mod tests {
 
     #[test]
     fn rows_run_through_the_product_of_the_axes() {
-        let study = Study::parse(TEXT, &[]).expect("valid");
+        let study = BeltStudy::parse(TEXT, &[]).expect("valid");
         let csv = Dataset::new(&study, "map")
             .axis("a", Quantity::Ratio, vec![1.0, 2.0])
             .axis("b", Quantity::Ratio, vec![0.1, 0.2, 0.3])
@@ -318,7 +318,7 @@ mod tests {
             .replace("normal_load", "normal_force_n")
             .replace("belt_velocity", "belt_velocity_m_per_s")
             .replace("reference_velocity", "reference_velocity_m_per_s");
-        let study = Study::parse(&text, &[]).expect("valid");
+        let study = BeltStudy::parse(&text, &[]).expect("valid");
         let csv = Dataset::new(&study, "simulate")
             .axis("time", Quantity::Time, vec![10.0])
             .array("velocity", Quantity::Velocity, vec![0.5])

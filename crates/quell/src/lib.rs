@@ -1,13 +1,13 @@
 //! The front door of Quell: a study in, an answer out.
 //!
-//! A [`Study`] is a belt with its friction law and its dither, read from the text of a study file and valid once it exists. Each
+//! A [`BeltStudy`] is a belt with its friction law and its dither, read from the text of a study file and valid once it exists. Each
 //! question is one function in [`run`]; its outcome has the numbers, a sentence (`sentence`), the same object that the command line
 //! prints with `--json` (`json`), warnings, and datasets where there are arrays. [`picture`] draws outcomes.
 //!
 //! # Does this dither quench the vibration, and at what cost?
 //!
 //! ```
-//! use quell::Study;
+//! use quell::BeltStudy;
 //! use quell::run::response;
 //!
 //! # fn main() -> Result<(), quell::Failure> {
@@ -27,7 +27,7 @@
 //!     amplitude = 0.52
 //!     frequency_ratio = 10.0
 //! "#;
-//! let study = Study::parse(text, &[])?;
+//! let study = BeltStudy::parse(text, &[])?;
 //! let steady = response::run(&study)?;
 //! assert_eq!(steady.response.effect.name(), "quenches");
 //! println!("{}", steady.sentence(&study));
@@ -38,14 +38,14 @@
 //! # From which amplitude on?
 //!
 //! ```
-//! # use quell::Study;
+//! # use quell::BeltStudy;
 //! use quell::run::thresholds::{self, Protocol, Question};
 //!
 //! # fn main() -> Result<(), quell::Failure> {
 //! # let text = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.05\n[friction]\nlaw = \"stribeck\"\n\
 //! #     static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[dither]\n\
 //! #     direction = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.52\nfrequency_ratio = 10.0\n";
-//! # let study = Study::parse(text, &[])?;
+//! # let study = BeltStudy::parse(text, &[])?;
 //! let question = Question {
 //!     parameter: "dither.amplitude".to_owned(),
 //!     from: 0.4,
@@ -62,7 +62,7 @@
 //! # Over a whole range of amplitudes?
 //!
 //! ```
-//! # use quell::Study;
+//! # use quell::BeltStudy;
 //! use std::sync::atomic::AtomicBool;
 //!
 //! use quell::run::map;
@@ -73,7 +73,7 @@
 //! #     static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[dither]\n\
 //! #     direction = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.52\nfrequency_ratio = 10.0\n";
 //! let axis = "[[sweep]]\nparameter = \"dither.amplitude\"\nfrom = 0.1\nto = 0.6\npoints = 6\n";
-//! let study = Study::parse(&format!("{text}{axis}"), &[])?;
+//! let study = BeltStudy::parse(&format!("{text}{axis}"), &[])?;
 //! let plan = Plan::new(&study, &[Quantity::named("criterion", "quantity")?])?;
 //! let running = Running { threads: None, stop: &AtomicBool::new(false), progress: &() };
 //! let map = map::run(plan, None, running)?;
@@ -115,7 +115,7 @@
 //! A formula of the slip velocity `v`, proven finite and not negative up to the velocities that are met:
 //!
 //! ```
-//! use quell::Study;
+//! use quell::BeltStudy;
 //! use quell::run::stability;
 //!
 //! # fn main() -> Result<(), quell::Failure> {
@@ -129,7 +129,7 @@
 //!     coefficient = "0.3 + 0.1*exp(-abs(v)/c)"
 //!     constants = { c = 0.1 }
 //! "#;
-//! let study = Study::parse(text, &[])?;
+//! let study = BeltStudy::parse(text, &[])?;
 //! let found = stability::run(&study);
 //! println!("{}", found.sentence(&study));
 //! # Ok(())
@@ -149,16 +149,21 @@
 
 pub mod cite;
 pub mod dataset;
+mod effort;
 pub mod fields;
+pub mod kind;
+pub mod outcome;
 pub mod output;
 pub mod picture;
+mod range;
 pub mod run;
 pub mod store;
 pub mod sweep;
 pub mod template;
+pub mod words;
 
 pub use quell_plot as plot;
 pub use quell_study::{complaint, input, quantity, schema, study};
 
-pub use complaint::{Complaint, Failure, Fault, Origin};
-pub use study::{Change, DiscStudy, Study, Subject};
+pub use complaint::{Complaint, Complaints, Failure, Fault, Origin};
+pub use study::{BeltStudy, Change, DiscStudy, Study};

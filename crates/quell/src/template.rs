@@ -142,7 +142,7 @@ pub fn list() -> Json {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::Subject;
+    use crate::study::Study;
 
     #[test]
     fn every_template_is_a_commented_study_with_its_question() {
@@ -154,7 +154,7 @@ mod tests {
             assert!(template.commands().count() >= 2, "{name}");
             assert!(template.commands().all(|it| it.contains(&file)), "{name}");
             assert!(text.lines().all(|line| line.chars().count() <= 130), "{name}");
-            Subject::parse(text, &[], Path::new(""))
+            Study::parse_in(text, &[], Path::new(""))
                 .unwrap_or_else(|why| panic!("{name}: {why:?}"));
             assert_eq!(Template::find(name).expect("found"), template);
         }

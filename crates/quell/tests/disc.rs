@@ -6,8 +6,8 @@ use std::path::Path;
 use quell::run::disc::{modes, resonances, stability};
 use quell::run::map::run as map;
 use quell::study::DiscStudy;
-use quell::sweep::{Grid, Plan, Quantity, Running, System};
-use quell::{Change, Complaint, Subject};
+use quell::sweep::{Grid, Plan, Quantity, Running};
+use quell::{Change, Complaints};
 use quell_numerics::floquet::Effort;
 use serde_json::Value as Json;
 
@@ -15,8 +15,8 @@ const PLATE: &str = "schema = 1\n[disc]\ninner_radius_ratio = 0.5\n[disc.load]\n
     mass = 0.1\ndamping = 0.1\nstiffness = 0.1\nfriction = 0.05\nspeed = 0.3\n";
 const DITHER: &str = "[dither]\ndirection = \"normal\"\namplitude = 0.8\nfrequency_ratio = 2.7\n";
 
-fn parse(text: &str) -> Result<DiscStudy, Vec<Complaint>> {
-    DiscStudy::parse(text, &[], Path::new(""))
+fn parse(text: &str) -> Result<DiscStudy, Complaints> {
+    DiscStudy::parse_in(text, &[], Path::new(""))
 }
 
 fn good(text: &str) -> DiscStudy {
@@ -24,7 +24,7 @@ fn good(text: &str) -> DiscStudy {
 }
 
 fn computed(study: &DiscStudy, quantity: &str) -> quell::run::map::Map {
-    let quantity = Quantity::named_for(System::Disc, quantity, "--quantity").expect("a quantity");
+    let quantity = Quantity::named_for("disc", quantity, "--quantity").expect("a quantity");
     let plan = Plan::new(study, &[quantity]).expect("axes");
     let stop = std::sync::atomic::AtomicBool::new(false);
     map(plan, None, Running { threads: Some(1), stop: &stop, progress: &() }).expect("computed")
@@ -164,7 +164,7 @@ fn modes_go_through_a_file() {
         "modes_file = \"modes.csv\"\n",
     );
     let read =
-        DiscStudy::parse(&through, &[], &folder).unwrap_or_else(|errors| panic!("{errors:#?}"));
+        DiscStudy::parse_in(&through, &[], &folder).unwrap_or_else(|errors| panic!("{errors:#?}"));
     assert_eq!(read.disc().modes(), study.disc().modes());
     let (one, other) =
         (stability::run(&study).expect("finite"), stability::run(&read).expect("finite"));
@@ -195,7 +195,7 @@ fn two_half_pads_give_both_families_of_one() {
     assert_eq!((study.disc().loads().len(), study.disc().speed()), (2, 0.3));
     let told = parse(&format!("{halves}speed = 0.4\n")).expect_err("two speeds");
     assert!(told[0].allowed.contains("turn together"), "{told:?}");
-    let refused = resonances::run(&study, resonances::Question::default());
+    let refused = resonances::run(&study, resonances::ResonancesRequest::default());
     assert!(
         refused.expect_err("two loads").json()["errors"][0]["allowed"]
             .as_str()
@@ -208,7 +208,8 @@ fn two_half_pads_give_both_families_of_one() {
 fn tables_of_the_dissertation() {
     let study =
         good(&format!("{PLATE}{}", DITHER.replace("normal", "tangential").replace("0.8", "1")));
-    let found = resonances::run(&study, resonances::Question::default()).expect("one load");
+    let found =
+        resonances::run(&study, resonances::ResonancesRequest::default()).expect("one load");
     let places = |list: &[quell_disc::resonance::Resonance]| -> Vec<String> {
         list.iter().filter(|it| it.speed > 1e-9).map(|it| format!("{:.3}", it.speed)).collect()
     };
@@ -232,7 +233,7 @@ fn a_map_has_the_numbers_of_its_points_and_points_beside_resonances() {
         let grid = Grid::of(&study).expect("axes");
         let speeds = &grid.axes()[0].values;
         // Below and above the third meeting of waves, by no more than 10⁻⁵.
-        let place = resonances::run(&study, resonances::Question::default())
+        let place = resonances::run(&study, resonances::ResonancesRequest::default())
             .expect("one load")
             .undithered[2]
             .speed;
@@ -243,7 +244,7 @@ fn a_map_has_the_numbers_of_its_points_and_points_beside_resonances() {
         let done = computed(&study, "growth");
         let entry = &done.plan().sheet().entries()[0];
         for point in (0..grid.len()).step_by(7) {
-            let Ok(Subject::Disc(alone)) = grid.study_at(point) else { panic!("a disc") };
+            let alone = grid.study_at(point).expect("valid").disc().expect("a disc");
             let one = stability::run(&alone).expect("finite").growth;
             let number = done.number(entry, point).expect("known");
             assert_eq!(number.to_bits(), one.rate.to_bits(), "{dither} {point}");
@@ -262,7 +263,7 @@ fn numbers_set_one_by_one_are_those_of_the_file() {
         ("disc.modal_damping", 1e-3),
     ] {
         let change = Change::parse(&format!("{path}={value:?}"), "--set").expect("a change");
-        let read = DiscStudy::parse(study.text(), &[change], Path::new("")).expect("valid");
+        let read = DiscStudy::parse_in(study.text(), &[change], Path::new("")).expect("valid");
         assert_eq!(study.disc_at(&[(path, value)]).as_ref(), Some(read.disc()), "{path}");
     }
     assert_eq!(study.disc_at(&[("dither.amplitude", 1.5)]), None);
@@ -292,8 +293,10 @@ fn a_clear_frequency_is_verified_by_the_exact_equations() {
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/which-dither-frequency.toml");
     let text = fs::read_to_string(&path).expect("a study");
     let study = good(&text);
-    let question =
-        resonances::Question { clear: Some((0.25..=0.9, 2.0..=6.0)), ..Default::default() };
+    let question = resonances::ResonancesRequest {
+        clear: Some((0.25..=0.9, 2.0..=6.0)),
+        ..Default::default()
+    };
     let found = resonances::run(&study, question).expect("an answer");
     let clear = found.clear.as_ref().expect("asked");
     let (ratio, _) = clear.suggestion.as_ref().expect("a frequency");
@@ -317,7 +320,7 @@ fn a_clear_frequency_is_verified_by_the_exact_equations() {
     // One frequency is an interval too, and where it grows the answer says so.
     let asked = |ratio: f64| {
         let clear = Some((0.25..=0.9, ratio..=ratio));
-        let question = resonances::Question { clear, ..Default::default() };
+        let question = resonances::ResonancesRequest { clear, ..Default::default() };
         resonances::run(&study, question).expect("an answer").json(&study)["clear"].clone()
     };
     for (ratio, verdict) in [(*ratio, "stable"), (4.523_287, "unstable")] {

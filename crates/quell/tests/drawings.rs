@@ -10,20 +10,21 @@ use quell::run::basins::{self, Layout};
 use quell::run::curves;
 use quell::run::disc::{campbell, modes, resonances, stability};
 use quell::run::orbit::{self, Wanted};
-use quell::run::thresholds::{self, Protocol};
+use quell::run::protocol::Protocol;
+use quell::run::thresholds;
 use quell::run::varied::Range;
 use quell::sweep::Running;
-use quell::{Change, DiscStudy, Study, picture};
+use quell::{BeltStudy, Change, DiscStudy, picture};
 use serde_json::Value as Json;
 
 fn path(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies").join(name)
 }
 
-fn belt(name: &str, changes: &[&str]) -> Study {
+fn belt(name: &str, changes: &[&str]) -> BeltStudy {
     let changes: Vec<Change> =
         changes.iter().map(|text| Change::parse(text, "--set").expect("a change")).collect();
-    Study::read(&path(name), &changes).expect("a study")
+    BeltStudy::read(&path(name), &changes).expect("a study")
 }
 
 /// Layers of a kind in a panel.
@@ -52,7 +53,7 @@ fn numbers(list: &Json, name: &str) -> Vec<f64> {
 #[test]
 fn thresholds_are_marked_where_they_are() {
     let study = belt("can-dither-make-it-worse.toml", &[]);
-    let question = thresholds::Question {
+    let question = thresholds::ThresholdsRequest {
         parameter: "dither.amplitude".into(),
         from: 4.0,
         to: 10.5,
@@ -89,7 +90,7 @@ fn thresholds_are_marked_where_they_are() {
 #[test]
 fn curves_of_thresholds_are_drawn_point_by_point() {
     let study = belt("can-dither-make-it-worse.toml", &[]);
-    let question = curves::Question {
+    let question = curves::CurvesRequest {
         parameter: "dither.amplitude".into(),
         window: (0.1, 16.0),
         along: "belt.belt_velocity".into(),
@@ -143,10 +144,10 @@ fn an_orbit_closes_and_its_multipliers_are_drawn() {
     assert!(refused.contains("no limit cycle was found"), "{refused}");
 }
 
-fn portraits(study: &Study, layout: Layout, over: Option<Range>) -> (Json, Figure) {
+fn portraits(study: &BeltStudy, layout: Layout, over: Option<Range>) -> (Json, Figure) {
     let never = AtomicBool::new(false);
     let running = Running { threads: Some(2), stop: &never, progress: &() };
-    let question = basins::Question { displacement: None, velocity: None, layout, over };
+    let question = basins::BasinsRequest { displacement: None, velocity: None, layout, over };
     let done = basins::run(study, &question, running).expect("basins");
     (done.json(study), draw_basins(study, &done).expect("a picture"))
 }
@@ -173,7 +174,7 @@ fn basins_show_every_start_and_every_share() {
 #[test]
 fn a_disc_is_drawn_with_its_own_place() {
     let text = fs::read_to_string(path("which-dither-frequency.toml")).expect("a study");
-    let study = DiscStudy::parse(&text, &[], Path::new("")).expect("a disc");
+    let study = DiscStudy::parse_in(&text, &[], Path::new("")).expect("a disc");
     let answer = stability::run(&study).expect("finite");
     let speeds = campbell::run(&study, 1.0).expect("finite");
     let figure = disc::stability(&study, &answer, &speeds).described();
@@ -187,7 +188,8 @@ fn a_disc_is_drawn_with_its_own_place() {
     let (low, high) = (beside[0].1.min(beside[1].1), beside[0].1.max(beside[1].1));
     assert!((low - 1e-3..=high + 1e-3).contains(&at.1), "{beside:?} {at:?}");
 
-    let found = resonances::run(&study, resonances::Question::default()).expect("one load");
+    let found =
+        resonances::run(&study, resonances::ResonancesRequest::default()).expect("one load");
     let figure = disc::resonances(&study, &found).described();
     let rules = layers(&figure, 0, "rule");
     let own = rules.iter().find(|it| it["label"] == "this study").expect("its friction");
@@ -200,7 +202,7 @@ fn a_disc_is_drawn_with_its_own_place() {
     let stable = found.undithered.iter().chain(&found.dithered).filter(|it| !it.can_be_unstable());
     assert_eq!(dotted, stable.map(|it| it.speed).collect::<Vec<_>>());
 
-    let listed = DiscStudy::parse(
+    let listed = DiscStudy::parse_in(
         "schema = 1\n[disc]\n[[disc.mode]]\ndiameters = 1\nratio = 1\nshape_at_load = 1\n\
          [[disc.mode]]\ndiameters = 2\nratio = 1.5\nshape_at_load = 1.2\n",
         &[],

@@ -9,7 +9,7 @@ use std::sync::atomic::AtomicBool;
 use quell::run::map::run;
 use quell::store::{Found, Store};
 use quell::sweep::{Plan, Quantity, Running};
-use quell::{Failure, Fault, Study, Subject};
+use quell::{BeltStudy, Failure, Fault, Study};
 
 /// Random numbers with a fixed seed (splitmix64).
 struct Dice(u64);
@@ -115,13 +115,13 @@ fn the_reader_of_studies_refuses_in_words() {
     let (mut accepted, mut refused) = (0, 0);
     for round in 0..6000 {
         let text = mutated(&studies[round % studies.len()], &mut dice);
-        match Subject::parse(&text, &[], Path::new("")) {
+        match Study::parse_in(&text, &[], Path::new("")) {
             Ok(subject) => {
                 accepted += 1;
                 // A point of a map without numbers is the study itself, checked again from its mirror.
                 let again = subject.at([]).unwrap_or_else(|told| panic!("{told:?}\n{text}"));
                 assert_eq!(again.settings(), subject.settings(), "{text}");
-                if let Some(study) = subject.belt() {
+                if let Ok(study) = subject.belt() {
                     let belt = study.belt();
                     assert!(belt.normal_load() > 0.0 && belt.damping_ratio().is_finite(), "{text}");
                 }
@@ -153,7 +153,7 @@ const MAP: &str = "schema = 1\n[belt]\ndamping_ratio = 0.005\nnormal_load = 1\nb
     [[sweep]]\nparameter = \"dither.amplitude\"\nfrom = 0.1\nto = 0.9\npoints = 3\n";
 
 fn plan() -> Plan {
-    let study = Study::parse(MAP, &[]).expect("valid");
+    let study = BeltStudy::parse(MAP, &[]).expect("valid");
     Plan::new(&study, &[Quantity::named("verdict", "test").expect("known")]).expect("a plan")
 }
 

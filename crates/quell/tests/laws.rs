@@ -6,7 +6,7 @@ use quell::run::{
     basins, bifurcation, check, friction, map, orbit, response, simulate, stability, thresholds,
     varied,
 };
-use quell::study::{Change, Study};
+use quell::study::{BeltStudy, Change};
 use quell::sweep::{Plan, Quantity, Running, Status};
 use serde_json::Value as Json;
 
@@ -22,19 +22,19 @@ fn numbers(value: &Json) -> Vec<f64> {
     value.as_array().expect("numbers").iter().map(number).collect()
 }
 
-fn study(text: &str) -> Study {
-    Study::parse(text, &[]).unwrap_or_else(|wrong| panic!("{text}\n{wrong:?}"))
+fn study(text: &str) -> BeltStudy {
+    BeltStudy::parse(text, &[]).unwrap_or_else(|wrong| panic!("{text}\n{wrong:?}"))
 }
 
 fn refused(text: &str) -> String {
-    let wrong = Study::parse(text, &[]).expect_err(text);
+    let wrong = BeltStudy::parse(text, &[]).expect_err(text);
     wrong.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
-fn set(study: &str, changes: &[&str]) -> Study {
+fn set(study: &str, changes: &[&str]) -> BeltStudy {
     let changes: Vec<Change> =
         changes.iter().map(|text| Change::parse(text, "--set").expect("a change")).collect();
-    Study::parse(study, &changes).expect("a study")
+    BeltStudy::parse(study, &changes).expect("a study")
 }
 
 fn warnings(json: &Json) -> String {
@@ -133,7 +133,7 @@ fn friction_in_newtons_is_friction_whatever_presses() {
         .replace("friction_force_n = 2.0", &format!("coefficient = {:?}", 2.0 / 6.0))
         .replace("viscous_n_s_per_m = 0.2", &format!("viscous_s_per_m = {:?}", 0.2 / 6.0));
     let same = study(&same);
-    let force = |study: &Study, v: f64| {
+    let force = |study: &BeltStudy, v: f64| {
         let newtons = study.scales().expect("SI").si_per_unit(quell_model::units::Quantity::Force);
         let belt = study.belt();
         let unit = study.scales().expect("SI").angular_frequency();
@@ -202,7 +202,7 @@ fn friction_in_newtons_is_never_guessed() {
     let coulomb = DRIVE
         .replace("stribeck-exponential", "coulomb")
         .replace("reference_velocity_m_per_s = 0.1\nexponent = 1.0\n", "");
-    assert!(Study::parse(&coulomb, &[]).is_ok(), "{}", refused(&coulomb));
+    assert!(BeltStudy::parse(&coulomb, &[]).is_ok(), "{}", refused(&coulomb));
     let said =
         refused(&coulomb.replace("static_friction_force_n = 6.0", "static_friction_force_n = 1.0"));
     assert!(said.contains("at least friction.friction_force_n = 2"), "{said}");
@@ -282,11 +282,11 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     warns(&response::run(&outside).expect("a response").json(&outside));
     quiet(&orbit::run(&inside, orbit::Wanted::default()).expect("an orbit").json(&inside));
     warns(&orbit::run(&outside, orbit::Wanted::default()).expect("an orbit").json(&outside));
-    let question = |to| thresholds::Question {
+    let question = |to| thresholds::ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
         from: 1.2,
         to,
-        ..thresholds::Question::default()
+        ..thresholds::ThresholdsRequest::default()
     };
     quiet(&thresholds::run(&inside, question(1.6)).expect("thresholds").json(&inside));
     warns(&thresholds::run(&inside, question(3.0)).expect("thresholds").json(&inside));
@@ -294,10 +294,10 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     let running = Running { threads: Some(1), progress: &(), stop: &stop };
     let range =
         varied::Range { parameter: "dither.amplitude".to_owned(), from: 1.8, to: 3.0, points: 2 };
-    let question = bifurcation::Question { range, up: true, down: false };
+    let question = bifurcation::SweepRequest { range, up: true, down: false };
     let found = bifurcation::run(&inside, &question, running).expect("a sweep");
     warns(&found.json(&inside));
-    let question = basins::Question {
+    let question = basins::BasinsRequest {
         displacement: None,
         velocity: None,
         layout: basins::Layout::Grid { columns: 2, rows: 2 },

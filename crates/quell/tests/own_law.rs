@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use quell::study::Change;
-use quell::{Complaint, Study};
+use quell::{BeltStudy, Complaints};
 use quell_model::Friction;
 
 const BELT: &str =
     "schema = 1\n[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.1\n";
 
-fn study(friction: &str) -> Result<Study, Vec<Complaint>> {
-    Study::parse(&format!("{BELT}[friction]\n{friction}"), &[])
+fn study(friction: &str) -> Result<BeltStudy, Complaints> {
+    BeltStudy::parse(&format!("{BELT}[friction]\n{friction}"), &[])
 }
 
 fn told(friction: &str) -> Vec<(String, Option<usize>, String)> {
@@ -30,20 +30,20 @@ fn a_formula_with_constants_is_read_and_set() {
         ["friction.constants.a=0.2", "friction.coefficient=a", "friction.static_coefficient=0.5"];
     let sets = sets.map(|text| Change::parse(text, "--set").expect("a change"));
     let whole = format!("{BELT}[friction]\n{text}");
-    let set = Study::parse(&whole, &sets).expect("valid");
+    let set = BeltStudy::parse(&whole, &sets).expect("valid");
     let law = set.belt().friction();
     assert_eq!((law.coefficient(3.0), law.static_coefficient()), (0.2, 0.5));
     let swept = format!(
         "{whole}\n[[sweep]]\nparameter = \"friction.constants.a\"\nfrom = 0.2\nto = 0.4\npoints = 3\n"
     );
-    let swept = Study::parse(&swept, &[]).expect("valid");
+    let swept = BeltStudy::parse(&swept, &[]).expect("valid");
     let point = swept.at([("friction.constants.a", 0.2)]).expect("valid");
     assert_eq!(point.belt().friction().coefficient(0.0), 0.2 + 0.1);
     let both = format!(
         "{whole}b = 1.0\n[[sweep]]\nparameter = \"friction.constants.a\"\nvalues = [0.2, 0.3]\n\
          [[sweep]]\nparameter = \"friction.constants.b\"\nvalues = [0.2, 0.3]\n"
     );
-    let both = Study::parse(&both, &[]).expect("two constants are two axes");
+    let both = BeltStudy::parse(&both, &[]).expect("two constants are two axes");
     assert_eq!(quell::sweep::Grid::of(&both).expect("a grid").len(), 4);
     let wrong = swept.with("friction.constants.b", 0.2);
     assert!(wrong.is_ok(), "another constant may be given, a formula need not use it");
@@ -140,9 +140,9 @@ fn complaints_name_the_key_and_the_line() {
 #[test]
 fn the_studies_of_own_laws_are_valid() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies");
-    let own = Study::read(&folder.join("own-friction-law.toml"), &[]).expect("valid");
+    let own = BeltStudy::read(&folder.join("own-friction-law.toml"), &[]).expect("valid");
     assert!((own.belt().friction().coefficient(0.0) - 0.4).abs() < 1e-15);
-    let measured = Study::read(&folder.join("measured-friction-law.toml"), &[]).expect("valid");
+    let measured = BeltStudy::read(&folder.join("measured-friction-law.toml"), &[]).expect("valid");
     let Friction::Samples(law) = measured.belt().friction() else { panic!("another law") };
     assert_eq!(law.fit().samples, 48);
     assert!(law.fit().rms_error < 0.003, "{:?}", law.fit());

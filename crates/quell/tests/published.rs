@@ -2,10 +2,10 @@
 //!
 //! Numbers and sources stand in `reference/published.json`; the page on correctness shows the same table.
 
-use quell::Study;
+use quell::BeltStudy;
 use quell::run::orbit::{Response, Wanted, run as orbit};
 use quell::run::simulate::{Options, run as simulate};
-use quell::run::thresholds::{Kind, Question, run as thresholds};
+use quell::run::thresholds::{Kind, ThresholdsRequest, run as thresholds};
 use quell_dynamics::orbit::cycle::cycles;
 use quell_dynamics::orbit::{Orbit, Verdict};
 use quell_dynamics::simulation::{Event, EventKind, EventRecorder, simulate as trajectory};
@@ -31,12 +31,12 @@ fn close(found: f64, expected: f64, tolerance: f64) {
     assert!((found - expected).abs() <= tolerance, "{found} against {expected}");
 }
 
-fn study(text: &str) -> Study {
-    Study::parse(text, &[]).unwrap_or_else(|why| panic!("{why:?}"))
+fn study(text: &str) -> BeltStudy {
+    BeltStudy::parse(text, &[]).unwrap_or_else(|why| panic!("{why:?}"))
 }
 
 /// A mass with friction of coefficient `law` under unit load, without damping unless it is given.
-fn belt(damping: f64, velocity: f64, law: &str, rest: &str) -> Study {
+fn belt(damping: f64, velocity: f64, law: &str, rest: &str) -> BeltStudy {
     study(&format!(
         "[belt]\ndamping_ratio = {damping:?}\nnormal_load = 1.0\nbelt_velocity = {velocity:?}\n{rest}"
     )
@@ -44,7 +44,7 @@ fn belt(damping: f64, velocity: f64, law: &str, rest: &str) -> Study {
 }
 
 /// A driven oscillator with Coulomb friction 1: the support is at rest, and the dither is the drive.
-fn driven(damping: f64, stiction: f64, amplitude: f64, ratio: f64) -> Study {
+fn driven(damping: f64, stiction: f64, amplitude: f64, ratio: f64) -> BeltStudy {
     let rest = format!(
         "LAWstatic_coefficient = {stiction:?}\n[dither]\ndirection = \"tangential\"\nwaveform = \"sine\"\n\
          amplitude = {amplitude:?}\nfrequency_ratio = {ratio:?}\n"
@@ -57,7 +57,7 @@ fn only(found: Response) -> Orbit {
 }
 
 /// Events of one period.
-fn events(study: &Study, orbit: &Orbit) -> Vec<Event> {
+fn events(study: &BeltStudy, orbit: &Orbit) -> Vec<Event> {
     let mut watch = EventRecorder::default();
     trajectory(study.belt(), orbit.start, orbit.period, 1e-13, &mut watch).expect("no stall");
     watch.events
@@ -160,8 +160,12 @@ fn bistability_of_the_block_of_veraszto_and_stepan() {
          [friction.constants]\nC = 2.0\nC_0 = 6.0\nc_v = 10.0\nb_s = 0.2\n",
     );
     let key = "belt.belt_velocity_m_per_s";
-    let question =
-        Question { parameter: key.to_owned(), from: 0.15, to: 0.25, ..Question::default() };
+    let question = ThresholdsRequest {
+        parameter: key.to_owned(),
+        from: 0.15,
+        to: 0.25,
+        ..ThresholdsRequest::default()
+    };
     let found = thresholds(&study, question).expect("followed");
     let scales = study.scales().expect("SI");
     let hopf = &found.local.thresholds[0];

@@ -1,22 +1,19 @@
 //! `quell basins`: which starts end on which response.
 
-use std::fmt::Write as _;
-
 use clap::Args;
-use quell::run::attractor::words;
-use quell::run::basins::{Basins, Layout, Portrait, Question, quiescence, run as basins};
+use quell::kind::verbs;
+use quell::run::basins::{BasinsRequest, Layout};
 use quell::run::varied::Range;
 use quell::sweep::Running;
-use quell::{Complaint, Failure, Fault, Origin, Study, picture};
+use quell::{Complaint, Failure, Fault, Origin, Study};
 use quell_model::units::Quantity;
 
 use super::map::threads;
 use super::numbers::{count, number, range, scales};
 use crate::answer::Answer;
-use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments, inputs};
+use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 use crate::interrupt;
 use crate::progress::Bar;
-use crate::table::{figure, figure_of};
 
 /// Finds the responses that starts in a window end on, and the share of each
 #[derive(Debug, Args)]
@@ -67,29 +64,26 @@ pub(crate) struct Arguments {
 
 /// Answers.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let mut complaints = Complaints::default();
+    let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
-    let inputs = inputs(study.as_ref(), Study::inputs);
-    let question = question(arguments, study.as_ref(), &mut complaints);
+    let inputs = inputs(study.as_ref());
+    let request = request(arguments, study.as_ref(), &mut complaints);
     let threads = complaints.take(threads(arguments.threads.as_deref()));
-    let output = complaints.take(arguments.output.prepare(&[], &inputs));
+    let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
-    let ((study, question), (threads, (output, plot))) =
-        complaints.finish(study.zip(question).zip(threads.zip(output.zip(plot))))?;
+    let ((study, request), (threads, (outputs, plot))) =
+        complaints.finish(study.zip(request).zip(threads.zip(outputs.zip(plot))))?;
     let bar = Bar::new();
     let running = Running { threads, stop: interrupt::flag(), progress: &bar };
-    let done = basins(&study, &question, running)?;
-    let mut object = done.json(&study);
-    output.write(&[done.dataset(&study)], &mut object)?;
-    plot.try_write(|| picture::basins(&study, &done), &mut object)?;
-    Ok(Answer::new(arguments.study.json, &object, || text(&study, &done)))
+    let done = verbs(&study)?.basins(&request, running)?;
+    answer(arguments.study.json, done.as_ref(), outputs, plot)
 }
 
-fn question(
+fn request(
     arguments: &Arguments,
     study: Option<&Study>,
-    complaints: &mut Complaints,
-) -> Option<Question> {
+    complaints: &mut Gathered,
+) -> Option<BasinsRequest> {
     let scales = scales(study);
     let mut window = |option, text: &Option<String>, quantity| {
         let found = text.as_deref().map(|text| range(option, text, quantity, scales));
@@ -113,7 +107,7 @@ fn question(
                 .map(|((from, to), points)| Some(Range { parameter, from, to, points }))
         }
     };
-    Some(Question {
+    Some(BasinsRequest {
         displacement: displacement?,
         velocity: velocity?,
         layout: layout?,
@@ -134,59 +128,4 @@ fn layout(arguments: &Arguments) -> Result<Layout, Box<Complaint>> {
         let origin = Origin::Argument("--grid");
         Box::new(Complaint::new(Fault::Value, "--grid", origin, text.as_str(), allowed))
     })
-}
-
-fn text(study: &Study, done: &Basins) -> String {
-    let mut text = String::new();
-    if let Some(title) = study.title() {
-        let _ = writeln!(text, "{title}");
-    }
-    let _ = writeln!(text, "{}", done.sentence(study));
-    let _ = writeln!(text, "  {}", done.starts_in_words(study));
-    match (&done.varied, done.portraits.as_slice()) {
-        (None, [portrait]) => text += &attractors(study, portrait),
-        (varied, portraits) => {
-            let path = varied.as_ref().map_or("", |varied| varied.path.as_str());
-            let [_, fall] = quiescence(done.in_band());
-            let _ = writeln!(text, "\n  {path:<18}  base response   share of starts that {fall}");
-            for portrait in portraits {
-                let value = portrait.value.map_or_else(String::new, figure);
-                let local = portrait.local.as_ref().map_or("unknown", |verdict| verdict.name());
-                let share = portrait.quiet.map_or_else(
-                    || "unknown".to_owned(),
-                    |share| {
-                        format!(
-                            "{} ({} to {})",
-                            figure(share.fraction),
-                            figure(share.low),
-                            figure(share.high)
-                        )
-                    },
-                );
-                let _ = writeln!(text, "  {value:<18}  {local:<14}  {share}");
-            }
-        }
-    }
-    let _ = writeln!(text, "  bounds: {}", done.meaning());
-    text
-}
-
-fn attractors(study: &Study, portrait: &Portrait) -> String {
-    let mut text = String::new();
-    for (basin, share) in portrait.gathered.basins.iter().zip(&portrait.shares) {
-        let attractor = &basin.attractor;
-        let quiet = portrait.quiet_word(attractor);
-        let quiet = quiet.map_or_else(String::new, |word| format!("{word}, "));
-        let _ = writeln!(
-            text,
-            "  {:>6.2} % ({:.2} to {:.2})  {quiet}{}, peak-to-peak {}, stick fraction {}",
-            100.0 * share.fraction,
-            100.0 * share.low,
-            100.0 * share.high,
-            words(portrait.scales, attractor, portrait.period),
-            figure_of(study, Quantity::Displacement, attractor.size()),
-            figure(attractor.stick_fraction),
-        );
-    }
-    text
 }

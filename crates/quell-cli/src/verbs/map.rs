@@ -5,21 +5,18 @@ use std::path::PathBuf;
 
 use clap::Args;
 use quell::input::Inputs;
+use quell::outcome::Outcome;
 use quell::output::Output;
 use quell::picture;
-use quell::run::map::{Extreme, Map, run as map};
-use quell::run::plural;
+use quell::run::map::run as map;
 use quell::store::Store;
-use quell::sweep::{
-    Entry, Grid, MOST_THREADS, Plan, QUANTITIES, Quantity, Running, Status, System,
-};
-use quell::{Complaint, Failure, Fault, Origin, Subject};
+use quell::sweep::{Grid, MOST_THREADS, Plan, QUANTITIES, Quantity, Running};
+use quell::{Complaint, Failure, Fault, Origin};
 
 use crate::answer::Answer;
-use crate::arguments::{Complaints, PlotArguments, StudyArguments, inputs};
+use crate::arguments::{Gathered, PlotArguments, StudyArguments, inputs};
 use crate::interrupt;
 use crate::progress::Bar;
-use crate::table::figure;
 use crate::verbs::shard;
 
 /// Computes quantities over the axes ([[sweep]]) of a study, on all cores
@@ -51,9 +48,10 @@ pub(crate) struct Arguments {
 /// The list of quantities in the help.
 fn quantities() -> String {
     let mut text = String::new();
-    for (system, name) in [(System::Belt, "a belt"), (System::Disc, "a disc")] {
-        let _ = writeln!(text, "Quantities of {name}:");
-        for quantity in QUANTITIES.iter().filter(|quantity| quantity.system == system) {
+    for of_kind in QUANTITIES {
+        let kind = of_kind.first().map_or("", |quantity| quantity.kind);
+        let _ = writeln!(text, "Quantities of a {kind}:");
+        for quantity in *of_kind {
             let _ = writeln!(text, "  {:<20}  {}", quantity.name, quantity.about);
         }
     }
@@ -69,15 +67,15 @@ enum Keep {
 
 /// Answers.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let mut complaints = Complaints::default();
-    let study = complaints.take(arguments.study.read_any());
-    let inputs = inputs(study.as_ref(), Subject::inputs);
+    let mut complaints = Gathered::default();
+    let study = complaints.take(arguments.study.read());
+    let inputs = inputs(study.as_ref());
     // What there is depends on what the study is about.
-    let system = study.as_ref().map_or(System::Belt, System::of);
+    let kind = study.as_ref().map_or("", |study| study.kind().name());
     let names = if study.is_some() { arguments.quantities.as_slice() } else { &[] };
     let asked: Vec<&'static Quantity> = names
         .iter()
-        .filter_map(|name| complaints.take(Quantity::named_for(system, name.trim(), "--quantity")))
+        .filter_map(|name| complaints.take(Quantity::named_for(kind, name.trim(), "--quantity")))
         .collect();
     let threads = complaints.take(threads(arguments.threads.as_deref()));
     let keep = complaints.take(keep(arguments, &inputs));
@@ -112,8 +110,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         Keep::Zarr(path) => object["saved"] = vec![path.display().to_string()].into(),
         Keep::Nowhere => {}
     }
-    plot.try_write(|| picture::sweep(&done), &mut object)?;
-    Ok(Answer::new(arguments.study.json, &object, || text(&done)))
+    plot.write(&done, &mut object)?;
+    Ok(Answer::new(arguments.study.json, &object, || done.text()))
 }
 
 pub(super) fn threads(text: Option<&str>) -> Result<Option<usize>, Box<Complaint>> {
@@ -159,64 +157,4 @@ fn drawable(grid: &Grid) -> Result<(), Box<Complaint>> {
     );
     let origin = Origin::Argument("--plot");
     Err(Box::new(Complaint::new(Fault::Value, "--plot", origin, panels, allowed)))
-}
-
-fn text(done: &Map) -> String {
-    let grid = done.plan().grid();
-    let mut text = String::new();
-    if let Some(title) = grid.study().title() {
-        let _ = writeln!(text, "{title}");
-    }
-    for axis in grid.axes() {
-        let (first, last) = (axis.values.first(), axis.values.last());
-        let ends: Vec<String> = first.into_iter().chain(last).map(|value| figure(*value)).collect();
-        let spacing = if axis.logarithmic { ", equal ratios" } else { "" };
-        let unit = if axis.unit == "1" { String::new() } else { format!(" {}", axis.unit) };
-        let count = axis.values.len();
-        let _ =
-            writeln!(text, "  {}  {}{unit}, {count} values{spacing}", axis.path, ends.join(" to "));
-    }
-    let seconds = done.elapsed.as_secs_f64();
-    let _ = write!(text, "  {} points in {seconds:.2} s", grid.len());
-    if done.resumed > 0 {
-        let _ = write!(text, ", {} of them from the store", done.resumed);
-    }
-    text.push('\n');
-    for (entry, summary) in done.plan().sheet().entries().iter().zip(done.summaries()) {
-        let _ = writeln!(text, "\n{}", heading(entry, done));
-        for (word, found) in [("least", &summary.least), ("most", &summary.most)] {
-            if let Some(extreme) = found {
-                let _ = writeln!(text, "  {word}  {}", place(extreme, grid));
-            }
-        }
-        for (word, count) in &summary.words {
-            let _ = writeln!(text, "  {word}  {count} point{}", plural(*count));
-        }
-        for (status, count) in &summary.states {
-            if *status != Status::Known {
-                let points = format!("{count} point{}", plural(*count));
-                let _ = writeln!(text, "  {}  {points}: {}", status.name(), status.about());
-            }
-        }
-    }
-    text
-}
-
-fn heading(entry: &Entry, done: &Map) -> String {
-    let field = &done.plan().sheet().fields()[done.told(entry)];
-    let unit = match field.unit.as_str() {
-        "" | "1" => String::new(),
-        unit => format!(" [{unit}]"),
-    };
-    format!("{}{unit}: {}", field.name, entry.variable.about)
-}
-
-fn place(extreme: &Extreme, grid: &Grid) -> String {
-    let places: Vec<String> = grid
-        .axes()
-        .iter()
-        .zip(&extreme.place)
-        .map(|(axis, value)| format!("{} = {}", axis.path, figure(*value)))
-        .collect();
-    format!("{}  at {}", figure(extreme.value), places.join(", "))
 }

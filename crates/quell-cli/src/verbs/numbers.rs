@@ -4,7 +4,7 @@ use clap::Args;
 use quell::{Complaint, Study, quantity};
 use quell_model::units::{Quantity, Scales};
 
-use crate::arguments::Complaints;
+use crate::arguments::Gathered;
 
 /// A parameter and the ends of its range, in the unit of its key.
 #[derive(Debug, Args)]
@@ -22,7 +22,7 @@ pub(crate) struct VariedArguments {
 
 impl VariedArguments {
     /// Both ends, in the unit of the key.
-    pub(super) fn ends(&self, complaints: &mut Complaints) -> Option<(f64, f64)> {
+    pub(super) fn ends(&self, complaints: &mut Gathered) -> Option<(f64, f64)> {
         let from = complaints.take(number("--from", &self.from, &self.parameter));
         let to = complaints.take(number("--to", &self.to, &self.parameter));
         from.zip(to)

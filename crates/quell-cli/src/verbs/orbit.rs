@@ -1,17 +1,14 @@
 //! `quell orbit`: the periodic response and its Floquet multipliers.
 
-use std::fmt::Write as _;
-
 use clap::Args;
-use quell::run::orbit::{Orbit, Response, Wanted, extremes, run as orbit};
-use quell::run::thresholds::Protocol;
-use quell::{Failure, Study, picture};
-use quell_model::units::Quantity;
+use quell::Failure;
+use quell::kind::verbs;
+use quell::run::orbit::Wanted;
+use quell::run::protocol::Protocol;
 
 use super::numbers::state;
 use crate::answer::Answer;
-use crate::arguments::{Complaints, OutputArguments, PlotArguments, StudyArguments, inputs};
-use crate::table::Table;
+use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 
 /// Options that ask for the response on which a run ends, which has its own state and number of periods.
 const STARTS: [&str; 4] = ["from_rest", "from_sliding", "from_squeal", "start"];
@@ -62,9 +59,9 @@ impl Arguments {
 
 /// Answers.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let mut complaints = Complaints::default();
+    let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
-    let inputs = inputs(study.as_ref(), Study::inputs);
+    let inputs = inputs(study.as_ref());
     let near = arguments.near.as_deref().map(|it| state("--near", it, study.as_ref()));
     let near = complaints.take(near.transpose());
     let start = arguments.start.as_deref().map(|it| state("--start", it, study.as_ref()));
@@ -79,56 +76,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         (None, Some(state)) => Wanted::Near { state, periods },
         (None, None) => Wanted::OfSliding { periods },
     };
-    let found = orbit(&study, wanted)?;
-    let mut object = found.json(&study);
-    if arguments.output.saves() {
-        outputs.write(&[found.dataset(&study)?], &mut object)?;
-    }
-    plot.try_write(|| picture::periodic_response(&study, &found), &mut object)?;
-    Ok(Answer::new(arguments.study.json, &object, || text(&study, &found)))
-}
-
-fn text(study: &Study, found: &Response) -> String {
-    let mut text = found.sentence(study) + "\n";
-    if let Some(orbit) = &found.orbit {
-        text += &table(study, orbit);
-    }
-    let others = found.cycles.iter().filter(|it| Some(*it) != found.orbit.as_ref());
-    for other in others {
-        let _ = write!(
-            text,
-            "\nAlso found: {}\n{}",
-            quell::run::orbit::sentence(study, other),
-            table(study, other)
-        );
-    }
-    text
-}
-
-fn table(study: &Study, found: &Orbit) -> String {
-    let mut table = Table::new(study.scales());
-    table.word("verdict", found.verdict().name());
-    for (re, im) in found.multipliers {
-        let multiplier = format!("{re:.9} {} {:.9} i", if im < 0.0 { '−' } else { '+' }, im.abs());
-        table.word("multiplier", &multiplier);
-    }
-    let modulus =
-        if found.is_free { "modulus of the one that decides" } else { "modulus of the larger" };
-    table.number(modulus, Quantity::Ratio, found.radius());
-    table.number("displacement x at τ = 0", Quantity::Displacement, found.start.displacement);
-    table.number("velocity x′ at τ = 0", Quantity::Velocity, found.start.velocity);
-    table.number("period", Quantity::Time, found.period);
-    if let Some((least, _)) = found.least_slip {
-        table.number("least slip velocity |v_r|", Quantity::Velocity, least);
-    }
-    table.number("stick fraction", Quantity::Ratio, found.stick_fraction);
-    let reach = extremes(study, found);
-    table.number("lowest displacement", Quantity::Displacement, reach.displacement.0);
-    table.number("highest displacement", Quantity::Displacement, reach.displacement.1);
-    table.number("lowest velocity", Quantity::Velocity, reach.velocity.0);
-    table.number("highest velocity", Quantity::Velocity, reach.velocity.1);
-    table.number("residual", Quantity::Displacement, found.residual);
-    table.number("error of the state", Quantity::Displacement, found.state_error);
-    table.number("error of the multiplier", Quantity::Ratio, found.multiplier_error);
-    table.text()
+    let done = verbs(&study)?.orbit(wanted)?;
+    answer(arguments.study.json, done.as_ref(), outputs, plot)
 }

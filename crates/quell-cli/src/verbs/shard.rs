@@ -1,15 +1,12 @@
 //! `quell map --shard K/N`: one part of a map, into a store that other processes share.
-
-use std::fmt::Write as _;
-use std::path::Path;
-
-use quell::run::map::{Sharded, Shared};
-use quell::sweep::{Plan, Running, Shard};
-use quell::{Complaint, Failure, Fault, Origin};
-
 use crate::answer::Answer;
 use crate::interrupt;
 use crate::progress::Bar;
+use quell::run::map::{Sharded, Shared};
+use quell::sweep::{Plan, Running, Shard};
+use quell::{Complaint, Failure, Fault, Origin};
+use std::fmt::Write as _;
+use std::path::Path;
 
 /// Reads the option; a picture needs the whole map.
 pub(super) fn read(text: &str, plot: bool) -> Result<Shard, Box<Complaint>> {

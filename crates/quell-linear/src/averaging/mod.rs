@@ -41,6 +41,7 @@ mod edges;
 mod effective;
 mod everywhere_stable;
 mod fast_motion;
+mod finite_r;
 mod independent;
 mod periodic;
 mod sign_changes;

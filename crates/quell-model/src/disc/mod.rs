@@ -1,14 +1,16 @@
 //! An annular disc under loads that rotate over it, valid by construction.
 
-use crate::Invalid;
 use crate::parameter::disc::{
-    DISC_DITHER_AMPLITUDE, DISC_SPEED, LOAD_DAMPING, LOAD_FRICTION, LOAD_MASS, LOAD_STIFFNESS,
-    MODAL_DAMPING,
+    DISC, DISC_DITHER_AMPLITUDE, DISC_SPEED, LOAD_DAMPING, LOAD_FRICTION, LOAD_MASS,
+    LOAD_STIFFNESS, MODAL_DAMPING,
 };
-use crate::parameter::{DITHER_FREQUENCY_RATIO, split_index};
+use crate::parameter::{DITHER_FREQUENCY_RATIO, Parameter, split_index};
+use crate::units::DiscScales;
+use crate::{Invalid, InvalidValues};
 
 mod contributions;
 mod mode;
+mod structure;
 
 pub use contributions::{Contribution, Contributions};
 pub use mode::{Load, Mode};
@@ -84,6 +86,9 @@ pub struct Disc {
     loads: Vec<Load>,
     dither: DiscDither,
     speed: f64,
+    /// Scales and outer radius (m), where the study gives them.
+    scales: Option<DiscScales>,
+    outer_radius_m: Option<f64>,
 }
 
 impl Disc {
@@ -96,7 +101,7 @@ impl Disc {
         loads: Vec<Load>,
         dither: DiscDither,
         speed: f64,
-    ) -> Result<Self, Vec<Invalid>> {
+    ) -> Result<Self, InvalidValues> {
         let mut complaints = Vec::new();
         if modes.is_empty() {
             complaints.push(Invalid::new("disc.mode", "none", "at least one mode"));
@@ -110,10 +115,34 @@ impl Disc {
         complaints.extend(dither.complaints());
         complaints.extend(DISC_SPEED.check(speed).err());
         if complaints.is_empty() {
-            Ok(Self { modes, loads, dither, speed })
+            Ok(Self { modes, loads, dither, speed, scales: None, outer_radius_m: None })
         } else {
-            Err(complaints)
+            Err(InvalidValues::of(complaints))
         }
+    }
+
+    /// The same disc with its scales and its outer radius (m), so that its numbers have values in SI.
+    #[must_use]
+    pub fn in_si(self, scales: Option<DiscScales>, outer_radius_m: Option<f64>) -> Self {
+        Self { scales, outer_radius_m, ..self }
+    }
+
+    /// What turns numbers of the equations into SI at a load, where the study gives enough.
+    pub fn scales(&self, load: usize) -> Option<DiscScales> {
+        let radius_ratio = self.loads.get(load).and_then(|load| load.radius_ratio);
+        let load_radius_m = radius_ratio.zip(self.outer_radius_m).map(|(ratio, a)| ratio * a);
+        self.scales.map(|scales| DiscScales { load_radius_m, ..scales })
+    }
+
+    /// A valid disc of these parts in the scales of this one.
+    fn rebuilt(
+        &self,
+        loads: Vec<Load>,
+        dither: DiscDither,
+        speed: f64,
+    ) -> Result<Self, InvalidValues> {
+        let disc = Self::new(self.modes.clone(), loads, dither, speed)?;
+        Ok(disc.in_si(self.scales, self.outer_radius_m))
     }
 
     /// Modes of the plate.
@@ -154,18 +183,18 @@ impl Disc {
     ///
     /// # Errors
     /// A speed out of bounds.
-    pub fn at_speed(&self, speed: f64) -> Result<Self, Vec<Invalid>> {
-        Self::new(self.modes.clone(), self.loads.clone(), self.dither, speed)
+    pub fn at_speed(&self, speed: f64) -> Result<Self, InvalidValues> {
+        self.rebuilt(self.loads.clone(), self.dither, speed)
     }
 
     /// The same disc with every load's friction times `factor`.
     ///
     /// # Errors
     /// A friction out of bounds.
-    pub fn with_friction_times(&self, factor: f64) -> Result<Self, Vec<Invalid>> {
+    pub fn with_friction_times(&self, factor: f64) -> Result<Self, InvalidValues> {
         let scaled = |load: &Load| Load { friction: factor * load.friction, ..load.clone() };
         let loads = self.loads.iter().map(scaled).collect();
-        Self::new(self.modes.clone(), loads, self.dither, self.speed)
+        self.rebuilt(loads, self.dither, self.speed)
     }
 
     /// The same disc without dither: f(τ) = f.
@@ -179,30 +208,51 @@ impl Disc {
     /// `dither.frequency_ratio`; `None` if there is no such number here.
     pub fn get(&self, path: &str) -> Option<f64> {
         let mut copy = self.clone();
-        copy.place(path).map(|place| *place)
+        copy.number(path).map(|number| *number)
+    }
+
+    /// The entry of the registry for a path, or `None` if there is no such number here.
+    pub fn parameter(&self, path: &str) -> Option<Parameter> {
+        self.get(path)?;
+        let key = match split_index(path, "disc.load") {
+            Some((_, key)) => format!("disc.load.{key}"),
+            None => path.to_owned(),
+        };
+        DISC.iter().find(|parameter| parameter.path == key).copied()
+    }
+
+    /// The load that a path names, counted from 0.
+    pub(crate) fn load_of(&self, path: &str) -> Option<usize> {
+        split_index(path, "disc.load").map(|(index, _)| index)
     }
 
     /// The same disc with one parameter changed.
     ///
     /// # Errors
     /// An unknown path, a value out of bounds, a relation that no longer holds.
-    pub fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>> {
+    pub fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues> {
         let mut next = self.clone();
         if path == MODAL_DAMPING.path {
-            MODAL_DAMPING.check(value).map_err(|complaint| vec![complaint])?;
+            MODAL_DAMPING.check(value).map_err(InvalidValues::from)?;
             for mode in &mut next.modes {
                 mode.damping = value;
             }
             return Ok(next);
         }
-        match next.place(path) {
-            Some(place) => *place = value,
-            None => return Err(vec![Invalid::new(path, value, "a parameter of this disc")]),
+        match next.number(path) {
+            Some(number) => *number = value,
+            None => {
+                return Err(InvalidValues::from(Invalid::new(
+                    path,
+                    value,
+                    "a parameter of this disc",
+                )));
+            }
         }
-        Self::new(next.modes, next.loads, next.dither, next.speed)
+        next.rebuilt(next.loads.clone(), next.dither, next.speed)
     }
 
-    fn place(&mut self, path: &str) -> Option<&mut f64> {
+    fn number(&mut self, path: &str) -> Option<&mut f64> {
         if path == DISC_SPEED.path {
             return Some(&mut self.speed);
         }
@@ -282,6 +332,7 @@ mod tests {
         let loads = vec![Load::new(0.1, 0.2, 0.3, 0.4), Load::new(0.5, 0.6, 0.7, 0.8)];
         let dither = DiscDither::Normal { amplitude: 0.5, frequency_ratio: 2.7 };
         let disc = Disc::new(vec![mode(), mode()], loads, dither, 0.3).expect("valid");
+        assert_eq!(disc.parameter("disc.load[1].friction").map(|found| found.symbol), Some("f*"));
         for (path, value) in [
             ("disc.load.speed", 0.3),
             ("disc.modal_damping", 0.0),

@@ -35,6 +35,8 @@ pub struct Load {
     pub friction: f64,
     /// Phase φ of the dither of its friction, cos(Rτ + φ), radians.
     pub dither_phase: f64,
+    /// Radius over the outer radius, where it is known.
+    pub radius_ratio: Option<f64>,
     /// Shapes of all modes at this load, where it sits at another radius than the modes'
     /// [`Mode::shape_at_load`] means.
     pub shapes: Option<Vec<f64>>,
@@ -43,7 +45,16 @@ pub struct Load {
 impl Load {
     /// A load at angle zero from m*, c*, k*, f*.
     pub fn new(mass: f64, damping: f64, stiffness: f64, friction: f64) -> Self {
-        Self { angle: 0.0, mass, damping, stiffness, friction, dither_phase: 0.0, shapes: None }
+        Self {
+            angle: 0.0,
+            mass,
+            damping,
+            stiffness,
+            friction,
+            dither_phase: 0.0,
+            radius_ratio: None,
+            shapes: None,
+        }
     }
 
     /// The same load at another angle (radians).

@@ -7,11 +7,13 @@
 
 use quell_numerics::lane::Lane;
 
+use super::numeric::{checked, not_a_number_of, number_of, static_at_least_sliding};
+use super::series::side_by_side;
 use super::{
-    BranchSeries, Friction, NumericLaw, Otherwise, SlidingLaw, Surroundings, checked,
-    not_a_number_of, number_of, side_by_side, static_at_least_sliding,
+    BranchSeries, Friction, LawParameters, LawSeries, NumericLaw, Otherwise, SlidingLaw,
+    Surroundings,
 };
-use crate::Invalid;
+use crate::InvalidValues;
 use crate::parameter::{COEFFICIENT, Parameter, STATIC_COEFFICIENT, VISCOUS};
 
 /// Coulomb friction.
@@ -33,10 +35,15 @@ impl Coulomb {
         coefficient: f64,
         static_coefficient: Option<f64>,
         viscous: f64,
-    ) -> Result<Self, Vec<Invalid>> {
+    ) -> Result<Self, InvalidValues> {
         let level = static_coefficient.unwrap_or(coefficient);
         let law = Self::from_values(&[coefficient, level, viscous])?;
         Ok(Self { given_static: static_coefficient, ..law })
+    }
+
+    /// A constant coefficient μ ≥ 0, without a static level of its own.
+    pub fn constant(coefficient: f64) -> Self {
+        Self { coefficient, given_static: None, viscous: 0.0, scale: 1.0 }
     }
 
     /// The same law without a static level of its own: it follows the coefficient.
@@ -52,7 +59,7 @@ impl Coulomb {
     }
 }
 
-impl SlidingLaw for Coulomb {
+impl LawParameters for Coulomb {
     const NAME: &'static str = "coulomb";
     const ABOUT: &'static str = "μ_d sgn(v_r) + σ_v v_r, with a static level μ_s ≥ μ_d";
     const PARAMETERS: &'static [Parameter] = &[COEFFICIENT, STATIC_COEFFICIENT, VISCOUS];
@@ -72,7 +79,7 @@ impl SlidingLaw for Coulomb {
         number_of(self, path)
     }
 
-    fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>> {
+    fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues> {
         let Self { mut coefficient, mut given_static, mut viscous, .. } = *self;
         match path {
             path if path == COEFFICIENT.path => coefficient = value,
@@ -82,8 +89,10 @@ impl SlidingLaw for Coulomb {
         }
         Ok(Self::new(coefficient, given_static, viscous)?.counted_in(self.scale))
     }
+}
 
-    fn placed(&self, surroundings: &Surroundings) -> Result<Self, Vec<Invalid>> {
+impl SlidingLaw for Coulomb {
+    fn placed(&self, surroundings: &Surroundings) -> Result<Self, InvalidValues> {
         Ok(self.counted_in(surroundings.normal_load))
     }
 
@@ -100,7 +109,9 @@ impl SlidingLaw for Coulomb {
     fn static_coefficient(&self) -> f64 {
         self.given_static.unwrap_or(self.coefficient)
     }
+}
 
+impl LawSeries for Coulomb {
     type Constants<V: Lane> = CoulombConstants<V>;
 
     #[inline(always)]
@@ -129,7 +140,7 @@ impl SlidingLaw for Coulomb {
 }
 
 impl NumericLaw for Coulomb {
-    fn from_values(values: &[f64]) -> Result<Self, Vec<Invalid>> {
+    fn from_values(values: &[f64]) -> Result<Self, InvalidValues> {
         checked(Self::PARAMETERS, values, || static_at_least_sliding(values[0], values[1]))?;
         Ok(Self {
             coefficient: values[0],

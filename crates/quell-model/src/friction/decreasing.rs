@@ -5,11 +5,10 @@
 use quell_numerics::elementary;
 use quell_numerics::lane::{Lane, partial_product};
 
-use super::{
-    BranchSeries, Friction, NumericLaw, SlidingLaw, checked, length_of_change, longest_change,
-    minimum_at_most_static, number_of, side_by_side, with_number,
-};
-use crate::Invalid;
+use super::numeric::{checked, minimum_at_most_static, number_of, with_number};
+use super::series::{length_of_change, longest_change, side_by_side};
+use super::{BranchSeries, Friction, LawParameters, LawSeries, NumericLaw, SlidingLaw};
+use crate::InvalidValues;
 use crate::parameter::{MINIMUM_COEFFICIENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT};
 
 /// Decreasing law, eq. (2.8).
@@ -29,7 +28,7 @@ impl Decreasing {
         static_coefficient: f64,
         minimum_coefficient: f64,
         reference_velocity: f64,
-    ) -> Result<Self, Vec<Invalid>> {
+    ) -> Result<Self, InvalidValues> {
         Self::from_values(&[static_coefficient, minimum_coefficient, reference_velocity])
     }
 
@@ -44,7 +43,7 @@ impl Decreasing {
     }
 }
 
-impl SlidingLaw for Decreasing {
+impl LawParameters for Decreasing {
     const NAME: &'static str = "decreasing";
     const ABOUT: &'static str = "[μ_m + (μ_s − μ_m) e^{−|v_r|/v_m}] sgn(v_r) (2.8)";
     const PARAMETERS: &'static [Parameter] =
@@ -58,10 +57,12 @@ impl SlidingLaw for Decreasing {
         number_of(self, path)
     }
 
-    fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>> {
+    fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues> {
         with_number(self, path, value)
     }
+}
 
+impl SlidingLaw for Decreasing {
     #[inline(always)]
     fn velocity_scale(&self) -> f64 {
         self.reference_velocity
@@ -76,7 +77,9 @@ impl SlidingLaw for Decreasing {
     fn starts_at_static_level(&self) -> bool {
         true
     }
+}
 
+impl LawSeries for Decreasing {
     type Constants<V: Lane> = DecreasingConstants<V>;
 
     #[inline(always)]
@@ -112,7 +115,7 @@ impl SlidingLaw for Decreasing {
 }
 
 impl NumericLaw for Decreasing {
-    fn from_values(values: &[f64]) -> Result<Self, Vec<Invalid>> {
+    fn from_values(values: &[f64]) -> Result<Self, InvalidValues> {
         checked(Self::PARAMETERS, values, || minimum_at_most_static(values[0], values[1]))?;
         Ok(Self {
             static_coefficient: values[0],

@@ -8,11 +8,12 @@
 
 use quell_numerics::lane::{Lane, half_inner_square, partial_product};
 
+use super::numeric::{checked, minimum_at_most_static, number_of, with_number};
+use super::series::side_by_side;
 use super::{
-    BranchSeries, Friction, NumericLaw, RangeLimit, SlidingLaw, SlipRange, checked,
-    minimum_at_most_static, number_of, side_by_side, with_number,
+    BranchSeries, Friction, LawParameters, LawSeries, NumericLaw, RangeLimit, SlidingLaw, SlipRange,
 };
-use crate::Invalid;
+use crate::InvalidValues;
 use crate::parameter::{MINIMUM_COEFFICIENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT};
 
 /// Stribeck law, eq. (2.7).
@@ -32,7 +33,7 @@ impl Stribeck {
         static_coefficient: f64,
         minimum_coefficient: f64,
         reference_velocity: f64,
-    ) -> Result<Self, Vec<Invalid>> {
+    ) -> Result<Self, InvalidValues> {
         Self::from_values(&[static_coefficient, minimum_coefficient, reference_velocity])
     }
 
@@ -47,7 +48,7 @@ impl Stribeck {
     }
 }
 
-impl SlidingLaw for Stribeck {
+impl LawParameters for Stribeck {
     const NAME: &'static str = "stribeck";
     const ABOUT: &'static str = "μ_s sgn(v_r) − (3/2)(μ_s − μ_m)(w − w³/3), w = v_r/v_m (2.7)";
     const PARAMETERS: &'static [Parameter] =
@@ -61,10 +62,12 @@ impl SlidingLaw for Stribeck {
         number_of(self, path)
     }
 
-    fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>> {
+    fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues> {
         with_number(self, path, value)
     }
+}
 
+impl SlidingLaw for Stribeck {
     fn range(&self) -> Option<SlipRange> {
         let falls = self.minimum_coefficient < self.static_coefficient;
         let upper = 3f64.sqrt() * self.reference_velocity;
@@ -80,7 +83,9 @@ impl SlidingLaw for Stribeck {
     fn static_coefficient(&self) -> f64 {
         self.static_coefficient
     }
+}
 
+impl LawSeries for Stribeck {
     type Constants<V: Lane> = StribeckConstants<V>;
 
     #[inline(always)]
@@ -121,7 +126,7 @@ impl SlidingLaw for Stribeck {
 }
 
 impl NumericLaw for Stribeck {
-    fn from_values(values: &[f64]) -> Result<Self, Vec<Invalid>> {
+    fn from_values(values: &[f64]) -> Result<Self, InvalidValues> {
         checked(Self::PARAMETERS, values, || minimum_at_most_static(values[0], values[1]))?;
         Ok(Self {
             static_coefficient: values[0],

@@ -8,11 +8,10 @@
 use quell_numerics::elementary;
 use quell_numerics::lane::{Lane, half_inner_square, partial_product};
 
-use super::{
-    BranchSeries, Friction, NumericLaw, Otherwise, SlidingLaw, checked, length_of_change,
-    longest_change, number_of, side_by_side, static_at_least_sliding, with_number,
-};
-use crate::Invalid;
+use super::numeric::{checked, number_of, static_at_least_sliding, with_number};
+use super::series::{length_of_change, longest_change, side_by_side};
+use super::{BranchSeries, Friction, LawParameters, LawSeries, NumericLaw, Otherwise, SlidingLaw};
+use crate::InvalidValues;
 use crate::parameter::{
     COEFFICIENT, EXPONENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT, VISCOUS,
 };
@@ -51,7 +50,7 @@ impl StribeckExponential {
         reference_velocity: f64,
         exponent: f64,
         viscous: f64,
-    ) -> Result<Self, Vec<Invalid>> {
+    ) -> Result<Self, InvalidValues> {
         Self::from_values(&[coefficient, static_coefficient, reference_velocity, exponent, viscous])
     }
 
@@ -61,7 +60,7 @@ impl StribeckExponential {
     }
 }
 
-impl SlidingLaw for StribeckExponential {
+impl LawParameters for StribeckExponential {
     const NAME: &'static str = "stribeck-exponential";
     const ABOUT: &'static str = "[μ_d + (μ_s − μ_d) e^{−(|v_r|/v_s)^δ}] sgn(v_r) + σ_v v_r";
     const PARAMETERS: &'static [Parameter] =
@@ -88,10 +87,12 @@ impl SlidingLaw for StribeckExponential {
         number_of(self, path)
     }
 
-    fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>> {
+    fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues> {
         with_number(self, path, value)
     }
+}
 
+impl SlidingLaw for StribeckExponential {
     fn unsimulated(&self) -> Option<&'static str> {
         let whole = self.exponent.fract() == 0.0 && self.exponent <= LARGEST_SIMULATED;
         (!whole).then_some(
@@ -114,7 +115,9 @@ impl SlidingLaw for StribeckExponential {
     fn starts_at_static_level(&self) -> bool {
         true
     }
+}
 
+impl LawSeries for StribeckExponential {
     type Constants<V: Lane> = StribeckExponentialConstants<V>;
 
     #[inline(always)]
@@ -187,7 +190,7 @@ impl SlidingLaw for StribeckExponential {
 }
 
 impl NumericLaw for StribeckExponential {
-    fn from_values(values: &[f64]) -> Result<Self, Vec<Invalid>> {
+    fn from_values(values: &[f64]) -> Result<Self, InvalidValues> {
         checked(Self::PARAMETERS, values, || static_at_least_sliding(values[0], values[1]))?;
         Ok(Self {
             coefficient: values[0],

@@ -59,24 +59,24 @@ pub const NODAL_DIAMETERS: Parameter = disc(
 
 /// Young's modulus of the plate.
 pub const YOUNGS_MODULUS: Parameter =
-    disc("disc.youngs_modulus_pa", "E", "Young's modulus", Quantity::Ratio, Bounds::POSITIVE);
+    disc("disc.youngs_modulus_pa", "E", "Young's modulus", Quantity::Modulus, Bounds::POSITIVE);
 
 /// Density of the plate.
 pub const DENSITY: Parameter =
-    disc("disc.density_kg_per_m3", "ρ", "density", Quantity::Ratio, Bounds::POSITIVE);
+    disc("disc.density_kg_per_m3", "ρ", "density", Quantity::Density, Bounds::POSITIVE);
 
 /// Thickness of the plate.
 pub const THICKNESS: Parameter = disc(
     "disc.thickness_m",
     "h",
     "thickness, below the outer radius",
-    Quantity::Ratio,
+    Quantity::Length,
     Bounds::POSITIVE,
 );
 
 /// Outer radius of the plate.
 pub const OUTER_RADIUS: Parameter =
-    disc("disc.outer_radius_m", "a", "outer radius", Quantity::Ratio, Bounds::POSITIVE);
+    disc("disc.outer_radius_m", "a", "outer radius", Quantity::Length, Bounds::POSITIVE);
 
 /// Modal damping of the disc.
 pub const MODAL_DAMPING: Parameter = disc(
@@ -122,7 +122,7 @@ pub const MODE_FREQUENCY: Parameter = disc(
     "disc.mode.frequency_hz",
     "f",
     "frequency of the mode, instead of its ratio; for all modes or none",
-    Quantity::Ratio,
+    Quantity::Frequency,
     Bounds::POSITIVE,
 );
 
@@ -158,7 +158,7 @@ pub const LOAD_ANGLE: Parameter = disc(
     "disc.load.angle_deg",
     "θ",
     "angle of the load in the frame that turns with the loads, degrees",
-    Quantity::Angle,
+    Quantity::Degrees,
     Bounds { lower: -1e6, lower_included: true, upper: 1e6 },
 );
 
@@ -215,7 +215,7 @@ pub const LOAD_DITHER_PHASE: Parameter = disc(
     "disc.load.dither_phase_deg",
     "φ",
     "phase of the dither of the load's friction, cos(Rτ + φ), degrees",
-    Quantity::Angle,
+    Quantity::Degrees,
     Bounds { lower: -1e6, lower_included: true, upper: 1e6 },
 );
 

@@ -3,54 +3,24 @@
 use std::sync::Arc;
 
 use pyo3::prelude::*;
-use quell::dataset::Dataset;
-use quell::input::Inputs;
-use quell::picture;
-use quell::plot::Figure;
-use quell::run::bifurcation::{Bifurcation, Question, run as bifurcation};
-use quell::{Failure, Study, Subject};
-use serde_json::Value as Json;
+use quell::Study;
+use quell::kind::verbs;
+use quell::run::bifurcation::SweepRequest;
 
 use super::map::{Counter, Watched};
-use crate::answer::{Answer, NativeAnswer};
+use crate::answer::NativeAnswer;
 use crate::call;
-
-struct Swept {
-    study: Study,
-    done: Bifurcation,
-}
-
-impl Answer for Swept {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
-    }
-
-    fn json(&self) -> Json {
-        self.done.json(&self.study)
-    }
-
-    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
-        vec![("bifurcation", self.done.dataset(&self.study))]
-    }
-
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::bifurcation(&self.study, &self.done)))
-    }
-}
 
 /// Answers.
 pub(crate) fn run(
     py: Python<'_>,
-    subject: Arc<Subject>,
-    question: Question,
+    study: Arc<Study>,
+    request: SweepRequest,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<NativeAnswer> {
     let counter = Arc::new(Counter::default());
     let watched = Watched::new(&counter, progress);
-    let work = move || {
-        let study = subject.the_belt()?.clone();
-        let done = bifurcation(&study, &question, counter.running(None))?;
-        Ok(NativeAnswer::new(Swept { study, done }))
-    };
+    let work =
+        move || Ok(NativeAnswer::new(verbs(&study)?.bifurcation(&request, counter.running(None))?));
     call::watched(py, work, watched)
 }

@@ -1,28 +1,11 @@
-//! `cite`: what a study's computations rest on.
+//! `cite`: the equations and papers that a study's computations use.
 
-use quell::Subject;
-use quell::cite::sources_of;
-use quell::input::Inputs;
-use serde_json::Value as Json;
+use quell::kind::verbs;
+use quell::{Failure, Study};
 
-use crate::answer::{Answer, NativeAnswer};
-
-struct Cited {
-    inputs: Inputs,
-    object: Json,
-}
-
-impl Answer for Cited {
-    fn inputs(&self) -> Inputs {
-        self.inputs.clone()
-    }
-
-    fn json(&self) -> Json {
-        self.object.clone()
-    }
-}
+use crate::answer::NativeAnswer;
 
 /// Answers.
-pub(crate) fn run(subject: &Subject) -> NativeAnswer {
-    NativeAnswer::new(Cited { inputs: subject.inputs(), object: sources_of(subject).json() })
+pub(crate) fn run(study: &Study) -> Result<NativeAnswer, Failure> {
+    Ok(NativeAnswer::new(verbs(study)?.cite()))
 }

@@ -5,24 +5,19 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use pyo3::prelude::*;
-use quell::dataset::Dataset;
-use quell::input::Inputs;
-use quell::picture;
-use quell::plot::Figure;
-use quell::run::map::{Map, run as front_door};
+use quell::run::map::run as front_door;
 use quell::store::Store;
-use quell::sweep::{MOST_THREADS, Plan, Progress, Quantity, Running, System};
-use quell::{Failure, Subject};
-use serde_json::Value as Json;
+use quell::sweep::{MOST_THREADS, Plan, Progress, Quantity, Running};
+use quell::{Failure, Study};
 
 use super::refused;
-use crate::answer::{Answer, NativeAnswer};
+use crate::answer::NativeAnswer;
 use crate::call::{self, Watch};
 
 /// What is asked.
 pub(crate) struct Asked {
     /// The study with its axes.
-    pub(crate) subject: Arc<Subject>,
+    pub(crate) study: Arc<Study>,
     /// Names of quantities.
     pub(crate) quantities: Vec<String>,
     /// A Zarr store that keeps the map.
@@ -31,27 +26,6 @@ pub(crate) struct Asked {
     pub(crate) resume: bool,
     /// Number of threads.
     pub(crate) threads: Option<usize>,
-}
-
-/// A finished map.
-pub(crate) struct Done(pub(crate) Map);
-
-impl Answer for Done {
-    fn inputs(&self) -> Inputs {
-        self.0.plan().grid().study().inputs()
-    }
-
-    fn json(&self) -> Json {
-        self.0.facts()
-    }
-
-    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
-        vec![("map", self.0.dataset())]
-    }
-
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        Some(picture::sweep(&self.0))
-    }
 }
 
 /// How far it is, told between two threads.
@@ -114,21 +88,21 @@ impl Watch for Watched {
 }
 
 /// The plan of a map.
-pub(crate) fn plan(subject: &Subject, names: &[String]) -> Result<Plan, Failure> {
-    let system = System::of(subject);
+pub(crate) fn plan(study: &Study, names: &[String]) -> Result<Plan, Failure> {
+    let kind = study.kind().name();
     let (mut asked, mut wrong) = (Vec::new(), Vec::new());
     for name in names {
-        match Quantity::named_for(system, name.trim(), "quantity") {
+        match Quantity::named_for(kind, name.trim(), "quantity") {
             Ok(quantity) => asked.push(quantity),
             Err(complaint) => wrong.push(*complaint),
         }
     }
-    match Plan::new(subject, &asked) {
+    match Plan::new(study, &asked) {
         Ok(plan) if wrong.is_empty() => Ok(plan),
-        Ok(_) => Err(Failure::Wrong(wrong)),
+        Ok(_) => Err(wrong.into()),
         Err(complaint) => {
             wrong.push(*complaint);
-            Err(Failure::Wrong(wrong))
+            Err(wrong.into())
         }
     }
 }
@@ -142,15 +116,15 @@ pub(crate) fn run(
     let counter = Arc::new(Counter::default());
     let watched = Watched::new(&counter, progress);
     let work = move || {
-        let Asked { subject, quantities, store, resume, threads } = asked;
+        let Asked { study, quantities, store, resume, threads } = asked;
         if threads.is_some_and(|threads| !(1..=MOST_THREADS).contains(&threads)) {
             let allowed = format!("a whole number from 1 to {MOST_THREADS}");
             return Err(refused("threads", threads.unwrap_or(0), &allowed));
         }
-        let plan = plan(&subject, &quantities)?;
+        let plan = plan(&study, &quantities)?;
         let store = store.map(|path| Store::open(&path, &plan, resume)).transpose()?;
         let done = front_door(plan, store.as_ref(), counter.running(threads))?;
-        Ok(NativeAnswer::new(Done(done)))
+        Ok(NativeAnswer::new(Box::new(done)))
     };
     call::watched(py, work, watched)
 }

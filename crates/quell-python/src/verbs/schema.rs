@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use quell::schema::schema as front_door;
 use quell::study::vocabulary::{self, Section};
-use quell::sweep::{QUANTITIES, System};
+use quell::sweep::QUANTITIES;
 
 use crate::convert;
 
@@ -23,9 +23,6 @@ pub(crate) fn keys() -> Vec<(&'static str, &'static str, &'static str, &'static 
 /// ("belt" or "disc", name, what it is) of everything that a map can show.
 #[pyfunction]
 pub(crate) fn quantities() -> Vec<(&'static str, &'static str, &'static str)> {
-    let system = |system| match system {
-        System::Belt => "belt",
-        System::Disc => "disc",
-    };
-    QUANTITIES.iter().map(|it| (system(it.system), it.name, it.about)).collect()
+    let all = QUANTITIES.iter().copied().flatten();
+    all.map(|quantity| (quantity.kind, quantity.name, quantity.about)).collect()
 }

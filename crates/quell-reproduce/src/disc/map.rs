@@ -3,12 +3,12 @@
 //! Where the print has stable and unstable, here is the growth rate, with the line of zero, and hatching where it has no sign within
 //! its error. Speeds are those of the study's axis and further ones beside every meeting of waves.
 
-use quell_disc::dithered::DitheredDisc;
-use quell_disc::equations::System;
-use quell_disc::undithered;
+use quell_disc::dithered;
+use quell_disc::equations::linearised;
+use quell_linear::eigenvalues;
 use quell_linear::growth::{Growth, Verdict};
 use quell_model::Disc;
-use quell_model::disc::DiscDither;
+use quell_model::disc::{Contributions, DiscDither};
 use quell_numerics::floquet::Effort;
 use rayon::prelude::*;
 
@@ -50,13 +50,13 @@ pub(crate) fn growths(
         .map(|&speed| {
             let unit = disc.at_speed(speed).and_then(|disc| disc.with("disc.load.friction", 1.0));
             let unit = unit.map_err(|_| told(&"a disc of the map is not valid"))?;
-            let dithered = DitheredDisc::new(&unit).map_err(|why| told(&why))?;
-            let system = System::new(&unit);
+            let dithered = dithered::prepared(&unit).map_err(|why| told(&why))?;
+            let linear = linearised(&unit, Contributions::ALL).map_err(|why| told(&why))?;
             frictions
                 .iter()
                 .map(|&friction| match &dithered {
                     Some(dithered) => dithered.growth(friction, Effort::default()),
-                    None => undithered::growth_of(&system, &[friction]),
+                    None => eigenvalues::growth(&linear, &[friction]),
                 })
                 .map(|growth| growth.map_err(|why| told(&why)))
                 .collect()

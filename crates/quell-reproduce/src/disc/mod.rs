@@ -36,10 +36,10 @@ pub(super) fn study(source: &Source, changes: &[&str]) -> Result<DiscStudy, Fail
     let mut changes = changes?;
     let folder = Path::new("");
     if source.most_points.is_some() {
-        let fine = DiscStudy::parse(source.text, &changes, folder)?;
+        let fine = DiscStudy::parse_in(source.text, &changes, folder)?;
         changes.extend(source.coarser(fine.sweeps())?);
     }
-    Ok(DiscStudy::parse(source.text, &changes, folder)?)
+    Ok(DiscStudy::parse_in(source.text, &changes, folder)?)
 }
 
 /// What every caption says of the open parameters.

@@ -159,7 +159,7 @@ fn details(done: &Written) -> String {
     }
     if !done.entry.source().text.is_empty() {
         fold(
-            "Study".to_owned(),
+            "BeltStudy".to_owned(),
             format!("<pre><code>{}</code></pre>", escape(done.entry.source().text)),
         );
     }

@@ -5,7 +5,7 @@ use std::fmt;
 
 use quell_model::parameter::MASS;
 
-use super::mirror::{Node, Table, Value};
+use super::document::{Node, Table, Value};
 use super::reader;
 use super::vocabulary::{self, Key, NOT_BUILT, Role, Section};
 use crate::complaint::{Complaint, Fault, Origin};

@@ -4,7 +4,7 @@
 
 use quell_model::units::measure;
 
-use super::mirror::{Node, Table, Value};
+use super::document::{Node, Table, Value};
 use super::vocabulary::{self, Section};
 
 /// Turns texts with units under keys of numbers into numbers in the unit of the key; the ends and values of an axis

@@ -1,342 +1,273 @@
-//! The study file: text, its mirror, and the checked study.
+//! The study file: text, its document, and the checked study.
 //!
-//! `study.toml` → [`mirror::Table`] → [`Study`], which is valid by construction. Every
-//! complaint is told at once, with key, line, value, what is allowed, and the nearest
-//! right key.
+//! `study.toml` → [`document::Table`] → [`Study`], which is valid by construction. All complaints are reported together, with
+//! key, line, value, what is allowed, and the nearest right key.
+//!
+//! One [`Study`] serves every kind: what all kinds share (title, axes, text, changes) is read here, the rest by the kind
+//! ([`StudyKind`]). [`Kind`] lists the kinds; adding one is a file like `belt/mod.rs` or `disc/mod.rs`, its keys in
+//! [`vocabulary`], and a variant there.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use quell_model::parameter::NORMAL_LOAD;
-use quell_model::units::{Quantity, Scales};
-use quell_model::{Belt, Dither, Friction, LawKind};
-use serde_json::Value as Json;
-
-use crate::complaint::{Complaint, Failure, Fault};
+use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::input::Inputs;
-use belt::BeltTable;
-use mirror::{Table, Value};
-use reader::Reader;
-use vocabulary::{NOT_BUILT, SCHEMA_VERSION, Section};
+use document::{Table, Value};
+use vocabulary::SCHEMA_VERSION;
 
-mod belt;
+pub mod belt;
 mod change;
 mod data_file;
 pub mod disc;
-mod dither;
+pub mod document;
 mod file;
-mod friction;
+mod kind;
 mod measures;
-pub mod mirror;
 mod reader;
-mod response;
-mod revision;
-mod solver;
-mod subject;
+mod root;
 pub mod suggest;
 mod sweep;
 pub mod vocabulary;
 
+pub use belt::{BeltSetup, BeltStudy, Measured};
 pub use change::Change;
-pub use disc::DiscStudy;
-pub use friction::Measured;
+pub use disc::{DiscSetup, DiscStudy};
+pub use kind::{Given, Kind, StudyKind};
 pub use quell_dynamics::response::Solver;
 pub use quell_dynamics::start::InitialState;
-pub use subject::Subject;
 pub use sweep::{Axis, Sweep};
 
-/// A checked study of a belt.
+/// A checked study of any kind.
+pub type Study = StudyOf<Kind>;
+
+/// A checked study of the kind `K`: of any kind ([`Study`]), of a belt ([`BeltStudy`]), of a disc ([`DiscStudy`]).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Study {
+pub struct StudyOf<K> {
+    kind: K,
+    source: Arc<Source>,
+}
+
+/// What every kind of study shares.
+#[derive(Clone, Debug, PartialEq)]
+struct Source {
     title: Option<String>,
-    belt: Belt,
-    initial: InitialState,
-    solver: Solver,
-    band: Option<[f64; 2]>,
-    scales: Option<Scales>,
     sweeps: Vec<Sweep>,
-    mirror: Table,
-    text: String,
+    document: Table,
+    text: Arc<str>,
     /// Where files that the study names are looked for.
     folder: PathBuf,
     /// The file that it was read from; `-` is standard input.
     file: Option<PathBuf>,
-    /// The samples of a measured law.
-    measured: Option<Arc<Measured>>,
     changes: Vec<String>,
 }
 
-impl Study {
+/// Where a document comes from.
+#[derive(Clone, Debug)]
+struct Provenance {
+    text: Arc<str>,
+    folder: PathBuf,
+    file: Option<PathBuf>,
+    changes: Vec<String>,
+}
+
+impl<K: StudyKind> StudyOf<K> {
     /// Reads and checks a study file (`-` is standard input) after changing it.
     ///
     /// # Errors
-    /// Every complaint at once.
+    /// All complaints together.
     pub fn read(path: &Path, changes: &[Change]) -> Result<Self, Failure> {
         let text = file::text(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        let study = Self::parse_in(&text, changes, folder).map_err(Failure::Wrong)?;
-        Ok(study.read_from(file::place(path)))
-    }
-
-    /// The same study, which was read from this file.
-    fn read_from(self, file: PathBuf) -> Self {
-        Self { file: Some(file), ..self }
-    }
-
-    /// The files that it was read from: none of them is an output.
-    pub fn inputs(&self) -> Inputs {
-        let data = self.measured.as_ref().and_then(|measured| measured.file.as_deref());
-        file::inputs(self.file.as_deref(), &self.folder, data)
+        Ok(Self::parse_in(&text, changes, folder)?.read_from(file::place(path)))
     }
 
     /// Checks the text of a study after changing it; files that it names are looked for where the program runs.
     ///
     /// # Errors
-    /// Every complaint at once.
-    pub fn parse(text: &str, changes: &[Change]) -> Result<Self, Vec<Complaint>> {
+    /// All complaints together.
+    pub fn parse(text: &str, changes: &[Change]) -> Result<Self, Complaints> {
         Self::parse_in(text, changes, Path::new(""))
     }
 
     /// Checks the text of a study after changing it; files that it names are looked for in `folder`.
     ///
     /// # Errors
-    /// Every complaint at once.
-    pub fn parse_in(text: &str, changes: &[Change], folder: &Path) -> Result<Self, Vec<Complaint>> {
-        revision::changed(text, changes, |mirror, told| {
-            let study = Self::check(mirror, text, folder, None)?;
-            Ok(Self { changes: told, ..study })
-        })
+    /// All complaints together; what cannot be changed is reported together with what the check finds.
+    pub fn parse_in(text: &str, changes: &[Change], folder: &Path) -> Result<Self, Complaints> {
+        let mut document = Table::parse(text)?;
+        let refused: Vec<Complaint> = changes
+            .iter()
+            .filter_map(|change| change.apply(&mut document).err())
+            .map(|complaint| *complaint)
+            .collect();
+        measures::resolve(&mut document);
+        let from = Provenance {
+            text: text.into(),
+            folder: folder.to_owned(),
+            file: None,
+            changes: changes.iter().map(Change::to_string).collect(),
+        };
+        match Self::check(document, from, None) {
+            Ok(study) if refused.is_empty() => Ok(study),
+            Ok(_) => Err(refused.into()),
+            Err(complaints) => Err(complaints.and(refused)),
+        }
     }
 
-    /// The same study with one number changed, by any path of the file, SI twins included.
+    /// The same study, which was read from this file.
+    #[must_use]
+    pub fn read_from(self, file: PathBuf) -> Self {
+        let source = Arc::new(Source { file: Some(file), ..Arc::unwrap_or_clone(self.source) });
+        Self { source, ..self }
+    }
+
+    /// The files that it was read from: none of them is an output.
+    pub fn inputs(&self) -> Inputs {
+        let Source { file, folder, .. } = &*self.source;
+        file::inputs(file.as_deref(), folder, self.kind.data_file())
+    }
+
+    /// The same study with one number changed, by any path of the file, SI twins included; its axes stay.
     ///
     /// # Errors
-    /// Every complaint about the changed study.
-    pub fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Complaint>> {
-        let mut mirror = self.mirror.clone();
-        Change::number(path, value, "change")
-            .apply(&mut mirror)
-            .map_err(|complaint| vec![*complaint])?;
-        let mut study = self.check_again(mirror)?;
-        study.changes.clone_from(&self.changes);
-        study.changes.push(format!("{path}={value:?}"));
-        Ok(study)
-    }
-
-    /// Every value of the study after its changes as `path = value`, in the order of paths;
-    /// neither title nor axes. Two studies with equal settings compute the same.
-    pub fn settings(&self) -> Vec<(String, String)> {
-        revision::settings(&self.mirror, self.measured.iter().map(|measured| measured.settings()))
-    }
-
-    /// The samples of a measured law.
-    pub fn measured(&self) -> Option<&Measured> {
-        self.measured.as_deref()
+    /// All complaints about the changed study.
+    pub fn with(&self, path: &str, value: f64) -> Result<Self, Complaints> {
+        let mut document = self.source.document.clone();
+        Change::number(path, value, "change").apply(&mut document)?;
+        let mut changes = self.source.changes.clone();
+        changes.push(format!("{path}={value:?}"));
+        self.check_again(document, changes)
     }
 
     /// The study at one point of a map: its numbers set through the same path as `--set`, in
     /// order, and no axes. It is the study that the file would give with these changes.
     ///
     /// # Errors
-    /// Every complaint about the changed study.
+    /// All complaints about the changed study.
     pub fn at<'a>(
         &self,
         numbers: impl IntoIterator<Item = (&'a str, f64)>,
-    ) -> Result<Self, Vec<Complaint>> {
-        let (mirror, changes) = revision::at(&self.mirror, &self.changes, numbers)?;
-        Ok(Self { changes, ..self.check_again(mirror)? })
+    ) -> Result<Self, Complaints> {
+        let mut document = self.source.document.clone();
+        document.remove("sweep");
+        let mut changes = self.source.changes.clone();
+        for (path, value) in numbers {
+            let change = Change::number(path, value, "[[sweep]]");
+            change.apply(&mut document)?;
+            changes.push(change.to_string());
+        }
+        self.check_again(document, changes)
     }
 
     /// The same study with these axes in place of its own.
     ///
     /// # Errors
-    /// Every complaint about the axes.
-    pub fn sweeping(&self, axes: &[Table]) -> Result<Self, Vec<Complaint>> {
-        let mut mirror = self.mirror.clone();
-        sweep::replace(&mut mirror, axes);
-        measures::resolve(&mut mirror);
-        let mut study = self.check_again(mirror)?;
-        study.changes = sweep::told(&self.changes, axes);
-        Ok(study)
+    /// All complaints about the axes.
+    pub fn sweeping(&self, axes: &[Table]) -> Result<Self, Complaints> {
+        let mut document = self.source.document.clone();
+        sweep::replace(&mut document, axes);
+        measures::resolve(&mut document);
+        self.check_again(document, sweep::changes(&self.source.changes, axes))
     }
 
-    /// Checks the changed mirror of this study; files are not read again.
-    fn check_again(&self, mirror: Table) -> Result<Self, Vec<Complaint>> {
-        let study = Self::check(mirror, &self.text, &self.folder, self.measured.as_deref())?;
-        Ok(Self { file: self.file.clone(), ..study })
+    /// Checks the changed document of this study; files are not read again.
+    fn check_again(&self, document: Table, changes: Vec<String>) -> Result<Self, Complaints> {
+        let Source { text, folder, file, .. } = &*self.source;
+        let (text, folder, file) = (Arc::clone(text), folder.clone(), file.clone());
+        Self::check(document, Provenance { text, folder, file, changes }, Some(&self.kind))
     }
 
-    fn check(
-        mirror: Table,
-        text: &str,
-        folder: &Path,
-        known: Option<&Measured>,
-    ) -> Result<Self, Vec<Complaint>> {
-        let mut reader = Reader::new(&mirror);
-        let title = root(&mut reader, &mirror, ROOT);
-        if let Some(node) = mirror.get("disc") {
-            reader.complain(subject::not_of_a_belt(node.origin));
-            return Err(reader.into_complaints());
-        }
-        let mut belt = belt::read(&mut reader, &mirror);
-        let given = friction::Given { folder, known, normal_load: belt.normal_load };
-        let friction = friction::read(&mut reader, &mirror, given);
-        let dithers = dither::read(&mut reader, &mirror);
-        if let Some(load) = friction.as_ref().and_then(|read| read.own_load) {
-            belt.normal_load = Some(load);
-            friction::needs_no_normal_force(&mut reader, &mirror, dithers.as_deref());
-        }
-        let (friction, measured) =
-            friction.map_or((None, None), |read| (Some(read.law), read.measured));
-        let solver = solver::read(&mut reader, &mirror);
-        let band = response::read(&mut reader, &mirror);
-        let sweeps = sweep::read(&mut reader, &mirror);
-        let built = build(&mut reader, belt, friction, dithers);
-        let scales = reader.known_scales();
+    fn check(document: Table, from: Provenance, known: Option<&K>) -> Result<Self, Complaints> {
+        let mut reader = K::reader(&document);
+        let title = root::read(&mut reader, &document, K::tables(&document));
+        let kind = K::read(&mut reader, &document, Given { folder: &from.folder, known });
+        let sweeps = sweep::read(&mut reader, &document);
         let complaints = reader.into_complaints();
-        let parts = (built, belt.initial, solver, band, sweeps);
-        let (Some(belt), Some(initial), Some(solver), Some(band), Some(sweeps)) = parts else {
-            return Err(complaints);
-        };
+        let (Some(kind), Some(sweeps)) = (kind, sweeps) else { return Err(complaints.into()) };
         if !complaints.is_empty() {
-            return Err(complaints);
+            return Err(complaints.into());
         }
-        let study = Self {
-            title,
-            belt,
-            initial,
-            solver,
-            band,
-            scales,
-            sweeps,
-            mirror,
-            text: text.to_owned(),
-            folder: folder.to_owned(),
-            file: None,
-            measured: measured.map(Arc::new),
-            changes: Vec::new(),
-        };
-        revision::ends_valid(&study.mirror, &study.sweeps, |number| study.at(number))?;
+        let Provenance { text, folder, file, changes } = from;
+        let source = Source { title, sweeps, document, text, folder, file, changes };
+        let study = Self { kind, source: Arc::new(source) };
+        study.ends_are_valid()?;
         Ok(study)
+    }
+
+    /// Whether the study is valid at the ends of every axis.
+    fn ends_are_valid(&self) -> Result<(), Complaints> {
+        let mut complaints = Vec::new();
+        for (index, sweep) in self.sweeps().iter().enumerate() {
+            let entry = match self.source.document.get("sweep").map(|node| &node.value) {
+                Some(Value::List(list)) => list.get(index),
+                _ => None,
+            };
+            let origin = entry.map_or(Origin::Whole, |node| node.origin);
+            for value in sweep.axis.extremes() {
+                let Err(wrong) = self.at([(sweep.path.as_str(), value)]) else { continue };
+                complaints.extend(wrong.into_iter().map(|mut complaint| {
+                    if complaint.fault == Fault::Value {
+                        complaint.allowed = format!(
+                            "a path and values that make valid studies; {} = {value} must be {}",
+                            complaint.key, complaint.allowed
+                        );
+                    }
+                    let key = format!("sweep[{index}].parameter");
+                    Complaint { key, origin, value: sweep.path.clone().into(), ..complaint }
+                }));
+            }
+        }
+        complaints.dedup_by(|a, b| a.key == b.key && a.fault == b.fault && a.allowed == b.allowed);
+        if complaints.is_empty() { Ok(()) } else { Err(complaints.into()) }
+    }
+
+    /// Every value of the study after its changes as `path = value`, in the order of paths, and what the files that it names
+    /// contribute; neither title nor axes. The version of the file is among them even where the text leaves it out. Two
+    /// studies with equal settings compute the same.
+    pub fn settings(&self) -> Vec<(String, String)> {
+        let document = &self.source.document;
+        let mut settings = Vec::new();
+        for (name, node) in document.iter().filter(|(name, _)| !matches!(*name, "title" | "sweep"))
+        {
+            node.leaves(name, &mut settings);
+        }
+        if !document.has("schema") {
+            settings.push(("schema".to_owned(), format!("{:?}", f64::from(SCHEMA_VERSION))));
+        }
+        settings.extend(self.kind.file_settings());
+        settings.sort();
+        settings
+    }
+}
+
+impl<K> StudyOf<K> {
+    /// What only this kind of study has.
+    pub fn kind(&self) -> &K {
+        &self.kind
+    }
+
+    /// The same study of a kind made from this one's.
+    fn map_kind<L>(&self, kind: L) -> StudyOf<L> {
+        StudyOf { kind, source: Arc::clone(&self.source) }
     }
 
     /// Title, if the file gives one.
     pub fn title(&self) -> Option<&str> {
-        self.title.as_deref()
-    }
-
-    /// The belt in the numbers of the equations.
-    pub fn belt(&self) -> &Belt {
-        &self.belt
-    }
-
-    /// Where a run starts.
-    pub fn initial(&self) -> InitialState {
-        self.initial
-    }
-
-    /// Accuracy and length of the computations.
-    pub fn solver(&self) -> &Solver {
-        &self.solver
-    }
-
-    /// The band in which a level of the response is asked for, in ω₀.
-    pub fn band(&self) -> Option<[f64; 2]> {
-        self.band
-    }
-
-    /// Mass and stiffness of a study in SI.
-    pub fn scales(&self) -> Option<Scales> {
-        self.scales
+        self.source.title.as_deref()
     }
 
     /// The axes of a map, in order.
     pub fn sweeps(&self) -> &[Sweep] {
-        &self.sweeps
+        &self.source.sweeps
     }
 
     /// Changes made to the text, as `path=value`.
     pub fn changes(&self) -> &[String] {
-        &self.changes
+        &self.source.changes
     }
 
     /// The text of the file as it was read, without changes.
     pub fn text(&self) -> &str {
-        &self.text
-    }
-}
-
-/// Tables and keys of a belt study outside any table.
-const ROOT: &[&str] =
-    &["schema", "title", "belt", "friction", "dither", "solver", "response", "sweep"];
-
-/// Reads what stands outside the tables; the title.
-fn root(reader: &mut Reader, mirror: &Table, names: &[&str]) -> Option<String> {
-    let tables: Vec<&str> = Section::ALL.iter().map(|section| section.path()).collect();
-    for (name, node) in mirror.iter() {
-        if NOT_BUILT.contains(&name) {
-            let allowed =
-                format!("[{name}] is not built yet; this version computes belts and discs");
-            reader.complain(Complaint::new(
-                Fault::NotBuilt,
-                name,
-                node.origin,
-                Json::Null,
-                allowed,
-            ));
-        } else if vocabulary::key(Section::Root, name).is_none() && !tables.contains(&name) {
-            let nearest = suggest::word(name, names.iter().copied())
-                .or_else(|| suggest::path("", name, None));
-            let complaint =
-                Complaint::new(Fault::Unknown, name, node.origin, node.given(), names.join(", "));
-            reader.complain(complaint.suggesting(nearest));
-        }
-    }
-    // A study without a version is of the present one.
-    if let Some(node) = mirror.get("schema")
-        && node.value != Value::Number(f64::from(SCHEMA_VERSION))
-    {
-        let allowed = format!("{SCHEMA_VERSION}, the only version of study files, or left out");
-        reader.wrong("schema", node, allowed);
-    }
-    mirror.get("title").and_then(|node| reader.text("title", node))
-}
-
-/// Puts the belt together. What was already complained about is stood in for, so that
-/// relations between the rest are judged at the same time.
-fn build(
-    reader: &mut Reader,
-    table: BeltTable,
-    friction: Option<Friction>,
-    dithers: Option<Vec<Dither>>,
-) -> Option<Belt> {
-    let dithers = dithers?;
-    let stand_in = || LawKind::Stribeck.build(&[0.0, 0.0, 1.0]).ok();
-    let known = friction.is_some();
-    let law = friction.or_else(stand_in)?;
-    let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
-    let (damping, load, velocity) =
-        (number(table.damping_ratio), number(table.normal_load), number(table.belt_velocity));
-    match Belt::new(damping, load, velocity, law, dithers) {
-        Ok(belt) => known.then_some(belt),
-        Err(mut invalid) => {
-            // In SI the normal load is told in newtons.
-            if let Some(scales) = reader.known_scales() {
-                let newtons = scales.to_si(Quantity::Force, load);
-                for complaint in &mut invalid {
-                    if complaint.key.starts_with("dither") && complaint.key.ends_with(".amplitude")
-                    {
-                        complaint.allowed = format!(
-                            "such that the peaks of normal dither together stay at most \
-                             {} = {newtons} N: more would pull the contact apart, which this \
-                             model does not describe",
-                            NORMAL_LOAD.si.first().map_or(NORMAL_LOAD.path, |twin| twin.key)
-                        );
-                    }
-                }
-            }
-            reader.adopt(invalid);
-            None
-        }
+        &self.source.text
     }
 }

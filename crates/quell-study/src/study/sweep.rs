@@ -3,7 +3,7 @@
 use quell_model::parameter::Bounds;
 use serde_json::Value as Json;
 
-use super::mirror::{Node, Table, Value};
+use super::document::{Node, Table, Value};
 use super::reader::Reader;
 use super::vocabulary::{self, Address, Choice, MOST_POINTS, Role, Section, join};
 use crate::complaint::{Complaint, Fault, Origin};
@@ -114,8 +114,8 @@ pub(super) fn replace(root: &mut Table, axes: &[Table]) {
 }
 
 /// Changes of a study with other axes, as `path=value`.
-pub(super) fn told(changes: &[String], axes: &[Table]) -> Vec<String> {
-    let earlier = changes.iter().filter(|change| !change.starts_with("sweep"));
+pub(super) fn changes(earlier: &[String], axes: &[Table]) -> Vec<String> {
+    let earlier = earlier.iter().filter(|change| !change.starts_with("sweep"));
     let new = axes.iter().enumerate().flat_map(|(index, axis)| {
         axis.iter().map(move |(key, node)| format!("sweep[{index}].{key}={}", node.given()))
     });

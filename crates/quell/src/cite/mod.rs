@@ -6,7 +6,7 @@
 use quell_model::{Belt, Direction, LawKind, Waveform};
 use serde_json::{Value as Json, json};
 
-use crate::study::{DiscStudy, Study, Subject};
+use crate::study::{BeltStudy, DiscStudy, Study};
 
 pub mod bibliography;
 mod correction;
@@ -92,7 +92,7 @@ pub struct Sources {
 }
 
 /// What the computations of a belt's study rest on, with the corrections that bear on it.
-pub fn sources(study: &Study) -> Sources {
+pub fn sources(study: &BeltStudy) -> Sources {
     gather(citations(study), |bears| bears.on_belt(study.belt()))
 }
 
@@ -101,11 +101,12 @@ pub fn sources_of_disc(study: &DiscStudy) -> Sources {
     gather(disc::citations(study), |bears| bears.on_disc(study))
 }
 
-/// The same of a study of whatever it is about.
-pub fn sources_of(study: &Subject) -> Sources {
-    match study {
-        Subject::Belt(study) => sources(study),
-        Subject::Disc(study) => sources_of_disc(study),
+/// The same of a study of any kind.
+pub fn sources_of(study: &Study) -> Sources {
+    match (study.belt(), study.disc()) {
+        (Ok(study), _) => sources(&study),
+        (_, Ok(study)) => sources_of_disc(&study),
+        _ => gather(Vec::new(), |_| false),
     }
 }
 
@@ -116,7 +117,7 @@ fn gather(citations: Vec<Citation>, bears: impl Fn(Bears) -> bool) -> Sources {
     Sources { citations, corrections: CORRECTIONS.iter().filter(concerned).copied().collect() }
 }
 
-fn citations(study: &Study) -> Vec<Citation> {
+fn citations(study: &BeltStudy) -> Vec<Citation> {
     let belt = study.belt();
     let mut citations = Vec::new();
     let mut cite = |task, source, used| citations.push(Citation { source, task, used });
@@ -319,14 +320,14 @@ impl Sources {
 mod tests {
     use super::*;
 
-    fn study(law: &str, waveform: &str, direction: &str) -> Study {
+    fn study(law: &str, waveform: &str, direction: &str) -> BeltStudy {
         let text = format!(
             "schema = 1\n[belt]\ndamping_ratio = 0.1\nnormal_load = 1\nbelt_velocity = 1\n\
              [friction]\nlaw = \"{law}\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2\n\
              reference_velocity = 1\n[dither]\nwaveform = \"{waveform}\"\n\
              direction = \"{direction}\"\namplitude = 0.1\nfrequency_ratio = 10\n"
         );
-        Study::parse(&text, &[]).expect("valid")
+        BeltStudy::parse(&text, &[]).expect("valid")
     }
 
     #[test]

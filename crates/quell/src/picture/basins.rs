@@ -15,7 +15,7 @@ use crate::plot::{
 };
 use crate::run::attractor::words;
 use crate::run::basins::{Basins, Portrait, Share};
-use crate::study::Study;
+use crate::study::BeltStudy;
 
 /// States of a section that are drawn.
 const STATES: usize = 400;
@@ -27,7 +27,7 @@ const UNKNOWN: &str = "end not known";
 ///
 /// # Errors
 /// [`Failure::Failed`] where it cannot be drawn.
-pub fn basins(study: &Study, done: &Basins) -> Result<Figure, Failure> {
+pub fn basins(study: &BeltStudy, done: &Basins) -> Result<Figure, Failure> {
     let figure = match (&done.varied, done.portraits.as_slice()) {
         (None, [portrait]) => {
             Figure::single(plane(study, done, portrait)?).size(Size::Frame(420.0, 330.0))
@@ -46,7 +46,11 @@ pub fn basins(study: &Study, done: &Basins) -> Result<Figure, Failure> {
 ///
 /// # Errors
 /// [`Failure::Failed`] where it cannot be drawn.
-pub(crate) fn plane(study: &Study, done: &Basins, portrait: &Portrait) -> Result<Panel, Failure> {
+pub(crate) fn plane(
+    study: &BeltStudy,
+    done: &Basins,
+    portrait: &Portrait,
+) -> Result<Panel, Failure> {
     let window = done.starts.window();
     let (x, v) = (
         Ruler::of(study, Quantity::Displacement, [window.displacement.0, window.displacement.1]),

@@ -11,7 +11,7 @@ use super::with_unstable;
 use crate::plot::{Axis, Figure, Line, Marker, Panel, Points, Role, SharedLegend, Sharing, Size};
 use crate::run::bifurcation::{Bifurcation, Branch, Direction};
 use crate::run::varied::Varied;
-use crate::study::Study;
+use crate::study::BeltStudy;
 
 /// States of all sections that are drawn: more is black and makes a picture of many megabytes.
 const MOST_STATES: usize = 16_000;
@@ -43,7 +43,7 @@ pub(super) fn stretches(values: &[(f64, bool)]) -> Vec<(f64, f64)> {
 }
 
 /// The diagram.
-pub fn bifurcation(study: &Study, done: &Bifurcation) -> Figure {
+pub fn bifurcation(study: &BeltStudy, done: &Bifurcation) -> Figure {
     let attractors = || {
         done.branches
             .iter()

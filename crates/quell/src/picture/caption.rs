@@ -4,12 +4,12 @@ use quell_model::Direction;
 use quell_model::units::Quantity;
 
 use super::ruler::{short, words};
-use crate::run::start_in_words;
 use crate::study::disc::ModeSource;
-use crate::study::{DiscStudy, Study};
+use crate::study::{BeltStudy, DiscStudy, Study};
+use crate::words::start_in_words;
 
 /// The study in one line.
-pub(super) fn caption(study: &Study) -> String {
+pub(super) fn caption(study: &BeltStudy) -> String {
     let belt = study.belt();
     let law = belt.friction().kind();
     let mut parts = vec![
@@ -49,7 +49,7 @@ pub(super) fn caption(study: &Study) -> String {
 }
 
 /// The study and its start in one line.
-pub(super) fn caption_of_run(study: &Study) -> String {
+pub(super) fn caption_of_run(study: &BeltStudy) -> String {
     format!("{}; {}.", caption(study), start_in_words(study))
 }
 
@@ -103,4 +103,13 @@ pub(super) fn caption_of_disc(study: &DiscStudy) -> String {
 fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// The caption of a study of any kind.
+pub(super) fn caption_of(study: &Study) -> String {
+    match (study.belt(), study.disc()) {
+        (Ok(study), _) => caption_of_run(&study),
+        (_, Ok(study)) => caption_of_disc(&study),
+        _ => String::new(),
+    }
 }

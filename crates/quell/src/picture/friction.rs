@@ -6,10 +6,10 @@ use super::caption::caption;
 use super::ruler::{Ruler, words};
 use crate::plot::{Axis, Figure, Line, Panel, Role, Rule};
 use crate::run::friction::FrictionCurve;
-use crate::study::Study;
+use crate::study::BeltStudy;
 
 /// The picture of friction over the slip velocity.
-pub fn friction(study: &Study, curve: &FrictionCurve) -> Figure {
+pub fn friction(study: &BeltStudy, curve: &FrictionCurve) -> Figure {
     let slip = curve.slip_velocities();
     let ruler = Ruler::of(study, Quantity::Velocity, slip.iter().copied());
     let line = |role, values: Vec<f64>| {

@@ -31,7 +31,7 @@ pub use thresholds::{curves, thresholds};
 use crate::complaint::Failure;
 use crate::output::Output;
 use crate::plot::{Figure, Line, Panel, PlotError, Region, Role};
-use crate::study::Study;
+use crate::study::BeltStudy;
 
 /// Kinds of pictures that can be written.
 pub const EXTENSIONS: &[&str] = &["svg", "png"];
@@ -64,7 +64,7 @@ fn with_unstable(panel: Panel, stretches: Vec<(f64, f64)>) -> Panel {
 }
 
 /// A panel with a curve without dither beside one with it, or of a study without dither its one curve.
-fn both(panel: Panel, study: &Study, curve: impl Fn(Role, bool) -> Line) -> Panel {
+fn both(panel: Panel, study: &BeltStudy, curve: impl Fn(Role, bool) -> Line) -> Panel {
     if study.belt().dithers().is_empty() {
         return panel.with(curve(Role::Exact, true));
     }

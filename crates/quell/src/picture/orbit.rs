@@ -10,7 +10,7 @@ use super::ruler::Ruler;
 use crate::complaint::Failure;
 use crate::plot::{Axis, Figure, Line, Marker, Panel, Points, Role, Rule, Size};
 use crate::run::orbit::{Response, samples, sentence};
-use crate::study::Study;
+use crate::study::BeltStudy;
 
 /// Points of a circle.
 const CIRCLE: u32 = 180;
@@ -19,13 +19,13 @@ const CIRCLE: u32 = 180;
 ///
 /// # Errors
 /// [`Failure::Failed`] where there is none.
-pub fn response(study: &Study, found: &Response) -> Result<Figure, Failure> {
+pub fn response(study: &BeltStudy, found: &Response) -> Result<Figure, Failure> {
     let why = || Failure::Failed { key: "--plot".to_owned(), why: found.sentence(study) };
     found.orbit.as_ref().map(|found| orbit(study, found)).ok_or_else(why)
 }
 
 /// The picture of a periodic response.
-pub fn orbit(study: &Study, found: &Orbit) -> Figure {
+pub fn orbit(study: &BeltStudy, found: &Orbit) -> Figure {
     let belt = study.belt();
     let samples = samples(study, found);
     let largest = |of: fn(&quell_dynamics::simulation::Sample) -> f64| {

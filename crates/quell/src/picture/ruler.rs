@@ -3,7 +3,7 @@
 use quell_model::units::Quantity;
 
 use crate::plot::Axis;
-use crate::study::Study;
+use crate::study::BeltStudy;
 
 /// Metric prefixes from large to small.
 const PREFIXES: &[(&str, f64)] = &[("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9)];
@@ -19,7 +19,7 @@ pub(super) struct Ruler {
 
 impl Ruler {
     /// A ruler for values up to `largest` in size (numbers of the equations).
-    pub(super) fn new(study: &Study, quantity: Quantity, largest: f64) -> Self {
+    pub(super) fn new(study: &BeltStudy, quantity: Quantity, largest: f64) -> Self {
         let Some((scales, (unit, _))) = study.scales().zip(quantity.si_unit()) else {
             return Self { factor: 1.0, unit: String::new() };
         };
@@ -34,7 +34,7 @@ impl Ruler {
 
     /// A ruler for values.
     pub(super) fn of(
-        study: &Study,
+        study: &BeltStudy,
         quantity: Quantity,
         values: impl IntoIterator<Item = f64>,
     ) -> Self {
@@ -67,6 +67,6 @@ pub(super) fn short(value: f64) -> String {
 }
 
 /// A value of a study with its unit, for captions and labels.
-pub(super) fn words(study: &Study, quantity: Quantity, value: f64) -> String {
+pub(super) fn words(study: &BeltStudy, quantity: Quantity, value: f64) -> String {
     Ruler::new(study, quantity, value).words(value)
 }

@@ -7,10 +7,10 @@ use super::caption::caption_of_run;
 use super::ruler::Ruler;
 use crate::plot::{Axis, Figure, Line, Panel, Role, Rule, SharedLegend, Sharing};
 use crate::run::simulate::Simulation;
-use crate::study::Study;
+use crate::study::BeltStudy;
 
 /// The picture of a trajectory that was sampled.
-pub fn simulate(study: &Study, done: &Simulation) -> Figure {
+pub fn simulate(study: &BeltStudy, done: &Simulation) -> Figure {
     let with = done.samples.as_deref().unwrap_or_default();
     let without = done.undithered_samples.as_deref().unwrap_or_default();
     let both = || with.iter().chain(without);
@@ -52,11 +52,11 @@ pub fn simulate(study: &Study, done: &Simulation) -> Figure {
 }
 
 /// The axis of time.
-pub(super) fn time_axis(study: &Study, ruler: &Ruler) -> Axis {
+pub(super) fn time_axis(study: &BeltStudy, ruler: &Ruler) -> Axis {
     ruler.axis("time", if study.scales().is_some() { "t" } else { "τ" })
 }
 
 /// Symbols of the belt's and of the mass's velocity.
-fn symbols(study: &Study) -> (&'static str, &'static str) {
+fn symbols(study: &BeltStudy) -> (&'static str, &'static str) {
     if study.scales().is_some() { ("$V_0$", "v") } else { ("$v_0$", "x′") }
 }

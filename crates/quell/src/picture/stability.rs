@@ -8,14 +8,14 @@ use super::caption::caption;
 use super::ruler::Ruler;
 use crate::plot::{Axis, Figure, Line, Marker, Panel, Points, Region, Role, Rule};
 use crate::run::stability::Stability;
-use crate::study::Study;
+use crate::study::BeltStudy;
 
 /// Points of each stretch between critical amplitudes.
 const POINTS: u32 = 160;
 
 /// The picture of averaged stability: one curve over the amplitude, open at its jumps.
 /// Without dither there is nothing to draw over, and the criterion is one line.
-pub fn stability(study: &Study, done: &Stability) -> Figure {
+pub fn stability(study: &BeltStudy, done: &Stability) -> Figure {
     let belt = study.belt();
     let averaged = done.leading();
     let critical: Vec<f64> =

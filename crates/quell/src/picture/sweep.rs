@@ -13,8 +13,8 @@ use crate::plot::{
     Axis, Figure, Layer, Legend, Line, LineStyle, Panel, PlotError, Role, Size, Spread,
 };
 use crate::run::map::{Map, boundaries};
-use crate::study::{DiscStudy, Subject};
-use crate::sweep::{Entry, Grid, GridAxis, Kind, Status};
+use crate::study::DiscStudy;
+use crate::sweep::{Entry, Grid, GridAxis, Status, VariableKind};
 
 /// Whether a variable is drawn only where nothing else was asked for.
 fn is_beside(name: &str) -> bool {
@@ -48,10 +48,7 @@ pub fn sweep(done: &Map) -> Result<Figure, Failure> {
     };
     let figure = figure.map_err(undrawable)?;
     let title = plan.grid().study().title().unwrap_or_default();
-    let caption = match plan.grid().study() {
-        Subject::Belt(study) => super::caption::caption_of_run(study),
-        Subject::Disc(study) => super::caption::caption_of_disc(study),
-    };
+    let caption = super::caption::caption_of(plan.grid().study());
     Ok(figure.title(title).caption(caption))
 }
 
@@ -72,16 +69,16 @@ fn picture(done: &Map, entry: &Entry) -> Picture {
     let array = entry.twin.unwrap_or(entry.value);
     let unit = &plan.sheet().fields()[array].unit;
     let kind = match variable.kind {
-        Kind::Word { words, .. } => {
+        VariableKind::Word { words, .. } => {
             MapKind::Outcome(words.iter().map(|&word| (role_of(word), word.to_owned())).collect())
         }
-        Kind::Rate => MapKind::Growth(Spread::Linear),
+        VariableKind::Rate => MapKind::Growth(Spread::Linear),
         // Tongues grow with 10⁻⁹ to 10⁻², beside decay with 10⁻².
-        Kind::DiscRate if variable.symbol.starts_with("Re") => {
+        VariableKind::DiscRate if variable.symbol.starts_with("Re") => {
             MapKind::Growth(Spread::SignedLog(1e-5))
         }
-        Kind::Number(_) if variable.name == "efficiency" => MapKind::Efficiency,
-        Kind::DiscRate | Kind::Number(_) => MapKind::Number(Spread::Linear),
+        VariableKind::Number(_) if variable.name == "efficiency" => MapKind::Efficiency,
+        VariableKind::DiscRate | VariableKind::Number(_) => MapKind::Number(Spread::Linear),
     };
     let name = match kind {
         MapKind::Efficiency => "efficiency",
@@ -104,8 +101,8 @@ fn picture(done: &Map, entry: &Entry) -> Picture {
 /// The boundaries of averaging as lines, in the plane as it is drawn: the first axis to the right.
 fn over(done: &Map) -> Vec<Layer> {
     let grid = done.plan().grid();
-    if let Subject::Disc(study) = grid.study() {
-        return over_disc(grid, study);
+    if let Ok(study) = grid.study().disc() {
+        return over_disc(grid, &study);
     }
     let upwards = grid.axes().last().is_some_and(|axis| axis.path == "dither.amplitude");
     let furthest = grid
@@ -182,7 +179,7 @@ fn panel(map: &Map, entry: &Entry) -> Panel {
     let array = entry.twin.unwrap_or(entry.value);
     let unit = &plan.sheet().fields()[array].unit;
     let mut up = labelled(Axis::new(variable.about), variable.symbol, unit);
-    if let Kind::Word { words, .. } = variable.kind {
+    if let VariableKind::Word { words, .. } = variable.kind {
         up = Axis::new(format!("{} (0 {})", variable.about, words.join(", 1 ")));
         up = up.between(-0.1, 1.1).ticks([0.0, 1.0]);
     }

@@ -11,13 +11,13 @@ use crate::plot::{
 };
 use crate::run::curves::Curves;
 use crate::run::thresholds::{Thresholds, becomes};
-use crate::study::Study;
+use crate::study::BeltStudy;
 
 /// A jump of the multiplier between neighbouring points, at a touch.
 const JUMP: f64 = 0.05;
 
 /// The axis of a parameter, and how its values are placed.
-fn axis_of(study: &Study, path: &str, range: (f64, f64)) -> (Axis, Ruler) {
+fn axis_of(study: &BeltStudy, path: &str, range: (f64, f64)) -> (Axis, Ruler) {
     let largest = range.0.abs().max(range.1.abs());
     let Some(parameter) = study.belt().parameter(path) else {
         return (Axis::new(path), Ruler::new(study, Quantity::Ratio, largest));
@@ -31,7 +31,7 @@ fn axis_of(study: &Study, path: &str, range: (f64, f64)) -> (Axis, Ruler) {
 }
 
 /// The picture of the thresholds of one parameter.
-pub fn thresholds(study: &Study, done: &Thresholds) -> Figure {
+pub fn thresholds(study: &BeltStudy, done: &Thresholds) -> Figure {
     let question = &done.question;
     let (axis, ruler) = axis_of(study, &question.parameter, (question.from, question.to));
     // At a touch the multipliers jump: the curve is open there.
@@ -101,7 +101,7 @@ fn words(kind: Kind) -> &'static str {
 }
 
 /// The picture of curves of thresholds.
-pub fn curves(study: &Study, done: &Curves) -> Figure {
+pub fn curves(study: &BeltStudy, done: &Curves) -> Figure {
     let question = &done.question;
     let (x, across) = axis_of(study, &question.along, question.between);
     let (y, up) = axis_of(study, &question.parameter, question.window);

@@ -7,10 +7,10 @@ use quell_model::units::{Quantity, Scales};
 use serde_json::json;
 
 use super::orbit::refused;
-use super::{digits, in_scales};
 use crate::complaint::Failure;
 use crate::fields::Fields;
-use crate::study::Study;
+use crate::study::BeltStudy;
+use crate::words::{digits, in_scales};
 
 /// The belt with its strobe and its quiet response.
 pub(super) fn scene(belt: &Belt) -> Result<Scene<'_>, Failure> {
@@ -139,7 +139,7 @@ pub(in crate::run) fn unknown(why: &NoOrbit) -> String {
 }
 
 /// A number of the study in words.
-pub(super) fn number(study: &Study, unit: &str, value: f64) -> String {
+pub(super) fn number(study: &BeltStudy, unit: &str, value: f64) -> String {
     let text = digits(value);
     if study.scales().is_some() && !unit.starts_with('1') { format!("{text} {unit}") } else { text }
 }

@@ -4,15 +4,16 @@ use quell_model::parameter::{BELT_VELOCITY, DAMPING_RATIO, NORMAL_LOAD};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::{law, range};
+use super::law;
 use crate::fields::Fields;
-use crate::study::Study;
+use crate::range;
+use crate::study::BeltStudy;
 
 /// What a valid study says.
 #[derive(Clone, Debug)]
 pub struct Check<'a> {
     /// The study.
-    pub study: &'a Study,
+    pub study: &'a BeltStudy,
 }
 
 impl Check<'_> {

@@ -9,14 +9,14 @@ use quell_linear::averaging::{
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
-use super::STEPS_OF_MANY_SEARCHES;
-use super::range::SlipMet;
 use super::thresholds::{Kind, path_in_words, quantity_of, told, value_in_words};
 use super::varied::{Named, ascending};
 use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
+use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::fields::Fields;
-use crate::study::Study;
+use crate::range::SlipMet;
+use crate::study::BeltStudy;
 
 /// Lines across the second parameter on which curves are met first.
 const LINES: u32 = 5;
@@ -29,7 +29,7 @@ const AVERAGED: u32 = 120;
 
 /// What is asked.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Question {
+pub struct CurvesRequest {
     /// Path of the parameter whose thresholds are followed; its key in SI in a study in SI too.
     pub parameter: String,
     /// Its window, first and last value in the unit of that key.
@@ -53,7 +53,7 @@ pub struct Averaged {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
     /// What was asked, in numbers of the equations.
-    pub question: Question,
+    pub question: CurvesRequest,
     /// The curves.
     pub curves: Vec<ThresholdCurve>,
     /// Lines across the second parameter on which curves may be missing.
@@ -66,7 +66,7 @@ pub struct Curves {
 ///
 /// # Errors
 /// Every complaint about it at once.
-fn understood(study: &Study, question: &Question) -> Result<Question, Failure> {
+fn understood(study: &BeltStudy, question: &CurvesRequest) -> Result<CurvesRequest, Failure> {
     let parameter = Named::new(study, "--parameter", &question.parameter)?;
     let along = Named::new(study, "--along", &question.along)?;
     if parameter.is(&along) {
@@ -93,11 +93,11 @@ fn understood(study: &Study, question: &Question) -> Result<Question, Failure> {
     }
     let both = |named: &Named, (first, last)| (named.of(first), named.of(last));
     let (window, between) = (both(&parameter, question.window), both(&along, question.between));
-    Ok(Question { window, between, parameter: parameter.path, along: along.path })
+    Ok(CurvesRequest { window, between, parameter: parameter.path, along: along.path })
 }
 
 /// What happened on a line across the second parameter.
-fn line_in_words(study: &Study, question: &Question, line: &OpenLine) -> String {
+fn line_in_words(study: &BeltStudy, question: &CurvesRequest, line: &OpenLine) -> String {
     let along = path_in_words(study, &question.along);
     let place = value_in_words(study, &question.along, line.along);
     let value = |value: f64| value_in_words(study, &question.parameter, value);
@@ -108,11 +108,11 @@ fn line_in_words(study: &Study, question: &Question, line: &OpenLine) -> String 
 ///
 /// # Errors
 /// A complaint about a parameter or its window; [`Failure::Failed`] where there is no response to begin with.
-pub fn run(study: &Study, question: &Question) -> Result<Curves, Failure> {
+pub fn run(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failure> {
     within(STEPS_OF_MANY_SEARCHES, || found(study, question))
 }
 
-fn found(study: &Study, question: &Question) -> Result<Curves, Failure> {
+fn found(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failure> {
     let belt = study.belt();
     let question = understood(study, question)?;
     let plane = Plane {
@@ -135,7 +135,7 @@ fn found(study: &Study, question: &Question) -> Result<Curves, Failure> {
 
 /// The boundaries of averaging; none where the first parameter is no amplitude of the first dither. Where averaging
 /// says nothing a boundary is broken.
-fn averaged(study: &Study, question: &Question) -> Vec<Averaged> {
+fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<Averaged> {
     let belt = study.belt();
     let amplitude = ["dither.amplitude", "dither[0].amplitude"];
     if !amplitude.contains(&question.parameter.as_str()) {
@@ -184,8 +184,8 @@ impl Curves {
     }
 
     /// What was found in one sentence.
-    pub fn sentence(&self, study: &Study) -> String {
-        let Question { parameter, along, between: (first, last), .. } = &self.question;
+    pub fn sentence(&self, study: &BeltStudy) -> String {
+        let CurvesRequest { parameter, along, between: (first, last), .. } = &self.question;
         let (first, last) =
             (value_in_words(study, along, *first), value_in_words(study, along, *last));
         let (parameter, along) = (path_in_words(study, parameter), path_in_words(study, along));
@@ -202,7 +202,7 @@ impl Curves {
     }
 
     /// As JSON.
-    pub fn json(&self, study: &Study) -> Json {
+    pub fn json(&self, study: &BeltStudy) -> Json {
         let question = &self.question;
         let value = quantity_of(study, &question.parameter);
         let along = quantity_of(study, &question.along);
@@ -256,7 +256,7 @@ impl Curves {
     }
 
     /// Lines on which curves may be missing, in words.
-    pub fn warnings(&self, study: &Study) -> Vec<String> {
+    pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let told = |line: &OpenLine| {
             format!("curves may be missing {}", line_in_words(study, &self.question, line))
         };
@@ -272,7 +272,7 @@ impl Curves {
     }
 
     /// α = D/R of the first dither along a curve, where the first parameter is its amplitude.
-    pub fn amplitude_ratios(&self, study: &Study, curve: &ThresholdCurve) -> Option<Vec<f64>> {
+    pub fn amplitude_ratios(&self, study: &BeltStudy, curve: &ThresholdCurve) -> Option<Vec<f64>> {
         if self.averaged.is_empty() {
             return None;
         }
@@ -284,7 +284,7 @@ impl Curves {
     }
 
     /// The points of all curves, one after another.
-    pub fn dataset(&self, study: &Study) -> Dataset {
+    pub fn dataset(&self, study: &BeltStudy) -> Dataset {
         let quantity = |path: &str| quantity_of(study, path);
         let numbered = || (0_u8..).zip(Kind::ALL);
         let code = |kind: Kind| numbered().filter(move |it| it.1 == kind).map(|it| it.0);

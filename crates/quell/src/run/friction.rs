@@ -5,10 +5,10 @@ use quell_model::Belt;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::range;
 use crate::dataset::Dataset;
 use crate::fields::Fields;
-use crate::study::Study;
+use crate::range;
+use crate::study::BeltStudy;
 
 /// Points of the default grid on each side of v_r = 0.
 const POINTS: u32 = 200;
@@ -65,7 +65,7 @@ pub fn grid(belt: &Belt) -> Vec<f64> {
 }
 
 /// The law and its average under the study's dither at slip velocities `at`.
-pub fn run(study: &Study, at: &[f64]) -> FrictionCurve {
+pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
     let belt = study.belt();
     let law = belt.friction();
     let points = at.iter().map(|&v| Point {
@@ -113,7 +113,7 @@ impl FrictionCurve {
     }
 
     /// As JSON.
-    pub fn json(&self, study: &Study) -> Json {
+    pub fn json(&self, study: &BeltStudy) -> Json {
         let mut fields = Fields::new(study.scales());
         fields
             .plain("ok", true)
@@ -147,14 +147,14 @@ impl FrictionCurve {
     }
 
     /// Where the slip velocities, or that of the belt, leave the range of the law together with the fast motion.
-    pub fn warnings(&self, study: &Study) -> Vec<String> {
+    pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let speeds = self.points.iter().map(|point| point.slip_velocity.abs());
         let fastest = speeds.fold(study.belt().belt_velocity(), f64::max);
         range::averaged_at(study, fastest)
     }
 
     /// As a dataset.
-    pub fn dataset(&self, study: &Study) -> Dataset {
+    pub fn dataset(&self, study: &BeltStudy) -> Dataset {
         Dataset::new(study, "friction")
             .axis("slip_velocity", Quantity::Velocity, self.slip_velocities())
             .array("coefficient", Quantity::Ratio, self.coefficients())

@@ -6,12 +6,12 @@ use quell_model::parameter::COEFFICIENT;
 use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json};
 
-use super::in_words;
 use crate::fields::Fields;
-use crate::study::Study;
+use crate::study::BeltStudy;
+use crate::words::in_words;
 
 /// The law as an object.
-pub(super) fn fields(study: &Study) -> Fields {
+pub(super) fn fields(study: &BeltStudy) -> Fields {
     let law = study.belt().friction();
     let mut fields = Fields::new(study.scales());
     fields.plain("law", law.kind().name());
@@ -71,7 +71,7 @@ pub(super) fn fields(study: &Study) -> Fields {
 }
 
 /// What a law says beyond its numbers, as label and words.
-pub fn words(study: &Study) -> Vec<(String, String)> {
+pub fn words(study: &BeltStudy) -> Vec<(String, String)> {
     let range = study.belt().friction().range().map(|range| {
         let speed = |speed: f64| in_words(study, Quantity::Velocity, speed);
         let words =
@@ -82,7 +82,7 @@ pub fn words(study: &Study) -> Vec<(String, String)> {
 }
 
 /// What a law of one's own says beyond its numbers; nothing for other laws.
-fn of_own_law(study: &Study) -> Vec<(String, String)> {
+fn of_own_law(study: &BeltStudy) -> Vec<(String, String)> {
     let row = |label: &str, words: String| (label.to_owned(), words);
     match study.belt().friction() {
         Friction::Expression(law) => {

@@ -12,13 +12,15 @@ use quell_model::Belt;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
-use super::range::SlipMet;
-use super::thresholds::Protocol;
-use super::{STEPS_OF_A_SEARCH, failed, in_words, moves, resolved};
+use super::protocol::Protocol;
+use super::{failed, moves, resolved};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::Dataset;
+use crate::effort::STEPS_OF_A_SEARCH;
 use crate::fields::Fields;
-use crate::study::Study;
+use crate::range::SlipMet;
+use crate::study::BeltStudy;
+use crate::words::in_words;
 
 /// Least number of steps of the dither's amplitude from nothing to its value.
 const STEPS: u32 = 8;
@@ -93,11 +95,11 @@ fn slip_of<'o>(belt: &Belt, orbits: impl IntoIterator<Item = &'o Orbit>) -> Slip
 ///
 /// # Errors
 /// A complaint where there is no period; [`Failure::Failed`] where shooting does not converge, with the place.
-pub fn run(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
+pub fn run(study: &BeltStudy, wanted: Wanted) -> Result<Response, Failure> {
     within(STEPS_OF_A_SEARCH, || found(study, wanted))
 }
 
-fn found(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
+fn found(study: &BeltStudy, wanted: Wanted) -> Result<Response, Failure> {
     let belt = study.belt();
     if belt.dithers().is_empty() {
         return undithered(study, wanted);
@@ -130,7 +132,7 @@ fn found(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
 }
 
 /// The limit cycles of an undithered belt.
-fn undithered(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
+fn undithered(study: &BeltStudy, wanted: Wanted) -> Result<Response, Failure> {
     let belt = study.belt();
     if let Wanted::OfSliding { periods } | Wanted::Near { periods, .. } = wanted
         && periods > 1
@@ -160,7 +162,7 @@ fn undithered(study: &Study, wanted: Wanted) -> Result<Response, Failure> {
 
 impl Protocol {
     /// The state at τ = 0.
-    pub(super) fn start(self, study: &Study) -> Result<Start, Failure> {
+    pub(super) fn start(self, study: &BeltStudy) -> Result<Start, Failure> {
         resolved(study, self.initial(), |why| {
             let key = "--from-squeal";
             let allowed = format!("another start is needed: {why}");
@@ -171,7 +173,7 @@ impl Protocol {
 
 /// Integrates one period of an orbit under an observer. Where the engine stops the observer has seen what came before:
 /// the orbit itself was integrated when it was found.
-fn trace(study: &Study, orbit: &Orbit, observer: &mut impl Observer) {
+fn trace(study: &BeltStudy, orbit: &Orbit, observer: &mut impl Observer) {
     let free;
     let belt = if orbit.is_free {
         free = study.belt().undithered();
@@ -184,14 +186,14 @@ fn trace(study: &Study, orbit: &Orbit, observer: &mut impl Observer) {
 }
 
 /// Least and largest displacement and velocity over a period.
-pub fn extremes(study: &Study, orbit: &Orbit) -> Extremes {
+pub fn extremes(study: &BeltStudy, orbit: &Orbit) -> Extremes {
     let mut extremes = Extremes::default();
     trace(study, orbit, &mut extremes);
     extremes
 }
 
 /// States at equal steps over a period, both ends included.
-pub fn samples(study: &Study, orbit: &Orbit) -> Vec<Sample> {
+pub fn samples(study: &BeltStudy, orbit: &Orbit) -> Vec<Sample> {
     let mut sampler = Sampler::new(orbit.start.time, orbit.period / SAMPLES as f64, SAMPLES + 1);
     trace(study, orbit, &mut sampler);
     sampler.samples
@@ -222,7 +224,7 @@ pub(super) fn refused(why: NoOrbit) -> Failure {
 }
 
 /// The orbit in one sentence.
-pub fn sentence(study: &Study, orbit: &Orbit) -> String {
+pub fn sentence(study: &BeltStudy, orbit: &Orbit) -> String {
     let verdict = match orbit.verdict() {
         Verdict::Stable => "stable: small deviations die out",
         Verdict::Unstable => "unstable: small deviations grow",
@@ -253,7 +255,7 @@ fn times(count: usize) -> String {
 
 impl Response {
     /// What was found in one sentence.
-    pub fn sentence(&self, study: &Study) -> String {
+    pub fn sentence(&self, study: &BeltStudy) -> String {
         match &self.orbit {
             Some(orbit) if self.from_rest_instead => {
                 format!("{} {FROM_REST_INSTEAD}", sentence(study, orbit))
@@ -263,7 +265,7 @@ impl Response {
         }
     }
 
-    fn without_orbit(&self, study: &Study) -> String {
+    fn without_orbit(&self, study: &BeltStudy) -> String {
         let place = in_words(study, Quantity::Displacement, study.belt().steady_sliding());
         let whether = match self.sliding {
             Some(Verdict::Stable) => "which is stable",
@@ -284,7 +286,7 @@ impl Response {
     ///
     /// # Errors
     /// [`Failure::Failed`] where there is none.
-    pub fn dataset(&self, study: &Study) -> Result<Dataset, Failure> {
+    pub fn dataset(&self, study: &BeltStudy) -> Result<Dataset, Failure> {
         let why = || Failure::Failed { key: "--save".to_owned(), why: self.sentence(study) };
         let samples = samples(study, self.orbit.as_ref().ok_or_else(why)?);
         let column = |value: fn(&Sample) -> f64| samples.iter().map(value).collect::<Vec<f64>>();
@@ -302,7 +304,7 @@ impl Response {
     }
 
     /// As JSON.
-    pub fn json(&self, study: &Study) -> Json {
+    pub fn json(&self, study: &BeltStudy) -> Json {
         let mut object = match &self.orbit {
             Some(orbit) => json(study, orbit),
             None => self.sliding_json(study),
@@ -317,7 +319,7 @@ impl Response {
         object
     }
 
-    fn sliding_json(&self, study: &Study) -> Json {
+    fn sliding_json(&self, study: &BeltStudy) -> Json {
         let sentence = self.without_orbit(study);
         let mut fields = Fields::new(study.scales());
         fields
@@ -357,7 +359,7 @@ fn finite(error: f64) -> Result<f64, String> {
 }
 
 /// The orbit as JSON.
-pub fn json(study: &Study, orbit: &Orbit) -> Json {
+pub fn json(study: &BeltStudy, orbit: &Orbit) -> Json {
     let mut fields = Fields::new(study.scales());
     fields
         .plain("ok", true)

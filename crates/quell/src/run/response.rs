@@ -8,12 +8,13 @@ use quell_dynamics::simulation::{Sample, Start};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::range::SlipMet;
-use super::{failed, in_words, start, start_in_words};
+use super::{failed, start};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::Dataset;
 use crate::fields::Fields;
-use crate::study::Study;
+use crate::range::SlipMet;
+use crate::study::BeltStudy;
+use crate::words::{in_words, start_in_words};
 
 /// Levels beyond this are told as such: what is left is the engine's error and rounding.
 const MOST_DECIBELS: f64 = 120.0;
@@ -40,7 +41,7 @@ pub struct Steady {
 /// # Errors
 /// [`Failure::Wrong`] where the study starts squealing and cannot; [`Failure::Failed`] if the
 /// engine stops.
-pub fn run(study: &Study) -> Result<Steady, Failure> {
+pub fn run(study: &BeltStudy) -> Result<Steady, Failure> {
     record_fits(study)?;
     let start = start(study)?;
     let response = respond(study.belt(), start, study.solver()).map_err(failed)?;
@@ -54,7 +55,7 @@ pub fn run(study: &Study) -> Result<Steady, Failure> {
 }
 
 /// Refuses a record that would not fit into memory: fast dithers are sampled several times a period.
-fn record_fits(study: &Study) -> Result<(), Failure> {
+fn record_fits(study: &BeltStudy) -> Result<(), Failure> {
     let solver = study.solver();
     let each = samples_per_slow_period(study.belt());
     let most = (MOST_SAMPLES / each).floor();
@@ -70,7 +71,7 @@ fn record_fits(study: &Study) -> Result<(), Failure> {
 
 impl Steady {
     /// What the dither does, and at what cost.
-    pub fn sentence(&self, study: &Study) -> String {
+    pub fn sentence(&self, study: &BeltStudy) -> String {
         let response = &self.response;
         let from = start_in_words(study);
         if study.belt().dithers().iter().all(|dither| dither.amplitude == 0.0) {
@@ -121,7 +122,7 @@ impl Steady {
     }
 
     /// The cost of the dither in a sentence of its own.
-    fn cost(&self, study: &Study) -> String {
+    fn cost(&self, study: &BeltStudy) -> String {
         let response = &self.response;
         let loss = self.friction_loss().ok().map(|loss| {
             let change = if loss < 0.0 { "raises" } else { "lowers" };
@@ -172,7 +173,7 @@ impl Steady {
     }
 
     /// The levels in the band that the study asks for.
-    pub fn in_band(&self, study: &Study) -> Option<InBand> {
+    pub fn in_band(&self, study: &BeltStudy) -> Option<InBand> {
         let band = study.band()?;
         let [low, high] = band;
         let of = |record: &Record| record.spectrum.root_mean_square(low, high);
@@ -196,7 +197,7 @@ impl Steady {
     }
 
     /// The levels in the band, null without one.
-    fn put_band(&self, study: &Study, fields: &mut Fields) {
+    fn put_band(&self, study: &BeltStudy, fields: &mut Fields) {
         let band = self.in_band(study);
         let band = band.as_ref().ok_or_else(|| "the study names no band of frequencies".to_owned());
         let end = |place: usize| band.clone().map(|band| band.band[place]);
@@ -219,7 +220,7 @@ impl Steady {
     }
 
     /// The levels in the band in a sentence of its own.
-    fn of_the_band(&self, study: &Study) -> String {
+    fn of_the_band(&self, study: &BeltStudy) -> String {
         let Some(InBand { band, values }) = self.in_band(study) else { return String::new() };
         let unit = if study.scales().is_some() { "" } else { " ω₀" };
         let [low, high] = band.map(|end| in_words(study, Quantity::FrequencyRatio, end));
@@ -244,7 +245,7 @@ impl Steady {
     }
 
     /// What a reader of the numbers should know.
-    pub fn warnings(&self, study: &Study) -> Vec<String> {
+    pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let time = if study.scales().is_some() { "t" } else { "τ" };
         let settle = in_words(study, Quantity::Time, study.solver().settle);
         let mut warnings = self.slip.warnings(study);
@@ -263,7 +264,7 @@ impl Steady {
     }
 
     /// As JSON.
-    pub fn json(&self, study: &Study) -> Json {
+    pub fn json(&self, study: &BeltStudy) -> Json {
         let response = &self.response;
         let scales = study.scales();
         let mut fields = Fields::new(scales);
@@ -329,7 +330,7 @@ impl Steady {
     }
 
     /// The record of both runs.
-    pub fn record(&self, study: &Study) -> Dataset {
+    pub fn record(&self, study: &BeltStudy) -> Dataset {
         let (with, without) =
             (&self.response.record.samples, &self.response.undithered_record.samples);
         let column = |samples: &[Sample], value: fn(&Sample) -> f64| -> Vec<f64> {
@@ -367,7 +368,7 @@ impl Steady {
     }
 
     /// The spectra of both records.
-    pub fn spectrum(&self, study: &Study) -> Dataset {
+    pub fn spectrum(&self, study: &BeltStudy) -> Dataset {
         let (with, without) =
             (&self.response.record.spectrum, &self.response.undithered_record.spectrum);
         Dataset::new(study, "response: spectrum of the displacement")

@@ -8,12 +8,13 @@ use quell_dynamics::simulation::{
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::range::SlipMet;
-use super::{failed, in_words, start, start_in_words};
+use super::{failed, start};
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::study::Study;
+use crate::range::SlipMet;
+use crate::study::BeltStudy;
+use crate::words::{in_words, start_in_words};
 
 /// Samples per period of the fastest dither, and at least this many in a slow period.
 const SAMPLES_PER_DITHER_PERIOD: f64 = 32.0;
@@ -57,7 +58,7 @@ pub struct Simulation {
 /// # Errors
 /// [`Failure::Wrong`] where the study starts squealing and cannot; [`Failure::Failed`] if the
 /// engine stops.
-pub fn run(study: &Study, until: f64, options: Options) -> Result<Simulation, Failure> {
+pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation, Failure> {
     let belt = study.belt();
     let start = start(study)?;
     let (intervals, coarse) =
@@ -109,7 +110,7 @@ fn with_end(mut samples: Vec<Sample>, end: &FinalState) -> Vec<Sample> {
 }
 
 /// Number of intervals between samples, and whether it had to be cut.
-fn grid(study: &Study, length: f64) -> (usize, bool) {
+fn grid(study: &BeltStudy, length: f64) -> (usize, bool) {
     let dithers = study.belt().dithers().iter().filter(|dither| dither.amplitude > 0.0);
     let fastest = dithers.fold(0.0_f64, |rate, dither| rate.max(dither.frequency_ratio));
     let per_slow = SAMPLES_PER_SLOW_PERIOD.max(SAMPLES_PER_DITHER_PERIOD * fastest);
@@ -128,7 +129,7 @@ fn grid(study: &Study, length: f64) -> (usize, bool) {
 
 impl Simulation {
     /// What happened, in one sentence.
-    pub fn sentence(&self, study: &Study) -> String {
+    pub fn sentence(&self, study: &BeltStudy) -> String {
         let end = &self.end;
         let state = match (end.sticking, end.slip_sign) {
             (true, _) => "the mass sticks to the belt",
@@ -150,7 +151,7 @@ impl Simulation {
     }
 
     /// As JSON.
-    pub fn json(&self, study: &Study) -> Json {
+    pub fn json(&self, study: &BeltStudy) -> Json {
         let scales = study.scales();
         let mut fields = Fields::new(scales);
         fields.plain("ok", true).plain("sentence", self.sentence(study));
@@ -192,7 +193,7 @@ impl Simulation {
     }
 
     /// What a reader of the numbers should know.
-    pub fn warnings(&self, study: &Study) -> Vec<String> {
+    pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let mut warnings = self.slip.warnings(study);
         if self.coarse {
             warnings.push(format!(
@@ -209,7 +210,7 @@ impl Simulation {
     }
 
     /// The events, one row each; empty where they were not asked for. The velocity at every event is the belt's.
-    pub fn events_dataset(&self, study: &Study) -> Dataset {
+    pub fn events_dataset(&self, study: &BeltStudy) -> Dataset {
         let events = self.events.as_deref().unwrap_or_default();
         let column = |value: fn(&Event) -> f64| events.iter().map(value).collect::<Vec<f64>>();
         let kinds = [EventKind::Stick, EventKind::Release, EventKind::Reversal];
@@ -228,7 +229,7 @@ impl Simulation {
     }
 
     /// The sampled trajectory; empty where no samples were asked for.
-    pub fn dataset(&self, study: &Study) -> Dataset {
+    pub fn dataset(&self, study: &BeltStudy) -> Dataset {
         let samples = self.samples.as_deref().unwrap_or_default();
         let column = |value: fn(&Sample) -> f64| samples.iter().map(value).collect::<Vec<f64>>();
         let belt_velocity = study.belt().belt_velocity();

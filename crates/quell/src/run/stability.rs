@@ -7,16 +7,18 @@
 pub use quell_linear::averaging::Side;
 use quell_linear::averaging::{
     AveragingError, AveragingOptions, Band, Becomes, Criterion, CriticalAmplitude, Crossing,
-    EverywhereStable, NeverStable, NormalOrder, Response, UndecidedBecause, Verdict, criterion,
-    critical_amplitudes, everywhere_stable_amplitude, fast_wave, unstable_bands,
+    EverywhereStable, NeverStable, UndecidedBecause, Verdict, criterion, critical_amplitudes,
+    everywhere_stable_amplitude, fast_wave, unstable_bands,
 };
+use quell_linear::growth::of_criterion;
 use quell_model::Belt;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::{in_words, range};
 use crate::fields::Fields;
-use crate::study::Study;
+use crate::range;
+use crate::study::BeltStudy;
+use crate::words::in_words;
 
 /// Below this frequency ratio a dither is hardly fast.
 const FAST: f64 = 5.0;
@@ -45,13 +47,8 @@ pub struct Stability {
     pub sharper: Result<Averaged, String>,
 }
 
-/// The sharper averaging: the oscillator's own response to the dither and, under normal dither,
-/// one more term of the fast motion.
-pub(crate) const SHARPER: AveragingOptions =
-    AveragingOptions { response: Response::Oscillator, normal_order: NormalOrder::Second };
-
 /// Averaged stability of a study.
-pub fn run(study: &Study) -> Stability {
+pub fn run(study: &BeltStudy) -> Stability {
     let belt = study.belt();
     let slow = belt
         .dithers()
@@ -63,7 +60,7 @@ pub fn run(study: &Study) -> Stability {
         sharper: match slow {
             _ if belt.dithers().is_empty() => Err("there is no dither".to_owned()),
             Some(why) => Err(why.to_string()),
-            None => Ok(averaged(belt, SHARPER)),
+            None => Ok(averaged(belt, AveragingOptions::FINITE_R)),
         },
     }
 }
@@ -134,23 +131,16 @@ fn word(criterion: &Result<Criterion, AveragingError>) -> &'static str {
 /// Decibels of a growth by a factor of e: 20 log₁₀ e.
 pub const DECIBELS: f64 = 20.0 * std::f64::consts::LOG10_E;
 
-/// Growth rate of small slow motions, Re ρ of ρ² + cρ + 1 = 0.
-pub fn growth_rate(criterion: f64) -> f64 {
-    let half = 0.5 * criterion;
-    let overdamped = (half.abs() - 1.0).max(0.0) * (half.abs() + 1.0);
-    overdamped.sqrt() - half
-}
-
 impl Averaged {
     /// "stable", "unstable" or "undecided".
     pub fn verdict(&self) -> &'static str {
         word(&self.criterion)
     }
 
-    fn put(&self, study: &Study, fields: &mut Fields) {
+    fn put(&self, study: &BeltStudy, fields: &mut Fields) {
         let told = |why: &AveragingError| why.to_string();
         let value = |field: fn(&Criterion) -> f64| self.criterion.as_ref().map(field).map_err(told);
-        let rate = value(|criterion| growth_rate(criterion.value));
+        let rate = value(|criterion| of_criterion(criterion.value));
         if let Some(scales) = fields.scales() {
             let decibels = rate.clone().map(|rate| DECIBELS * rate * scales.angular_frequency());
             fields.decibels("growth_rate_db_per_s", decibels);
@@ -270,7 +260,7 @@ impl Stability {
     }
 
     /// The averaging that sentence and picture go by, in words.
-    pub fn method(&self, study: &Study) -> String {
+    pub fn method(&self, study: &BeltStudy) -> String {
         match self.finite() {
             Ok(_) => "finite-R averaging".to_owned(),
             Err(_) if study.belt().dithers().is_empty() => {
@@ -283,7 +273,7 @@ impl Stability {
     }
 
     /// What averaging says, in one sentence.
-    pub fn sentence(&self, study: &Study) -> String {
+    pub fn sentence(&self, study: &BeltStudy) -> String {
         let v = in_words(study, Quantity::Velocity, study.belt().belt_velocity());
         let verdict = match &self.leading().criterion {
             Err(why) => format!("nothing can be said about steady sliding at v₀ = {v}: {why}"),
@@ -307,7 +297,7 @@ impl Stability {
     }
 
     /// The next amplitude at which the verdict changes.
-    fn next(&self, study: &Study) -> String {
+    fn next(&self, study: &BeltStudy) -> String {
         let Some(dither) = study.belt().dithers().first() else {
             return "; there is no dither".to_owned();
         };
@@ -333,7 +323,7 @@ impl Stability {
     }
 
     /// What a reader of the numbers should know.
-    pub fn warnings(&self, study: &Study) -> Vec<String> {
+    pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let slow = study.belt().dithers().iter().filter(|dither| dither.frequency_ratio < FAST);
         let hardly = slow.map(|dither| {
             format!(
@@ -352,7 +342,7 @@ impl Stability {
     }
 
     /// Critical amplitudes and bands that lie outside of the range of the friction law.
-    fn beyond(&self, study: &Study) -> Vec<String> {
+    fn beyond(&self, study: &BeltStudy) -> Vec<String> {
         let belt = study.belt();
         let Some(range) = belt.friction().range() else { return Vec::new() };
         let averaged: Vec<&Averaged> = [&self.limit].into_iter().chain(&self.sharper).collect();
@@ -395,7 +385,7 @@ impl Stability {
     }
 
     /// As JSON.
-    pub fn json(&self, study: &Study) -> Json {
+    pub fn json(&self, study: &BeltStudy) -> Json {
         let mut fields = Fields::new(study.scales());
         fields
             .plain("ok", true)
@@ -421,21 +411,5 @@ impl Stability {
         }
         fields.plain("warnings", self.warnings(study));
         fields.finish()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn growth_rates_solve_the_characteristic_equation() {
-        for criterion in [-0.3, 0.0, 0.01, 1.9] {
-            assert_eq!(growth_rate(criterion), -0.5 * criterion);
-        }
-        for criterion in [-5.0, 2.5, 40.0] {
-            let rate = growth_rate(criterion);
-            assert!((rate * rate + criterion * rate + 1.0).abs() < 1e-12 * criterion * criterion);
-        }
     }
 }

@@ -3,10 +3,10 @@
 use quell_model::parameter::{BELT_VELOCITY, DITHER_AMPLITUDE};
 
 use super::evenly;
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::mirror::given_number;
+use crate::complaint::{Complaint, Complaints, Fault, Origin};
+use crate::study::document::given_number;
 use crate::study::vocabulary::{Address, Role, in_system, join, resolve};
-use crate::study::{Study, suggest};
+use crate::study::{BeltStudy, suggest};
 
 /// Most values of a range.
 pub const MOST_VALUES: usize = 100_000;
@@ -44,9 +44,9 @@ impl Varied {
     ///
     /// # Errors
     /// Every complaint about the path, the ends and the number of values at once.
-    pub fn new(study: &Study, option: &'static str, range: &Range) -> Result<Self, Vec<Complaint>> {
+    pub fn new(study: &BeltStudy, option: &'static str, range: &Range) -> Result<Self, Complaints> {
         let &Range { parameter: ref path, from, to, points } = range;
-        let address = address(study, option, path).map_err(|complaint| vec![*complaint])?;
+        let address = address(study, option, path)?;
         let mut complaints = Vec::new();
         let mut lacking: Vec<String> = Vec::new();
         let studies = [("--from", from), ("--to", to)].map(|(end, value)| {
@@ -86,7 +86,7 @@ impl Varied {
             complaints.push(Complaint::option(option, path.as_str(), allowed));
         }
         if !complaints.is_empty() {
-            return Err(complaints);
+            return Err(complaints.into());
         }
         Ok(Self {
             path: path.clone(),
@@ -101,7 +101,7 @@ impl Varied {
     ///
     /// # Errors
     /// Complaints, where a value inside the range is not allowed although its ends are.
-    pub fn study_at(&self, study: &Study, value: f64) -> Result<Study, Vec<Complaint>> {
+    pub fn study_at(&self, study: &BeltStudy, value: f64) -> Result<BeltStudy, Complaints> {
         study.with(&self.path, value)
     }
 
@@ -137,7 +137,7 @@ impl Named {
     /// # Errors
     /// A complaint with the nearest key that does name a number of this study.
     pub(super) fn new(
-        study: &Study,
+        study: &BeltStudy,
         option: &'static str,
         path: &str,
     ) -> Result<Self, Box<Complaint>> {
@@ -202,11 +202,11 @@ impl Named {
     /// Complaints about the value of an option that the study cannot take: those of `--set`.
     pub(super) fn unable(
         &self,
-        study: &Study,
+        study: &BeltStudy,
         (option, given): (&'static str, f64),
     ) -> impl Iterator<Item = Complaint> {
-        let refused = study.with(&self.key, given).err().unwrap_or_default();
-        refused.into_iter().map(move |complaint| told(complaint, option))
+        let refused = study.with(&self.key, given).err();
+        refused.into_iter().flatten().map(move |complaint| told(complaint, option))
     }
 }
 
@@ -221,11 +221,11 @@ fn is_of_several(path: &str) -> bool {
 }
 
 /// The key by which a study gives a number of the equations: in SI where the study is.
-pub fn key_of(study: &Study, path: &str) -> String {
+pub fn key_of(study: &BeltStudy, path: &str) -> String {
     in_system(path, study.scales().is_some())
 }
 
-fn address(study: &Study, option: &'static str, path: &str) -> Result<Address, Box<Complaint>> {
+fn address(study: &BeltStudy, option: &'static str, path: &str) -> Result<Address, Box<Complaint>> {
     let origin = Origin::Argument(option);
     let known = [DITHER_AMPLITUDE, BELT_VELOCITY].map(|parameter| key_of(study, parameter.path));
     let refuse = |suggestion: Option<String>| {

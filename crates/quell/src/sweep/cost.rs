@@ -6,7 +6,7 @@
 use quell_model::Direction;
 
 use super::evaluate::Computation;
-use crate::study::{DiscStudy, Study, Subject};
+use crate::study::{BeltStudy, DiscStudy};
 
 /// Seconds of one dither period with events.
 const PERIOD: f64 = 1e-6;
@@ -48,12 +48,8 @@ const LANES_FULL: f64 = 64.0;
 /// Points of a chunk, at most.
 const MOST: f64 = 65_536.0;
 
-/// Seconds of one point.
-pub(super) fn seconds(study: &Subject, wanted: &[Computation]) -> f64 {
-    let study = match study {
-        Subject::Belt(study) => study,
-        Subject::Disc(study) => return POINT + wanted.len() as f64 * exponents(study),
-    };
+/// Seconds of one point of a map of belts.
+pub(super) fn of_belt(study: &BeltStudy, wanted: &[Computation]) -> f64 {
     let each = wanted.iter().map(|computation| match computation {
         Computation::Response | Computation::ResponseWithCost => response(study),
         Computation::ResponseWithEffect => SETTLING * response(study),
@@ -65,13 +61,18 @@ pub(super) fn seconds(study: &Subject, wanted: &[Computation]) -> f64 {
     POINT + each.sum::<f64>()
 }
 
+/// Seconds of one point of a map of discs.
+pub(super) fn of_disc(study: &DiscStudy, wanted: &[Computation]) -> f64 {
+    POINT + wanted.len() as f64 * exponents(study)
+}
+
 /// Exponents of a disc: 25 µs for ten states, growing a little slower than with their cube.
 fn exponents(study: &DiscStudy) -> f64 {
     let states = 2.0 * study.disc().coordinates() as f64;
     2.5e-5 * (states / 10.0).powi(2).max(0.1)
 }
 
-fn response(study: &Study) -> f64 {
+fn response(study: &BeltStudy) -> f64 {
     let fastest = study
         .belt()
         .dithers()
@@ -85,7 +86,7 @@ fn response(study: &Study) -> f64 {
     periods * (fastest * PERIOD + 2.0 * SLOW_PERIOD) + 2.0 * samples * SAMPLE
 }
 
-fn criterion(study: &Study, sharper: bool) -> f64 {
+fn criterion(study: &BeltStudy, sharper: bool) -> f64 {
     let belt = study.belt();
     let normal = belt.dithers().iter().any(|dither| dither.direction == Direction::Normal);
     match belt.dithers().len() {

@@ -1,32 +1,130 @@
-//! What a map computes of a disc: growth rates, with the work that neighbours share.
+//! What a map computes of discs: growth rates, with the work that neighbours share, and the quantities read from them.
 //!
-//! Points that differ in the friction of the one load alone share the constant flow or the assembled system. Every point is
-//! computed through the same arithmetic whether it has such neighbours or not, so that its bits do not depend on them.
+//! Points that differ in the friction of the one load alone share the constant flow or the assembled equations. Every point
+//! is computed through the same arithmetic whether it has such neighbours or not, so that its bits do not depend on them.
 
-use quell_disc::dithered::DitheredDisc;
-use quell_disc::equations::System;
-use quell_disc::undithered;
-use quell_linear::growth::Growth;
+use quell_disc::dithered;
+use quell_disc::equations::linearised;
+use quell_linear::eigenvalues;
+use quell_linear::floquet::FollowerDither;
+use quell_linear::growth::{Growth, Verdict};
+use quell_linear::linearised::Linearised;
 use quell_model::Disc;
 use quell_model::disc::{Contribution, Contributions};
+use quell_numerics::eigen::EigenError;
 use quell_numerics::floquet::Effort;
 
 use super::evaluate::{Computation, Results};
+use super::grid::Grid;
+use super::kind::{Mapped, Point};
+use super::quantity::{Quantity, VERDICTS, Variable, VariableKind, variable};
 use super::status::Status;
+use super::{cost, refine};
+use crate::study::{DiscStudy, Study, Sweep};
+
+/// Name of the kind.
+const KIND: &str = "disc";
+
+/// A study of a disc as a map sees it.
+pub(super) struct DiscPoints(Option<DiscStudy>);
+
+impl DiscPoints {
+    pub(super) fn of(study: &Study) -> Self {
+        Self(study.disc().ok())
+    }
+}
+
+impl Mapped for DiscPoints {
+    fn quantities(&self) -> &'static [Quantity] {
+        QUANTITIES
+    }
+
+    fn values(&self, sweep: &Sweep) -> Vec<f64> {
+        match &self.0 {
+            Some(study) => refine::values(study, sweep),
+            None => sweep.axis.values().collect(),
+        }
+    }
+
+    fn seconds(&self, wanted: &[Computation]) -> f64 {
+        self.0.as_ref().map_or(0.0, |study| cost::of_disc(study, wanted))
+    }
+
+    fn compute(
+        &self,
+        grid: &Grid,
+        indices: &[usize],
+        wanted: &[Computation],
+    ) -> Vec<Option<Point>> {
+        let Some(study) = &self.0 else { return indices.iter().map(|_| None).collect() };
+        let discs: Vec<Option<Disc>> =
+            indices.iter().map(|index| study.disc_at(&grid.numbers_at(*index))).collect();
+        let found = evaluate(&discs, study.parts(), wanted);
+        found.into_iter().map(|found| found.map(|found| (None, found))).collect()
+    }
+}
+
+/// What a map of discs can show.
+#[rustfmt::skip]
+pub(super) const QUANTITIES: &[Quantity] = &[
+    disc("growth", "largest growth rate of the disc, its verdict and the bound on its error", Computation::DiscGrowth, &[
+        variable(("growth", "Re ρ"), "largest growth rate", VariableKind::DiscRate, &[], |r| Ok(grown(r)?.rate)),
+        variable(("growth_error", ""), "bound on the error of the growth rate", VariableKind::DiscRate, &[], |r| Ok(grown(r)?.error)),
+        variable(("growth_verdict", ""), "whether the growth rate has a sign within its error", VERDICTS, OF_DISC, |r| decided(grown(r)?)),
+    ]),
+    disc("frequency", "frequency of the fastest growing motion; under dither up to multiples of R", Computation::DiscGrowth, &[
+        variable(("frequency", "Im ρ"), "frequency of the fastest growing motion", VariableKind::DiscRate, &[], |r| Ok(grown(r)?.frequency)),
+    ]),
+    disc("verdict", "verdict on the disc: stable or unstable, undecided within its error", Computation::DiscGrowth, &[
+        variable(("verdict", ""), "verdict on the disc", VERDICTS, OF_DISC, |r| decided(grown(r)?)),
+    ]),
+    disc("growth-undithered", "the growth rate without dither", Computation::DiscGrowthUndithered, &[
+        variable(("growth_undithered", "Re ρ_0"), "largest growth rate without dither", VariableKind::DiscRate, &[], |r| Ok(grown_undithered(r)?.rate)),
+        variable(("growth_undithered_error", ""), "bound on the error of that", VariableKind::DiscRate, &[], |r| Ok(grown_undithered(r)?.error)),
+    ]),
+];
+
+/// What a disc's verdict can be instead of known.
+const OF_DISC: &[Status] = &[Status::WithinError];
+
+const fn disc(
+    name: &'static str,
+    about: &'static str,
+    computation: Computation,
+    variables: &'static [Variable],
+) -> Quantity {
+    Quantity { name, about, kind: KIND, computation, variables }
+}
+
+fn grown(results: &Results) -> Result<Growth, Status> {
+    results.disc.unwrap_or(Err(Status::Missing))
+}
+
+fn grown_undithered(results: &Results) -> Result<Growth, Status> {
+    results.disc_undithered.unwrap_or(Err(Status::Missing))
+}
+
+fn decided(growth: Growth) -> Result<f64, Status> {
+    match growth.verdict() {
+        Verdict::Unstable => Ok(0.0),
+        Verdict::Stable => Ok(1.0),
+        Verdict::Undecided => Err(Status::WithinError),
+    }
+}
 
 /// A disc of unit friction, and what it was prepared for.
 struct Prepared {
     disc: Disc,
-    kind: Kind,
+    equations: Equations,
 }
 
-enum Kind {
-    Dithered(Box<DitheredDisc>),
-    Constant(Box<System>),
+enum Equations {
+    Dithered(Box<FollowerDither>),
+    Constant(Box<Linearised>),
 }
 
 /// Computes at every point; `None` where there is no valid disc.
-pub(super) fn evaluate(
+fn evaluate(
     points: &[Option<Disc>],
     parts: Contributions,
     wanted: &[Computation],
@@ -65,27 +163,32 @@ fn growth(
         }
         _ => (disc.clone(), 1.0),
     };
-    let kind = match prepared {
-        Some(prepared) if prepared.disc == unit => &prepared.kind,
+    let equations = match prepared {
+        Some(prepared) if prepared.disc == unit => &prepared.equations,
         _ => {
-            let kind = DitheredDisc::with_contributions(&unit, parts).map_err(told)?.map_or_else(
-                || Kind::Constant(Box::new(System::assemble(&unit, parts))),
-                |it| Kind::Dithered(Box::new(it)),
-            );
-            &prepared.insert(Prepared { disc: unit, kind }).kind
+            let equations = match dithered::prepared_with(&unit, parts).map_err(not_finite)? {
+                Some(dithered) => Equations::Dithered(Box::new(dithered)),
+                None => {
+                    Equations::Constant(Box::new(linearised(&unit, parts).map_err(not_finite)?))
+                }
+            };
+            &prepared.insert(Prepared { disc: unit, equations }).equations
         }
     };
-    match kind {
-        Kind::Dithered(dithered) => dithered.growth(factor, Effort::default()).map_err(told),
-        Kind::Constant(system) => {
+    match equations {
+        Equations::Dithered(dithered) => {
+            dithered.growth(factor, Effort::default()).map_err(not_finite)
+        }
+        Equations::Constant(linear) => {
             let on = parts.contains(Contribution::FollowerForce);
-            let mean = system.friction().iter();
-            let friction: Vec<f64> = mean.map(|f| if on { factor * f } else { 0.0 }).collect();
-            undithered::growth_of(system, &friction).map_err(told)
+            let mean = linear.contacts().iter();
+            let friction: Vec<f64> =
+                mean.map(|contact| if on { factor * contact.friction } else { 0.0 }).collect();
+            eigenvalues::growth(linear, &friction).map_err(not_finite)
         }
     }
 }
 
-fn told(_: quell_numerics::eigen::EigenError) -> Status {
+fn not_finite(_: EigenError) -> Status {
     Status::NotFinite
 }

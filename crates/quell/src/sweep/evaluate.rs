@@ -14,9 +14,9 @@ use quell_linear::growth::Growth;
 use quell_model::{Belt, Dither};
 
 use super::status::Status;
-use crate::run::stability::SHARPER;
-use crate::run::{STEPS_OF_A_SEARCH, range};
-use crate::study::Study;
+use crate::effort::STEPS_OF_A_SEARCH;
+use crate::range;
+use crate::study::BeltStudy;
 
 /// A computation that several quantities share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -169,7 +169,7 @@ impl Results {
 }
 
 /// Computes at every point of a chunk.
-pub(super) fn evaluate(points: &[Study], wanted: &[Computation]) -> Vec<Results> {
+pub(super) fn evaluate(points: &[BeltStudy], wanted: &[Computation]) -> Vec<Results> {
     let mut results: Vec<Results> = points.iter().map(|study| averages(study, wanted)).collect();
     let dither_cost = wanted.contains(&Computation::ResponseWithCost);
     if wanted.iter().any(|computation| computation.is_response()) {
@@ -188,7 +188,7 @@ type Responded = (Steady, Option<Effect>);
 
 /// The steady responses, side by side where the points share their solver.
 fn responses(
-    points: &[Study],
+    points: &[BeltStudy],
     wanted: Wanted,
     with_effect: bool,
 ) -> Vec<Result<Responded, Status>> {
@@ -229,7 +229,7 @@ fn responses(
 }
 
 /// What averaging says at a point.
-fn averages(study: &Study, wanted: &[Computation]) -> Results {
+fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
     let belt = study.belt();
     let mut results = Results { reach: Reach::of(belt), ..Results::default() };
     let told = |why: AveragingError| Status::from(&why);
@@ -249,7 +249,7 @@ fn averages(study: &Study, wanted: &[Computation]) -> Results {
                 results.criterion_sharper = Some(match belt.dithers() {
                     [] => Err(Status::NoDither),
                     _ if slow => Err(Status::NotFast),
-                    _ => criterion(belt, SHARPER).map_err(told),
+                    _ => criterion(belt, AveragingOptions::FINITE_R).map_err(told),
                 });
             }
             Computation::CriticalAmplitudes => {

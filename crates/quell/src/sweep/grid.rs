@@ -2,13 +2,12 @@
 
 use std::fmt::Write as _;
 
-use quell_model::Disc;
 use serde_json::Value as Json;
 
-use super::refine;
-use crate::complaint::{Complaint, Fault, Origin};
+use super::kind;
+use crate::complaint::{Complaint, Complaints, Fault, Origin};
 use crate::study::vocabulary::{Address, Role};
-use crate::study::{Axis, DiscStudy, Subject, Sweep};
+use crate::study::{Axis, Study, Sweep};
 
 /// Most points a map may have: their values are kept in memory until the map is done.
 pub const MOST_POINTS: usize = 100_000_000;
@@ -47,7 +46,7 @@ pub struct GridAxis {
 /// The points of a map.
 #[derive(Clone, Debug)]
 pub struct Grid {
-    study: Subject,
+    study: Study,
     axes: Vec<GridAxis>,
 }
 
@@ -57,7 +56,7 @@ impl Grid {
     /// # Errors
     /// A complaint where the study has no axis, two axes that set the same number, or more
     /// than [`MOST_POINTS`] points.
-    pub fn of(study: impl Into<Subject>) -> Result<Self, Box<Complaint>> {
+    pub fn of(study: impl Into<Study>) -> Result<Self, Box<Complaint>> {
         let study = study.into();
         let sweeps = study.sweeps();
         if sweeps.is_empty() {
@@ -88,13 +87,14 @@ impl Grid {
                 Complaint::new(Fault::Value, "[[sweep]]", Origin::Whole, lengths, allowed);
             return Err(Box::new(complaint));
         }
+        let mapped = kind::of(&study);
         let axes = sweeps.iter().map(|sweep| GridAxis {
             name: name_of(&sweep.path),
             path: sweep.path.clone(),
             about: sweep.address.key.about,
             symbol: sweep.address.key.parameter().map(|parameter| parameter.symbol),
             unit: sweep.address.key.unit_in_words(),
-            values: refine::values(&study, sweep),
+            values: mapped.values(sweep),
             logarithmic: matches!(sweep.axis, Axis::Logarithmic { .. }),
         });
         let axes = axes.collect();
@@ -102,7 +102,7 @@ impl Grid {
     }
 
     /// The study whose axes these are.
-    pub fn study(&self) -> &Subject {
+    pub fn study(&self) -> &Study {
         &self.study
     }
 
@@ -140,12 +140,12 @@ impl Grid {
     ///
     /// # Errors
     /// Every complaint, where these values together make no valid study.
-    pub fn study_at(&self, index: usize) -> Result<Subject, Vec<Complaint>> {
+    pub fn study_at(&self, index: usize) -> Result<Study, Complaints> {
         self.study_with(&self.values_at(index))
     }
 
     /// The study at the points whose values are the first or the last of every axis.
-    pub(super) fn corner_studies(&self) -> Vec<Subject> {
+    pub(super) fn corner_studies(&self) -> Vec<Study> {
         // More than six axes: the lowest and the highest corner stand for all.
         let all = 1_usize << self.axes.len().min(6);
         let corners = (0..all).map(|corner| {
@@ -164,15 +164,13 @@ impl Grid {
         corners.flatten().collect()
     }
 
-    /// The disc at point `index` of a study of one; `None` where the values together make no valid study.
-    pub(super) fn disc_at(&self, study: &DiscStudy, index: usize) -> Option<Disc> {
+    /// The numbers of point `index`, each with its path.
+    pub(super) fn numbers_at(&self, index: usize) -> Vec<(&str, f64)> {
         let values = self.values_at(index);
-        let numbers: Vec<(&str, f64)> =
-            self.axes.iter().map(|axis| axis.path.as_str()).zip(values).collect();
-        study.disc_at(&numbers)
+        self.axes.iter().map(|axis| axis.path.as_str()).zip(values).collect()
     }
 
-    fn study_with(&self, values: &[f64]) -> Result<Subject, Vec<Complaint>> {
+    fn study_with(&self, values: &[f64]) -> Result<Study, Complaints> {
         self.study.at(self.axes.iter().map(|axis| axis.path.as_str()).zip(values.iter().copied()))
     }
 }
@@ -212,7 +210,7 @@ fn name_of(path: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::{Change, Study};
+    use crate::study::{BeltStudy, Change};
 
     const TEXT: &str = "schema = 1\n[belt]\ndamping_ratio = 0.01\nnormal_load = 1\n\
         belt_velocity = 0.1\n[friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\n\
@@ -221,7 +219,7 @@ mod tests {
         direction = \"tangential\"\nwaveform = \"square\"\namplitude = 0.1\nfrequency_ratio = 7\n";
 
     fn grid(axes: &str) -> Result<Grid, Box<Complaint>> {
-        Grid::of(&Study::parse(&format!("{TEXT}{axes}"), &[]).expect("valid"))
+        Grid::of(&BeltStudy::parse(&format!("{TEXT}{axes}"), &[]).expect("valid"))
     }
 
     #[test]
@@ -244,7 +242,7 @@ mod tests {
                 .map(|(axis, value)| Change::parse(&format!("{}={value:?}", axis.path), "--set"))
                 .collect::<Result<_, _>>()
                 .expect("changes");
-            let alone = Study::parse(TEXT, &changes).expect("valid");
+            let alone = BeltStudy::parse(TEXT, &changes).expect("valid");
             let point = grid.study_at(index).expect("valid");
             let point = point.belt().expect("of a belt");
             assert_eq!(

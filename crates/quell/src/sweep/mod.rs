@@ -10,11 +10,13 @@
 //! A point is the study with its numbers set as `--set` sets them, and its result depends on
 //! nothing else: it has the same bits alone, in any chunk, with any number of threads.
 
+mod belt;
 mod chunks;
 mod cost;
 mod disc;
 mod evaluate;
 mod grid;
+mod kind;
 mod plan;
 mod quantity;
 mod refine;
@@ -27,7 +29,7 @@ pub use chunks::Chunks;
 pub use evaluate::{Computation, Results, Steady};
 pub use grid::{Grid, GridAxis, MOST_POINTS};
 pub use plan::Plan;
-pub use quantity::{Kind, QUANTITIES, Quantity, System, Variable};
+pub use quantity::{QUANTITIES, Quantity, Variable, VariableKind};
 pub(crate) use runner::run;
 pub use runner::{MOST_THREADS, Progress, Running};
 pub use shard::Shard;

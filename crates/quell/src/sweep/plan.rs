@@ -1,16 +1,15 @@
 //! What is to be computed: the grid, the quantities, the arrays, the chunks.
 
+use super::belt::SETTLED_NAME;
 use super::chunks::Chunks;
 use super::cost;
-use super::disc;
-use super::evaluate::{Computation, evaluate};
+use super::evaluate::Computation;
 use super::grid::Grid;
-use super::quantity::{Quantity, SETTLED_NAME};
+use super::kind;
+use super::quantity::Quantity;
 use super::sheet::{Data, Sheet};
-use quell_model::Disc;
-
 use crate::complaint::Complaint;
-use crate::study::{Study, Subject};
+use crate::study::Study;
 
 /// A map that is to be computed.
 #[derive(Clone, Debug)]
@@ -29,12 +28,15 @@ impl Plan {
     /// # Errors
     /// The complaint of [`Grid::of`].
     pub fn new(
-        study: impl Into<Subject>,
+        study: impl Into<Study>,
         asked: &[&'static Quantity],
     ) -> Result<Self, Box<Complaint>> {
         let study = study.into();
+        let mapped = kind::of(&study);
         for quantity in asked {
-            quantity.fits(&study)?;
+            if !mapped.quantities().contains(quantity) {
+                Quantity::named_for(study.kind().name(), quantity.name, "--quantity")?;
+            }
         }
         let grid = Grid::of(&study)?;
         let mut quantities: Vec<&'static Quantity> = Vec::new();
@@ -54,8 +56,8 @@ impl Plan {
         let seconds = grid
             .corner_studies()
             .iter()
-            .map(|study| cost::seconds(study, &computations))
-            .fold(cost::seconds(&study, &computations), f64::max);
+            .map(|study| kind::of(study).seconds(&computations))
+            .fold(mapped.seconds(&computations), f64::max);
         let chunks = Chunks::new(&grid.shape(), cost::points_per_chunk(grid.len(), seconds));
         let sheet = Sheet::new(&study, &quantities);
         Ok(Self { grid, quantities, computations, sheet, chunks })
@@ -94,27 +96,9 @@ impl Plan {
 
     /// Computes some points, by their index in the grid.
     pub fn compute_points(&self, indices: impl Iterator<Item = usize>) -> Vec<Data> {
-        if let Subject::Disc(study) = self.grid.study() {
-            let discs: Vec<Option<Disc>> =
-                indices.map(|index| self.grid.disc_at(study, index)).collect();
-            let found = disc::evaluate(&discs, study.parts(), &self.computations);
-            let points: Vec<_> =
-                found.into_iter().map(|found| found.map(|found| (None, found))).collect();
-            return self.sheet.fill(&points);
-        }
-        let belt = |index| match self.grid.study_at(index) {
-            Ok(Subject::Belt(study)) => Some(*study),
-            _ => None,
-        };
-        let studies: Vec<Option<Study>> = indices.map(belt).collect();
-        let scales: Vec<_> =
-            studies.iter().map(|study| study.as_ref().map(Study::scales)).collect();
-        let valid: Vec<Study> = studies.into_iter().flatten().collect();
-        let mut results = evaluate(&valid, &self.computations).into_iter();
-        let points: Vec<_> = scales
-            .into_iter()
-            .map(|scales| scales.and_then(|scales| results.next().map(|found| (scales, found))))
-            .collect();
+        let indices: Vec<usize> = indices.collect();
+        let mapped = kind::of(self.grid.study());
+        let points = mapped.compute(&self.grid, &indices, &self.computations);
         self.sheet.fill(&points)
     }
 }
@@ -122,6 +106,7 @@ impl Plan {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::BeltStudy;
     use crate::sweep::Status;
 
     const TEXT: &str = "schema = 1\n[belt]\ndamping_ratio = 0.01\nnormal_load = 0.5\n\
@@ -133,7 +118,7 @@ mod tests {
 
     #[test]
     fn a_point_has_the_same_bits_beside_any_others() {
-        let study = Study::parse(TEXT, &[]).expect("valid");
+        let study = BeltStudy::parse(TEXT, &[]).expect("valid");
         let asked: Vec<&Quantity> =
             ["efficiency", "growth", "critical-amplitude", "dither-stroke", "verdict-sharper"]
                 .iter()

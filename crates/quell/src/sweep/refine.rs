@@ -6,7 +6,7 @@
 
 use quell_disc::resonance::{Resonance, Tongue, Waves};
 
-use crate::study::{Axis, DiscStudy, Subject, Sweep};
+use crate::study::{Axis, DiscStudy, Sweep};
 
 /// Distances from a meeting of waves, in Ω.
 const BESIDE: [f64; 4] = [1e-5, 1e-4, 1e-3, 4e-3];
@@ -15,16 +15,14 @@ const BESIDE: [f64; 4] = [1e-5, 1e-4, 1e-3, 4e-3];
 const ACROSS: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// The values of an axis.
-pub(super) fn values(study: &Subject, sweep: &Sweep) -> Vec<f64> {
+pub(super) fn values(study: &DiscStudy, sweep: &Sweep) -> Vec<f64> {
     let mut values: Vec<f64> = sweep.axis.values().collect();
     let range = match sweep.axis {
         Axis::Linear { from, to, .. } | Axis::Logarithmic { from, to, .. } => (from, to),
         Axis::Values(_) => return values,
     };
-    if let Some(disc) = study.disc()
-        && sweep.address.key.path() == "disc.load.speed"
-    {
-        values.extend(beside(disc, range));
+    if sweep.address.key.path() == "disc.load.speed" {
+        values.extend(beside(study, range));
         values.sort_by(f64::total_cmp);
         values.dedup_by(|a, b| (*a - *b).abs() <= 1e-9);
         if range.0 > range.1 {

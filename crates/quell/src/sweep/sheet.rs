@@ -8,10 +8,10 @@
 use quell_model::units::{self, Scales};
 
 use super::evaluate::{Computation, Results};
-use super::quantity::{Kind, Quantity, Variable};
+use super::quantity::{Quantity, Variable, VariableKind};
 use super::status::Status;
 use crate::quantity::unit_of;
-use crate::study::Subject;
+use crate::study::Study;
 
 /// Bits of the NaN that stands for an unknown number; the code of its state is added.
 const UNKNOWN: u64 = 0x7ff8_0000_0000_0000;
@@ -113,7 +113,7 @@ pub struct Sheet {
 
 impl Sheet {
     /// The arrays of `quantities` for a study.
-    pub fn new(study: &Subject, quantities: &[&Quantity]) -> Self {
+    pub fn new(study: &Study, quantities: &[&Quantity]) -> Self {
         let si = study.scales().is_some();
         let mut sheet = Self { entries: Vec::new(), fields: Vec::new() };
         let variables = quantities.iter().flat_map(|quantity| {
@@ -122,8 +122,10 @@ impl Sheet {
         for (variable, computation) in variables {
             let name = variable.name;
             let content = match variable.kind {
-                Kind::Number(_) | Kind::Rate | Kind::DiscRate => Content::Numbers,
-                Kind::Word { words, unknown } => {
+                VariableKind::Number(_) | VariableKind::Rate | VariableKind::DiscRate => {
+                    Content::Numbers
+                }
+                VariableKind::Word { words, unknown } => {
                     let words = words.iter().chain([&unknown]).zip(0..);
                     let words = words.map(|(word, code)| (code, *word));
                     Content::Codes(words.chain([(MISSING, Status::Missing.name())]).collect())
@@ -214,10 +216,10 @@ fn unknown(status: Status) -> f64 {
 }
 
 /// The code that stands for an unknown word.
-fn unknown_word(kind: Kind) -> u8 {
+fn unknown_word(kind: VariableKind) -> u8 {
     match kind {
-        Kind::Word { words, .. } => u8::try_from(words.len()).unwrap_or(MISSING),
-        Kind::Number(_) | Kind::Rate | Kind::DiscRate => MISSING,
+        VariableKind::Word { words, .. } => u8::try_from(words.len()).unwrap_or(MISSING),
+        VariableKind::Number(_) | VariableKind::Rate | VariableKind::DiscRate => MISSING,
     }
 }
 
@@ -232,31 +234,33 @@ fn whole(value: f64) -> u8 {
 }
 
 /// Unit of a variable in the numbers of the equations; the lengths of a study in SI are metres.
-fn unit(kind: Kind, si: bool) -> String {
+fn unit(kind: VariableKind, si: bool) -> String {
     match kind {
-        Kind::Number(quantity) => unit_of(quantity, si),
-        Kind::Rate => "ω₀".to_owned(),
-        Kind::DiscRate => "ω_ref".to_owned(),
-        Kind::Word { .. } => String::new(),
+        VariableKind::Number(quantity) => unit_of(quantity, si),
+        VariableKind::Rate => "ω₀".to_owned(),
+        VariableKind::DiscRate => "ω_ref".to_owned(),
+        VariableKind::Word { .. } => String::new(),
     }
 }
 
 /// SI unit of a variable and the suffix for it.
-fn twin(kind: Kind) -> Option<(&'static str, &'static str)> {
+fn twin(kind: VariableKind) -> Option<(&'static str, &'static str)> {
     match kind {
         // A displacement is in metres already.
-        Kind::Number(units::Quantity::Displacement) | Kind::DiscRate | Kind::Word { .. } => None,
-        Kind::Number(quantity) => quantity.si_unit(),
-        Kind::Rate => Some(("1/s", "per_s")),
+        VariableKind::Number(units::Quantity::Displacement)
+        | VariableKind::DiscRate
+        | VariableKind::Word { .. } => None,
+        VariableKind::Number(quantity) => quantity.si_unit(),
+        VariableKind::Rate => Some(("1/s", "per_s")),
     }
 }
 
 /// SI value of one unit of a variable.
-fn factor(kind: Kind, scales: Scales) -> f64 {
+fn factor(kind: VariableKind, scales: Scales) -> f64 {
     match kind {
-        Kind::Number(quantity) => scales.si_per_unit(quantity),
-        Kind::Rate => scales.angular_frequency(),
-        Kind::DiscRate | Kind::Word { .. } => 1.0,
+        VariableKind::Number(quantity) => scales.si_per_unit(quantity),
+        VariableKind::Rate => scales.angular_frequency(),
+        VariableKind::DiscRate | VariableKind::Word { .. } => 1.0,
     }
 }
 

@@ -17,12 +17,14 @@ use std::sync::Arc;
 
 use quell_numerics::lane::Lane;
 
+use super::numeric::not_a_number_of;
+use super::series::side_by_side;
 use super::{
-    BranchSeries, Friction, RangeLimit, SlidingLaw, SlipRange, Surroundings, not_a_number_of,
-    side_by_side,
+    BranchSeries, Friction, LawParameters, LawSeries, RangeLimit, SlidingLaw, SlipRange,
+    Surroundings,
 };
-use crate::Invalid;
 use crate::parameter::{MAXIMUM_VELOCITY, Parameter, STATIC_COEFFICIENT};
+use crate::{Invalid, InvalidValues};
 
 mod program;
 mod proof;
@@ -99,7 +101,7 @@ impl Expression {
         constants: &[(String, f64)],
         static_coefficient: Option<f64>,
         velocity_unit: f64,
-    ) -> Result<Self, Vec<Invalid>> {
+    ) -> Result<Self, InvalidValues> {
         let mut complaints = Vec::new();
         if !(velocity_unit.is_finite() && velocity_unit > 0.0) {
             let allowed = "a finite velocity above 0";
@@ -128,11 +130,11 @@ impl Expression {
             Ok(programs) => programs,
             Err(why) => {
                 complaints.push(refused(why));
-                return Err(complaints);
+                return Err(InvalidValues::of(complaints));
             }
         };
         if !complaints.is_empty() {
-            return Err(complaints);
+            return Err(InvalidValues::of(complaints));
         }
         let law = Self {
             text: text.into(),
@@ -149,13 +151,14 @@ impl Expression {
             proven: Proven::default(),
         };
         let law = law.settled()?;
-        law.same_in_both_directions(&mirrored).map_err(|why| vec![refused(why)])?;
+        law.same_in_both_directions(&mirrored).map_err(|why| InvalidValues::from(refused(why)))?;
         Ok(law)
     }
 
     /// The law with all that follows from its numbers.
-    fn settled(mut self) -> Result<Self, Vec<Invalid>> {
-        let refused = |law: &Self, why: String| vec![Invalid::new(FORMULA, &law.text, why)];
+    fn settled(mut self) -> Result<Self, InvalidValues> {
+        let refused =
+            |law: &Self, why: String| InvalidValues::from(Invalid::new(FORMULA, &law.text, why));
         self.constants = self.program.values(&self.named);
         self.proven = Proven::default();
         let (start, slope) = self.at(0.0);
@@ -178,7 +181,7 @@ impl Expression {
             let allowed = format!(
                 "at least μ(0⁺) = {start}, where sliding begins: below it stick could never begin"
             );
-            return Err(vec![Invalid::new(STATIC_COEFFICIENT.path, level, allowed)]);
+            return Err(InvalidValues::from(Invalid::new(STATIC_COEFFICIENT.path, level, allowed)));
         }
         self.static_coefficient = if start >= level - rounding { start } else { level };
         Ok(self)
@@ -199,9 +202,9 @@ impl Expression {
     ///
     /// # Errors
     /// A speed that is not finite or not above 0.
-    pub fn with_maximum_velocity(&self, speed: Option<f64>) -> Result<Self, Vec<Invalid>> {
+    pub fn with_maximum_velocity(&self, speed: Option<f64>) -> Result<Self, InvalidValues> {
         if let Some(speed) = speed {
-            MAXIMUM_VELOCITY.check(speed).map_err(|invalid| vec![invalid])?;
+            MAXIMUM_VELOCITY.check(speed).map_err(InvalidValues::from)?;
         }
         let maximum = speed.map(|speed| speed / self.velocity_unit);
         Ok(Self { maximum, proven: Proven::default(), ..self.clone() })
@@ -213,15 +216,16 @@ impl Expression {
     /// # Errors
     /// Under `friction.coefficient`: the slip at which the formula is negative or not finite, with its value, or at which
     /// it could not be proven.
-    pub fn proven_up_to(&self, speed: f64) -> Result<Self, Vec<Invalid>> {
+    pub fn proven_up_to(&self, speed: f64) -> Result<Self, InvalidValues> {
         // No slip is faster than the largest number.
         let speed = (speed / self.velocity_unit).min(f64::MAX);
         if speed.is_nan() || speed <= 0.0 {
             return Ok(self.clone());
         }
         if self.proven.0.is_none_or(|proven| proven < speed) {
-            proof::prove(self, speed)
-                .map_err(|doubt| vec![Invalid::new(FORMULA, &self.text, doubt.to_string())])?;
+            proof::prove(self, speed).map_err(|doubt| {
+                InvalidValues::from(Invalid::new(FORMULA, &self.text, doubt.to_string()))
+            })?;
         }
         Ok(Self { proven: Proven(Some(speed)), ..self.clone() })
     }
@@ -292,7 +296,7 @@ impl Expression {
     }
 }
 
-impl SlidingLaw for Expression {
+impl LawParameters for Expression {
     const NAME: &'static str = "expression";
     const ABOUT: &'static str =
         "a formula for the coefficient, such as 0.3 + 0.1*exp(-abs(v)/0.2), v the slip velocity";
@@ -314,9 +318,9 @@ impl SlidingLaw for Expression {
         self.named().find(|(known, _)| *known == name).map(|(_, value)| value)
     }
 
-    fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>> {
+    fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues> {
         if path == STATIC_COEFFICIENT.path {
-            STATIC_COEFFICIENT.check(value).map_err(|invalid| vec![invalid])?;
+            STATIC_COEFFICIENT.check(value).map_err(InvalidValues::from)?;
             return Self { given_static: Some(value), ..self.clone() }.settled();
         }
         if path == MAXIMUM_VELOCITY.path {
@@ -326,14 +330,16 @@ impl SlidingLaw for Expression {
         let index = self.names.iter().position(|known| Some(known.as_str()) == name);
         let index = index.ok_or_else(|| not_a_number_of::<Self>(path, value))?;
         if !value.is_finite() {
-            return Err(vec![Invalid::new(path, value, "a finite number")]);
+            return Err(InvalidValues::from(Invalid::new(path, value, "a finite number")));
         }
         let mut changed = self.clone();
         changed.named[index] = value;
         changed.settled()
     }
+}
 
-    fn placed(&self, surroundings: &Surroundings) -> Result<Self, Vec<Invalid>> {
+impl SlidingLaw for Expression {
+    fn placed(&self, surroundings: &Surroundings) -> Result<Self, InvalidValues> {
         let own =
             || if surroundings.slip > 0.0 { surroundings.slip } else { self.velocity_scale() };
         let given = self.maximum.map(|speed| speed * self.velocity_unit);
@@ -356,6 +362,13 @@ impl SlidingLaw for Expression {
         self.static_coefficient
     }
 
+    fn alone(&self, speed: f64) -> (f64, f64) {
+        let (value, slope) = self.at(speed / self.velocity_unit);
+        (value, slope * self.scale)
+    }
+}
+
+impl LawSeries for Expression {
     type Constants<V: Lane> = ExpressionConstants<V>;
 
     fn constants<V: Lane>(laws: &[Self]) -> ExpressionConstants<V> {
@@ -385,10 +398,5 @@ impl SlidingLaw for Expression {
 
     fn of(friction: &Friction) -> Option<Self> {
         if let Friction::Expression(law) = friction { Some(law.clone()) } else { None }
-    }
-
-    fn alone(&self, speed: f64) -> (f64, f64) {
-        let (value, slope) = self.at(speed / self.velocity_unit);
-        (value, slope * self.scale)
     }
 }

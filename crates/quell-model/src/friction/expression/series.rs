@@ -24,7 +24,8 @@ use quell_numerics::elementary;
 use quell_numerics::lane::{Lane, half_inner_square, partial_product};
 
 use super::program::{Argument, MOST_SLOTS, Program, Step};
-use crate::friction::{BranchSeries, length_of_change, longest_change};
+use crate::friction::BranchSeries;
+use crate::friction::series::{length_of_change, longest_change};
 
 /// What a slot's recurrence sums.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,11 +12,12 @@ use std::sync::Arc;
 use quell_numerics::lane::Lane;
 
 use super::expression::{ExpressionConstants, ExpressionSeries};
+use super::numeric::not_a_number_of;
 use super::{
-    Expression, Friction, RangeLimit, SlidingLaw, SlipRange, Surroundings, not_a_number_of,
+    Expression, Friction, LawParameters, LawSeries, RangeLimit, SlidingLaw, SlipRange, Surroundings,
 };
-use crate::Invalid;
 use crate::parameter::{Parameter, STATIC_COEFFICIENT};
+use crate::{Invalid, InvalidValues};
 
 mod fit;
 
@@ -32,7 +33,7 @@ pub const COEFFICIENTS: &str = "friction.coefficient";
 pub const TERMS: &str = "friction.terms";
 
 /// What is wrong with the formula of a fit, said of its samples.
-fn of_samples(wrong: Vec<Invalid>) -> Vec<Invalid> {
+fn of_samples(wrong: InvalidValues) -> InvalidValues {
     let said = |invalid: Invalid| {
         if invalid.key == STATIC_COEFFICIENT.path {
             return invalid;
@@ -43,7 +44,7 @@ fn of_samples(wrong: Vec<Invalid>) -> Vec<Invalid> {
         );
         Invalid::new(COEFFICIENTS, invalid.value, allowed)
     };
-    wrong.into_iter().map(said).collect()
+    wrong.map(said)
 }
 
 /// A law from measured samples.
@@ -66,7 +67,7 @@ impl Samples {
         static_coefficient: Option<f64>,
         terms: Option<usize>,
         velocity_unit: f64,
-    ) -> Result<Self, Vec<Invalid>> {
+    ) -> Result<Self, InvalidValues> {
         let mut complaints: Vec<Invalid> = Vec::new();
         for (index, (speed, coefficient)) in samples.iter().enumerate() {
             if !(speed.is_finite() && *speed >= 0.0) {
@@ -87,18 +88,18 @@ impl Samples {
             complaints.push(Invalid::new(TERMS, count, allowed));
         }
         if !complaints.is_empty() {
-            return Err(complaints);
+            return Err(InvalidValues::of(complaints));
         }
         let mut speeds: Vec<f64> = samples.iter().map(|(speed, _)| *speed).collect();
         speeds.sort_by(f64::total_cmp);
         speeds.dedup();
         if speeds.len() < FEWEST {
             let allowed = format!("samples at {FEWEST} different speeds or more");
-            return Err(vec![Invalid::new(SPEEDS, speeds.len(), allowed)]);
+            return Err(InvalidValues::from(Invalid::new(SPEEDS, speeds.len(), allowed)));
         }
         let fit = fit::fit(samples, static_coefficient, terms).ok_or_else(|| {
             let allowed = "fewer, or more samples: these do not determine the fit";
-            vec![Invalid::new(TERMS, terms.unwrap_or(1), allowed)]
+            InvalidValues::from(Invalid::new(TERMS, terms.unwrap_or(1), allowed))
         })?;
         Self::of_fit(fit, static_coefficient, velocity_unit)
     }
@@ -111,7 +112,7 @@ impl Samples {
         fit: Fit,
         static_coefficient: Option<f64>,
         velocity_unit: f64,
-    ) -> Result<Self, Vec<Invalid>> {
+    ) -> Result<Self, InvalidValues> {
         // A pinned fit starts at the level but for rounding.
         let level =
             static_coefficient.map(|level| if fit.pinned { level.max(fit.start()) } else { level });
@@ -138,7 +139,7 @@ impl Samples {
     }
 }
 
-impl SlidingLaw for Samples {
+impl LawParameters for Samples {
     const NAME: &'static str = "samples";
     const ABOUT: &'static str =
         "measured slip speeds and coefficients, fitted by one sum of exponentials";
@@ -152,15 +153,17 @@ impl SlidingLaw for Samples {
         (path == STATIC_COEFFICIENT.path).then(|| self.curve.static_coefficient())
     }
 
-    fn with(&self, path: &str, value: f64) -> Result<Self, Vec<Invalid>> {
+    fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues> {
         if path != STATIC_COEFFICIENT.path {
             return Err(not_a_number_of::<Self>(path, value));
         }
         Ok(Self { curve: self.curve.with(path, value)?, fit: Arc::clone(&self.fit) })
     }
+}
 
+impl SlidingLaw for Samples {
     /// Slip beyond the samples is warned of; the fit's trend is proven there all the same.
-    fn placed(&self, surroundings: &Surroundings) -> Result<Self, Vec<Invalid>> {
+    fn placed(&self, surroundings: &Surroundings) -> Result<Self, InvalidValues> {
         let data = self.fit.range.1 * self.curve.velocity_unit();
         let speed = data.max(super::expression::MULTIPLE * surroundings.slip);
         let curve = self.curve.proven_up_to(speed).map_err(of_samples)?;
@@ -185,6 +188,12 @@ impl SlidingLaw for Samples {
         self.curve.static_coefficient()
     }
 
+    fn alone(&self, speed: f64) -> (f64, f64) {
+        self.curve.alone(speed)
+    }
+}
+
+impl LawSeries for Samples {
     type Constants<V: Lane> = ExpressionConstants<V>;
 
     fn constants<V: Lane>(laws: &[Self]) -> ExpressionConstants<V> {
@@ -209,9 +218,5 @@ impl SlidingLaw for Samples {
 
     fn of(friction: &Friction) -> Option<Self> {
         if let Friction::Samples(law) = friction { Some(law.clone()) } else { None }
-    }
-
-    fn alone(&self, speed: f64) -> (f64, f64) {
-        self.curve.alone(speed)
     }
 }

@@ -8,7 +8,7 @@ use quell_model::disc::{Load, Mode};
 use quell_model::parameter::disc::MODAL_DAMPING;
 use quell_model::units::DiscScales;
 
-use super::super::mirror::{Node, Table, Value};
+use super::super::document::{Node, Table, Value};
 use super::super::reader::Reader;
 use super::super::vocabulary::{Choice, Section};
 use super::loads::{LoadScales, Pad};

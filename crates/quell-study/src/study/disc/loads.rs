@@ -8,7 +8,7 @@ use quell_model::parameter::disc::{
 use quell_model::units::DiscScales;
 
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::mirror::{Node, Table, Value};
+use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::Section;
 

@@ -13,7 +13,7 @@ use super::loads::Pad;
 use super::modes_file;
 use super::plate::{self, PlateModes};
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::mirror::{Node, Table, Value};
+use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::Section;
 

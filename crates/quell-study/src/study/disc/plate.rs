@@ -9,7 +9,7 @@ use quell_model::parameter::disc::{
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::mirror::{Node, Table, Value};
+use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
 
 /// A plate and the modes taken of it.

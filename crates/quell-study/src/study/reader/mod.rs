@@ -5,11 +5,11 @@
 //! `belt.stiffness_n_per_m` is there, or where all its quantities are; then a dimensionless
 //! key that has an SI twin is refused, and the other way round.
 
-use quell_model::Invalid;
+use quell_model::InvalidValues;
 use quell_model::units::{DiscScales, Quantity, Scales};
 use serde_json::Value as Json;
 
-use super::mirror::{Node, Table, Value, given_number};
+use super::document::{Node, Table, Value, given_number};
 use super::suggest;
 use super::vocabulary::{self, Key, Role, Section, join};
 use crate::complaint::{Complaint, Fault, Origin};
@@ -45,7 +45,7 @@ struct Written {
 
 /// Reads keys and collects complaints.
 #[derive(Debug)]
-pub(super) struct Reader {
+pub struct Reader {
     units: Units,
     complaints: Vec<Complaint>,
     written: Vec<Written>,
@@ -171,7 +171,7 @@ impl Reader {
 
     /// Adds what a constructor of the model said, in the words of the file. What was
     /// already complained about is not said again.
-    pub(super) fn adopt(&mut self, invalid: Vec<Invalid>) {
+    pub(super) fn adopt(&mut self, invalid: InvalidValues) {
         for complaint in invalid {
             let written = self.written.iter().find(|written| written.path == complaint.key);
             let Some(written) = written else { continue };

@@ -10,7 +10,7 @@ use serde_json::Value as Json;
 
 use super::{Reader, Units};
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::mirror::{Node, Table, Value};
+use crate::study::document::{Node, Table, Value};
 use crate::study::vocabulary::{self, join};
 
 /// What was found under a parameter's keys.

@@ -4,7 +4,7 @@ use serde_json::Value as Json;
 
 use super::Reader;
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::mirror::{Node, Table, Value};
+use crate::study::document::{Node, Table, Value};
 use crate::study::suggest;
 use crate::study::vocabulary::{Choice, join};
 

@@ -207,27 +207,19 @@ impl Key {
         }
     }
 
-    /// Unit in words, also of the disc's keys, which carry it in their names.
+    /// Unit in words; frequencies of a disc are counted in ω_ref.
     pub fn unit_in_words(&self) -> &'static str {
-        match self.unit_in_name() {
-            Some("deg") => "degrees",
-            Some(unit) => unit,
-            None if self.is_of_a_disc() && self.unit() == "ω₀" => "ω_ref",
-            None => self.unit(),
-        }
+        if self.is_of_a_disc() && self.unit() == "ω₀" { "ω_ref" } else { self.unit() }
     }
 
     /// The unit in which a number with a unit is read, such as `5.7kN` for a key in newtons; `None` for numbers of
     /// the equations and whatever else has no unit.
     pub fn measured_in(&self) -> Option<&'static str> {
-        if let Some(unit) = self.unit_in_name() {
-            return Some(unit);
-        }
         match self.role {
             Role::Number(parameter) => match parameter.quantity {
                 Quantity::Ratio | Quantity::DampingRatio => Some("1"),
                 Quantity::Angle => Some("rad"),
-                _ => None,
+                quantity => quantity.own_unit(),
             },
             Role::Twin(_, twin) => Some(twin.unit.trim_end_matches(" (rms)")),
             Role::Scale(scale) => Some(scale.unit),
@@ -237,15 +229,6 @@ impl Key {
             Role::Constant => Some("1"),
             _ => None,
         }
-    }
-
-    /// The unit that the name of a disc's key carries.
-    fn unit_in_name(&self) -> Option<&'static str> {
-        let units =
-            [("_kg_per_m3", "kg/m³"), ("_pa", "Pa"), ("_hz", "Hz"), ("_deg", "deg"), ("_m", "m")];
-        let found = units.iter().find(|(suffix, _)| self.name.ends_with(suffix));
-        let number = matches!(self.role, Role::Number(_));
-        found.filter(|_| number && self.is_of_a_disc()).map(|(_, unit)| *unit)
     }
 
     fn is_of_a_disc(&self) -> bool {

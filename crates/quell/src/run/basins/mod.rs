@@ -25,11 +25,12 @@ use quell_model::units::Scales;
 use rayon::prelude::*;
 
 use super::attractor::{scene, unknown};
-use super::range::{self, SlipMet};
 use super::varied::{Range, Varied};
-use super::{STEPS_OF_A_SEARCH, STEPS_OF_MANY_SEARCHES, failed, moves, stopped};
+use super::{failed, moves, stopped};
 use crate::complaint::{Complaint, Failure};
-use crate::study::Study;
+use crate::effort::{STEPS_OF_A_SEARCH, STEPS_OF_MANY_SEARCHES};
+use crate::range::{self, SlipMet};
+use crate::study::BeltStudy;
 use crate::sweep::Running;
 
 pub use share::Share;
@@ -40,7 +41,7 @@ const CHUNK: usize = 128;
 
 /// What is asked.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Question {
+pub struct BasinsRequest {
     /// Displacements x of the window; from the belt where there is none.
     pub displacement: Option<(f64, f64)>,
     /// Velocities x′ of the window; from the belt where there is none.
@@ -92,15 +93,19 @@ pub struct Basins {
 ///
 /// # Errors
 /// Complaints about the question; [`Failure::Failed`] if there are no threads or the work is stopped.
-pub fn run(study: &Study, question: &Question, running: Running<'_>) -> Result<Basins, Failure> {
+pub fn run(
+    study: &BeltStudy,
+    question: &BasinsRequest,
+    running: Running<'_>,
+) -> Result<Basins, Failure> {
     let belt = study.belt();
     let varied = question.over.as_ref().map(|over| Varied::new(study, "--over", over));
     let starts = Starts::new(belt, question.displacement, question.velocity, question.layout);
     let (varied, starts) = match (varied.transpose(), starts) {
         (Ok(varied), Ok(starts)) => (varied, starts),
         (varied, starts) => {
-            let mut complaints: Vec<Complaint> = varied.err().unwrap_or_default();
-            complaints.extend(starts.err().unwrap_or_default());
+            let mut complaints: Vec<Complaint> = varied.err().into_iter().flatten().collect();
+            complaints.extend(starts.err().into_iter().flatten());
             return Err(complaints.into());
         }
     };
@@ -129,7 +134,11 @@ pub fn run(study: &Study, question: &Question, running: Running<'_>) -> Result<B
 }
 
 /// The slip of the starts, side by side, and of the attractors.
-fn slip_met(studies: &[(Option<f64>, Study)], starts: &Starts, portraits: &[Portrait]) -> SlipMet {
+fn slip_met(
+    studies: &[(Option<f64>, BeltStudy)],
+    starts: &Starts,
+    portraits: &[Portrait],
+) -> SlipMet {
     let mut slip = SlipMet::default();
     for ((_, study), portrait) in studies.iter().zip(portraits) {
         let belt = study.belt();
@@ -156,7 +165,7 @@ fn all_of(varied: &Varied, starts: &Starts) -> Result<(), Failure> {
 
 /// The portrait of each study. Chunks of starts are handed to whoever is free; each run depends on itself alone.
 fn portraits(
-    studies: &[(Option<f64>, Study)],
+    studies: &[(Option<f64>, BeltStudy)],
     starts: &Starts,
     running: Running<'_>,
 ) -> Result<Vec<Portrait>, Failure> {

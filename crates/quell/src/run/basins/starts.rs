@@ -4,7 +4,7 @@ use quell_dynamics::simulation::Start;
 use quell_model::Belt;
 
 use super::super::evenly;
-use crate::complaint::Complaint;
+use crate::complaint::{Complaint, Complaints};
 
 /// Most starts of one portrait.
 pub const MOST_STARTS: usize = 10_000_000;
@@ -71,7 +71,7 @@ impl Starts {
         displacement: Option<(f64, f64)>,
         velocity: Option<(f64, f64)>,
         layout: Layout,
-    ) -> Result<Self, Vec<Complaint>> {
+    ) -> Result<Self, Complaints> {
         let mut complaints = Vec::new();
         for (option, range) in [("--displacement", displacement), ("--velocity", velocity)] {
             if let Some((from, to)) = range
@@ -103,7 +103,7 @@ impl Starts {
             }
         }
         if !complaints.is_empty() {
-            return Err(complaints);
+            return Err(complaints.into());
         }
         let whole = Window::of(belt);
         let window = Window {

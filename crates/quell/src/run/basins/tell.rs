@@ -8,11 +8,11 @@ use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
 use super::super::attractor::{VERDICTS, number, put, put_section, verdict_code, words};
-use super::super::{in_words, plural};
 use super::{Basins, Layout, Portrait, Share};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::study::Study;
+use crate::study::BeltStudy;
+use crate::words::{in_words, plural};
 
 /// A share in words: 62 %, with the bounds.
 fn percent(share: Share) -> String {
@@ -140,7 +140,7 @@ impl Basins {
     }
 
     /// The window and its starts, in words.
-    pub fn starts_in_words(&self, study: &Study) -> String {
+    pub fn starts_in_words(&self, study: &BeltStudy) -> String {
         let window = self.starts.window();
         let x = |value| in_words(study, Quantity::Displacement, value);
         let v = |value| in_words(study, Quantity::Velocity, value);
@@ -164,7 +164,7 @@ impl Basins {
     }
 
     /// What was found, in one sentence or a few.
-    pub fn sentence(&self, study: &Study) -> String {
+    pub fn sentence(&self, study: &BeltStudy) -> String {
         match (&self.varied, self.portraits.as_slice()) {
             (None, [portrait]) => portrait.sentence(),
             (Some(varied), portraits) => {
@@ -218,7 +218,7 @@ impl Basins {
     }
 
     /// What a reader of the numbers should know.
-    pub fn warnings(&self, study: &Study) -> Vec<String> {
+    pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let mut warnings = self.slip.warnings(study);
         for portrait in &self.portraits {
             let at = match (portrait.value, &self.varied) {
@@ -247,7 +247,7 @@ impl Basins {
     }
 
     /// As JSON: with one portrait its fields, with several a list of them.
-    pub fn json(&self, study: &Study) -> Json {
+    pub fn json(&self, study: &BeltStudy) -> Json {
         let scales = study.scales();
         let mut fields = Fields::new(scales);
         let window = self.starts.window();
@@ -283,7 +283,7 @@ impl Basins {
     }
 
     /// Where each start ends; with a parameter the shares over it.
-    pub fn dataset(&self, study: &Study) -> Dataset {
+    pub fn dataset(&self, study: &BeltStudy) -> Dataset {
         let facts = format!("{}; {}", self.starts_in_words(study), self.meaning());
         match (&self.varied, self.portraits.as_slice()) {
             (None, [portrait]) => self.map(study, portrait).fact(facts),
@@ -311,7 +311,7 @@ impl Basins {
     }
 
     /// Where each start ends: over the grid, or a row a start.
-    fn map(&self, study: &Study, portrait: &Portrait) -> Dataset {
+    fn map(&self, study: &BeltStudy, portrait: &Portrait) -> Dataset {
         let labels = &portrait.gathered.labels;
         let place = |label: &Label| match label {
             Label::Attractor(place) => *place as f64,

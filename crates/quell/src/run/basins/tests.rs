@@ -30,7 +30,7 @@ fn unknown_ends_reach_nothing() {
     );
     let at = |value: f64| Portrait { value: Some(value), ..portrait.clone() };
     let range = Range { parameter: "belt.belt_velocity".into(), from: 1.0, to: 2.0, points: 2 };
-    let study = Study::parse(STUDY, &[]).expect("valid");
+    let study = BeltStudy::parse(STUDY, &[]).expect("valid");
     let varied = Varied::new(&study, "--over", &range).expect("valid");
     let starts = Starts::new(study.belt(), None, None, Layout::Sample { count: 3, seed: 1 });
     let found = Basins {

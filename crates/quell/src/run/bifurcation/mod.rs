@@ -13,11 +13,12 @@ use quell_dynamics::simulation::{Start, within};
 use quell_model::units::Scales;
 
 use super::attractor::{scene, unknown};
-use super::range::SlipMet;
 use super::varied::{Range, Varied};
-use super::{STEPS_OF_A_SEARCH, failed, start, stopped};
+use super::{failed, start, stopped};
 use crate::complaint::Failure;
-use crate::study::Study;
+use crate::effort::STEPS_OF_A_SEARCH;
+use crate::range::SlipMet;
+use crate::study::BeltStudy;
 use crate::sweep::Running;
 
 /// Relative difference of size beyond which the two directions show different responses.
@@ -31,7 +32,7 @@ const TURN_ALIKE: f64 = 1e-4;
 
 /// What is asked.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Question {
+pub struct SweepRequest {
     /// The parameter and its values.
     pub range: Range,
     /// Whether it is swept up.
@@ -119,8 +120,8 @@ pub struct Bifurcation {
 /// # Errors
 /// Complaints about the question or the start; [`Failure::Failed`] if the engine stops or the work is stopped.
 pub fn run(
-    study: &Study,
-    question: &Question,
+    study: &BeltStudy,
+    question: &SweepRequest,
     running: Running<'_>,
 ) -> Result<Bifurcation, Failure> {
     let varied = Varied::new(study, "--parameter", &question.range)?;
@@ -165,7 +166,7 @@ pub fn run(
 }
 
 /// The response at one value, and the state with which the next one begins.
-fn point(study: &Study, value: f64, begun: Start) -> Result<(Point, Start), Failure> {
+fn point(study: &BeltStudy, value: f64, begun: Start) -> Result<(Point, Start), Failure> {
     let scene = scene(study.belt())?;
     let patience = Patience { tolerance: study.solver().tolerance, ..Patience::SWEEP };
     let settled = settle(&scene, begun, patience).map_err(failed)?;
@@ -180,7 +181,7 @@ fn point(study: &Study, value: f64, begun: Start) -> Result<(Point, Start), Fail
 }
 
 /// Stretches in which both directions were swept and show different responses.
-fn hysteresis(study: &Study, branches: &[Branch]) -> Vec<(f64, f64)> {
+fn hysteresis(study: &BeltStudy, branches: &[Branch]) -> Vec<(f64, f64)> {
     let [up, down] = branches else { return Vec::new() };
     let scale = study.belt().normal_load();
     let mut stretches: Vec<(f64, f64)> = Vec::new();

@@ -7,15 +7,15 @@ use serde_json::Value as Json;
 use super::super::attractor::{
     KINDS, VERDICTS, kind_code, number, put, put_section, verdict_code, words,
 };
-use super::super::start_in_words;
 use super::{Bifurcation, Direction, Point};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::study::Study;
+use crate::study::BeltStudy;
+use crate::words::start_in_words;
 
 impl Bifurcation {
     /// What happens, in one sentence a direction and one for both.
-    pub fn sentence(&self, study: &Study) -> String {
+    pub fn sentence(&self, study: &BeltStudy) -> String {
         let value = |value: f64| number(study, self.varied.unit, value);
         let path = &self.varied.path;
         let mut sentences: Vec<String> = Vec::new();
@@ -85,7 +85,7 @@ impl Bifurcation {
     }
 
     /// Points that have not settled, in words.
-    pub fn warnings(&self, study: &Study) -> Vec<String> {
+    pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let mut warnings = self.slip.warnings(study);
         for branch in &self.branches {
             for point in &branch.points {
@@ -105,7 +105,7 @@ impl Bifurcation {
     }
 
     /// As JSON.
-    pub fn json(&self, study: &Study) -> Json {
+    pub fn json(&self, study: &BeltStudy) -> Json {
         let scales = study.scales();
         let mut fields = Fields::new(scales);
         fields
@@ -163,7 +163,7 @@ impl Bifurcation {
     }
 
     /// One row for each state of the section of each point.
-    pub fn dataset(&self, study: &Study) -> Dataset {
+    pub fn dataset(&self, study: &BeltStudy) -> Dataset {
         let mut numbers: [Vec<f64>; 12] = Default::default();
         let mut codes: [Vec<u8>; 4] = Default::default();
         for branch in &self.branches {
@@ -249,9 +249,9 @@ mod tests {
     use quell_dynamics::attractor::Unsettled;
     use quell_dynamics::orbit::Verdict;
 
-    use super::super::super::range::SlipMet;
     use super::super::Branch;
     use super::*;
+    use crate::range::SlipMet;
     use crate::run::varied::{Range, Varied};
 
     const STUDY: &str = "schema = 1\n[belt]\ndamping_ratio = 0.1\nnormal_load = 1\nbelt_velocity = 1\n\
@@ -261,7 +261,7 @@ mod tests {
     /// A point that has not settled is neither quiet nor not: no jump begins or ends there, and no hysteresis is denied.
     #[test]
     fn what_has_not_settled_says_nothing() {
-        let study = Study::parse(STUDY, &[]).expect("valid");
+        let study = BeltStudy::parse(STUDY, &[]).expect("valid");
         let range = Range { parameter: "dither.amplitude".into(), from: 1.0, to: 2.0, points: 2 };
         let varied = Varied::new(&study, "--parameter", &range).expect("valid");
         let point = |value: f64| Point {

@@ -1,7 +1,7 @@
 //! The Campbell diagram: frequency and growth of every motion of the undithered disc against speed, and the largest growth
 //! under dither.
 
-use quell_disc::dithered::DitheredDisc;
+use quell_disc::dithered;
 use quell_disc::undithered::campbell;
 use quell_numerics::floquet::Effort;
 
@@ -49,7 +49,7 @@ pub fn run(study: &DiscStudy, last: f64) -> Result<Campbell, Failure> {
     let mut dithered = Vec::new();
     for &speed in &speeds {
         let Ok(disc) = study.disc().at_speed(speed) else { continue };
-        if let Some(prepared) = DitheredDisc::new(&disc).map_err(failed)? {
+        if let Some(prepared) = dithered::prepared(&disc).map_err(failed)? {
             dithered.push(prepared.growth(1.0, Effort::default()).map_err(failed)?.rate);
         }
     }

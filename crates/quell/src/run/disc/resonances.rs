@@ -14,13 +14,13 @@ use quell_model::parameter::{Bounds, DITHER_FREQUENCY_RATIO};
 use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
 
-use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::dataset::{Array, Dataset};
 use crate::study::DiscStudy;
 
 /// What is asked of the resonances.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Question {
+pub struct ResonancesRequest {
     /// Speeds between which meetings are listed.
     pub speeds: RangeInclusive<f64>,
     /// How far the expansion goes.
@@ -29,7 +29,7 @@ pub struct Question {
     pub clear: Option<(RangeInclusive<f64>, RangeInclusive<f64>)>,
 }
 
-impl Question {
+impl ResonancesRequest {
     /// Checks what is asked: ends of ranges of speeds and of dither frequencies.
     ///
     /// # Errors
@@ -39,7 +39,7 @@ impl Question {
         order: Order,
         clear: Option<(f64, f64)>,
         frequency: Option<(f64, f64)>,
-    ) -> Result<Self, Vec<Complaint>> {
+    ) -> Result<Self, Complaints> {
         let mut wrong = Vec::new();
         let mut range = |option, bounds: Bounds, (from, to): (f64, f64)| {
             let told = || format!("{from}:{to}");
@@ -68,13 +68,13 @@ impl Question {
             }
         }
         if !wrong.is_empty() {
-            return Err(wrong);
+            return Err(wrong.into());
         }
         Ok(Self { speeds, order, clear: wanted.zip(frequencies) })
     }
 }
 
-impl Default for Question {
+impl Default for ResonancesRequest {
     fn default() -> Self {
         Self { speeds: 0.0..=1.0, order: Order::First, clear: None }
     }
@@ -100,7 +100,7 @@ pub struct Clear {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resonances {
     /// What was asked.
-    pub question: Question,
+    pub question: ResonancesRequest,
     /// Meetings that need no dither.
     pub undithered: Vec<Resonance>,
     /// Meetings that the dither makes.
@@ -114,7 +114,7 @@ pub struct Resonances {
 /// # Errors
 /// A complaint where the theory does not apply (other than one load, negative friction, parts left out), where there is no dither
 /// whose frequency could be chosen, or where a wave grows by itself whatever the frequency.
-pub fn run(study: &DiscStudy, question: Question) -> Result<Resonances, Failure> {
+pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances, Failure> {
     let refuse = |key: &str, why: String| {
         Failure::from(Complaint::new(Fault::Conflict, key, Origin::Whole, Json::Null, why))
     };

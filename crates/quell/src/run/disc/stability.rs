@@ -1,7 +1,7 @@
 //! `stability` of a disc: the largest growth rate with its error, the verdict they allow, and the frictions at which it changes.
 
 use quell_disc::boundaries::{Marginal, NoBoundary, boundaries};
-use quell_disc::dithered::DitheredDisc;
+use quell_disc::dithered;
 use quell_disc::partition::{NoPartition, crossings};
 use quell_disc::undithered;
 use quell_linear::growth::{Growth, Verdict};
@@ -49,7 +49,7 @@ pub fn run(study: &DiscStudy) -> Result<Stability, Failure> {
     let (disc, parts) = (study.disc(), study.parts());
     let failed = |why| overflowed("stability", why);
     let undithered = undithered::growth_with(disc, parts).map_err(failed)?;
-    let (growth, unstable) = match DitheredDisc::with_contributions(disc, parts).map_err(failed)? {
+    let (growth, unstable) = match dithered::prepared_with(disc, parts).map_err(failed)? {
         Some(dithered) => {
             let growth = dithered.growth(1.0, Effort::default()).map_err(failed)?;
             (growth, dithered.growing(Effort::default()).map_err(failed)?)

@@ -7,7 +7,7 @@ use quell_linear::averaging::{
     AveragingOptions, Becomes, CriticalAmplitude, Response, critical_amplitudes,
 };
 
-use crate::study::Study;
+use crate::study::BeltStudy;
 use crate::sweep::Grid;
 
 /// The axis along which averaging gives an amplitude.
@@ -31,13 +31,13 @@ pub fn boundaries(grid: &Grid) -> Vec<Boundary> {
     let [first, second] = grid.axes() else {
         return Vec::new();
     };
-    let Some(study) = grid.study().belt() else { return Vec::new() };
+    let Ok(study) = grid.study().belt() else { return Vec::new() };
     let across = match (first.path == AMPLITUDE, second.path == AMPLITUDE) {
         (true, false) => second,
         (false, true) => first,
         _ => return Vec::new(),
     };
-    let at: Vec<(f64, Study)> = across
+    let at: Vec<(f64, BeltStudy)> = across
         .values
         .iter()
         .filter_map(|&value| Some((value, study.with(&across.path, value).ok()?)))

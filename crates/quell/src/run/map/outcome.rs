@@ -7,9 +7,8 @@ use quell_model::units::Quantity;
 use serde_json::{Map as Object, Value as Json, json};
 
 use crate::dataset::{Array, Dataset};
-use crate::run::{in_words, plural};
-use crate::study::Subject;
 use crate::sweep::{Content, Data, Entry, Plan, Status};
+use crate::words::{in_words, plural};
 
 /// A finished map.
 #[derive(Clone, Debug)]
@@ -160,9 +159,9 @@ impl Map {
             entries.iter().any(|entry| self.status(entry, *point) == Status::BeyondRange)
         };
         let count = points.filter(beyond).count();
-        let Subject::Belt(study) = self.plan.grid().study() else { return None };
+        let study = self.plan.grid().study().belt().ok()?;
         let range = study.belt().friction().range().filter(|_| count > 0)?;
-        let upper = in_words(study, Quantity::Velocity, range.upper);
+        let upper = in_words(&study, Quantity::Velocity, range.upper);
         Some(format!(
             "{count} of {} points have slip outside the range of the {} law, up to {upper} in the study itself ({}): \
              their status is {}",

@@ -237,7 +237,7 @@ impl Shared {
                 Complaint::new(Fault::Value, "chunk", Origin::Whole, chunk, allowed)
             })
             .collect();
-        if complaints.is_empty() { Ok(()) } else { Err(Failure::Wrong(complaints)) }
+        if complaints.is_empty() { Ok(()) } else { Err(complaints.into()) }
     }
 
     fn incomplete(&self, why: &str, left: usize, chunks: usize) -> Failure {
@@ -259,7 +259,7 @@ mod tests {
     use std::sync::atomic::AtomicBool;
 
     use super::*;
-    use crate::study::Study;
+    use crate::study::BeltStudy;
     use crate::sweep::{Quantity, Status};
 
     const TEXT: &str = "schema = 1\n[belt]\ndamping_ratio = 0.01\nnormal_load = 0.5\n\
@@ -270,7 +270,7 @@ mod tests {
         [[sweep]]\nparameter = \"belt.belt_velocity\"\nfrom = 0.05\nto = 0.2\npoints = 300\n";
 
     fn plan() -> Plan {
-        let study = Study::parse(TEXT, &[]).expect("valid");
+        let study = BeltStudy::parse(TEXT, &[]).expect("valid");
         Plan::new(&study, &[Quantity::named("growth", "--quantity").expect("a quantity")])
             .expect("two axes")
     }

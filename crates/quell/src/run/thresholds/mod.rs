@@ -14,14 +14,16 @@ use serde_json::Value as Json;
 
 use super::attractor::unknown;
 use super::orbit::refused;
-use super::range::SlipMet;
+use super::protocol::Protocol;
 use super::varied::{Named, ascending, key_of};
-use super::{STEPS_OF_MANY_SEARCHES, in_words};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::fields::Fields;
 use crate::quantity::bearable;
-use crate::study::mirror::given_number;
-use crate::study::{InitialState, Study};
+use crate::range::SlipMet;
+use crate::study::document::given_number;
+use crate::study::{BeltStudy, InitialState};
+use crate::words::{digits, in_words};
 
 mod tell;
 
@@ -34,43 +36,9 @@ pub const TRIED: u32 = 40;
 /// Relative closeness of a protocol's threshold.
 const CLOSENESS: f64 = 1e-5;
 
-/// From where runs start.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Protocol {
-    /// x = 0, x′ = 0.
-    Rest,
-    /// Steady sliding without dither.
-    Sliding,
-    /// The undithered limit cycle.
-    Squeal,
-    /// This state (x, x′).
-    From(f64, f64),
-}
-
-impl Protocol {
-    /// Name of its field in JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rest => "from_rest",
-            Self::Sliding => "from_sliding",
-            Self::Squeal => "from_squeal",
-            Self::From(..) => "from_start",
-        }
-    }
-
-    pub(super) fn initial(self) -> InitialState {
-        match self {
-            Self::Rest => InitialState::Rest,
-            Self::Sliding => InitialState::Sliding,
-            Self::Squeal => InitialState::Squealing,
-            Self::From(displacement, velocity) => InitialState::Explicit { displacement, velocity },
-        }
-    }
-}
-
 /// What is asked.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Question {
+pub struct ThresholdsRequest {
     /// Path of the parameter; its key in SI in a study in SI too.
     pub parameter: String,
     /// First value, in the unit of that key.
@@ -87,7 +55,7 @@ pub struct Question {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thresholds {
     /// What was asked, in numbers of the equations.
-    pub question: Question,
+    pub question: ThresholdsRequest,
     /// By multipliers, with the branch of responses on which they lie.
     pub local: Local,
     /// Why there is no base response at the first value, where runs alone are judged.
@@ -103,29 +71,34 @@ pub struct Thresholds {
 }
 
 /// The key of a number of the equations, in SI where the study is.
-pub fn path_in_words(study: &Study, path: &str) -> String {
+pub fn path_in_words(study: &BeltStudy, path: &str) -> String {
     key_of(study, path)
 }
 
 /// A value of a number of the equations, in SI where the study is.
-pub fn value_in_words(study: &Study, path: &str, value: f64) -> String {
+pub fn value_in_words(study: &BeltStudy, path: &str, value: f64) -> String {
     if study.scales().is_none() {
         return value.to_string();
     }
     match quantity_of(study, path) {
         // Its path says ζ, whatever key the study has.
-        Quantity::DampingRatio => super::digits(value),
+        Quantity::DampingRatio => digits(value),
         quantity => in_words(study, quantity, value),
     }
 }
 
 /// What a number of the equations measures.
-pub fn quantity_of(study: &Study, path: &str) -> Quantity {
+pub fn quantity_of(study: &BeltStudy, path: &str) -> Quantity {
     study.belt().parameter(path).map_or(Quantity::Ratio, |parameter| parameter.quantity)
 }
 
 /// Why there are no thresholds, as it is told.
-pub(super) fn told(study: &Study, why: NoThresholds, path: &str, option: &'static str) -> Failure {
+pub(super) fn told(
+    study: &BeltStudy,
+    why: NoThresholds,
+    path: &str,
+    option: &'static str,
+) -> Failure {
     let key = path_in_words(study, path);
     let words = |value: f64| value_in_words(study, path, value);
     match why {
@@ -151,8 +124,11 @@ pub(super) fn told(study: &Study, why: NoThresholds, path: &str, option: &'stati
 ///
 /// # Errors
 /// Every complaint about it at once.
-fn understood(study: &Study, question: Question) -> Result<Question, Failure> {
-    let Question { from, to, ramp, .. } = question;
+fn understood(
+    study: &BeltStudy,
+    question: ThresholdsRequest,
+) -> Result<ThresholdsRequest, Failure> {
+    let ThresholdsRequest { from, to, ramp, .. } = question;
     let named = Named::new(study, "--parameter", &question.parameter)?;
     let ends = [("--from", from), ("--to", to)];
     let mut wrong: Vec<Complaint> =
@@ -169,11 +145,11 @@ fn understood(study: &Study, question: Question) -> Result<Question, Failure> {
     }
     slides(study, &named, from)?;
     let (from, to) = (named.of(from), named.of(to));
-    Ok(Question { parameter: named.path, from, to, ..question })
+    Ok(ThresholdsRequest { parameter: named.path, from, to, ..question })
 }
 
 /// Refuses a first value at which the belt is at rest: there is no steady sliding to continue from.
-fn slides(study: &Study, named: &Named, from: f64) -> Result<(), Box<Complaint>> {
+fn slides(study: &BeltStudy, named: &Named, from: f64) -> Result<(), Box<Complaint>> {
     let belt = study.belt();
     let at_rest = |belt: &quell_model::Belt| belt.belt_velocity() == 0.0;
     if !belt.with(&named.path, named.of(from)).is_ok_and(|first| at_rest(&first)) {
@@ -194,11 +170,11 @@ fn slides(study: &Study, named: &Named, from: f64) -> Result<(), Box<Complaint>>
 ///
 /// # Errors
 /// A complaint about the parameter or its range; [`Failure::Failed`] where there is no response to begin with.
-pub fn run(study: &Study, question: Question) -> Result<Thresholds, Failure> {
+pub fn run(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, Failure> {
     within(STEPS_OF_MANY_SEARCHES, || found(study, question))
 }
 
-fn found(study: &Study, question: Question) -> Result<Thresholds, Failure> {
+fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, Failure> {
     let belt = study.belt();
     let question = understood(study, question)?;
     let path = question.parameter.as_str();
@@ -254,8 +230,8 @@ fn is_lost(why: NoOrbit) -> bool {
 /// The slip of the responses at the thresholds, of steady sliding at both ends, and of the runs of protocols there and at
 /// their switches.
 fn slip_met(
-    study: &Study,
-    question: &Question,
+    study: &BeltStudy,
+    question: &ThresholdsRequest,
     local: &Local,
     protocols: &[(Protocol, Switches)],
 ) -> SlipMet {
@@ -303,7 +279,7 @@ pub fn side(verdict: Option<quell_dynamics::orbit::Verdict>) -> &'static str {
 
 impl Thresholds {
     /// As JSON.
-    pub fn json(&self, study: &Study) -> Json {
+    pub fn json(&self, study: &BeltStudy) -> Json {
         let question = &self.question;
         let quantity = quantity_of(study, &question.parameter);
         let object = || Fields::new(study.scales());
@@ -365,7 +341,7 @@ impl Thresholds {
     }
 
     /// Values at which it is not known where runs end, in words.
-    pub fn warnings(&self, study: &Study) -> Vec<String> {
+    pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let given = &self.question.parameter;
         let path = path_in_words(study, given);
         let told = |(protocol, switches): &(Protocol, Switches)| {

@@ -5,10 +5,11 @@ use quell_dynamics::orbit::Verdict;
 use quell_model::Dither;
 use quell_model::units::Quantity;
 
-use super::{Ending, Kind, Protocol, Threshold, Thresholds, path_in_words, quantity_of};
+use super::{Ending, Kind, Threshold, Thresholds, path_in_words, quantity_of};
 use crate::run::attractor::unknown;
-use crate::run::in_words;
-use crate::study::Study;
+use crate::run::protocol::Protocol;
+use crate::study::BeltStudy;
+use crate::words::in_words;
 
 /// One end of an interval of the parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,14 +51,14 @@ fn merged<T: PartialEq>(intervals: Vec<Interval<T>>) -> Vec<Interval<T>> {
 
 /// The name of the parameter in sentences, and its values with units.
 struct Parameter<'a> {
-    study: &'a Study,
+    study: &'a BeltStudy,
     name: String,
     quantity: Quantity,
 }
 
 impl<'a> Parameter<'a> {
     /// The symbol, where it is clear; else the key.
-    fn of(study: &'a Study, path: &str) -> Self {
+    fn of(study: &'a BeltStudy, path: &str) -> Self {
         let belt = study.belt();
         let one_of_many = path.starts_with("dither") && belt.dithers().len() > 1;
         let symbol = belt.parameter(path).map(|parameter| parameter.symbol);
@@ -115,7 +116,7 @@ impl<'a> Parameter<'a> {
 
 impl Thresholds {
     /// Where the base response is stable, and from where on the dither quenches from each start.
-    pub fn sentence(&self, study: &Study) -> String {
+    pub fn sentence(&self, study: &BeltStudy) -> String {
         let parameter = Parameter::of(study, &self.question.parameter);
         let acts = |dither: &Dither| dither.amplitude > 0.0;
         let is_varied = self.question.parameter.starts_with("dither");
@@ -265,7 +266,7 @@ impl Thresholds {
         }
     }
 
-    fn ramp_in_words(&self, study: &Study) -> String {
+    fn ramp_in_words(&self, study: &BeltStudy) -> String {
         if self.question.ramp > 0.0 {
             let time = in_words(study, Quantity::Time, self.question.ramp);
             format!(" with the dither raised over {time}")
@@ -300,7 +301,7 @@ impl Thresholds {
 }
 
 /// A start, as it follows "started".
-fn start_in_words(study: &Study, protocol: Protocol) -> String {
+fn start_in_words(study: &BeltStudy, protocol: Protocol) -> String {
     match protocol {
         Protocol::Rest => "from rest".to_owned(),
         Protocol::Sliding => "from steady sliding".to_owned(),

@@ -3,11 +3,11 @@
 use quell_model::friction::expression::{CONSTANTS, FORMULA};
 use quell_model::parameter::{Bounds, MAXIMUM_VELOCITY, STATIC_COEFFICIENT};
 use quell_model::units::Quantity;
-use quell_model::{Expression, Friction, Invalid};
+use quell_model::{Expression, Friction, Invalid, InvalidValues};
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::mirror::{Node, Table, Value};
+use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
 
 /// Reads `coefficient`, `static_coefficient`, `maximum_velocity` and `[friction.constants]`.
@@ -70,7 +70,7 @@ fn constants(reader: &mut Reader, table: &Table) -> Option<Vec<(String, f64)>> {
 }
 
 /// Tells what the model said of a law of one's own, each under its key.
-pub(super) fn complain(reader: &mut Reader, table: &Table, formula: &Node, invalid: Vec<Invalid>) {
+pub(super) fn complain(reader: &mut Reader, table: &Table, formula: &Node, invalid: InvalidValues) {
     for Invalid { key, allowed, .. } in invalid {
         let name = key.rsplit('.').next().unwrap_or_default();
         let inside = table.get("constants").and_then(Node::table);

@@ -12,8 +12,8 @@ use quell_model::Belt;
 use quell_model::friction::SlipRange;
 use quell_model::units::Quantity;
 
-use super::in_words;
-use crate::study::Study;
+use crate::study::BeltStudy;
+use crate::words::in_words;
 
 /// How long a start is watched: its first slow period, in which a decaying transient is largest.
 const OF_START: f64 = TAU;
@@ -32,7 +32,7 @@ pub struct SlipMet {
 
 impl SlipMet {
     /// What a record of these velocities x′ met.
-    pub(super) fn of_velocities(belt: &Belt, velocities: impl Iterator<Item = f64>) -> Self {
+    pub(crate) fn of_velocities(belt: &Belt, velocities: impl Iterator<Item = f64>) -> Self {
         let mut met = Self::default();
         let speeds = velocities.map(|velocity| (belt.belt_velocity() - velocity).abs());
         met.add(belt, speeds.fold(0.0, f64::max));
@@ -40,7 +40,7 @@ impl SlipMet {
     }
 
     /// A run that meets slip up to `speed`.
-    pub(super) fn add(&mut self, belt: &Belt, speed: f64) {
+    pub(crate) fn add(&mut self, belt: &Belt, speed: f64) {
         self.runs += 1;
         let Some(range) = belt.friction().range().filter(|range| speed > range.upper) else {
             return;
@@ -53,17 +53,17 @@ impl SlipMet {
     }
 
     /// Runs from a start for its first slow period.
-    pub(super) fn add_start(&mut self, belt: &Belt, start: Start) {
+    pub(crate) fn add_start(&mut self, belt: &Belt, start: Start) {
         self.add_run(belt, start, OF_START);
     }
 
     /// Runs on an attractor for a few slow periods, from a state on it.
-    pub(super) fn add_attractor(&mut self, belt: &Belt, state: Start) {
+    pub(crate) fn add_attractor(&mut self, belt: &Belt, state: Start) {
         self.add_run(belt, state, OF_ATTRACTOR);
     }
 
     /// Runs from a state for `length`. A run that stops has met what it met until then.
-    pub(super) fn add_run(&mut self, belt: &Belt, state: Start, length: f64) {
+    pub(crate) fn add_run(&mut self, belt: &Belt, state: Start, length: f64) {
         let mut slip = LargestSlip::of(belt);
         if slip.watches() {
             simulate(belt, state, state.time + length, DEFAULT_TOLERANCE, &mut slip).ok();
@@ -72,7 +72,7 @@ impl SlipMet {
     }
 
     /// The warning, where a run leaves the range.
-    pub fn warnings(&self, study: &Study) -> Vec<String> {
+    pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let Some((speed, range)) = self.worst else { return Vec::new() };
         let others = if self.runs > 1 {
             format!(" ({} of {} runs leave it)", self.beyond, self.runs)
@@ -116,12 +116,12 @@ pub(crate) fn at_amplitude(belt: &Belt, amplitude: f64) -> f64 {
 }
 
 /// What averages at the study's own slip, v₀, leave of the range.
-pub(super) fn averaged(study: &Study) -> Vec<String> {
+pub(crate) fn averaged(study: &BeltStudy) -> Vec<String> {
     averaged_at(study, study.belt().belt_velocity())
 }
 
 /// What averages at slip speeds up to `slip` leave of the range.
-pub(super) fn averaged_at(study: &Study, slip: f64) -> Vec<String> {
+pub(crate) fn averaged_at(study: &BeltStudy, slip: f64) -> Vec<String> {
     let belt = study.belt();
     let Some(range) = belt.friction().range() else { return Vec::new() };
     let mut warnings = Vec::new();
@@ -143,7 +143,7 @@ pub(super) fn averaged_at(study: &Study, slip: f64) -> Vec<String> {
 }
 
 /// One sentence about slip outside a range; `what` ends before the speed.
-pub(super) fn sentence(study: &Study, range: &SlipRange, what: &str, speed: f64) -> String {
+pub(crate) fn sentence(study: &BeltStudy, range: &SlipRange, what: &str, speed: f64) -> String {
     let words = |speed: f64| in_words(study, Quantity::Velocity, speed);
     format!(
         "{what} {}, outside the range of the {} law, {} to {} ({}): numbers from there are an extrapolation",

@@ -1,8 +1,8 @@
 //! Short tables for people: what, value, unit, and the same in SI.
 
-use quell::quantity::unit_of;
-use quell::run::stability::DECIBELS;
-use quell::{DiscStudy, Study};
+use crate::quantity::unit_of;
+use crate::run::stability::DECIBELS;
+use crate::study::{BeltStudy, DiscStudy};
 use quell_model::units::{Quantity, Scales};
 
 /// Digits of a number in a table.
@@ -10,19 +10,19 @@ const DIGITS: usize = 7;
 
 /// A table under construction.
 #[derive(Debug)]
-pub(crate) struct Table {
+pub(super) struct Table {
     scales: Option<Scales>,
     rows: Vec<[String; 4]>,
 }
 
 impl Table {
     /// An empty table of a study with these scales.
-    pub(crate) fn new(scales: Option<Scales>) -> Self {
+    pub(super) fn new(scales: Option<Scales>) -> Self {
         Self { scales, rows: Vec::new() }
     }
 
     /// A row of a quantity.
-    pub(crate) fn number(&mut self, label: &str, quantity: Quantity, value: f64) {
+    pub(super) fn number(&mut self, label: &str, quantity: Quantity, value: f64) {
         if !value.is_finite() {
             return self.word(label, "undefined: it is beyond the range of numbers");
         }
@@ -38,7 +38,7 @@ impl Table {
     }
 
     /// A row of a quantity, or why there is none.
-    pub(crate) fn known(&mut self, label: &str, quantity: Quantity, value: Result<f64, String>) {
+    pub(super) fn known(&mut self, label: &str, quantity: Quantity, value: Result<f64, String>) {
         match value {
             Ok(value) => self.number(label, quantity, value),
             Err(why) => self.word(label, &format!("undefined: {why}")),
@@ -46,7 +46,7 @@ impl Table {
     }
 
     /// A row of a growth rate per unit τ; in SI also per second and in decibels per second.
-    pub(crate) fn rate(&mut self, label: &str, value: f64) {
+    pub(super) fn rate(&mut self, label: &str, value: f64) {
         let si = self.scales.map(|scales| {
             let per_second = value * scales.angular_frequency();
             format!("{} 1/s ({} dB/s)", figure(per_second), figure(DECIBELS * per_second))
@@ -56,12 +56,12 @@ impl Table {
     }
 
     /// A row of words.
-    pub(crate) fn word(&mut self, label: &str, value: &str) {
+    pub(super) fn word(&mut self, label: &str, value: &str) {
         self.rows.push([label.to_owned(), value.to_owned(), String::new(), String::new()]);
     }
 
     /// The table as text.
-    pub(crate) fn text(&self) -> String {
+    pub(super) fn text(&self) -> String {
         // Words may be long; they are not what the columns are made for.
         let width = |column: usize| {
             let measured = self.rows.iter().filter(|row| column == 0 || !is_word(row));
@@ -89,7 +89,7 @@ fn is_word(row: &[String; 4]) -> bool {
 }
 
 /// A quantity with [`DIGITS`] significant digits, in SI with its unit where the study is.
-pub(crate) fn figure_of(study: &Study, quantity: Quantity, value: f64) -> String {
+pub(super) fn figure_of(study: &BeltStudy, quantity: Quantity, value: f64) -> String {
     match study.scales().zip(quantity.si_unit()) {
         Some((scales, (unit, _))) => format!("{} {unit}", figure(scales.to_si(quantity, value))),
         None => figure(value),
@@ -97,7 +97,7 @@ pub(crate) fn figure_of(study: &Study, quantity: Quantity, value: f64) -> String
 }
 
 /// Frequencies of a disc in hertz, in brackets; nothing where the study does not say what ω_ref is.
-pub(crate) fn in_hertz(study: &DiscStudy, ratios: &[f64]) -> String {
+pub(super) fn in_hertz(study: &DiscStudy, ratios: &[f64]) -> String {
     let told = |hertz: f64| {
         let values: Vec<String> = ratios.iter().map(|ratio| figure(ratio * hertz)).collect();
         format!(" ({} Hz)", values.join(" to "))
@@ -106,13 +106,13 @@ pub(crate) fn in_hertz(study: &DiscStudy, ratios: &[f64]) -> String {
 }
 
 /// A speed of a disc in revolutions per minute, in brackets; nothing where the study does not say what ω_ref is.
-pub(crate) fn in_rpm(study: &DiscStudy, speed: f64) -> String {
+pub(super) fn in_rpm(study: &DiscStudy, speed: f64) -> String {
     let told = |hertz: f64| format!(" ({} rpm)", figure(60.0 * hertz * speed));
     study.reference_hz().map_or_else(String::new, told)
 }
 
 /// A number with [`DIGITS`] significant digits.
-pub(crate) fn figure(value: f64) -> String {
+pub(super) fn figure(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 {
         return "0".to_owned();

@@ -3,10 +3,10 @@
 use quell_model::parameter::Bounds;
 use quell_model::units::Quantity;
 
-use super::mirror::{Node, Table, Value};
-use super::reader::Reader;
-use super::vocabulary::Section;
 use crate::complaint::{Complaint, Fault};
+use crate::study::document::{Node, Table, Value};
+use crate::study::reader::Reader;
+use crate::study::vocabulary::Section;
 
 const BAND: &str = "response.band";
 const BAND_HZ: &str = "response.band_hz";

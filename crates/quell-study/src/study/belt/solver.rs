@@ -2,10 +2,10 @@
 
 use quell_model::parameter::{RECORD_PERIODS, SETTLE, TOLERANCE};
 
-use super::Solver;
-use super::mirror::Table;
-use super::reader::Reader;
-use super::vocabulary::Section;
+use crate::study::Solver;
+use crate::study::document::Table;
+use crate::study::reader::Reader;
+use crate::study::vocabulary::Section;
 
 /// Reads `[solver]`.
 pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Solver> {

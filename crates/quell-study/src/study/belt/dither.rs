@@ -3,9 +3,9 @@
 use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE};
 use quell_model::{Direction, Dither, Waveform};
 
-use super::mirror::{Node, Table, Value};
-use super::reader::{Found, Reader};
-use super::vocabulary::{Choice, Section};
+use crate::study::document::{Node, Table, Value};
+use crate::study::reader::{Found, Reader};
+use crate::study::vocabulary::{Choice, Section};
 
 /// Reads every dither; `None` where one of them is wrong.
 pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Dither>> {

@@ -7,10 +7,10 @@ use quell_model::parameter::{COEFFICIENT, STATIC_COEFFICIENT};
 use quell_model::{Friction, LawKind};
 use serde_json::Value as Json;
 
-use super::mirror::{Node, Table};
-use super::reader::{Found, Reader};
-use super::vocabulary::{self, Choice, Role, Section};
 use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::document::{Node, Table};
+use crate::study::reader::{Found, Reader};
+use crate::study::vocabulary::{self, Choice, Role, Section};
 pub(super) use forces::{in_newtons, needs_no_normal_force};
 pub use samples::Measured;
 

@@ -14,7 +14,7 @@ use serde_json::Value as Json;
 
 use super::Read;
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::mirror::{Node, Table};
+use crate::study::document::{Node, Table};
 use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::{self, Key, Role, Section, join};
 

@@ -5,11 +5,11 @@ use quell_model::parameter::{
 };
 use serde_json::Value as Json;
 
-use super::mirror::{Node, Table};
-use super::reader::{Found, Reader};
-use super::vocabulary::{Choice, Section};
 use super::{InitialState, friction};
 use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::document::{Node, Table};
+use crate::study::reader::{Found, Reader};
+use crate::study::vocabulary::{Choice, Section};
 
 /// Numbers of `[belt]`, each where it was right.
 #[derive(Clone, Copy, Debug, Default)]

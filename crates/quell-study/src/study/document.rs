@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::complaint::{Complaint, Fault, Origin};
+use crate::complaint::{Complaint, Complaints, Fault, Origin};
 
 /// A value with the place it came from.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,7 +46,7 @@ impl Table {
     ///
     /// # Errors
     /// Every syntax error with its line.
-    pub fn parse(text: &str) -> Result<Self, Vec<Complaint>> {
+    pub fn parse(text: &str) -> Result<Self, Complaints> {
         let lines = Lines::of(text);
         let (table, errors) = DeTable::parse_recoverable(text);
         if errors.is_empty() {
@@ -66,7 +66,7 @@ impl Table {
         complaints.sort_by_key(|complaint| complaint.origin.line());
         // Later errors of a line mostly follow from its first.
         complaints.dedup_by_key(|complaint| complaint.origin);
-        Err(complaints)
+        Err(complaints.into())
     }
 
     fn from_toml(table: &DeTable<'_>, lines: &Lines) -> Self {

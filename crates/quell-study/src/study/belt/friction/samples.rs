@@ -7,14 +7,14 @@ use std::path::{Path, PathBuf};
 
 use quell_model::friction::samples::{COEFFICIENTS, Fit, MOST_TERMS, SPEEDS, TERMS};
 use quell_model::parameter::{Bounds, STATIC_COEFFICIENT};
-use quell_model::{Friction, Invalid, Samples};
+use quell_model::{Friction, InvalidValues, Samples};
 use serde_json::Value as Json;
 
 use super::Read;
 use super::expression::{complain, velocity_unit};
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::data_file::{self, DataFile, Row};
-use crate::study::mirror::{Node, Table, Value};
+use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
 
 /// What the file must be.
@@ -96,17 +96,18 @@ pub(super) fn read(
 }
 
 /// Complaints of the model, under the keys that the study has.
-fn told(reader: &mut Reader, table: &Table, place: &Node, in_file: bool, invalid: Vec<Invalid>) {
-    let invalid = invalid.into_iter().map(|mut it| {
-        // A number of a list is told with the list.
-        let list = it.key.split('[').next().unwrap_or_default();
+fn told(reader: &mut Reader, table: &Table, place: &Node, in_file: bool, invalid: InvalidValues) {
+    let invalid = invalid.map(|mut invalid| {
+        // A number of a list is reported with the list.
+        let list = invalid.key.split('[').next().unwrap_or_default();
         if list == SPEEDS || list == COEFFICIENTS {
-            it.allowed = format!("{}: {} must be {}", it.key, it.value, it.allowed);
-            it.key = if in_file { FILE.to_owned() } else { list.to_owned() };
+            invalid.allowed =
+                format!("{}: {} must be {}", invalid.key, invalid.value, invalid.allowed);
+            invalid.key = if in_file { FILE.to_owned() } else { list.to_owned() };
         }
-        it
+        invalid
     });
-    complain(reader, table, place, invalid.collect());
+    complain(reader, table, place, invalid);
 }
 
 type Given<'t> = (&'t Node, Option<PathBuf>, Vec<(f64, f64)>);

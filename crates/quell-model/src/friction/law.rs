@@ -1,0 +1,149 @@
+//! What a friction law is: its numbers in a study, its values in steady sliding, its Taylor series.
+//!
+//! Three traits, one for each use: [`LawParameters`] for whoever reads and prints a law, [`SlidingLaw`] for its physics,
+//! [`LawSeries`] for the engines. The formula is written once, in the series; values and slopes are its first terms.
+
+use quell_numerics::lane::Lane;
+
+use super::series::BranchSeries;
+use super::{Friction, SlipRange, Surroundings};
+use crate::InvalidValues;
+use crate::parameter::Parameter;
+
+/// The value of a parameter that a study leaves out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Otherwise {
+    /// This number.
+    Number(f64),
+    /// That of the law's parameter with this path.
+    SameAs(&'static str),
+}
+
+/// The numbers of a law, as a study file gives them.
+pub trait LawParameters: Sized {
+    /// Name in a study file.
+    const NAME: &'static str;
+    /// One line for people: the formula and its source.
+    const ABOUT: &'static str;
+    /// The law's parameters in the registry, in the order of [`LawParameters::values`].
+    const PARAMETERS: &'static [Parameter];
+
+    /// Numbers that a study may give for the law and that are not numbers of its formula.
+    const OPTIONS: &'static [Parameter] = &[];
+
+    /// The value of a parameter that a study may leave out; `None` where it is required.
+    fn default_of(path: &str) -> Option<Otherwise> {
+        let _ = path;
+        None
+    }
+
+    /// Values in the order of `PARAMETERS`.
+    fn values(&self) -> Vec<f64>;
+
+    /// The number of a path such as `friction.static_coefficient`, if the law has it.
+    fn get(&self, path: &str) -> Option<f64>;
+
+    /// The law with one number changed.
+    ///
+    /// # Errors
+    /// A path that the law does not have; a value out of its bounds or against a relation.
+    fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues>;
+}
+
+/// A friction law in steady sliding, analytic on each side of v_r = 0.
+pub trait SlidingLaw: LawParameters + LawSeries + Clone + Send + Sync + 'static {
+    /// The law at the contact that it is put into: what it has to prove about the slip that it meets there is proven, and
+    /// a law without a velocity of its own counts slip in one of the contact's.
+    ///
+    /// # Errors
+    /// What cannot be proven of a user's own law, and at which slip.
+    fn placed(&self, surroundings: &Surroundings) -> Result<Self, InvalidValues> {
+        let _ = surroundings;
+        Ok(self.clone())
+    }
+
+    /// Slip speeds for which the law holds; `None` where it holds for all.
+    fn range(&self) -> Option<SlipRange> {
+        None
+    }
+
+    /// Why the law cannot be simulated, where it cannot: averages hold for every law.
+    fn unsimulated(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Velocity by which the law is naturally scaled (v_m); slip is counted in it, w = v_r/v_m.
+    fn velocity_scale(&self) -> f64;
+
+    /// Whether the law changes over a velocity of its own, so that [`SlidingLaw::velocity_scale`] is a property of the law.
+    fn has_velocity(&self) -> bool {
+        true
+    }
+
+    /// Static level μ_s.
+    fn static_coefficient(&self) -> f64;
+
+    /// Whether the sliding branch starts from the static level, μ(0⁺) = μ_s. A release then
+    /// leaves v_r = 0 with zero slope.
+    #[inline(always)]
+    fn starts_at_static_level(&self) -> bool {
+        self.coefficient(0.0) == self.static_coefficient()
+    }
+
+    /// Sliding coefficient at slip speed |v_r|, ≥ 0.
+    #[inline(always)]
+    fn coefficient(&self, speed: f64) -> f64 {
+        self.alone(speed).0
+    }
+
+    /// Slope dμ/d|v_r| of the sliding branch at slip speed |v_r|, per unit velocity.
+    #[inline(always)]
+    fn slope(&self, speed: f64) -> f64 {
+        self.alone(speed).1 / self.velocity_scale()
+    }
+
+    /// Coefficient and slope dμ/dw at one slip speed |v_r|, without any term of a series.
+    #[inline(always)]
+    fn alone(&self, speed: f64) -> (f64, f64) {
+        let mut constants = Self::constants::<f64>(std::slice::from_ref(self));
+        let branch = Self::series::<f64, 1>(&mut constants, 1.0, speed / self.velocity_scale());
+        (branch.first(), branch.slope())
+    }
+}
+
+/// The Taylor series of a law along a slip, for one run or for several side by side.
+pub trait LawSeries: Sized {
+    /// The constants of the recurrence in each lane.
+    /// A law with data keeps the memory of its recurrence here too: nothing is allocated per step.
+    type Constants<V: Lane>: Send + Sync;
+
+    /// Constants of laws side by side, one law per lane: [`Lane::LANES`] of them, all alike.
+    fn constants<V: Lane>(laws: &[Self]) -> Self::Constants<V>;
+
+    /// Whether two laws differ in numbers alone, so that they can run side by side.
+    fn is_alike(&self, other: &Self) -> bool {
+        let _ = other;
+        true
+    }
+
+    /// Taylor recurrence of the sliding branch.
+    type Series<'c, V: Lane, const N: usize>: BranchSeries<V>;
+
+    /// Starts the recurrence on the branch of `sign` (±1) at scaled slip `w0`.
+    fn series<V: Lane, const N: usize>(
+        constants: &mut Self::Constants<V>,
+        sign: V,
+        w0: V,
+    ) -> Self::Series<'_, V, N>;
+
+    /// The concrete law in `friction`, if it is of this kind.
+    fn of(friction: &Friction) -> Option<Self>;
+}
+
+/// Work on the concrete law, for code that is compiled per law.
+pub trait LawVisitor {
+    /// Result of the work.
+    type Output;
+    /// Does the work with a concrete law.
+    fn visit<L: SlidingLaw>(self, law: &L) -> Self::Output;
+}

@@ -1,0 +1,36 @@
+//! Arguments that several verbs take: pairs of numbers, states, ends of a range.
+
+use quell::{Failure, quantity};
+use quell_model::units::{Quantity, Scales};
+
+/// Two numbers in the system of the study, or with units.
+pub(crate) type Pair = (String, String);
+
+/// Two quantities in the numbers of the equations.
+pub(crate) fn both(
+    (first, second): &Pair,
+    quantity: Quantity,
+    scales: Option<Scales>,
+    option: &'static str,
+) -> Result<(f64, f64), Failure> {
+    let read = |text: &str| quantity::parse(text, quantity, scales, option);
+    Ok((read(first)?, read(second)?))
+}
+
+/// A state: displacement and velocity in the numbers of the equations.
+pub(crate) fn state(
+    (x, v): &Pair,
+    scales: Option<Scales>,
+    option: &'static str,
+) -> Result<(f64, f64), Failure> {
+    let x = quantity::parse(x, Quantity::Displacement, scales, option)?;
+    let v = quantity::parse(v, Quantity::Velocity, scales, option)?;
+    Ok((x, v))
+}
+
+/// The ends of a range of a parameter, in the unit of its key.
+pub(crate) fn ends(parameter: &str, (from, to): &Pair) -> Result<(f64, f64), Failure> {
+    let from = quantity::value_of_key(from, parameter, "--from")?;
+    let to = quantity::value_of_key(to, parameter, "--to")?;
+    Ok((from, to))
+}

@@ -1,0 +1,192 @@
+//! The kinds of study, listed and matched here alone.
+
+use std::path::Path;
+
+use quell_model::units::Scales;
+use serde_json::Value as Json;
+
+use super::Study;
+use super::belt::{BeltSetup, BeltStudy};
+use super::disc::{DiscSetup, DiscStudy};
+use super::document::Table;
+use super::reader::Reader;
+use crate::complaint::{Complaint, Fault, Origin};
+
+/// What a kind of study reads besides what all kinds share.
+pub trait StudyKind: Clone {
+    /// A reader that knows the units of the document.
+    fn reader(document: &Table) -> Reader;
+
+    /// Names of the tables and keys outside any table that such a study has.
+    fn tables(document: &Table) -> &'static [&'static str];
+
+    /// Reads the tables of this kind; `None` where something is wrong, which the reader was told.
+    fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self>;
+
+    /// A file that the study names, read already.
+    fn data_file(&self) -> Option<&Path>;
+
+    /// What such files contribute to the settings, as `path = value`.
+    fn file_settings(&self) -> Vec<(String, String)>;
+}
+
+/// What is known before a document is read.
+#[derive(Clone, Copy, Debug)]
+pub struct Given<'a, K> {
+    /// Where files that the study names are looked for.
+    pub folder: &'a Path,
+    /// The same study before a change: its files are not read again, and what the change leaves as it was is kept.
+    pub known: Option<&'a K>,
+}
+
+/// The kinds of study.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Kind {
+    /// A mass on a moving belt.
+    Belt(Box<BeltSetup>),
+    /// An annular disc under rotating loads.
+    Disc(Box<DiscSetup>),
+}
+
+impl Kind {
+    /// Name of the kind.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Belt(_) => "belt",
+            Self::Disc(_) => "disc",
+        }
+    }
+
+    /// Whether a document is the study of a disc; all others are read as belts.
+    fn is_of_a_disc(document: &Table) -> bool {
+        document.has("disc")
+    }
+}
+
+impl StudyKind for Kind {
+    fn reader(document: &Table) -> Reader {
+        if Self::is_of_a_disc(document) {
+            DiscSetup::reader(document)
+        } else {
+            BeltSetup::reader(document)
+        }
+    }
+
+    fn tables(document: &Table) -> &'static [&'static str] {
+        if Self::is_of_a_disc(document) {
+            DiscSetup::tables(document)
+        } else {
+            BeltSetup::tables(document)
+        }
+    }
+
+    fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
+        let folder = given.folder;
+        if Self::is_of_a_disc(document) {
+            let known = given.known.and_then(|kind| match kind {
+                Self::Disc(setup) => Some(&**setup),
+                Self::Belt(_) => None,
+            });
+            let setup = DiscSetup::read(reader, document, Given { folder, known })?;
+            Some(Self::Disc(Box::new(setup)))
+        } else {
+            let known = given.known.and_then(|kind| match kind {
+                Self::Belt(setup) => Some(&**setup),
+                Self::Disc(_) => None,
+            });
+            let setup = BeltSetup::read(reader, document, Given { folder, known })?;
+            Some(Self::Belt(Box::new(setup)))
+        }
+    }
+
+    fn data_file(&self) -> Option<&Path> {
+        match self {
+            Self::Belt(setup) => setup.data_file(),
+            Self::Disc(setup) => setup.data_file(),
+        }
+    }
+
+    fn file_settings(&self) -> Vec<(String, String)> {
+        match self {
+            Self::Belt(setup) => setup.file_settings(),
+            Self::Disc(setup) => setup.file_settings(),
+        }
+    }
+}
+
+impl Study {
+    /// The study of a belt.
+    ///
+    /// # Errors
+    /// A complaint where it is of another kind.
+    pub fn belt(&self) -> Result<BeltStudy, Box<Complaint>> {
+        match self.kind() {
+            Kind::Belt(setup) => Ok(self.map_kind((**setup).clone())),
+            Kind::Disc(_) => Err(Box::new(not_of_a_belt(Origin::Whole))),
+        }
+    }
+
+    /// The study of a disc.
+    ///
+    /// # Errors
+    /// A complaint where it is of another kind.
+    pub fn disc(&self) -> Result<DiscStudy, Box<Complaint>> {
+        match self.kind() {
+            Kind::Disc(setup) => Ok(self.map_kind((**setup).clone())),
+            Kind::Belt(_) => Err(Box::new(not_of_a_disc())),
+        }
+    }
+
+    /// Mass and stiffness of a belt's study in SI.
+    pub fn scales(&self) -> Option<Scales> {
+        match self.kind() {
+            Kind::Belt(setup) => setup.belt().scales(),
+            Kind::Disc(_) => None,
+        }
+    }
+}
+
+/// What a verb about belts reports of a study of a disc.
+pub(super) fn not_of_a_belt(origin: Origin) -> Complaint {
+    let allowed = "this verb is about a belt ([belt], [friction]), and the study is of a disc, which has the verbs check, cite, \
+                   modes, stability, resonances and map";
+    Complaint::new(Fault::Conflict, "disc", origin, Json::Null, allowed)
+}
+
+/// What a verb about discs reports of a study of a belt.
+fn not_of_a_disc() -> Complaint {
+    let allowed = "a disc study: this verb is about a disc ([disc]), and the study is of a belt";
+    Complaint::new(Fault::Missing, "disc", Origin::Whole, Json::Null, allowed)
+}
+
+impl From<BeltStudy> for Study {
+    fn from(study: BeltStudy) -> Self {
+        let kind = Kind::Belt(Box::new(study.kind().clone()));
+        study.map_kind(kind)
+    }
+}
+
+impl From<DiscStudy> for Study {
+    fn from(study: DiscStudy) -> Self {
+        let kind = Kind::Disc(Box::new(study.kind().clone()));
+        study.map_kind(kind)
+    }
+}
+
+impl From<&BeltStudy> for Study {
+    fn from(study: &BeltStudy) -> Self {
+        study.clone().into()
+    }
+}
+
+impl From<&DiscStudy> for Study {
+    fn from(study: &DiscStudy) -> Self {
+        study.clone().into()
+    }
+}
+
+impl From<&Self> for Study {
+    fn from(study: &Self) -> Self {
+        study.clone()
+    }
+}

@@ -1,0 +1,90 @@
+//! The verbs of a belt.
+
+use super::{Reply, Verbs};
+use crate::cite::{self, Sources};
+use crate::complaint::Failure;
+use crate::outcome::check::Valid;
+use crate::outcome::{Answered, Outcome};
+use crate::run::{
+    basins, bifurcation, curves, friction, orbit, response, simulate, stability, thresholds,
+};
+use crate::study::{BeltSetup, BeltStudy};
+use crate::sweep::Running;
+
+impl Verbs for BeltStudy {
+    fn kind(&self) -> &'static str {
+        "belt"
+    }
+
+    fn names(&self) -> &'static [&'static str] {
+        &[
+            "check",
+            "cite",
+            "friction",
+            "stability",
+            "simulate",
+            "response",
+            "orbit",
+            "thresholds",
+            "bifurcation",
+            "basins",
+            "map",
+        ]
+    }
+
+    fn check(&self) -> Box<dyn Outcome> {
+        Box::new(Answered::new(self, Valid))
+    }
+
+    fn sources(&self) -> Sources {
+        cite::sources(self)
+    }
+
+    fn cite(&self) -> Box<dyn Outcome> {
+        Box::new(Answered::new(self, self.sources()))
+    }
+
+    fn friction(&self, at: Option<Vec<f64>>) -> Reply {
+        let at = at.unwrap_or_else(|| friction::grid(self.belt()));
+        answer(self, Ok(friction::run(self, &at)))
+    }
+
+    fn stability(&self) -> Reply {
+        answer(self, Ok(stability::run(self)))
+    }
+
+    fn simulate(&self, until: f64, options: simulate::Options) -> Reply {
+        answer(self, simulate::run(self, until, options))
+    }
+
+    fn response(&self) -> Reply {
+        answer(self, response::run(self))
+    }
+
+    fn orbit(&self, wanted: orbit::Wanted) -> Reply {
+        answer(self, orbit::run(self, wanted))
+    }
+
+    fn thresholds(&self, request: thresholds::ThresholdsRequest) -> Reply {
+        answer(self, thresholds::run(self, request))
+    }
+
+    fn threshold_curves(&self, request: &curves::CurvesRequest) -> Reply {
+        answer(self, curves::run(self, request))
+    }
+
+    fn bifurcation(&self, request: &bifurcation::SweepRequest, running: Running<'_>) -> Reply {
+        answer(self, bifurcation::run(self, request, running))
+    }
+
+    fn basins(&self, request: &basins::BasinsRequest, running: Running<'_>) -> Reply {
+        answer(self, basins::run(self, request, running))
+    }
+}
+
+fn answer<D>(study: &BeltStudy, done: Result<D, Failure>) -> Reply
+where
+    Answered<BeltSetup, D>: Outcome + 'static,
+{
+    Ok(Box::new(Answered::new(study, done?)))
+}

@@ -1,0 +1,50 @@
+//! The verbs of a disc.
+
+use super::{Reply, Verbs};
+use crate::cite::{self, Sources};
+use crate::complaint::Failure;
+use crate::outcome::check::Valid;
+use crate::outcome::{Answered, Outcome};
+use crate::run::disc::{modes, resonances, stability};
+use crate::study::{DiscSetup, DiscStudy};
+
+impl Verbs for DiscStudy {
+    fn kind(&self) -> &'static str {
+        "disc"
+    }
+
+    fn names(&self) -> &'static [&'static str] {
+        &["check", "cite", "modes", "stability", "resonances", "map"]
+    }
+
+    fn check(&self) -> Box<dyn Outcome> {
+        Box::new(Answered::new(self, Valid))
+    }
+
+    fn sources(&self) -> Sources {
+        cite::sources_of_disc(self)
+    }
+
+    fn cite(&self) -> Box<dyn Outcome> {
+        Box::new(Answered::new(self, self.sources()))
+    }
+
+    fn stability(&self) -> Reply {
+        answer(self, stability::run(self))
+    }
+
+    fn modes(&self) -> Reply {
+        answer(self, Ok(modes::run(self)))
+    }
+
+    fn resonances(&self, request: resonances::ResonancesRequest) -> Reply {
+        answer(self, resonances::run(self, request))
+    }
+}
+
+fn answer<D>(study: &DiscStudy, done: Result<D, Failure>) -> Reply
+where
+    Answered<DiscSetup, D>: Outcome + 'static,
+{
+    Ok(Box::new(Answered::new(study, done?)))
+}

@@ -1,0 +1,152 @@
+//! The verbs of a kind of study: what can be asked of it, and one way to say what cannot.
+//!
+//! The doors ask [`verbs`] for the verbs of a study, whatever its kind; a kind implements those that it has. A new kind
+//! is a file here, its reading in `quell-study`, and its points in [`crate::sweep`] if it has maps.
+
+use serde_json::Value as Json;
+
+use crate::cite::Sources;
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::outcome::Outcome;
+use crate::run::disc::resonances;
+use crate::run::orbit::Wanted;
+use crate::run::{basins, bifurcation, curves, simulate, thresholds};
+use crate::study::{Kind, Study};
+use crate::sweep::Running;
+
+mod belt;
+mod disc;
+
+/// The answer of a verb, or why there is none.
+pub type Reply = Result<Box<dyn Outcome>, Failure>;
+
+/// The verbs of one study. What its kind does not implement is refused by name.
+pub trait Verbs: Send + Sync {
+    /// Name of the kind.
+    fn kind(&self) -> &'static str;
+
+    /// Names of the verbs that the kind has.
+    fn names(&self) -> &'static [&'static str];
+
+    /// The values of the study.
+    fn check(&self) -> Box<dyn Outcome>;
+
+    /// The equations and papers that the study's computations use.
+    fn sources(&self) -> Sources;
+
+    /// The same as an answer.
+    fn cite(&self) -> Box<dyn Outcome>;
+
+    /// The friction law and the effective friction, at these slip velocities or on a grid.
+    ///
+    /// # Errors
+    /// A kind without this verb.
+    fn friction(&self, at: Option<Vec<f64>>) -> Reply {
+        let _ = at;
+        Err(self.lacks("friction"))
+    }
+
+    /// Stability of steady sliding.
+    ///
+    /// # Errors
+    /// A kind without this verb; numbers that overflow.
+    fn stability(&self) -> Reply {
+        Err(self.lacks("stability"))
+    }
+
+    /// One trajectory up to τ = `until`.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`simulate::run`].
+    fn simulate(&self, until: f64, options: simulate::Options) -> Reply {
+        let _ = (until, options);
+        Err(self.lacks("simulate"))
+    }
+
+    /// The steady response.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::response::run`].
+    fn response(&self) -> Reply {
+        Err(self.lacks("response"))
+    }
+
+    /// A periodic response and its multipliers.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::orbit::run`].
+    fn orbit(&self, wanted: Wanted) -> Reply {
+        let _ = wanted;
+        Err(self.lacks("orbit"))
+    }
+
+    /// Thresholds of one parameter.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`thresholds::run`].
+    fn thresholds(&self, request: thresholds::ThresholdsRequest) -> Reply {
+        let _ = request;
+        Err(self.lacks("thresholds"))
+    }
+
+    /// Curves of thresholds in two parameters.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`curves::run`].
+    fn threshold_curves(&self, request: &curves::CurvesRequest) -> Reply {
+        let _ = request;
+        Err(self.lacks("thresholds"))
+    }
+
+    /// The response along a parameter, swept up and down.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`bifurcation::run`].
+    fn bifurcation(&self, request: &bifurcation::SweepRequest, running: Running<'_>) -> Reply {
+        let _ = (request, running);
+        Err(self.lacks("bifurcation"))
+    }
+
+    /// The response on which each start ends.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`basins::run`].
+    fn basins(&self, request: &basins::BasinsRequest, running: Running<'_>) -> Reply {
+        let _ = (request, running);
+        Err(self.lacks("basins"))
+    }
+
+    /// Natural frequencies and shapes.
+    ///
+    /// # Errors
+    /// A kind without this verb.
+    fn modes(&self) -> Reply {
+        Err(self.lacks("modes"))
+    }
+
+    /// Speeds at which waves meet.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`resonances::run`].
+    fn resonances(&self, request: resonances::ResonancesRequest) -> Reply {
+        let _ = request;
+        Err(self.lacks("resonances"))
+    }
+
+    /// What a kind without a verb answers.
+    fn lacks(&self, verb: &str) -> Failure {
+        let (kind, names) = (self.kind(), self.names().join(", "));
+        let allowed = format!(
+            "the study is of a {kind}, and {verb} is not one of its verbs, which are {names}"
+        );
+        Complaint::new(Fault::Conflict, kind, Origin::Whole, Json::Null, allowed).into()
+    }
+}
+
+/// The verbs of a study.
+pub fn verbs(study: &Study) -> Result<Box<dyn Verbs>, Failure> {
+    Ok(match study.kind() {
+        Kind::Belt(_) => Box::new(study.belt()?),
+        Kind::Disc(_) => Box::new(study.disc()?),
+    })
+}

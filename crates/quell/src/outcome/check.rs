@@ -1,0 +1,127 @@
+//! `check`: the values of a valid study.
+
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use super::table::Table;
+use super::{Answered, Outcome};
+use crate::input::Inputs;
+use crate::run::check::Check;
+use crate::run::disc;
+use crate::run::law;
+use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy, StudyOf};
+
+/// A study that is valid: all that `check` says follows from it.
+#[derive(Clone, Copy, Debug)]
+pub struct Valid;
+
+impl Outcome for Answered<BeltSetup, Valid> {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
+    fn json(&self) -> Json {
+        Check { study: &self.study }.json()
+    }
+
+    fn sentence(&self) -> Option<String> {
+        Some(sentence(&self.study))
+    }
+
+    fn table(&self) -> String {
+        table_of_belt(&self.study)
+    }
+}
+
+impl Outcome for Answered<DiscSetup, Valid> {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
+    fn json(&self) -> Json {
+        disc::check::json(&self.study)
+    }
+
+    fn sentence(&self) -> Option<String> {
+        Some(sentence(&self.study))
+    }
+
+    fn table(&self) -> String {
+        table_of_disc(&self.study)
+    }
+}
+
+fn sentence<K>(study: &StudyOf<K>) -> String {
+    let title = study.title().map(|title| format!("{title}: ")).unwrap_or_default();
+    format!("{title}the study is valid.")
+}
+
+fn table_of_belt(study: &BeltStudy) -> String {
+    let belt = study.belt();
+    let mut table = Table::new(study.scales());
+    table.number("damping ratio ζ", Quantity::DampingRatio, belt.damping_ratio());
+    table.number("normal load F", Quantity::Force, belt.normal_load());
+    table.number("belt velocity v₀", Quantity::Velocity, belt.belt_velocity());
+    let law = belt.friction().kind();
+    table.word("friction law", law.name());
+    for (parameter, value) in law.parameters().iter().zip(belt.friction().values()) {
+        let label = format!("{} {}", parameter.key().replace('_', " "), parameter.symbol);
+        table.number(&label, parameter.quantity, value);
+    }
+    for (label, words) in law::words(study) {
+        table.word(&label, &words);
+    }
+    for dither in belt.dithers() {
+        table.word("dither", &format!("{} {}", dither.direction.name(), dither.waveform.name()));
+        table.number("  amplitude D", Quantity::Force, dither.amplitude);
+        table.number("  frequency ratio R", Quantity::FrequencyRatio, dither.frequency_ratio);
+        table.number("  phase φ", Quantity::Angle, dither.phase);
+        table.number("  amplitude ratio α = D/R", Quantity::Velocity, dither.amplitude_ratio());
+    }
+    axes(&mut table, study);
+    table.text()
+}
+
+fn axes<K>(table: &mut Table, study: &StudyOf<K>) {
+    for sweep in study.sweeps() {
+        let (first, last) = (sweep.axis.value(0), sweep.axis.value(usize::MAX));
+        let points = sweep.axis.len();
+        table.word("axis", &format!("{} from {first} to {last}, {points} points", sweep.path));
+    }
+}
+
+fn table_of_disc(study: &DiscStudy) -> String {
+    let object = disc::check::json(study);
+    let mut table = Table::new(None);
+    let word = |value: &Json| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+    table.word(
+        "modes",
+        &format!("{}, from the {}", object["disc"]["modes"], word(&object["disc"]["modes_from"])),
+    );
+    table.word("speed Ω", &object["disc"]["speed"].to_string());
+    for (index, load) in object["disc"]["loads"].as_array().into_iter().flatten().enumerate() {
+        let words: Vec<String> = load
+            .as_object()
+            .into_iter()
+            .flatten()
+            .map(|(name, value)| format!("{} {value}", name.replace('_', " ")))
+            .collect();
+        table.word(&format!("load {index}"), &words.join(", "));
+    }
+    if object["dither"].is_object() {
+        let dither = &object["dither"];
+        let words = format!(
+            "{}, amplitude {}, frequency ratio {}",
+            word(&dither["direction"]),
+            dither["amplitude"],
+            dither["frequency_ratio"]
+        );
+        table.word("dither", &words);
+    }
+    let without = study.without();
+    if !without.is_empty() {
+        table.word("without", &without.join(", "));
+    }
+    axes(&mut table, study);
+    table.text()
+}

@@ -1,0 +1,48 @@
+//! `cite`: the equations and papers that a study's computations use.
+
+use std::fmt::Write as _;
+
+use serde_json::Value as Json;
+
+use super::{Answered, Outcome};
+use crate::cite::Sources;
+use crate::input::Inputs;
+use crate::study::StudyKind;
+
+impl<K: StudyKind + Send + Sync> Outcome for Answered<K, Sources> {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
+    fn json(&self) -> Json {
+        self.done.json()
+    }
+
+    fn table(&self) -> String {
+        table(&self.done)
+    }
+}
+
+fn table(found: &Sources) -> String {
+    let mut text = String::new();
+    for source in found.unique() {
+        let _ = writeln!(text, "[{}] {}", source.key, source.reference);
+        let mut uses: Vec<(&str, Vec<&str>)> = Vec::new();
+        for citation in found.citations.iter().filter(|citation| citation.source == source) {
+            match uses.iter_mut().find(|(used, _)| *used == citation.used) {
+                Some((_, verbs)) => verbs.push(citation.task.name()),
+                None => uses.push((citation.used, vec![citation.task.name()])),
+            }
+        }
+        for (used, verbs) in uses {
+            let _ = writeln!(text, "    {used} ({})", verbs.join(", "));
+        }
+    }
+    if !found.corrections.is_empty() {
+        text.push_str("\nWhere the print was corrected:\n");
+    }
+    for correction in &found.corrections {
+        let _ = writeln!(text, "    {}: {}", correction.equations, correction.right);
+    }
+    text
+}

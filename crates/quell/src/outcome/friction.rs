@@ -1,0 +1,71 @@
+//! `friction`: the law and the effective friction under the dither.
+
+use std::fmt::Write as _;
+
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use super::table::figure;
+use super::{Answered, Outcome};
+use crate::complaint::Failure;
+use crate::dataset::Dataset;
+use crate::input::Inputs;
+use crate::picture;
+use crate::plot::Figure;
+use crate::quantity;
+use crate::run::friction::FrictionCurve;
+use crate::run::law;
+use crate::study::{BeltSetup, BeltStudy};
+
+impl Outcome for Answered<BeltSetup, FrictionCurve> {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn table(&self) -> String {
+        table(&self.study, &self.done)
+    }
+
+    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
+        vec![("friction", self.done.dataset(&self.study))]
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::friction(&self.study, &self.done)))
+    }
+}
+
+fn table(study: &BeltStudy, curve: &FrictionCurve) -> String {
+    // In the units of the study: m/s, and slopes per m/s, in SI.
+    let (unit, per_unit) = match study.scales() {
+        Some(scales) => ("m/s".to_owned(), scales.si_per_unit(Quantity::Velocity)),
+        None => (quantity::unit_of(Quantity::Velocity, false), 1.0),
+    };
+    let mut text = String::new();
+    for (label, words) in law::words(study) {
+        let _ = writeln!(text, "{}: {words}", label.trim());
+    }
+    let _ = write!(
+        text,
+        "Friction over the slip velocity v_r, in {unit}: the law μ, the effective μ̄ under the dither, \
+         its slope\n  {:>14}  {:>14}  {:>14}  {:>14}\n",
+        "v_r", "μ", "μ̄", "μ̄′"
+    );
+    // A grid is for a file or a program; people see every tenth point of it.
+    let stride = if curve.points.len() > 100 { 10 } else { 1 };
+    for point in curve.points.iter().step_by(stride) {
+        let law =
+            point.coefficient.as_ref().map_or_else(|_| "any".to_owned(), |value| figure(*value));
+        let (mean, slope) = match &point.effective {
+            Ok(found) => (figure(found.coefficient), figure(found.slope / per_unit)),
+            Err(_) => ("any".to_owned(), "none".to_owned()),
+        };
+        let v = figure(point.slip_velocity * per_unit);
+        let _ = writeln!(text, "  {v:>14}  {law:>14}  {mean:>14}  {slope:>14}");
+    }
+    text
+}

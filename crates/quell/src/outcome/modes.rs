@@ -1,0 +1,80 @@
+//! `modes`: natural frequencies and shapes of a disc.
+
+use std::fmt::Write as _;
+
+use serde_json::Value as Json;
+
+use super::table::figure;
+use super::{Answered, Outcome};
+use crate::complaint::Failure;
+use crate::dataset::Dataset;
+use crate::input::Inputs;
+use crate::picture;
+use crate::plot::Figure;
+use crate::run::disc::modes::Modes;
+use crate::study::DiscSetup;
+
+impl Outcome for Answered<DiscSetup, Modes> {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn title(&self) -> Option<&str> {
+        self.study.title()
+    }
+
+    fn table(&self) -> String {
+        table(&self.done)
+    }
+
+    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
+        vec![("modes", self.done.dataset(&self.study))]
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(picture::disc::modes(&self.study, &self.done))
+    }
+}
+
+fn table(done: &Modes) -> String {
+    let mut text = String::new();
+    let hertz = done.reference_hz.is_some();
+    let _ =
+        write!(text, "  (i, q)    {:>12}  {:>10}  {:>12}  {:>10}", "k²", "β", "φ at load", "β/q");
+    let _ = writeln!(
+        text,
+        "{}",
+        if hertz { format!("  {:>12}  {:>12}", "Hz", "rpm") } else { String::new() }
+    );
+    for (index, row) in done.rows.iter().enumerate() {
+        let told = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), figure);
+        let _ = write!(
+            text,
+            "  ({}, {:>2})  {:>13}  {:>10}  {:>12}  {:>10}",
+            row.radial,
+            row.diameters,
+            told(row.frequency_parameter),
+            figure(row.ratio),
+            figure(row.shape_at_load),
+            told(row.critical_speed()),
+        );
+        if hertz {
+            let _ = write!(
+                text,
+                "  {:>12}  {:>12}",
+                told(row.frequency_hz),
+                told(row.critical_speed_rpm())
+            );
+        }
+        let _ = writeln!(
+            text,
+            "{}",
+            if done.critical == Some(index) { "  lowest critical speed" } else { "" }
+        );
+    }
+    text
+}

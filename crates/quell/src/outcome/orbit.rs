@@ -1,0 +1,82 @@
+//! `orbit`: the periodic response and its Floquet multipliers.
+
+use std::fmt::Write as _;
+
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use super::table::Table;
+use super::{Answered, Outcome};
+use crate::complaint::Failure;
+use crate::dataset::Dataset;
+use crate::input::Inputs;
+use crate::picture;
+use crate::plot::Figure;
+use crate::run::orbit::{Orbit, Response, extremes, sentence};
+use crate::study::{BeltSetup, BeltStudy};
+
+impl Outcome for Answered<BeltSetup, Response> {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn sentence(&self) -> Option<String> {
+        Some(self.done.sentence(&self.study))
+    }
+
+    fn table(&self) -> String {
+        tables(&self.study, &self.done)
+    }
+
+    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
+        self.done.dataset(&self.study).map(|dataset| ("orbit", dataset)).into_iter().collect()
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(picture::periodic_response(&self.study, &self.done))
+    }
+}
+
+fn tables(study: &BeltStudy, found: &Response) -> String {
+    let mut text = String::new();
+    if let Some(orbit) = &found.orbit {
+        text += &table(study, orbit);
+    }
+    let others = found.cycles.iter().filter(|it| Some(*it) != found.orbit.as_ref());
+    for other in others {
+        let _ = write!(text, "\nAlso found: {}\n{}", sentence(study, other), table(study, other));
+    }
+    text
+}
+
+fn table(study: &BeltStudy, found: &Orbit) -> String {
+    let mut table = Table::new(study.scales());
+    table.word("verdict", found.verdict().name());
+    for (re, im) in found.multipliers {
+        let multiplier = format!("{re:.9} {} {:.9} i", if im < 0.0 { '−' } else { '+' }, im.abs());
+        table.word("multiplier", &multiplier);
+    }
+    let modulus =
+        if found.is_free { "modulus of the one that decides" } else { "modulus of the larger" };
+    table.number(modulus, Quantity::Ratio, found.radius());
+    table.number("displacement x at τ = 0", Quantity::Displacement, found.start.displacement);
+    table.number("velocity x′ at τ = 0", Quantity::Velocity, found.start.velocity);
+    table.number("period", Quantity::Time, found.period);
+    if let Some((least, _)) = found.least_slip {
+        table.number("least slip velocity |v_r|", Quantity::Velocity, least);
+    }
+    table.number("stick fraction", Quantity::Ratio, found.stick_fraction);
+    let reach = extremes(study, found);
+    table.number("lowest displacement", Quantity::Displacement, reach.displacement.0);
+    table.number("highest displacement", Quantity::Displacement, reach.displacement.1);
+    table.number("lowest velocity", Quantity::Velocity, reach.velocity.0);
+    table.number("highest velocity", Quantity::Velocity, reach.velocity.1);
+    table.number("residual", Quantity::Displacement, found.residual);
+    table.number("error of the state", Quantity::Displacement, found.state_error);
+    table.number("error of the multiplier", Quantity::Ratio, found.multiplier_error);
+    table.text()
+}

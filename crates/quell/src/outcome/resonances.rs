@@ -1,0 +1,162 @@
+//! `resonances`: where waves of a disc meet, and which dither frequency keeps speeds clear.
+
+use std::fmt::Write as _;
+
+use serde_json::Value as Json;
+
+use super::table::{figure, in_hertz, in_rpm};
+use super::{Answered, Outcome};
+use crate::complaint::Failure;
+use crate::dataset::Dataset;
+use crate::input::Inputs;
+use crate::picture;
+use crate::plot::Figure;
+use crate::run::disc::resonances::{Clear, Resonance, Resonances, Verdict};
+use crate::study::{DiscSetup, DiscStudy};
+
+impl Outcome for Answered<DiscSetup, Resonances> {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn title(&self) -> Option<&str> {
+        self.study.title()
+    }
+
+    fn table(&self) -> String {
+        table(&self.study, &self.done)
+    }
+
+    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
+        vec![("resonances", self.done.dataset(&self.study))]
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::disc::resonances(&self.study, &self.done)))
+    }
+}
+
+/// Growth in ω_ref that is rounding alone: rates are differences of numbers of order 1.
+const NO_GROWTH: f64 = 1e-12;
+
+/// What a wave does without the other one of its pair.
+fn by_itself(growth: f64) -> String {
+    if growth.abs() <= NO_GROWTH {
+        "a wave of it is undamped by itself".to_owned()
+    } else {
+        format!("a wave of it grows by itself with {}", figure(growth))
+    }
+}
+
+fn table(study: &DiscStudy, done: &Resonances) -> String {
+    let mut text = String::new();
+    for (name, list) in
+        [("without dither", &done.undithered), ("induced by dither", &done.dithered)]
+    {
+        let _ = writeln!(text, "Meetings of waves {name}:");
+        if list.is_empty() {
+            text.push_str("  none\n");
+        }
+        for resonance in list {
+            let (speed, label) = (figure(resonance.speed), resonance.label());
+            let rpm = in_rpm(study, resonance.speed);
+            let _ = writeln!(text, "  Ω = {speed:<9}{rpm}  {label}: {}", tongue(resonance));
+        }
+    }
+    if let Some(clear) = &done.clear {
+        text += &clearance(study, clear);
+    }
+    text
+}
+
+/// What becomes of a meeting.
+fn tongue(resonance: &Resonance) -> String {
+    match (resonance.tongue.edges(), resonance.tongue.peak_growth()) {
+        (Some([from, to]), Some(growth)) => {
+            let (from, to, growth) = (figure(from), figure(to), figure(growth));
+            format!("tongue {from} to {to}, growth up to {growth}")
+        }
+        (None, Some(growth)) => by_itself(growth),
+        _ if resonance.can_be_unstable() => match resonance.threshold {
+            Some(threshold) => format!("a tongue from f* = {}", figure(threshold)),
+            None => "no tongue".to_owned(),
+        },
+        _ => "cannot be unstable".to_owned(),
+    }
+}
+
+/// What the exact equations say of the best dither frequency.
+fn verified(clear: &Clear) -> String {
+    match &clear.verified {
+        Some(it) if it.growth.verdict() == Verdict::Stable => format!(
+            "verified: by the exact equations nothing grows there, the largest rate is {}",
+            figure(it.growth.rate)
+        ),
+        Some(it) if it.growth.verdict() == Verdict::Undecided => format!(
+            "not decided by the exact equations: the largest rate {} at Ω = {} is zero within its error {}",
+            figure(it.growth.rate),
+            figure(it.speed),
+            figure(it.growth.error)
+        ),
+        Some(it) => format!(
+            "not clear by the exact equations, the least growth of all: up to {} at Ω = {}",
+            figure(it.growth.rate),
+            figure(it.speed)
+        ),
+        None => "not verified: exponents cannot be computed with such numbers".to_owned(),
+    }
+}
+
+/// Which dither frequencies keep the speeds clear.
+fn clearance(study: &DiscStudy, clear: &Clear) -> String {
+    let mut text = String::new();
+    let (from, to) = (figure(*clear.speeds.start()), figure(*clear.speeds.end()));
+    let _ = writeln!(
+        text,
+        "Dither frequencies R that keep {from} to {to} clear of tongues that dither makes:"
+    );
+    for [from, to] in &clear.clearance.clear {
+        let hertz = in_hertz(study, &[*from, *to]);
+        let _ = writeln!(text, "  {} to {}{hertz}", figure(*from), figure(*to));
+    }
+    match &clear.suggestion {
+        None => text.push_str("  none\n"),
+        Some((ratio, nearby)) => {
+            let hertz = in_hertz(study, &[*ratio]);
+            let _ = writeln!(text, "  best away from the others: R = {}{hertz}", figure(*ratio));
+            let _ = writeln!(text, "  {}", verified(clear));
+            for nearby in nearby.iter().filter(|nearby| nearby.reaches_in) {
+                let resonance = &nearby.resonance;
+                let growth = match (resonance.tongue.edges(), resonance.tongue.peak_growth()) {
+                    (_, None) => String::new(),
+                    (Some(_), Some(growth)) => format!(", growth up to {}", figure(growth)),
+                    (None, Some(growth)) => format!(", {}", by_itself(growth)),
+                };
+                let place = figure(resonance.speed) + &in_rpm(study, resonance.speed);
+                let _ = writeln!(text, "  left there: Ω = {place}, {}{growth}", resonance.label());
+            }
+        }
+    }
+    let words = if clear.clearance.original_suppressed {
+        "Tangential dither takes the tongues without dither away at first order."
+    } else {
+        "Normal dither leaves the tongues without dither as they are."
+    };
+    let _ = writeln!(text, "{words}");
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_is_no_growth() {
+        assert!(by_itself(-3.469447e-18).contains("undamped"));
+        assert!(by_itself(1e-3).contains("grows by itself with 0.001"));
+    }
+}

@@ -1,0 +1,90 @@
+//! `response`: the steady response, what the dither does to it, and what it costs.
+
+use std::fmt::Write as _;
+
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use super::table::{Table, figure};
+use super::{Answered, Outcome};
+use crate::complaint::Failure;
+use crate::dataset::Dataset;
+use crate::input::Inputs;
+use crate::picture;
+use crate::plot::Figure;
+use crate::run::response::Steady;
+use crate::study::{BeltSetup, BeltStudy};
+
+impl Outcome for Answered<BeltSetup, Steady> {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn sentence(&self) -> Option<String> {
+        Some(self.done.sentence(&self.study))
+    }
+
+    fn table(&self) -> String {
+        table(&self.study, &self.done)
+    }
+
+    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
+        vec![
+            ("record", self.done.record(&self.study)),
+            ("spectrum", self.done.spectrum(&self.study)),
+        ]
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::response(&self.study, &self.done)))
+    }
+}
+
+/// Most peaks in the table for people; JSON has them all.
+const PEAKS: usize = 8;
+
+fn table(study: &BeltStudy, done: &Steady) -> String {
+    let response = &done.response;
+    let mut table = Table::new(study.scales());
+    table.word("effect", response.effect.name());
+    table.word("ends on", response.ending.name());
+    table.known(
+        "residual vibration E",
+        Quantity::Ratio,
+        response.efficiency.map_err(|why| why.to_string()),
+    );
+    table.number("amplitude M", Quantity::Displacement, response.amplitude);
+    table.number("undithered amplitude M₀", Quantity::Displacement, response.undithered_amplitude);
+    table.number("stick fraction", Quantity::Ratio, response.stick_fraction);
+    table.word("settled", if response.settled { "yes" } else { "no" });
+    table.number("mean friction", Quantity::Force, response.mean_friction);
+    table.number("  steady, undithered", Quantity::Force, response.mean_friction_undithered);
+    table.known("friction lost", Quantity::Ratio, done.friction_loss());
+    let only_normal = || "all dither is normal".to_owned();
+    table.known("dither power", Quantity::Power, response.dither_power.ok_or_else(only_normal));
+    table.known(
+        "dither stroke",
+        Quantity::Displacement,
+        response.dither_stroke.ok_or_else(only_normal),
+    );
+    table.number("smallest normal load", Quantity::Force, response.minimum_normal_load);
+    let mut text = table.text();
+    if !response.peaks.is_empty() {
+        text.push_str("\nPeaks of the spectrum, largest first:\n");
+        let mut peaks = response.peaks.clone();
+        peaks.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+        let hertz = study.scales().map(|scales| scales.si_per_unit(Quantity::FrequencyRatio));
+        for peak in peaks.iter().take(PEAKS) {
+            let hertz = hertz.map(|hertz| format!(" ({} Hz)", figure(peak.frequency * hertz)));
+            let unit = if study.scales().is_some() { "m" } else { "length" };
+            let (frequency, amplitude) = (figure(peak.frequency), figure(peak.amplitude));
+            let hertz = hertz.unwrap_or_default();
+            let _ = writeln!(text, "  {amplitude:>12} {unit} at {frequency} ω₀{hertz}");
+        }
+    }
+    text
+}

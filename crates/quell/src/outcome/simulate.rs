@@ -1,0 +1,84 @@
+//! `simulate`: one trajectory with its events.
+
+use std::fmt::Write as _;
+
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use super::table::{Table, figure_of};
+use super::{Answered, Outcome};
+use crate::complaint::Failure;
+use crate::dataset::Dataset;
+use crate::input::Inputs;
+use crate::picture;
+use crate::plot::Figure;
+use crate::run::simulate::{Options, Simulation, run};
+use crate::study::{BeltSetup, BeltStudy};
+
+impl Outcome for Answered<BeltSetup, Simulation> {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn sentence(&self) -> Option<String> {
+        Some(self.done.sentence(&self.study))
+    }
+
+    fn table(&self) -> String {
+        table(&self.study, &self.done)
+    }
+
+    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
+        let mut datasets = Vec::new();
+        if self.done.samples.is_some() {
+            datasets.push(("trajectory", self.done.dataset(&self.study)));
+        }
+        if self.done.events.is_some() {
+            datasets.push(("events", self.done.events_dataset(&self.study)));
+        }
+        datasets
+    }
+
+    /// The picture shows the run without dither next to this one.
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        if self.done.samples.is_some() && self.done.undithered_samples.is_some() {
+            return Some(Ok(picture::simulate(&self.study, &self.done)));
+        }
+        let options = Options { events: false, samples: true, undithered: true };
+        let both = run(&self.study, self.done.end.time, options);
+        Some(both.map(|both| picture::simulate(&self.study, &both)))
+    }
+}
+
+fn table(study: &BeltStudy, done: &Simulation) -> String {
+    let mut text = String::new();
+    if let Some(events) = &done.events {
+        text.push('\n');
+        let symbol = if study.scales().is_some() { "t" } else { "τ" };
+        let _ = writeln!(text, "  {symbol:>14}  {:<8}  {:>4}  {:>14}", "event", "slip", "x");
+        for event in events {
+            let time = figure_of(study, Quantity::Time, event.time);
+            let place = figure_of(study, Quantity::Displacement, event.displacement);
+            let _ = writeln!(
+                text,
+                "  {time:>14}  {:<8}  {:>4}  {place:>14}",
+                event.kind.name(),
+                event.slip_sign
+            );
+        }
+        text.push('\n');
+    }
+    let end = &done.end;
+    let mut table = Table::new(study.scales());
+    table.number("time τ", Quantity::Time, end.time);
+    table.number("displacement x", Quantity::Displacement, end.displacement);
+    table.number("velocity x′", Quantity::Velocity, end.velocity);
+    table.word("sticking", if end.sticking { "yes" } else { "no" });
+    table.word("events", &end.events.to_string());
+    table.word("steps", &end.steps.to_string());
+    text + &table.text()
+}

@@ -1,0 +1,209 @@
+//! `stability`: averaged stability of steady sliding; eigenvalues or Floquet exponents of a disc.
+
+use std::fmt::Write as _;
+
+use quell_linear::growth::of_criterion;
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use super::table::{Table, figure, figure_of, in_hertz, in_rpm};
+use super::{Answered, Outcome};
+use crate::complaint::Failure;
+use crate::input::Inputs;
+use crate::picture;
+use crate::plot::Figure;
+use crate::run::disc;
+use crate::run::disc::stability::Stability as DiscStability;
+use crate::run::stability::{Averaged, DECIBELS, LOOKED_AT, Side, Stability, becomes, kind};
+use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy};
+
+impl Outcome for Answered<BeltSetup, Stability> {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn sentence(&self) -> Option<String> {
+        Some(self.done.sentence(&self.study))
+    }
+
+    fn table(&self) -> String {
+        table(&self.study, &self.done)
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::stability(&self.study, &self.done)))
+    }
+}
+
+impl Outcome for Answered<DiscSetup, DiscStability> {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn sentence(&self) -> Option<String> {
+        Some(self.done.sentence(&self.study))
+    }
+
+    fn table(&self) -> String {
+        table_of_disc(&self.study, &self.done)
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        let last = disc::campbell::usual_end(&self.study);
+        let campbell = disc::campbell::run(&self.study, last);
+        Some(campbell.map(|found| picture::disc::stability(&self.study, &self.done, &found)))
+    }
+}
+
+/// Most marginal frictions that are told in words.
+const MOST_CHANGES: usize = 6;
+
+fn table_of_disc(study: &DiscStudy, done: &DiscStability) -> String {
+    let mut table = Table::new(None);
+    table.word("verdict", done.growth.verdict().name());
+    let hertz = study.reference_hz();
+    let rate = |rate: f64| {
+        let per_second = hertz.map(|hertz| std::f64::consts::TAU * hertz * rate);
+        let si = per_second
+            .map(|rate| format!(" ({} 1/s, {} dB/s)", figure(rate), figure(DECIBELS * rate)));
+        format!("{} ω_ref{}", figure(rate), si.unwrap_or_default())
+    };
+    let frequency =
+        |frequency: f64| format!("{} ω_ref{}", figure(frequency), in_hertz(study, &[frequency]));
+    if hertz.is_some() {
+        table.word("speed Ω", &speed_in_words(study));
+    }
+    table.word("growth rate", &rate(done.growth.rate));
+    table.word("  error at most", &format!("{} ω_ref", figure(done.growth.error)));
+    table.word("frequency", &frequency(done.growth.frequency));
+    table.word("growth rate without dither", &rate(done.undithered.rate));
+    for mode in &done.unstable {
+        let words = format!("{}, growth rate {}", frequency(mode.frequency), rate(mode.rate));
+        table.word("unstable mode", &words);
+    }
+    let newtons = study.scales(0).and_then(|it| it.si_per_unit(Quantity::LoadFriction));
+    match &done.changes {
+        Ok(changes) => {
+            for change in changes.iter().take(MOST_CHANGES) {
+                let force = newtons.map(|unit| format!(" ({} N)", figure(change.friction * unit)));
+                let words = format!(
+                    "{}{} at frequency {}",
+                    figure(change.friction),
+                    force.unwrap_or_default(),
+                    frequency(change.frequency)
+                );
+                table.word("marginal at friction f*", &words);
+            }
+        }
+        Err(why) => table.word("marginal frictions", &format!("unknown: {why}")),
+    }
+    if done.out_of_reach {
+        table.word(
+            "out of reach",
+            "a motion that the load does not reach is marginal at any friction",
+        );
+    }
+    let without = study.without();
+    if !without.is_empty() {
+        table.word("without", &without.join(", "));
+    }
+    table.text()
+}
+
+/// The speed of the loads, in rpm and, where the radius of the first load is known, in km/h.
+fn speed_in_words(study: &DiscStudy) -> String {
+    let speed = study.disc().speed();
+    let radius = study.scales(0).and_then(|scales| scales.load_radius_m);
+    let along = study.reference_hz().zip(radius).map(|(hertz, radius)| {
+        format!(
+            ", {} km/h at the load",
+            figure(3.6 * std::f64::consts::TAU * hertz * radius * speed)
+        )
+    });
+    format!("{} ω_ref{}{}", figure(speed), in_rpm(study, speed), along.unwrap_or_default())
+}
+
+fn table(study: &BeltStudy, done: &Stability) -> String {
+    let mut text = String::new();
+    match &done.sharper {
+        Ok(sharper) => {
+            text.push_str(
+                "\nFinite-R averaging, with the oscillator's own response to the dither:\n",
+            );
+            text += &averaged(study, sharper);
+            text.push_str("\nIn the limit of high dither frequency:\n");
+            text += &averaged(study, &done.limit);
+        }
+        Err(why) => {
+            text += &averaged(study, &done.limit);
+            let _ = writeln!(text, "\nNo finite-R averaging: {why}.");
+        }
+    }
+    text
+}
+
+fn averaged(study: &BeltStudy, found: &Averaged) -> String {
+    let mut table = Table::new(study.scales());
+    table.word("verdict", found.verdict());
+    let value = found.criterion.as_ref().map(|criterion| criterion.value);
+    table.known("criterion 2ζ + Fμ̄′", Quantity::Ratio, value.map_err(ToString::to_string));
+    if let Ok(criterion) = &found.criterion {
+        table.number("  error", Quantity::Ratio, criterion.error);
+        table.rate("growth rate", of_criterion(criterion.value));
+        table.number("effective friction μ̄", Quantity::Ratio, criterion.effective.coefficient);
+        if criterion.effective.side == Side::Outer {
+            table.word("  one-sided", "the slope is that for slightly faster belts");
+        }
+    }
+    match &found.critical_amplitudes {
+        Ok(list) => {
+            for critical in list {
+                let label = format!("{} from α", becomes(critical.becomes));
+                table.number(&label, Quantity::Velocity, critical.amplitude_ratio);
+                table.number(
+                    &format!("  D, by a {}", kind(critical.crossing)),
+                    Quantity::Force,
+                    critical.amplitude,
+                );
+                if !critical.contact_stays_closed {
+                    table.word("  contact", "would be pulled apart");
+                }
+            }
+        }
+        Err(why) => table.word("critical amplitudes", &format!("unknown: {why}")),
+    }
+    let label = "stable at every v₀ from α";
+    match &found.everywhere_stable {
+        Ok(ratio) => {
+            table.number(label, Quantity::Velocity, *ratio);
+            let rate = study.belt().dithers().first().map_or(0.0, |it| it.frequency_ratio);
+            table.number("  D", Quantity::Force, ratio * rate);
+        }
+        Err(why) => table.word(label, &format!("none: {why}")),
+    }
+    if let Ok(bands) = &found.unstable_bands {
+        let bands: Vec<String> = bands
+            .iter()
+            .map(|band| {
+                let lower = figure_of(study, Quantity::Velocity, band.lower);
+                match band.upper {
+                    Some(upper) => {
+                        format!("{lower} to {}", figure_of(study, Quantity::Velocity, upper))
+                    }
+                    None => format!("{lower} upwards, no end met {LOOKED_AT}"),
+                }
+            })
+            .collect();
+        let bands = if bands.is_empty() { "none".to_owned() } else { bands.join(", ") };
+        table.word("unstable belt velocities", &bands);
+    }
+    table.text()
+}

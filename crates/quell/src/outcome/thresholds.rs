@@ -1,0 +1,151 @@
+//! `thresholds`: exact values of a parameter at which the response changes, and curves of them in two.
+
+use std::fmt::Write as _;
+
+use serde_json::Value as Json;
+
+use super::table::figure_of;
+use super::{Answered, Outcome};
+use crate::complaint::Failure;
+use crate::dataset::Dataset;
+use crate::input::Inputs;
+use crate::picture;
+use crate::plot::Figure;
+use crate::run::curves::{Curves, Ending};
+use crate::run::thresholds::{
+    Signature, TRIED, Thresholds, becomes, path_in_words, quantity_of, side, value_in_words,
+};
+use crate::study::{BeltSetup, BeltStudy};
+
+impl Outcome for Answered<BeltSetup, Thresholds> {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn sentence(&self) -> Option<String> {
+        Some(self.done.sentence(&self.study))
+    }
+
+    fn table(&self) -> String {
+        table(&self.study, &self.done)
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::thresholds(&self.study, &self.done)))
+    }
+}
+
+impl Outcome for Answered<BeltSetup, Curves> {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn sentence(&self) -> Option<String> {
+        Some(self.done.sentence(&self.study))
+    }
+
+    fn table(&self) -> String {
+        table_of_curves(&self.study, &self.done)
+    }
+
+    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
+        vec![("curves", self.done.dataset(&self.study))]
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::curves(&self.study, &self.done)))
+    }
+}
+
+fn table_of_curves(study: &BeltStudy, done: &Curves) -> String {
+    let mut text = String::new();
+    let (parameter, across) = (&done.question.parameter, &done.question.along);
+    for curve in &done.curves {
+        let [first, last] = curve.ends.map(Ending::name);
+        let _ =
+            writeln!(text, "\n{}, from its end ({first}) to its end ({last}):", curve.kind.name());
+        let [x, y] = [across, parameter].map(|path| path_in_words(study, path));
+        let _ = writeln!(text, "  {x:<14}  {y:<14}");
+        let every = curve.points.len().div_ceil(12).max(1);
+        let last = curve.points.len().saturating_sub(1);
+        for (number, point) in curve.points.iter().enumerate() {
+            if number % every == 0 || number == last {
+                let along = figure_at(study, across, point.along);
+                let value = figure_at(study, parameter, point.value);
+                let _ = writeln!(text, "  {along:<14}  {value:<14}");
+            }
+        }
+    }
+    text
+}
+
+/// A value of a number of the equations, in SI where the study is.
+fn figure_at(study: &BeltStudy, path: &str, value: f64) -> String {
+    figure_of(study, quantity_of(study, path), value)
+}
+
+fn table(study: &BeltStudy, done: &Thresholds) -> String {
+    let question = &done.question;
+    let given = question.parameter.as_str();
+    let path = path_in_words(study, given);
+    let figure = |value: f64| figure_at(study, given, value);
+    let whole = |value: f64| value_in_words(study, given, value);
+    let response =
+        if study.belt().dithers().is_empty() { "steady sliding" } else { "the base response" };
+    let mut text =
+        format!("\n{path} from {} to {}, {response}:\n", whole(question.from), whole(question.to));
+    for threshold in &done.local.thresholds {
+        let _ = writeln!(
+            text,
+            "  {:<14}  {:<15}  {} below, {} above",
+            figure(threshold.value),
+            threshold.kind.name(),
+            side(threshold.was),
+            side(threshold.becomes)
+        );
+    }
+    if done.local.thresholds.is_empty() {
+        text.push_str("  no local threshold\n");
+    }
+    for change in &done.local.changes {
+        let words = |it: &Option<_>| it.as_ref().map_or("none".to_owned(), Signature::words);
+        let (below, above) = (words(&change.below), words(&change.above));
+        let _ = writeln!(text, "  {:<14}  {below} below, {above} above", figure(change.value));
+    }
+    for (protocol, switches) in &done.protocols {
+        let _ = writeln!(
+            text,
+            "runs {} (at {} values; pairs of changes between two of them are not seen):",
+            protocol.name().replace('_', " "),
+            TRIED + 1
+        );
+        let first = becomes(switches.first, done.in_band);
+        if switches.changes.is_empty() {
+            let _ = writeln!(text, "  {first} at every value of the range");
+        } else {
+            let _ = writeln!(text, "  {:<14}  {first}", figure(question.from));
+        }
+        for switch in &switches.changes {
+            let value = figure(switch.value);
+            let error = if switch.is_close() {
+                String::new()
+            } else {
+                format!(", to ± {}", figure(switch.error))
+            };
+            let _ = writeln!(
+                text,
+                "  {value:<14}  {} above{error}",
+                becomes(switch.becomes, done.in_band)
+            );
+        }
+    }
+    text
+}

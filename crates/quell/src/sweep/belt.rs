@@ -1,0 +1,230 @@
+//! What a map computes of belts: responses and averages, and the quantities read from them.
+
+use quell_dynamics::response::Effect;
+use quell_linear::averaging::{Criterion, UndecidedBecause, Verdict};
+use quell_linear::growth::of_criterion as growth_rate;
+use quell_model::units;
+
+use super::cost;
+use super::evaluate::{Computation, Results, Steady, evaluate};
+use super::grid::Grid;
+use super::kind::{Mapped, Point};
+use super::quantity::{Quantity, VERDICTS, Variable, VariableKind, variable};
+use super::status::Status;
+use crate::study::{BeltStudy, Study};
+
+/// Name of the kind.
+pub(super) const KIND: &str = "belt";
+
+/// A study of a belt as a map sees it.
+pub(super) struct BeltPoints(Option<BeltStudy>);
+
+impl BeltPoints {
+    pub(super) fn of(study: &Study) -> Self {
+        Self(study.belt().ok())
+    }
+}
+
+impl Mapped for BeltPoints {
+    fn quantities(&self) -> &'static [Quantity] {
+        QUANTITIES
+    }
+
+    fn seconds(&self, wanted: &[Computation]) -> f64 {
+        self.0.as_ref().map_or(0.0, |study| cost::of_belt(study, wanted))
+    }
+
+    fn compute(
+        &self,
+        grid: &Grid,
+        indices: &[usize],
+        wanted: &[Computation],
+    ) -> Vec<Option<Point>> {
+        let belt = |index: &usize| grid.study_at(*index).ok()?.belt().ok();
+        let studies: Vec<Option<BeltStudy>> = indices.iter().map(belt).collect();
+        let scales: Vec<_> =
+            studies.iter().map(|study| study.as_ref().map(BeltStudy::scales)).collect();
+        let valid: Vec<BeltStudy> = studies.into_iter().flatten().collect();
+        let mut results = evaluate(&valid, wanted).into_iter();
+        scales
+            .into_iter()
+            .map(|scales| scales.and_then(|scales| results.next().map(|found| (scales, found))))
+            .collect()
+    }
+}
+
+/// What a response can be instead of known.
+const OF_RESPONSE: &[Status] = &[Status::Stalled, Status::NoSquealingStart];
+
+/// The same for E.
+const OF_EFFICIENCY: &[Status] = &[
+    Status::Stalled,
+    Status::NoSquealingStart,
+    Status::UnditheredSettles,
+    Status::UnditheredAtRest,
+    Status::UnditheredUnknown,
+];
+
+/// The same for power and stroke.
+const OF_COST: &[Status] = &[Status::Stalled, Status::NoSquealingStart, Status::OnlyNormalDither];
+
+/// What averaging can be instead of known.
+const OF_AVERAGING: &[Status] =
+    &[Status::SetValued, Status::TooManyGroups, Status::NotFast, Status::NotConverged];
+
+/// The same for the sharper averaging.
+const OF_FINITE_R: &[Status] = &[
+    Status::SetValued,
+    Status::TooManyGroups,
+    Status::NotFast,
+    Status::NotConverged,
+    Status::NoDither,
+];
+
+/// The same for verdicts.
+const OF_VERDICT: &[Status] = &[
+    Status::WithinError,
+    Status::AtCorner,
+    Status::SetValued,
+    Status::TooManyGroups,
+    Status::NotFast,
+    Status::NotConverged,
+    Status::NoDither,
+];
+
+/// The same for critical amplitudes.
+const OF_CRITICAL: &[Status] = &[
+    Status::SetValued,
+    Status::TooManyGroups,
+    Status::NotFast,
+    Status::NotConverged,
+    Status::NoDither,
+    Status::NeverChanges,
+    Status::ChangesOnce,
+];
+
+/// Words of an effect; the first is 0, what is wanted of a dither.
+const EFFECTS: VariableKind = VariableKind::Word { words: &Effect::NAMES, unknown: "unknown" };
+
+/// What an effect can be instead of known.
+const OF_EFFECT: &[Status] = &[
+    Status::Stalled,
+    Status::NoSquealingStart,
+    Status::UnditheredUnknown,
+    Status::StillChanging,
+    Status::NoDither,
+];
+
+/// Words of a flag.
+const SETTLED: VariableKind = VariableKind::Word { words: &["no", "yes"], unknown: "unknown" };
+
+const RATIO: VariableKind = VariableKind::Number(units::Quantity::Ratio);
+const LENGTH: VariableKind = VariableKind::Number(units::Quantity::Displacement);
+const FORCE: VariableKind = VariableKind::Number(units::Quantity::Force);
+const VELOCITY: VariableKind = VariableKind::Number(units::Quantity::Velocity);
+
+/// What a map of belts can show.
+#[rustfmt::skip]
+pub(super) const QUANTITIES: &[Quantity] = &[
+    belt("effect", "what the dither does to the vibration: quenches, reduces, increases, causes, or quiet without and with it", Computation::ResponseWithEffect, &[
+        variable(("effect", ""), "effect of the dither", EFFECTS, OF_EFFECT, effect),
+    ]),
+    belt("efficiency", "residual vibration E = M₁/M₀ (2.27), the share left by the dither, 0 where it is quenched", Computation::Response, &[
+        variable(("efficiency", "E"), "residual vibration E = M₁/M₀", RATIO, OF_EFFICIENCY, |r| steady(r)?.efficiency.map_err(Status::from)),
+    ]),
+    belt("amplitude", "largest spectral amplitude M of the displacement below 1.9 ω₀", Computation::Response, &[
+        variable(("amplitude", "M"), "spectral amplitude of the slow vibration", LENGTH, OF_RESPONSE, |r| Ok(steady(r)?.amplitude)),
+    ]),
+    belt("undithered-amplitude", "the same of the run without dither, M₀", Computation::Response, &[
+        variable(("undithered_amplitude", "M_0"), "spectral amplitude without dither", LENGTH, OF_RESPONSE, |r| Ok(steady(r)?.undithered_amplitude)),
+    ]),
+    belt("stick-fraction", "share of the time that is spent in stick", Computation::Response, &[
+        variable(("stick_fraction", ""), "share of the time in stick", RATIO, OF_RESPONSE, |r| Ok(steady(r)?.stick_fraction)),
+    ]),
+    belt(SETTLED_NAME, "whether the amplitudes of the two halves of the record agree", Computation::Response, &[
+        variable(("settled", ""), "whether the response has settled", SETTLED, OF_RESPONSE, |r| Ok(f64::from(u8::from(steady(r)?.settled)))),
+    ]),
+    belt("mean-friction", "mean friction force, over k", Computation::Response, &[
+        variable(("mean_friction", "⟨f⟩"), "mean friction force", FORCE, OF_RESPONSE, |r| Ok(steady(r)?.mean_friction)),
+    ]),
+    belt("dither-power", "mean power that tangential dither feeds in", Computation::ResponseWithCost, &[
+        variable(("dither_power", "P"), "mean power of the dither", VariableKind::Number(units::Quantity::Power), OF_COST, |r| steady(r)?.dither_power.ok_or(Status::OnlyNormalDither)),
+    ]),
+    belt("dither-stroke", "peak-to-peak displacement that the actuator must follow", Computation::ResponseWithCost, &[
+        variable(("dither_stroke", ""), "stroke of the dither's actuator", LENGTH, OF_COST, |r| steady(r)?.dither_stroke.ok_or(Status::OnlyNormalDither)),
+    ]),
+    belt("minimum-normal-load", "smallest normal load, over k", Computation::Response, &[
+        variable(("minimum_normal_load", "N_{min}"), "smallest normal load", FORCE, OF_RESPONSE, |r| Ok(steady(r)?.minimum_normal_load)),
+    ]),
+    belt("verdict", "averaged verdict on steady sliding (2.26): stable or unstable", Computation::Criterion, &[
+        variable(("verdict", ""), "averaged verdict on steady sliding", VERDICTS, OF_VERDICT, |r| verdict(limit(r)?)),
+    ]),
+    belt("criterion", "criterion of averaged stability 2ζ + Fμ̄′ (2.26): unstable where negative", Computation::Criterion, &[
+        variable(("criterion", "2ζ + F\\bar{μ}′"), "criterion of averaged stability", RATIO, OF_AVERAGING, |r| Ok(limit(r)?.value)),
+    ]),
+    belt("growth", "growth rate of small slow motions by averaging, per unit τ", Computation::Criterion, &[
+        variable(("growth", "Re ρ"), "averaged growth rate of small slow motions", VariableKind::Rate, OF_AVERAGING, |r| Ok(growth_rate(limit(r)?.value))),
+    ]),
+    belt("verdict-sharper", "the verdict with the oscillator's own response to the dither", Computation::CriterionSharper, &[
+        variable(("verdict_sharper", ""), "sharper averaged verdict on steady sliding", VERDICTS, OF_VERDICT, |r| verdict(sharper(r)?)),
+    ]),
+    belt("criterion-sharper", "the criterion with the oscillator's own response to the dither", Computation::CriterionSharper, &[
+        variable(("criterion_sharper", "2ζ + F\\bar{μ}′"), "sharper criterion of averaged stability", RATIO, OF_FINITE_R, |r| Ok(sharper(r)?.value)),
+    ]),
+    belt("growth-sharper", "the growth rate with the oscillator's own response to the dither", Computation::CriterionSharper, &[
+        variable(("growth_sharper", "Re ρ"), "sharper averaged growth rate", VariableKind::Rate, OF_FINITE_R, |r| Ok(growth_rate(sharper(r)?.value))),
+    ]),
+    belt("critical-amplitude", "smallest and largest amplitude ratio α = D/R of the first dither at which averaged stability changes", Computation::CriticalAmplitudes, &[
+        variable(("critical_amplitude", "α_c"), "smallest critical amplitude ratio of the first dither", VELOCITY, OF_CRITICAL, |r| critical(r, false)),
+        variable(("critical_amplitude_upper", "α_c"), "largest critical amplitude ratio of the first dither, where there are several", VELOCITY, OF_CRITICAL, |r| critical(r, true)),
+    ]),
+];
+
+fn steady(results: &Results) -> Result<Steady, Status> {
+    results.steady.unwrap_or(Err(Status::Missing))
+}
+
+#[expect(clippy::cast_precision_loss, reason = "one of five words")]
+fn effect(results: &Results) -> Result<f64, Status> {
+    Ok(results.effect.unwrap_or(Err(Status::Missing))?.place()? as f64)
+}
+
+fn limit(results: &Results) -> Result<&Criterion, Status> {
+    results.criterion.as_ref().map_or(Err(Status::Missing), |found| found.as_ref().map_err(|s| *s))
+}
+
+fn sharper(results: &Results) -> Result<&Criterion, Status> {
+    let found = results.criterion_sharper.as_ref();
+    found.map_or(Err(Status::Missing), |found| found.as_ref().map_err(|status| *status))
+}
+
+fn verdict(criterion: &Criterion) -> Result<f64, Status> {
+    match criterion.verdict {
+        Verdict::Unstable => Ok(0.0),
+        Verdict::Stable => Ok(1.0),
+        Verdict::Undecided { why: UndecidedBecause::WithinError } => Err(Status::WithinError),
+        Verdict::Undecided { why: UndecidedBecause::AtCorner } => Err(Status::AtCorner),
+    }
+}
+
+fn critical(results: &Results, upper: bool) -> Result<f64, Status> {
+    let found = results.critical_amplitudes.as_ref().ok_or(Status::Missing)?;
+    match (found.as_ref().map_err(|status| *status)?.as_slice(), upper) {
+        ([], _) => Err(Status::NeverChanges),
+        ([first, ..], false) => Ok(first.amplitude_ratio),
+        ([_], true) => Err(Status::ChangesOnce),
+        ([.., last], true) => Ok(last.amplitude_ratio),
+    }
+}
+
+const fn belt(
+    name: &'static str,
+    about: &'static str,
+    computation: Computation,
+    variables: &'static [Variable],
+) -> Quantity {
+    Quantity { name, about, kind: KIND, computation, variables }
+}
+
+/// Whether a response has settled: it comes with every number of one.
+pub(super) const SETTLED_NAME: &str = "settled";
