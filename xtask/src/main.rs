@@ -10,6 +10,7 @@ mod licences;
 mod manifest;
 mod package;
 mod python;
+mod source;
 mod test;
 
 const USAGE: &str = "usage: cargo xtask CHORE
@@ -33,7 +34,7 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let done = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["book"] => book::run(&root),
-        ["coverage"] => coverage::run(&root),
+        ["coverage"] => coverage::run(&root, None),
         ["layers"] => layers::run(&root),
         ["licences"] => licences::run(&root),
         ["package"] => package::run(&root),
