@@ -70,7 +70,11 @@ fn forbidden_home(name: &str, dependency: &Dependency) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
+    use super::table::{Confined, CrateLayer};
     use super::*;
+
+    /// The crate of the table that does not exist yet.
+    const PLANNED: &str = "quell-explorer";
 
     /// What the check reports for one crate with one dependency.
     fn verdict(name: &str, package: &str, purpose: Use) -> Vec<String> {
@@ -177,10 +181,36 @@ mod tests {
                 assert!(below, "{} -> {used}", layer.name);
             }
         }
-        for confined in CONFINED {
-            for home in confined.homes {
-                assert!(LAYERS.iter().any(|layer| layer.name == *home), "{home}");
+    }
+
+    /// A permission that no crate needs would let a dependency spread unnoticed.
+    #[test]
+    fn every_permission_is_needed() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let manifests = manifest::members(&root).expect("readable manifests");
+        let uses = |name: &str, package: &str, purposes: &[Use]| {
+            let manifest = manifests.iter().find(|manifest| manifest.name == name);
+            let dependencies = manifest.map(|manifest| manifest.dependencies.iter());
+            dependencies.is_some_and(|mut dependencies| {
+                dependencies.any(|dependency| {
+                    dependency.package == package && purposes.contains(&dependency.purpose)
+                })
+            })
+        };
+        for Confined { package, homes, in_tests, .. } in CONFINED {
+            let all = [Use::Normal, Use::Build, Use::Dev];
+            let purposes = if *in_tests { &all[..2] } else { &all };
+            for home in *homes {
+                assert!(uses(home, package, purposes), "{home} does not use {package}");
             }
+            let elsewhere = |layer: &CrateLayer| {
+                !homes.contains(&layer.name) && uses(layer.name, package, &[Use::Dev])
+            };
+            assert_eq!(LAYERS.iter().any(elsewhere), *in_tests, "{package} in tests");
+        }
+        for layer in LAYERS.iter().filter(|layer| layer.name != PLANNED) {
+            let exists = manifests.iter().any(|manifest| manifest.name == layer.name);
+            assert!(exists, "{} is no member of the workspace", layer.name);
         }
     }
 
