@@ -1,6 +1,7 @@
 //! `cargo xtask book`: builds the book as a site in `target/book`, with pictures made by `quell reproduce`.
 //!
-//! Chapters are copied from `docs/book`; `quell reproduce` adds current pictures, the report and the table of claims; mdBook builds the site.
+//! Chapters are copied from `docs/book`; `quell reproduce` adds current pictures, the report and the table of claims; mdBook
+//! builds the site.
 
 use std::ffi::OsStr;
 use std::fmt::Write as _;

@@ -1,7 +1,7 @@
 //! `cargo xtask names`: fails when two types of the workspace have the same name.
 //!
-//! Types are the structs, enums, unions, traits and type aliases at the top level of a file of `crates/*/src` or `xtask/src`, tests left
-//! out. Associated types and types inside of functions or inline modules do not count.
+//! Types are the structs, enums, unions, traits and type aliases at the top level of a file of `crates/*/src` or `xtask/src`,
+//! tests left out. Associated types and types inside of functions or inline modules do not count.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

@@ -47,7 +47,8 @@ impl Ratchet {
     /// Compares counts with those allowed. A missing file allows nothing; `Bless` creates it with all counts.
     ///
     /// # Errors
-    /// Each count that differs from the one allowed, with `describe` of each key that grew; a file that cannot be read or written.
+    /// Each count that differs from the one allowed, with `describe` of each key that grew; a file that cannot be read or
+    /// written.
     pub(crate) fn check(
         &self,
         root: &Path,
@@ -80,7 +81,7 @@ impl Ratchet {
         }
         Err(format!(
             "{check}: counts differ from {file}\n{complaints}\
-             `cargo xtask {check} --bless` records counts that have fallen. Counts that have grown it leaves as they are: correct the source",
+             `cargo xtask {check} --bless` records counts that have fallen; where one has grown, correct the source",
             check = self.check,
             file = self.file,
         ))

@@ -1,9 +1,9 @@
 //! `cargo xtask coverage`: the lines of the crates that no test reaches.
 //!
-//! The tests of Rust run with the compiler's own counters (`-C instrument-coverage`), including the processes of the command line that
-//! they start; `llvm-profdata` and `llvm-cov` turn the counters into an lcov file, and the table and the list of uncovered lines are
-//! made from it. Lines of lane code that is inlined everywhere are counted where the compiler left them, so the shares are a guide; the
-//! list of lines is the result.
+//! The tests of Rust run with the compiler's own counters (`-C instrument-coverage`), including the processes of the command line
+//! that they start; `llvm-profdata` and `llvm-cov` turn the counters into an lcov file, and the table and the list of uncovered
+//! lines are made from it. Lines of lane code that is inlined everywhere are counted where the compiler left them, so the shares
+//! are a guide; the list of lines is the result.
 //!
 //! Only the crates of the workspace that are measured get counters. For them cargo calls this program in place of the compiler
 //! (`RUSTC_WORKSPACE_WRAPPER`), and it adds the option ([`compile`]).

@@ -1,8 +1,8 @@
 //! `cargo xtask cycles`: fails when modules of one crate use each other in a ring, and prints the ring.
 //!
-//! A module is a file. It uses another if one of its `use` items or paths leads there (`crate::`, `super::`, `self::`, or the name of
-//! a child module). A name that a module re-exports counts for the module that defines it. Not counted: tests, and a `pub use` of a
-//! child by its parent, which makes the child's items public without depending on them.
+//! A module is a file. It uses another if one of its `use` items or qualified paths resolves to an item there (`crate::`,
+//! `super::`, `self::`, or the name of a child module). A re-exported name resolves to the module that defines it. Tests do not
+//! count, nor does a `pub use` of a child by its parent, which publishes the child's items without depending on them.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! The modules of a crate, and which of them use which.
+//! The modules of a crate, and the uses between them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -8,7 +8,7 @@ use super::paths::{self, Segments, WrittenPath};
 use super::rings;
 use crate::source;
 
-/// How many re-exports are followed from one name.
+/// The largest number of re-exports that are followed from one name.
 const FOLLOWED: usize = 16;
 
 /// The files of a crate.
@@ -28,10 +28,10 @@ struct File {
     written: Vec<WrittenPath>,
 }
 
-/// Files that use each other.
+/// A group of files that use each other.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Ring {
-    /// How many files can be reached from each other.
+    /// The number of files in the group.
     pub(super) files: usize,
     /// Their names, and the shortest ring among them with one use per line.
     pub(super) text: String,
@@ -100,7 +100,7 @@ impl Modules {
             .collect()
     }
 
-    /// The modules that one uses, each with a line of it that does.
+    /// The modules that `module` uses, each with the line of the first use.
     fn uses(&self, module: &Segments) -> BTreeMap<Segments, usize> {
         let file = &self.files[module];
         let mut uses = BTreeMap::new();
@@ -117,7 +117,7 @@ impl Modules {
         uses
     }
 
-    /// A written path from the root of the crate, if it stays within the crate.
+    /// The path from the root of the crate for a path in `module`; `None` if it leads to another crate.
     fn absolute(&self, module: &Segments, written: &WrittenPath) -> Option<Segments> {
         let mut path: Segments = module.iter().chain(&written.inside).cloned().collect();
         let mut rest = written.segments.as_slice();
@@ -147,7 +147,7 @@ impl Modules {
         Some(path)
     }
 
-    /// The longest beginning of a path that is a file.
+    /// The file of a path: its longest prefix that is one.
     fn file_of(&self, path: &Segments) -> Segments {
         let mut path = path.clone();
         while !path.is_empty() && !self.files.contains_key(&path) {
@@ -156,7 +156,7 @@ impl Modules {
         path
     }
 
-    /// A path with re-exported names replaced by the paths that they stand for.
+    /// A path with re-exported names replaced by their definitions.
     fn followed(&self, mut path: Segments) -> Segments {
         for _ in 0..FOLLOWED {
             let module = self.file_of(&path);
@@ -196,7 +196,8 @@ mod tests {
             ("b/deep.rs", "pub struct D;\nfn f() -> super::super::c::C {}"),
             ("c.rs", "\n\nuse crate::A;\npub struct C;"),
         ]);
-        let text = "    3 files: a, b::deep, c\n      src/a.rs:2 uses b::deep\n      src/b/deep.rs:2 uses c\n      src/c.rs:3 uses a\n";
+        let text = "    3 files: a, b::deep, c\n\
+                    \x20     src/a.rs:2 uses b::deep\n      src/b/deep.rs:2 uses c\n      src/c.rs:3 uses a\n";
         assert_eq!(found, [Ring { files: 3, text: text.to_owned() }]);
     }
 

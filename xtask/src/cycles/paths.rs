@@ -1,18 +1,18 @@
-//! Paths in the code of one file: those of its `use` items, and those within its code.
+//! Paths in one file: those of its `use` items, and qualified paths elsewhere in its code.
 
-/// Segments of a path, as they are written.
+/// Segments of a path.
 pub(super) type Segments = Vec<String>;
 
-/// A path that is written in a file.
+/// A path as a file contains it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct WrittenPath {
     /// Inline modules of the file around it, outermost first.
     pub(super) inside: Segments,
     /// Its segments.
     pub(super) segments: Segments,
-    /// The name that a `use` item gives it, `*` for all names; `None` within code.
+    /// The name that a `use` item introduces (`*` and the path for a glob); `None` elsewhere.
     pub(super) alias: Option<String>,
-    /// Whether it is that of a `pub use`, or of one with restricted visibility.
+    /// Whether it belongs to a `pub use`, of any visibility.
     pub(super) exported: bool,
     /// The byte at which its statement begins.
     pub(super) start: usize,
@@ -25,7 +25,7 @@ enum CodeToken<'a> {
     Sign(char),
 }
 
-/// Every path with a qualifier in code without comments and literals.
+/// Every qualified path in code without comments and literals.
 pub(super) fn paths(code: &str) -> Vec<WrittenPath> {
     let tokens = tokens(code);
     let mut paths = Vec::new();
@@ -119,7 +119,7 @@ fn is_exported(tokens: &[(CodeToken<'_>, usize)], at: usize) -> bool {
     }
 }
 
-/// Adds the leaves of the tree at `at` by their names; the position after it.
+/// Adds the leaves of the `use` tree at `at` with their names, and returns the position after the tree.
 fn use_tree(
     tokens: &[(CodeToken<'_>, usize)],
     mut at: usize,
@@ -136,7 +136,7 @@ fn use_tree(
                 }
                 at += 1;
             }
-            // `a::{self}` names `a`; `self::a` begins at the module itself.
+            // In `a::{self}` it stands for `a`; in `self::a` for the module itself.
             CodeToken::Word("self") if !segments.is_empty() => {}
             CodeToken::Word(name) => segments.push(name.to_owned()),
             CodeToken::Sign('*') => alias = Some(format!("*{}", segments.join("::"))),
@@ -151,7 +151,7 @@ fn use_tree(
         }
         at += 1;
     }
-    // A comma before the closing brace leaves nothing between them.
+    // Between a comma and the closing brace there may be no leaf.
     if segments.len() > prefix.len() || alias.is_some() || named_self(tokens, at) {
         let name = alias.or_else(|| segments.last().cloned()).unwrap_or_default();
         leaves.push((name, segments));
@@ -224,7 +224,8 @@ mod tests {
 
     #[test]
     fn qualified_paths_in_code_are_found() {
-        let code = "pub(in crate::x) fn f(a: super::A) -> impl T + use<'_> { a.b::<C>(); crate::d::e::<F>(); g(h); $crate::m!() }\n\
+        let code = "pub(in crate::x) fn f(a: super::A) -> impl T + use<'_> { \
+                    a.b::<C>(); crate::d::e::<F>(); g(h); $crate::m!() }\n\
                     mod inner { fn k() { super::l(); } } fn n() { self::o(); }";
         let paths: Vec<String> = written(code).into_iter().map(|(path, ..)| path).collect();
         assert_eq!(paths, ["|super::A", "|crate::d::e", "|crate::m", "inner|super::l", "|self::o"]);

@@ -19,7 +19,7 @@ pub(super) fn groups(graph: &[BTreeSet<usize>]) -> Vec<Vec<usize>> {
     groups
 }
 
-/// The nodes that can be reached from one in one step or more.
+/// The nodes that can be reached from a node in one step or more.
 fn reachable(graph: &[BTreeSet<usize>], from: usize) -> BTreeSet<usize> {
     let mut reached = BTreeSet::new();
     let mut queue: Vec<usize> = vec![from];
@@ -35,7 +35,7 @@ pub(super) fn shortest(graph: &[BTreeSet<usize>], group: &[usize]) -> Vec<usize>
     rings.min_by_key(Vec::len).unwrap_or_default()
 }
 
-/// The shortest ring through a node, which comes first.
+/// The shortest ring through `start`.
 fn ring_from(graph: &[BTreeSet<usize>], start: usize) -> Option<Vec<usize>> {
     let mut before = vec![None; graph.len()];
     let mut queue = VecDeque::from([start]);

@@ -1,5 +1,5 @@
-//! `cargo xtask english`: counts the words of [`words`] in comments, string literals and Markdown, and the closure argument `it` in
-//! code. A number may only fall.
+//! `cargo xtask english`: counts the words of [`words`] in comments, string literals and Markdown, and the closure argument `it`
+//! in code. A count may only fall.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -34,7 +34,7 @@ struct Finding {
 /// Checks all texts of the workspace at `root`.
 ///
 /// # Errors
-/// Folders with more words than allowed; numbers that have fallen; an exception that does not hold; a file that cannot be read.
+/// Folders whose counts differ from those allowed; an exception whose count is wrong; a file that cannot be read.
 pub(crate) fn run(root: &Path, mode: RatchetMode) -> Result<(), String> {
     let mut findings: BTreeMap<String, Vec<Finding>> = BTreeMap::new();
     let mut exceptions = Vec::new();
@@ -43,7 +43,7 @@ pub(crate) fn run(root: &Path, mode: RatchetMode) -> Result<(), String> {
         let is_read = ["md", "rs", "py", "pyi", "toml", "ipynb"]
             .iter()
             .any(|extension| source::has_extension(&path, extension));
-        if !is_read || EXCLUDED.iter().any(|(excluded, _)| *excluded == file) {
+        if !is_read || EXCLUDED.iter().any(|(excluded, _)| file.starts_with(excluded)) {
             continue;
         }
         let found = find(&path, &source::read(&path)?);
@@ -63,7 +63,7 @@ pub(crate) fn run(root: &Path, mode: RatchetMode) -> Result<(), String> {
         return Err(format!("english: {}", exceptions.join("\nenglish: ")));
     }
     compared?;
-    eprintln!("english: {} words left to replace", counts.values().sum::<usize>());
+    eprintln!("english: {} words to replace, all of them known", counts.values().sum::<usize>());
     Ok(())
 }
 
@@ -100,7 +100,7 @@ fn begins_with(prose: &[Word], phrase: &str) -> bool {
     equal && words[..count - 1].iter().all(|word| word.continues)
 }
 
-/// Where closures begin that name an argument `it`, in code without comments and literals.
+/// The offsets of closures with an argument named `it`, in code without comments and literals.
 fn closures_of_it(code: &str) -> Vec<usize> {
     let mut found = Vec::new();
     let mut from = 0;
@@ -122,7 +122,7 @@ fn closures_of_it(code: &str) -> Vec<usize> {
     found
 }
 
-/// What is left where the exceptions of a file hold; complaints about those that do not.
+/// The findings that no exception covers. Exceptions with a wrong count cover nothing and are added to `complaints`.
 fn without_exceptions(
     file: &str,
     mut found: Vec<Finding>,
@@ -146,12 +146,12 @@ fn without_exceptions(
     found
 }
 
-/// Exceptions for files that are not there.
-fn missing_files(is_there: impl Fn(&str) -> bool) -> Vec<String> {
+/// Complaints about exceptions for files that do not exist.
+fn missing_files(exists: impl Fn(&str) -> bool) -> Vec<String> {
     let exceptions = WORDS.iter().flat_map(|entry| entry.exceptions);
-    let missing = exceptions.filter(|exception| !is_there(exception.file));
+    let missing = exceptions.filter(|exception| !exists(exception.file));
     missing
-        .map(|exception| format!("{}: has an exception and is missing", exception.file))
+        .map(|exception| format!("{}: has an exception, but does not exist", exception.file))
         .collect()
 }
 

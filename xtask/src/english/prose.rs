@@ -9,13 +9,13 @@ use crate::source::{self, Language, PieceKind, SourcePiece};
 pub(super) struct Word {
     /// Its small letters.
     pub(super) text: String,
-    /// The line where it stands, counted from 1.
+    /// Its line, counted from 1.
     pub(super) line: usize,
-    /// Whether a phrase can continue after it: no punctuation follows, and the text goes on.
+    /// Whether a phrase can continue after it: neither punctuation nor the end of the text follows.
     pub(super) continues: bool,
 }
 
-/// The words of a file; none for a kind of file that has no prose.
+/// The words of a file; an empty list for a kind of file without prose.
 pub(super) fn words(path: &Path, text: &str) -> Vec<Word> {
     let mut prose = Prose::default();
     match path.extension().and_then(|extension| extension.to_str()).unwrap_or_default() {
@@ -32,14 +32,14 @@ pub(super) fn words(path: &Path, text: &str) -> Vec<Word> {
 #[derive(Default)]
 struct Prose {
     words: Vec<Word>,
-    /// Whether the present line lies within a fence of three backticks.
+    /// Whether the current line is within a code fence.
     fenced: bool,
-    /// Whether the present text lies within backticks.
+    /// Whether the current text is within backticks.
     quoted: bool,
 }
 
 impl Prose {
-    /// The paragraphs of a page, without the section of a release that is not changed any more.
+    /// The paragraphs of a page, without the section of a past release, whose text is final.
     fn markdown(&mut self, text: &str) {
         let mut released = false;
         for (number, line) in text.lines().enumerate() {
@@ -53,7 +53,7 @@ impl Prose {
         self.end();
     }
 
-    /// Comments and string literals of a source file. Comments with nothing but white space between them are one text.
+    /// Comments and string literals of a source file. Comments on consecutive lines are one text.
     fn source(&mut self, text: &str, language: Language) {
         let mut line = 1;
         let mut before = PieceKind::Code;
@@ -92,7 +92,7 @@ impl Prose {
         self.end();
     }
 
-    /// The sources of the cells of a notebook, each line of which is a JSON string on a line of its own; not their results.
+    /// The sources of the cells of a notebook, whose lines are JSON strings on lines of their own. Results of cells are skipped.
     fn notebook(&mut self, text: &str) {
         let mut within = false;
         for (number, line) in text.lines().enumerate() {
@@ -134,7 +134,7 @@ impl Prose {
 
     fn word(&mut self, piece: &str, line: usize) {
         let punctuation = |letter: char| !letter.is_alphanumeric();
-        // A dash that begins a word is that of an option.
+        // A word that begins with a dash is an option of a command line.
         let text = piece
             .trim_end_matches(punctuation)
             .trim_start_matches(|letter| letter != '-' && punctuation(letter));
@@ -151,14 +151,14 @@ impl Prose {
         self.words.push(Word { text: text.to_lowercase().replace('’', "'"), line, continues });
     }
 
-    /// No phrase continues here.
+    /// Ends a phrase.
     fn stop(&mut self) {
         if let Some(word) = self.words.last_mut() {
             word.continues = false;
         }
     }
 
-    /// The end of a text.
+    /// Ends a text.
     fn end(&mut self) {
         self.stop();
         self.fenced = false;
@@ -166,7 +166,7 @@ impl Prose {
     }
 }
 
-/// A line without code in backticks, targets of links and names in braces. Each leaves a sign at which a phrase ends.
+/// A line without code in backticks, link targets and names in braces. A sign replaces code and names, so that phrases end there.
 fn readable(line: &str, quoted: &mut bool) -> String {
     let mut readable = String::new();
     let mut rest = line;
@@ -176,7 +176,7 @@ fn readable(line: &str, quoted: &mut bool) -> String {
             *quoted = !*quoted;
             readable += " ; ";
         } else if *quoted {
-            // Code is no prose.
+            // Code is skipped.
         } else if rest.starts_with("](") {
             length = rest.find(')').map_or(length, |end| end + 1);
             readable += " ";

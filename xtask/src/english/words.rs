@@ -1,4 +1,4 @@
-//! The words that the texts of Quell do without, and what to write instead.
+//! Words to avoid in the texts of Quell, with replacements.
 
 /// A word or phrase, in all its forms.
 pub(super) struct AvoidedWord {
@@ -6,17 +6,17 @@ pub(super) struct AvoidedWord {
     pub(super) forms: &'static [&'static str],
     /// What to write instead.
     pub(super) instead: &'static str,
-    /// Files where it is right.
+    /// Files with legitimate uses.
     pub(super) exceptions: &'static [Exception],
 }
 
-/// A file in which a word is right.
+/// A file with legitimate uses of a word.
 pub(super) struct Exception {
     /// Path from the root of the workspace.
     pub(super) file: &'static str,
-    /// How many times, exactly.
+    /// The exact number of uses.
     pub(super) count: usize,
-    /// Why it is right.
+    /// Why they are legitimate.
     #[expect(dead_code, reason = "an exception without a reason shall not compile")]
     pub(super) reason: &'static str,
 }
@@ -26,7 +26,7 @@ pub(super) const fn word(forms: &'static [&'static str], instead: &'static str) 
     AvoidedWord { forms, instead, exceptions: &[] }
 }
 
-/// The name of a closure's argument that says nothing, as it is counted in Rust code.
+/// The argument `it` of closures, which is counted in Rust code.
 pub(super) const CLOSURE_IT: AvoidedWord = word(&["|it|"], "the thing's name, or |x|");
 
 /// Words and phrases in comments, string literals and Markdown.
@@ -36,7 +36,7 @@ pub(super) const WORDS: &[AvoidedWord] = &[
     word(&["for ever"],                         "indefinitely, always"),
     word(&["whatever"],                         "any, regardless of"),
     word(&["whoever"],                          "any caller, anyone who"),
-    word(&["nobody's"],                         "not used, not needed: name the thing that is missing"),
+    word(&["nobody's"],                         "not used, not needed"),
     word(&["there is none"],                    "no … exists, or `None`"),
     word(&["that is none", "are none"],         "not a …, no … exist"),
     word(&["be it"],                            "whether … or …, either"),
@@ -47,10 +47,11 @@ pub(super) const WORDS: &[AvoidedWord] = &[
     word(&["bond", "bonds"],                    "sticking contact, stiction"),
 ];
 
-/// Files that are not read, and why.
+/// Files and folders that are not checked, with the reason.
 #[rustfmt::skip]
 pub(super) const EXCLUDED: &[(&str, &str)] = &[
     ("docs/book/src/errata.md",      "generated from crates/quell/src/cite/corrections.rs"),
+    ("out/",                         "results of runs, which are not part of the repository"),
     ("xtask/src/english/words.rs",   "the list itself"),
     ("xtask/src/english/planted.rs", "texts planted for the tests of this check"),
 ];

@@ -1,4 +1,4 @@
-//! Rust code without comments, literals and tests. What is left out becomes spaces, so that offsets and lines stay what they were.
+//! Rust code without comments, literals and tests. Spaces replace what is left out, so that offsets and lines are unchanged.
 
 use std::collections::BTreeSet;
 
@@ -81,7 +81,7 @@ mod tests {
         assert_eq!(code(text).len(), text.len());
     }
 
-    /// A literal or comment that is divided wrongly would leave a bracket without its partner.
+    /// An error in the division into literals and comments would leave a bracket unmatched.
     #[test]
     fn brackets_of_every_source_match() {
         let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
@@ -109,7 +109,8 @@ mod tests {
 
     #[test]
     fn items_for_tests_become_spaces() {
-        let text = "use a;\n#[cfg(test)]\nuse b::{c, d};\n#[cfg(all(test, unix))]\n#[path = \"x\"]\nmod t {\n fn f() { g([1; 2]); }\n}\nuse e;\n\
+        let text = "use a;\n#[cfg(test)]\nuse b::{c, d};\n#[cfg(all(test, unix))]\n#[path = \"x\"]\n\
+                    mod t {\n fn f() { g([1; 2]); }\n}\nuse e;\n\
                     #[cfg(test)]\nmod tests;\nuse h;";
         let left = production(text);
         assert_eq!(left.len(), text.len());

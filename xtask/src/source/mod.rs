@@ -54,7 +54,7 @@ pub(crate) fn relative(path: &Path, root: &Path) -> String {
     parts.join("/")
 }
 
-/// The number of a line, counted from 1, that holds the byte at `offset`.
+/// The number of the line that contains the byte at `offset`, counted from 1.
 pub(crate) fn line(text: &str, offset: usize) -> usize {
     1 + text[..offset].matches('\n').count()
 }
