@@ -1,6 +1,7 @@
-//! `cargo xtask book`: the book as a site in `target/book`, with its pictures made by `quell reproduce`.
+//! `cargo xtask book`: builds the book as a site in `target/book`, with pictures made by `quell reproduce`.
 //!
-//! Chapters are copied from `docs/book` beside fresh pictures, the report and the table of claims; mdBook does the rest.
+//! Chapters are copied from `docs/book`; `quell reproduce` adds current pictures, the report and the table of claims; mdBook
+//! builds the site.
 
 use std::ffi::OsStr;
 use std::fmt::Write as _;
@@ -8,10 +9,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Where the pictures stand among the chapters.
+/// The folder of the pictures among the chapters.
 const PICTURES: &str = "src/reproduction";
 
-/// Makes it.
+/// Builds the book.
 ///
 /// # Errors
 /// A command that failed or is missing, a file that cannot be copied.
@@ -65,7 +66,7 @@ fn copy(from: &Path, to: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// A page whose links to files of the repository are words: the site does not hold them.
+/// Replaces links to files of the repository by their text: the site does not contain these files.
 fn inward(page: &str) -> String {
     let mut inward = String::new();
     let mut rest = page;
@@ -89,7 +90,7 @@ fn inward(page: &str) -> String {
     inward + rest
 }
 
-/// A page with `v_m` and `e^{γ−w}` lowered and raised; code and links stay as they are.
+/// Sets subscripts and superscripts, as in `v_m` and `e^{γ−w}`; code and links are left as they are.
 fn typeset(page: &str) -> String {
     let mut fenced = false;
     let mut typeset = String::new();
@@ -98,11 +99,11 @@ fn typeset(page: &str) -> String {
         if fenced || line.starts_with("    ") || line.starts_with("```") {
             typeset += line;
         } else {
-            for (place, piece) in line.split('`').enumerate() {
-                if place > 0 {
+            for (index, piece) in line.split('`').enumerate() {
+                if index > 0 {
                     typeset.push('`');
                 }
-                typeset += &if place % 2 == 1 { piece.to_owned() } else { symbols(piece) };
+                typeset += &if index % 2 == 1 { piece.to_owned() } else { symbols(piece) };
             }
         }
         typeset.push('\n');
@@ -110,17 +111,17 @@ fn typeset(page: &str) -> String {
     typeset
 }
 
-/// One letter with an underscore behind it is a symbol; a word with one is a name.
+/// Sets subscripts and superscripts of a text. A single letter before an underscore is a symbol; a longer word is a name.
 fn symbols(text: &str) -> String {
     let letters: Vec<char> = text.chars().collect();
     let mut typeset = String::new();
     let mut at = 0;
     while at < letters.len() {
-        let letter = |back: usize| at.checked_sub(back).map(|place| letters[place]);
+        let letter = |back: usize| at.checked_sub(back).map(|index| letters[index]);
         let symbol = letter(1)
-            .is_some_and(|it| it == '∂' || it.is_alphabetic() && !it.is_ascii_alphabetic())
-            || letter(1).is_some_and(|it| it.is_ascii_alphabetic())
-                && !letter(2).is_some_and(|it| it.is_ascii_alphabetic());
+            .is_some_and(|x| x == '∂' || x.is_alphabetic() && !x.is_ascii_alphabetic())
+            || letter(1).is_some_and(|x| x.is_ascii_alphabetic())
+                && !letter(2).is_some_and(|x| x.is_ascii_alphabetic());
         let tag = match letters[at] {
             '_' if symbol => "sub",
             '^' => "sup",
@@ -138,7 +139,7 @@ fn symbols(text: &str) -> String {
     typeset
 }
 
-/// What is lowered or raised, and how many characters that takes.
+/// The subscript or superscript at the beginning of `letters`, and the number of characters it takes.
 fn group(letters: &[char]) -> (String, usize) {
     let close = match letters.first() {
         Some('{') => '}',

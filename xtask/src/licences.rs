@@ -1,13 +1,13 @@
-//! `cargo xtask licences`: every dependency may be used and passed on under terms that fit MIT OR Apache-2.0.
+//! `cargo xtask licences`: checks that the licence of every dependency is compatible with MIT OR Apache-2.0.
 //!
-//! `cargo tree` says name and SPDX expression of each crate of the lock file, those of tests and of other platforms
-//! included. An expression is acceptable if one of its alternatives (`OR`, `/`) needs accepted licences only (`AND`).
+//! `cargo tree` prints the name and the SPDX expression of each crate in the lock file, including those of tests and of other
+//! platforms. An expression is acceptable if one of its alternatives (`OR`, `/`) requires accepted licences only (`AND`).
 
 use std::path::Path;
 use std::process::Command;
 
-/// Licences accepted: permissive, or public domain; the reason is the same for all of them: nothing is asked of those who
-/// pass Quell on but to keep the notices.
+/// Accepted licences: permissive, or public domain. The reason is the same for all: those who redistribute Quell need only keep
+/// the notices.
 const ACCEPTED: &[&str] = &[
     "0BSD",
     "Apache-2.0",
@@ -26,7 +26,7 @@ const ACCEPTED: &[&str] = &[
 /// Checks every crate in the lock file.
 ///
 /// # Errors
-/// The crates whose licence is missing or not accepted, one a line; a `cargo tree` that failed.
+/// The crates whose licence is missing or not accepted, one per line; a `cargo tree` that failed.
 pub(crate) fn run(root: &Path) -> Result<(), String> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let tree = ["tree", "--workspace", "--locked", "--target", "all", "--prefix", "none"];
@@ -55,10 +55,10 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     }
 }
 
-/// Is the licence of a line `name version|expression` accepted?
+/// Whether the licence of a line `name version|expression` is accepted.
 fn acceptable(line: &str) -> bool {
     let Some((_, expression)) = line.split_once('|') else { return false };
-    // `(A OR B) AND C` needs both: a parenthesis is an expression of its own.
+    // `(A OR B) AND C` requires both: a parenthesis is an expression of its own.
     let groups: Vec<&str> = match expression.split_once(')') {
         Some((inside, rest)) if inside.starts_with('(') => {
             vec![&inside[1..], rest.trim().trim_start_matches("AND").trim()]
@@ -68,7 +68,7 @@ fn acceptable(line: &str) -> bool {
     groups.iter().all(|group| group.is_empty() || one_of(group)) && !expression.trim().is_empty()
 }
 
-/// Is one alternative accepted as a whole?
+/// Whether one alternative is accepted as a whole.
 fn one_of(expression: &str) -> bool {
     expression.split(" OR ").flat_map(|part| part.split('/')).any(|alternative| {
         alternative.split(" AND ").all(|licence| ACCEPTED.contains(&licence.trim()))
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn alternatives_and_conjunctions_are_told_apart() {
+    fn alternatives_and_conjunctions_are_distinguished() {
         for fine in [
             "a v1|MIT",
             "a v1|MIT/Apache-2.0",

@@ -1,11 +1,13 @@
-//! Dependencies of the workspace's crates, as their `Cargo.toml` files state them.
+//! Dependencies of the workspace's crates, as stated in their `Cargo.toml` files.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
-/// What a dependency is for.
+use crate::source::read;
+
+/// The purpose of a dependency.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Use {
     /// `[dependencies]`.
@@ -31,16 +33,18 @@ impl fmt::Display for Use {
 pub(crate) struct Dependency {
     /// Name of the package, also where the crate renames it.
     pub(crate) package: String,
-    /// What it is for.
+    /// Its purpose.
     pub(crate) purpose: Use,
 }
 
-/// A crate of the workspace and what it depends on.
+/// A crate of the workspace and its dependencies.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Manifest {
     /// Name of the package.
     pub(crate) name: String,
-    /// Every dependency, those of single platforms included.
+    /// Whether it may be published.
+    pub(crate) is_published: bool,
+    /// Every dependency, including those of single platforms.
     pub(crate) dependencies: Vec<Dependency>,
 }
 
@@ -63,11 +67,13 @@ impl Manifest {
                 collect(tables, shared, &mut dependencies);
             }
         }
-        Ok(Self { name: name.to_owned(), dependencies })
+        let publish = root.get("package").and_then(|package| package.get("publish"));
+        let is_published = publish.and_then(Value::as_bool) != Some(false);
+        Ok(Self { name: name.to_owned(), is_published, dependencies })
     }
 }
 
-/// Reads the three dependency tables of `tables`, in either spelling that Cargo knows.
+/// Reads the three dependency tables of `tables`, in either spelling that Cargo accepts.
 fn collect(tables: &Table, shared: &Table, into: &mut Vec<Dependency>) {
     for (key, purpose) in [
         ("dependencies", Use::Normal),
@@ -100,28 +106,41 @@ fn inherits(entry: &Value) -> bool {
 /// # Errors
 /// A manifest that cannot be read, named by its path.
 pub(crate) fn members(root: &Path) -> Result<Vec<Manifest>, String> {
-    let path = root.join("Cargo.toml");
-    let workspace: Table =
-        read(&path)?.parse().map_err(|why| format!("{}: {why}", path.display()))?;
-    let workspace = workspace.get("workspace").and_then(Value::as_table);
-    let shared = workspace
-        .and_then(|table| table.get("dependencies"))
-        .and_then(Value::as_table)
-        .cloned()
-        .unwrap_or_default();
-    let patterns = workspace
-        .and_then(|table| table.get("members"))
-        .and_then(Value::as_array)
-        .ok_or_else(|| format!("{}: no workspace.members", path.display()))?;
+    let workspace = workspace(root)?;
+    let shared = workspace.get("dependencies").and_then(Value::as_table).cloned();
+    let shared = shared.unwrap_or_default();
     let mut manifests = Vec::new();
-    for pattern in patterns.iter().filter_map(Value::as_str) {
-        for folder in folders(root, pattern)? {
-            let path = folder.join("Cargo.toml");
-            let manifest = Manifest::parse(&read(&path)?, &shared);
-            manifests.push(manifest.map_err(|why| format!("{}: {why}", path.display()))?);
-        }
+    for folder in folders_of_members(root)? {
+        let path = folder.join("Cargo.toml");
+        let manifest = Manifest::parse(&read(&path)?, &shared);
+        manifests.push(manifest.map_err(|why| format!("{}: {why}", path.display()))?);
     }
     Ok(manifests)
+}
+
+/// The folder of every member, in the order of `workspace.members`.
+///
+/// # Errors
+/// A root manifest that cannot be read, or has no `workspace.members`.
+pub(crate) fn folders_of_members(root: &Path) -> Result<Vec<PathBuf>, String> {
+    let workspace = workspace(root)?;
+    let patterns = workspace
+        .get("members")
+        .and_then(Value::as_array)
+        .ok_or_else(|| format!("{}: no workspace.members", root.join("Cargo.toml").display()))?;
+    let mut found = Vec::new();
+    for pattern in patterns.iter().filter_map(Value::as_str) {
+        found.extend(folders(root, pattern)?);
+    }
+    Ok(found)
+}
+
+/// The table `[workspace]` of the root manifest.
+fn workspace(root: &Path) -> Result<Table, String> {
+    let path = root.join("Cargo.toml");
+    let manifest: Table =
+        read(&path)?.parse().map_err(|why| format!("{}: {why}", path.display()))?;
+    Ok(manifest.get("workspace").and_then(Value::as_table).cloned().unwrap_or_default())
 }
 
 /// Folders of a member pattern: a path, or a path ending in `/*`.
@@ -137,10 +156,6 @@ fn folders(root: &Path, pattern: &str) -> Result<Vec<PathBuf>, String> {
         .collect();
     folders.sort();
     Ok(folders)
-}
-
-fn read(path: &Path) -> Result<String, String> {
-    std::fs::read_to_string(path).map_err(|why| format!("{}: {why}", path.display()))
 }
 
 #[cfg(test)]
@@ -173,7 +188,9 @@ mod tests {
             &shared,
         )
         .expect("a manifest");
-        assert_eq!(manifest.name, "planted");
+        assert_eq!((manifest.name.as_str(), manifest.is_published), ("planted", true));
+        let private = "[package]\nname = \"planted\"\npublish = false";
+        assert!(!Manifest::parse(private, &shared).expect("a manifest").is_published);
         let mut found: Vec<(&str, Use)> = manifest
             .dependencies
             .iter()

@@ -1,14 +1,14 @@
-//! `cargo xtask package`: every crate can be published, in this order, and holds all it needs.
+//! `cargo xtask package`: checks that every crate can be published, in a fixed order, and contains all files it needs.
 //!
-//! Crates are packed without being built again. What is compiled in from outside of a crate's folder would be missing on
-//! the registry: no source file may reach out of it.
+//! Crates are packed without being built again. A file that is compiled in from outside a crate's folder would be missing on
+//! the registry, so no source file may include one.
 
 use std::path::Path;
 use std::process::Command;
 
-use crate::manifest;
+use crate::manifest::{self, Manifest};
 
-/// Crates in the order in which they are published: each after those it uses.
+/// Crates in the order of their publication: each after those it uses.
 const ORDER: &[&str] = &[
     "quell-numerics",
     "quell-model",
@@ -25,22 +25,11 @@ const ORDER: &[&str] = &[
 /// Packs every crate.
 ///
 /// # Errors
-/// A crate out of order, one that reaches out of its folder, one that cannot be packed.
+/// A crate out of order, one that includes a file from outside its folder, one that cannot be packed.
 pub(crate) fn run(root: &Path) -> Result<(), String> {
-    let manifests = manifest::members(root)?;
-    for (place, name) in ORDER.iter().enumerate() {
-        let manifest = manifests.iter().find(|manifest| manifest.name == *name);
-        let manifest = manifest.ok_or_else(|| format!("package: there is no crate {name}"))?;
-        for dependency in &manifest.dependencies {
-            let used = ORDER.iter().position(|other| *other == dependency.package);
-            if used.is_some_and(|used| used >= place) {
-                return Err(format!(
-                    "package: {name} uses {}, published later",
-                    dependency.package
-                ));
-            }
-        }
-        reaches_out(&root.join("crates").join(name).join("src"), 1)?;
+    check_order(&manifest::members(root)?)?;
+    for name in ORDER {
+        check_includes(&root.join("crates").join(name).join("src"), 1)?;
     }
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
@@ -56,13 +45,34 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Complains of a file that includes one from outside of its crate; `depth` is how deep the folder lies below it.
-fn reaches_out(folder: &Path, depth: usize) -> Result<(), String> {
+/// Checks that the order contains every crate that is published, each after those it uses.
+fn check_order(manifests: &[Manifest]) -> Result<(), String> {
+    for manifest in manifests.iter().filter(|manifest| manifest.is_published) {
+        if !ORDER.contains(&manifest.name.as_str()) {
+            return Err(format!("package: {} is not in the order of publication", manifest.name));
+        }
+    }
+    for (index, name) in ORDER.iter().enumerate() {
+        let manifest = manifests.iter().find(|manifest| manifest.name == *name);
+        let manifest = manifest.ok_or_else(|| format!("package: no crate is named {name}"))?;
+        for dependency in &manifest.dependencies {
+            let used = ORDER.iter().position(|other| *other == dependency.package);
+            if used.is_some_and(|used| used >= index) {
+                let package = &dependency.package;
+                return Err(format!("package: {name} uses {package}, which is published later"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Checks that no file includes one from outside its crate; `depth` is the depth of `folder` below the folder of the crate.
+fn check_includes(folder: &Path, depth: usize) -> Result<(), String> {
     let failed = |why: std::io::Error| format!("package: {}: {why}", folder.display());
     for file in std::fs::read_dir(folder).map_err(failed)? {
         let path = file.map_err(failed)?.path();
         if path.is_dir() {
-            reaches_out(&path, depth + 1)?;
+            check_includes(&path, depth + 1)?;
         } else if path.extension().is_some_and(|extension| extension == "rs")
             && !path.ends_with("tests.rs")
         {
@@ -71,7 +81,7 @@ fn reaches_out(folder: &Path, depth: usize) -> Result<(), String> {
             let shipped = text.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
             if includes_outside(shipped, depth) {
                 return Err(format!(
-                    "package: {} includes a file of another folder",
+                    "package: {} includes a file from outside its crate",
                     path.display()
                 ));
             }
@@ -80,7 +90,7 @@ fn reaches_out(folder: &Path, depth: usize) -> Result<(), String> {
     Ok(())
 }
 
-/// Does a text include a file further up than the root of its crate?
+/// Whether a text includes a file from above the folder of its crate.
 fn includes_outside(text: &str, depth: usize) -> bool {
     let far = "../".repeat(depth + 1);
     ["include_str!(", "include_bytes!("]
@@ -92,9 +102,27 @@ fn includes_outside(text: &str, depth: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::manifest::{Dependency, Use};
 
     #[test]
-    fn files_from_outside_are_seen() {
+    fn the_order_is_complete_and_follows_the_dependencies() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let mut manifests = manifest::members(&root).expect("readable manifests");
+        assert_eq!(check_order(&manifests), Ok(()));
+
+        let (first, last) = (ORDER[0], ORDER[ORDER.len() - 1]);
+        let lowest = manifests.iter_mut().find(|manifest| manifest.name == first);
+        let planted = Dependency { package: last.to_owned(), purpose: Use::Dev };
+        lowest.expect("a crate").dependencies.push(planted);
+        assert!(check_order(&manifests).is_err_and(|why| why.contains(last)));
+
+        let new = Manifest { name: "new".to_owned(), is_published: true, dependencies: vec![] };
+        assert!(check_order(&[new]).is_err_and(|why| why.contains("new is not in the order")));
+        assert!(check_order(&[]).is_err_and(|why| why.contains(first)));
+    }
+
+    #[test]
+    fn files_from_outside_are_found() {
         assert!(includes_outside("const A: &str = include_str!(\"../../a.txt\");", 1));
         assert!(!includes_outside("const A: &str = include_str!(\"../a.txt\");", 1));
         assert!(!includes_outside("let path = \"../../../a\";", 1));
@@ -102,10 +130,10 @@ mod tests {
     }
 
     #[test]
-    fn crates_of_this_workspace_hold_what_they_include() {
+    fn crates_of_this_workspace_contain_what_they_include() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
         for name in ORDER {
-            assert_eq!(reaches_out(&root.join("crates").join(name).join("src"), 1), Ok(()));
+            assert_eq!(check_includes(&root.join("crates").join(name).join("src"), 1), Ok(()));
         }
     }
 }

@@ -1,8 +1,8 @@
-//! `cargo xtask python`: the wheel, in an environment of its own, and the tests of Python.
+//! `cargo xtask python`: builds the wheel, installs it into an environment of its own, and runs the Python tests.
 //!
-//! Nothing is needed but Python 3.11 or newer with `venv`, and cargo. The environment lies in
-//! `target/python`; its packages are pinned in `tests/requirements.txt` and installed once, until
-//! that list or the interpreter changes. The wheel is built by the profile of `cargo test`
+//! It needs only Python 3.11 or newer with `venv`, and cargo. The environment is in
+//! `target/python`; its packages are pinned in `tests/requirements.txt` and installed again only when
+//! that list or the interpreter changes. The wheel is built with the profile of `cargo test`
 //! and installed as a user would install it.
 
 use std::fs;
@@ -15,23 +15,24 @@ const CRATE: &str = "crates/quell-python";
 /// Packages of the tests.
 const REQUIREMENTS: &str = "crates/quell-python/tests/requirements.txt";
 
-/// Interpreters that are tried, in order.
+/// Interpreters to try, in order.
 const INTERPRETERS: &[&str] = &["python3", "python"];
 
-/// What an interpreter is asked: whether it is new enough, and which one it is.
+/// Program that fails in an interpreter that is too old, and prints the version of any other.
 const PROBE: &str = "import sys, venv; assert sys.version_info >= (3, 11); print(sys.version)";
 
 /// Builds the wheel, installs it, runs the tests.
 ///
 /// # Errors
-/// What failed, and its exit status.
+/// The command that failed, with its exit status.
 pub(crate) fn run(root: &Path) -> Result<(), String> {
     let root = root.canonicalize().map_err(|why| format!("{}: {why}", root.display()))?;
     let place = root.join("target").join("python");
     let python = environment(&root, &place)?;
     let program = root.join("target/debug").join(format!("quell{}", std::env::consts::EXE_SUFFIX));
-    // Whatever lies there may be older than the sources: cargo knows. With one package alone it would unite features
-    // in another way, and compile the dependencies again; after the wheel it would compile what the wheel compiled otherwise.
+    // An existing program may be older than the sources, so cargo builds it if necessary. For a single package cargo would unify
+    // features differently and compile the dependencies again. After the wheel it would recompile crates that the wheel built
+    // with other settings.
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     command(Command::new(cargo).args(["build", "--workspace"]).current_dir(&root))?;
     let wheel = wheel(&root, &place, &python)?;
@@ -50,7 +51,7 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     }
 }
 
-/// The interpreter of the environment, with everything the tests need.
+/// The interpreter of the environment, with all packages that the tests need.
 fn environment(root: &Path, place: &Path) -> Result<PathBuf, String> {
     let requirements = root.join(REQUIREMENTS);
     let list = fs::read_to_string(&requirements)
@@ -67,7 +68,7 @@ fn environment(root: &Path, place: &Path) -> Result<PathBuf, String> {
     };
     let stamp = folder.join("quell-requirements");
     let wanted = format!("{version}{list}");
-    if fs::read_to_string(&stamp).is_ok_and(|there| there == wanted) {
+    if fs::read_to_string(&stamp).is_ok_and(|found| found == wanted) {
         return Ok(python);
     }
     command(Command::new(interpreter).args(["-m", "venv", "--clear"]).arg(&folder))?;
@@ -77,7 +78,7 @@ fn environment(root: &Path, place: &Path) -> Result<PathBuf, String> {
     Ok(python)
 }
 
-/// Builds the wheel; its path.
+/// Builds the wheel and returns its path.
 fn wheel(root: &Path, place: &Path, python: &Path) -> Result<PathBuf, String> {
     let wheels = place.join("wheels");
     if wheels.exists() {
@@ -94,21 +95,21 @@ fn wheel(root: &Path, place: &Path, python: &Path) -> Result<PathBuf, String> {
     }
 }
 
-/// What a program prints, where it ends well.
+/// The standard output of a program that succeeds.
 fn answer(program: &mut Command) -> Option<String> {
     let output = program.output().ok().filter(|output| output.status.success())?;
     String::from_utf8(output.stdout).ok()
 }
 
-/// Runs a program that has to end well.
+/// Runs a program that must succeed.
 fn command(program: &mut Command) -> Result<(), String> {
-    let told = program.get_program().to_string_lossy().into_owned();
+    let name = program.get_program().to_string_lossy().into_owned();
     let words: Vec<_> =
         program.get_args().map(|word| word.to_string_lossy().into_owned()).collect();
     match program.status() {
         Ok(status) if status.success() => Ok(()),
-        Ok(status) => Err(format!("{told} {}: {status}", words.join(" "))),
-        Err(why) => Err(format!("{told}: {why}")),
+        Ok(status) => Err(format!("{name} {}: {status}", words.join(" "))),
+        Err(why) => Err(format!("{name}: {why}")),
     }
 }
 
@@ -132,7 +133,7 @@ mod tests {
         assert!(count > 5);
     }
 
-    /// Every dependency of the wheel has the features that it has in the workspace, so that nothing is compiled a second time.
+    /// Every dependency of the wheel has the same features as in the workspace, so that nothing is compiled twice.
     #[test]
     fn the_wheel_shares_what_the_tests_compile() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -153,10 +154,10 @@ mod tests {
     }
 
     #[test]
-    fn what_fails_is_told_with_its_arguments() {
+    fn a_failure_is_reported_with_its_arguments() {
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        let told = command(Command::new(cargo).arg("no-such-chore")).expect_err("no such chore");
-        assert!(told.contains("no-such-chore"), "{told}");
+        let report = command(Command::new(cargo).arg("no-such-task")).expect_err("no such task");
+        assert!(report.contains("no-such-task"), "{report}");
         assert!(command(&mut Command::new("no-such-program")).is_err());
     }
 }

@@ -1,83 +1,101 @@
 //! `cargo xtask test`: everything that must hold before a change is merged.
 //!
-//! The steps run in order and stop at the first failure, which is named. The tests come last,
-//! those of Python after those of Rust, and nothing is printed after them, so that a good run
-//! closes with a summary. One profile (dev, optimised in the root manifest) serves all steps:
-//! nothing is compiled twice for the sake of a profile.
+//! The steps run in order and stop at the first failure, which is reported with its step. The tests come last,
+//! those of Python after those of Rust, and nothing is printed after them, so that a successful run
+//! ends with their summary. All steps use one profile (dev, optimised in the root manifest):
+//! nothing is compiled twice because of a profile.
 
 use std::path::Path;
 use std::process::Command;
 
-use crate::{layers, licences, python};
+use crate::ratchet::RatchetMode;
+use crate::{cycles, english, layers, licences, names, python};
 
 /// One step.
-struct Step {
+struct TestStep {
     /// Its name.
     name: &'static str,
-    /// What it does.
+    /// Its action.
     action: Action,
-    /// What to do when it fails.
+    /// How to correct a failure.
     advice: &'static str,
 }
 
-/// What a step does.
+/// The action of a step.
 enum Action {
     /// `cargo` with arguments.
     Cargo(&'static [&'static str]),
-    /// The tests of Rust but the slow ones.
+    /// The tests of Rust without the slow ones.
     Quick,
-    /// The check of dependency arrows.
-    Layers,
-    /// The check of licences.
-    Licences,
-    /// The wheel, in an environment of its own, and the tests of Python.
-    Python,
+    /// Another task of this program, by its name.
+    Task(&'static str, fn(&Path) -> Result<(), String>),
 }
 
-const FORMATTING: Step = Step {
+const FORMATTING: TestStep = TestStep {
     name: "formatting",
     action: Action::Cargo(&["fmt", "--all", "--check"]),
     advice: "run `cargo fmt --all`",
 };
 
-const ARROWS: Step = Step {
+const LAYERS: TestStep = TestStep {
     name: "layers",
-    action: Action::Layers,
-    advice: "turn the arrow round, or move the code",
+    action: Action::Task("layers", layers::run),
+    advice: "reverse the dependency, or move the code",
+};
+
+const CYCLES: TestStep = TestStep {
+    name: "cycles",
+    action: Action::Task("cycles", |root| cycles::run(root, RatchetMode::Check)),
+    advice: "move what both modules need into a third, below them",
+};
+
+const NAMES: TestStep = TestStep {
+    name: "names",
+    action: Action::Task("names", |root| names::run(root, RatchetMode::Check)),
+    advice: "give the type a name of its own",
+};
+
+const ENGLISH: TestStep = TestStep {
+    name: "english",
+    action: Action::Task("english", |root| english::run(root, RatchetMode::Check)),
+    advice: "replace the word, or give it an exception with a reason in xtask/src/english/words.rs",
 };
 
 #[rustfmt::skip]
-const STEPS: &[Step] = &[
+const STEPS: &[TestStep] = &[
     FORMATTING,
-    Step {
+    TestStep {
         name: "lints",
         action: Action::Cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]),
-        advice: "mend what clippy names, or `#[expect(lint, reason = \"…\")]`",
+        advice: "fix the lints that clippy reports, or add `#[expect(lint, reason = \"…\")]`",
     },
-    ARROWS,
-    Step {
+    LAYERS,
+    CYCLES,
+    NAMES,
+    ENGLISH,
+    TestStep {
         name: "licences",
-        action: Action::Licences,
+        action: Action::Task("licences", licences::run),
         advice: "choose another crate, or argue for its licence in xtask/src/licences.rs",
     },
-    Step {
+    TestStep {
         name: "documentation",
         action: Action::Cargo(&["doc", "--workspace", "--no-deps"]),
-        advice: "mend the doc comments that rustdoc names",
+        advice: "fix the doc comments that rustdoc reports",
     },
-    Step {
+    TestStep {
         name: "tests",
         action: Action::Cargo(&["test", "--workspace"]),
-        advice: "the failing test is named above",
+        advice: "see the failing test above",
     },
-    Step {
+    TestStep {
         name: "python",
-        action: Action::Python,
-        advice: "the failing test is named above; target/python has the environment",
+        action: Action::Task("python", python::run),
+        advice: "see the failing test above; the environment is in target/python",
     },
 ];
 
-/// Tests of half a minute or more, which `--quick` leaves out.
+/// Tests that take half a minute or more, which `--quick` omits.
 const SLOW: &[&str] = &[
     "a_million_random_steps_close_the_balance_of_work",
     "every_entry_is_made",
@@ -89,22 +107,25 @@ const SLOW: &[&str] = &[
     "thresholds_tell_each_protocol_apart",
 ];
 
-/// The steps of `--quick`: without documentation, the slow tests and Python.
+/// The steps of `--quick`: without lints, licences, documentation, slow tests and Python.
 #[rustfmt::skip]
-const QUICK: &[Step] = &[
+const QUICK: &[TestStep] = &[
     FORMATTING,
-    ARROWS,
-    Step {
-        name: "tests but the slow ones",
+    LAYERS,
+    CYCLES,
+    NAMES,
+    ENGLISH,
+    TestStep {
+        name: "tests without the slow ones",
         action: Action::Quick,
-        advice: "the failing test is named above",
+        advice: "see the failing test above",
     },
 ];
 
 /// Runs every step in the workspace at `root`, or those of `--quick`.
 ///
 /// # Errors
-/// The name of the first step that failed, and what to do about it.
+/// The name of the first step that failed, and how to correct it.
 pub(crate) fn run(root: &Path, quick: bool) -> Result<(), String> {
     let steps = if quick { QUICK } else { STEPS };
     until_failure(steps, |action| match action {
@@ -115,24 +136,20 @@ pub(crate) fn run(root: &Path, quick: bool) -> Result<(), String> {
             cargo(root, &words)
         }
         Action::Cargo(arguments) => cargo(root, arguments),
-        Action::Layers => layers::run(root),
-        Action::Licences => licences::run(root),
-        Action::Python => python::run(root),
+        Action::Task(_, run) => run(root),
     })
 }
 
 /// Runs the steps with `act` and stops at the first that fails.
 fn until_failure(
-    steps: &[Step],
+    steps: &[TestStep],
     mut act: impl FnMut(&Action) -> Result<(), String>,
 ) -> Result<(), String> {
     for (index, step) in steps.iter().enumerate() {
         let command = match step.action {
             Action::Cargo(arguments) => format!("cargo {}", arguments.join(" ")),
             Action::Quick => "cargo test --workspace -- --skip …".to_owned(),
-            Action::Layers => "cargo xtask layers".to_owned(),
-            Action::Licences => "cargo xtask licences".to_owned(),
-            Action::Python => "cargo xtask python".to_owned(),
+            Action::Task(name, _) => format!("cargo xtask {name}"),
         };
         eprintln!("[{}/{}] {}: {command}", index + 1, steps.len(), step.name);
         act(&step.action).map_err(|why| {
@@ -142,7 +159,7 @@ fn until_failure(
     Ok(())
 }
 
-/// Runs the same `cargo` that runs this chore. Warnings of rustdoc are errors.
+/// Runs the `cargo` that runs this task. Warnings of rustdoc are errors.
 fn cargo(root: &Path, arguments: &[&str]) -> Result<(), String> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let status = Command::new(cargo)
@@ -158,34 +175,61 @@ fn cargo(root: &Path, arguments: &[&str]) -> Result<(), String> {
 mod tests {
     use super::*;
 
+    /// The tasks of this program among steps.
+    fn tasks(steps: &[TestStep]) -> Vec<&'static str> {
+        let task = |step: &TestStep| match step.action {
+            Action::Task(name, _) => Some(name),
+            Action::Cargo(_) | Action::Quick => None,
+        };
+        steps.iter().filter_map(task).collect()
+    }
+
+    /// What the user reads last is the summary of the tests.
     #[test]
-    fn a_good_run_closes_with_the_summaries_of_the_tests() {
-        let mut names = 0;
-        let done = until_failure(STEPS, |_| {
-            names += 1;
+    fn the_tests_come_last() {
+        let mut run = Vec::new();
+        let done = until_failure(STEPS, |action| {
+            run.push(match action {
+                Action::Cargo(arguments) => arguments[0],
+                Action::Quick => "quick",
+                Action::Task(name, _) => name,
+            });
             Ok(())
         });
-        assert_eq!((done, names), (Ok(()), STEPS.len()));
-        let [.., rust, python] = STEPS else { panic!("steps") };
-        assert!(matches!(rust.action, Action::Cargo(["test", "--workspace"])));
-        assert!(matches!(python.action, Action::Python));
+        assert_eq!((done, run.len()), (Ok(()), STEPS.len()));
+        assert_eq!(run[run.len() - 2..], ["test", "python"]);
+        assert!(!run[..run.len() - 2].contains(&"test"));
+    }
+
+    /// `--quick` leaves out what takes long, and no check of the sources.
+    #[test]
+    fn quick_has_every_check_that_is_quick() {
+        let slow = ["licences", "python"];
+        let expected: Vec<&str> =
+            tasks(STEPS).into_iter().filter(|task| !slow.contains(task)).collect();
+        assert_eq!(tasks(QUICK), expected);
+        assert!(expected.len() > 3);
+        for task in slow {
+            assert!(tasks(STEPS).contains(&task), "{task}");
+        }
     }
 
     #[test]
-    fn the_first_failure_stops_the_run_and_is_named() {
+    fn the_first_failure_stops_the_run_and_is_reported() {
         for (broken, step) in STEPS.iter().enumerate() {
             let mut count = 0;
             let done = until_failure(STEPS, |_| {
                 count += 1;
                 if count == broken + 1 { Err("planted".to_owned()) } else { Ok(()) }
             });
-            let said = done.expect_err("planted");
-            assert!(said.contains(step.name) && said.contains("planted"), "{said}");
+            let report = done.expect_err("planted");
+            assert!(report.contains(step.name) && report.contains("planted"), "{report}");
+            assert!(report.contains(step.advice), "{report}");
             assert_eq!(count, broken + 1);
         }
     }
 
-    /// A test that was renamed would be run by `--quick` again, unseen.
+    /// A slow test that was renamed would run under `--quick` again without notice.
     #[test]
     fn slow_tests_exist() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

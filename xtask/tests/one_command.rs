@@ -1,5 +1,5 @@
-//! The README and `.ci/run` name one and the same command: whoever follows the README runs
-//! what every change is judged by.
+//! The README and `.ci/run` name the same command: anyone who follows the README runs the checks
+//! that every change must pass.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ fn commands(script: &str) -> Vec<&str> {
         .collect()
 }
 
-/// Words that introduce the command in the README.
+/// The words before the command in the README.
 const INTRODUCTION: &str = "everything that must pass:";
 
 /// Lines of the code block that the README introduces as everything that must pass.
@@ -57,7 +57,7 @@ fn the_script_can_be_executed() {
 }
 
 #[test]
-fn planted_differences_are_seen() {
+fn planted_differences_are_found() {
     let readme = "```sh\nquell --help\n```\nand everything that must pass:\n\n\
                   ```sh\ncargo test\n```\n```\nx\n```\n";
     assert_eq!(readme_test_commands(readme), ["cargo test"]);

@@ -1,7 +1,7 @@
-//! `cargo xtask layers`: fails on a dependency arrow that the table of layers forbids.
+//! `cargo xtask layers`: fails on a dependency that the table of layers forbids.
 //!
-//! Read are the normal, dev and build dependencies of every member, those of single
-//! platforms and renamed ones included. All violations are named at once.
+//! It reads the normal, dev and build dependencies of every member, including those of single
+//! platforms and renamed ones, and reports all violations at once.
 
 use std::path::Path;
 
@@ -14,12 +14,12 @@ use table::{CONFINED, LAYERS};
 /// Checks the workspace at `root`.
 ///
 /// # Errors
-/// The arrows that the table forbids, one a line; a manifest that cannot be read.
+/// The dependencies that the table forbids, one per line; a manifest that cannot be read.
 pub(crate) fn run(root: &Path) -> Result<(), String> {
     let manifests = manifest::members(root)?;
     let violations = violations(&manifests);
     if violations.is_empty() {
-        eprintln!("layers: {} crates, no forbidden arrow", manifests.len());
+        eprintln!("layers: {} crates, no forbidden dependency", manifests.len());
         Ok(())
     } else {
         Err(format!(
@@ -29,17 +29,17 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     }
 }
 
-/// Every arrow that is not allowed, in words.
+/// A description of every dependency that is not allowed.
 fn violations(manifests: &[Manifest]) -> Vec<String> {
     let mut violations = Vec::new();
     for manifest in manifests {
         if !LAYERS.iter().any(|layer| layer.name == manifest.name) {
-            let unknown = "is not in the table of layers: give it a line with a reason";
+            let unknown = "is not in the table of layers: add a line with a reason";
             violations.push(format!("{} {unknown}", manifest.name));
             continue;
         }
         for dependency in &manifest.dependencies {
-            let forbidden = forbidden_arrow(&manifest.name, dependency)
+            let forbidden = forbidden_layer(&manifest.name, dependency)
                 .or_else(|| forbidden_home(&manifest.name, dependency));
             if let Some(reason) = forbidden {
                 violations.push(format!(
@@ -53,14 +53,14 @@ fn violations(manifests: &[Manifest]) -> Vec<String> {
 }
 
 /// Why a crate may not use a crate of the workspace.
-fn forbidden_arrow(name: &str, dependency: &Dependency) -> Option<&'static str> {
+fn forbidden_layer(name: &str, dependency: &Dependency) -> Option<&'static str> {
     let package = dependency.package.as_str();
     let inside = LAYERS.iter().any(|layer| layer.name == package);
     let layer = LAYERS.iter().find(|layer| layer.name == name)?;
     (inside && !layer.may_use.contains(&package)).then_some(layer.reason)
 }
 
-/// Why a crate may not use a dependency from outside.
+/// Why a crate may not use an external dependency.
 fn forbidden_home(name: &str, dependency: &Dependency) -> Option<&'static str> {
     let confined = CONFINED.iter().find(|confined| confined.package == dependency.package)?;
     let allowed =
@@ -70,12 +70,17 @@ fn forbidden_home(name: &str, dependency: &Dependency) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
+    use super::table::{Confined, CrateLayer};
     use super::*;
 
-    /// What the check says about one crate with one dependency.
+    /// The crate of the table that does not exist yet.
+    const PLANNED: &str = "quell-explorer";
+
+    /// What the check reports for one crate with one dependency.
     fn verdict(name: &str, package: &str, purpose: Use) -> Vec<String> {
         let dependency = Dependency { package: package.to_owned(), purpose };
-        violations(&[Manifest { name: name.to_owned(), dependencies: vec![dependency] }])
+        let dependencies = vec![dependency];
+        violations(&[Manifest { name: name.to_owned(), is_published: true, dependencies }])
     }
 
     #[test]
@@ -88,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn planted_arrows_upwards_and_sideways_are_named() {
+    fn planted_dependencies_upwards_and_sideways_are_reported() {
         for (name, package) in [
             ("quell-numerics", "quell-model"),
             ("quell-model", "quell-dynamics"),
@@ -111,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn arrows_downwards_are_free() {
+    fn dependencies_downwards_are_allowed() {
         for (name, package) in [
             ("quell-model", "quell-numerics"),
             ("quell-dynamics", "quell-model"),
@@ -126,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn planted_confined_dependencies_are_named() {
+    fn planted_confined_dependencies_are_reported() {
         for (name, package) in [
             ("quell-dynamics", "rayon"),
             ("quell-model", "toml"),
@@ -160,13 +165,13 @@ mod tests {
     }
 
     #[test]
-    fn a_crate_without_a_line_is_named() {
+    fn a_crate_without_a_line_is_reported() {
         let found = verdict("quell-new", "libm", Use::Normal);
         assert_eq!(found.len(), 1);
         assert!(found[0].starts_with("quell-new is not in the table"));
     }
 
-    /// With every allowed arrow pointing to an earlier line, no circle is possible.
+    /// If every allowed dependency points to an earlier line, no cycle is possible.
     #[test]
     fn the_table_points_downwards() {
         for (row, layer) in LAYERS.iter().enumerate() {
@@ -176,14 +181,40 @@ mod tests {
                 assert!(below, "{} -> {used}", layer.name);
             }
         }
-        for confined in CONFINED {
-            for home in confined.homes {
-                assert!(LAYERS.iter().any(|layer| layer.name == *home), "{home}");
+    }
+
+    /// A permission that no crate needs would let a dependency spread unnoticed.
+    #[test]
+    fn every_permission_is_needed() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let manifests = manifest::members(&root).expect("readable manifests");
+        let uses = |name: &str, package: &str, purposes: &[Use]| {
+            let manifest = manifests.iter().find(|manifest| manifest.name == name);
+            let dependencies = manifest.map(|manifest| manifest.dependencies.iter());
+            dependencies.is_some_and(|mut dependencies| {
+                dependencies.any(|dependency| {
+                    dependency.package == package && purposes.contains(&dependency.purpose)
+                })
+            })
+        };
+        for Confined { package, homes, in_tests, .. } in CONFINED {
+            let all = [Use::Normal, Use::Build, Use::Dev];
+            let purposes = if *in_tests { &all[..2] } else { &all };
+            for home in *homes {
+                assert!(uses(home, package, purposes), "{home} does not use {package}");
             }
+            let elsewhere = |layer: &CrateLayer| {
+                !homes.contains(&layer.name) && uses(layer.name, package, &[Use::Dev])
+            };
+            assert_eq!(LAYERS.iter().any(elsewhere), *in_tests, "{package} in tests");
+        }
+        for layer in LAYERS.iter().filter(|layer| layer.name != PLANNED) {
+            let exists = manifests.iter().any(|manifest| manifest.name == layer.name);
+            assert!(exists, "{} is no member of the workspace", layer.name);
         }
     }
 
-    /// The table in ARCHITECTURE.md, for people, says what the table of the check says.
+    /// The table in ARCHITECTURE.md is the table of the check.
     #[test]
     fn the_printed_table_is_the_table() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../ARCHITECTURE.md");

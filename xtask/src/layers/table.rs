@@ -1,12 +1,12 @@
-//! The layers of Quell: who may use whom, and why. Arrows point downwards only.
+//! The layers of Quell: which crate may use which, and why. Dependencies point downwards only.
 
 /// A crate of the workspace.
-pub(crate) struct Layer {
+pub(crate) struct CrateLayer {
     /// Its name.
     pub(crate) name: &'static str,
-    /// Crates of the workspace that it may depend on, in whatever role.
+    /// Crates of the workspace that it may depend on, for any purpose.
     pub(crate) may_use: &'static [&'static str],
-    /// Why no other.
+    /// Why it may use no other.
     pub(crate) reason: &'static str,
 }
 
@@ -33,13 +33,13 @@ const fn layer(
     name: &'static str,
     may_use: &'static [&'static str],
     reason: &'static str,
-) -> Layer {
-    Layer { name, may_use, reason }
+) -> CrateLayer {
+    CrateLayer { name, may_use, reason }
 }
 
-/// Every crate there is or will be, bottom first. A crate that is not here fails the check.
+/// Every crate, present or planned, from the bottom up. A crate that is not listed fails the check.
 #[rustfmt::skip]
-pub(crate) const LAYERS: &[Layer] = &[
+pub(crate) const LAYERS: &[CrateLayer] = &[
     layer("quell-numerics", NOTHING,     "mathematics knows no physics: it serves belts, discs and what will come"),
     layer("quell-model",    MATHEMATICS, "nouns are valid values: they know no engine that works on them"),
     layer("quell-linear",   NOUNS,       "linear questions about steady sliding: no trajectory is computed here"),
@@ -55,7 +55,7 @@ pub(crate) const LAYERS: &[Layer] = &[
     layer("xtask",          NOTHING,     "chores must run while the product does not compile"),
 ];
 
-/// A dependency from outside that must stay in few crates.
+/// An external dependency that is confined to a few crates.
 pub(crate) struct Confined {
     /// Name of the package.
     pub(crate) package: &'static str,
@@ -63,7 +63,7 @@ pub(crate) struct Confined {
     pub(crate) homes: &'static [&'static str],
     /// Whether the tests of every crate may use it too.
     pub(crate) in_tests: bool,
-    /// Why nowhere else.
+    /// Why other crates may not.
     pub(crate) reason: &'static str,
 }
 
@@ -76,21 +76,21 @@ const fn confined(
     Confined { package, homes, in_tests, reason }
 }
 
-/// Dependencies that are confined, and where.
+/// Confined dependencies, with the crates that may use them.
 #[rustfmt::skip]
 pub(crate) const CONFINED: &[Confined] = &[
-    confined("rayon",      &["quell", "quell-reproduce"],            false, "threads belong to the front door: engines are pure, their bits free of scheduling"),
-    confined("toml",       &["quell-study", "xtask"],    false, "study files are read in one place; xtask reads manifests"),
-    confined("zarrs",      &["quell"],              false, "stores are written in one place, atomically"),
-    confined("kuva",       &["quell-plot"],         false, "pictures are drawn in one place"),
-    confined("png",        &["quell-plot"],         true,  "pictures are drawn in one place; tests look at them"),
-    confined("resvg",      &["quell-plot"],         false, "pictures are drawn in one place"),
-    confined("rustix",     &["quell", "quell-study"], false, "files of strangers are opened in two places: studies and stores"),
-    confined("nix",        &["quell-cli"],          false, "signals concern whoever owns the process"),
-    confined("clap",       &["quell-cli"],          false, "arguments of a command line concern the command line alone"),
-    confined("indicatif",  &["quell-cli"],          false, "progress bars concern the command line alone"),
-    confined("pyo3",       &["quell-python"],       false, "bindings never leak into the core"),
-    confined("numpy",      &["quell-python"],       false, "bindings never leak into the core"),
-    confined("serde",      &["quell-python"],       false, "no type of ours is serialised; it is there for its features alone"),
-    confined("serde_json", &["quell", "quell-cli", "quell-plot", "quell-python", "quell-reproduce", "quell-study"], true,  "as serde; tests of any crate may read reference numbers"),
+    confined("rayon",      &["quell", "quell-reproduce"],            false, "the engines are single-threaded, so that no result depends on scheduling"),
+    confined("toml",       &["quell-study", "xtask"],    false, "study files are read by one crate; xtask reads manifests"),
+    confined("zarrs",      &["quell"],              false, "stores are written by one crate, atomically"),
+    confined("kuva",       &["quell-plot"],         false, "pictures are drawn by one crate"),
+    confined("png",        &["quell-plot"],         true,  "pictures are drawn by one crate; tests decode them"),
+    confined("resvg",      &["quell-plot"],         false, "pictures are drawn by one crate"),
+    confined("rustix",     &["quell", "quell-study"], false, "untrusted files are opened by two crates: studies and stores"),
+    confined("nix",        &["quell-cli"],          false, "signals are handled by the program that owns the process"),
+    confined("clap",       &["quell-cli"],          false, "arguments are parsed by the command line alone"),
+    confined("indicatif",  &["quell-cli"],          false, "progress bars are shown by the command line alone"),
+    confined("pyo3",       &["quell-python"],       false, "the core does not depend on its bindings"),
+    confined("numpy",      &["quell-python"],       false, "the core does not depend on its bindings"),
+    confined("serde",      &["quell-python"],       false, "no type of Quell is serialised; the dependency only sets features"),
+    confined("serde_json", &["quell", "quell-cli", "quell-plot", "quell-python", "quell-reproduce", "quell-study"], true,  "JSON is read and written by few crates; tests of any crate may read reference numbers"),
 ];
