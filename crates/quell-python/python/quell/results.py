@@ -275,7 +275,8 @@ class Response(Result):
 
     verb = "response"
     effect: str
-    """Effect of the dither: "quenches", "reduces", "increases", "causes" (quiet without, vibrating with), "quiet" or "unknown"."""
+    """Effect of the dither: "quenches", "reduces", "increases", "causes" (quiet without, vibrating with), "quiet" or
+    "unknown"."""
     ends_on: str
     """Where the dithered run ends: "base response", "another response without slow motion of its own", "another response" or
     "unknown"."""
