@@ -1,7 +1,7 @@
-"""A map on the nodes of a Slurm cluster, handed out by Dask: python docs/dask-jobqueue.py
+"""A map on the nodes of a Slurm cluster, distributed by Dask: python docs/dask-jobqueue.py
 
-Needs dask-jobqueue (pip install dask-jobqueue) beside quell[cluster]. The store must lie on a file system that all
-nodes see. Killed and started again, it goes on where it was.
+Needs dask-jobqueue (pip install dask-jobqueue) in addition to quell[cluster]. The store must be on a file system that
+all nodes share. After an interruption, run the program again: it continues where it stopped.
 """
 
 from dask_jobqueue import SLURMCluster
@@ -13,7 +13,7 @@ STORE = "/scratch/shared/how-much-dither.zarr"
 
 
 def main() -> None:
-    """A hundred jobs of one process with sixteen threads each; Quell works outside of Python's lock."""
+    """A hundred jobs of one process with sixteen threads each; Quell computes without holding Python's global lock."""
     study = quell.Study.from_toml("studies/how-much-dither.toml")
     with SLURMCluster(cores=16, processes=1, memory="16GB", walltime="02:00:00") as cluster:
         cluster.scale(jobs=100)

@@ -1,7 +1,7 @@
-"""Quell, SciPy and heyoka on the same work, in turns on one core: ratios of one run.
+"""Quell, SciPy and heyoka on the same work, alternating on one core: ratios within one run.
 
-`python3 benches/peers/compare.py [rounds]`; the fastest round of each counts, for other work on
-the machine only slows. SciPy, by far the slowest, runs once.
+`python3 benches/peers/compare.py [rounds]`. The fastest round of each counts, because other load on
+the machine only slows it down. SciPy, by far the slowest, runs once.
 """
 
 import json
@@ -23,7 +23,7 @@ def last_line(command):
 
 
 def ours():
-    """{(tool, workload): µs per dither period}, a row for each way of running."""
+    """{(tool, workload): µs per dither period}, with one entry for each way of running."""
     found = last_line(SPEED)
     return {
         ("Quell, " + (way if way == "alone" else "side by side, " + way), workload): time

@@ -1,4 +1,4 @@
-"""Quell and NumPy on maps of the disc, one after the other on one core: ratios of one run."""
+"""Quell and NumPy on maps of the disc, one after the other on one core: ratios within one run."""
 
 import json
 import os
@@ -24,7 +24,7 @@ if not PYTHON.exists():
 speed = ["cargo", "run", "--quiet", "--release", "--package", "quell-disc", "--example", "disc_speed"]
 before = last_line(speed)
 peer = last_line([PYTHON, ROOT / "benches" / "peers" / "numpy_disc.py"])
-# Once more: a machine that changed its speed meanwhile shows here.
+# Repeated, to detect a change in the speed of the machine.
 after = last_line(speed)
 print(f"{'CPU µs per point':44}{'Quell':>9}{'again':>9}{'NumPy':>10}{'ratio':>8}")
 for name, states in (("1_2", 10), ("2_5", 44)):

@@ -1,5 +1,5 @@
 """Both workloads with heyoka.py: adaptive Taylor steps compiled by LLVM, v_r = 0 as a terminal
-event, stick phases in Python. Prints CPU µs per dither period as JSON."""
+event, and stick phases in Python. Prints CPU µs per dither period as JSON."""
 
 import json
 import math

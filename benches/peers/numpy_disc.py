@@ -1,8 +1,8 @@
 """Growth rates of the disc in NumPy: the workload of quell-disc's `speed` example, µs per point.
 
-Exponents by the same algorithm as far as NumPy allows it to be fast: constant flow e^{A₀h} by SciPy, kick of rank one,
-64 and 128 steps a period (32 and 64 for three modes), extrapolated, an eigenvalue solve each. `ode` is what a user without
-it would write: the monodromy matrix by DOP853 at 1e-10.
+Exponents use the same algorithm as far as it can be fast in NumPy: constant flow e^{A₀h} by SciPy, kick of rank one,
+64 and 128 steps per period (32 and 64 for three modes), extrapolated, one eigenvalue solve each. `ode` is the direct
+approach: the monodromy matrix by DOP853 at 1e-10.
 """
 
 import json
@@ -37,7 +37,7 @@ DAMPING, LOAD, RATIO = 1e-4, 0.3, 2.7
 
 
 def system(modes, speed):
-    """A0 without friction, U and V."""
+    """A0 without friction, and U and V."""
     n = sum(1 if q == 0 else 2 for q, _, _ in modes)
     mass, damping, stiffness = np.eye(n), np.zeros((n, n)), np.zeros((n, n))
     contact, slope = np.zeros(n), np.zeros(n)

@@ -1,7 +1,7 @@
-"""Cost of one point of a disc's map against the number of states, as docs/cost-disc.svg.
+"""Cost of one point of a disc's map against the number of states, for docs/cost-disc.svg.
 
-`python3 benches/peers/plot_cost.py` runs Quell's `cost` example and NumPy's eigenvalues of matrices of the same sizes, one after the
-other on one core, and draws both. Needs only what `compare_disc.py` installs.
+`python3 benches/peers/plot_cost.py` runs Quell's `cost` example and computes the eigenvalues of matrices of the same sizes with NumPy, one
+after the other on one core, and plots both. It needs only the packages that `compare_disc.py` installs.
 """
 
 import csv

@@ -1,5 +1,5 @@
-"""The stick-slip workload as a SciPy user writes it: solve_ivp (RK45, the pair of ode45) with
-terminal events on v_r = 0, stick phases by brentq. Prints CPU µs per dither period as JSON."""
+"""The stick-slip workload as a SciPy user would write it: solve_ivp (RK45, the pair of ode45) with
+terminal events on v_r = 0, and stick phases by brentq. Prints CPU µs per dither period as JSON."""
 
 import json
 import math
@@ -24,7 +24,7 @@ def bond_force(tau, x, amplitude, ratio):
 
 
 def release(tau, x, amplitude, ratio):
-    """Time at which the bond breaks after sticking at (tau, x), or END."""
+    """Time at which the contact is released after sticking at (tau, x), or END."""
     margin = lambda t: abs(bond_force(t, x + V0 * (t - tau), amplitude, ratio)) - MU_S
     step, left = 0.2 / ratio, tau
     while left < END:
@@ -57,7 +57,7 @@ def simulate(amplitude, ratio):
                 break
             events += 1
         sign = math.copysign(1.0, bond_force(tau, x, amplitude, ratio))
-        # Just off v_r = 0, or the event fires again at once.
+        # Slightly off v_r = 0, otherwise the event fires again immediately.
         v = V0 - 1e-12 * sign
     return events
 

@@ -1,8 +1,8 @@
-"""What Python costs: a call, an import, a map beside the command line's, chunks on a cluster.
+"""The cost of Python: a call, an import, and a map compared with the command line.
 
     python benches/python/calls.py [path of the program quell]
 
-Ratios and CPU times of one run; wall times of a busy machine say little.
+Ratios and CPU times within one run; wall times of a loaded machine mean little.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ BELT = quell.Belt(
 
 
 def calls() -> None:
-    """Least and median time of calls that compute nothing, or little."""
+    """Minimum and median time of calls that compute nothing, or little."""
     small = BELT.set({"solver.settle": 0.0, "solver.record_periods": 2})
     for name, work in (
         ("simulate to τ = 0 (all of it is the call)", lambda: BELT.simulate(0.0, events=False, samples=False)),
@@ -45,7 +45,7 @@ def calls() -> None:
 
 
 def imports() -> None:
-    """CPU time of the import, beside that of NumPy."""
+    """CPU time of the import, compared with that of NumPy."""
     for module in ("numpy", "quell"):
         program = f"import time; begun = time.process_time(); import {module}; print(time.process_time() - begun)"
         found = [float(subprocess.check_output([sys.executable, "-c", program])) for _ in range(5)]
@@ -59,7 +59,7 @@ def children() -> float:
 
 
 def maps(program: str) -> None:
-    """CPU time of the same map from Python and from the command line, turn by turn."""
+    """CPU time of the same map from Python and from the command line, in alternation."""
     study = BELT.set({"solver.settle": 400.0, "solver.record_periods": 20}).sweeping(
         [quell.Axis("dither.amplitude", 0.05, 1.0, 40), quell.Axis("belt.belt_velocity", 0.02, 0.4, 40)]
     )
@@ -80,7 +80,7 @@ def maps(program: str) -> None:
 
 
 def main() -> None:
-    """All of it."""
+    """Runs all measurements."""
     program = sys.argv[1] if len(sys.argv) > 1 else os.environ.get("QUELL_CLI", "quell")
     print("calls:")
     calls()

@@ -1,9 +1,9 @@
-"""What a Dask cluster costs: overhead of a chunk, efficiency of one and of two workers, and what that means for many.
+"""The cost of a Dask cluster: overhead of a chunk, and efficiency with one and with two workers.
 
     python benches/python/cluster.py
 
-Everything is CPU time (worker processes, scheduler and client apart), so that it means something on a busy machine too:
-a worker's efficiency is the CPU time of the computation alone over all CPU time of the worker while the map runs.
+All times are CPU times (separately for worker processes and for scheduler with client), so that they are meaningful on a loaded
+machine too. A worker's efficiency is the CPU time of the computation alone over all CPU time of the worker while the map runs.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def cpu(client: Any) -> tuple[float, float]:
 
 
 def alone(quantity: str, study: quell.Study, folder: Path) -> tuple[float, int]:
-    """CPU time of the same map on one thread without a cluster, and its chunks."""
+    """CPU time of the same map on one thread without a cluster, and the number of its chunks."""
     begun = time.process_time()
     store = folder / "alone.zarr"
     study.map(quantity, store=store, threads=1)
@@ -49,7 +49,7 @@ def alone(quantity: str, study: quell.Study, folder: Path) -> tuple[float, int]:
 
 
 def measure(name: str, quantity: str, study: quell.Study, workers: int) -> None:
-    """One map on so many workers of one thread each."""
+    """One map on the given number of workers with one thread each."""
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
         base, chunks = alone(quantity, study, folder)
@@ -60,7 +60,7 @@ def measure(name: str, quantity: str, study: quell.Study, workers: int) -> None:
             distributed.Client(cluster) as client,
         ):
             client.run(lambda: __import__("quell"))
-            # Heartbeats cost something even where there is nothing to do.
+            # Heartbeats cost CPU time even when idle.
             before, begun = cpu(client), time.perf_counter()
             time.sleep(5.0)
             idle = [(b - a) / (time.perf_counter() - begun) for a, b in zip(before, cpu(client), strict=True)]
@@ -80,7 +80,7 @@ def measure(name: str, quantity: str, study: quell.Study, workers: int) -> None:
 
 
 def main() -> None:
-    """All of it."""
+    """Runs all measurements."""
     print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}; seconds are CPU time")
     for workers in (1, 2):
         measure("cheap points", *CHEAP, workers)

@@ -1,8 +1,8 @@
 """Effective friction over a wide grid, for reference/averaging_wide.csv.
 
 Run with mpmath 1.x:  python reference/scripts/averaging_wide.py > reference/averaging_wide.csv
-From the definition <mu(v - alpha G)> over a quarter wave of G, 40 digits; no closed form is used. The
-inputs are doubles, written so that they read back exactly, and enter the arithmetic with their exact values.
+Computed from the definition <mu(v - alpha G)> over a quarter wave of G with 40 digits, without closed forms. The
+inputs are doubles, printed so that they read back exactly, and enter the arithmetic with their exact values.
 """
 import mpmath as mp
 
@@ -56,7 +56,7 @@ def mean(law, wave, alpha, v):
         if 0 < s < peak:
             cuts.add(inverse(s / alpha))
     cuts = sorted(cuts)
-    # mp.quad judges errors absolutely: keep tiny outer slopes of order one while integrating.
+    # mp.quad uses an absolute error: scale tiny outer slopes to order one for the integration.
     size = mp.exp((v - peak) / VM) if law == "decreasing" and v > peak else mp.mpf(1)
     total = rate = total_error = rate_error = mp.mpf(0)
     for a, b in zip(cuts, cuts[1:]):

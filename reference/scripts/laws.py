@@ -1,8 +1,8 @@
 """Averages of `coulomb` and `stribeck-exponential` in reference/laws.json, from their definition.
 
 Run with mpmath 1.x:  python reference/scripts/laws.py reference/laws.json
-mean = <mu(v - alpha G)> over a period, G the integral of the waveform with zero mean, alpha = D/R; split where the slip
-v - alpha G changes sign. It prints the largest relative difference of the coefficients from the stored ones.
+mean = <mu(v - alpha G)> over a period, where G is the zero-mean integral of the waveform and alpha = D/R. The integral is split
+where the slip v - alpha G changes sign. The script prints the largest relative difference from the stored coefficients.
 """
 import json
 import sys

@@ -1,7 +1,7 @@
-"""Published cases again, by an integrator written without Quell: an extrapolated midpoint rule of order 16, events by bisection.
+"""Published cases, recomputed by an integrator written without Quell: an extrapolated midpoint rule of order 16, events by bisection.
 
-x'' + 2 zeta x' + x = mu(|v_r|) sign(v_r) + D sin(R t) with v_r = v0 - x'; the mass sticks while the force that holds it on the
-belt, x + 2 zeta v0 - D sin(R t), is at most mu_s. Plain Python, no packages. Prints the numbers of ../published.json.
+x'' + 2 zeta x' + x = mu(|v_r|) sign(v_r) + D sin(R t) with v_r = v0 - x'. The mass sticks while the holding force of the belt,
+x + 2 zeta v0 - D sin(R t), is at most mu_s. Plain Python without packages. Prints the numbers of ../published.json.
 """
 
 import math
@@ -20,7 +20,7 @@ class Belt:
         return self.d * math.sin(self.r * t)
 
     def rate(self, t, x, v, sign):
-        # Beyond v_r = 0 the branch of this sign goes on, as far as a step overshoots.
+        # The branch of this sign is continued beyond v_r = 0, as far as a step overshoots.
         return v, -x - 2 * self.zeta * v + sign * self.mu(sign * (self.v0 - v)) + self.force(t)
 
     def step(self, t, x, v, sign, h):
@@ -68,7 +68,7 @@ class Belt:
         return x + 2 * self.zeta * self.v0 - self.force(t)
 
     def stick(self, t, x, until=1e9):
-        """Sticks until the threshold: time and place, and whether it is released."""
+        """Sticks until the threshold: time and position, and whether the mass is released."""
         begin, at = t, x
         beyond = lambda s: abs(self.held(s, at + self.v0 * (s - begin))) - self.mu_s
         while t < until and beyond(t + 1e-3) <= 0.0:
@@ -81,7 +81,7 @@ class Belt:
 
 
 def cycle(belt):
-    """Period and share of stick of the stick-slip cycle without dither."""
+    """Period and stick fraction of the stick-slip cycle without dither."""
     x = belt.mu_s - 2 * belt.zeta * belt.v0
     slip, landed, _, _ = belt.slide(0.0, x, belt.v0, 1)
     stick = (x - landed) / belt.v0
@@ -89,14 +89,14 @@ def cycle(belt):
 
 
 def driven(belt):
-    """The half period of the symmetric response with stick: stick, slip and the place of the stick."""
+    """The half period of the symmetric response with stick: durations of stick and slip, and the position of the stick."""
     t, x, sign = 0.0, 0.0, 0
     for _ in range(60):
         at = (t, x)
         t, x, _ = belt.stick(t, x)
         released = t
         sign = -1 if belt.held(t, x) < 0 else 1
-        # It moves against the force that held it: v_r = v0 - x' has the sign of that force.
+        # The mass moves against the force that held it: v_r = v0 - x' has the sign of that force.
         t, x, v, _ = belt.slide(t, x, 0.0, sign)
     return released - at[0], t - released, x
 
@@ -107,11 +107,11 @@ def end_of_bistability():
     omega = math.sqrt(k / m)
 
     def above(speed):
-        """How far the first maximum of x' after a release stays below the belt."""
+        """Difference between the belt velocity and the first maximum of x' after a release."""
         mu = lambda v: (2.0 + 4.0 * math.exp(-10.0 * omega * v) + 0.2 * omega * v) / k
         belt = Belt(b / (2 * m * omega), speed / omega, mu, 6.0 / k)
         t, x, v = 0.0, 6.0 / k - 2 * belt.zeta * belt.v0, belt.v0
-        # Down to the lowest velocity first, then up to the next place where x'' = 0, unless the belt is reached before.
+        # First down to the lowest velocity, then up to the next point with x'' = 0, unless the belt velocity is reached before.
         bend = lambda t, x, v: belt.rate(t, x, v, 1)[1]
         t, (x, v) = 0.5, belt.slide(0.0, x, v, 1, until=0.5)[1:3]
         t, x, v, _ = belt.slide(t, x, v, 1, past=bend)
@@ -127,7 +127,7 @@ def end_of_bistability():
 
 
 def coulomb_decay(x, v):
-    """Where an oscillator with friction 1 stops, from (x, v) with v > 0."""
+    """Final position of an oscillator with friction 1 from (x, v) with v > 0."""
     belt = Belt(0.0, 0.0, lambda _: 1.0, 1.0)
     sign = -1
     t = 0.0

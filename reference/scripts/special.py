@@ -1,7 +1,7 @@
 """Values of the special functions to 50 digits, for reference/special.csv.
 
 Run with mpmath 1.x:  python reference/scripts/special.py > reference/special.csv
-The arguments are doubles, written so that they read back exactly.
+The arguments are doubles, printed so that they read back exactly.
 """
 import mpmath as mp
 

@@ -1,4 +1,4 @@
-"""What several tests use: the studies of the project, its command line, a belt."""
+"""Shared by the tests: the studies of the project, its command line, a belt."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def disc() -> quell.Disc:
 
 
 def command() -> str:
-    """The command line's program; `cargo xtask test` says where it is."""
+    """The command-line program; `cargo xtask test` sets its path."""
     path = Path(os.environ.get("QUELL_CLI", ROOT / "target" / "debug" / "quell"))
     if not path.is_file():
         pytest.fail(f"{path} is not there: cargo build --package quell-cli makes it")
@@ -61,7 +61,7 @@ def command() -> str:
 
 @pytest.fixture(scope="session")
 def cli() -> Any:
-    """Runs the command line with --json and gives its object."""
+    """Runs the command line with --json and returns its object."""
     program = command()
 
     def run(*arguments: str) -> dict[str, Any]:

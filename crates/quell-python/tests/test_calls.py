@@ -1,4 +1,4 @@
-"""Calls: other threads run meanwhile, Ctrl-C is heard, nothing costs much, no panic comes through."""
+"""Calls: other threads keep running, Ctrl-C is handled, calls are cheap, and no panic reaches Python."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def test_calls_from_other_threads_give_the_same(belt: quell.Belt) -> None:
 
 
 def interrupted(call: Any) -> float:
-    """How long it takes from Ctrl-C to KeyboardInterrupt."""
+    """The time from Ctrl-C to KeyboardInterrupt."""
     at: list[float] = []
 
     def press() -> None:
@@ -107,7 +107,7 @@ def test_a_call_costs_little_more_than_its_computation(belt: quell.Belt) -> None
         begun = time.perf_counter()
         belt.simulate(0.0, events=False, samples=False)
         times.append(time.perf_counter() - begun)
-    # Nothing is computed: all of it is the call. 30 µs on an idle machine; this finds a tenfold rise.
+    # Nothing is computed, so this is the cost of the call: 30 µs on an idle machine. The test detects a tenfold rise.
     assert min(times) < 3e-4, min(times)
 
 
@@ -178,7 +178,7 @@ def test_basins_have_a_grid_and_a_seed_by_default(belt: quell.Belt) -> None:
 
 
 def messages(failed: quell.QuellError) -> list[str]:
-    """Everything that a failure says."""
+    """All texts of a failure."""
     if isinstance(failed, quell.StudyError):
         return [str(it[part]) for it in failed.errors for part in ("key", "allowed", "message")]
     return [str(failed)]
@@ -205,7 +205,7 @@ WRONG: list[tuple[str, str, Any]] = [
     ("path", "must end in", lambda belt, disc: belt.simulate(1.0).save("x.xlsx")),
     ("path", "must end in", lambda belt, disc: belt.cite().save("x.xlsx")),
 ]
-"""The argument that is wrong, words that say why, and the call."""
+"""The wrong argument, words of the reason, and the call."""
 
 
 @pytest.mark.parametrize(("key", "words", "call"), WRONG)

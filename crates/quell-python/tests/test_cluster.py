@@ -1,4 +1,4 @@
-"""Maps on a cluster of processes: one of them is killed, and the result is the local one bit for bit."""
+"""Maps on a cluster of processes: one of them is killed, and the result has the same bits as a local run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the documents show runs."""
+"""The code in the documents runs."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_every_fact_of_a_result_says_what_it_is() -> None:
                 facts += 1
                 told = isinstance(behind, ast.Expr) and isinstance(behind.value, ast.Constant)
                 assert told, f"{it.name}.{ast.unparse(node.target)}"
-    # Those of Result alone would be three.
+    # Result alone has three.
     assert facts > 30
 
 

@@ -1,4 +1,4 @@
-"""Whatever constructors and verbs are given, they answer or raise StudyError; nothing else comes through."""
+"""For any arguments, constructors and verbs return a result or raise StudyError, and nothing else."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ DISC = {
 
 
 def answered(call: Any) -> Any:
-    """The answer, or the complaints, each whole."""
+    """The result, or the complaints, each complete."""
     try:
         return call()
     except quell.StudyError as refused:
@@ -103,7 +103,7 @@ def test_arguments_of_verbs(one: Any, other: Any, third: Any) -> None:
     if not isinstance(other, (int, float)) or not isinstance(third, (int, float)):
         answered(lambda: belt.thresholds(one, other, third))
     answered(lambda: quell.Disc(**DISC).resonances(speeds=one, order=other, clear=third))
-    # The last argument is refused always: whatever the others are, nothing long begins.
+    # The last argument is always rejected, so that no long computation starts for any other arguments.
     answered(lambda: belt.basins(grid=one, displacement=other, seed=-1))
     answered(lambda: belt.bifurcation(third, one, other, points=-1))
     answered(lambda: belt.orbit(near=one, start=other, from_rest=True, periods=0))

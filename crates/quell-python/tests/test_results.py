@@ -77,7 +77,7 @@ def test_an_orbit_has_the_same_fields_where_there_is_none(belt: quell.Belt) -> N
     squealing = quell.Study.from_toml(STUDIES / "does-it-squeal.toml")
     dithered, cycle, sliding = belt.orbit(), squealing.orbit(), squealing.set({"belt.belt_velocity": 3}).orbit()
     assert cycle.period > 0.0 and sliding.period is None and sliding.cycles == []
-    # Of every answer that has a reason for something; and of a belt without dither.
+    # Every result that has a reason for an unknown fact, and a belt without dither.
     extras = {"why", "cycles"}
     for found in (cycle, sliding):
         assert set(found.facts) - extras == set(dithered.facts) - extras

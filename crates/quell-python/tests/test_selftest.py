@@ -1,4 +1,4 @@
-"""The self-test passes, and fails where a number is wrong."""
+"""The self-test passes, and fails if a number is wrong."""
 
 from __future__ import annotations
 

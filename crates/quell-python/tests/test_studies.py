@@ -1,4 +1,4 @@
-"""Studies made of objects say what study files say, and are refused with the same complaints."""
+"""Studies made of objects equal study files, and are rejected with the same complaints."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def test_all_complaints_come_at_once_with_key_value_and_advice() -> None:
     assert wanted <= set(errors)
     assert errors["belt.damping_ratio"]["value"] == -1
     assert errors["belt.belt_velcity"]["suggestion"] == "belt.belt_velocity"
-    # Lines of a text that nobody wrote are not told; a file's are.
+    # Lines of a generated text are not reported; lines of a file are.
     assert all(error["line"] is None for error in errors.values())
     assert "line" not in str(caught.value)
     with pytest.raises(quell.StudyError, match="line 2"):

@@ -1,4 +1,4 @@
-"""Types: the package is clean under mypy, its stub is what the native module has, and misuse is found."""
+"""Types: the package passes mypy, its stub matches the native module, and misuse is detected."""
 
 from __future__ import annotations
 

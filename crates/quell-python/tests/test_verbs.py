@@ -1,4 +1,4 @@
-"""Everything the command line can, Python can, under the same names and with the same answers."""
+"""Python has everything that the command line has, under the same names and with the same answers."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ ELSEWHERE = {
     "--save": "Result.save, and store= of Study.map",
     "--bibtex": "Citations.bibtex",
 }
-"""Options that every result or study has in Python, and where."""
+"""Options whose equivalent belongs to every result or study in Python, and that equivalent."""
 
 OTHER_NAMES = {"--from": "from_"}
-"""Options whose name is a word of Python."""
+"""Options whose name is a keyword of Python."""
 
 BESIDE = {"Study.sweeping", "quell.sweep", "quell.quantities"}
-"""What Python has besides, all of it about axes and names of maps."""
+"""Functions that only Python has, all of them about axes and names of maps."""
 
 
 def offered() -> dict[str, Any]:
-    """Verbs that Python offers: methods that answer with a result, and functions of the package."""
+    """Verbs in Python: methods that return a result, and functions of the package."""
     verbs = {
         name: method
         for name, method in vars(quell.Study).items()
@@ -45,13 +45,13 @@ def offered() -> dict[str, Any]:
 
 
 def help_of(*arguments: str) -> str:
-    """What --help says."""
+    """The output of --help."""
     done = subprocess.run([command(), *arguments, "--help"], capture_output=True, text=True, check=True)
     return done.stdout
 
 
 def verbs_of_the_command_line() -> list[str]:
-    """Verbs as --help lists them, in groups before the options; completion is for shells alone."""
+    """Verbs as --help lists them, in groups before the options; completion is only for shells."""
     listed = help_of().split("Options:\n")[0]
     found = re.findall(r"^  (\w+) ", listed, flags=re.MULTILINE)
     return [verb for verb in found if verb != "completions"]
@@ -167,7 +167,7 @@ def test_reproduce_writes_the_same_files(cli: Any, tmp_path: Any) -> None:
     cli("reproduce", "2.2", "--out", str(tmp_path / "cli"))
     names = sorted(path.name for path in (tmp_path / "python").iterdir())
     assert names and names == sorted(path.name for path in (tmp_path / "cli").iterdir())
-    # Reports tell how long it took.
+    # Reports contain the run time.
     for name in (it for it in names if it.startswith("figure")):
         assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "cli" / name).read_bytes()
     with pytest.raises(quell.StudyError, match="2.3"):

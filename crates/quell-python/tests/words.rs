@@ -1,4 +1,4 @@
-//! Words of the command line become those of Python. The file is compiled alone: a test cannot be linked with Python.
+//! Words of the command line are replaced by those of Python. The file is compiled alone: a test cannot be linked with Python.
 
 #[path = "../src/words.rs"]
 mod words;

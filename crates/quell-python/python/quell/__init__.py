@@ -13,9 +13,9 @@
     print(response.sentence, response.efficiency)
     response.plot()
 
-Studies are made by :class:`Belt`, :class:`Disc` or :meth:`Study.from_toml`; their methods are the verbs of the command
+Studies are made by :class:`Belt`, :class:`Disc` or :meth:`Study.from_toml`. Their methods are the verbs of the command
 line. Results (:mod:`quell.results`) have the numbers that ``--json`` prints as attributes, and everything with units
-and provenance as an xarray Dataset. Whatever is wrong with the input is told at once by :class:`StudyError`.
+and provenance as an xarray Dataset. :class:`StudyError` reports all errors in the input at once.
 """
 
 from __future__ import annotations
@@ -89,16 +89,16 @@ def new(
     Parameters
     ----------
     question :
-        Name of a question; without it, the questions are listed.
+        Name of a question [default: list the questions].
     save :
-        A new file to save the study to.
+        Path of a new file for the study.
     overwrite :
-        Whether an existing file is replaced.
+        Whether to replace an existing file.
 
     Returns
     -------
     dict
-        ``questions``, with ``name`` and ``question`` of each; or ``text``, the study, which
+        Without a question: ``questions``, each with ``name`` and ``question``. Otherwise ``text``, the study, which
         :meth:`Study.from_text` reads, with ``name``, ``question`` and ``commands``.
     """
     arguments = Arguments()
@@ -111,7 +111,7 @@ def new(
 
 
 def quantities() -> dict[str, dict[str, str]]:
-    """What a map can show of a belt and of a disc: names, and what each is."""
+    """The quantities that a map can show of a belt and of a disc: names and descriptions."""
     found: dict[str, dict[str, str]] = {"belt": {}, "disc": {}}
     for system, name, about in _quell.quantities():
         found[system][name] = about
@@ -124,26 +124,26 @@ def sweep(
     axes: Axes | None = None,
     **how: Any,
 ) -> results.Map:
-    """Quantities over the axes of a study: :meth:`Study.map`, which says what else can be given.
+    """Computes quantities over the axes of a study; see :meth:`Study.map` for the other arguments.
 
     ``quell.sweep(study, "efficiency", store="map.zarr", client=client)`` runs on the cluster of a
-    ``dask.distributed`` client, with the result of a local run bit for bit.
+    ``dask.distributed`` client, with the same bits as a local run.
     """
     done: results.Map = study.map(quantity, axes, **how)
     return done
 
 
 def reproduce(*names: str, out: str | os.PathLike[str] = "reproduction", quick: bool = False) -> dict[str, Any]:
-    """Makes figures and tables of the dissertation again, with their data, the table of claims and a report.
+    """Reproduces figures and tables of the dissertation, with their data, the table of claims and a report.
 
     Parameters
     ----------
     names :
-        Figures such as "2.3", or "claims"; everything where none is given.
+        Figures such as "2.3", or "claims" [default: everything].
     out :
-        Directory for the report, pictures, data and tables; it is made if it is missing.
+        Directory for the report, pictures, data and tables; it is created if it is missing.
     quick :
-        Coarser grids of the maps: a look in less than a minute.
+        Whether to use coarser grids for the maps, which takes less than a minute.
     """
     arguments = Arguments()
     place = arguments.path("out", out)

@@ -1,4 +1,4 @@
-"""Arguments of methods: taken one by one, and refused all at once."""
+"""Arguments of methods, checked one by one and rejected all at once."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["Arguments", "changes_of"]
 
 
 class Arguments:
-    """Takes arguments of a method and gathers complaints about them."""
+    """Checks the arguments of a method and collects complaints about them."""
 
     def __init__(self) -> None:
         self.wrong: list[Complaint] = []
@@ -28,14 +28,14 @@ class Arguments:
         return value
 
     def whole(self, name: str, given: object, least: int, most: int) -> int:
-        """A whole number between two others."""
+        """A whole number within bounds."""
         if isinstance(given, (int, np.integer)) and not isinstance(given, bool) and least <= given <= most:
             return int(given)
         self.wrong.append(complaint(name, given, f"a whole number from {least} to {most}"))
         return least
 
     def pair(self, name: str, given: Any, allowed: str) -> tuple[float, float]:
-        """Two finite numbers in their order."""
+        """Two finite numbers."""
         try:
             if isinstance(given, (str, bytes, bytearray, Mapping, Set)):
                 raise TypeError
@@ -48,13 +48,13 @@ class Arguments:
         return pair
 
     def quantity(self, name: str, given: object, allowed: str = "a finite number, or one with a unit") -> str:
-        """A number in the system of the study, or a text with a unit such as ``"5kN"``, which the native part reads."""
+        """A number in the system of the study, or a text with a unit such as ``"5kN"``, which the native module parses."""
         if isinstance(given, str):
             return self.text(name, given, allowed)
         return repr(self.number(name, given, allowed))
 
     def quantities(self, name: str, given: Any, allowed: str) -> tuple[str, str]:
-        """Two of them in their order."""
+        """Two numbers or texts with units."""
         try:
             if isinstance(given, (str, bytes, bytearray, Mapping, Set)):
                 raise TypeError
@@ -91,13 +91,13 @@ class Arguments:
         return given.encode("utf-8", "replace").decode("utf-8")
 
     def done(self) -> None:
-        """Raises where anything was wrong."""
+        """Raises if there are complaints."""
         if self.wrong:
             raise StudyError(self.wrong)
 
 
 def _number(given: object) -> float:
-    """A number as it is; not finite where it is none: neither words, truth values nor lists of one are numbers."""
+    """The number, or NaN for anything else: strings, booleans and lists of one number are not numbers."""
     try:
         if isinstance(given, (str, bytes, bytearray, bool, np.bool_)) or np.ndim(given):  # type: ignore[arg-type]
             raise TypeError

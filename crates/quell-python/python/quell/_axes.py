@@ -1,4 +1,4 @@
-"""Axes of maps, and how they are given."""
+"""Axes of maps."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ class Axis(Table):
     Parameters
     ----------
     parameter :
-        Path of the number that is varied, SI twins included, such as ``belt.belt_velocity``.
+        Path of the number that is varied, such as ``belt.belt_velocity``, or its SI twin.
     from_, to, points :
-        Both ends included, in the unit of the parameter or as texts with units. An axis of a disc's speed gets further points beside
-        every meeting of waves.
+        First and last value, in the unit of the parameter or as texts with units, and the number of values. An axis over the
+        speed of a disc gets additional points next to every meeting of waves.
     values :
         The values themselves instead, in any order.
     spacing :
@@ -56,7 +56,7 @@ Axes = Union[Mapping[str, "Numbers | Axis"], Iterable[Axis], Axis]
 
 
 def axes_tables(axes: Axes | None) -> list[Any] | None:
-    """Axes as tables; what is none is left for the reader to refuse."""
+    """Axes as tables; invalid values are passed through and rejected by the reader."""
     if axes is None:
         return None
     if isinstance(axes, Table):

@@ -28,9 +28,9 @@ __all__ = [
 
 
 class Friction(Table):
-    """A friction law by its name, with the parameters of that law: ``Friction("stribeck", …)``.
+    """A friction law given by its name and its parameters: ``Friction("stribeck", …)``.
 
-    Every law of :func:`quell.schema` can be given so; the common ones have classes of their own.
+    Every law of :func:`quell.schema` can be given this way; the common ones have their own classes.
     """
 
     _path = "friction"
@@ -75,7 +75,7 @@ class Decreasing(Friction):
     static_coefficient, minimum_coefficient :
         μ_s and μ_m, with 0 ≤ μ_m ≤ μ_s, dimensionless.
     reference_velocity :
-        v_m, over which friction falls by 1/e, as length per τ (velocity/ω₀).
+        v_m, over which the excess of friction above μ_m falls to 1/e, as length per τ (velocity/ω₀).
     reference_velocity_m_per_s :
         The same in m/s, in a study in SI.
     """
@@ -93,14 +93,14 @@ class Decreasing(Friction):
 
 
 class Coulomb(Friction):
-    """Coulomb friction, μ(v) = μ_d + σ_v v for v > 0, with a static level μ_s ≥ μ_d.
+    """Coulomb friction, μ(v) = μ_d + σ_v v for v > 0, with static friction μ_s ≥ μ_d.
 
     Parameters
     ----------
     coefficient, static_coefficient :
-        μ_d and μ_s, dimensionless; μ_s is μ_d where it is not given.
+        μ_d and μ_s, dimensionless [default of μ_s: μ_d].
     viscous :
-        σ_v, the rise of the coefficient with slip speed, per length per τ; 0 where it is not given.
+        σ_v, the rise of the coefficient with slip speed, per length per τ [default: 0].
     viscous_s_per_m :
         The same in s/m, in a study in SI.
     friction_force_n, static_friction_force_n, viscous_n_s_per_m :
@@ -132,9 +132,9 @@ class StribeckExponential(Friction):
     reference_velocity :
         v_s, over which friction falls, as length per τ (velocity/ω₀).
     exponent :
-        δ; 2 where it is not given. Simulation needs 1, 2, 3 or 4; averages take any above 0.
+        δ [default: 2]. Simulation needs 1, 2, 3 or 4; averages accept any δ > 0.
     viscous :
-        σ_v, the rise of the coefficient with slip speed, per length per τ; 0 where it is not given.
+        σ_v, the rise of the coefficient with slip speed, per length per τ [default: 0].
     reference_velocity_m_per_s, viscous_s_per_m :
         The same in m/s and s/m, in a study in SI.
     friction_force_n, static_friction_force_n, viscous_n_s_per_m :
@@ -165,16 +165,16 @@ class Expression(Friction):
     Parameters
     ----------
     coefficient :
-        The coefficient in the slip velocity v, in the unit of the belt's velocity; the same for both directions of slip.
-        Its derivatives are exact.
+        The coefficient as a function of the slip velocity v, in the unit of the belt's velocity, for both directions of
+        slip. Its derivatives are exact.
     constants :
-        Named numbers of the formula; they can be changed, swept and searched for thresholds as
+        Named numbers of the formula. They can be changed, swept and searched for thresholds as
         ``friction.constants.NAME``.
     static_coefficient :
-        μ_s, apart from the formula; the formula's value at v = 0 where it is not given.
+        μ_s, independent of the formula [default: the value of the formula at v = 0].
     maximum_velocity :
-        The slip speed up to which the formula holds and is proven finite, smooth and not negative, as length per τ; 10
-        times the speed of belt and dither where it is not given.
+        The slip speed up to which the formula holds and is proven finite, smooth and not negative, as length per τ
+        [default: 10 times the speed of belt and dither].
     maximum_velocity_m_per_s :
         The same in m/s, in a study in SI.
     """
@@ -193,7 +193,7 @@ class Expression(Friction):
 
 
 class Samples(Friction):
-    """A friction law from measured samples: one smooth fit of exponentials, its error stated by ``Study.check``.
+    """A friction law from measured samples: one smooth fit of exponentials, whose error ``Study.check`` reports.
 
     Parameters
     ----------
@@ -202,11 +202,11 @@ class Samples(Friction):
     slip_velocity_m_per_s :
         The same in m/s, in a study in SI.
     file :
-        A CSV file with columns of these names instead.
+        A CSV file with columns of these names, instead of arrays.
     static_coefficient :
-        μ_s, apart from the samples; the fit's value at v = 0 where it is not given.
+        μ_s, independent of the samples [default: the value of the fit at v = 0].
     terms :
-        Number of exponentials of the fit; the best number where it is not given.
+        Number of exponentials of the fit [default: the best number].
     """
 
     def __init__(
@@ -229,11 +229,11 @@ class Dither(Table):
     Parameters
     ----------
     direction :
-        "tangential", along the belt on the mass, or "normal", on the normal load.
+        "tangential", a force on the mass along the belt, or "normal", a variation of the normal load.
     waveform :
         "sine", "triangle" or "square".
     amplitude :
-        D, the peak of the force over k: a length, ≥ 0. Of a disc: the relative amplitude α.
+        D, the peak of the force over k: a length, ≥ 0. For a disc: the relative amplitude α.
     frequency_ratio :
         R, in units of ω₀ (belt) or ω_ref (disc), > 0.
     phase :
@@ -261,7 +261,7 @@ class Dither(Table):
 
 
 class Initial(Table):
-    """Where a run starts: a named state, or displacement and velocity.
+    """The initial state of a run: a named state, or displacement and velocity.
 
     Parameters
     ----------
@@ -295,11 +295,11 @@ class Solver(Table):
     Parameters
     ----------
     tolerance :
-        Bound on the last retained Taylor terms of a step, relative to the length scale F; 1e-12 by default.
+        Bound on the last retained Taylor terms of a step, relative to the length scale F [default: 1e-12].
     settle :
-        τ that is discarded before a response is measured; 1200 by default. ``settle_s``: the same in seconds.
+        τ that is discarded before a response is measured [default: 1200]. ``settle_s``: the same in seconds.
     record_periods :
-        Slow periods 2π in the record; 60 by default.
+        Slow periods 2π in the record [default: 60].
     """
 
     _path = "solver"
@@ -317,10 +317,10 @@ class Solver(Table):
 
 
 class Belt(Study):
-    """A study of a mass on a moving belt, in the numbers of the equations or in SI.
+    """A study of a mass on a moving belt, dimensionless or in SI.
 
-    Lengths are x and everything over k: F = N/k, D, v₀ = V₀/ω₀, v_m. A study in SI gives mass and stiffness and
-    the SI twin of every key instead, and is answered in both.
+    Lengths are x and all forces over k: F = N/k and D; v₀ = V₀/ω₀ and v_m are lengths per τ. A study in SI has mass and
+    stiffness and the SI twin of every key instead, and results are in both.
 
     Parameters
     ----------
@@ -333,24 +333,24 @@ class Belt(Study):
     friction :
         A law: :class:`Stribeck`, :class:`Decreasing`, :class:`Coulomb`, :class:`StribeckExponential`,
         :class:`Expression` (a formula), :class:`Samples` (measured), or
-        :class:`Friction` with its name.
+        :class:`Friction` with the name of the law.
     dither :
-        A :class:`Dither`, or several.
+        One :class:`Dither` or several.
     initial :
-        "rest" (the default), "sliding", "squealing", (x, x′), in m and m/s in a study in SI, or an :class:`Initial`.
+        "rest", "sliding", "squealing", (x, x′), in m and m/s in a study in SI, or an :class:`Initial` [default: "rest"].
     solver :
         A :class:`Solver`.
     band :
-        (lower, upper) frequency, in ω₀, of a band in which the level of the vibration is compared with and without dither.
-        In SI ``band_hz``, in Hz.
+        (lower, upper) frequency, in ω₀, of a band in which the level of the vibration with dither is compared with that
+        without. In SI ``band_hz``, in Hz.
     axes :
         Axes of a map: see :meth:`Study.map`.
     title :
-        What the study is about.
+        Title of the study.
     mass_kg, stiffness_n_per_m :
-        m in kg and k in N/m: they make it a study in SI.
+        m in kg and k in N/m. With them the study is in SI.
     natural_frequency_hz :
-        ω₀/2π in Hz, instead of the stiffness. ``damping_ratio`` may be given in SI too, instead of the damping constant.
+        ω₀/2π in Hz, instead of the stiffness. A study in SI may also have ``damping_ratio`` instead of the damping constant.
 
     Notes
     -----
@@ -359,7 +359,7 @@ class Belt(Study):
     Raises
     ------
     quell.StudyError
-        With every complaint at once.
+        All complaints at once.
     """
 
     def __init__(
@@ -400,7 +400,7 @@ class Belt(Study):
 
 
 def start(initial: object, si: bool) -> object:
-    """The table of a start, in SI where the study is; invalid values are passed through and rejected by the reader."""
+    """The table of an initial state, in SI if the study is; invalid values are passed through and rejected by the reader."""
     if isinstance(initial, str):
         return Initial(state=initial)  # type: ignore[arg-type]
     if isinstance(initial, tuple) and len(initial) == 2:

@@ -1,4 +1,4 @@
-"""Facts and arrays of a result as labelled arrays."""
+"""The facts and arrays of a result as labelled arrays."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 __all__ = ["Arrays", "Variable", "arrays"]
 
 NOT_FACTS = ("ok", "units", "why", "warnings", "counts", "axes", "shape", "points", "resumed_points")
-"""Entries of the facts that are told elsewhere."""
+"""Entries of the facts that are reported elsewhere."""
 
 
 class Variable:
-    """An array with its dimensions and attributes: what xarray calls a Variable, in plain NumPy."""
+    """An array with dimensions and attributes, like an xarray Variable but in plain NumPy."""
 
     def __init__(self, dims: tuple[str, ...], values: npt.NDArray[Any], attrs: dict[str, Any]) -> None:
         self.dims, self.values, self.attrs = dims, values, attrs
@@ -40,7 +40,7 @@ class Variable:
         return self.values.shape
 
     def words(self) -> npt.NDArray[np.str_]:
-        """What codes mean."""
+        """The meanings of the codes."""
         meanings = self.attrs["flag_meanings"].split(" ")
         table = np.full(256, "", dtype=f"<U{max(map(len, meanings))}")
         for code, meaning in zip(self.attrs["flag_values"], meanings, strict=True):
@@ -54,7 +54,7 @@ class Variable:
 
 
 class Arrays(Mapping[str, Variable]):
-    """Named variables: what xarray calls a Dataset, in plain NumPy."""
+    """Named variables, like an xarray Dataset but in plain NumPy."""
 
     def __init__(self, variables: dict[str, Variable], coords: set[str], attrs: dict[str, Any]) -> None:
         self._variables, self.coords, self.attrs = variables, coords, attrs
@@ -73,7 +73,7 @@ class Arrays(Mapping[str, Variable]):
         return "<quell.results.Arrays\n" + "\n".join(lines) + "\n>"
 
     def to_xarray(self, needed: bool = False) -> xarray.Dataset:
-        """As an xarray Dataset, without copying; itself where xarray is not installed and not ``needed``."""
+        """As an xarray Dataset without copying; ``self`` if xarray is not installed and not ``needed``."""
         try:
             import xarray
         except ImportError:
@@ -106,7 +106,7 @@ def arrays(verb: str, facts: Mapping[str, Any], datasets: list[tuple[str, Any]])
             coords.add(axis[0])
             variables[axis[0]] = variable((axis[0],), axis)
         for array in values:
-            # Names of later datasets, such as the spectrum's, are told apart where they meet others.
+            # Names in later datasets, such as the spectrum, get a prefix where they clash.
             label = array[0] if place == 0 and array[0] not in variables else f"{name}_{array[0]}"
             variables[label] = variable(dims, array, shape)
     Facts(facts, given, variables, attrs).all()
@@ -127,17 +127,17 @@ def variable(dims: tuple[str, ...], array: Any, shape: tuple[int, ...] | None = 
 
 
 SUFFIXES = ("n_s_per_m", "n", "m_per_s", "m", "hz", "s", "w", "s_per_m", "per_s")
-"""What the name of a number in SI carries."""
+"""Suffixes of the names of numbers in SI."""
 
 
 def twin_of(name: str, units: Mapping[str, str]) -> str | None:
-    """The name of the same number in SI, where there is one."""
+    """The name of the same number in SI, if it exists."""
     twins = (f"{name}_{suffix}" for suffix in SUFFIXES)
     return next((twin for twin in twins if twin in units), None)
 
 
 class Facts:
-    """Facts as variables: numbers without dimension, lists with one of their own."""
+    """Facts as variables: numbers have no dimension, lists have one of their own."""
 
     def __init__(
         self, facts: Mapping[str, Any], given: set[str], variables: dict[str, Variable], attrs: dict[str, Any]
@@ -149,19 +149,19 @@ class Facts:
         self.why: Mapping[str, str] = facts.get("why", {})
 
     def all(self) -> None:
-        """Adds all of them."""
+        """Adds all facts."""
         for name, value in self.in_units(self.facts).items():
-            # An array that is there already is no fact again.
+            # An array that was added already is not added again as a fact.
             of_array = name in self.given and isinstance(value, list)
             if name not in NOT_FACTS and not of_array:
                 self.add(name, name, value)
 
     def in_units(self, values: Mapping[str, Any]) -> dict[str, Any]:
-        """Facts in the units of the study: each number that has a twin in SI takes its value."""
+        """Facts in the units of the study: a number with an SI twin takes the value of the twin."""
         return {name: values.get(self.twins.get(name, name), value) for name, value in values.items()}
 
     def add(self, label: str, name: str, value: Any) -> None:
-        """Adds one, by what it is."""
+        """Adds one fact, according to its type."""
         if isinstance(value, str):
             self.attrs[label] = value
         elif isinstance(value, Mapping):
@@ -189,7 +189,7 @@ class Facts:
             self.put(label, name, (dim, f"{dim}_part"), table)
 
     def put(self, label: str, name: str, dims: tuple[str, ...], values: npt.NDArray[Any]) -> None:
-        """Adds a variable with its unit, and why it is unknown."""
+        """Adds a variable with its unit, and the reason if it is unknown."""
         if label in self.variables or label in dims:
             label = f"{label}_value"
         attrs: dict[str, Any] = {}
@@ -203,7 +203,7 @@ class Facts:
 
 
 def as_array(values: list[Any]) -> npt.NDArray[Any]:
-    """A list of one kind as an array; what is unknown is NaN, of words empty."""
+    """A list of one type as an array; unknown numbers are NaN, unknown strings are empty."""
     if any(isinstance(it, str) for it in values):
         return np.array(["" if it is None else str(it) for it in values])
     if all(isinstance(it, bool) for it in values):

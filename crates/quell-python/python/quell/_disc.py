@@ -20,19 +20,19 @@ class Load(Table):
     Parameters
     ----------
     radius_ratio :
-        r₀/a, between b/a and 1; needed where modes are computed.
+        r₀/a, between b/a and 1; required if modes are computed.
     angle_deg :
-        Angle of the load, in degrees; of several loads each its own.
+        Angle of the load, in degrees; each of several loads has its own.
     mass, damping, stiffness, friction :
         m*, c*, k*, f* of the equations, dimensionless.
     mass_kg, damping_n_s_per_m, stiffness_n_per_m, friction_n :
-        The same in SI, where the disc has its material.
+        The same in SI, if the disc has its material.
     dither_phase_deg :
-        Phase of the dither of this load's friction, in degrees; 0 by default.
+        Phase of the dither of this load's friction, in degrees [default: 0].
     speed :
         Ω in units of ω_ref, the same for every load.
     speed_hz, speed_rpm :
-        The same in revolutions per second or per minute, where the disc has its material or modes in Hz.
+        The same in revolutions per second or per minute, if the disc has its material or modes in Hz.
     """
 
     _path = "disc.load"
@@ -60,7 +60,7 @@ class Load(Table):
 
 
 class Mode(Table):
-    """A mode of the disc, where modes are listed instead of computed.
+    """A mode of the disc, for modes that are listed instead of computed.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ class Mode(Table):
     ratio, frequency_hz :
         Natural frequency, in ω_ref or in Hz.
     shape_at_load :
-        Value of the mode shape where the load is; one for each load.
+        Value of the mode shape at the load; one for each load.
     damping :
         Damping ratio ξ of this mode.
     """
@@ -90,12 +90,12 @@ class Mode(Table):
 
 
 class Disc(Study):
-    """A study of an annular disc, clamped inside and free outside, under rotating loads (chapter 5).
+    """A study of an annular disc, clamped at the inner and free at the outer edge, under rotating loads (chapter 5).
 
     Parameters
     ----------
     inner_radius_ratio, poisson_ratio :
-        b/a and ν: modes are computed from them.
+        b/a and ν, from which modes are computed.
     radial_modes, nodal_diameters :
         N_r and N_θ: modes with 0 to N_θ nodal diameters, N_r of each.
     modal_damping :
@@ -103,26 +103,26 @@ class Disc(Study):
     reference_frequency :
         "critical", the lowest critical speed of these modes, or a frequency parameter k².
     mode :
-        Modes that are listed instead: a :class:`Mode` or several.
+        Listed modes instead of computed ones: one :class:`Mode` or several.
     modes_file :
-        A CSV file of modes instead.
+        A CSV file of modes instead of computed ones.
     load :
-        A :class:`Load` or several.
+        One :class:`Load` or several.
     dither :
         A :class:`Dither` of the friction, with ``waveform="sine"``.
     without :
-        Parts of the equations that are left out.
+        Contributions that are left out of the equations.
     youngs_modulus_pa, density_kg_per_m3, thickness_m, outer_radius_m :
-        Material and size: frequencies in Hz beside the others.
+        Material and size, with which frequencies are also given in Hz.
     axes :
         Axes of a map: see :meth:`Study.map`.
     title :
-        What the study is about.
+        Title of the study.
 
     Raises
     ------
     quell.StudyError
-        With every complaint at once.
+        All complaints at once.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""What can go wrong: input that cannot be accepted, and work that could not be done."""
+"""Errors: invalid input, and computations that failed."""
 
 from __future__ import annotations
 
@@ -9,32 +9,32 @@ __all__ = ["Complaint", "QuellError", "RunError", "StudyError"]
 
 
 class Complaint(TypedDict):
-    """One complaint about the input, as the command line tells it with ``--json``."""
+    """One complaint about the input, as the command line prints it with ``--json``."""
 
     key: str
     """Path of the key, such as ``dither[1].amplitude``, or the argument, such as ``until``."""
     line: int | None
-    """Line of the study file; none where the study was not read from one."""
+    """Line of the study file; ``None`` if the study was not read from a file."""
     value: Any
-    """The value as it was given."""
+    """The given value."""
     allowed: str | None
     """What is allowed instead."""
     suggestion: str | None
-    """The nearest right key or value."""
+    """The nearest valid key or value."""
     fault: str
-    """What is wrong with it: "value", "unknown", "missing", "conflict", "mixed", "path", …"""
+    """The kind of error: "value", "unknown", "missing", "conflict", "mixed", "path", …"""
     message: str
-    """All of it in one line."""
+    """The whole complaint in one line."""
 
 
 class QuellError(Exception):
-    """Anything that Quell raises by itself."""
+    """Base class of the errors that Quell raises."""
 
 
 class StudyError(QuellError, ValueError):
-    """Input that cannot be accepted. Nothing was computed, nothing was written.
+    """Invalid input. Nothing was computed, and nothing was written.
 
-    ``errors`` has every :class:`Complaint` at once; the message has one line for each.
+    ``errors`` has every :class:`Complaint`; the message has one line for each.
     """
 
     errors: list[Complaint]
@@ -51,7 +51,7 @@ class StudyError(QuellError, ValueError):
 
 
 class RunError(QuellError, RuntimeError):
-    """The input is right, but the work could not be done: ``key`` says what, ``why`` says why."""
+    """The input is valid, but the computation failed: ``key`` names it, and ``why`` is the reason."""
 
     key: str
     why: str

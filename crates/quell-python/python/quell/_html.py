@@ -1,4 +1,4 @@
-"""Studies and results as notebooks and terminals show them."""
+"""The representation of studies and results in notebooks and terminals."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ HIDDEN = ("ok", "units", "why", "warnings", "sentence", "method", "protocol")
 
 
 def number(value: object) -> str:
-    """Six digits."""
+    """A number with six digits."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
@@ -23,7 +23,7 @@ def number(value: object) -> str:
 
 
 def scalars(result: Result) -> list[tuple[str, str, str, str]]:
-    """(name, value, unit, why it is unknown) of the facts that are one number or word."""
+    """(name, value, unit, reason if unknown) of the facts that are one number or string."""
     rows = []
     for name, value in result.facts.items():
         if name in HIDDEN or isinstance(value, (dict, list)):
@@ -35,7 +35,7 @@ def scalars(result: Result) -> list[tuple[str, str, str, str]]:
 
 
 def tables(result: Result) -> list[tuple[str, list[str], list[list[str]], int]]:
-    """(name, columns, rows, how many there are) of the facts that are lists of objects."""
+    """(name, columns, rows, total number of rows) of the facts that are lists of objects."""
     found = []
     for name, value in result.facts.items():
         if not (isinstance(value, list) and value and all(isinstance(it, dict) for it in value)):
@@ -48,7 +48,7 @@ def tables(result: Result) -> list[tuple[str, list[str], list[list[str]], int]]:
 
 
 def plain(result: Result) -> str:
-    """For a terminal."""
+    """A result for a terminal."""
     lines = [f"<quell.results.{type(result).__name__}>"]
     if "sentence" in result.facts:
         lines.append(f"  {result.facts['sentence']}")
@@ -72,7 +72,7 @@ def rows_of(rows: Any, tag: str = "td") -> str:
 
 
 def result(result: Result) -> str:
-    """For a notebook."""
+    """A result for a notebook."""
     parts = [f"<div><strong>quell {html.escape(result.verb)}</strong>"]
     title = result.study.title
     if title:

@@ -1,4 +1,4 @@
-"""The native part: studies, their verbs, and what they answer. Use the package's own classes instead."""
+"""The native module: studies, their verbs and their results. Use the classes of the package instead."""
 
 from collections.abc import Callable
 from typing import Any, final

@@ -1,4 +1,4 @@
-"""A study and its verbs: what the command line does, under the same names."""
+"""A study and its verbs, which have the names of the command line."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ __all__ = ["Study"]
 Self = TypeVar("Self", bound="Study")
 
 State = tuple[Number, Number]
-"""Two of them: displacement and velocity, or the ends of a range."""
+"""Two numbers: displacement and velocity, or the ends of a range."""
 
 
 class Study:
     """A checked study: of a belt or of a disc.
 
-    Made by :class:`quell.Belt`, :class:`quell.Disc`, :meth:`from_toml` or :meth:`from_text`; valid as soon as it is
-    there, and never changed afterwards (:meth:`set` gives another one). Studies compare by their settings, pickle,
-    and have a method for every verb of the command line. A verb that is about the other kind of study raises
+    Made by :class:`quell.Belt`, :class:`quell.Disc`, :meth:`from_toml` or :meth:`from_text`. A study is valid and
+    immutable (:meth:`set` returns a new one). Studies compare by their settings, pickle,
+    and have a method for every verb of the command line. A verb for the other kind of study raises
     :class:`quell.StudyError`.
     """
 
@@ -54,12 +54,12 @@ class Study:
 
     @classmethod
     def from_toml(cls, path: str | os.PathLike[str], set: Mapping[str, Any] | None = None) -> Study:  # noqa: A002
-        """Reads and checks a study file; ``set`` changes values first, as ``--set path=value`` does.
+        """Reads and checks a study file; ``set`` first changes values, like ``--set path=value``.
 
         Raises
         ------
         quell.StudyError
-            With every complaint, each with its line.
+            All complaints, each with its line.
         """
         arguments = Arguments()
         place = arguments.path("path", path)
@@ -69,7 +69,7 @@ class Study:
 
     @classmethod
     def from_text(cls, text: str, set: Mapping[str, Any] | None = None) -> Study:  # noqa: A002
-        """Checks the text of a study, as :meth:`from_toml` does that of a file."""
+        """Checks the text of a study, like :meth:`from_toml` for a file."""
         arguments = Arguments()
         given = arguments.text("text", text, "the text of a study")
         changes = changes_of(set, arguments)
@@ -77,9 +77,9 @@ class Study:
         return Study._of(NativeStudy.parse((given, "", changes, None, True, None)))
 
     def set(self: Self, changes: Mapping[str, Any]) -> Self:
-        """The same study with values changed: ``study.set({"dither.amplitude": 0.5})``.
+        """Returns the study with changed values: ``study.set({"dither.amplitude": 0.5})``.
 
-        Paths are those of the study file, ``dither[1].phase`` and SI twins included.
+        Paths are those of the study file, including ``dither[1].phase`` and SI twins.
         """
         arguments = Arguments()
         wanted = changes_of(changes, arguments)
@@ -87,7 +87,7 @@ class Study:
         return self._of(self._native.changed(wanted))
 
     def sweeping(self: Self, axes: Axes) -> Self:
-        """The same study with these axes in place of its own: see :meth:`map`."""
+        """Returns the study with other axes; see :meth:`map`."""
         tables = axes_tables(axes) or []
         wrong = [it for it in tables if not isinstance(it, Table)]
         if wrong:
@@ -98,42 +98,42 @@ class Study:
 
     @property
     def text(self) -> str:
-        """The text of the study as a file: what :attr:`changes` are made to."""
+        """The text of the study as a file, before the :attr:`changes`."""
         return self._native.parts()[0]
 
     @property
     def changes(self) -> list[str]:
-        """Changes made to the text, as ``path=value``."""
+        """Changes of the text, as ``path=value``."""
         return self._native.changes
 
     @property
     def title(self) -> str | None:
-        """What the study is about, if it says so."""
+        """Title of the study, if it has one."""
         return self._native.title
 
     @property
     def settings(self) -> dict[str, str]:
-        """Every value after the changes, by its path; neither title nor axes."""
+        """Every value after the changes, by its path, without title and axes."""
         return dict(self._native.settings)
 
     # Verbs, in the order of the command line.
 
     def check(self) -> results.Check:
-        """The study in numbers; in SI also in SI."""
+        """The study in numbers; for a study in SI also in SI."""
         return results.Check(self, self._native.check())
 
     def cite(self) -> results.Citations:
-        """Equations and papers that its computations use, with BibTeX, and corrections of the print."""
+        """Equations and papers that the computations use, with BibTeX, and corrections of the printed equations."""
         return results.Citations(self, self._native.cite())
 
     def friction(self, at: npt.ArrayLike | str | Sequence[str] | None = None) -> results.FrictionCurve:
-        """The friction law and what the dither makes of it, equations (2.21), (3.19)–(3.27), (4.27).
+        """The friction law and the effective friction under the dither, equations (2.21), (3.19)–(3.27), (4.27).
 
         Parameters
         ----------
         at :
-            Slip velocities, any shape, flattened, in m/s in a study in SI, or texts with units such as ``"20mm/s"``; a
-            grid that shows the law where none are given.
+            Slip velocities of any shape, which is flattened; in m/s in a study in SI, or texts with units such as
+            ``"20mm/s"`` [default: a grid that shows the law].
 
         Returns
         -------
@@ -162,17 +162,17 @@ class Study:
     def simulate(
         self, until: Number, *, events: bool = True, samples: bool = True
     ) -> results.Simulation:
-        """One trajectory with every event at the contact, exactly.
+        """Simulates one trajectory with the exact time of every event at the contact.
 
         Parameters
         ----------
         until :
             τ at the end; in a study in SI seconds, or a time with its unit such as ``"50ms"``.
         events :
-            Whether every event is kept: ``events``, in order.
+            Whether to keep every event, in order, in ``events``.
         samples :
-            Whether the trajectory is sampled: displacement and velocity over ``time`` (n,). Sampling changes no bit
-            of it.
+            Whether to sample the trajectory: displacement and velocity over ``time`` (n,). Sampling does not change
+            the run.
         """
         arguments = Arguments()
         end = arguments.quantity("until", until, 'a finite number, or a time with its unit such as "0.5s"')
@@ -180,7 +180,7 @@ class Study:
         return results.Simulation(self, self._native.simulate(end, bool(events), bool(samples)))
 
     def response(self) -> results.Response:
-        """The steady response, what the dither does to it (``effect``; residual vibration E, equation (2.27)), and its cost."""
+        """The steady response, the effect of the dither (``effect``; residual vibration E, equation (2.27)), and its cost."""
         return results.Response(self, self._native.response())
 
     def orbit(
@@ -198,12 +198,12 @@ class Study:
         Parameters
         ----------
         near :
-            Search near this state (x, x′) at τ = 0, in m and m/s or as texts with units in a study in SI [default: the base
-            response, continued from steady sliding; at v₀ = 0 the response that a run from rest reaches].
+            State (x, x′) at τ = 0 near which to search, in m and m/s or as texts with units in a study in SI [default: the
+            base response, continued from steady sliding; at v₀ = 0 the response that a run from rest reaches].
         periods :
-            Common periods of the dithers in one period of the response.
+            Number of common periods of the dithers in one period of the response.
         from_rest, from_sliding, from_squeal, start :
-            One of them: look for the response on which a run from there ends, of whatever number of periods.
+            At most one of them: finds the response, of any number of periods, on which a run from this start ends.
         """
         arguments = Arguments()
         state = None if near is None else arguments.quantities("near", near, "two finite numbers (x, x′)")
@@ -254,7 +254,7 @@ class Study:
         along: str | None = None,
         between: State | None = None,
     ) -> results.Thresholds | results.ThresholdCurves:
-        """Values of a parameter at which dither begins or ceases to quench, exactly; curves of them in two parameters.
+        """Exact values of a parameter at which dither begins or ceases to quench, or their curves in two parameters.
 
         Parameters
         ----------
@@ -262,15 +262,15 @@ class Study:
             Path of a number of the equations, such as ``dither.amplitude``; in a study in SI also its key in SI,
             such as ``dither.amplitude_n``.
         from_, to :
-            The range that is searched, in the unit of that key or as texts with units such as ``"5kN"`` (the ``--from``
-            and ``--to`` of the command line).
+            The range to search, in the unit of that key or as texts with units such as ``"5kN"`` (``--from``
+            and ``--to`` on the command line).
         from_rest, from_sliding, from_squeal, start :
-            Also for runs from rest, from steady sliding, from full squeal, from a state (x, x′), which is in m and m/s in
-            a study in SI.
+            Also find thresholds of runs from rest, from steady sliding, from full squeal, or from a state (x, x′), which is
+            in m and m/s in a study in SI.
         ramp :
-            Lets the dither of these runs grow over this time instead of switching it on: τ, in a study in SI seconds.
+            Time over which the dither of these runs grows [default: it is switched on]: τ, in a study in SI seconds.
         along, between :
-            Follows each local threshold as a curve along a second parameter, named likewise, within a window of it.
+            A second parameter, given like the first, and its range: each local threshold is continued as a curve.
         """
         arguments = Arguments()
         path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
@@ -333,28 +333,28 @@ class Study:
         Parameters
         ----------
         quantity :
-            A name or several: see :func:`quell.quantities`.
+            One or several names of :func:`quell.quantities`.
         axes :
-            Axes in place of the study's own: :class:`Axis` objects, or a dict of paths and values.
+            Axes that replace those of the study: :class:`Axis` objects, or a dict of paths and values.
         store :
             A Zarr store (a path that ends in .zarr) that keeps the map chunk by chunk.
         resume :
-            Whether to go on with that store.
+            Whether to continue an existing store.
         threads :
-            Number of threads; all there are by default.
+            Number of threads [default: all cores].
         progress :
-            Called with (points that are there, all points) now and then.
+            Called from time to time with (finished points, all points).
         client :
             A ``dask.distributed`` client: its workers compute the chunks into ``store``, which all of them must reach.
-            A chunk of a lost worker is done again; the result is the local one bit for bit.
+            A chunk of a lost worker is computed again; the result has the same bits as a local run.
         shard :
             One of several parts, such as "3/16", of a map that as many processes compute into ``store``, in any
-            order; the answer then tells what is left. ``resume=True`` without ``shard`` reads the whole map.
+            order; the result then reports what is left. ``resume=True`` without ``shard`` reads the whole map.
 
         Returns
         -------
         quell.results.Map
-            Arrays over the axes, in their order; what is not known is NaN, and ``NAME_status`` says why.
+            Arrays over the axes, in their order. Unknown values are NaN, with the reason in ``NAME_status``.
         """
         arguments = Arguments()
         names = [quantity] if isinstance(quantity, str) else quantity
@@ -398,18 +398,18 @@ class Study:
         down: bool = False,
         progress: Callable[[int, int], object] | None = None,
     ) -> results.Bifurcation:
-        """The response along a parameter, swept up and down with the state carried over.
+        """The response over a parameter, swept up and down with the state carried over.
 
         Parameters
         ----------
         parameter :
             Path of a number of the study, such as ``dither.amplitude``.
         from_, to, points :
-            Smallest and largest value, in the unit of the key or as texts with units, and how many values.
+            Smallest and largest value, in the unit of the key or as texts with units, and the number of values.
         up, down :
-            Which ways; both where neither is asked for. Down alone begins at the start of the study.
+            Directions of the sweep [default: both]. A sweep down alone begins with the initial state of the study.
         progress :
-            Called with (values that are done, all values) now and then.
+            Called from time to time with (finished values, all values).
         """
         arguments = Arguments()
         path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
@@ -434,22 +434,22 @@ class Study:
         threads: int | None = None,
         progress: Callable[[int, int], object] | None = None,
     ) -> results.Basins:
-        """The responses that starts of a window end on, and which share of it each holds, with its error.
+        """The responses on which starts in a window end, and the fraction of each, with its error.
 
         Parameters
         ----------
         displacement, velocity :
-            The window, x and x′, in m and m/s or as texts with units in a study in SI; about steady sliding by default.
+            Ranges of x and x′, in m and m/s or as texts with units in a study in SI [default: around steady sliding].
         grid :
-            So many displacements and velocities, from edge to edge; (41, 31) by default.
+            Number of displacements and velocities, including the edges [default: (41, 31)].
         sample, seed :
-            So many random states in place of a grid, and which ones; seed 1 by default.
+            Number of random states instead of a grid, and the seed of the generator [default: 1].
         over, from_, to, points :
-            Follows the shares over a parameter between two values; 41 of them by default.
+            A parameter over which to compute the fractions, its range, and the number of values [default: 41].
         threads :
-            Number of threads; all there are by default.
+            Number of threads [default: all cores].
         progress :
-            Called with (starts that are done, all starts) now and then.
+            Called from time to time with (finished starts, all starts).
         """
         arguments = Arguments()
         two = "two numbers, the first below the second"
@@ -494,17 +494,17 @@ class Study:
         clear: State | None = None,
         frequency: State | None = None,
     ) -> results.Resonances:
-        """Where waves of a disc meet, which meetings can be unstable, which dither frequencies keep speeds clear.
+        """Speeds at which waves of a disc meet, the meetings that can be unstable, and clear dither frequencies.
 
         Parameters
         ----------
         speeds :
-            Speeds between which meetings are listed, in ω_ref, or as texts with units such as ``"900rpm"``; 0 to 1 ω_ref
-            by default. Where a load is given in SI, plain numbers are in Hz.
+            Range of speeds in which meetings are listed, in ω_ref, or as texts with units such as ``"900rpm"`` [default: 0
+            to 1 ω_ref]. If a load is given in SI, plain numbers are in Hz.
         order :
-            How far the theory goes: "second" counts friction twice.
+            Order of the theory in the friction, "first" or "second".
         clear, frequency :
-            A range of speeds that the dither shall keep clear, and the dither frequencies R that may do it.
+            A range of speeds that the dither should keep clear, and the range of dither frequencies R to search.
         """
         arguments = Arguments()
         two = "two finite numbers"
@@ -515,7 +515,7 @@ class Study:
         arguments.done()
         return results.Resonances(self, self._native.resonances(ranges, how_far, wanted, within))
 
-    # What makes it a value.
+    # Value semantics.
 
     def __reduce__(self) -> tuple[Callable[..., Study], tuple[Any, ...]]:
         return study_of, (self._native.parts(),)
@@ -540,5 +540,5 @@ class Study:
 
 
 def study_of(parts: Any) -> Study:
-    """A study from what pickle kept of it."""
+    """A study from its pickled parts."""
     return Study._of(NativeStudy.parse(parts))

@@ -1,4 +1,4 @@
-"""Tables of a study: what was given under which key, nothing more."""
+"""Tables of a study: the given values by key."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ Number = Union[float, str]
 class Table:
     """Keys and values of one table of a study file.
 
-    Nothing is checked until the study is made of its tables: then everything that is wrong is told at once.
+    Nothing is checked until the study is made of its tables; then all errors are reported at once.
     """
 
     _path: str = ""
 
     given: dict[str, Any]
-    """What was given, by key."""
+    """The given values, by key."""
 
     def __init__(self, **given: Any) -> None:
         self.given = {name: value for name, value in given.items() if value is not None}
@@ -35,11 +35,11 @@ class Table:
 
 
 Unknown = NoReturn
-"""Keys that no table has: a type checker refuses them, and at run time the nearest right key is named."""
+"""Unknown keys: a type checker rejects them, and at run time the error names the nearest valid key."""
 
 
 def given(names: dict[str, Any], *beside: str) -> dict[str, Any]:
-    """The arguments of an ``__init__`` by name, as ``given(locals())`` in its first line; those ``beside`` left out."""
+    """The arguments of an ``__init__`` by name, from ``given(locals())`` in its first line, without those in ``beside``."""
     left_out = {"self", "__class__", "unknown", *beside}
     known = {name: value for name, value in names.items() if name not in left_out}
     return {**known, **names.get("unknown", {})}

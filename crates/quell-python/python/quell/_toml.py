@@ -1,7 +1,7 @@
-"""The text of a study from Python's values.
+"""The text of a study from Python values.
 
-Nothing is judged here: whatever was given is written down, and the reader of study files says what is
-wrong with it, all at once.
+Nothing is checked here: every given value is written, and the reader of study files reports all errors
+at once.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ LARGEST_WHOLE = 2**63 - 1
 
 
 def word(text: str) -> str:
-    """A string in quotes; what is no text of UTF-8 is replaced."""
+    """A string in quotes; characters that UTF-8 cannot encode are replaced."""
     clean = text.encode("utf-8", "replace").decode("utf-8")
     return json.dumps(clean, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def key(name: str) -> str:
-    """A key, in quotes where it needs them."""
+    """A key, in quotes if it needs them."""
     bare = name.isascii() and name.replace("_", "").replace("-", "").isalnum()
     return name if bare else word(name)
 
 
 def value(given: object) -> str:
-    """A value; of what TOML has no word for, its ``repr`` as a string, which the reader refuses."""
+    """A value. Types that TOML lacks are written as their ``repr`` in a string, which the reader rejects."""
     if isinstance(given, (np.generic, np.ndarray)):
         given = given.tolist()
     if isinstance(given, bool):
@@ -54,10 +54,10 @@ def value(given: object) -> str:
 
 
 def shown(given: object) -> str:
-    """The ``repr`` of something strange, at most a line of it."""
+    """The ``repr`` of any object, at most one line."""
     try:
         return repr(given)[:80]
-    except Exception:  # noqa: BLE001  whatever it is, it is refused
+    except Exception:  # noqa: BLE001  the reader rejects it in any case
         return f"<{type(given).__name__}>"
 
 
@@ -103,7 +103,7 @@ def mapping(table: Table | Mapping[str, Any]) -> Mapping[str, Any]:
 
 
 def section(path: str, table: Mapping[str, Any], listed: bool) -> Iterable[str]:
-    """A table and the tables inside it."""
+    """A table and the tables inside it, as lines."""
     lines = ["", f"[[{path}]]" if listed else f"[{path}]"]
     inner: list[str] = []
     for name, given in table.items():

@@ -1,9 +1,9 @@
 """Maps on a ``dask.distributed`` cluster: workers compute chunks into one store that all of them reach.
 
-The scheduler hands out numbers of chunks, nothing else: a worker makes the plan of the map from the study, computes
-the chunk with the same bits as any other machine, and writes it to the store, whole or not at all. What a task returns
-is a receipt. A task of a lost worker is given to another one by Dask; a chunk that it had finished is found in the
-store and not done again. In the end everything is read back from the store and proven.
+The scheduler distributes only the numbers of chunks. A worker derives the plan of the map from the study, computes
+the chunk with the same bits as any other machine, and writes it to the store, completely or not at all. A task returns
+only a receipt. Dask gives the task of a lost worker to another one; a chunk that was finished already is found in the
+store and not computed again. At the end everything is read back from the store and verified.
 """
 
 from __future__ import annotations
@@ -25,19 +25,19 @@ if TYPE_CHECKING:
 __all__ = ["compute", "compute_chunks", "compute_shard"]
 
 ROUNDS = 3
-"""How often chunks that are missing in the end are handed out again."""
+"""Number of rounds in which missing chunks are distributed."""
 
 TASKS_A_THREAD = (4, 16)
-"""Least and most tasks for each thread of the cluster, where there are so many chunks: fewer leave threads idle in the
-end, more keep the scheduler busy."""
+"""Smallest and largest number of tasks for each thread of the cluster, if there are enough chunks: fewer leave threads idle at
+the end, more keep the scheduler busy."""
 
 MANY_TASKS = 2000
-"""So many tasks occupy the scheduler for some seconds: beyond them each thread gets fewer."""
+"""This many tasks occupy the scheduler for some seconds; beyond it each thread gets fewer."""
 
 
 @lru_cache(maxsize=4)
 def shared(parts: str, quantities: tuple[str, ...], store: str) -> NativeShared:
-    """The plan of a map and its store, once a process."""
+    """The plan of a map and its store, created once per process."""
     import pickle
 
     from ._quell import NativeShared, NativeStudy
@@ -47,7 +47,7 @@ def shared(parts: str, quantities: tuple[str, ...], store: str) -> NativeShared:
 
 
 def compute_chunks(parts: str, quantities: tuple[str, ...], store: str, chunks: list[int]) -> tuple[int, float]:
-    """Computes chunks on a worker, those that the store does not have: (points computed, seconds)."""
+    """Computes the chunks that the store lacks on a worker: (computed points, seconds)."""
     _, _, _, points, seconds = shared(parts, quantities, store).compute(chunks, 1, None)
     return points, seconds
 
@@ -71,7 +71,7 @@ def compute_shard(
 
 
 def split(chunks: list[int], threads: int) -> list[list[int]]:
-    """Chunks in tasks of nearly the same length, neighbours apart: they take about as long."""
+    """Chunks in tasks of nearly the same length; neighbours, which take about the same time, are in different tasks."""
     least, most = (each * max(1, threads) for each in TASKS_A_THREAD)
     count = min(len(chunks), max(least, min(most, MANY_TASKS)))
     return [chunks[first::count] for first in range(count)]
@@ -93,7 +93,7 @@ def compute(
 
     if not hasattr(client, "submit"):
         raise StudyError([complaint("client", client, "a dask.distributed client")])
-    # Its functions have no types.
+    # The functions of distributed have no types.
     untyped: Any = distributed
     anyone: Any = client
     place = os.path.abspath(store)
@@ -130,7 +130,7 @@ def compute(
                 if progress is not None:
                     progress(there, sum(sizes))
         finally:
-            # After Ctrl-C, or the failure of a task, no other one is begun.
+            # After Ctrl-C or a failed task, no other task is started.
             anyone.cancel(futures, force=True)
     left = here.missing()
     if not left:

@@ -1,7 +1,7 @@
-"""Pictures with matplotlib, with the look of the command line's.
+"""Pictures with matplotlib that look like those of the command line.
 
-The picture of a result is decided in one place, the front door of Quell: what is drawn, in which colours, widths and
-dashes, in which frames. Here it is drawn with matplotlib, so that it can be changed and joined with other plots:
+The native library of Quell determines the content of a picture, its colours, widths, dashes and frames. This module draws
+it with matplotlib, so that it can be changed and combined with other plots:
 ``figure = response.plot(); figure.axes[0].set_xlim(0, 50)``.
 """
 
@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 __all__ = ["draw", "style"]
 
 INCH = 96.0
-"""Pixels per inch of the descriptions."""
+"""Pixels per inch in the descriptions."""
 
 POINT = 72.0 / INCH
 """Points per pixel."""
 
 LETTER = 0.56
-"""Width of a letter, as a share of its height."""
+"""Width of a letter, as a fraction of its height."""
 
 HATCHES = ("////", "\\\\\\\\", "xxxx", "....", "++++")
 MARKERS = {
@@ -37,7 +37,7 @@ MARKERS = {
 
 
 def style(frame: str = "#222222", number: float = 8.25) -> dict[str, Any]:
-    """Settings of matplotlib (``rcParams``) of our figures: for plots of your own beside them.
+    """The settings of matplotlib (``rcParams``) for these figures, for plots of your own in the same style.
 
     ``with matplotlib.rc_context(quell.plotting.style()): …``
     """
@@ -88,7 +88,7 @@ def _cycle() -> Any:
 
 
 def draw(data: dict[str, Any]) -> Figure:
-    """Draws a described figure. It is pyplot's current figure where pyplot can show one."""
+    """Draws a described figure. It becomes pyplot's current figure if pyplot can show one."""
     import matplotlib as mpl
     import matplotlib.pyplot as plt
 
@@ -101,7 +101,7 @@ def draw(data: dict[str, Any]) -> Figure:
         shared_legend(figure, data, drawings)
     backend = mpl.get_backend().lower()
     if backend == "agg" or "inline" in backend:
-        # A notebook shows the figure that a cell returns; pyplot would show it a second time.
+        # A notebook shows the figure that a cell returns, and pyplot would show it again.
         plt.close(figure)
     return figure
 
@@ -183,7 +183,7 @@ class Drawing:
         self.legend()
 
     def scales(self) -> None:
-        """Scales, stretches and ticks of both axes."""
+        """Scales, limits and ticks of both axes."""
         axes = self.axes
         for name, axis in (("x", self.panel["x"]), ("y", self.panel["y"])):
             if axis["log"]:
@@ -203,7 +203,7 @@ class Drawing:
             self.axes.set_ylabel(text(self.panel["y"]["label"]), fontsize=size)
         if self.panel["title"]:
             self.axes.set_title(text(self.panel["title"]), loc="left", fontsize=self.sizes["title"] * POINT)
-        # The stretch was decided already.
+        # The limits are set already.
         self.axes.set_xlim(*self.panel["x"]["stretch"])
         self.axes.set_ylim(*self.panel["y"]["stretch"])
 
@@ -232,7 +232,7 @@ class Drawing:
             self.axes.legend(handles, labels, loc=place, fontsize=size, handlelength=2.4)
 
     def entries(self) -> list[tuple[Any, str]]:
-        """What the legend shows: equal labels once."""
+        """The entries of the legend; equal labels appear once."""
         found: dict[str, Any] = {}
         for handle, label in zip(*self.axes.get_legend_handles_labels(), strict=True):
             found.setdefault(label, handle)
@@ -241,7 +241,7 @@ class Drawing:
         return [(handle, label) for label, handle in found.items()]
 
     def sample(self, label: str, colour: str, hatch: str | None = None) -> None:
-        """A patch that stands for a colour in the legend."""
+        """A patch that represents a colour in the legend."""
         from matplotlib.patches import Patch
 
         if label:
@@ -284,7 +284,7 @@ class Drawing:
         )
 
     def region(self, layer: dict[str, Any], order: float) -> None:
-        """A part of the plane."""
+        """A region of the plane."""
         hatched = layer["opacity"] is None
         look: dict[str, Any] = {
             "facecolor": "none" if hatched else layer["colour"],
@@ -303,12 +303,12 @@ class Drawing:
             self.axes.axhspan(*self.ends(layer["across_y"], "y"), **look)
 
     def ends(self, ends: list[float | None], name: str) -> tuple[float, float]:
-        """Ends of a strip; one that is not there is that of the frame."""
+        """Ends of a strip; a missing one is that of the frame."""
         lower, upper = self.panel[name]["stretch"]
         return (lower if ends[0] is None else ends[0], upper if ends[1] is None else ends[1])
 
     def rule(self, layer: dict[str, Any], order: float) -> None:
-        """A line at one value, with its text beside it."""
+        """A line at one value, with its text next to it."""
         look = {"color": layer["colour"], "linewidth": layer["width"] * POINT, "zorder": order, **dashes(layer)}
         size = self.sizes["note"] * POINT
         if layer["vertical"]:
@@ -367,7 +367,7 @@ class Drawing:
             self.sample(hole["label"], self.data["colours"]["gap"], hatch)
 
     def mesh(self, borders: Any, values: Any, colours: list[str], order: float, norm: Any = None) -> Any:
-        """Cells in colours; those without a number stay clear."""
+        """Coloured cells; those without a number stay transparent."""
         from matplotlib.colors import ListedColormap
 
         return self.axes.pcolormesh(
@@ -390,7 +390,7 @@ class Drawing:
                 self.sample(outcome["label"], outcome["colour"])
 
     def shaded(self, colouring: dict[str, Any], borders: Any, values: Any, order: float) -> Any:
-        """Numbers by a palette; what lies below a limit in a colour of its own."""
+        """Numbers in the colours of a palette; values below a limit have a colour of their own."""
         from matplotlib.colors import AsinhNorm, LogNorm, Normalize
 
         low, high = colouring["range"]
@@ -448,12 +448,12 @@ class Drawing:
 
 
 def visible(words: str) -> int:
-    """Letters that are seen of a label."""
+    """Number of visible letters of a label."""
     return len(re.sub(r"[$_{}\\\\]", "", words))
 
 
 def columns(labels: list[str], room: float, size: float) -> int:
-    """How many entries of a legend stand side by side in so many pixels."""
+    """Number of entries of a legend that fit side by side into the given width in pixels."""
     for count in range(len(labels), 1, -1):
         widest = [max(visible(label) for label in labels[start::count]) for start in range(count)]
         if sum(LETTER * size * letters + 4.5 * size for letters in widest) <= room:
@@ -462,7 +462,7 @@ def columns(labels: list[str], room: float, size: float) -> int:
 
 
 def wrapped(words: str, letters: float) -> list[str]:
-    """A text in lines of so many letters; symbols are not broken."""
+    """A text broken into lines of the given number of letters; symbols are not broken."""
     lines: list[str] = [""]
     for word in re.findall(r"(?:\$[^$]*\$|\S)+", words):
         if lines[-1] and visible(lines[-1]) + 1 + visible(word) > letters:
@@ -472,12 +472,12 @@ def wrapped(words: str, letters: float) -> list[str]:
 
 
 def dashes(layer: dict[str, Any]) -> dict[str, Any]:
-    """The dashes of a line, in its widths."""
+    """The dashes of a line, in units of its width."""
     return {"linestyle": (0, tuple(layer["dashes"]))} if layer["dashes"] else {"linestyle": "-"}
 
 
 def field(layer: dict[str, Any]) -> npt.NDArray[np.float64]:
-    """Values of a field (y, x); NaN where there is none."""
+    """Values of a field (y, x); NaN where a value is missing."""
     values = [np.nan if it is None else it for it in layer["values"]]
     return np.array(values, dtype=np.float64).reshape(len(layer["y"]), len(layer["x"]))
 
@@ -495,7 +495,7 @@ def edges(values: list[float], log: bool) -> Any:
 
 
 def text(words: str) -> str:
-    """A label as matplotlib sets it: subscripts are upright, as in our own pictures."""
+    """A label in matplotlib syntax: subscripts are upright, as in the other pictures of Quell."""
 
     def upright(match: re.Match[str]) -> str:
         inside = re.sub(r"_(\w)", r"_{\1}", match.group(1))

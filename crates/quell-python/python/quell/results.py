@@ -1,11 +1,11 @@
-"""Results: what the verbs of a study answer.
+"""Results of the verbs of a study.
 
 A result has the facts that the command line prints with ``--json`` as attributes (``response.efficiency``), in the
-numbers of the equations and, for a study in SI, in SI beside them (``amplitude_m``). What is unknown is ``None``, and
-``result.why`` says why. All of it, arrays included, is one :class:`xarray.Dataset` in the units of the study (in SI where
-it is; units are words that pint reads, what dimensionless numbers are scaled by is ``attrs["scaling"]``), with provenance, in
-``result.dataset`` (a :class:`quell.results.Arrays` where xarray is not installed). Results plot, save, pickle, and
-show as a table in notebooks.
+dimensionless form of the equations and, for a study in SI, also in SI (``amplitude_m``). Unknown facts are ``None``, with
+the reason in ``result.why``. ``result.dataset`` has everything, including arrays and provenance, as one
+:class:`xarray.Dataset` in the units of the study: in SI for a study in SI. pint reads the units, and ``attrs["scaling"]``
+is the scale of a dimensionless number. If xarray is not installed, it is a :class:`quell.results.Arrays`. Results plot,
+save, pickle, and are shown as a table in notebooks.
 """
 
 from __future__ import annotations
@@ -54,16 +54,16 @@ R = TypeVar("R", bound="Result")
 
 
 class Result:
-    """What a verb answered about a study."""
+    """The result of a verb for a study."""
 
     verb: str = ""
     """The verb."""
 
     study: Study
-    """The study it is about."""
+    """The study of the result."""
 
     sentence: str
-    """The answer in one sentence, where there is one."""
+    """The result in one sentence, if the verb has one."""
 
     def __init__(self, study: Study, native: NativeAnswer | None) -> None:
         self.study = study
@@ -74,7 +74,7 @@ class Result:
 
     @property
     def facts(self) -> dict[str, Any]:
-        """The facts, as the command line prints them with ``--json``; of a map without its arrays."""
+        """The facts, as the command line prints them with ``--json``; for a map without its arrays."""
         if self._facts is None:
             self._facts = self._alive().facts()
         return self._facts
@@ -87,34 +87,34 @@ class Result:
 
     @property
     def why(self) -> dict[str, str]:
-        """Why facts are ``None``, by name."""
+        """Reasons why facts are ``None``, by name."""
         why: dict[str, str] = self.facts.get("why", {})
         return why
 
     @property
     def warnings(self) -> list[str]:
-        """What a reader of the numbers should know."""
+        """Warnings about the numbers."""
         found: list[str] = self.facts.get("warnings", [])
         return found
 
     @property
     def arrays(self) -> Arrays:
-        """Everything as NumPy arrays with dimensions, units and provenance; no xarray needed."""
+        """Everything as NumPy arrays with dimensions, units and provenance, without xarray."""
         if self._arrays is None:
             self._arrays = _dataset.arrays(self.verb, self.facts, self._alive().datasets())
         return self._arrays
 
     @property
     def dataset(self) -> xarray.Dataset:
-        """Everything as one xarray Dataset; the same as :attr:`arrays` where xarray is not installed.
+        """Everything as one xarray Dataset; the same as :attr:`arrays` if xarray is not installed.
 
-        Facts are variables without dimension, lists of the facts have one dimension, arrays theirs; units stand in
-        the attributes of each variable, where it comes from in those of the Dataset.
+        Facts are variables without dimension, lists have one dimension, and arrays have their own. The attributes of each
+        variable have the unit, those of the Dataset the provenance.
         """
         return self.arrays.to_xarray()
 
     def to_xarray(self) -> xarray.Dataset:
-        """:attr:`dataset`, but an ImportError where xarray is not installed."""
+        """Like :attr:`dataset`, but raises ImportError if xarray is not installed."""
         return self.arrays.to_xarray(needed=True)
 
     def to_dict(self) -> dict[str, Any]:
@@ -124,15 +124,15 @@ class Result:
         return copy.deepcopy(self.facts)
 
     def plot(self) -> matplotlib.figure.Figure:
-        """The picture of the command line's ``--plot``, drawn with matplotlib."""
+        """Draws the picture of ``--plot`` on the command line with matplotlib."""
         from .plotting import draw
 
         return draw(self._described())
 
     def save(self, path: str | os.PathLike[str]) -> list[str]:
-        """Writes the arrays as .csv, with units and the study in its header, or the picture as .svg or .png.
+        """Writes the arrays as .csv, with units and the study in the header, or the picture as .svg or .png.
 
-        These are the files of the command line's ``--save`` and ``--plot``. Returns the paths that were written.
+        The files are those of ``--save`` and ``--plot`` on the command line. Returns the paths of the written files.
         """
         try:
             place = os.fspath(path)
@@ -178,7 +178,7 @@ class Result:
         try:
             description = self._described() if self._native else self._description
         except StudyError:
-            description = None  # there is no picture
+            description = None  # this result has no picture
         return {
             "study": self.study,
             "_native": None,
@@ -203,17 +203,17 @@ class Check(Result):
 
     verb = "check"
     system: Literal["dimensionless", "si"]
-    """What its numbers are: those of the equations, or SI beside them."""
+    """Whether the numbers are only dimensionless, or also in SI."""
 
 
 class Citations(Result):
-    """Sources of a study's computations, and where the print was corrected."""
+    """Sources of the computations for a study, and corrections of their printed equations."""
 
     verb = "cite"
     sources: list[dict[str, Any]]
-    """``key``, ``reference``, and ``used``: for what."""
+    """``key``, ``reference``, and ``used``, the purpose."""
     corrections: list[dict[str, Any]]
-    """Where the print of a source is wrong, and what is right."""
+    """Errors in the print of a source, with the correct form."""
     bibtex: str
     """The sources as BibTeX entries."""
 
@@ -235,12 +235,12 @@ class FrictionCurve(Result):
 
     @property
     def effective_coefficient(self) -> npt.NDArray[np.float64]:
-        """μ̄ (n,); NaN where there is none."""
+        """μ̄ (n,); NaN where it is undefined."""
         return self.arrays["effective_coefficient"].values
 
     @property
     def effective_slope(self) -> npt.NDArray[np.float64]:
-        """μ̄′ (n,) per unit of v_r; NaN where there is none."""
+        """μ̄′ (n,) per unit of v_r; NaN where it is undefined."""
         return self.arrays["effective_slope"].values
 
 
@@ -249,11 +249,11 @@ class Stability(Result):
 
     verb = "stability"
     verdict: Verdict
-    """Whether small motions die out."""
+    """Whether small motions decay."""
     criterion: float | None
     """Belt: 2ζ + Fμ̄′ (2.26), stable where positive."""
     critical_amplitudes: list[dict[str, Any]] | None
-    """Belt: every α > 0 at which it changes: ``amplitude_ratio``, ``amplitude``, ``kind``, ``becomes``."""
+    """Belt: every α > 0 at which the verdict changes: ``amplitude_ratio``, ``amplitude``, ``kind``, ``becomes``."""
     growth_rate: float | None
     """Largest growth rate per unit τ."""
 
@@ -267,7 +267,7 @@ class Simulation(Result):
     events: list[dict[str, Any]]
     """``time``, ``kind`` ("stick", "release", "reversal"), ``slip_sign``, ``displacement`` of every event."""
     event_count: int
-    """Number of events, kept or not."""
+    """Number of events, including those that were not kept."""
 
 
 class Response(Result):
@@ -275,7 +275,8 @@ class Response(Result):
 
     verb = "response"
     effect: str
-    """Effect of the dither: "quenches", "reduces", "increases", "causes" (quiet without, vibrating with), "quiet" or "unknown"."""
+    """Effect of the dither: "quenches", "reduces", "increases", "causes" (quiet without, vibrating with), "quiet" or
+    "unknown"."""
     ends_on: str
     """Where the dithered run ends: "base response", "another response without slow motion of its own", "another response" or
     "unknown"."""
@@ -284,11 +285,11 @@ class Response(Result):
     undithered_amplitude: float
     """The same without dither."""
     efficiency: float | None
-    """Residual vibration E = amplitude over undithered amplitude (2.27)."""
+    """Residual vibration E = amplitude / undithered amplitude (2.27)."""
     level_db: float | None
     """20 lg E, in dB."""
     stick_fraction: float
-    """Share of the time in which the mass sticks to the belt."""
+    """Fraction of the time during which the mass sticks to the belt."""
     settled: bool
     """Whether both halves of the record have the same amplitude."""
     undithered_settled: bool
@@ -298,19 +299,19 @@ class Response(Result):
     mean_friction_undithered: float
     """Friction force μ(v₀)F of steady sliding without dither, over k: a length."""
     friction_loss: float | None
-    """Share of the friction of undithered steady sliding that is lost; negative where friction rises."""
+    """Fraction of the friction of undithered steady sliding that is lost; negative if friction rises."""
     dither_power: float | None
     """Mean power of tangential dither over kω₀: a length squared."""
     dither_stroke: float | None
-    """Stroke of the fast motion that tangential dither makes: a length."""
+    """Stroke of the fast motion due to tangential dither: a length."""
     minimum_normal_load: float
     """Least normal force over k: a length."""
     peaks: list[dict[str, float]]
     """Peaks of the spectrum: ``frequency`` (ω₀), ``amplitude``."""
     band_displacement_level_db: float | None
-    """Change of the level of the displacement in the band of a study with one, in dB."""
+    """Change of the level of the displacement in the band of the study, in dB."""
     band_velocity_level_db: float | None
-    """The same of the velocity."""
+    """The same for the velocity."""
     band_displacement_rms: float | None
     """Root mean square of the displacement in the band: a length; ``band_undithered_displacement_rms`` without dither."""
     band_velocity_rms: float | None
@@ -322,40 +323,40 @@ class Orbit(Result):
 
     verb = "orbit"
     free_phase: bool | None
-    """Whether it is a limit cycle, whose phase nothing fixes; none where there is no orbit but steady sliding."""
+    """Whether it is a limit cycle, whose phase is free; ``None`` for steady sliding."""
     displacement: float
     """x at τ = 0: a length."""
     velocity: float
     """x′ at τ = 0: a length per τ."""
     period: float | None
-    """Period, in τ; none where there is no orbit."""
+    """Period, in τ; ``None`` if there is no orbit."""
     monodromy: list[list[float]] | None
-    """What a small change of x and x′ has become after a period; none where there is no orbit."""
+    """Matrix that maps a small change of x and x′ to that after one period; ``None`` if there is no orbit."""
     verdict: Verdict
-    """Whether small deviations die out."""
+    """Whether small deviations decay."""
     stick_episodes: int
-    """Sticks in a period."""
+    """Number of sticking phases in a period."""
     reversals: int
-    """Reversals of slip in a period."""
+    """Number of reversals of slip in a period."""
     stick_fraction: float
-    """Share of the period in which the mass sticks."""
+    """Fraction of the period during which the mass sticks."""
     residual: float
-    """How far the state is from itself after a period: a length."""
+    """Distance of the state from itself after one period: a length."""
     state_error: float | None
-    """Estimated error of the state: a length; none where a multiplier is too near to 1."""
+    """Estimated error of the state: a length; ``None`` if a multiplier is too close to 1."""
     multiplier_error: float | None
-    """Estimated error of the modulus of the multiplier that decides; none as for ``state_error``."""
+    """Estimated error of the modulus of the decisive multiplier; ``None`` as for ``state_error``."""
     signature: list[dict[str, Any]]
-    """``kind`` and ``slip_sign`` of the events of a period, in their order."""
+    """``kind`` and ``slip_sign`` of the events of a period, in order."""
     least_slip_velocity: float | None
-    """Least |v_r| while it slips: a length per τ; none where it sticks throughout.
+    """Least |v_r| during slip: a length per τ; ``None`` if the mass always sticks.
 
-    Without dither: ``cycles``, every limit cycle, each with all of these.
+    Without dither: ``cycles``, every limit cycle, each with all of these facts.
     """
 
     @property
     def multipliers(self) -> npt.NDArray[np.complex128]:
-        """The two multipliers; none where there is no orbit (see ``why``)."""
+        """The two multipliers; empty if there is no orbit (see ``why``)."""
         pairs = self.facts["multipliers"] or []
         return np.array([complex(re, im) for re, im in pairs], dtype=np.complex128)
 
@@ -372,13 +373,13 @@ class Thresholds(Result):
     Kinds are "neimark-sacker", "hopf", "flip", "fold", "grazing", "branching", "signature".
     """
     signature_changes: list[dict[str, Any]]
-    """``value`` at which the events of a period change, ``below`` and ``above``: what they are there."""
+    """``value`` at which the events of a period change, and the events ``below`` and ``above``."""
     covered: bool
-    """Whether the response was followed over the whole range.
+    """Whether the response was continued over the whole range.
 
-    With a protocol also ``from_rest``, ``from_sliding``, ``from_squeal`` or ``from_start``: ``value`` with its ``error`` and where
-    runs end above it, ``becomes``: "quenched", "not quenched", "unsettled" or "unknown"; and ``at_from``, where they end at the
-    first value, by protocol.
+    With a protocol also ``from_rest``, ``from_sliding``, ``from_squeal`` or ``from_start``: ``value`` with its ``error``, and the
+    outcome of runs above it, ``becomes``: "quenched", "not quenched", "unsettled" or "unknown"; and ``at_from``, the outcome at
+    the first value, by protocol.
     """
 
 
@@ -387,9 +388,9 @@ class ThresholdCurves(Result):
 
     verb = "thresholds"
     parameter: str
-    """Path of the parameter whose thresholds are followed."""
+    """Path of the parameter whose thresholds are continued."""
     along: str
-    """Path of the parameter along which they are."""
+    """Path of the second parameter."""
     curves: list[dict[str, Any]]
     """``kind``, ``value`` (n,), ``along`` (n,), ``multiplier_modulus`` (n,), ``ends`` of each curve."""
     averaged: list[dict[str, Any]]
@@ -405,11 +406,11 @@ class Bifurcation(Result):
     unit: str
     """Unit of its values."""
     start: str
-    """Where the first sweep begins."""
+    """The start of the first sweep."""
     jumps: list[dict[str, Any]]
     """``direction``, ``before`` and ``after``: values between which the quiet response is left or reached; ``becomes``."""
     hysteresis: list[list[float]] | None
-    """First and last value of each stretch in which up and down differ; none where one way alone was swept.
+    """First and last value of each interval in which up and down differ; ``None`` if only one direction was swept.
 
     A direction that was swept, ``up`` or ``down``, is a list of its points: ``value``, ``local_verdict``, ``settled``,
     ``quiet``, ``kind``, ``periods``, ``rotation_number``, ``section_displacement`` (n,), …
@@ -417,7 +418,7 @@ class Bifurcation(Result):
 
 
 class Basins(Result):
-    """The responses that starts of a window end on, and the share of each."""
+    """The responses on which starts in a window end, and the fraction of each."""
 
     verb = "basins"
     starts: int
@@ -429,12 +430,12 @@ class Basins(Result):
     layout: dict[str, Any]
     """``grid``: displacements and velocities; or ``sample`` and ``seed``."""
     error_meaning: str
-    """What the bounds of the shares are.
+    """Meaning of the bounds of the fractions.
 
-    Without a parameter: ``quiet_fraction`` with its bounds ``quiet_fraction_low`` and ``quiet_fraction_high`` (starts whose end is
-    not known are in the upper one; all three are ``None`` where no end is), ``local_verdict``, ``attractors`` (each with ``words``, ``fraction``,
-    ``fraction_low``, ``fraction_high``, …), ``unknown`` and ``ends``, the place of the attractor of each start. Over a
-    parameter: ``portraits``, a list of these by ``value``.
+    Without a parameter: ``quiet_fraction`` with its bounds ``quiet_fraction_low`` and ``quiet_fraction_high`` (starts with an
+    unknown outcome count in the upper one; all three are ``None`` if no outcome is known), ``local_verdict``, ``attractors``
+    (each with ``words``, ``fraction``, ``fraction_low``, ``fraction_high``, …), ``unknown``, and ``ends``, the index of the
+    attractor of each start. Over a parameter: ``portraits``, a list of these by ``value``.
     """
 
 
@@ -449,18 +450,18 @@ class Modes(Result):
 
 
 class Resonances(Result):
-    """Where waves of a disc meet."""
+    """Meetings of the waves of a disc."""
 
     verb = "resonances"
     undithered: list[dict[str, Any]]
-    """Meetings that need no dither, as ``dithered``."""
+    """Meetings without dither, with the keys of ``dithered``."""
     dithered: list[dict[str, Any]]
     """``speed``, ``waves``, ``can_be_unstable``, ``threshold``, ``edges``, ``peak_growth`` of each meeting.
 
-    Where speeds are to be kept clear: ``clear``, with intervals of R that are ``clear`` and ``blocked``, the best R
-    (``suggestion``) with its ``verified_growth_rate``, what the exact equations say of it (``verified``: ``verdict``,
-    which is "stable" where nothing grows, "unstable" or "undecided", ``growth_rate``, ``growth_rate_error`` and the
-    ``speed`` of it; or None, and ``why``), and the meetings that are ``there``, each with ``reaches_in``.
+    If a range of speeds should be kept clear: ``clear``, with the intervals of R that are ``clear`` and ``blocked``, the best R
+    (``suggestion``) with its ``verified_growth_rate``, the result of the exact equations for it (``verified``: ``verdict``,
+    which is "stable" if nothing grows, "unstable" or "undecided", ``growth_rate``, ``growth_rate_error`` and its
+    ``speed``; or ``None``, and ``why``), and the meetings in the range, ``there``, each with ``reaches_in``.
     """
 
 
@@ -473,7 +474,7 @@ class Map(Result, Mapping[str, Any]):
     points: int
     """Number of points."""
     resumed_points: int
-    """Points that were in the store already."""
+    """Points that the store already had."""
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.arrays)
@@ -484,26 +485,26 @@ class Map(Result, Mapping[str, Any]):
     __hash__ = None  # type: ignore[assignment]
 
     def words(self, name: str) -> npt.NDArray[np.str_]:
-        """The words of a variable of words or states, such as "verdict" or "efficiency_status"."""
+        """The words of a variable with coded values, such as "verdict" or "efficiency_status"."""
         return self.arrays[name].words()
 
 
 class Shard(Result):
-    """What one of several processes computed of a map, and what is left of it."""
+    """The part of a map that one of several processes computed, and what is left."""
 
     verb = "map"
     chunks: int
     """Chunks of this shard."""
     computed_chunks: int
-    """Chunks of it that were computed now."""
+    """Chunks of this shard that were computed by this call."""
     computed_points: int
-    """Points of these."""
+    """Points of these chunks."""
     there_chunks: int
-    """Chunks that the store had already."""
+    """Chunks of this shard that the store already had."""
     left_chunks: int
-    """Chunks of the whole map that are not there yet."""
+    """Chunks of the whole map that are missing."""
     left_shards: list[int]
-    """Shards, of as many, that have them."""
+    """Shards that have the missing chunks."""
 
     def __init__(self, study: Study, facts: dict[str, Any]) -> None:
         super().__init__(study, None)
@@ -511,5 +512,5 @@ class Shard(Result):
         self._arrays = _dataset.arrays(self.verb, facts, [])
 
     def save(self, path: str | os.PathLike[str]) -> list[str]:
-        """Refuses: the chunks are in the store, and the table is that of the whole map."""
+        """Raises an error: the chunks are in the store, and only the whole map has a table."""
         raise StudyError([complaint("save", None, "a shard has no table: read the map with resume=True", "usage")])

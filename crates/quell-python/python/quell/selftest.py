@@ -1,7 +1,7 @@
-"""``python -m quell.selftest``: an installation against reference numbers, in a few seconds.
+"""``python -m quell.selftest``: compares an installation with reference numbers, in a few seconds.
 
-The numbers were computed by programs written independently of Quell and confirmed by a second method; tolerances are
-those of the project's own tests. Nothing but NumPy is needed.
+The numbers were computed by programs written independently of Quell and confirmed by a second method. The tolerances are
+those of the project's tests. Only NumPy is needed.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ __all__ = ["Outcome", "main", "run"]
 
 
 class Outcome(NamedTuple):
-    """What a check found."""
+    """The outcome of a check."""
 
     name: str
-    """What was checked."""
+    """Name of the check."""
     compared: int
-    """Numbers that were compared."""
+    """Number of compared values."""
     worst: float
-    """Largest deviation, as a share of what is allowed."""
+    """Largest deviation, as a fraction of the allowed one."""
     failures: list[str]
-    """What deviates, in words."""
+    """Descriptions of the deviations."""
     seconds: float
-    """How long it took."""
+    """Duration in seconds."""
 
 
 class Sheet:
@@ -41,7 +41,7 @@ class Sheet:
         self.failures: list[str] = []
 
     def number(self, what: str, found: float, wanted: float, allowed: float) -> None:
-        """``found`` within ``allowed`` of ``wanted``."""
+        """Requires ``found`` to be within ``allowed`` of ``wanted``."""
         share = abs(found - wanted) / allowed
         self.compared += 1
         self.worst = max(self.worst, share)
@@ -49,7 +49,7 @@ class Sheet:
             self.failures.append(f"{what}: {found!r}, reference {wanted!r}, allowed ±{allowed:g}")
 
     def same(self, what: str, found: object, wanted: object) -> None:
-        """The same word or count."""
+        """Requires the same word or count."""
         self.compared += 1
         if found != wanted:
             self.failures.append(f"{what}: {found!r}, reference {wanted!r}")
@@ -64,7 +64,7 @@ def reference(name: str) -> Any:
 
 
 def trajectories(sheet: Sheet) -> None:
-    """Event times, kinds and states: within 1e-9, none missed, none added."""
+    """Event times, kinds and states: within 1e-9, no event missing, no event added."""
     kinds = {"stick_start": "stick", "stick_end": "release"}
     for case in reference("trajectories")["cases"]:
         p = {name: float(value) for name, value in case["params"].items()}
@@ -88,7 +88,7 @@ def trajectories(sheet: Sheet) -> None:
         name = case["name"]
         sheet.same(f"{name}, events", run.event_count, case["n_events_to_50"])
         sheet.same(f"{name}, sticking", run.final["sticking"], case["sticking_at_50"])
-        for event, wanted in zip(run.events, case["first_events"]):  # noqa: B905  only the first are printed
+        for event, wanted in zip(run.events, case["first_events"]):  # noqa: B905  the reference has only the first events
             sheet.same(f"{name}, kind", event["kind"], kinds.get(wanted["type"], "reversal"))
             sheet.number(f"{name}, time", event["time"], float(wanted["t"]), 1e-9)
             sheet.number(f"{name}, place", event["displacement"], float(wanted["x"]), 1e-9)
@@ -101,7 +101,7 @@ def averages(sheet: Sheet) -> None:
     """Effective friction to 1e-11 and its slope to 1e-9, relative; 1e-14 where they are zero."""
     for it in reference("averaging")["tangential"]:
         if it.get("at_corner"):
-            continue  # a product of two rounded numbers need not hit the corner
+            continue  # a product of two rounded numbers need not equal the corner
         alpha, v = it["alpha_over_vm"] * 0.2, it["vr_over_vm"] * 0.2
         curve = belt_of(it["law"], it["wave"], alpha).friction([v])
         wanted, slope = float(it["mubar"]), float(it["dmubar"])
@@ -113,7 +113,7 @@ def averages(sheet: Sheet) -> None:
 
 
 def belt_of(law: str, wave: str, alpha: float) -> quell.Belt:
-    """A belt under dither of this α; R is a power of two, so that D/R is α again."""
+    """A belt under dither of this α; R is a power of two, so that D/R equals α exactly."""
     return quell.Belt(
         damping_ratio=0.0,
         normal_load=1.0,
@@ -126,7 +126,7 @@ def belt_of(law: str, wave: str, alpha: float) -> quell.Belt:
 
 
 def disc_of(model: Any, point: Any, strengths: tuple[float, float, float], dither: quell.Dither | None) -> quell.Disc:
-    """The disc of a reference point, its modes listed."""
+    """The disc of a reference point, with listed modes."""
     modes = zip(model["beta"], model["q"], model["phi_r0"], strict=True)
     mass, damping, stiffness = strengths
     parts = ["circulatory-damping"] if point.get("damp") == "diag" else None
@@ -148,7 +148,7 @@ def disc_of(model: Any, point: Any, strengths: tuple[float, float, float], dithe
 
 
 def discs(sheet: Sheet) -> None:
-    """Growth rates of discs: 1e-12 without dither, 1e-9 with it, and within the bound that is told."""
+    """Growth rates of discs: 1e-12 without dither, 1e-9 with it, and within the reported bound."""
     eigenvalues = reference("disc_eigenvalues")
     for point in eigenvalues["points"]:
         strengths = tuple(float(point[name]) for name in ("m", "c", "k"))
@@ -162,7 +162,7 @@ def discs(sheet: Sheet) -> None:
         strength = float(point["m=c=k"])
         model = eigenvalues["models"][point["model"]]
         disc = disc_of(model, point, (strength, strength, strength), dither)
-        # A map of one point: the growth rate alone, without the frictions at which it changes its sign.
+        # A map of one point computes only the growth rate, without the frictions at which its sign changes.
         growth = disc.map("growth", {"disc.load.speed": [float(point["Omega"])]}, threads=1)
         name = f"disc {point['model']}, {point['dither']} dither, Ω = {point['Omega']}"
         sheet.number(name, float(growth.arrays["growth"].values[0]), float(point["max_re_exponent"]), 1e-9)
@@ -222,7 +222,7 @@ def run() -> Iterator[Outcome]:
 
 
 def main() -> int:
-    """Runs every check and tells; 0 where all of them passed."""
+    """Runs every check and prints the outcomes; returns 0 if all passed."""
     print(f"quell {quell.__version__}, Python {sys.version.split()[0]}, {sys.platform}")
     outcomes = []
     for outcome in run():
