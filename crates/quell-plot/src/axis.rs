@@ -12,7 +12,7 @@ pub enum Scale {
 
 /// Which part of a coordinate is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Range {
+pub enum AxisRange {
     /// What the layers need, with a little air.
     #[default]
     Auto,
@@ -28,7 +28,7 @@ pub enum Range {
 ///
 /// It prints as `name symbol (unit)`, with the symbol in italics: `slip velocity v_r (m/s)`.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Axis {
+pub struct PlotAxis {
     /// The quantity in words; may hold `$…$`.
     pub name: String,
     /// Its symbol, written as between dollars, e.g. `v_r`; empty for none.
@@ -38,12 +38,12 @@ pub struct Axis {
     /// Linear or logarithmic.
     pub scale: Scale,
     /// What is shown.
-    pub range: Range,
+    pub range: AxisRange,
     /// Values to label in place of those found by themselves.
     pub ticks: Option<Vec<f64>>,
 }
 
-impl Axis {
+impl PlotAxis {
     /// A linear axis of the quantity with this name.
     #[must_use]
     pub fn new(name: impl Into<String>) -> Self {
@@ -71,24 +71,24 @@ impl Axis {
         self
     }
 
-    /// Shows exactly this stretch.
+    /// Shows exactly this limits.
     #[must_use]
     pub fn between(mut self, lower: f64, upper: f64) -> Self {
-        self.range = Range::Between(lower, upper);
+        self.range = AxisRange::Between(lower, upper);
         self
     }
 
     /// Starts at this value.
     #[must_use]
     pub fn from(mut self, lower: f64) -> Self {
-        self.range = Range::From(lower);
+        self.range = AxisRange::From(lower);
         self
     }
 
     /// Ends at this value.
     #[must_use]
     pub fn up_to(mut self, upper: f64) -> Self {
-        self.range = Range::UpTo(upper);
+        self.range = AxisRange::UpTo(upper);
         self
     }
 
@@ -114,15 +114,15 @@ impl Axis {
         words.join(" ")
     }
 
-    /// The stretch to show, when the layers reach over `extent` (nothing when there are none).
+    /// The limits to show, when the layers reach over `extent` (nothing when there are none).
     ///
     /// `air` is the share of the length added at an end that the layers decide.
-    pub(super) fn stretch(&self, extent: Option<(f64, f64)>, air: f64) -> (f64, f64) {
+    pub(super) fn limits(&self, extent: Option<(f64, f64)>, air: f64) -> (f64, f64) {
         let (fixed_lower, fixed_upper) = match self.range {
-            Range::Auto => (None, None),
-            Range::Between(lower, upper) => (Some(lower), Some(upper)),
-            Range::From(lower) => (Some(lower), None),
-            Range::UpTo(upper) => (None, Some(upper)),
+            AxisRange::Auto => (None, None),
+            AxisRange::Between(lower, upper) => (Some(lower), Some(upper)),
+            AxisRange::From(lower) => (Some(lower), None),
+            AxisRange::UpTo(upper) => (None, Some(upper)),
         };
         let usable =
             |value: &f64| value.is_finite() && (self.scale == Scale::Linear || *value > 0.0);
@@ -212,7 +212,7 @@ impl Axis {
     }
 }
 
-/// An axis with its stretch and its pixels: takes values to the picture.
+/// An axis with its limits and its pixels: takes values to the picture.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Mapping {
     scale: Scale,
@@ -220,14 +220,14 @@ pub(super) struct Mapping {
     slope: f64,
     first_pixel: f64,
     /// Least and greatest value shown.
-    pub(super) stretch: (f64, f64),
+    pub(super) limits: (f64, f64),
 }
 
 impl Mapping {
-    pub(super) fn new(axis: &Axis, stretch: (f64, f64), pixels: (f64, f64)) -> Self {
-        let origin = axis.along(stretch.0);
-        let slope = (pixels.1 - pixels.0) / (axis.along(stretch.1) - origin);
-        Self { scale: axis.scale, origin, slope, first_pixel: pixels.0, stretch }
+    pub(super) fn new(axis: &PlotAxis, limits: (f64, f64), pixels: (f64, f64)) -> Self {
+        let origin = axis.along(limits.0);
+        let slope = (pixels.1 - pixels.0) / (axis.along(limits.1) - origin);
+        Self { scale: axis.scale, origin, slope, first_pixel: pixels.0, limits }
     }
 
     /// Position on the axis, before scaling, of a pixel.
@@ -259,22 +259,22 @@ mod tests {
 
     #[test]
     fn ends_settle_on_round_values_and_zero() {
-        let axis = Axis::new("time");
-        assert_eq!(axis.stretch(Some((0.0, 99.999)), 0.0), (0.0, 100.0));
-        assert_eq!(axis.stretch(Some((0.0, 93.0)), 0.0), (0.0, 93.0));
-        assert_eq!(axis.clone().up_to(50.0).stretch(Some((-1.0, 99.0)), 0.0).1, 50.0);
+        let axis = PlotAxis::new("time");
+        assert_eq!(axis.limits(Some((0.0, 99.999)), 0.0), (0.0, 100.0));
+        assert_eq!(axis.limits(Some((0.0, 93.0)), 0.0), (0.0, 93.0));
+        assert_eq!(axis.clone().up_to(50.0).limits(Some((-1.0, 99.0)), 0.0).1, 50.0);
     }
 
     #[test]
     fn every_stretch_has_a_length() {
         for axis in [
-            Axis::new("x"),
-            Axis::new("x").log(),
-            Axis::new("x").from(5.0),
-            Axis::new("x").between(2.0, 2.0),
+            PlotAxis::new("x"),
+            PlotAxis::new("x").log(),
+            PlotAxis::new("x").from(5.0),
+            PlotAxis::new("x").between(2.0, 2.0),
         ] {
             for extent in [None, Some((3.0, 3.0)), Some((1e-300, 1e-300)), Some((0.5, 1.0))] {
-                let (lower, upper) = axis.stretch(extent, 0.05);
+                let (lower, upper) = axis.limits(extent, 0.05);
                 assert!(
                     lower < upper && lower.is_finite() && upper.is_finite(),
                     "{axis:?} {extent:?}"
@@ -285,12 +285,12 @@ mod tests {
 
     #[test]
     fn a_reversed_stretch_is_turned() {
-        assert_eq!(Axis::new("x").between(3.0, 1.0).stretch(Some((0.0, 9.0)), 0.1), (1.0, 3.0));
+        assert_eq!(PlotAxis::new("x").between(3.0, 1.0).limits(Some((0.0, 9.0)), 0.1), (1.0, 3.0));
     }
 
     #[test]
     fn what_is_not_positive_has_no_place_on_a_log_axis() {
-        let mapping = Mapping::new(&Axis::new("x").log(), (1.0, 100.0), (0.0, 200.0));
+        let mapping = Mapping::new(&PlotAxis::new("x").log(), (1.0, 100.0), (0.0, 200.0));
         assert_eq!(mapping.pixel(0.0), None);
         assert!((mapping.pixel(10.0).unwrap_or(f64::NAN) - 100.0).abs() < 1e-9);
     }

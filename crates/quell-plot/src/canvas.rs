@@ -9,7 +9,7 @@ use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 use super::fonts::FAMILY;
 use super::palette::{Colour, FRAME};
 use super::tspan::Tags;
-use super::typeset::Label;
+use super::typeset::RichText;
 
 /// Stands for the picture's own name in identifiers until its contents are known.
 const PICTURE_NAME: &str = "quell-picture";
@@ -58,23 +58,23 @@ impl Stroke {
 
 /// How a text is set.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Setting {
+pub(super) struct TextStyle {
     pub(super) size: u32,
     pub(super) anchor: TextAnchor,
     pub(super) bold: bool,
     pub(super) colour: Colour,
     /// Turn about its place, clockwise in degrees.
-    pub(super) turn: f64,
+    pub(super) rotation: f64,
 }
 
-impl Setting {
+impl TextStyle {
     pub(super) fn new(size: u32, anchor: TextAnchor) -> Self {
-        Self { size, anchor, bold: false, colour: FRAME, turn: 0.0 }
+        Self { size, anchor, bold: false, colour: FRAME, rotation: 0.0 }
     }
 
     /// Turned clockwise by so many degrees.
-    pub(super) fn turned(self, turn: f64) -> Self {
-        Self { turn, ..self }
+    pub(super) fn rotated(self, rotation: f64) -> Self {
+        Self { rotation, ..self }
     }
 }
 
@@ -93,7 +93,7 @@ impl Canvas {
         Self { scene, tags: Tags::default(), clips: 0, hatches: Vec::new(), images: Vec::new() }
     }
 
-    pub(super) fn text(&mut self, label: &Label, (x, y): (f64, f64), setting: Setting) {
+    pub(super) fn text(&mut self, label: &RichText, (x, y): (f64, f64), setting: TextStyle) {
         if label.is_empty() {
             return;
         }
@@ -103,7 +103,7 @@ impl Canvas {
             content: label.encode(&mut self.tags),
             size: setting.size,
             anchor: setting.anchor,
-            rotate: (setting.turn != 0.0).then_some(setting.turn),
+            rotate: (setting.rotation != 0.0).then_some(setting.rotation),
             bold: setting.bold,
             color: Some(paint(setting.colour)),
         });
@@ -136,11 +136,11 @@ impl Canvas {
         let number = known.unwrap_or_else(|| {
             self.hatches.push((colour, style));
             let number = self.hatches.len() - 1;
-            let turn = if style == 1 { -45 } else { 45 };
+            let rotation = if style == 1 { -45 } else { 45 };
             let strokes = if style == 2 { "M3.5 -1V8M-1 3.5H8" } else { "M3.5 -1V8" };
             self.scene.defs.push(format!(
                 "<pattern id=\"{PICTURE_NAME}-hatch{number}\" patternUnits=\"userSpaceOnUse\" \
-                 width=\"7\" height=\"7\" patternTransform=\"rotate({turn})\"><path d=\"{strokes}\" \
+                 width=\"7\" height=\"7\" patternTransform=\"rotate({rotation})\"><path d=\"{strokes}\" \
                  stroke=\"{}\" stroke-width=\"0.8\" stroke-opacity=\"0.6\" /></pattern>",
                 paint(colour).to_svg_string()
             ));

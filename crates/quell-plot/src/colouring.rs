@@ -1,7 +1,7 @@
 //! Colouring: which colour a value of a map has.
 
-use super::axis::{Axis, Scale};
-use super::palette::{Colour, Role};
+use super::axis::{PlotAxis, Scale};
+use super::palette::{Colour, PlotRole};
 use super::shades::{Palette, tint};
 
 /// How numbers are spread over a palette.
@@ -21,7 +21,7 @@ pub enum Spread {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tint {
     /// What it stands for.
-    pub role: Role,
+    pub role: PlotRole,
     /// Text in the legend.
     pub label: String,
 }
@@ -29,7 +29,7 @@ pub struct Tint {
 impl Tint {
     /// A tint of this role.
     #[must_use]
-    pub fn new(role: Role, label: impl Into<String>) -> Self {
+    pub fn new(role: PlotRole, label: impl Into<String>) -> Self {
         Self { role, label: label.into() }
     }
 
@@ -107,13 +107,13 @@ pub(super) const CLEAR: u8 = 255;
 
 /// A colouring for the values of one map.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Paintbox {
+pub(super) struct ColourMap {
     colouring: Colouring,
     /// Values at the ends of the palette.
     pub(super) range: (f64, f64),
 }
 
-impl Paintbox {
+impl ColourMap {
     /// The colouring when values lie between these extremes.
     pub(super) fn new(colouring: &Colouring, extremes: Option<(f64, f64)>) -> Self {
         let range = match colouring {
@@ -146,7 +146,7 @@ impl Paintbox {
     }
 
     /// Place of a value's colour in the image.
-    pub(super) fn ink(&self, value: f64) -> u8 {
+    pub(super) fn index(&self, value: f64) -> u8 {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -167,18 +167,18 @@ impl Paintbox {
     }
 
     /// All colours of the image, in order; the last is clear.
-    pub(super) fn inks(&self) -> Vec<Colour> {
-        let mut inks = match &self.colouring {
+    pub(super) fn colours(&self) -> Vec<Colour> {
+        let mut colours = match &self.colouring {
             Colouring::Outcomes(outcomes) => {
                 outcomes.iter().take(SHADES).map(Tint::colour).collect()
             }
             Colouring::Shaded(shading) => shading.palette.shades(SHADES),
         };
-        inks.resize(usize::from(CLEAR) + 1, (255, 255, 255));
+        colours.resize(usize::from(CLEAR) + 1, (255, 255, 255));
         if let Colouring::Shaded(Shading { below: Some((_, tint)), .. }) = &self.colouring {
-            inks[usize::from(BELOW)] = tint.colour();
+            colours[usize::from(BELOW)] = tint.colour();
         }
-        inks
+        colours
     }
 
     /// Whether values below and above the palette's ends have its end colours.
@@ -192,11 +192,11 @@ impl Paintbox {
     }
 
     /// The axis of the colour bar.
-    pub(super) fn axis(&self, quantity: &Axis) -> Axis {
+    pub(super) fn axis(&self, quantity: &PlotAxis) -> PlotAxis {
         let axis = quantity.clone().between(self.range.0, self.range.1);
         match self.spread() {
             Spread::Log => axis.log(),
-            _ => Axis { scale: Scale::Linear, ..axis },
+            _ => PlotAxis { scale: Scale::Linear, ..axis },
         }
     }
 
@@ -233,27 +233,27 @@ fn range_of(shading: &Shading, extremes: Option<(f64, f64)>) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    fn paintbox(shading: Shading, extremes: (f64, f64)) -> Paintbox {
-        Paintbox::new(&Colouring::Shaded(shading), Some(extremes))
+    fn colour_map(shading: Shading, extremes: (f64, f64)) -> ColourMap {
+        ColourMap::new(&Colouring::Shaded(shading), Some(extremes))
     }
 
     #[test]
     fn zero_lies_in_the_middle_of_a_diverging_palette() {
         for spread in [Spread::Linear, Spread::SignedLog(1e-3)] {
             let shading = Shading::new(Palette::Diverging).spread(spread);
-            let paints = paintbox(shading, (-0.2, 3.0));
-            assert_eq!(paints.range, (-3.0, 3.0));
-            assert!((paints.share(0.0) - 0.5).abs() < 1e-15);
-            assert!((paints.share(0.7) + paints.share(-0.7) - 1.0).abs() < 1e-15);
-            assert_eq!((paints.share(3.0), paints.share(-9.0)), (1.0, 0.0));
+            let colour_map = colour_map(shading, (-0.2, 3.0));
+            assert_eq!(colour_map.range, (-3.0, 3.0));
+            assert!((colour_map.share(0.0) - 0.5).abs() < 1e-15);
+            assert!((colour_map.share(0.7) + colour_map.share(-0.7) - 1.0).abs() < 1e-15);
+            assert_eq!((colour_map.share(3.0), colour_map.share(-9.0)), (1.0, 0.0));
         }
     }
 
     #[test]
     fn ratios_are_equal_on_a_log_spread() {
-        let paints = paintbox(Shading::default().spread(Spread::Log), (1e-4, 1.0));
-        assert!((paints.share(1e-2) - 0.5).abs() < 1e-12);
-        assert_eq!(paints.share(-1.0), 0.0);
+        let colour_map = colour_map(Shading::default().spread(Spread::Log), (1e-4, 1.0));
+        assert!((colour_map.share(1e-2) - 0.5).abs() < 1e-12);
+        assert_eq!(colour_map.share(-1.0), 0.0);
     }
 
     #[test]
@@ -261,9 +261,9 @@ mod tests {
         for extremes in [(0.0, 0.0), (3.0, 3.0), (-1e308, 1e308), (-2.0, -1.0)] {
             for spread in [Spread::Linear, Spread::Log, Spread::SignedLog(1.0)] {
                 for palette in [Palette::Viridis, Palette::Diverging] {
-                    let paints = paintbox(Shading::new(palette).spread(spread), extremes);
-                    assert!(paints.range.0 < paints.range.1, "{extremes:?} {spread:?}");
-                    assert!(paints.share(0.3).is_finite());
+                    let colour_map = colour_map(Shading::new(palette).spread(spread), extremes);
+                    assert!(colour_map.range.0 < colour_map.range.1, "{extremes:?} {spread:?}");
+                    assert!(colour_map.share(0.3).is_finite());
                 }
             }
         }
@@ -271,20 +271,23 @@ mod tests {
 
     #[test]
     fn what_lies_below_the_scale_can_have_its_own_colour() {
-        let tint = Tint::new(Role::Unstable, "worse");
-        let paints =
-            paintbox(Shading::new(Palette::Pale).range(0.0, 1.0).below(0.0, tint), (-1.0, 2.0));
-        assert_eq!(paints.ink(-0.1), BELOW);
-        assert_eq!(paints.ink(0.0), 0);
-        assert_eq!(usize::from(paints.ink(5.0)), SHADES - 1);
-        assert_eq!(paints.overflows(Some((-1.0, 2.0))), (false, true));
-        assert_eq!(paints.inks().len(), 256);
+        let tint = Tint::new(PlotRole::Unstable, "worse");
+        let colour_map =
+            colour_map(Shading::new(Palette::Pale).range(0.0, 1.0).below(0.0, tint), (-1.0, 2.0));
+        assert_eq!(colour_map.index(-0.1), BELOW);
+        assert_eq!(colour_map.index(0.0), 0);
+        assert_eq!(usize::from(colour_map.index(5.0)), SHADES - 1);
+        assert_eq!(colour_map.overflows(Some((-1.0, 2.0))), (false, true));
+        assert_eq!(colour_map.colours().len(), 256);
     }
 
     #[test]
     fn an_outcome_that_is_not_listed_is_not_printed() {
-        let outcomes = Colouring::Outcomes(vec![Tint::new(Role::Stable, "stable")]);
-        let paints = Paintbox::new(&outcomes, Some((0.0, 1.0)));
-        assert_eq!((paints.ink(0.0), paints.ink(1.0), paints.ink(-1.0)), (0, CLEAR, CLEAR));
+        let outcomes = Colouring::Outcomes(vec![Tint::new(PlotRole::Stable, "stable")]);
+        let colour_map = ColourMap::new(&outcomes, Some((0.0, 1.0)));
+        assert_eq!(
+            (colour_map.index(0.0), colour_map.index(1.0), colour_map.index(-1.0)),
+            (0, CLEAR, CLEAR)
+        );
     }
 }

@@ -1,6 +1,6 @@
 //! Figures and panels: what a picture consists of.
 
-use super::axis::Axis;
+use super::axis::PlotAxis;
 use super::layer::Layer;
 
 /// Where the legend of one panel stands.
@@ -12,14 +12,14 @@ pub enum Legend {
     /// Nowhere.
     None,
     /// At this place inside the frame, whatever it covers.
-    Inside(Place),
+    Inside(LegendPosition),
     /// In lines between the title and the frame.
     Above,
 }
 
 /// A place inside the frame of a panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
+pub enum LegendPosition {
     /// Upper right corner.
     TopRight,
     /// Upper left corner.
@@ -44,9 +44,9 @@ pub struct Panel {
     /// Text above the frame, e.g. `(a) $D$ = 0.3`.
     pub title: String,
     /// Horizontal axis.
-    pub x: Axis,
+    pub x: PlotAxis,
     /// Vertical axis.
-    pub y: Axis,
+    pub y: PlotAxis,
     /// What is drawn: regions below, then rules, lines, points and notes, each kind in this order.
     pub layers: Vec<Layer>,
     /// Where the legend stands; unused when the figure has a shared one.
@@ -56,7 +56,7 @@ pub struct Panel {
 impl Panel {
     /// An empty panel.
     #[must_use]
-    pub fn new(x: Axis, y: Axis) -> Self {
+    pub fn new(x: PlotAxis, y: PlotAxis) -> Self {
         Self { x, y, ..Self::default() }
     }
 

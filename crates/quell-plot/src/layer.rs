@@ -1,13 +1,13 @@
 //! Layers of a panel: curves, points, regions, rules and notes.
 
-use super::map_layers::{Contours, Grid};
-use super::palette::{LineStyle, Role};
+use super::map_layers::{Contours, Heatmap};
+use super::palette::{LineStyle, PlotRole};
 
 /// A curve, perhaps in several pieces, under one entry of the legend.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct Polyline {
     /// What the curve stands for.
-    pub role: Role,
+    pub role: PlotRole,
     /// The pieces, each a list of (x, y); no stroke leads from one piece to the next.
     pub pieces: Vec<Vec<(f64, f64)>>,
     /// Dashes, where the role's own are not wanted.
@@ -18,16 +18,16 @@ pub struct Line {
     pub label: String,
 }
 
-impl Line {
+impl Polyline {
     /// A curve through these points. A point that is not finite ends one piece.
     #[must_use]
-    pub fn new(role: Role, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+    pub fn new(role: PlotRole, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Self::pieces(role, [points])
     }
 
     /// A curve of several pieces: a discontinuity stays open between them.
     #[must_use]
-    pub fn pieces<Piece>(role: Role, pieces: impl IntoIterator<Item = Piece>) -> Self
+    pub fn pieces<Piece>(role: PlotRole, pieces: impl IntoIterator<Item = Piece>) -> Self
     where
         Piece: IntoIterator<Item = (f64, f64)>,
     {
@@ -86,7 +86,7 @@ pub enum Marker {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Points {
     /// What the points stand for.
-    pub role: Role,
+    pub role: PlotRole,
     /// The points (x, y).
     pub points: Vec<(f64, f64)>,
     /// Their shape.
@@ -100,7 +100,7 @@ pub struct Points {
 impl Points {
     /// Discs of 5 pixels at these points; a point that is not finite is left out.
     #[must_use]
-    pub fn new(role: Role, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+    pub fn new(role: PlotRole, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let points = points.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
         Self { role, points, marker: Marker::Disc, size: 5.0, label: String::new() }
     }
@@ -152,7 +152,7 @@ impl Fill {
 
 /// What a region covers.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Shape {
+pub enum RegionShape {
     /// The inside of a closed polygon of (x, y).
     Polygon(Vec<(f64, f64)>),
     /// All y while x is between two values; infinite values reach the frame.
@@ -165,9 +165,9 @@ pub enum Shape {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Region {
     /// What the region stands for.
-    pub role: Role,
+    pub role: PlotRole,
     /// What it covers.
-    pub shape: Shape,
+    pub shape: RegionShape,
     /// How it is filled.
     pub fill: Fill,
     /// Text in the legend; empty for no entry.
@@ -177,15 +177,15 @@ pub struct Region {
 impl Region {
     /// The inside of a polygon; it closes itself.
     #[must_use]
-    pub fn polygon(role: Role, corners: impl IntoIterator<Item = (f64, f64)>) -> Self {
+    pub fn polygon(role: PlotRole, corners: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let corners = corners.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
-        Self::of(role, Shape::Polygon(corners))
+        Self::of(role, RegionShape::Polygon(corners))
     }
 
     /// What lies between two curves, each given from left to right; their x need not be the same.
     #[must_use]
     pub fn between(
-        role: Role,
+        role: PlotRole,
         lower: impl IntoIterator<Item = (f64, f64)>,
         upper: impl IntoIterator<Item = (f64, f64)>,
     ) -> Self {
@@ -196,17 +196,17 @@ impl Region {
 
     /// The vertical strip between two x.
     #[must_use]
-    pub fn across_x(role: Role, from: f64, to: f64) -> Self {
-        Self::of(role, Shape::AcrossX(from, to))
+    pub fn across_x(role: PlotRole, from: f64, to: f64) -> Self {
+        Self::of(role, RegionShape::AcrossX(from, to))
     }
 
     /// The horizontal strip between two y.
     #[must_use]
-    pub fn across_y(role: Role, from: f64, to: f64) -> Self {
-        Self::of(role, Shape::AcrossY(from, to))
+    pub fn across_y(role: PlotRole, from: f64, to: f64) -> Self {
+        Self::of(role, RegionShape::AcrossY(from, to))
     }
 
-    fn of(role: Role, shape: Shape) -> Self {
+    fn of(role: PlotRole, shape: RegionShape) -> Self {
         Self { role, shape, fill: Fill::Shade, label: String::new() }
     }
 
@@ -227,7 +227,7 @@ impl Region {
 
 /// Direction of a rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Direction {
+pub enum Orientation {
     /// At one x, from bottom to top.
     Vertical,
     /// At one y, from left to right.
@@ -236,11 +236,11 @@ pub enum Direction {
 
 /// A straight line through the whole panel, at one value.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rule {
+pub struct ReferenceLine {
     /// What the rule stands for.
-    pub role: Role,
+    pub role: PlotRole,
     /// Upright or level.
-    pub direction: Direction,
+    pub orientation: Orientation,
     /// The x of an upright rule, the y of a level one.
     pub value: f64,
     /// Dashes, where the role's own are not wanted.
@@ -249,26 +249,26 @@ pub struct Rule {
     pub label: String,
 }
 
-impl Rule {
+impl ReferenceLine {
     /// A thin dotted grey line at this x.
     #[must_use]
     pub fn vertical(x: f64) -> Self {
-        Self::of(Direction::Vertical, x)
+        Self::of(Orientation::Vertical, x)
     }
 
     /// A thin dotted grey line at this y.
     #[must_use]
     pub fn horizontal(y: f64) -> Self {
-        Self::of(Direction::Horizontal, y)
+        Self::of(Orientation::Horizontal, y)
     }
 
-    fn of(direction: Direction, value: f64) -> Self {
-        Self { role: Role::Guide, direction, value, style: None, label: String::new() }
+    fn of(orientation: Orientation, value: f64) -> Self {
+        Self { role: PlotRole::Guide, orientation, value, style: None, label: String::new() }
     }
 
     /// What the rule stands for.
     #[must_use]
-    pub fn role(mut self, role: Role) -> Self {
+    pub fn role(mut self, role: PlotRole) -> Self {
         self.role = role;
         self
     }
@@ -296,7 +296,7 @@ pub struct Note {
     /// The text.
     pub text: String,
     /// Colour of this role in place of black.
-    pub role: Option<Role>,
+    pub role: Option<PlotRole>,
 }
 
 impl Note {
@@ -308,7 +308,7 @@ impl Note {
 
     /// Prints in the colour of this role.
     #[must_use]
-    pub fn role(mut self, role: Role) -> Self {
+    pub fn role(mut self, role: PlotRole) -> Self {
         self.role = Some(role);
         self
     }
@@ -319,17 +319,17 @@ impl Note {
 #[non_exhaustive]
 pub enum Layer {
     /// A curve.
-    Line(Line),
+    Polyline(Polyline),
     /// Points.
     Points(Points),
     /// A part of the plane.
     Region(Region),
     /// A line at one value.
-    Rule(Rule),
+    ReferenceLine(ReferenceLine),
     /// A text.
     Note(Note),
     /// A field as colours.
-    Grid(Grid),
+    Heatmap(Heatmap),
     /// Isolines of a field.
     Contours(Contours),
 }
@@ -343,13 +343,13 @@ macro_rules! layer_from {
         }
     )*};
 }
-layer_from!(Line, Points, Region, Rule, Note, Grid, Contours);
+layer_from!(Polyline, Points, Region, ReferenceLine, Note, Heatmap, Contours);
 
 impl Layer {
     /// Hands every (x, y) that asks for room on the axes to `visit`; a strip or a rule asks in one coordinate only.
     pub(super) fn each_extent(&self, mut visit: impl FnMut(Option<f64>, Option<f64>)) {
         match self {
-            Self::Line(line) => {
+            Self::Polyline(line) => {
                 for &(x, y) in line.pieces.iter().flatten() {
                     visit(Some(x), Some(y));
                 }
@@ -360,26 +360,26 @@ impl Layer {
                 }
             }
             Self::Region(region) => match &region.shape {
-                Shape::Polygon(corners) => {
+                RegionShape::Polygon(corners) => {
                     for &(x, y) in corners {
                         visit(Some(x), Some(y));
                     }
                 }
-                Shape::AcrossX(from, to) => {
+                RegionShape::AcrossX(from, to) => {
                     visit(Some(*from), None);
                     visit(Some(*to), None);
                 }
-                Shape::AcrossY(from, to) => {
+                RegionShape::AcrossY(from, to) => {
                     visit(None, Some(*from));
                     visit(None, Some(*to));
                 }
             },
-            Self::Rule(rule) => match rule.direction {
-                Direction::Vertical => visit(Some(rule.value), None),
-                Direction::Horizontal => visit(None, Some(rule.value)),
+            Self::ReferenceLine(rule) => match rule.orientation {
+                Orientation::Vertical => visit(Some(rule.value), None),
+                Orientation::Horizontal => visit(None, Some(rule.value)),
             },
             Self::Note(note) => visit(Some(note.at.0), Some(note.at.1)),
-            Self::Grid(Grid { field, .. }) | Self::Contours(Contours { field, .. }) => {
+            Self::Heatmap(Heatmap { field, .. }) | Self::Contours(Contours { field, .. }) => {
                 for (x, y) in field.corners() {
                     visit(Some(x), Some(y));
                 }

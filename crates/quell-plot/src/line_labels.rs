@@ -5,23 +5,23 @@
 //! else gets the number, and the line is opened there.
 
 use super::canvas::Rectangle;
-use super::typeset::Label;
+use super::typeset::RichText;
 
 /// The lines of one level in pixels.
 #[derive(Debug, Clone)]
 pub(super) struct LevelLines {
-    pub(super) text: Label,
+    pub(super) text: RichText,
     pub(super) pieces: Vec<Vec<(f64, f64)>>,
 }
 
 /// A number on a line.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Placed {
+pub(super) struct PlacedLabel {
     pub(super) level: usize,
     /// Middle of the text.
     pub(super) centre: (f64, f64),
     /// Turn, clockwise in degrees, from −90 to 90.
-    pub(super) turn: f64,
+    pub(super) rotation: f64,
     piece: usize,
     /// Stretch of the line under the text (pixels along it).
     from: f64,
@@ -39,7 +39,7 @@ const ONE_EACH: f64 = 520.0;
 
 /// Which stroke passes a pixel: nothing, one line, or what no text may cover.
 #[derive(Debug, Clone)]
-pub(super) struct Occupied {
+pub(super) struct OccupancyMap {
     frame: Rectangle,
     width: usize,
     height: usize,
@@ -49,7 +49,7 @@ pub(super) struct Occupied {
 const FREE: u32 = 0;
 const TAKEN: u32 = u32::MAX;
 
-impl Occupied {
+impl OccupancyMap {
     pub(super) fn new(frame: Rectangle) -> Self {
         #[expect(
             clippy::cast_possible_truncation,
@@ -118,9 +118,9 @@ impl Occupied {
     }
 
     /// Whether a turned rectangle lies in the frame and covers nothing but this line.
-    fn is_free(&self, stand: &Stand, half: (f64, f64), owner: u32) -> bool {
+    fn is_free(&self, candidate: &Candidate, half: (f64, f64), owner: u32) -> bool {
         let mut free = true;
-        stand.each_pixel(half, |point| {
+        candidate.each_pixel(half, |point| {
             free &= self
                 .index(point)
                 .is_some_and(|index| self.owners[index] == FREE || self.owners[index] == owner);
@@ -128,21 +128,21 @@ impl Occupied {
         free
     }
 
-    fn take(&mut self, stand: &Stand, half: (f64, f64)) {
-        stand.each_pixel(half, |point| self.mark(point, TAKEN));
+    fn take(&mut self, candidate: &Candidate, half: (f64, f64)) {
+        candidate.each_pixel(half, |point| self.mark(point, TAKEN));
     }
 }
 
 /// A place for a text: its middle and the direction in which it reads.
 #[derive(Debug, Clone, Copy)]
-struct Stand {
+struct Candidate {
     centre: (f64, f64),
     direction: (f64, f64),
     at: f64,
     cost: f64,
 }
 
-impl Stand {
+impl Candidate {
     fn each_pixel(&self, half: (f64, f64), mut visit: impl FnMut((f64, f64))) {
         #[expect(clippy::cast_possible_truncation, reason = "half the size of a text")]
         let (across, up) = (half.0.ceil() as i32, half.1.ceil() as i32);
@@ -157,47 +157,48 @@ impl Stand {
 }
 
 /// A line with the way along it.
-struct Way<'a> {
+struct MeasuredPath<'a> {
     points: &'a [(f64, f64)],
-    reached: Vec<f64>,
+    arc_length: Vec<f64>,
 }
 
-impl<'a> Way<'a> {
+impl<'a> MeasuredPath<'a> {
     fn new(points: &'a [(f64, f64)]) -> Self {
-        let mut reached = vec![0.0];
+        let mut arc_length = vec![0.0];
         for pair in points.windows(2) {
             let leg = (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
-            reached.push(reached[reached.len() - 1] + leg);
+            arc_length.push(arc_length[arc_length.len() - 1] + leg);
         }
-        Self { points, reached }
+        Self { points, arc_length }
     }
 
     fn length(&self) -> f64 {
-        self.reached.last().copied().unwrap_or(0.0)
+        self.arc_length.last().copied().unwrap_or(0.0)
     }
 
-    fn at(&self, way: f64) -> (f64, f64) {
+    fn at(&self, path: f64) -> (f64, f64) {
         let last = self.points.len() - 1;
-        let leg = self.reached.partition_point(|reached| *reached <= way).clamp(1, last.max(1));
+        let leg =
+            self.arc_length.partition_point(|arc_length| *arc_length <= path).clamp(1, last.max(1));
         let (Some(from), Some(to)) = (self.points.get(leg - 1), self.points.get(leg)) else {
             return self.points[last];
         };
-        let long = self.reached[leg] - self.reached[leg - 1];
-        let share = if long > 0.0 { (way - self.reached[leg - 1]) / long } else { 0.0 };
+        let chord = self.arc_length[leg] - self.arc_length[leg - 1];
+        let share = if chord > 0.0 { (path - self.arc_length[leg - 1]) / chord } else { 0.0 };
         (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1))
     }
 
     /// The stand of a text of this half width around a place on the line; nothing where the line
     /// bends too much.
-    fn stand(&self, at: f64, half: f64, most_bend: f64) -> Option<Stand> {
+    fn candidate(&self, at: f64, half: f64, most_bend: f64) -> Option<Candidate> {
         const SAMPLES: i32 = 8;
         let (from, to) = (self.at(at - half), self.at(at + half));
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
-        let long = dx.hypot(dy);
-        if long < 1.8 * half {
+        let chord = dx.hypot(dy);
+        if chord < 1.8 * half {
             return None;
         }
-        let mut direction = (dx / long, dy / long);
+        let mut direction = (dx / chord, dy / chord);
         let (mut bend, mut shift) = (0.0_f64, 0.0);
         for sample in 1..SAMPLES {
             let point = self.at(at - half + 2.0 * half * f64::from(sample) / f64::from(SAMPLES));
@@ -216,12 +217,16 @@ impl<'a> Way<'a> {
         }
         let off_middle = (at / self.length() - 0.5).abs();
         let cost = bend / most_bend + 0.6 * direction.1.abs() + 0.8 * off_middle;
-        Some(Stand { centre, direction, at, cost })
+        Some(Candidate { centre, direction, at, cost })
     }
 }
 
 /// Numbers on these lines.
-pub(super) fn place(levels: &[LevelLines], occupied: &mut Occupied, size: f64) -> Vec<Placed> {
+pub(super) fn place(
+    levels: &[LevelLines],
+    occupied: &mut OccupancyMap,
+    size: f64,
+) -> Vec<PlacedLabel> {
     let mut owner = FREE;
     let mut owners: Vec<Vec<u32>> = Vec::new();
     for level in levels {
@@ -239,32 +244,32 @@ pub(super) fn place(levels: &[LevelLines], occupied: &mut Occupied, size: f64) -
             continue;
         }
         let half = (0.5 * level.text.width(size, false) + MARGIN, 0.58 * size);
-        let mut ways: Vec<(usize, Way<'_>)> = level
+        let mut paths: Vec<(usize, MeasuredPath<'_>)> = level
             .pieces
             .iter()
             .enumerate()
             .filter(|(_, piece)| piece.len() > 1)
-            .map(|(piece, points)| (piece, Way::new(points)))
-            .filter(|(_, way)| way.length() > 4.0 * half.0 + 8.0)
+            .map(|(piece, points)| (piece, MeasuredPath::new(points)))
+            .filter(|(_, path)| path.length() > 4.0 * half.0 + 8.0)
             .collect();
-        ways.sort_by(|one, other| other.1.length().total_cmp(&one.1.length()));
+        paths.sort_by(|one, other| other.1.length().total_cmp(&one.1.length()));
         let mut count = 0;
-        for (piece, way) in &ways {
-            for (from, to) in parts(way.length()) {
+        for (piece, path) in &paths {
+            for (from, to) in parts(path.length()) {
                 if count == MOST {
                     break;
                 }
                 let owner = owners[number][*piece];
-                if let Some(stand) = best(way, (from, to), half, owner, occupied, size) {
-                    occupied.take(&stand, (half.0 + 2.0, half.1 + 1.0));
+                if let Some(candidate) = best(path, (from, to), half, owner, occupied, size) {
+                    occupied.take(&candidate, (half.0 + 2.0, half.1 + 1.0));
                     count += 1;
-                    placed.push(Placed {
+                    placed.push(PlacedLabel {
                         level: number,
-                        centre: stand.centre,
-                        turn: stand.direction.1.atan2(stand.direction.0).to_degrees(),
+                        centre: candidate.centre,
+                        rotation: candidate.direction.1.atan2(candidate.direction.0).to_degrees(),
                         piece: *piece,
-                        from: stand.at - half.0,
-                        to: stand.at + half.0,
+                        from: candidate.at - half.0,
+                        to: candidate.at + half.0,
                     });
                 }
             }
@@ -285,28 +290,28 @@ fn parts(length: f64) -> Vec<(f64, f64)> {
 
 /// The cheapest free place on a part of a line, first where it is straight, then where it bends.
 fn best(
-    way: &Way<'_>,
+    path: &MeasuredPath<'_>,
     (from, to): (f64, f64),
     half: (f64, f64),
     owner: u32,
-    occupied: &Occupied,
+    occupied: &OccupancyMap,
     size: f64,
-) -> Option<Stand> {
-    let (first, last) = (from.max(half.0 + 2.0), to.min(way.length() - half.0 - 2.0));
+) -> Option<Candidate> {
+    let (first, last) = (from.max(half.0 + 2.0), to.min(path.length() - half.0 - 2.0));
     for most_bend in [0.12 * size, 0.3 * size] {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "lines in a frame are some thousand pixels long"
+            reason = "lines in a frame are some thousand pixels chord"
         )]
         let count = ((last - first) / STEP).clamp(0.0, 1e4) as usize;
-        let mut stands: Vec<Stand> = (0..=count)
-            .filter_map(|step| way.stand(first + STEP * step as f64, half.0, most_bend))
+        let mut candidates: Vec<Candidate> = (0..=count)
+            .filter_map(|step| path.candidate(first + STEP * step as f64, half.0, most_bend))
             .collect();
-        stands.sort_by(|one, other| one.cost.total_cmp(&other.cost));
-        let free = |stand: &&Stand| occupied.is_free(stand, half, owner);
-        if let Some(stand) = stands.iter().find(free) {
-            return Some(*stand);
+        candidates.sort_by(|one, other| one.cost.total_cmp(&other.cost));
+        let free = |candidate: &&Candidate| occupied.is_free(candidate, half, owner);
+        if let Some(candidate) = candidates.iter().find(free) {
+            return Some(*candidate);
         }
     }
     None
@@ -316,7 +321,7 @@ fn best(
 pub(super) fn opened(
     level: usize,
     pieces: &[Vec<(f64, f64)>],
-    placed: &[Placed],
+    placed: &[PlacedLabel],
 ) -> Vec<Vec<(f64, f64)>> {
     let mut drawn = Vec::new();
     for (number, piece) in pieces.iter().enumerate() {
@@ -330,15 +335,15 @@ pub(super) fn opened(
             continue;
         }
         openings.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let way = Way::new(piece);
+        let path = MeasuredPath::new(piece);
         let mut from = 0.0;
-        for (start, end) in openings.into_iter().chain([(way.length(), 0.0)]) {
-            let within = way.reached.iter().zip(piece);
+        for (start, end) in openings.into_iter().chain([(path.length(), 0.0)]) {
+            let within = path.arc_length.iter().zip(piece);
             let inner =
                 within.filter(|(at, _)| **at > from && **at < start).map(|(_, point)| *point);
-            let mut part = vec![way.at(from)];
+            let mut part = vec![path.at(from)];
             part.extend(inner);
-            part.push(way.at(start));
+            part.push(path.at(start));
             drawn.push(part);
             from = end;
         }
@@ -353,7 +358,7 @@ mod tests {
     const FRAME: Rectangle = Rectangle { left: 0.0, top: 0.0, right: 400.0, bottom: 300.0 };
 
     fn level(text: &str, pieces: Vec<Vec<(f64, f64)>>) -> LevelLines {
-        LevelLines { text: Label::parse(text), pieces }
+        LevelLines { text: RichText::parse(text), pieces }
     }
 
     fn circle(radius: f64) -> Vec<(f64, f64)> {
@@ -369,12 +374,12 @@ mod tests {
     fn every_level_with_room_has_a_number_and_none_collide() {
         let levels: Vec<LevelLines> =
             (1..=6).map(|n| level("20", vec![circle(22.0 * f64::from(n))])).collect();
-        let placed = place(&levels, &mut Occupied::new(FRAME), 10.0);
+        let placed = place(&levels, &mut OccupancyMap::new(FRAME), 10.0);
         for number in 1..levels.len() {
             assert!(placed.iter().any(|text| text.level == number), "level {number}");
         }
         for text in &placed {
-            assert!(text.turn.abs() <= 90.0);
+            assert!(text.rotation.abs() <= 90.0);
         }
         for (at, one) in placed.iter().enumerate() {
             for other in &placed[at + 1..] {
@@ -390,7 +395,7 @@ mod tests {
         let mut line: Vec<(f64, f64)> =
             (0..40).map(|k| (5.0 * f64::from(k), 100.0 + 15.0 * f64::from(k % 2))).collect();
         line.push((390.0, 100.0));
-        let placed = place(&[level("40", vec![line])], &mut Occupied::new(FRAME), 10.0);
+        let placed = place(&[level("40", vec![line])], &mut OccupancyMap::new(FRAME), 10.0);
         assert!(
             !placed.is_empty() && placed.iter().all(|text| text.centre.0 > 200.0),
             "{placed:?}"
@@ -400,7 +405,7 @@ mod tests {
     #[test]
     fn nothing_is_covered() {
         let line = vec![(10.0, 150.0), (390.0, 150.0)];
-        let mut occupied = Occupied::new(FRAME);
+        let mut occupied = OccupancyMap::new(FRAME);
         occupied.area(Rectangle { left: 0.0, top: 100.0, right: 300.0, bottom: 200.0 });
         let placed = place(&[level("40", vec![line.clone()])], &mut occupied, 10.0);
         assert!(placed.len() == 1 && placed[0].centre.0 > 305.0, "{placed:?}");
@@ -412,7 +417,7 @@ mod tests {
     fn a_line_is_open_under_its_number_only() {
         let line = vec![(10.0, 150.0), (390.0, 150.0)];
         let levels = [level("40", vec![line.clone()])];
-        let placed = place(&levels, &mut Occupied::new(FRAME), 10.0);
+        let placed = place(&levels, &mut OccupancyMap::new(FRAME), 10.0);
         let drawn = opened(0, &levels[0].pieces, &placed);
         let length: f64 =
             drawn.iter().flat_map(|part| part.windows(2)).map(|pair| pair[1].0 - pair[0].0).sum();

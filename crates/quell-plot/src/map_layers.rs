@@ -1,20 +1,20 @@
 //! Layers of maps: a field as colours, and its isolines.
 
-use super::axis::{Axis, Scale};
-use super::colouring::{Colouring, Paintbox};
+use super::axis::{PlotAxis, Scale};
+use super::colouring::{ColourMap, Colouring};
 use super::field::Field;
 use super::isoline::isolines;
-use super::palette::Role;
+use super::palette::PlotRole;
 
 /// A field as colours, each grid point a cell.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Grid {
+pub struct Heatmap {
     /// The values.
     pub field: Field,
     /// Their colours.
     pub colouring: Colouring,
     /// What the numbers are: label and ticks of the colour bar; no bar without it.
-    pub bar: Option<Axis>,
+    pub bar: Option<PlotAxis>,
     /// Why points have no value; each reason is hatched in its own way.
     pub gaps: Vec<Gap>,
 }
@@ -28,7 +28,7 @@ pub struct Gap {
     pub cells: Vec<bool>,
 }
 
-impl Grid {
+impl Heatmap {
     /// A field in these colours. Points without a value are hatched.
     #[must_use]
     pub fn new(field: Field, colouring: Colouring) -> Self {
@@ -37,7 +37,7 @@ impl Grid {
 
     /// A colour bar beside the frame, for the quantity of this axis.
     #[must_use]
-    pub fn bar(mut self, quantity: Axis) -> Self {
+    pub fn bar(mut self, quantity: PlotAxis) -> Self {
         self.bar = Some(quantity);
         self
     }
@@ -79,8 +79,8 @@ impl Grid {
         gaps
     }
 
-    pub(super) fn paintbox(&self) -> Paintbox {
-        Paintbox::new(&self.colouring, self.field.extremes())
+    pub(super) fn colour_map(&self) -> ColourMap {
+        ColourMap::new(&self.colouring, self.field.extremes())
     }
 }
 
@@ -92,7 +92,7 @@ pub struct Contours {
     /// The levels, each with the text on its lines; an empty text for none.
     pub levels: Vec<(f64, String)>,
     /// What the lines stand for; they are thinner than a curve of this role.
-    pub role: Role,
+    pub role: PlotRole,
     /// Width of the lines (pixels).
     pub width: f64,
     /// Text in the legend; empty for no entry.
@@ -111,7 +111,7 @@ impl Contours {
             .filter(|level| level.is_finite())
             .map(|level| (level, printed(level)))
             .collect();
-        Self { field, levels, role: Role::Boundary, width: WIDTH, label: String::new() }
+        Self { field, levels, role: PlotRole::Boundary, width: WIDTH, label: String::new() }
     }
 
     /// Lines at about `count` round levels within the range of the field.
@@ -138,7 +138,7 @@ impl Contours {
 
     /// What the lines stand for.
     #[must_use]
-    pub fn role(mut self, role: Role) -> Self {
+    pub fn role(mut self, role: PlotRole) -> Self {
         self.role = role;
         self
     }
@@ -158,8 +158,8 @@ impl Contours {
     }
 
     /// The lines of each level in values of x and y, straight as the axes are drawn.
-    pub(super) fn lines(&self, x: &Axis, y: &Axis) -> Vec<Vec<Vec<(f64, f64)>>> {
-        let places = |axis: &Axis, values: &[f64]| -> Vec<f64> {
+    pub(super) fn lines(&self, x: &PlotAxis, y: &PlotAxis) -> Vec<Vec<Vec<(f64, f64)>>> {
+        let places = |axis: &PlotAxis, values: &[f64]| -> Vec<f64> {
             values.iter().map(|value| axis.along(*value)).collect()
         };
         let (at_x, at_y) = (places(x, self.field.x()), places(y, self.field.y()));
@@ -173,7 +173,7 @@ impl Contours {
             .enumerate()
             .map(|(at, value)| value.filter(|_| placed(at)))
             .collect();
-        let back = |axis: &Axis, place: f64| match axis.scale {
+        let back = |axis: &PlotAxis, place: f64| match axis.scale {
             Scale::Linear => place,
             Scale::Log => 10f64.powf(place),
         };
@@ -262,7 +262,7 @@ mod tests {
     fn a_point_has_one_reason() {
         let values = vec![None, Some(1.0), None, None];
         let field = Field::new(vec![0.0, 1.0], vec![0.0, 1.0], values).expect("a field");
-        let grid = Grid::new(field, Colouring::Outcomes(Vec::new()))
+        let grid = Heatmap::new(field, Colouring::Outcomes(Vec::new()))
             .gap("first", |column, row| (column, row) == (0, 0))
             .gap("all below", |_, row| row == 0)
             .gap("lower left again", |column, _| column == 0);

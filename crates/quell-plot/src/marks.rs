@@ -2,13 +2,13 @@
 
 use super::canvas::{Canvas, Rectangle, Stroke, path};
 use super::layer::{Fill, Marker};
-use super::palette::{PAPER, Role};
+use super::palette::{PAPER, PlotRole};
 
 /// Draws markers at these pixels.
 pub(super) fn markers(
     canvas: &mut Canvas,
     points: &[(f64, f64)],
-    role: Role,
+    role: PlotRole,
     marker: Marker,
     size: f64,
 ) {
@@ -89,7 +89,7 @@ pub(super) fn union(cells: &[bool], columns: &[(f64, f64)], rows: &[(f64, f64)])
 }
 
 /// Fills an outline as a role's region.
-pub(super) fn fill(canvas: &mut Canvas, outline: String, role: Role, fill: Fill) {
+pub(super) fn fill(canvas: &mut Canvas, outline: String, role: PlotRole, fill: Fill) {
     match fill.opacity() {
         Some(opacity) => canvas.fill(outline, role.colour(), opacity),
         None => canvas.hatch(outline, role.colour(), 0),

@@ -1,11 +1,11 @@
 //! What is already drawn in a frame, so that texts and legends can keep clear of it.
 
-use super::arrange::PanelPlan;
-use super::axis::Mapping;
 use super::canvas::Rectangle;
-use super::draw::{self, Sizes};
 use super::figure::Panel;
-use super::layer::{Direction, Layer};
+use super::font_sizes::FontSizes;
+use super::layer::Layer;
+use super::layout::PanelLayout;
+use super::projection::{self, reference_line_ends};
 
 /// Strokes, points and texts of a panel (pixels).
 #[derive(Debug, Default)]
@@ -16,36 +16,46 @@ pub(super) struct Obstacles {
 
 impl Obstacles {
     /// The curves, points, rules and notes of a panel.
-    pub(super) fn of(panel: &Panel, plan: &PanelPlan, sizes: Sizes) -> Self {
-        let (x, y) = draw::mappings(panel, plan);
+    pub(super) fn of(panel: &Panel, layout: &PanelLayout, sizes: FontSizes) -> Self {
+        let (x, y) = projection::mappings(panel, layout);
         let mut obstacles = Self::default();
         for layer in &panel.layers {
             match layer {
-                Layer::Line(line) => {
-                    obstacles.strokes.extend(draw::pixels(&line.pieces, &x, &y, plan.frame));
+                Layer::Polyline(line) => {
+                    obstacles.strokes.extend(projection::pixels(
+                        &line.pieces,
+                        &x,
+                        &y,
+                        layout.frame,
+                    ));
                 }
                 Layer::Points(points) => {
-                    let drawn = draw::point_pixels(&points.points, &x, &y, plan.frame);
+                    let drawn = projection::point_pixels(&points.points, &x, &y, layout.frame);
                     obstacles.strokes.extend(drawn.into_iter().map(|point| vec![point, point]));
                 }
-                Layer::Rule(rule) => {
-                    obstacles.strokes.extend(rule_ends(
-                        rule.direction,
+                Layer::ReferenceLine(rule) => {
+                    obstacles.strokes.extend(reference_line_ends(
+                        rule.orientation,
                         rule.value,
                         &x,
                         &y,
-                        plan.frame,
+                        layout.frame,
                     ));
                 }
                 Layer::Note(note) => {
-                    obstacles.texts.extend(draw::note_area(note, (&x, &y), plan.frame, sizes));
+                    obstacles.texts.extend(projection::note_area(
+                        note,
+                        (&x, &y),
+                        layout.frame,
+                        sizes,
+                    ));
                 }
                 Layer::Contours(lines) => {
                     for level in lines.lines(&panel.x, &panel.y) {
-                        obstacles.strokes.extend(draw::pixels(&level, &x, &y, plan.frame));
+                        obstacles.strokes.extend(projection::pixels(&level, &x, &y, layout.frame));
                     }
                 }
-                Layer::Region(_) | Layer::Grid(_) => {}
+                Layer::Region(_) | Layer::Heatmap(_) => {}
             }
         }
         obstacles
@@ -67,26 +77,6 @@ impl Obstacles {
             .count();
         // Text over text is worse than text over a line.
         20 * texts + strokes
-    }
-}
-
-/// Ends of a rule; nothing when it lies outside the frame.
-pub(super) fn rule_ends(
-    direction: Direction,
-    value: f64,
-    x: &Mapping,
-    y: &Mapping,
-    frame: Rectangle,
-) -> Option<Vec<(f64, f64)>> {
-    match direction {
-        Direction::Vertical => {
-            let x = x.pixel(value).filter(|x| *x >= frame.left && *x <= frame.right)?;
-            Some(vec![(x, frame.bottom), (x, frame.top)])
-        }
-        Direction::Horizontal => {
-            let y = y.pixel(value).filter(|y| *y >= frame.top && *y <= frame.bottom)?;
-            Some(vec![(frame.left, y), (frame.right, y)])
-        }
     }
 }
 

@@ -33,7 +33,7 @@ const SERIES: [Colour; 7] = [BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY, BLACK
 /// What a curve, a set of points or a region stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum Role {
+pub enum PlotRole {
     /// The response with dither: solid blue.
     Dithered,
     /// The response without dither: dashed grey.
@@ -92,7 +92,7 @@ impl LineStyle {
     }
 }
 
-impl Role {
+impl PlotRole {
     pub(super) fn colour(self) -> Colour {
         match self {
             Self::Dithered | Self::Stable => BLUE,

@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use super::fonts::{self, Face};
-use super::typeset::{Level, Look};
+use super::letter_style::{LetterStyle, ScriptLevel};
 
 const FIRST_TAG: u32 = 0xE000;
 const LAST_TAG: u32 = 0xF000;
@@ -45,10 +45,10 @@ impl<'a> Pen<'a> {
     }
 
     /// Writes letters of one look at this depth below the base line (em of the text).
-    pub(super) fn put(&mut self, printed: &str, look: Look, depth: f64) {
+    pub(super) fn put(&mut self, printed: &str, look: LetterStyle, depth: f64) {
         let (down, aside) = (depth - self.depth, std::mem::take(&mut self.aside));
         self.depth = depth;
-        if look == Look::default() && down == 0.0 && aside == 0.0 {
+        if look == LetterStyle::default() && down == 0.0 && aside == 0.0 {
             self.text.push_str(printed);
         } else {
             self.text.push(self.tags.open(look, down, aside));
@@ -58,7 +58,7 @@ impl<'a> Pen<'a> {
     }
 
     /// Writes a letter with a bar over it.
-    pub(super) fn put_barred(&mut self, letter: char, look: Look) {
+    pub(super) fn put_barred(&mut self, letter: char, look: LetterStyle) {
         let letter_text = letter.to_string();
         let face = if look.italic { Face::Oblique } else { Face::Regular };
         let lean = if look.italic { LEAN } else { 0.0 };
@@ -66,20 +66,20 @@ impl<'a> Pen<'a> {
         self.put(&letter_text, look, 0.0);
         let tall = letter.is_uppercase() || "bdfhkltβδζθλξφψ".contains(letter);
         self.aside = lean - 0.5 * (own + bar);
-        self.put(BAR, Look::default(), if tall { BAR_OVER_TALL } else { 0.0 });
+        self.put(BAR, LetterStyle::default(), if tall { BAR_OVER_TALL } else { 0.0 });
         self.aside = 0.5 * (own - bar) - lean;
     }
 }
 
 impl Tags {
     /// The character for a look that starts so far below and right of the last run (em of the text).
-    fn open(&mut self, look: Look, down: f64, aside: f64) -> char {
+    fn open(&mut self, look: LetterStyle, down: f64, aside: f64) -> char {
         let mut tag = String::from("<tspan");
         if look.italic {
             tag.push_str(" font-style=\"italic\"");
         }
         let share = look.level.share();
-        if look.level != Level::Base {
+        if look.level != ScriptLevel::Base {
             let _ = write!(tag, " font-size=\"{:.0}%\"", 100.0 * share);
         }
         if aside != 0.0 {

@@ -2,16 +2,16 @@
 //!
 //! Panels that share a coordinate show what all of them need, by the axis of the first of them.
 
-use super::axis::{Axis, Range, Scale};
+use super::axis::{AxisRange, PlotAxis, Scale};
 use super::figure::{Figure, Panel, Sharing};
 use super::layer::Layer;
 
 /// What a panel shows of x and of y.
-pub(super) type Stretches = ((f64, f64), (f64, f64));
+pub(super) type AxisLimits = ((f64, f64), (f64, f64));
 type Extent = Option<(f64, f64)>;
 
 /// What every panel shows of x and y.
-pub(super) fn stretches(figure: &Figure, columns: usize) -> Vec<Stretches> {
+pub(super) fn axis_limits(figure: &Figure, columns: usize) -> Vec<AxisLimits> {
     let panels = &figure.panels;
     let group = |sharing: Sharing, index: usize, aligned: usize| match sharing {
         Sharing::Separate => index,
@@ -24,12 +24,12 @@ pub(super) fn stretches(figure: &Figure, columns: usize) -> Vec<Stretches> {
     let x_extents: Vec<Extent> = panels.iter().map(|panel| extent(panel, None)).collect();
     let x = shared(panels, &x_extents, x_group, |panel, extent| {
         let air = if has_curves(panel) { 0.0 } else { 0.04 };
-        exact(panel, &panel.x, extent).unwrap_or_else(|| panel.x.stretch(extent, air))
+        exact(panel, &panel.x, extent).unwrap_or_else(|| panel.x.limits(extent, air))
     });
     let y_extents: Vec<Extent> =
         panels.iter().zip(&x).map(|(panel, x)| extent(panel, Some(*x))).collect();
     let y = shared(panels, &y_extents, y_group, |panel, extent| {
-        exact(panel, &panel.y, extent).unwrap_or_else(|| panel.y.stretch(extent, 0.06))
+        exact(panel, &panel.y, extent).unwrap_or_else(|| panel.y.limits(extent, 0.06))
     });
     x.into_iter().zip(y).collect()
 }
@@ -54,19 +54,19 @@ fn shared(
 }
 
 /// A map fills its frame: no air, no rounding, unless its axis says what to show.
-fn exact(panel: &Panel, axis: &Axis, extent: Extent) -> Option<(f64, f64)> {
+fn exact(panel: &Panel, axis: &PlotAxis, extent: Extent) -> Option<(f64, f64)> {
     extent.filter(|(lower, upper)| {
-        panel.layers.iter().any(is_map) && axis.range == Range::Auto && lower < upper
+        panel.layers.iter().any(is_map) && axis.range == AxisRange::Auto && lower < upper
     })
 }
 
 fn is_map(layer: &Layer) -> bool {
-    matches!(layer, Layer::Grid(_) | Layer::Contours(_))
+    matches!(layer, Layer::Heatmap(_) | Layer::Contours(_))
 }
 
 /// True when a curve or a region spans the x axis, so that it needs no air at its ends.
 fn has_curves(panel: &Panel) -> bool {
-    panel.layers.iter().any(|layer| matches!(layer, Layer::Line(_) | Layer::Region(_)))
+    panel.layers.iter().any(|layer| matches!(layer, Layer::Polyline(_) | Layer::Region(_)))
 }
 
 /// Least and greatest x that the layers need, or y of what lies within the stretch of x.
