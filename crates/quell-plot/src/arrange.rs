@@ -1,7 +1,7 @@
-//! Arrangement: where frames, margins and texts of a figure go.
+//! Arrangement: computes the positions of the frames, margins and texts of a figure.
 //!
-//! All frames of a figure are equally large. A column's left margin is as wide as its widest
-//! numbers ask, a row's upper margin as high as its highest title and legend ask.
+//! All frames of a figure have the same size. The left margin of a column fits its widest
+//! tick labels; the upper margin of a row fits its tallest title and legend.
 
 use super::axis_limits::{AxisLimits, axis_limits};
 use super::canvas::Rectangle;
@@ -18,7 +18,7 @@ use super::typeset::{RichText, wrap};
 const EDGE: f64 = 10.0;
 const LEAST_FRAME: f64 = 60.0;
 
-/// Margins of every column and row.
+/// Margins of all columns and rows.
 #[derive(Debug, Clone, Default)]
 struct Margins {
     left: Vec<f64>,
@@ -83,7 +83,7 @@ pub(super) fn arrange(figure: &Figure) -> FigureLayout {
     }
 }
 
-/// What stands around the panels.
+/// Texts around the panels.
 struct Outer {
     title: Vec<RichText>,
     caption: Vec<RichText>,
@@ -144,7 +144,7 @@ fn frame_size(figure: &Figure, columns: usize, rows: usize) -> ((f64, f64), Font
                 sensible(0.8 * height / rows as f64, usual.1),
             );
             let sizes = FontSizes::for_frame(frame.0);
-            // Margins depend on the numbers, these on the frame: three rounds settle it.
+            // Margins depend on the tick labels and these on the frame size: three iterations converge.
             for _ in 0..3 {
                 let (_, margins) = measure(figure, columns, frame, sizes);
                 let across: f64 = margins.left.iter().chain(&margins.right).sum();
@@ -168,7 +168,7 @@ fn frame_size(figure: &Figure, columns: usize, rows: usize) -> ((f64, f64), Font
     }
 }
 
-/// Plans every panel for a frame at the origin, and the margins around the frames.
+/// Lays out every panel for a frame at the origin, and computes the margins around the frames.
 fn measure(
     figure: &Figure,
     columns: usize,
@@ -194,7 +194,7 @@ fn measure(
         grow(&mut margins, (row, column), &layout, frame.0, sizes);
         layouts.push(layout);
     }
-    // The labels of one column stand in one line.
+    // The y labels of one column are aligned.
     for column in 0..columns {
         let mine = || (column..count).step_by(columns);
         let widest = mine().map(|index| layouts[index].y_label_distance).fold(0.0, f64::max);
@@ -243,13 +243,13 @@ fn lay_out_panel(
     };
     if !layout.entries.is_empty() {
         layout.legend = match panel.legend {
-            Legend::Inside(place) => {
+            Legend::Inside(position) => {
                 let size = legend::box_size(&layout.entries, sizes);
-                LegendLayout::Box(legend::box_at(place, layout.frame, size))
+                LegendLayout::Box(legend::box_at(position, layout.frame, size))
             }
-            // A map fills the frame.
+            // A heatmap fills the frame.
             Legend::Auto if has_grid(panel) => LegendLayout::Above,
-            Legend::Auto => free_place(panel, &layout, sizes),
+            Legend::Auto => free_position(panel, &layout, sizes),
             Legend::None | Legend::Above => LegendLayout::Above,
         };
     }
@@ -260,8 +260,8 @@ fn has_grid(panel: &Panel) -> bool {
     panel.layers.iter().any(|layer| matches!(layer, Layer::Heatmap(_)))
 }
 
-/// The first place where the legend covers nothing.
-fn free_place(panel: &Panel, layout: &PanelLayout, sizes: FontSizes) -> LegendLayout {
+/// The first position where the legend covers nothing.
+fn free_position(panel: &Panel, layout: &PanelLayout, sizes: FontSizes) -> LegendLayout {
     use super::figure::LegendPosition::{
         Bottom, BottomLeft, BottomRight, Left, Right, Top, TopLeft, TopRight,
     };
@@ -270,7 +270,7 @@ fn free_place(panel: &Panel, layout: &PanelLayout, sizes: FontSizes) -> LegendLa
     let obstacles = Obstacles::of(panel, layout, sizes);
     [TopRight, TopLeft, BottomRight, BottomLeft, Right, Left, Top, Bottom]
         .into_iter()
-        .map(|place| legend::box_at(place, layout.frame, size))
+        .map(|position| legend::box_at(position, layout.frame, size))
         .find(|area| fits && obstacles.covered_by(area.grown(3.0)) == 0)
         .map_or(LegendLayout::Above, LegendLayout::Box)
 }

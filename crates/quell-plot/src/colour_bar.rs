@@ -1,4 +1,4 @@
-//! The colour bar of a map: right of the frame, as high as it, with numbers and a label.
+//! The colour bar of a heatmap: to the right of the frame and as tall as it, with tick labels and an axis label.
 
 use kuva::render::render::TextAnchor;
 
@@ -17,16 +17,16 @@ const WIDTH: f64 = 11.0;
 const TICK: f64 = 3.5;
 const NUMBER_GAP: f64 = 6.0;
 const LABEL_GAP: f64 = 6.0;
-/// Height of the point that says "and beyond".
+/// Height of the pointed end that marks values beyond the scale.
 const POINT: f64 = 9.0;
-/// Numbers of a signed logarithmic bar stand at least this far apart (pixels).
+/// Least distance between the tick labels of a signed logarithmic bar (pixels).
 const APART: f64 = 17.0;
 
-/// A colour bar with its numbers.
+/// A colour bar with its tick labels.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ColourBar {
     colours: Vec<Colour>,
-    /// Share of the bar and number of each tick.
+    /// Position (as a fraction of the bar) and label of each major tick.
     major: Vec<(f64, RichText)>,
     minor: Vec<f64>,
     exponent: i32,
@@ -36,7 +36,7 @@ pub(super) struct ColourBar {
 }
 
 impl ColourBar {
-    /// The bar of a panel: of its first grid that asks for one.
+    /// The bar of a panel: that of its first heatmap that requests one.
     pub(super) fn of(panel: &Panel, height: f64, sizes: FontSizes) -> Option<Self> {
         let (grid, quantity) = panel.layers.iter().find_map(|layer| match layer {
             Layer::Heatmap(grid) => grid.bar.as_ref().map(|axis| (grid, axis)),
@@ -76,19 +76,19 @@ impl ColourBar {
         })
     }
 
-    /// Room it takes right of the frame.
+    /// Width needed to the right of the frame.
     pub(super) fn room(&self, sizes: FontSizes) -> f64 {
         let label = 1.25 * f64::from(sizes.label) * self.label.len() as f64;
         let gap = if self.label.is_empty() { 0.0 } else { LABEL_GAP };
         GAP + WIDTH + NUMBER_GAP + self.widest + gap + label
     }
 
-    /// Whether a power of ten stands over it.
+    /// Whether a power of ten is shown above the bar.
     pub(super) fn has_exponent(&self) -> bool {
         self.exponent != 0
     }
 
-    /// Draws it beside its frame.
+    /// Draws the bar next to its frame.
     pub(super) fn draw(&self, canvas: &mut Canvas, frame: Rectangle, sizes: FontSizes) {
         let (left, right) = (frame.right + GAP, frame.right + GAP + WIDTH);
         let bar = Rectangle {
@@ -115,10 +115,10 @@ impl ColourBar {
         outline.extend([(right, bar.top), (right, bar.bottom)]);
         outline.extend(self.overflows.0.then_some((middle, frame.bottom)));
         outline.push((left, bar.bottom));
-        let place = |share: f64| bar.bottom - share * bar.height();
+        let position = |share: f64| bar.bottom - share * bar.height();
         let marks = |shares: &mut dyn Iterator<Item = f64>, length: f64| -> Vec<Vec<(f64, f64)>> {
             shares
-                .map(|share| vec![(right, place(share)), (right - length, place(share))])
+                .map(|share| vec![(right, position(share)), (right - length, position(share))])
                 .collect()
         };
         let minor = marks(&mut self.minor.iter().copied(), 0.55 * TICK);
@@ -126,19 +126,19 @@ impl ColourBar {
         canvas.stroke(path(&minor, false), &Stroke::solid(FRAME, 0.6));
         canvas.stroke(path(&major, false), &Stroke::solid(FRAME, 0.8));
         canvas.stroke(path(&[outline], true), &Stroke::solid(FRAME, 0.8));
-        self.draw_texts(canvas, (bar, frame), place, sizes);
+        self.draw_texts(canvas, (bar, frame), position, sizes);
     }
 
     fn draw_texts(
         &self,
         canvas: &mut Canvas,
         (bar, frame): (Rectangle, Rectangle),
-        place: impl Fn(f64) -> f64,
+        position: impl Fn(f64) -> f64,
         sizes: FontSizes,
     ) {
         let number = f64::from(sizes.number);
         for (share, label) in &self.major {
-            let at = (bar.right + NUMBER_GAP, place(*share) + 0.36 * number);
+            let at = (bar.right + NUMBER_GAP, position(*share) + 0.36 * number);
             canvas.text(label, at, TextStyle::new(sizes.number, TextAnchor::Start));
         }
         if self.has_exponent() {
@@ -157,7 +157,7 @@ impl ColourBar {
     }
 }
 
-/// Zero and powers of ten on both sides of it; nothing when no power lies on the bar.
+/// Ticks at zero and at powers of ten on both sides of it; `None` if no power of ten lies on the bar.
 fn signed(colour_map: &ColourMap, size: f64, height: f64) -> Option<Ticks> {
     let upper = colour_map.range.1.abs().max(colour_map.range.0.abs());
     if !(size > 0.0 && upper.is_finite() && upper > size) {
@@ -165,21 +165,25 @@ fn signed(colour_map: &ColourMap, size: f64, height: f64) -> Option<Ticks> {
     }
     #[expect(clippy::cast_possible_truncation, reason = "decimal exponents")]
     let (first, last) = (size.log10().floor() as i32, (upper.log10() + 1e-9).floor() as i32);
-    let place = |value: f64| colour_map.share(value) * height;
+    let position = |value: f64| colour_map.share(value) * height;
     let mut major = vec![(0.0, RichText::parse("0"))];
     let mut minor = Vec::new();
     let (mut above, mut below) = (f64::INFINITY, f64::NEG_INFINITY);
     for exponent in (first..=last).rev() {
         let value = 10f64.powi(exponent);
-        let clear = |at: f64| (at - place(0.0)).abs() >= APART;
-        if value <= colour_map.range.1 && clear(place(value)) && above - place(value) >= APART {
-            above = place(value);
+        let clear = |at: f64| (at - position(0.0)).abs() >= APART;
+        if value <= colour_map.range.1 && clear(position(value)) && above - position(value) >= APART
+        {
+            above = position(value);
             major.push((value, RichText::parse(&format!("$10^{{{exponent}}}$"))));
         } else if value <= colour_map.range.1 {
             minor.push(value);
         }
-        if -value >= colour_map.range.0 && clear(place(-value)) && place(-value) - below >= APART {
-            below = place(-value);
+        if -value >= colour_map.range.0
+            && clear(position(-value))
+            && position(-value) - below >= APART
+        {
+            below = position(-value);
             major.push((-value, RichText::parse(&format!("$-10^{{{exponent}}}$"))));
         } else if -value >= colour_map.range.0 {
             minor.push(-value);

@@ -1,8 +1,8 @@
-//! A figure as plain data, with its style resolved: what another renderer needs to draw the same picture.
+//! A figure as plain data with its style resolved, from which another renderer can draw the same figure.
 //!
-//! Lengths are pixels of 1/96 inch from the upper left, colours `#rrggbb`, texts as they are typeset here
-//! (symbols between dollars). Frames and stretches of axes are those of the picture that is drawn here. The
-//! Python package draws figures from this with matplotlib.
+//! Lengths are pixels of 1/96 inch from the upper left, colours are `#rrggbb`, and texts use the syntax of this crate
+//! (symbols between dollars). Frames and axis limits are those of the figure that this crate draws. The
+//! Python package draws figures from this data with matplotlib.
 
 use serde_json::{Value as Json, json};
 
@@ -74,7 +74,7 @@ fn described_panel(panel: &Panel) -> Json {
             Legend::Auto => "best",
             Legend::None => "none",
             Legend::Above => "above",
-            Legend::Inside(place) => match place {
+            Legend::Inside(position) => match position {
                 LegendPosition::TopRight => "upper right",
                 LegendPosition::TopLeft => "upper left",
                 LegendPosition::BottomRight => "lower right",
@@ -151,7 +151,7 @@ fn described_region(region: &Region) -> Json {
     data
 }
 
-/// Ends of a strip; null where region reaches the frame.
+/// Ends of a strip; null where it extends to the frame.
 fn ends(from: f64, to: f64) -> Json {
     json!([from, to])
 }
@@ -240,14 +240,14 @@ fn described_contours(contours: &Contours) -> Json {
     })
 }
 
-/// Points as two lists.
+/// Points as a list of x and a list of y.
 fn columns(points: &[(f64, f64)]) -> Json {
     let x: Vec<f64> = points.iter().map(|point| point.0).collect();
     let y: Vec<f64> = points.iter().map(|point| point.1).collect();
     json!([x, y])
 }
 
-/// Lengths of dashes and gaps in widths of the line; none of a solid line.
+/// Lengths of dashes and gaps in line widths; empty for a solid line.
 fn dashes(style: LineStyle) -> Vec<f64> {
     style.pattern().to_vec()
 }
@@ -262,7 +262,7 @@ mod tests {
     use crate::{Field, Shading};
 
     #[test]
-    fn every_kind_of_layer_is_told_with_its_style() {
+    fn every_kind_of_layer_is_described_with_its_style() {
         let field =
             Field::new(vec![0.0, 1.0], vec![0.0, 1.0], vec![Some(1.0), None, Some(3.0), None])
                 .expect("a field");

@@ -1,4 +1,4 @@
-//! Drawing: a figure and its arrangement become strokes, fills and texts on a canvas.
+//! Drawing: renders a figure and its layout as strokes, fills and texts on a canvas.
 
 use kuva::render::render::TextAnchor;
 
@@ -19,7 +19,7 @@ const FRAME_WIDTH: f64 = 0.8;
 const MAJOR_TICK: f64 = 4.5;
 const MINOR_TICK: f64 = 2.5;
 
-/// Draws a figure.
+/// Draws a figure and returns its SVG.
 pub(super) fn figure(figure: &Figure) -> String {
     let layout = arrange(figure);
     let mut canvas = Canvas::new(layout.width, layout.height);
@@ -92,7 +92,7 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, layout: &PanelLayout, sizes: F
     canvas.end_group();
     canvas.end_clip();
     draw_frame(canvas, layout, sizes, &x, &y);
-    // A point on the frame is whole, so points lie above it and are not clipped.
+    // Markers on the frame must be complete, so points are drawn over the frame and are not clipped.
     for layer in &panel.layers {
         if let Layer::Points(points) = layer {
             let drawn = projection::point_pixels(&points.points, &x, &y, layout.frame);
@@ -102,7 +102,7 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, layout: &PanelLayout, sizes: F
     if let Some(bar) = &layout.bar {
         bar.draw(canvas, layout.frame, sizes);
     }
-    isolines.print(canvas, sizes);
+    isolines.draw_labels(canvas, sizes);
     draw_texts(canvas, panel, layout, &isolines, sizes);
     match &layout.legend {
         LegendLayout::None => {}
@@ -116,7 +116,7 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, layout: &PanelLayout, sizes: F
 }
 
 fn draw_region(canvas: &mut Canvas, region: &Region, x: &Mapping, y: &Mapping, frame: Rectangle) {
-    // An end outside the axis, or without a place on it, reaches the frame.
+    // An end outside the axis, or one that the axis cannot represent, extends to the frame.
     let strip = |mapping: &Mapping, from: f64, to: f64, low: f64, high: f64| {
         let from = mapping.pixel(from.max(mapping.limits.0)).unwrap_or(low);
         let to = mapping.pixel(to.min(mapping.limits.1)).unwrap_or(high);
@@ -125,7 +125,7 @@ fn draw_region(canvas: &mut Canvas, region: &Region, x: &Mapping, y: &Mapping, f
     let path = match &region.shape {
         RegionShape::Polygon(corners) => {
             let inside = |&(at, value): &(f64, f64)| {
-                // On a logarithmic axis zero lies at the far end.
+                // On a logarithmic axis zero lies infinitely far down.
                 let at = x.pixel(at).unwrap_or(frame.left - 10.0);
                 let value = y.pixel(value).unwrap_or(frame.bottom + 10.0);
                 (at, value)
@@ -219,13 +219,13 @@ fn draw_numbers(
     if layout.y_numbers {
         for (value, label) in &layout.y_ticks.major {
             let Some(at) = y.pixel(*value) else { continue };
-            let place = (frame.left - NUMBER_GAP, at + 0.36 * size);
-            canvas.text(label, place, TextStyle::new(sizes.number, TextAnchor::End));
+            let position = (frame.left - NUMBER_GAP, at + 0.36 * size);
+            canvas.text(label, position, TextStyle::new(sizes.number, TextAnchor::End));
         }
         if layout.y_ticks.exponent != 0 {
             let label = RichText::parse(&format!("$×10^{{{}}}$", layout.y_ticks.exponent));
-            let place = (frame.left - 2.0, frame.top - 6.0);
-            canvas.text(&label, place, TextStyle::new(sizes.number, TextAnchor::End));
+            let position = (frame.left - 2.0, frame.top - 6.0);
+            canvas.text(&label, position, TextStyle::new(sizes.number, TextAnchor::End));
         }
     }
 }
@@ -266,7 +266,7 @@ fn draw_texts(
     if let LegendLayout::Box(area) = &layout.legend {
         obstacles.add(*area);
     }
-    isolines.texts().for_each(|area| obstacles.add(area));
+    isolines.label_areas().for_each(|area| obstacles.add(area));
     for layer in &panel.layers {
         match layer {
             Layer::Note(note) => {
@@ -278,7 +278,7 @@ fn draw_texts(
                 };
                 if shown(note.at.0, &x) && shown(note.at.1, &y) {
                     let colour = note.role.map_or(FRAME, PlotRole::colour);
-                    print(canvas, &note.text, area, colour, sizes);
+                    draw_outlined_text(canvas, &note.text, area, colour, sizes);
                 }
             }
             Layer::ReferenceLine(rule) if !rule.label.is_empty() => {
@@ -286,7 +286,7 @@ fn draw_texts(
                     reference_line_labels::place(rule, (&x, &y), layout.frame, &obstacles, sizes)
                 {
                     obstacles.add(area);
-                    print(canvas, &rule.label, area, rule_ink(rule), sizes);
+                    draw_outlined_text(canvas, &rule.label, area, rule_ink(rule), sizes);
                 }
             }
             _ => {}
@@ -298,8 +298,14 @@ fn rule_ink(rule: &ReferenceLine) -> Colour {
     if rule.role == PlotRole::Guide { FAINT } else { rule.role.colour() }
 }
 
-/// Prints a text into its place, with a rim of paper that keeps it readable on a curve.
-fn print(canvas: &mut Canvas, text: &str, area: Rectangle, colour: Colour, sizes: FontSizes) {
+/// Draws a text into its rectangle, with a white outline that keeps it readable over a curve.
+fn draw_outlined_text(
+    canvas: &mut Canvas,
+    text: &str,
+    area: Rectangle,
+    colour: Colour,
+    sizes: FontSizes,
+) {
     let setting = TextStyle { colour, ..TextStyle::new(sizes.note, TextAnchor::Start) };
     canvas.begin_group(
         "stroke=\"#fff\" stroke-width=\"2.5\" stroke-opacity=\"0.75\" stroke-linejoin=\"round\" paint-order=\"stroke\"",

@@ -1,6 +1,6 @@
 //! Font sizes of the texts of a figure.
 
-/// Font sizes (pixels).
+/// Font sizes of one figure (pixels).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct FontSizes {
     pub(super) figure_title: u32,
@@ -13,7 +13,7 @@ pub(super) struct FontSizes {
 }
 
 impl FontSizes {
-    /// Sizes that suit a frame this wide.
+    /// Sizes that suit a frame of this width.
     pub(super) fn for_frame(width: f64) -> Self {
         if width >= 260.0 {
             Self {

@@ -1,4 +1,4 @@
-//! Layout: the place and the contents of every frame, margin and text of a figure.
+//! Layout of a figure: positions of its frames, margins and texts, with their contents.
 
 use super::canvas::Rectangle;
 use super::colour_bar::ColourBar;
@@ -7,12 +7,12 @@ use super::legend::LegendEntry;
 use super::ticks::Ticks;
 use super::typeset::RichText;
 
-/// Space between a number and its frame (pixels).
+/// Space between a tick label and its frame (pixels).
 pub(super) const NUMBER_GAP: f64 = 6.0;
-/// Space between numbers and the axis label (pixels).
+/// Space between the tick labels and the axis label (pixels).
 pub(super) const LABEL_GAP: f64 = 7.0;
 
-/// Where the legend of one panel goes.
+/// Placement of the legend of one panel.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum LegendLayout {
     None,
@@ -20,7 +20,7 @@ pub(super) enum LegendLayout {
     Above,
 }
 
-/// One panel with its place.
+/// Layout of one panel.
 #[derive(Debug, Clone)]
 pub(super) struct PanelLayout {
     pub(super) frame: Rectangle,
@@ -40,7 +40,7 @@ pub(super) struct PanelLayout {
     pub(super) bar: Option<ColourBar>,
 }
 
-/// A figure with all places.
+/// Layout of a figure.
 #[derive(Debug)]
 pub(super) struct FigureLayout {
     pub(super) width: f64,

@@ -1,4 +1,4 @@
-//! Legends: one entry for each label, its sample beside it, in a box or in lines.
+//! Legends: one entry per label with its keys, in a box or in rows.
 
 use kuva::render::render::TextAnchor;
 
@@ -15,12 +15,12 @@ use super::typeset::RichText;
 const SAMPLE: f64 = 26.0;
 const SAMPLE_GAP: f64 = 6.0;
 const ENTRY_GAP: f64 = 18.0;
-/// Edge of a tinted sample.
+/// Edge of a tinted key.
 const GREY_EDGE: Colour = (0x80, 0x80, 0x80);
 const PADDING: f64 = 6.0;
 const LINE_GAP: f64 = 5.0;
 
-/// What stands beside a label.
+/// The symbol next to a label.
 #[derive(Debug, Clone, PartialEq)]
 enum LegendKey {
     Stroke(Stroke),
@@ -30,7 +30,7 @@ enum LegendKey {
     Hatch(usize),
 }
 
-/// One label with its samples.
+/// One label with its keys.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct LegendEntry {
     text: String,
@@ -38,7 +38,7 @@ pub(super) struct LegendEntry {
     samples: Vec<LegendKey>,
 }
 
-/// The entries of these panels: equal labels join, equal samples show once.
+/// The entries of these panels: equal labels share an entry, equal keys are shown once.
 pub(super) fn entries<'a>(panels: impl IntoIterator<Item = &'a Panel>) -> Vec<LegendEntry> {
     let mut entries: Vec<LegendEntry> = Vec::new();
     for layer in panels.into_iter().flat_map(|panel| &panel.layers) {
@@ -73,7 +73,7 @@ fn samples(layer: &Layer) -> Vec<(&str, LegendKey)> {
     vec![(label.as_str(), sample)]
 }
 
-/// Outcomes that occur, what lies below the scale, and why points have no value.
+/// Keys for the outcomes that occur, for values below the scale, and for each reason why points have no value.
 fn samples_of_grid(grid: &Heatmap) -> Vec<(&str, LegendKey)> {
     let has = |test: &dyn Fn(f64) -> bool| {
         grid.field.values().iter().any(|value| value.is_some_and(test))
@@ -97,7 +97,7 @@ fn samples_of_grid(grid: &Heatmap) -> Vec<(&str, LegendKey)> {
     samples
 }
 
-/// The stroke of a line, from its role and its own wishes.
+/// The stroke of a line, from its role and its own settings.
 pub(super) fn stroke_of(line: &Polyline) -> Stroke {
     let width = line.width.unwrap_or(line.role.width());
     let dashes = line.style.unwrap_or(line.role.style()).dashes(width);
@@ -112,29 +112,29 @@ fn width(entry: &LegendEntry, sizes: FontSizes) -> f64 {
     SAMPLE + SAMPLE_GAP + entry.label.width(f64::from(sizes.legend), false)
 }
 
-/// Width and height of the box that holds the entries one below the other.
+/// Width and height of a box with one entry per row.
 pub(super) fn box_size(entries: &[LegendEntry], sizes: FontSizes) -> (f64, f64) {
     let widest = entries.iter().map(|entry| width(entry, sizes)).fold(0.0, f64::max);
     let height = line_height(sizes) * entries.len() as f64 - LINE_GAP;
     (widest + 2.0 * PADDING, height + 2.0 * PADDING)
 }
 
-/// The box at a place inside the frame.
+/// The box at a position inside the frame.
 pub(super) fn box_at(
-    place: LegendPosition,
+    position: LegendPosition,
     frame: Rectangle,
     (width, height): (f64, f64),
 ) -> Rectangle {
     const MARGIN: f64 = 8.0;
     let inner = frame.grown(-MARGIN);
-    let left = match place {
+    let left = match position {
         LegendPosition::TopLeft | LegendPosition::BottomLeft | LegendPosition::Left => inner.left,
         LegendPosition::TopRight | LegendPosition::BottomRight | LegendPosition::Right => {
             inner.right - width
         }
         LegendPosition::Top | LegendPosition::Bottom => 0.5 * (inner.left + inner.right - width),
     };
-    let top = match place {
+    let top = match position {
         LegendPosition::TopLeft | LegendPosition::TopRight | LegendPosition::Top => inner.top,
         LegendPosition::BottomLeft | LegendPosition::BottomRight | LegendPosition::Bottom => {
             inner.bottom - height
@@ -144,7 +144,7 @@ pub(super) fn box_at(
     Rectangle { left, top, right: left + width, bottom: top + height }
 }
 
-/// Draws the entries one below the other.
+/// Draws a box with one entry per row.
 pub(super) fn draw_box(
     canvas: &mut Canvas,
     entries: &[LegendEntry],
@@ -159,8 +159,8 @@ pub(super) fn draw_box(
     }
 }
 
-/// The entries dealt to lines no wider than `room`.
-fn deal(entries: &[LegendEntry], room: f64, sizes: FontSizes) -> Vec<Vec<&LegendEntry>> {
+/// Distributes the entries over rows no wider than `room`.
+fn rows(entries: &[LegendEntry], room: f64, sizes: FontSizes) -> Vec<Vec<&LegendEntry>> {
     let mut lines: Vec<(f64, Vec<&LegendEntry>)> = Vec::new();
     for entry in entries {
         let own = width(entry, sizes);
@@ -175,12 +175,12 @@ fn deal(entries: &[LegendEntry], room: f64, sizes: FontSizes) -> Vec<Vec<&Legend
     lines.into_iter().map(|(_, line)| line).collect()
 }
 
-/// Height of the entries set in lines.
+/// Height of the entries set in rows.
 pub(super) fn lines_height(entries: &[LegendEntry], room: f64, sizes: FontSizes) -> f64 {
-    line_height(sizes) * deal(entries, room, sizes).len() as f64
+    line_height(sizes) * rows(entries, room, sizes).len() as f64
 }
 
-/// Draws the entries in lines, each centred between `left` and `left + room`.
+/// Draws the entries in rows, each centred between `left` and `left + room`.
 pub(super) fn draw_lines(
     canvas: &mut Canvas,
     entries: &[LegendEntry],
@@ -189,7 +189,7 @@ pub(super) fn draw_lines(
     sizes: FontSizes,
 ) {
     let mut top = top;
-    for line in deal(entries, room, sizes) {
+    for line in rows(entries, room, sizes) {
         let gaps = ENTRY_GAP * line.len().saturating_sub(1) as f64;
         let used: f64 = line.iter().map(|entry| width(entry, sizes)).sum::<f64>() + gaps;
         let mut x = left + 0.5 * (room - used).max(0.0);

@@ -1,14 +1,17 @@
 //! The style of letters: italics, a bar above, and the level of subscripts and superscripts.
 
-/// Size of a subscript or superscript, as a share of the text's.
+/// Size of a subscript or superscript, as a fraction of the text size.
 const SMALL: f64 = 0.72;
-/// How far they are lowered (em of the text, downwards).
+/// Baseline shift of a subscript (em of the text, downwards).
 const LOWERED: f64 = 0.20;
-/// How far they are raised (em of the text, downwards).
+/// Baseline shift of a superscript (em of the text, downwards).
 const RAISED: f64 = -0.36;
-/// Size of a subscript within a superscript, and how far it is raised.
+/// Size of a subscript within a superscript, as a fraction of the text size.
 const SMALLER: f64 = 0.55;
+/// Baseline shift of a subscript within a superscript (em of the text, downwards).
 const RAISED_LESS: f64 = -0.24;
+
+/// Position of letters relative to the baseline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum ScriptLevel {
     #[default]
@@ -19,7 +22,7 @@ pub(super) enum ScriptLevel {
 }
 
 impl ScriptLevel {
-    /// Size as a share of the text's.
+    /// Size as a fraction of the text size.
     pub(super) fn share(self) -> f64 {
         match self {
             Self::Base => 1.0,
@@ -28,7 +31,7 @@ impl ScriptLevel {
         }
     }
 
-    /// Distance below the base line (em of the text).
+    /// Distance below the baseline (em of the text).
     pub(super) fn depth(self) -> f64 {
         match self {
             Self::Base => 0.0,
@@ -39,6 +42,7 @@ impl ScriptLevel {
     }
 }
 
+/// Style of one letter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct LetterStyle {
     pub(super) italic: bool,

@@ -1,10 +1,10 @@
-//! Pictures: the one door through which every figure of Quell is made.
+//! Plotting: every figure of Quell is made by this crate.
 //!
-//! A [`Figure`] is a grid of [`Panel`]s; a panel has two [`PlotAxis`] and layers, which speak of the
-//! field and never of the drawing library: [`Polyline`], [`Points`], [`Region`], [`ReferenceLine`], [`Note`], and
+//! A [`Figure`] is a grid of [`Panel`]s; a panel has two [`PlotAxis`] and layers, which are independent of the
+//! drawing library: [`Polyline`], [`Points`], [`Region`], [`ReferenceLine`], [`Note`], and
 //! for maps [`Heatmap`] (a field as colours) and [`Contours`] (its isolines).
-//! What a curve *means* is its [`PlotRole`]; the role decides colour, width and dashes, so that
-//! "dithered" looks the same in every picture of the project.
+//! What a curve *represents* is its [`PlotRole`]; the role sets colour, width and dashes, so that
+//! "dithered" looks the same in every figure of the project.
 //!
 //! ```
 //! use quell_plot::{PlotAxis, Figure, Polyline, Panel, PlotRole};
@@ -20,11 +20,11 @@
 //! assert!(svg.starts_with("<svg"));
 //! ```
 //!
-//! Labels are plain text with `$…$` for symbols; `typeset` says what may stand between the dollars.
+//! Labels are plain text with `$…$` for symbols; the module `typeset` documents the syntax between the dollars.
 //!
-//! Scenes are drawn by kuva (primitives, escaping, SVG, bundled DejaVu fonts) and turned into PNG
-//! by resvg. Axes, panel grids, legends and clipping are arranged here, because kuva's own figure
-//! knows no subscripts, no polygons, no broken curves, and clips nothing at the axes.
+//! kuva writes the SVG (primitives, escaping, bundled DejaVu fonts) and resvg converts it to PNG.
+//! Axes, panel grids, legends and clipping are laid out here, because kuva's own figure type
+//! supports neither subscripts nor polygons nor broken curves, and does not clip at the axes.
 
 mod arrange;
 mod axis;
@@ -73,7 +73,7 @@ pub use map_layers::{Contours, Gap, Heatmap};
 pub use palette::{LineStyle, PlotRole};
 pub use shades::Palette;
 
-/// A label as HTML: what prints in italics, lowered, raised or barred in a picture does so on a page.
+/// Converts a label to HTML, with the same italics, subscripts, superscripts and bars as in a figure.
 ///
 /// ```
 /// assert_eq!(quell_plot::html("$v_m$ < 1"), "<i>v</i><sub>m</sub> &lt; 1");

@@ -1,43 +1,43 @@
-//! Numbers on isolines: at a straight stretch, upright, clear of other strokes and texts.
+//! Labels on isolines: on a straight section, upright, clear of other strokes and texts.
 //!
-//! What is drawn is kept in a map of the frame's pixels. Along each line places are tried in the
-//! order of their cost (bend, slope, distance from the middle); the first one that covers nothing
-//! else gets the number, and the line is opened there.
+//! An occupancy map records the pixels of the frame that are drawn on. Along each line, candidate positions are tried in
+//! order of increasing cost (bend, slope, distance from the middle); the label is placed at the first one that covers
+//! nothing else, and the line is interrupted there.
 
 use super::canvas::Rectangle;
 use super::typeset::RichText;
 
-/// The lines of one level in pixels.
+/// The lines of one level (pixels).
 #[derive(Debug, Clone)]
 pub(super) struct LevelLines {
     pub(super) text: RichText,
     pub(super) pieces: Vec<Vec<(f64, f64)>>,
 }
 
-/// A number on a line.
+/// A label on a line.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct PlacedLabel {
     pub(super) level: usize,
-    /// Middle of the text.
+    /// Centre of the text.
     pub(super) centre: (f64, f64),
-    /// Turn, clockwise in degrees, from −90 to 90.
+    /// Rotation, clockwise in degrees, from −90 to 90.
     pub(super) rotation: f64,
     piece: usize,
-    /// Stretch of the line under the text (pixels along it).
+    /// Section of the line under the text (arc length in pixels).
     from: f64,
     to: f64,
 }
 
-/// Space before and behind a number (pixels).
+/// Space before and after a label (pixels).
 const MARGIN: f64 = 3.0;
-/// Steps along a line (pixels).
+/// Distance between candidates along a line (pixels).
 const STEP: f64 = 3.0;
-/// Numbers of one level at most.
+/// Maximum number of labels of one level.
 const MOST: usize = 5;
-/// A line gets one number for each such length (pixels).
+/// Line length per label (pixels).
 const ONE_EACH: f64 = 520.0;
 
-/// Which stroke passes a pixel: nothing, one line, or what no text may cover.
+/// The owner of each pixel of the frame: nothing, one line, or something that no text may cover.
 #[derive(Debug, Clone)]
 pub(super) struct OccupancyMap {
     frame: Rectangle,
@@ -82,7 +82,7 @@ impl OccupancyMap {
         }
     }
 
-    /// Marks a stroke that no number may cover.
+    /// Marks a stroke that no label may cover.
     pub(super) fn stroke(&mut self, points: &[(f64, f64)]) {
         self.stroke_of(points, TAKEN);
     }
@@ -90,7 +90,7 @@ impl OccupancyMap {
     fn stroke_of(&mut self, points: &[(f64, f64)], owner: u32) {
         for pair in points.windows(2) {
             let (dx, dy) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
-            // Strokes far outside the frame are long and mark nothing.
+            // Strokes far outside the frame may be very long but mark nothing.
             #[expect(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,
@@ -117,7 +117,7 @@ impl OccupancyMap {
         }
     }
 
-    /// Whether a turned rectangle lies in the frame and covers nothing but this line.
+    /// Whether a rotated rectangle lies in the frame and covers nothing but this line.
     fn is_free(&self, candidate: &Candidate, half: (f64, f64), owner: u32) -> bool {
         let mut free = true;
         candidate.each_pixel(half, |point| {
@@ -133,7 +133,7 @@ impl OccupancyMap {
     }
 }
 
-/// A place for a text: its middle and the direction in which it reads.
+/// A candidate position of a label: its centre and the direction of its baseline.
 #[derive(Debug, Clone, Copy)]
 struct Candidate {
     centre: (f64, f64),
@@ -156,7 +156,7 @@ impl Candidate {
     }
 }
 
-/// A line with the way along it.
+/// A line with its arc length at every point.
 struct MeasuredPath<'a> {
     points: &'a [(f64, f64)],
     arc_length: Vec<f64>,
@@ -188,7 +188,7 @@ impl<'a> MeasuredPath<'a> {
         (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1))
     }
 
-    /// The stand of a text of this half width around a place on the line; nothing where the line
+    /// The candidate for a text of this half width around a position on the line; `None` where the line
     /// bends too much.
     fn candidate(&self, at: f64, half: f64, most_bend: f64) -> Option<Candidate> {
         const SAMPLES: i32 = 8;
@@ -211,7 +211,7 @@ impl<'a> MeasuredPath<'a> {
         }
         let middle = (0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1));
         let centre = (middle.0 - shift * direction.1, middle.1 + shift * direction.0);
-        // Upright: from left to right, and straight up rather than down.
+        // Keeps the text upright: from left to right, and upwards rather than downwards if vertical.
         if direction.0 < -1e-9 || (direction.0.abs() <= 1e-9 && direction.1 > 0.0) {
             direction = (-direction.0, -direction.1);
         }
@@ -221,7 +221,7 @@ impl<'a> MeasuredPath<'a> {
     }
 }
 
-/// Numbers on these lines.
+/// Places labels on these lines.
 pub(super) fn place(
     levels: &[LevelLines],
     occupied: &mut OccupancyMap,
@@ -278,7 +278,7 @@ pub(super) fn place(
     placed
 }
 
-/// Equal parts of a long line, each for one number.
+/// Equal parts of a long line, one per label.
 fn parts(length: f64) -> Vec<(f64, f64)> {
     let count = (length / ONE_EACH).round().clamp(1.0, MOST as f64);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to a few")]
@@ -288,7 +288,7 @@ fn parts(length: f64) -> Vec<(f64, f64)> {
     parts
 }
 
-/// The cheapest free place on a part of a line, first where it is straight, then where it bends.
+/// The free candidate of least cost on a part of a line; straight sections are tried before bent ones.
 fn best(
     path: &MeasuredPath<'_>,
     (from, to): (f64, f64),
@@ -317,7 +317,7 @@ fn best(
     None
 }
 
-/// The lines of a level with openings under its numbers.
+/// The lines of a level, interrupted at its labels.
 pub(super) fn opened(
     level: usize,
     pieces: &[Vec<(f64, f64)>],
@@ -371,7 +371,7 @@ mod tests {
     }
 
     #[test]
-    fn every_level_with_room_has_a_number_and_none_collide() {
+    fn every_level_with_room_is_labelled_without_collisions() {
         let levels: Vec<LevelLines> =
             (1..=6).map(|n| level("20", vec![circle(22.0 * f64::from(n))])).collect();
         let placed = place(&levels, &mut OccupancyMap::new(FRAME), 10.0);
@@ -390,8 +390,8 @@ mod tests {
     }
 
     #[test]
-    fn a_number_prefers_the_straight_stretch() {
-        // A zigzag, then a straight run.
+    fn labels_prefer_straight_sections() {
+        // A zigzag, then a straight section.
         let mut line: Vec<(f64, f64)> =
             (0..40).map(|k| (5.0 * f64::from(k), 100.0 + 15.0 * f64::from(k % 2))).collect();
         line.push((390.0, 100.0));
@@ -403,7 +403,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_covered() {
+    fn labels_avoid_occupied_areas() {
         let line = vec![(10.0, 150.0), (390.0, 150.0)];
         let mut occupied = OccupancyMap::new(FRAME);
         occupied.area(Rectangle { left: 0.0, top: 100.0, right: 300.0, bottom: 200.0 });
@@ -414,7 +414,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_open_under_its_number_only() {
+    fn a_line_is_interrupted_only_at_its_labels() {
         let line = vec![(10.0, 150.0), (390.0, 150.0)];
         let levels = [level("40", vec![line.clone()])];
         let placed = place(&levels, &mut OccupancyMap::new(FRAME), 10.0);

@@ -1,4 +1,4 @@
-//! Drawing of maps: the image of a field, hatched gaps, isolines with their numbers.
+//! Drawing of maps: the image of a field, hatched gaps, isolines with their labels.
 
 use kuva::render::render::TextAnchor;
 
@@ -16,7 +16,7 @@ use super::projection::{self, reference_line_ends};
 use super::raster::raster;
 use super::{marks, thin};
 
-/// Draws the image of a field and hatches what has no value.
+/// Draws the image of a field and hatches the cells without a value.
 pub(super) fn draw_grid(
     canvas: &mut Canvas,
     grid: &Heatmap,
@@ -40,11 +40,13 @@ pub(super) fn draw_grid(
     }
 }
 
-/// Pixels of both ends of each cell along an axis.
+/// Both ends of each cell along an axis (pixels).
 fn ends(axis: &PlotAxis, values: &[f64], mapping: &Mapping) -> Vec<(f64, f64)> {
-    let places: Vec<f64> =
-        borders(values, axis.scale).into_iter().map(|border| mapping.place(border)).collect();
-    places.windows(2).map(|pair| (pair[0], pair[1])).collect()
+    let positions: Vec<f64> = borders(values, axis.scale)
+        .into_iter()
+        .map(|border| mapping.pixel_of_position(border))
+        .collect();
+    positions.windows(2).map(|pair| (pair[0], pair[1])).collect()
 }
 
 /// The isolines of a panel, ready to draw.
@@ -58,7 +60,7 @@ pub(super) struct Isolines {
 }
 
 impl Isolines {
-    /// The isolines of all layers, their numbers clear of everything else.
+    /// The isolines of all layers, with labels placed clear of everything else.
     pub(super) fn of(panel: &Panel, layout: &PanelLayout, sizes: FontSizes) -> Self {
         let (x, y) = projection::mappings(panel, layout);
         let mut isolines = Self { size: f64::from(number_size(sizes)), ..Self::default() };
@@ -81,7 +83,7 @@ impl Isolines {
         isolines
     }
 
-    /// Strokes the lines, open under their numbers.
+    /// Draws the lines, interrupted at their labels.
     pub(super) fn draw(&self, canvas: &mut Canvas) {
         for (number, (level, stroke)) in self.levels.iter().zip(&self.strokes).enumerate() {
             let pieces: Vec<_> = line_labels::opened(number, &level.pieces, &self.placed)
@@ -92,8 +94,8 @@ impl Isolines {
         }
     }
 
-    /// Prints the numbers, each with a rim of paper.
-    pub(super) fn print(&self, canvas: &mut Canvas, sizes: FontSizes) {
+    /// Draws the labels, each with a white outline.
+    pub(super) fn draw_labels(&self, canvas: &mut Canvas, sizes: FontSizes) {
         if self.placed.is_empty() {
             return;
         }
@@ -103,19 +105,19 @@ impl Isolines {
         for text in &self.placed {
             let (sin, cos) = text.rotation.to_radians().sin_cos();
             let drop = 0.36 * self.size;
-            let place = (text.centre.0 - drop * sin, text.centre.1 + drop * cos);
+            let position = (text.centre.0 - drop * sin, text.centre.1 + drop * cos);
             let colour = self.strokes[text.level].0;
             let setting = TextStyle {
                 colour: if colour == (0, 0, 0) { FRAME } else { colour },
                 ..TextStyle::new(number_size(sizes), TextAnchor::Middle)
             };
-            canvas.text(&self.levels[text.level].text, place, setting.rotated(text.rotation));
+            canvas.text(&self.levels[text.level].text, position, setting.rotated(text.rotation));
         }
         canvas.end_group();
     }
 
-    /// Upright rectangles around the numbers.
-    pub(super) fn texts(&self) -> impl Iterator<Item = Rectangle> {
+    /// Axis-aligned rectangles around the labels.
+    pub(super) fn label_areas(&self) -> impl Iterator<Item = Rectangle> {
         self.placed.iter().map(|text| {
             let half = 0.5 * self.levels[text.level].text.width(self.size, false);
             let (sin, cos) = text.rotation.to_radians().sin_cos();
@@ -131,12 +133,12 @@ impl Isolines {
     }
 }
 
-/// Numbers on lines are a little smaller than those on axes.
+/// Labels of isolines are slightly smaller than tick labels.
 fn number_size(sizes: FontSizes) -> u32 {
     sizes.number - 1
 }
 
-/// What numbers on isolines must not cover: all but the isolines themselves.
+/// Everything that labels of isolines must not cover, except the isolines themselves.
 fn occupied(
     panel: &Panel,
     layout: &PanelLayout,

@@ -1,4 +1,4 @@
-//! What is already drawn in a frame, so that texts and legends can keep clear of it.
+//! Obstacles: the drawn content of a frame that texts and legends must avoid.
 
 use super::canvas::Rectangle;
 use super::figure::Panel;
@@ -15,7 +15,7 @@ pub(super) struct Obstacles {
 }
 
 impl Obstacles {
-    /// The curves, points, rules and notes of a panel.
+    /// The curves, points, reference lines, isolines and notes of a panel.
     pub(super) fn of(panel: &Panel, layout: &PanelLayout, sizes: FontSizes) -> Self {
         let (x, y) = projection::mappings(panel, layout);
         let mut obstacles = Self::default();
@@ -66,7 +66,7 @@ impl Obstacles {
         self.texts.push(area);
     }
 
-    /// How many strokes and texts this rectangle would cover.
+    /// Weighted number of strokes and texts that this rectangle would cover.
     pub(super) fn covered_by(&self, area: Rectangle) -> usize {
         let texts = self.texts.iter().filter(|text| overlap(text, &area)).count();
         let strokes = self
@@ -75,7 +75,7 @@ impl Obstacles {
             .flat_map(|stroke| stroke.windows(2))
             .filter(|ends| crosses(ends[0], ends[1], &area))
             .count();
-        // Text over text is worse than text over a line.
+        // Covering a text is worse than covering a line.
         20 * texts + strokes
     }
 }
@@ -87,7 +87,7 @@ fn overlap(one: &Rectangle, other: &Rectangle) -> bool {
         && other.top < one.bottom
 }
 
-/// Whether a stroke passes through a rectangle (Liang–Barsky).
+/// Whether a line segment intersects a rectangle (Liang–Barsky).
 fn crosses(from: (f64, f64), to: (f64, f64), area: &Rectangle) -> bool {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
@@ -115,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_stroke_crosses_what_it_passes_through() {
+    fn segments_that_intersect_a_rectangle_are_detected() {
         let area = Rectangle { left: 0.0, top: 0.0, right: 10.0, bottom: 10.0 };
         assert!(crosses((-5.0, 5.0), (15.0, 5.0), &area));
         assert!(crosses((5.0, 5.0), (5.0, 5.0), &area));

@@ -1,4 +1,4 @@
-//! Projection: the data of the layers in pixels of the picture.
+//! Projection: converts the data of the layers to pixels of the figure.
 
 use super::axis::Mapping;
 use super::canvas::Rectangle;
@@ -18,7 +18,7 @@ pub(super) fn mappings(panel: &Panel, layout: &PanelLayout) -> (Mapping, Mapping
     )
 }
 
-/// Pieces of a curve in pixels: without what lies beside the frame, and thinned.
+/// Pieces of a curve in pixels, without the parts left and right of the frame, and thinned.
 pub(super) fn pixels(
     pieces: &[Vec<(f64, f64)>],
     x: &Mapping,
@@ -47,7 +47,7 @@ pub(super) fn pixels(
     drawn
 }
 
-/// Points in pixels: those in the frame, each print once.
+/// Points in pixels: those inside the frame, without points that would be drawn on top of each other.
 pub(super) fn point_pixels(
     points: &[(f64, f64)],
     x: &Mapping,
@@ -68,7 +68,7 @@ pub(super) fn point_pixels(
     thin::scatter(&drawn)
 }
 
-/// Ends of a rule; nothing when it lies outside the frame.
+/// Ends of a reference line; `None` if it lies outside the frame.
 pub(super) fn reference_line_ends(
     orientation: Orientation,
     value: f64,
@@ -88,7 +88,7 @@ pub(super) fn reference_line_ends(
     }
 }
 
-/// The place of a note, moved into the frame if need be; nothing when its point lies on no axis.
+/// The rectangle of a note, moved into the frame if necessary; `None` if the axes cannot represent its point.
 pub(super) fn note_area(
     note: &Note,
     (x, y): (&Mapping, &Mapping),

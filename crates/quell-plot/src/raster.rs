@@ -1,7 +1,7 @@
-//! Images of maps: the values of a field at the pixels of a frame.
+//! Images of heatmaps: the values of a field at the pixels of a frame.
 //!
-//! Each pixel has the colour of the grid point nearest to it along the axes as they are drawn: no
-//! value is invented, no seam can open, and uneven or logarithmic axes come out right. The image
+//! Each pixel has the colour of the grid point nearest to it along the axes as they are drawn: there is no
+//! interpolation, there are no seams, and uneven or logarithmic axes are handled correctly. The image
 //! is a PNG of at most 256 colours.
 
 use base64::Engine as _;
@@ -13,12 +13,12 @@ use super::colouring::{CLEAR, ColourMap};
 use super::field::{Field, borders};
 use super::palette::Colour;
 
-/// Pixels of an image to one unit of the picture; a PNG of the picture has as many.
+/// Pixels of an image per unit of the figure, the same as for a PNG of the figure.
 const DENSITY: f64 = 2.0;
-/// No image has more pixels than this along one side.
+/// Maximum number of pixels along one side of an image.
 const MOST_PIXELS: f64 = 4096.0;
 
-/// Pixels that each name a colour.
+/// An image whose pixels are indices into a list of colours.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Raster {
     pub(super) width: usize,
@@ -26,7 +26,7 @@ pub(super) struct Raster {
     pub(super) indices: Vec<u8>,
 }
 
-/// The field over the whole frame; what lies beyond its cells, and what has no value, is clear.
+/// The image of a field over the whole frame; pixels outside its cells and cells without a value are transparent.
 pub(super) fn raster(
     field: &Field,
     colour_map: &ColourMap,
@@ -68,7 +68,7 @@ fn pixels(length: f64) -> usize {
     pixels
 }
 
-/// The cell under the middle of each of `count` pixels between two places; none beyond the cells.
+/// The cell under the centre of each of `count` pixels between two positions; `None` outside the cells.
 fn nearest(
     borders: &[f64],
     mapping: &Mapping,
@@ -77,8 +77,8 @@ fn nearest(
     count: usize,
 ) -> Vec<Option<usize>> {
     let cell = |step: usize| {
-        let place = from + (to - from) * (step as f64 + 0.5) / count as f64;
-        let along = mapping.along(place);
+        let position = from + (to - from) * (step as f64 + 0.5) / count as f64;
+        let along = mapping.along(position);
         let above = borders.partition_point(|border| *border <= along);
         above.checked_sub(1).filter(|cell| cell + 1 < borders.len())
     };
@@ -86,7 +86,7 @@ fn nearest(
 }
 
 impl Raster {
-    /// The image as a `data:` address; nothing if it cannot be encoded.
+    /// The image as a `data:` address; `None` if it cannot be encoded.
     pub(super) fn address(&self, colours: &[Colour]) -> Option<String> {
         let bytes = self.png(colours).ok()?;
         Some(format!("data:image/png;base64,{}", STANDARD.encode(bytes)))
@@ -102,9 +102,9 @@ impl Raster {
         encoder.set_palette(palette);
         let opacity = |index: usize| if index == usize::from(CLEAR) { 0 } else { 255 };
         encoder.set_trns((0..colours.len()).map(opacity).collect::<Vec<u8>>());
-        // Rows that repeat the one above become rows of zeros.
+        // This filter encodes rows that repeat the one above as zeros.
         encoder.set_filter(png::FilterType::Up);
-        // The crate's own choice is faster and writes three times as much.
+        // The crate's default is faster but its output is three times as large.
         encoder.set_compression(png::Compression::Default);
         let mut writer = encoder.write_header()?;
         writer.write_image_data(&self.indices)?;
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pixel_has_the_colour_of_the_nearest_point_on_uneven_and_log_axes() {
+    fn pixels_have_the_colour_of_the_nearest_point_on_uneven_and_log_axes() {
         let (x, y) = (PlotAxis::new("x").log(), PlotAxis::new("y"));
         let values = vec![Some(0.0), Some(1.0), None, Some(2.0), Some(3.0), Some(0.0)];
         let field = Field::new(vec![1.0, 10.0, 10_000.0], vec![0.0, 1.0], values).expect("a field");
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn beyond_the_outer_cells_nothing_is_printed() {
+    fn pixels_outside_the_cells_are_transparent() {
         let axis = PlotAxis::new("x");
         let field =
             Field::new(vec![1.0, 2.0], vec![1.0, 2.0], vec![Some(1.0); 4]).expect("a field");
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn the_image_holds_what_was_drawn() {
+    fn an_encoded_image_decodes_to_its_colours() {
         let colour_map =
             ColourMap::new(&Colouring::Shaded(Shading::new(Palette::Viridis)), Some((0.0, 1.0)));
         let image = Raster { width: 2, height: 2, indices: vec![0, 249, CLEAR, 10] };

@@ -1,4 +1,4 @@
-//! The label of a rule: beside it, at whichever end covers least.
+//! Placement of the label of a reference line: next to the line, where it covers least.
 
 use super::axis::Mapping;
 use super::canvas::Rectangle;
@@ -8,7 +8,7 @@ use super::obstacles::Obstacles;
 use super::projection::reference_line_ends;
 use super::typeset::RichText;
 
-/// The place of the label; nothing when the rule lies outside the frame.
+/// The rectangle of the label; `None` if the line lies outside the frame.
 pub(super) fn place(
     rule: &ReferenceLine,
     (x, y): (&Mapping, &Mapping),

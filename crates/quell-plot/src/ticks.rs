@@ -1,4 +1,4 @@
-//! Ticks: where an axis carries marks, and what numbers stand beside them.
+//! Ticks: positions of the marks of an axis, and their labels.
 
 use kuva::render::render_utils::generate_ticks_with_step;
 
@@ -8,25 +8,25 @@ use super::typeset::{RichText, number};
 /// The marks of one axis.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ticks {
-    /// Values with a number, and the number.
+    /// Values with a label, and the label.
     pub(super) major: Vec<(f64, RichText)>,
-    /// Values with a short mark only.
+    /// Values with a short mark and no label.
     pub(super) minor: Vec<f64>,
-    /// Power of ten taken out of all numbers; 0 for none.
+    /// Exponent of the power of ten factored out of all labels; 0 for none.
     pub(super) exponent: i32,
 }
 
-/// How numbers take room along the axis.
+/// Space for tick labels along the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Room {
-    /// Side by side, in this many pixels at this font size.
+    /// Labels side by side, in this many pixels at this font size.
     Across(f64, f64),
-    /// One above the other, in this many pixels.
+    /// Labels one above the other, in this many pixels.
     Upright(f64),
 }
 
 impl Ticks {
-    /// Ticks for an axis that shows `limits`.
+    /// Ticks for an axis with these limits.
     pub(super) fn of(axis: &PlotAxis, limits: (f64, f64), room: Room) -> Self {
         if let Some(chosen) = &axis.ticks {
             let inside = |value: &f64| *value >= limits.0 && *value <= limits.1;
@@ -138,7 +138,7 @@ impl Ticks {
     }
 }
 
-/// The least of 1, 2 and 5 times a power of ten that comes near `wanted` or lies above it.
+/// The least of 1, 2 and 5 times a power of ten that is at least 0.65 `wanted`.
 fn step_for(wanted: f64) -> f64 {
     let least = 0.65 * wanted;
     let decade = 10f64.powf(least.log10().floor());
@@ -158,7 +158,7 @@ fn power(digit: i32, exponent: i32, plain: bool) -> String {
     format!("{mantissa}$10^{{{exponent}}}$")
 }
 
-/// Decimals that tell multiples of `step` apart.
+/// Number of decimals that distinguishes multiples of `step`.
 fn decimals(step: f64) -> usize {
     (0..9)
         .find(|decimals| {
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_of_one_axis_have_equal_decimals() {
+    fn labels_of_one_axis_have_equal_decimals() {
         let ticks = Ticks::of(&PlotAxis::new("x"), (0.0, 1.0), Room::Upright(200.0));
         assert_eq!(ticks.major[0].1, RichText::parse("0.0"));
         assert!(ticks.major.len() >= 4);
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn a_log_axis_has_its_decades() {
+    fn a_log_axis_is_labelled_at_decades() {
         let axis = PlotAxis::new("f").log();
         let ticks = Ticks::of(&axis, (1e-6, 1e2), Room::Upright(300.0));
         assert!(printed(&ticks).iter().any(|value| (value - 1e-3).abs() < 1e-12));
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_side_by_side_do_not_touch() {
+    fn labels_side_by_side_do_not_overlap() {
         let ticks = Ticks::of(&PlotAxis::new("x"), (-0.0123, 0.0117), Room::Across(120.0, 11.0));
         let widest =
             ticks.major.iter().map(|(_, label)| label.width(11.0, false)).fold(0.0, f64::max);

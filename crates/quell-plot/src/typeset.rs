@@ -1,11 +1,11 @@
 //! Labels: plain text with symbols between dollars, measured with the bundled fonts.
 //!
-//! Between `$` and `$`: Latin and lower-case Greek letters print in italics, `_x` and `_{xy}` lower
-//! (upright), `^x` and `^{xy}` raise (`_x` within lowers again), `\bar{…}` puts a bar over its letters (so does a combining
-//! macron after a letter), `\word` prints the word upright (`\ln`), and `-` prints as a minus sign.
-//! A dollar without a partner prints as itself. Greek letters are typed as they are: `$τ$`, `$ω_0$`.
+//! Between `$` and `$`: Latin and lower-case Greek letters print in italics, `_x` and `_{xy}` are subscripts
+//! (upright), `^x` and `^{xy}` are superscripts (which may contain a subscript `_x`), `\bar{…}` puts a bar over its letters
+//! (as does a combining macron after a letter), `\word` prints the word upright (`\ln`), and `-` prints as a minus sign.
+//! An unpaired dollar prints as itself. Greek letters are written literally: `$τ$`, `$ω_0$`.
 //!
-//! How a look becomes elements of the picture: [`super::tspan`].
+//! [`super::tspan`] converts letter styles to SVG elements.
 
 use super::fonts::{self, Face};
 use super::letter_style::{LetterStyle, ScriptLevel};
@@ -17,14 +17,14 @@ struct TextRun {
     look: LetterStyle,
 }
 
-/// A label taken apart into runs of one look.
+/// A label, parsed into runs of one letter style.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct RichText {
     runs: Vec<TextRun>,
 }
 
 impl RichText {
-    /// Takes a label apart.
+    /// Parses a label.
     pub(super) fn parse(source: &str) -> Self {
         let mut label = Self { runs: Vec::new() };
         let mut rest = source;
@@ -60,11 +60,11 @@ impl RichText {
             .sum()
     }
 
-    /// The text for kuva, with looks as private-use characters.
+    /// The text for kuva, with styles encoded as private-use characters.
     pub(super) fn encode(&self, tags: &mut Tags) -> String {
         let mut pen = Pen::new(tags);
         for run in &self.runs {
-            // kuva reads `$…$` and `\$` itself; a dollar that is left here is to print.
+            // kuva interprets `$…$` and `\$` itself; a dollar that is left here is literal.
             let printed = run.text.replace('$', "\\$");
             if run.look.barred {
                 run.text.chars().for_each(|letter| pen.put_barred(letter, run.look));
@@ -75,7 +75,7 @@ impl RichText {
         pen.into_text()
     }
 
-    /// The text for a page of HTML.
+    /// The text as HTML.
     pub(super) fn html(&self) -> String {
         let mut html = String::new();
         for run in &self.runs {
@@ -110,7 +110,7 @@ impl RichText {
 
     fn push_text(&mut self, text: &str, look: LetterStyle) {
         for letter in text.chars() {
-            // Controls and private-use characters have no print, and no place in XML.
+            // Control and private-use characters are not printable and must not appear in the XML.
             let private = ('\u{E000}'..='\u{F8FF}').contains(&letter);
             if private || matches!(letter, '\u{FFFE}' | '\u{FFFF}') {
                 continue;
@@ -174,7 +174,7 @@ impl RichText {
     }
 }
 
-/// The letters of `{…}` or the one letter at `at`, and where the text goes on.
+/// The letters of `{…}`, or the one letter at `at`, and the index after them.
 fn group(letters: &[char], at: usize) -> (Vec<char>, usize) {
     match letters.get(at) {
         Some('{') => {
@@ -196,16 +196,16 @@ fn is_macron(letter: char) -> bool {
     matches!(letter, '\u{304}' | '\u{305}')
 }
 
-/// Symbols that print in italics: Latin letters and lower-case Greek.
+/// Whether a symbol prints in italics: Latin letters and lower-case Greek.
 fn is_slanted(letter: char) -> bool {
     letter.is_ascii_alphabetic()
         || ('α'..='ω').contains(&letter)
         || matches!(letter, 'ϕ' | 'ϵ' | 'ϑ')
 }
 
-/// Breaks a text into labels no wider than `room` pixels, at spaces outside of `$…$`.
+/// Breaks a text into labels no wider than `room` pixels, at spaces outside `$…$`.
 ///
-/// A single word that is wider stands alone on its line.
+/// A single word that is wider gets a line of its own.
 pub(super) fn wrap(source: &str, size: f64, bold: bool, room: f64) -> Vec<RichText> {
     let mut lines: Vec<String> = Vec::new();
     for paragraph in source.lines() {
@@ -228,7 +228,7 @@ pub(super) fn wrap(source: &str, size: f64, bold: bool, room: f64) -> Vec<RichTe
     lines.iter().map(|line| RichText::parse(line)).collect()
 }
 
-/// A number as it prints on an axis: minus sign, and never minus zero.
+/// Formats a number for an axis: with a minus sign, and never as minus zero.
 pub(super) fn number(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
@@ -245,13 +245,13 @@ mod tests {
     use super::super::tspan::BAR;
     use super::*;
 
-    fn looks(source: &str) -> Vec<(String, LetterStyle)> {
+    fn runs_of(source: &str) -> Vec<(String, LetterStyle)> {
         RichText::parse(source).runs.into_iter().map(|run| (run.text, run.look)).collect()
     }
 
     #[test]
     fn symbols_are_italic_and_subscripts_upright() {
-        let runs = looks("slip velocity $v_r$ (m/s)");
+        let runs = runs_of("slip velocity $v_r$ (m/s)");
         let italic = LetterStyle { italic: true, ..LetterStyle::default() };
         let lowered = LetterStyle { level: ScriptLevel::Lowered, ..LetterStyle::default() };
         assert_eq!(
@@ -266,13 +266,13 @@ mod tests {
     }
 
     #[test]
-    fn a_bar_can_be_written_in_two_ways() {
-        assert_eq!(looks("$\\bar{μ}(v)$"), looks("$μ\u{304}(v)$"));
-        assert!(looks("$\\bar{μ}$")[0].1.barred);
+    fn both_notations_of_a_bar_are_equivalent() {
+        assert_eq!(runs_of("$\\bar{μ}(v)$"), runs_of("$μ\u{304}(v)$"));
+        assert!(runs_of("$\\bar{μ}$")[0].1.barred);
     }
 
     #[test]
-    fn a_bar_leaves_the_width_as_it_is() {
+    fn a_bar_does_not_change_the_width() {
         let (plain, barred) = (RichText::parse("$μ(v)$"), RichText::parse("$\\bar{μ}(v)$"));
         assert_eq!(plain.width(10.0, false), barred.width(10.0, false));
         let mut tags = Tags::default();
@@ -291,20 +291,20 @@ mod tests {
     }
 
     #[test]
-    fn a_lone_dollar_prints_and_survives_kuva() {
-        assert_eq!(looks("5 $ each"), vec![("5 $ each".into(), LetterStyle::default())]);
+    fn an_unpaired_dollar_is_printed_literally() {
+        assert_eq!(runs_of("5 $ each"), vec![("5 $ each".into(), LetterStyle::default())]);
         assert_eq!(RichText::parse("5 $ each").encode(&mut Tags::default()), "5 \\$ each");
     }
 
     #[test]
-    fn private_characters_of_a_label_cannot_pass_for_tags() {
+    fn private_use_characters_of_a_label_are_removed() {
         let mut tags = Tags::default();
         let text = RichText::parse("a\u{E000}b\u{F8FF}\u{1}").encode(&mut tags);
         assert_eq!(tags.resolve(&text), "ab ");
     }
 
     #[test]
-    fn a_shift_is_undone_after_a_subscript() {
+    fn the_baseline_shift_is_undone_after_a_subscript() {
         let mut tags = Tags::default();
         let text = RichText::parse("$x_1y$").encode(&mut tags);
         let svg = tags.resolve(&text);
@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_break_at_spaces_but_not_within_symbols() {
+    fn lines_break_at_spaces_outside_symbols() {
         let lines = wrap("aaaa bbbb $x + y$", 10.0, false, 60.0);
         assert_eq!(lines, vec![RichText::parse("aaaa bbbb"), RichText::parse("$x + y$")]);
     }
