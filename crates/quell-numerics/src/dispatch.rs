@@ -13,7 +13,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use crate::lane::Lane;
 #[cfg(target_arch = "x86_64")]
-use crate::lane::Pair;
+use crate::lane::LanePair;
 
 /// Work compiled per instruction set. `run` and all it calls in a hot loop must be
 /// `#[inline(always)]`, or they stay in the baseline copy.
@@ -130,7 +130,7 @@ pub fn with_lanes<W: LaneWork>(set: InstructionSet, work: W) -> W::Output {
         if set == InstructionSet::Avx512
             && let Some(simd) = pulp::x86::V4::try_new()
         {
-            return simd.vectorize(InLanes::<W, Pair<Eight>>(work, std::marker::PhantomData));
+            return simd.vectorize(InLanes::<W, LanePair<Eight>>(work, std::marker::PhantomData));
         }
         if set != InstructionSet::Baseline
             && let Some(simd) = pulp::x86::V3::try_new()
@@ -138,7 +138,7 @@ pub fn with_lanes<W: LaneWork>(set: InstructionSet, work: W) -> W::Output {
             return if set == InstructionSet::Fma {
                 simd.vectorize(InLanes::<W, f64>(work, std::marker::PhantomData))
             } else {
-                simd.vectorize(InLanes::<W, Pair<Four>>(work, std::marker::PhantomData))
+                simd.vectorize(InLanes::<W, LanePair<Four>>(work, std::marker::PhantomData))
             };
         }
     }

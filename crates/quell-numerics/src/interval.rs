@@ -1,4 +1,4 @@
-//! Interval arithmetic with outward rounding, for proofs about formulas.
+//! RealInterval arithmetic with outward rounding, for proofs about formulas.
 //!
 //! Every operation returns an interval that contains the exact result for all real numbers in its arguments. The four
 //! operations and the square root are correctly rounded, so their bounds move outward by one unit in the last place;
@@ -10,14 +10,14 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 /// All real numbers from `lower` to `upper`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interval {
+pub struct RealInterval {
     /// Lower bound.
     pub lower: f64,
     /// Upper bound, at least the lower one.
     pub upper: f64,
 }
 
-impl Interval {
+impl RealInterval {
     /// Every real number.
     pub const WHOLE: Self = Self { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
 
@@ -181,7 +181,7 @@ impl Interval {
     }
 }
 
-impl Neg for Interval {
+impl Neg for RealInterval {
     type Output = Self;
 
     fn neg(self) -> Self {
@@ -189,7 +189,7 @@ impl Neg for Interval {
     }
 }
 
-impl Add for Interval {
+impl Add for RealInterval {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -197,7 +197,7 @@ impl Add for Interval {
     }
 }
 
-impl Sub for Interval {
+impl Sub for RealInterval {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
@@ -205,7 +205,7 @@ impl Sub for Interval {
     }
 }
 
-impl Mul for Interval {
+impl Mul for RealInterval {
     type Output = Self;
 
     fn mul(self, other: Self) -> Self {
@@ -239,21 +239,21 @@ mod tests {
     /// Every value of a function at points inside lies in its interval, and the interval is no wider than needed.
     #[test]
     fn images_contain_every_value_and_little_else() {
-        type Image = fn(Interval) -> Interval;
+        type Image = fn(RealInterval) -> RealInterval;
         type Function = fn(f64) -> f64;
         let functions: [(&str, Image, Function); 8] = [
-            ("exp", Interval::exp, f64::exp),
-            ("sin", Interval::sin, f64::sin),
-            ("cos", Interval::cos, f64::cos),
-            ("tanh", Interval::tanh, f64::tanh),
-            ("sech", Interval::sech, |x| 1.0 / x.cosh()),
-            ("atan", Interval::atan, f64::atan),
-            ("abs", Interval::abs, f64::abs),
+            ("exp", RealInterval::exp, f64::exp),
+            ("sin", RealInterval::sin, f64::sin),
+            ("cos", RealInterval::cos, f64::cos),
+            ("tanh", RealInterval::tanh, f64::tanh),
+            ("sech", RealInterval::sech, |x| 1.0 / x.cosh()),
+            ("atan", RealInterval::atan, f64::atan),
+            ("abs", RealInterval::abs, f64::abs),
             ("fourth power", |x| x.power(4), |x| x.powi(4)),
         ];
         for (name, image, function) in functions {
             for (from, to) in [(-3.0, 0.5), (0.1, 0.1), (1.5, 1.7), (-0.2, 7.1), (4.0, 5.0)] {
-                let found = image(Interval::new(from, to));
+                let found = image(RealInterval::new(from, to));
                 let values: Vec<f64> = (0..=2000)
                     .map(|k| function(from + (to - from) * f64::from(k) / 2000.0))
                     .collect();
@@ -272,19 +272,20 @@ mod tests {
 
     #[test]
     fn what_is_not_defined_is_no_interval() {
-        let around = Interval::new(-1e-9, 1e-9);
-        assert!(Interval::point(1.0).over(around).is_none());
+        let around = RealInterval::new(-1e-9, 1e-9);
+        assert!(RealInterval::point(1.0).over(around).is_none());
         assert!(around.log().is_none() && around.sqrt().is_none());
-        assert!(Interval::point(0.0).over(Interval::point(0.0)).is_none());
+        assert!(RealInterval::point(0.0).over(RealInterval::point(0.0)).is_none());
     }
 
     #[test]
     fn unbounded_numbers_are_finite_ones() {
-        let large = Interval::new(800.0, 900.0).exp();
+        let large = RealInterval::new(800.0, 900.0).exp();
         assert!(large.lower > 0.0 && large.lower.is_finite() && large.upper.is_infinite());
-        assert_eq!(Interval::point(0.0) * Interval::WHOLE, Interval::point(0.0));
-        let small =
-            Interval::point(1.0).over(Interval::new(1e300, f64::INFINITY)).expect("above 0");
+        assert_eq!(RealInterval::point(0.0) * RealInterval::WHOLE, RealInterval::point(0.0));
+        let small = RealInterval::point(1.0)
+            .over(RealInterval::new(1e300, f64::INFINITY))
+            .expect("above 0");
         assert!(small.lower == 0.0 && small.upper < 1e-299);
     }
 }

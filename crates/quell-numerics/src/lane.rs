@@ -148,9 +148,9 @@ impl Lane for f64 {
 /// Two groups of lanes worked on in turn: while one waits for the result of an operation, the
 /// other one is computed.
 #[derive(Clone, Copy, Debug)]
-pub struct Pair<V>(V, V);
+pub struct LanePair<V>(V, V);
 
-impl<V: Lane> Add for Pair<V> {
+impl<V: Lane> Add for LanePair<V> {
     type Output = Self;
 
     #[inline(always)]
@@ -159,7 +159,7 @@ impl<V: Lane> Add for Pair<V> {
     }
 }
 
-impl<V: Lane> Sub for Pair<V> {
+impl<V: Lane> Sub for LanePair<V> {
     type Output = Self;
 
     #[inline(always)]
@@ -168,7 +168,7 @@ impl<V: Lane> Sub for Pair<V> {
     }
 }
 
-impl<V: Lane> Mul for Pair<V> {
+impl<V: Lane> Mul for LanePair<V> {
     type Output = Self;
 
     #[inline(always)]
@@ -177,7 +177,7 @@ impl<V: Lane> Mul for Pair<V> {
     }
 }
 
-impl<V: Lane> Neg for Pair<V> {
+impl<V: Lane> Neg for LanePair<V> {
     type Output = Self;
 
     #[inline(always)]
@@ -186,7 +186,7 @@ impl<V: Lane> Neg for Pair<V> {
     }
 }
 
-impl<V: Lane> Lane for Pair<V> {
+impl<V: Lane> Lane for LanePair<V> {
     const LANES: usize = 2 * V::LANES;
 
     #[inline(always)]

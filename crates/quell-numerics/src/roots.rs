@@ -1,6 +1,6 @@
 //! Scalar roots in a bracket (Chandrupatla) and minima of unimodal functions (Brent).
 //!
-//! Root: f(a) and f(b) have opposite signs; each step takes inverse quadratic interpolation through
+//! ScalarRoot: f(a) and f(b) have opposite signs; each step takes inverse quadratic interpolation through
 //! the last three points where Chandrupatla's test shows it to be safe (f monotone and not too curved on the bracket),
 //! bisection otherwise. The bracket always holds a sign change, so the answer is a root of the
 //! *computed* f within the tolerance; superlinear on simple roots, never worse than about three times bisection.
@@ -14,7 +14,7 @@
 
 /// A root and the bracket it was caught in.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Root {
+pub struct ScalarRoot {
     /// The end of the last bracket with the smaller |f|.
     pub location: f64,
     /// f there.
@@ -103,7 +103,7 @@ impl core::error::Error for RootError {}
 /// (and 64 once the bracket spans one binary order).
 pub const MAX_STEPS: usize = 2200;
 
-/// Root of `f` between `a` and `b`, where it changes sign.
+/// ScalarRoot of `f` between `a` and `b`, where it changes sign.
 ///
 /// # Errors
 /// [`RootError`] where there is no sign change, or f is not a number.
@@ -112,14 +112,14 @@ pub fn find_root(
     a: f64,
     b: f64,
     closeness: Closeness,
-) -> Result<Root, RootError> {
+) -> Result<ScalarRoot, RootError> {
     // b: newest point, a: other end of the bracket, c: the point dropped last.
     let (mut a, mut b) = (b, a);
     let mut fa = number(f(a), a)?;
     let mut fb = number(f(b), b)?;
     if fa == 0.0 || fb == 0.0 {
         let location = if fa == 0.0 { a } else { b };
-        return Ok(Root { location, residual: 0.0, width: 0.0, evaluations: 2 });
+        return Ok(ScalarRoot { location, residual: 0.0, width: 0.0, evaluations: 2 });
     }
     if (fa > 0.0) == (fb > 0.0) {
         return Err(RootError::NotBracketed { at_lower: fb, at_upper: fa });
@@ -138,12 +138,12 @@ pub fn find_root(
         (a, fa) = (x, fx);
         let (location, residual) = if fa.abs() < fb.abs() { (a, fa) } else { (b, fb) };
         if residual == 0.0 {
-            return Ok(Root { location, residual, width: 0.0, evaluations });
+            return Ok(ScalarRoot { location, residual, width: 0.0, evaluations });
         }
         let width = (b - a).abs();
         let limit = closeness.at(location) / width;
         if limit > 0.5 {
-            return Ok(Root { location, residual, width, evaluations });
+            return Ok(ScalarRoot { location, residual, width, evaluations });
         }
         let xi = (a - b) / (c - b);
         let phi = (fa - fb) / (fc - fb);
@@ -254,7 +254,7 @@ pub fn try_find_root<E>(
     a: f64,
     b: f64,
     closeness: Closeness,
-) -> Result<Result<Root, RootError>, E> {
+) -> Result<Result<ScalarRoot, RootError>, E> {
     let mut failure = None;
     let found = find_root(|x| kept(f(x), &mut failure), a, b, closeness);
     failure.map_or(Ok(found), Err)
@@ -291,7 +291,7 @@ fn number(y: f64, at: f64) -> Result<f64, RootError> {
 mod tests {
     use super::*;
 
-    fn root(f: impl FnMut(f64) -> f64, a: f64, b: f64) -> Root {
+    fn root(f: impl FnMut(f64) -> f64, a: f64, b: f64) -> ScalarRoot {
         find_root(f, a, b, Closeness::default()).expect("a root")
     }
 

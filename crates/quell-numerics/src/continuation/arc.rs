@@ -1,7 +1,7 @@
 //! One step along a one-dimensional set of solutions: N equations for N + 1 unknowns.
 //!
 //! Predictor: the tangent. Corrector: Newton's method on the hyperplane through the predicted point, orthogonal to the way
-//! (Keller's pseudo-arclength), which passes folds without noticing. What the equations are is told by a [`System`].
+//! (Keller's pseudo-arclength), which passes folds without noticing. What the equations are is told by a [`UnderdeterminedSystem`].
 
 use crate::matrix::Matrix;
 
@@ -19,6 +19,9 @@ pub(super) const NEAR: f64 = 0.1;
 
 /// Least cosine of the turn of a step.
 pub(super) const TURN: f64 = 0.9;
+
+/// Difference by which the derivative by a parameter is taken: it steers Newton's method only.
+pub(super) const NUDGE: f64 = 1e-6;
 
 /// Points before a way may close.
 const CLOSING: usize = 8;
@@ -42,7 +45,7 @@ pub(super) fn closes(
 }
 
 /// N equations for N + 1 unknowns, all scaled.
-pub(super) trait System {
+pub(super) trait UnderdeterminedSystem {
     /// What is known beside the mismatch.
     type Known;
     /// Why there is none.
@@ -98,7 +101,7 @@ pub(super) fn cosine(a: &[f64], b: &[f64]) -> f64 {
 
 /// The solution on the hyperplane through `predicted` orthogonal to `normal`; `None` where corrections do not come to an
 /// end, or the equations have no mismatch on the way.
-pub(super) fn corrected<S: System>(
+pub(super) fn corrected<S: UnderdeterminedSystem>(
     system: &S,
     predicted: &[f64],
     normal: &[f64],

@@ -9,10 +9,11 @@
 
 use num_complex::Complex64;
 
-use super::arc::{self, NEAR, Solved, System, TURN, cosine, distance, tangent};
-use super::branch::NUDGE;
-use super::threshold::{Kind, confirmed, test};
-use super::{Family, Image, multipliers};
+use super::arc::{
+    self, NEAR, NUDGE, Solved, TURN, UnderdeterminedSystem, cosine, distance, tangent,
+};
+use super::threshold::{BifurcationKind, confirmed, test};
+use super::{Image, PeriodMap, multipliers};
 use crate::matrix::Matrix;
 
 /// The windows of the two parameters and the steps of a trace.
@@ -40,7 +41,7 @@ impl Trace {
 
 /// A point of a curve.
 #[derive(Clone, Debug)]
-pub struct CurvePoint {
+pub struct BifurcationCurvePoint {
     /// The fixed point.
     pub state: Vec<f64>,
     /// The two parameters.
@@ -59,7 +60,7 @@ pub enum CurveEnd {
     /// Where it began.
     Closed,
     /// Its orbit touches the border of its signature.
-    Touch,
+    Grazing,
     /// The pair of multipliers is real: a resonance 1 : 1 or 1 : 2.
     Resonance,
     /// Steps became too short.
@@ -70,24 +71,24 @@ pub enum CurveEnd {
 
 /// A curve, from one of its ends to the other.
 #[derive(Clone, Debug)]
-pub struct Curve {
+pub struct BifurcationCurve {
     /// What happens on it.
-    pub kind: Kind,
+    pub kind: BifurcationKind,
     /// Points in order.
-    pub points: Vec<CurvePoint>,
+    pub points: Vec<BifurcationCurvePoint>,
     /// How it ends before the first and after the last point.
     pub ends: [CurveEnd; 2],
 }
 
 /// The equations of a threshold in scaled unknowns.
-struct Equations<'a, F: Family> {
+struct Equations<'a, F: PeriodMap> {
     family: &'a F,
     trace: Trace,
-    kind: Kind,
+    kind: BifurcationKind,
     held: &'a F::Signature,
 }
 
-impl<F: Family> Equations<'_, F> {
+impl<F: PeriodMap> Equations<'_, F> {
     fn unscaled(&self, unknowns: &[f64]) -> (Vec<f64>, [f64; 2]) {
         let n = unknowns.len() - 2;
         let state = unknowns[..n].iter().map(|it| it * self.family.scale()).collect();
@@ -98,11 +99,11 @@ impl<F: Family> Equations<'_, F> {
     /// The test at an image; a distance is a length.
     fn test(&self, image: &Image<F::Signature>) -> f64 {
         let value = test(self.kind, image).unwrap_or(f64::NAN);
-        if self.kind == Kind::Touch { value / self.family.scale() } else { value }
+        if self.kind == BifurcationKind::Grazing { value / self.family.scale() } else { value }
     }
 }
 
-impl<F: Family> System for Equations<'_, F> {
+impl<F: PeriodMap> UnderdeterminedSystem for Equations<'_, F> {
     type Known = Image<F::Signature>;
     type Error = F::Error;
 
@@ -153,7 +154,7 @@ impl<F: Family> System for Equations<'_, F> {
 
 /// A point with what the trace needs.
 #[derive(Clone)]
-struct Place<S> {
+struct CurveSolution<S> {
     unknowns: Vec<f64>,
     tangent: Vec<f64>,
     image: Image<S>,
@@ -161,14 +162,14 @@ struct Place<S> {
     multipliers: Vec<Complex64>,
 }
 
-impl<S> Place<S> {
+impl<S> CurveSolution<S> {
     fn with_tangent(&self) -> (&[f64], &[f64]) {
         (&self.unknowns, &self.tangent)
     }
 }
 
 /// The share of a step at which it leaves a window first, and through which coordinate and end.
-fn leaves<S>(here: &Place<S>, length: f64) -> Option<(f64, usize, f64)> {
+fn leaves<S>(here: &CurveSolution<S>, length: f64) -> Option<(f64, usize, f64)> {
     let n = here.unknowns.len() - 2;
     (n..n + 2)
         .filter_map(|column| {
@@ -180,27 +181,27 @@ fn leaves<S>(here: &Place<S>, length: f64) -> Option<(f64, usize, f64)> {
         .min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-impl<F: Family> Equations<'_, F> {
-    fn at(&self, predicted: &[f64], normal: &[f64]) -> Option<Place<F::Signature>> {
+impl<F: PeriodMap> Equations<'_, F> {
+    fn at(&self, predicted: &[f64], normal: &[f64]) -> Option<CurveSolution<F::Signature>> {
         let solved = arc::corrected(self, predicted, normal, None)?;
         let Solved { unknowns, residual, known, derivative } = solved;
         let multipliers = multipliers(&known.derivative)?;
         let tangent = tangent(&derivative, normal)?;
-        Some(Place { unknowns, tangent, image: known, residual, multipliers })
+        Some(CurveSolution { unknowns, tangent, image: known, residual, multipliers })
     }
 
-    fn point(&self, place: &Place<F::Signature>) -> CurvePoint {
+    fn point(&self, place: &CurveSolution<F::Signature>) -> BifurcationCurvePoint {
         let (state, parameters) = self.unscaled(&place.unknowns);
         let multipliers = place.multipliers.clone();
-        CurvePoint { state, parameters, multipliers, residual: place.residual }
+        BifurcationCurvePoint { state, parameters, multipliers, residual: place.residual }
     }
 
     /// One step; `Err` where this length does not do, or for good where the end is known.
     fn step(
         &self,
-        here: &Place<F::Signature>,
+        here: &CurveSolution<F::Signature>,
         length: f64,
-    ) -> Result<(Place<F::Signature>, bool), Option<CurveEnd>> {
+    ) -> Result<(CurveSolution<F::Signature>, bool), Option<CurveEnd>> {
         let leaving = leaves(here, length);
         let mut normal = here.tangent.clone();
         let way = leaving.map_or(length, |(way, ..)| way.max(0.0));
@@ -221,9 +222,9 @@ impl<F: Family> Equations<'_, F> {
             return Err(None);
         }
         if next.image.signature != *self.held
-            || (self.kind != Kind::Touch && next.image.distance <= 0.0)
+            || (self.kind != BifurcationKind::Grazing && next.image.distance <= 0.0)
         {
-            return Err(Some(CurveEnd::Touch));
+            return Err(Some(CurveEnd::Grazing));
         }
         if !confirmed(self.kind, &next.multipliers) {
             return Err(Some(CurveEnd::Resonance));
@@ -237,7 +238,7 @@ impl<F: Family> Equations<'_, F> {
     }
 
     /// The curve from a place in the direction of its tangent.
-    fn side(&self, begin: &Place<F::Signature>) -> (Vec<CurvePoint>, CurveEnd) {
+    fn side(&self, begin: &CurveSolution<F::Signature>) -> (Vec<BifurcationCurvePoint>, CurveEnd) {
         let mut here = begin.clone();
         let mut points = Vec::new();
         let mut length = self.trace.longest;
@@ -272,14 +273,14 @@ impl<F: Family> Equations<'_, F> {
 /// The curve of a threshold of a kind through a fixed point that has it, on the piece of `signature`, in both directions
 /// to the borders of the windows. State and both parameters are unscaled, in the order of [`Trace`]'s windows; they are the guess
 /// of Newton's method. `None` where it finds no point of the curve from there.
-pub fn trace<F: Family>(
+pub fn trace<F: PeriodMap>(
     family: &F,
-    kind: Kind,
+    kind: BifurcationKind,
     signature: &F::Signature,
     state: &[f64],
     parameters: [f64; 2],
     options: Trace,
-) -> Option<Curve> {
+) -> Option<BifurcationCurve> {
     let equations = Equations { family, trace: options, kind, held: signature };
     let share = |(from, to): (f64, f64), value: f64| (value - from) / (to - from);
     let mut unknowns: Vec<f64> = state.iter().map(|it| it / family.scale()).collect();
@@ -292,15 +293,15 @@ pub fn trace<F: Family>(
         normal[n + 1 - turn] = 1.0;
         equations.at(&unknowns, &normal)
     })?;
-    let back = Place { tangent: met.tangent.iter().map(|it| -it).collect(), ..met.clone() };
+    let back = CurveSolution { tangent: met.tangent.iter().map(|it| -it).collect(), ..met.clone() };
     let (forward, end) = equations.side(&met);
     let (backward, begin) = if end == CurveEnd::Closed {
         (Vec::new(), CurveEnd::Closed)
     } else {
         equations.side(&back)
     };
-    let mut points: Vec<CurvePoint> = backward.into_iter().rev().collect();
+    let mut points: Vec<BifurcationCurvePoint> = backward.into_iter().rev().collect();
     points.push(equations.point(&met));
     points.extend(forward);
-    Some(Curve { kind, points, ends: [begin, end] })
+    Some(BifurcationCurve { kind, points, ends: [begin, end] })
 }

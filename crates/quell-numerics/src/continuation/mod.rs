@@ -1,7 +1,7 @@
 //! Fixed points of maps that depend on parameters: found by shooting, followed by pseudo-arclength, with the
 //! thresholds at which their stability changes, and curves of such thresholds in two parameters.
 //!
-//! A system enters by [`Family`]: where a state comes to after a period, the derivative of that, and what happens on the
+//! A system enters by [`PeriodMap`]: where a state comes to after a period, the derivative of that, and what happens on the
 //! way. How many masses and contacts it has, and how their impacts, sticks and slips are integrated, is its own affair:
 //! a saltation matrix is part of the derivative, and two periods with other events have other signatures.
 //!
@@ -10,7 +10,7 @@
 //! * [`threshold`]: what is zero at a fold, a flip, a Neimark–Sacker bifurcation, a touch;
 //! * [`curve`]: the curve of a threshold in two parameters.
 //!
-//! Lengths along a branch are counted in scaled coordinates: the state in [`Family::scale`], each parameter in the width of
+//! Lengths along a branch are counted in scaled coordinates: the state in [`PeriodMap::scale`], each parameter in the width of
 //! its window.
 //!
 //! References: H. B. Keller, *Lectures on Numerical Methods in Bifurcation Problems* (1987), for the bordered
@@ -32,7 +32,7 @@ pub use crate::eigen::modulus;
 use crate::matrix::Matrix;
 
 /// A map of a state over one period, which depends on parameters.
-pub trait Family {
+pub trait PeriodMap {
     /// What happens along a period. States of one signature have images that depend smoothly on state and parameters.
     type Signature: Clone + PartialEq + Debug;
     /// Why there is no image.

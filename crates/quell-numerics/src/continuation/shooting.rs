@@ -6,10 +6,10 @@
 
 use std::fmt;
 
-use super::{Family, Image};
+use super::{Image, PeriodMap};
 use crate::matrix::Matrix;
 
-/// How a fixed point is looked for. Lengths are relative to [`Family::scale`].
+/// How a fixed point is looked for. Lengths are relative to [`PeriodMap::scale`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shooting {
     /// Most steps.
@@ -121,7 +121,7 @@ pub(super) fn largest(values: &[f64]) -> f64 {
 ///
 /// # Errors
 /// [`NotClosed`].
-pub fn fixed_point<F: Family>(
+pub fn fixed_point<F: PeriodMap>(
     family: &F,
     guess: &[f64],
     parameters: &[f64],

@@ -15,7 +15,7 @@ const ON_THE_CIRCLE: f64 = 1e-5;
 
 /// What happens to a fixed point at a threshold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Kind {
+pub enum BifurcationKind {
     /// A multiplier passes +1 and the branch turns back.
     Fold,
     /// A multiplier passes +1 and the branch goes on: another one crosses.
@@ -25,7 +25,7 @@ pub enum Kind {
     /// A complex pair of multipliers passes the unit circle.
     NeimarkSacker,
     /// The distance from the border of the signature is zero; what lies beyond has another signature.
-    Touch,
+    Grazing,
     /// The signature changes, and the family knows no distance from its border.
     Border,
 }
@@ -37,7 +37,8 @@ pub(super) struct Tests {
 }
 
 /// Kinds in the order of [`Tests::values`]; branching is told from a fold by the branch.
-pub(super) const SMOOTH: [Kind; 3] = [Kind::Fold, Kind::Flip, Kind::NeimarkSacker];
+pub(super) const SMOOTH: [BifurcationKind; 3] =
+    [BifurcationKind::Fold, BifurcationKind::Flip, BifurcationKind::NeimarkSacker];
 
 impl Tests {
     pub(super) fn of(multipliers: &[Complex64]) -> Self {
@@ -54,18 +55,18 @@ impl Tests {
 }
 
 /// What is zero at a threshold of this kind; `None` where multipliers cannot be computed.
-pub(super) fn test<S>(kind: Kind, image: &Image<S>) -> Option<f64> {
+pub(super) fn test<S>(kind: BifurcationKind, image: &Image<S>) -> Option<f64> {
     let index = match kind {
-        Kind::Touch | Kind::Border => return Some(image.distance),
-        Kind::Fold | Kind::Branching => 0,
-        Kind::Flip => 1,
-        Kind::NeimarkSacker => 2,
+        BifurcationKind::Grazing | BifurcationKind::Border => return Some(image.distance),
+        BifurcationKind::Fold | BifurcationKind::Branching => 0,
+        BifurcationKind::Flip => 1,
+        BifurcationKind::NeimarkSacker => 2,
     };
     Some(Tests::of(&multipliers(&image.derivative)?).values[index])
 }
 
 /// Whether a root of the test of a kind is one of its bifurcations.
-pub(super) fn confirmed(kind: Kind, multipliers: &[Complex64]) -> bool {
-    kind != Kind::NeimarkSacker
+pub(super) fn confirmed(kind: BifurcationKind, multipliers: &[Complex64]) -> bool {
+    kind != BifurcationKind::NeimarkSacker
         || multipliers.iter().any(|&it| it.im != 0.0 && (modulus(it) - 1.0).abs() < ON_THE_CIRCLE)
 }

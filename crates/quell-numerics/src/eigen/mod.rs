@@ -7,7 +7,7 @@
 //! scaled matrices.
 //!
 //! Accuracy: the values are those of A + E with ‖E‖ ≤ n ε ‖A‖ (A balanced); a simple eigenvalue moves by at most
-//! κ‖E‖ with κ = ‖x‖‖y‖/|yᵀx| ([`Pair::condition`]), a defective one by the root of it.
+//! κ‖E‖ with κ = ‖x‖‖y‖/|yᵀx| ([`EigenPair::condition`]), a defective one by the root of it.
 
 mod balance;
 mod francis;
@@ -83,7 +83,7 @@ pub struct Decomposition {
 
 /// An eigenvalue with its vectors.
 #[derive(Clone, Debug)]
-pub struct Pair {
+pub struct EigenPair {
     /// The eigenvalue.
     pub value: Complex64,
     /// Right vector x, A x = λ x.
@@ -164,12 +164,12 @@ impl Decomposition {
     }
 
     /// Eigenvalue `index` with its right and left vector, by inverse iteration.
-    pub fn pair(&self, index: usize) -> Pair {
+    pub fn pair(&self, index: usize) -> EigenPair {
         self.pair_from(index, 0)
     }
 
     /// As [`Decomposition::pair`] from another start: another vector where the eigenvalue is multiple.
-    pub(crate) fn pair_from(&self, index: usize, variant: usize) -> Pair {
+    pub(crate) fn pair_from(&self, index: usize, variant: usize) -> EigenPair {
         let value = self.values[index];
         let (right, left) = with_fused_multiply_add(Vectors { of: self, value, variant });
         let product = product_without_conjugation(&right, &left);
@@ -178,7 +178,7 @@ impl Decomposition {
         let right = self.outside(right, |scale| scale, Complex64::new(1.0, 0.0));
         let factor = if size > 0.0 { product.inv() } else { Complex64::new(1.0, 0.0) };
         let left = self.outside(left, f64::recip, factor);
-        Pair { value, right, left, condition }
+        EigenPair { value, right, left, condition }
     }
 
     /// The factors of H − σ.

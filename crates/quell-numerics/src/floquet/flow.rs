@@ -8,7 +8,7 @@
 
 use num_complex::Complex64;
 
-use crate::eigen::{Decomposition, EigenError, Pair};
+use crate::eigen::{Decomposition, EigenError, EigenPair};
 use crate::matrix::Matrix;
 
 /// Beyond this condition modal coordinates would cost more than three digits.
@@ -108,7 +108,7 @@ impl ConstantFlow {
         self.nilpotent
     }
 
-    fn make_modal(&mut self, pairs: &[Pair]) {
+    fn make_modal(&mut self, pairs: &[EigenPair]) {
         let (n, r) = (self.size, self.rank);
         let (mut u, mut v) = (Matrix::zeros(n, r), Matrix::zeros(r, n));
         let (mut au, mut va) = (Matrix::zeros(n, r), Matrix::zeros(r, n));
@@ -163,7 +163,7 @@ impl ConstantFlow {
 
 /// The modes of A₀ with Im λ ≥ 0, left and right vectors orthonormal to each other also where eigenvalues are equal: the
 /// vectors of a group of equal eigenvalues start from different vectors, and Y ← (YᵀX)⁻¹Y makes them dual.
-fn modes(decomposition: &Decomposition) -> Vec<Pair> {
+fn modes(decomposition: &Decomposition) -> Vec<EigenPair> {
     let values = decomposition.values();
     let mut open: Vec<usize> = (0..values.len()).filter(|&i| values[i].im >= 0.0).collect();
     let near = NEARLY_EQUAL * decomposition.norm();
@@ -172,7 +172,7 @@ fn modes(decomposition: &Decomposition) -> Vec<Pair> {
         let close = |i: usize| crate::eigen::modulus(values[i] - values[first]) <= near;
         let group: Vec<usize> = open.iter().copied().filter(|&i| close(i)).collect();
         open.retain(|&i| !close(i));
-        let mut pairs: Vec<Pair> = group
+        let mut pairs: Vec<EigenPair> = group
             .iter()
             .enumerate()
             .map(|(variant, &i)| decomposition.pair_from(i, variant))
@@ -186,7 +186,7 @@ fn modes(decomposition: &Decomposition) -> Vec<Pair> {
 }
 
 /// Y ← (YᵀX)⁻¹Y by elimination with pivoting; conditions anew, infinite where the vectors depend on each other.
-fn make_dual(pairs: &mut [Pair]) {
+fn make_dual(pairs: &mut [EigenPair]) {
     let k = pairs.len();
     let product =
         |x: &[Complex64], y: &[Complex64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<Complex64>();

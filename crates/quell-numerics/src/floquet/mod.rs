@@ -28,7 +28,7 @@ use num_complex::Complex64;
 use crate::eigen::{Decomposition, EigenError, eigenvalues, modulus};
 use crate::matrix::Matrix;
 use processing::Generator;
-use shared::Branch;
+use shared::TrackedMultiplier;
 use steps::Steps;
 
 /// Least of all error bounds.
@@ -292,7 +292,7 @@ fn candidates(
     decomposition: &Decomposition,
     coarse: &Matrix,
     fine: &Matrix,
-) -> Option<Vec<Branch>> {
+) -> Option<Vec<TrackedMultiplier>> {
     let mut difference = coarse.clone();
     difference.add_scaled(-1.0, fine);
     let values = decomposition.values();
@@ -304,12 +304,12 @@ fn candidates(
     if chosen.len() > BRANCHES {
         return None;
     }
-    chosen.into_iter().map(|i| Branch::new(decomposition, i)).collect()
+    chosen.into_iter().map(|i| TrackedMultiplier::new(decomposition, i)).collect()
 }
 
 /// Every branch in another map.
 fn follow_all(
-    branches: &[Branch],
+    branches: &[TrackedMultiplier],
     decomposition: &Decomposition,
     map: &Matrix,
 ) -> Option<Vec<Complex64>> {

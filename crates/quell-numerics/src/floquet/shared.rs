@@ -18,7 +18,7 @@ const TURNS: usize = 12;
 const CONVERGED: f64 = 4e-16;
 
 /// A multiplier of the map S with what is needed to find it in others.
-pub(super) struct Branch {
+pub(super) struct TrackedMultiplier {
     /// Its condition κ.
     pub(super) condition: f64,
     shifted: Shifted,
@@ -29,12 +29,12 @@ pub(super) struct Branch {
     left_outside: Split,
 }
 
-struct NewBranch<'a> {
+struct FactorAndVectors<'a> {
     of: &'a Decomposition,
     value: Complex64,
 }
 
-impl Work for NewBranch<'_> {
+impl Work for FactorAndVectors<'_> {
     type Output = (Shifted, Split, Split);
 
     #[inline(always)]
@@ -97,12 +97,12 @@ fn subtract(a: &mut Split, f: Complex64, b: &Split) {
     }
 }
 
-impl Branch {
-    /// Branch `index` of the map S; `None` where its vectors say nothing (a defective multiplier).
+impl TrackedMultiplier {
+    /// TrackedMultiplier `index` of the map S; `None` where its vectors say nothing (a defective multiplier).
     pub(super) fn new(of: &Decomposition, index: usize) -> Option<Self> {
         let multiplier = of.values()[index];
         let (shifted, mut right, left) =
-            with_fused_multiply_add(NewBranch { of, value: multiplier });
+            with_fused_multiply_add(FactorAndVectors { of, value: multiplier });
         let product = product_without_conjugation(&left, &right);
         let size = modulus(product);
         if size.is_nan() || size < 1e-10 {

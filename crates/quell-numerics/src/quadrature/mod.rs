@@ -17,22 +17,13 @@
 //! (QAGP without extrapolation). Nodes and weights were computed anew to 34 digits; the tests check
 //! their exactness on polynomials up to degree 31 (Kronrod) and 19 (Gauss).
 
+mod integral;
 mod rule;
 
 use std::collections::BinaryHeap;
 
-use rule::{Panel, panel};
-
-/// Value of an integral, the bound on its error that was reached, and what it cost.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Integral {
-    /// ∫ f dx.
-    pub value: f64,
-    /// Estimated absolute error; includes the rounding of the sums, but not that of the integrand's own evaluation.
-    pub error: f64,
-    /// Number of evaluations of the integrand.
-    pub evaluations: usize,
-}
+pub use integral::{Integral, QuadratureError};
+use rule::{QuadraturePanel, panel};
 
 /// When a quadrature is good enough, and how much it may cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,65 +44,6 @@ impl Default for QuadratureOptions {
         Self { relative: 1e-13, absolute: 0.0, panels: 1, evaluations: 200_000 }
     }
 }
-
-/// Why a quadrature could not keep its tolerance.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum QuadratureError {
-    /// An end or a break point is not finite.
-    NotFinite {
-        /// The offending end or break point.
-        limit: f64,
-    },
-    /// The integrand is not finite at an interior point.
-    IntegrandNotFinite {
-        /// Where it was evaluated.
-        at: f64,
-    },
-    /// The rounding of the integrand (∫|f| ≫ |∫f|) hides the digits asked for.
-    Rounding {
-        /// The best value, with its error.
-        best: Integral,
-    },
-    /// The budget of evaluations was used up.
-    Evaluations {
-        /// The best value, with its error.
-        best: Integral,
-    },
-}
-
-impl QuadratureError {
-    /// The best value reached, where there is one.
-    #[must_use]
-    pub fn best(&self) -> Option<Integral> {
-        match *self {
-            Self::Rounding { best } | Self::Evaluations { best } => Some(best),
-            Self::NotFinite { .. } | Self::IntegrandNotFinite { .. } => None,
-        }
-    }
-}
-
-impl core::fmt::Display for QuadratureError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::NotFinite { limit } => {
-                write!(f, "the limit {limit} of an integral is not finite")
-            }
-            Self::IntegrandNotFinite { at } => write!(f, "the integrand is not finite at {at}"),
-            Self::Rounding { best } => write!(
-                f,
-                "rounding of the integrand leaves an error of {:e} in the integral {:e}",
-                best.error, best.value
-            ),
-            Self::Evaluations { best } => write!(
-                f,
-                "after {} evaluations the integral {:e} still has an error of {:e}",
-                best.evaluations, best.value, best.error
-            ),
-        }
-    }
-}
-
-impl core::error::Error for QuadratureError {}
 
 /// Agreement of a panel with its halves, relative to ∫|f|, at which an error that does not shrink is noise.
 const NOISE: f64 = 1e-10;
@@ -139,7 +71,7 @@ impl CompensatedSum {
 }
 
 /// Sums of the values and of the errors of all panels.
-fn summed(open: &BinaryHeap<Panel>, done: &[Panel]) -> (f64, f64) {
+fn summed(open: &BinaryHeap<QuadraturePanel>, done: &[QuadraturePanel]) -> (f64, f64) {
     // The heap's inner order is a function of the work done, hence the same everywhere.
     let mut value = CompensatedSum::default();
     let mut error = 0.0;
@@ -190,10 +122,12 @@ pub fn integrate(
         }
     }
     let sign = if from <= to { 1.0 } else { -1.0 };
-    let mut open: BinaryHeap<Panel> = BinaryHeap::new();
-    let mut done: Vec<Panel> = Vec::new();
+    let mut open: BinaryHeap<QuadraturePanel> = BinaryHeap::new();
+    let mut done: Vec<QuadraturePanel> = Vec::new();
     let mut evaluations = 0;
-    let place = |p: Panel, open: &mut BinaryHeap<Panel>, done: &mut Vec<Panel>| {
+    let place = |p: QuadraturePanel,
+                 open: &mut BinaryHeap<QuadraturePanel>,
+                 done: &mut Vec<QuadraturePanel>| {
         if p.can_improve() {
             open.push(p);
         } else {
@@ -204,10 +138,11 @@ pub fn integrate(
         evaluations += 21;
         place(panel(&mut f, from, to)?, &mut open, &mut done);
     }
-    let total = |open: &BinaryHeap<Panel>, done: &[Panel], evaluations: usize| {
-        let (value, error) = summed(open, done);
-        Integral { value: sign * value, error, evaluations }
-    };
+    let total =
+        |open: &BinaryHeap<QuadraturePanel>, done: &[QuadraturePanel], evaluations: usize| {
+            let (value, error) = summed(open, done);
+            Integral { value: sign * value, error, evaluations }
+        };
     let mut running: f64 = open.iter().chain(&done).map(|p| p.value).sum();
     let mut running_error: f64 = open.iter().chain(&done).map(|p| p.error).sum();
     loop {

@@ -1,6 +1,6 @@
 //! The pair of rules (10, 21) on one panel: its value, and an estimate of its error.
 
-use super::QuadratureError;
+use super::integral::QuadratureError;
 
 /// Nodes in (0, 1) of the 21-point Kronrod rule, outermost first; odd places are the Gauss nodes.
 pub(super) const NODES: [f64; 10] = [
@@ -41,7 +41,7 @@ pub(super) const GAUSS: [f64; 5] = [
 
 /// One panel with its Kronrod value, its error estimate and ∫|f|.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Panel {
+pub(super) struct QuadraturePanel {
     pub(super) from: f64,
     pub(super) to: f64,
     pub(super) value: f64,
@@ -49,7 +49,7 @@ pub(super) struct Panel {
     pub(super) floor: f64,
 }
 
-impl Panel {
+impl QuadraturePanel {
     /// Whether bisection could still lower the error.
     pub(super) fn can_improve(&self) -> bool {
         let middle = self.from.midpoint(self.to);
@@ -57,18 +57,18 @@ impl Panel {
     }
 }
 
-impl PartialEq for Panel {
+impl PartialEq for QuadraturePanel {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
-impl Eq for Panel {}
-impl PartialOrd for Panel {
+impl Eq for QuadraturePanel {}
+impl PartialOrd for QuadraturePanel {
     fn partial_cmp(&self, other: &Self) -> Option<core::cmp::Ordering> {
         Some(self.cmp(other))
     }
 }
-impl Ord for Panel {
+impl Ord for QuadraturePanel {
     /// Largest error first; ties by place, so that the order of work is always the same.
     fn cmp(&self, other: &Self) -> core::cmp::Ordering {
         self.error.total_cmp(&other.error).then(other.from.total_cmp(&self.from))
@@ -80,7 +80,7 @@ pub(super) fn panel(
     f: &mut impl FnMut(f64) -> f64,
     from: f64,
     to: f64,
-) -> Result<Panel, QuadratureError> {
+) -> Result<QuadraturePanel, QuadratureError> {
     let centre = from.midpoint(to);
     let half = 0.5 * (to - from);
     let mut below = [0.0; 10];
@@ -119,5 +119,5 @@ pub(super) fn panel(
     } else {
         difference
     };
-    Ok(Panel { from, to, value: kronrod * half, error: estimate.max(floor), floor })
+    Ok(QuadraturePanel { from, to, value: kronrod * half, error: estimate.max(floor), floor })
 }

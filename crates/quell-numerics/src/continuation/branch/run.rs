@@ -1,18 +1,20 @@
-//! One step of the walk along a branch.
+//! One step of the run along a branch.
 
 use num_complex::Complex64;
 
 use super::super::arc::{
-    self, NEAR, Solved, System, TURN, between, cosine, direction, distance, tangent,
+    self, NEAR, NUDGE, Solved, TURN, UnderdeterminedSystem, between, cosine, direction, distance,
+    tangent,
 };
-use super::super::threshold::Kind;
-use super::super::{Family, Image, multipliers, spectral_radius, unstable};
-use super::{Follow, Passage, Point, Side};
+use super::super::threshold::BifurcationKind;
+use super::super::{Image, PeriodMap, multipliers, spectral_radius, unstable};
+use super::parameter_window::Follow;
+use super::points::{BranchSide, ContinuationPoint, SpecialPoint};
 use crate::matrix::Matrix;
 
-/// A point with what the walk needs.
+/// A point with what the run needs.
 #[derive(Clone, Debug)]
-pub(super) struct Place<S> {
+pub(super) struct BranchSolution<S> {
     pub(super) unknowns: Vec<f64>,
     pub(super) tangent: Vec<f64>,
     pub(super) derivative: Matrix,
@@ -21,9 +23,9 @@ pub(super) struct Place<S> {
     pub(super) multipliers: Vec<Complex64>,
 }
 
-impl<S: Clone> Place<S> {
-    pub(super) fn side(&self) -> Side<S> {
-        Side {
+impl<S: Clone> BranchSolution<S> {
+    pub(super) fn side(&self) -> BranchSide<S> {
+        BranchSide {
             unstable: unstable(&self.multipliers),
             radius: spectral_radius(&self.multipliers),
             signature: self.image.signature.clone(),
@@ -40,22 +42,19 @@ impl<S: Clone> Place<S> {
 }
 
 /// The equations φ(x) = x in scaled unknowns, on one piece.
-struct Closing<'a, F: Family> {
-    walk: &'a Walk<'a, F>,
+struct FixedPointEquations<'a, F: PeriodMap> {
+    run: &'a ContinuationRun<'a, F>,
     held: Option<&'a F::Signature>,
 }
 
-/// Difference by which the derivative by a parameter is taken: it steers Newton's method only.
-pub(in super::super) const NUDGE: f64 = 1e-6;
-
-impl<F: Family> System for Closing<'_, F> {
+impl<F: PeriodMap> UnderdeterminedSystem for FixedPointEquations<'_, F> {
     type Known = Image<F::Signature>;
     type Error = F::Error;
 
     fn mismatch(&self, unknowns: &[f64]) -> Result<(Vec<f64>, Self::Known), F::Error> {
-        let (state, parameter) = self.walk.unscaled(unknowns);
-        let image = self.walk.family.image(&state, &[parameter], self.held)?;
-        let scale = self.walk.family.scale();
+        let (state, parameter) = self.run.unscaled(unknowns);
+        let image = self.run.family.image(&state, &[parameter], self.held)?;
+        let scale = self.run.family.scale();
         let mismatch = image.state.iter().zip(&state).map(|(to, from)| (to - from) / scale);
         Ok((mismatch.collect(), image))
     }
@@ -67,7 +66,7 @@ impl<F: Family> System for Closing<'_, F> {
         before: Option<&Matrix>,
         way: &[f64],
     ) -> Result<Matrix, F::Error> {
-        let n = self.walk.family.dimension();
+        let n = self.run.family.dimension();
         let column: Vec<f64> = if let Some(before) = before {
             (0..n).map(|i| before[(i, n)]).collect()
         } else {
@@ -76,9 +75,9 @@ impl<F: Family> System for Closing<'_, F> {
             let nudge = if inside { towards } else { -towards };
             let mut moved = unknowns.to_vec();
             moved[n] += nudge;
-            let (state, parameter) = self.walk.unscaled(&moved);
-            let other = self.walk.family.image(&state, &[parameter], self.held)?;
-            let scale = self.walk.family.scale() * nudge;
+            let (state, parameter) = self.run.unscaled(&moved);
+            let other = self.run.family.image(&state, &[parameter], self.held)?;
+            let scale = self.run.family.scale() * nudge;
             other.state.iter().zip(&image.state).map(|(b, a)| (b - a) / scale).collect()
         };
         Ok(Matrix::from_fn(n, n + 1, |i, j| match j {
@@ -88,15 +87,15 @@ impl<F: Family> System for Closing<'_, F> {
     }
 }
 
-/// The walk along a branch.
-pub(super) struct Walk<'a, F: Family> {
+/// The run along a branch.
+pub(super) struct ContinuationRun<'a, F: PeriodMap> {
     pub(super) family: &'a F,
     pub(super) follow: Follow,
 }
 
-pub(super) type Found<F> = Option<Place<<F as Family>::Signature>>;
+pub(super) type MaybeSolution<F> = Option<BranchSolution<<F as PeriodMap>::Signature>>;
 
-impl<F: Family> Walk<'_, F> {
+impl<F: PeriodMap> ContinuationRun<'_, F> {
     pub(super) fn unscaled(&self, unknowns: &[f64]) -> (Vec<f64>, f64) {
         let n = unknowns.len() - 1;
         let state = unknowns[..n].iter().map(|it| it * self.family.scale()).collect();
@@ -120,23 +119,26 @@ impl<F: Family> Walk<'_, F> {
         normal: &[f64],
         held: Option<&F::Signature>,
         before: Option<&Matrix>,
-    ) -> Found<F> {
-        let system = Closing { walk: self, held };
+    ) -> MaybeSolution<F> {
+        let system = FixedPointEquations { run: self, held };
         let solved = arc::corrected(&system, predicted, normal, before)?;
         let Solved { unknowns, residual, known, derivative } = solved;
         let multipliers = multipliers(&known.derivative)?;
         let tangent = tangent(&derivative, normal)?;
-        Some(Place { unknowns, tangent, derivative, image: known, residual, multipliers })
+        Some(BranchSolution { unknowns, tangent, derivative, image: known, residual, multipliers })
     }
 
     /// The place at a scaled parameter, near a state, whatever its signature.
-    pub(super) fn standing(&self, state: &[f64], share: f64, towards: f64) -> Found<F> {
+    pub(super) fn standing(&self, state: &[f64], share: f64, towards: f64) -> MaybeSolution<F> {
         self.at(&self.scaled(state, share), &upright(state.len(), towards), None, None)
     }
 
-    pub(super) fn point(&self, place: &Place<F::Signature>) -> Point<F::Signature> {
+    pub(super) fn point(
+        &self,
+        place: &BranchSolution<F::Signature>,
+    ) -> ContinuationPoint<F::Signature> {
         let (state, parameter) = self.unscaled(&place.unknowns);
-        Point {
+        ContinuationPoint {
             state,
             parameter,
             multipliers: place.multipliers.clone(),
@@ -147,13 +149,13 @@ impl<F: Family> Walk<'_, F> {
     }
 
     /// The place at a share of the way between two on one piece.
-    pub(super) fn on_the_way(
+    pub(super) fn interpolated(
         &self,
-        a: &Place<F::Signature>,
-        b: &Place<F::Signature>,
+        a: &BranchSolution<F::Signature>,
+        b: &BranchSolution<F::Signature>,
         held: Option<&F::Signature>,
         share: f64,
-    ) -> Found<F> {
+    ) -> MaybeSolution<F> {
         let predicted = between((&a.unknowns, &a.tangent), (&b.unknowns, &b.tangent), share);
         let way: Vec<f64> = b.unknowns.iter().zip(&a.unknowns).map(|(b, a)| b - a).collect();
         self.at(&predicted, &direction(way), held, Some(&a.derivative))
@@ -168,23 +170,23 @@ fn upright(n: usize, towards: f64) -> Vec<f64> {
 }
 
 /// What a step led to.
-pub(super) enum Step<S> {
+pub(super) enum StepOutcome<S> {
     /// On along the piece.
-    On(Box<Place<S>>),
+    On(Box<BranchSolution<S>>),
     /// To a border, and beyond it where there is something.
-    Over(Option<Box<Place<S>>>),
+    Over(Option<Box<BranchSolution<S>>>),
     /// Nowhere at this length.
     Failed,
 }
 
-impl<F: Family> Walk<'_, F> {
+impl<F: PeriodMap> ContinuationRun<'_, F> {
     /// One step of a length from `here`, with what is passed on it.
     pub(super) fn step(
         &self,
-        here: &Place<F::Signature>,
+        here: &BranchSolution<F::Signature>,
         length: f64,
-        out: &mut Vec<Passage<F::Signature>>,
-    ) -> Step<F::Signature> {
+        out: &mut Vec<SpecialPoint<F::Signature>>,
+    ) -> StepOutcome<F::Signature> {
         let n = here.unknowns.len() - 1;
         let mut normal = here.tangent.clone();
         let mut length = length;
@@ -201,7 +203,7 @@ impl<F: Family> Walk<'_, F> {
         }
         let held = Some(&here.image.signature);
         let Some(mut next) = self.at(&predicted, &normal, held, None) else {
-            return Step::Failed;
+            return StepOutcome::Failed;
         };
         let corrected_past = (next.unknowns[n] - end) * here.tangent[n] > 0.0;
         if reaches {
@@ -213,7 +215,7 @@ impl<F: Family> Walk<'_, F> {
             predicted[n] = end;
             normal = upright(n, here.tangent[n].signum());
             let Some(at_end) = self.at(&predicted, &normal, held, None) else {
-                return Step::Failed;
+                return StepOutcome::Failed;
             };
             next = at_end;
             next.unknowns[n] = end;
@@ -221,67 +223,81 @@ impl<F: Family> Walk<'_, F> {
         let off = distance(&next.unknowns, &predicted);
         let same = next.image.signature == here.image.signature;
         if off > NEAR * length.max(1e-7) * if same { 1.0 } else { 5.0 } {
-            return Step::Failed;
+            return StepOutcome::Failed;
         }
         if !same {
             return self.across(here, &next, out);
         }
         if cosine(&next.tangent, &here.tangent) < TURN {
-            return Step::Failed;
+            return StepOutcome::Failed;
         }
         if next.image.distance <= 0.0 {
             let touched = self.root(here, &next, held, |it| it.image.distance);
-            let Some((touch, error)) = touched else { return Step::Failed };
+            let Some((touch, error)) = touched else { return StepOutcome::Failed };
             self.thresholds(here, &touch, out);
             let after = self.beyond(&touch, here.tangent[n].signum());
-            out.push(self.passage(
-                Kind::Touch,
+            out.push(self.special_point(
+                BifurcationKind::Grazing,
                 &touch,
                 error,
                 &touch_side(here, &touch),
                 after.as_ref(),
             ));
-            return Step::Over(after.map(Box::new));
+            return StepOutcome::Over(after.map(Box::new));
         }
         self.thresholds(here, &next, out);
-        Step::On(Box::new(next))
+        StepOutcome::On(Box::new(next))
     }
 
     /// From one signature to another.
     fn across(
         &self,
-        here: &Place<F::Signature>,
-        next: &Place<F::Signature>,
-        out: &mut Vec<Passage<F::Signature>>,
-    ) -> Step<F::Signature> {
+        here: &BranchSolution<F::Signature>,
+        next: &BranchSolution<F::Signature>,
+        out: &mut Vec<SpecialPoint<F::Signature>>,
+    ) -> StepOutcome<F::Signature> {
         // Where the piece beyond knows its border, that is a touch met from outside.
         let held = Some(&next.image.signature);
         if next.image.distance.is_finite()
             && let Some((touch, error)) = self.root(here, next, held, |it| it.image.distance)
         {
-            out.push(self.passage(Kind::Touch, &touch, error, here, Some(&on_from(&touch, next))));
+            out.push(self.special_point(
+                BifurcationKind::Grazing,
+                &touch,
+                error,
+                here,
+                Some(&on_from(&touch, next)),
+            ));
             self.thresholds(&touch, next, out);
-            return Step::Over(Some(Box::new(next.clone())));
+            return StepOutcome::Over(Some(Box::new(next.clone())));
         }
         let (near, far) = self.border(here, next);
         if distance(&near.unknowns, &far.unknowns) > 1e-8 {
             // The two do not meet: they belong to different branches.
-            return Step::Failed;
+            return StepOutcome::Failed;
         }
         self.thresholds(here, &near, out);
         let width = (far.parameter() - near.parameter()).abs() + 1e-12;
         let error = width * (self.follow.to - self.follow.from).abs();
-        out.push(self.passage(Kind::Border, &near, error, here, Some(next)));
-        Step::Over(Some(Box::new(next.clone())))
+        out.push(self.special_point(BifurcationKind::Border, &near, error, here, Some(next)));
+        StepOutcome::Over(Some(Box::new(next.clone())))
     }
 }
 
-/// A touch seen as the end of the piece before it: its own multipliers, on the side where the walk was.
-fn touch_side<S: Clone>(here: &Place<S>, touch: &Place<S>) -> Place<S> {
-    Place { unknowns: here.unknowns.clone(), tangent: here.tangent.clone(), ..touch.clone() }
+/// A touch seen as the end of the piece before it: its own multipliers, on the side where the run was.
+fn touch_side<S: Clone>(here: &BranchSolution<S>, touch: &BranchSolution<S>) -> BranchSolution<S> {
+    BranchSolution {
+        unknowns: here.unknowns.clone(),
+        tangent: here.tangent.clone(),
+        ..touch.clone()
+    }
 }
 
 /// A touch seen as the beginning of the piece after it.
-fn on_from<S: Clone>(touch: &Place<S>, next: &Place<S>) -> Place<S> {
-    Place { unknowns: next.unknowns.clone(), tangent: next.tangent.clone(), ..touch.clone() }
+fn on_from<S: Clone>(touch: &BranchSolution<S>, next: &BranchSolution<S>) -> BranchSolution<S> {
+    BranchSolution {
+        unknowns: next.unknowns.clone(),
+        tangent: next.tangent.clone(),
+        ..touch.clone()
+    }
 }

@@ -1,29 +1,29 @@
-//! What is passed between two places of the walk: smooth thresholds, touches, borders of signatures.
+//! What is passed between two places of the run: smooth thresholds, touches, borders of signatures.
 
-use super::super::Family;
+use super::super::PeriodMap;
 use super::super::arc::{direction, distance};
-use super::super::threshold::{Kind, SMOOTH, Tests, confirmed};
-use super::walk::{Found, Place, Walk};
-use super::{Passage, Side};
+use super::super::threshold::{BifurcationKind, SMOOTH, Tests, confirmed};
+use super::points::{BranchSide, SpecialPoint};
+use super::run::{BranchSolution, ContinuationRun, MaybeSolution};
 use crate::roots::{Closeness, find_root, minimise};
 
 /// First distance beyond a touch, and the last one, in scaled parameter.
 const BEYOND: (f64, f64) = (1e-7, 2e-2);
 
-impl<F: Family> Walk<'_, F> {
+impl<F: PeriodMap> ContinuationRun<'_, F> {
     /// Where a test changes sign between two places of one piece: the place, and how sure its parameter is.
     pub(super) fn root(
         &self,
-        a: &Place<F::Signature>,
-        b: &Place<F::Signature>,
+        a: &BranchSolution<F::Signature>,
+        b: &BranchSolution<F::Signature>,
         held: Option<&F::Signature>,
-        value: impl Fn(&Place<F::Signature>) -> f64,
-    ) -> Option<(Place<F::Signature>, f64)> {
-        let mut last: Found<F> = None;
+        value: impl Fn(&BranchSolution<F::Signature>) -> f64,
+    ) -> Option<(BranchSolution<F::Signature>, f64)> {
+        let mut last: MaybeSolution<F> = None;
         let closeness = Closeness { absolute: 1e-11, relative: 0.0 };
         let root = find_root(
             |share| {
-                let place = self.on_the_way(a, b, held, share);
+                let place = self.interpolated(a, b, held, share);
                 let value = place.as_ref().map_or(f64::NAN, &value);
                 last = place;
                 value
@@ -33,7 +33,7 @@ impl<F: Family> Walk<'_, F> {
             closeness,
         )
         .ok()?;
-        let place = self.on_the_way(a, b, held, root.location).or(last)?;
+        let place = self.interpolated(a, b, held, root.location).or(last)?;
         let span = (b.parameter() - a.parameter()).abs().max(distance(&a.unknowns, &b.unknowns));
         Some((place, (root.width * span + 1e-12) * (self.follow.to - self.follow.from).abs()))
     }
@@ -41,19 +41,20 @@ impl<F: Family> Walk<'_, F> {
     /// Smooth thresholds between two places of one piece.
     pub(super) fn thresholds(
         &self,
-        a: &Place<F::Signature>,
-        b: &Place<F::Signature>,
-        out: &mut Vec<Passage<F::Signature>>,
+        a: &BranchSolution<F::Signature>,
+        b: &BranchSolution<F::Signature>,
+        out: &mut Vec<SpecialPoint<F::Signature>>,
     ) {
         let (at_a, at_b) = (Tests::of(&a.multipliers), Tests::of(&b.multipliers));
         let held = Some(&a.image.signature);
-        let mut found: Vec<(f64, Kind, Place<F::Signature>, f64)> = Vec::new();
+        let mut found: Vec<(f64, BifurcationKind, BranchSolution<F::Signature>, f64)> = Vec::new();
         for (index, kind) in SMOOTH.into_iter().enumerate() {
             let (before, after) = (at_a.values[index], at_b.values[index]);
             if before == 0.0 || before * after > 0.0 {
                 continue;
             }
-            let value = |place: &Place<F::Signature>| Tests::of(&place.multipliers).values[index];
+            let value =
+                |place: &BranchSolution<F::Signature>| Tests::of(&place.multipliers).values[index];
             // A root that cannot be closed in on is told with the whole step as its error.
             let span = (b.parameter() - a.parameter()) * (self.follow.to - self.follow.from);
             let (place, error) =
@@ -63,7 +64,11 @@ impl<F: Family> Walk<'_, F> {
             }
             let last = a.tangent.len() - 1;
             let turns = a.tangent[last] * b.tangent[last] < 0.0;
-            let kind = if kind == Kind::Fold && !turns { Kind::Branching } else { kind };
+            let kind = if kind == BifurcationKind::Fold && !turns {
+                BifurcationKind::Branching
+            } else {
+                kind
+            };
             found.push((distance(&a.unknowns, &place.unknowns), kind, place, error));
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -72,32 +77,32 @@ impl<F: Family> Walk<'_, F> {
             let (_, kind, place, error) = &found[number];
             let after = match found.get(number + 1) {
                 Some((_, _, next, _)) => {
-                    self.on_the_way(place, next, held, 0.5).unwrap_or_else(|| b.clone())
+                    self.interpolated(place, next, held, 0.5).unwrap_or_else(|| b.clone())
                 }
                 None => b.clone(),
             };
-            out.push(self.passage(*kind, place, *error, &before, Some(&after)));
+            out.push(self.special_point(*kind, place, *error, &before, Some(&after)));
             before = after;
         }
     }
 
-    /// A passage with its sides in the order of the parameter.
-    pub(super) fn passage(
+    /// A special_point with its sides in the order of the parameter.
+    pub(super) fn special_point(
         &self,
-        kind: Kind,
-        place: &Place<F::Signature>,
+        kind: BifurcationKind,
+        place: &BranchSolution<F::Signature>,
         error: f64,
-        before: &Place<F::Signature>,
-        after: Option<&Place<F::Signature>>,
-    ) -> Passage<F::Signature> {
+        before: &BranchSolution<F::Signature>,
+        after: Option<&BranchSolution<F::Signature>>,
+    ) -> SpecialPoint<F::Signature> {
         let here = place.parameter();
-        // The first side comes from where the walk was, the second lies where it goes.
+        // The first side comes from where the run was, the second lies where it goes.
         let came_up = before.parameter() < here
             || (before.parameter() == here && before.tangent.last().is_some_and(|it| *it > 0.0));
         let (mut below, mut above) = (None, None);
-        let mut put = |is_below: bool, side: Side<F::Signature>| {
+        let mut put = |is_below: bool, side: BranchSide<F::Signature>| {
             let slot = if is_below { &mut below } else { &mut above };
-            if slot.as_ref().is_none_or(|there: &Side<_>| side.unstable < there.unstable) {
+            if slot.as_ref().is_none_or(|there: &BranchSide<_>| side.unstable < there.unstable) {
                 *slot = Some(side);
             }
         };
@@ -109,16 +114,17 @@ impl<F: Family> Walk<'_, F> {
             std::mem::swap(&mut below, &mut above);
         }
         let (state, parameter) = self.unscaled(&place.unknowns);
-        Passage { parameter, error, kind, state, below, above }
+        SpecialPoint { parameter, error, kind, state, below, above }
     }
 
     /// Where a test of one sign dips between three places: a place with the other sign, if there is one.
     pub(super) fn dip(
         &self,
-        places: [&Place<F::Signature>; 3],
+        places: [&BranchSolution<F::Signature>; 3],
         index: usize,
-    ) -> Option<(usize, Place<F::Signature>)> {
-        let value = |place: &Place<F::Signature>| Tests::of(&place.multipliers).values[index];
+    ) -> Option<(usize, BranchSolution<F::Signature>)> {
+        let value =
+            |place: &BranchSolution<F::Signature>| Tests::of(&place.multipliers).values[index];
         let [before, here, after] = places.map(value);
         let sign = here.signum();
         if before * here <= 0.0
@@ -143,10 +149,10 @@ impl<F: Family> Walk<'_, F> {
         (0..2).find_map(|segment| {
             let (a, b) = (places[segment], places[segment + 1]);
             let held = Some(&a.image.signature);
-            let mut other: Found<F> = None;
+            let mut other: MaybeSolution<F> = None;
             let _ = minimise(
                 |share| {
-                    let place = self.on_the_way(a, b, held, share);
+                    let place = self.interpolated(a, b, held, share);
                     let found = place.as_ref().map_or(f64::INFINITY, |it| sign * value(it));
                     if found < 0.0 {
                         other = place;
@@ -161,8 +167,12 @@ impl<F: Family> Walk<'_, F> {
         })
     }
 
-    /// The branch beyond a touch: on in the direction of the walk, else back; where continuity proves it.
-    pub(super) fn beyond(&self, touch: &Place<F::Signature>, towards: f64) -> Found<F> {
+    /// The branch beyond a touch: on in the direction of the run, else back; where continuity proves it.
+    pub(super) fn beyond(
+        &self,
+        touch: &BranchSolution<F::Signature>,
+        towards: f64,
+    ) -> MaybeSolution<F> {
         let n = touch.unknowns.len() - 1;
         let (state, _) = self.unscaled(&touch.unknowns);
         let share = touch.unknowns[n];
@@ -186,8 +196,8 @@ impl<F: Family> Walk<'_, F> {
     /// Whether the state comes to the touch as the parameter does.
     fn is_joined(
         &self,
-        touch: &Place<F::Signature>,
-        found: &Place<F::Signature>,
+        touch: &BranchSolution<F::Signature>,
+        found: &BranchSolution<F::Signature>,
         side: f64,
     ) -> bool {
         let n = touch.unknowns.len() - 1;
@@ -203,9 +213,9 @@ impl<F: Family> Walk<'_, F> {
     /// Where two places of different signatures meet, neither of which can be continued: bisection.
     pub(super) fn border(
         &self,
-        a: &Place<F::Signature>,
-        b: &Place<F::Signature>,
-    ) -> (Place<F::Signature>, Place<F::Signature>) {
+        a: &BranchSolution<F::Signature>,
+        b: &BranchSolution<F::Signature>,
+    ) -> (BranchSolution<F::Signature>, BranchSolution<F::Signature>) {
         let (mut near, mut far) = (a.clone(), b.clone());
         let way: Vec<f64> = b.unknowns.iter().zip(&a.unknowns).map(|(b, a)| b - a).collect();
         let normal = direction(way);
