@@ -1,8 +1,8 @@
 //! The monodromy matrix of one period by Strang splitting.
 //!
-//! Columns go in panels of [`WIDTH`], which stay in the processor's registers and first cache through the whole period. For
-//! rank one a step is one pass over the panel: the kick is added to row i and row i goes straight into the next step's Vᵀx,
-//! summed in one accumulator for even rows and one for odd ones.
+//! Columns are processed in panels of [`WIDTH`], which stay in the registers and the first-level cache for the whole period.
+//! For rank one, a step is one pass over the panel: the kick is added to row i, and row i is immediately accumulated into Vᵀx
+//! of the next step, with one accumulator for even rows and one for odd rows.
 
 use super::flow::ConstantFlow;
 use super::kick::kick;
@@ -94,7 +94,7 @@ impl Work for Panels<'_> {
     }
 }
 
-/// Four columns of a row: one vector register. Loops over eight were not vectorized.
+/// Four columns of a row, which fit one vector register. The compiler did not vectorise loops over eight columns.
 type ColumnGroup = [f64; 4];
 
 /// a·x + y, element by element.
@@ -134,7 +134,7 @@ fn rank_one(x: &mut [PanelRow], u: &[f64], v: &[f64], kicks: &[f64]) {
         let (low, high) = (force(kick, even[0], odd[0]), force(kick, even[1], odd[1]));
         (even, odd) = ([zero; 2], [zero; 2]);
         let u = u[k * rows..(k + 1) * rows].chunks_exact(2);
-        // After the last kick there is no next: its own row is summed again and not used.
+        // After the last kick there is no next one: its own row is accumulated again and not used.
         let next = if k + 1 < kicks.len() { k + 1 } else { k };
         let v = v[next * rows..(next + 1) * rows].chunks_exact(2);
         for ((x, u), v) in x.chunks_exact_mut(2).zip(u).zip(v) {
@@ -218,7 +218,7 @@ fn carry(x: &mut [PanelRow], end: &[(f64, f64, bool)]) {
     }
 }
 
-/// Every step with dense matrices.
+/// All steps with dense matrices.
 fn dense(flow: &ConstantFlow, half: &Matrix, whole: &Matrix, kicks: &[f64]) -> Matrix {
     let r = flow.rank;
     let mut x = half.clone();

@@ -1,17 +1,17 @@
 //! The result of a quadrature, and the reasons why it failed.
 
-/// Value of an integral, the bound on its error that was reached, and what it cost.
+/// Value of an integral, with the error bound that was reached and the cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Integral {
     /// ∫ f dx.
     pub value: f64,
-    /// Estimated absolute error; includes the rounding of the sums, but not that of the integrand's own evaluation.
+    /// Estimated absolute error; includes the rounding of the sums, but not that of evaluating the integrand.
     pub error: f64,
     /// Number of evaluations of the integrand.
     pub evaluations: usize,
 }
 
-/// Why a quadrature could not keep its tolerance.
+/// The reason why a quadrature could not meet its tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum QuadratureError {
     /// An end or a break point is not finite.
@@ -21,15 +21,15 @@ pub enum QuadratureError {
     },
     /// The integrand is not finite at an interior point.
     IntegrandNotFinite {
-        /// Where it was evaluated.
+        /// The point of evaluation.
         at: f64,
     },
-    /// The rounding of the integrand (∫|f| ≫ |∫f|) hides the digits asked for.
+    /// The rounding errors of the integrand (∫|f| ≫ |∫f|) exceed the requested tolerance.
     Rounding {
         /// The best value, with its error.
         best: Integral,
     },
-    /// The budget of evaluations was used up.
+    /// The maximum number of evaluations was reached.
     Evaluations {
         /// The best value, with its error.
         best: Integral,
@@ -37,7 +37,7 @@ pub enum QuadratureError {
 }
 
 impl QuadratureError {
-    /// The best value reached, where there is one.
+    /// The best value reached, if there is one.
     #[must_use]
     pub fn best(&self) -> Option<Integral> {
         match *self {

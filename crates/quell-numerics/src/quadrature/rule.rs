@@ -1,8 +1,8 @@
-//! The pair of rules (10, 21) on one panel: its value, and an estimate of its error.
+//! The pair of rules (10, 21) on one panel: the value and an estimate of its error.
 
 use super::integral::QuadratureError;
 
-/// Nodes in (0, 1) of the 21-point Kronrod rule, outermost first; odd places are the Gauss nodes.
+/// Nodes in (0, 1) of the 21-point Kronrod rule, outermost first; the Gauss nodes have odd indices.
 pub(super) const NODES: [f64; 10] = [
     0.9956571630258080807355272806890028,
     0.9739065285171717200779640120844521,
@@ -30,7 +30,7 @@ const KRONROD: [f64; 10] = [
 ];
 /// Kronrod weight of the centre.
 const KRONROD_CENTRE: f64 = 0.1494455540029169056649364683898212;
-/// Gauss weights of the odd places of [`NODES`].
+/// Gauss weights of the nodes with odd indices in [`NODES`].
 pub(super) const GAUSS: [f64; 5] = [
     0.06667134430868813759356880989333179,
     0.1494513491505805931457763396576973,
@@ -69,7 +69,7 @@ impl PartialOrd for QuadraturePanel {
     }
 }
 impl Ord for QuadraturePanel {
-    /// Largest error first; ties by place, so that the order of work is always the same.
+    /// Largest error first; ties are broken by position, so that the order of bisection is always the same.
     fn cmp(&self, other: &Self) -> core::cmp::Ordering {
         self.error.total_cmp(&other.error).then(other.from.total_cmp(&self.from))
     }

@@ -1,14 +1,14 @@
 //! A branch of fixed points in one parameter, by pseudo-arclength: around folds, through borders of signatures.
 //!
-//! On one smooth piece the step is adapted to the bend of the branch: a corrected point may lie no further from the
-//! predicted one than a share of the step, and the tangent may not turn by more than about 25°. That is the test of
-//! nearness which keeps the run from stepping onto another branch. Thresholds are sign changes of test functions,
-//! located on the hyperplanes between two points; a pair of sign changes between two points is found where the test function dips
-//! between its neighbours.
+//! On one smooth piece the step size is adapted to the curvature of the branch: the distance of a corrected point from the
+//! predicted one is limited to a fraction of the step, and the tangent may not rotate by more than about 25°. This test
+//! prevents the continuation run from jumping to another branch. Thresholds are sign changes of test functions,
+//! located on the hyperplanes between two points; a pair of sign changes between two points is detected where the test
+//! function has a dip between its neighbours.
 //!
-//! At a touch the branch may go on with another signature, turn back with it, or end. What lies beyond is looked
-//! for at distances that grow from very small ones, and believed where the state comes to the touch as the parameter
-//! does: continuity, not convergence alone.
+//! At a grazing point the branch may continue with another signature, turn back with it, or end. The continuation is
+//! searched for at distances that grow from very small ones, and accepted if the state tends to the grazing state as the
+//! parameter tends to the grazing value: continuity is required, not convergence alone.
 
 mod follow;
 mod parameter_window;

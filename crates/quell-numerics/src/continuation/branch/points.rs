@@ -17,72 +17,73 @@ pub struct ContinuationPoint<S> {
     pub residual: f64,
     /// Distance from the border of the signature.
     pub distance: f64,
-    /// What happens along the period.
+    /// The events during the period.
     pub signature: S,
 }
 
-/// The branch on one side of a special_point.
+/// The branch on one side of a special point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BranchSide<S> {
     /// Number of multipliers outside the unit circle.
     pub unstable: usize,
-    /// Largest modulus.
+    /// Largest modulus of the multipliers.
     pub radius: f64,
-    /// What happens along the period.
+    /// The events during the period.
     pub signature: S,
 }
 
-/// A threshold, or a border of signatures.
+/// A special point of a branch: a threshold, or a border of signatures.
 #[derive(Clone, Debug)]
 pub struct SpecialPoint<S> {
     /// The parameter.
     pub parameter: f64,
     /// Bound on its error.
     pub error: f64,
-    /// What happens.
+    /// Kind of the bifurcation.
     pub kind: BifurcationKind,
     /// The state.
     pub state: Vec<f64>,
-    /// The branch for slightly smaller parameters; of two, at a turning point, the one with fewer unstable multipliers.
+    /// The branch for slightly smaller parameters; at a turning point with two branches, the one with fewer unstable
+    /// multipliers.
     pub below: Option<BranchSide<S>>,
-    /// The same for slightly larger ones.
+    /// The same for slightly larger parameters.
     pub above: Option<BranchSide<S>>,
 }
 
-/// How a run along a branch ends.
+/// End of a continuation run along a branch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum End {
     /// At an end of the window.
     Window {
-        /// Which value.
+        /// The parameter.
         at: f64,
     },
-    /// Where it began: the branch is closed.
+    /// At its start: the branch is closed.
     Closed,
-    /// At a touch with no fixed point beyond it on either side.
+    /// At a grazing point with no fixed point beyond it on either side.
     Grazing {
         /// The parameter.
         at: f64,
     },
     /// The branch was lost.
     Lost {
-        /// The last parameter: beyond it steps became too short.
+        /// The last parameter, beyond which the steps became too short.
         at: f64,
     },
-    /// After as many points as were allowed.
+    /// After the maximum number of points.
     TooLong {
         /// The last parameter.
         at: f64,
     },
 }
 
-/// A branch with what was passed on it, in order.
+/// A branch with its special points, in order.
 #[derive(Clone, Debug)]
 pub struct FixedPointBranch<S> {
     /// Points.
     pub points: Vec<ContinuationPoint<S>>,
     /// Thresholds and borders of signatures.
     pub special_points: Vec<SpecialPoint<S>>,
-    /// How it ended.
+    /// End of the branch.
     pub end: End,
 }

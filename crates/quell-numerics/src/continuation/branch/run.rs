@@ -1,9 +1,9 @@
-//! One step of the run along a branch.
+//! One step of a continuation run along a branch.
 
 use num_complex::Complex64;
 
 use super::super::arc::{
-    self, NEAR, NUDGE, Solved, TURN, UnderdeterminedSystem, between, cosine, direction, distance,
+    self, NEAR, NUDGE, Solved, TURN, UnderdeterminedSystem, between, cosine, distance, normalised,
     tangent,
 };
 use super::super::threshold::BifurcationKind;
@@ -12,7 +12,7 @@ use super::parameter_window::Follow;
 use super::points::{BranchSide, ContinuationPoint, SpecialPoint};
 use crate::matrix::Matrix;
 
-/// A point with what the run needs.
+/// A solution on the branch with the data that the continuation run needs.
 #[derive(Clone, Debug)]
 pub(super) struct BranchSolution<S> {
     pub(super) unknowns: Vec<f64>,
@@ -64,13 +64,13 @@ impl<F: PeriodMap> UnderdeterminedSystem for FixedPointEquations<'_, F> {
         unknowns: &[f64],
         image: &Self::Known,
         before: Option<&Matrix>,
-        way: &[f64],
+        heading: &[f64],
     ) -> Result<Matrix, F::Error> {
         let n = self.run.family.dimension();
         let column: Vec<f64> = if let Some(before) = before {
             (0..n).map(|i| before[(i, n)]).collect()
         } else {
-            let towards = if way[n] < 0.0 { -NUDGE } else { NUDGE };
+            let towards = if heading[n] < 0.0 { -NUDGE } else { NUDGE };
             let inside = (0.0..=1.0).contains(&(unknowns[n] + towards));
             let nudge = if inside { towards } else { -towards };
             let mut moved = unknowns.to_vec();
@@ -87,7 +87,7 @@ impl<F: PeriodMap> UnderdeterminedSystem for FixedPointEquations<'_, F> {
     }
 }
 
-/// The run along a branch.
+/// A continuation run along a branch.
 pub(super) struct ContinuationRun<'a, F: PeriodMap> {
     pub(super) family: &'a F,
     pub(super) follow: Follow,
@@ -98,18 +98,18 @@ pub(super) type MaybeSolution<F> = Option<BranchSolution<<F as PeriodMap>::Signa
 impl<F: PeriodMap> ContinuationRun<'_, F> {
     pub(super) fn unscaled(&self, unknowns: &[f64]) -> (Vec<f64>, f64) {
         let n = unknowns.len() - 1;
-        let state = unknowns[..n].iter().map(|it| it * self.family.scale()).collect();
+        let state = unknowns[..n].iter().map(|x| x * self.family.scale()).collect();
         (state, self.value(unknowns[n]))
     }
 
-    /// The parameter of a scaled one; the ends of the window exactly.
+    /// The parameter at a fraction of the window; exact at both ends.
     pub(super) fn value(&self, share: f64) -> f64 {
         let Follow { from, to, .. } = self.follow;
         arc::value((from, to), share)
     }
 
     pub(super) fn scaled(&self, state: &[f64], share: f64) -> Vec<f64> {
-        state.iter().map(|it| it / self.family.scale()).chain([share]).collect()
+        state.iter().map(|x| x / self.family.scale()).chain([share]).collect()
     }
 
     /// The point on the hyperplane through `predicted`, with its tangent along `normal`.
@@ -128,27 +128,27 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         Some(BranchSolution { unknowns, tangent, derivative, image: known, residual, multipliers })
     }
 
-    /// The place at a scaled parameter, near a state, whatever its signature.
+    /// The solution at a scaled parameter near a state, with any signature.
     pub(super) fn standing(&self, state: &[f64], share: f64, towards: f64) -> MaybeSolution<F> {
         self.at(&self.scaled(state, share), &upright(state.len(), towards), None, None)
     }
 
     pub(super) fn point(
         &self,
-        place: &BranchSolution<F::Signature>,
+        solution: &BranchSolution<F::Signature>,
     ) -> ContinuationPoint<F::Signature> {
-        let (state, parameter) = self.unscaled(&place.unknowns);
+        let (state, parameter) = self.unscaled(&solution.unknowns);
         ContinuationPoint {
             state,
             parameter,
-            multipliers: place.multipliers.clone(),
-            residual: place.residual,
-            distance: place.image.distance,
-            signature: place.image.signature.clone(),
+            multipliers: solution.multipliers.clone(),
+            residual: solution.residual,
+            distance: solution.image.distance,
+            signature: solution.image.signature.clone(),
         }
     }
 
-    /// The place at a share of the way between two on one piece.
+    /// The solution at a fraction of the distance between two solutions on one piece.
     pub(super) fn interpolated(
         &self,
         a: &BranchSolution<F::Signature>,
@@ -157,30 +157,30 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         share: f64,
     ) -> MaybeSolution<F> {
         let predicted = between((&a.unknowns, &a.tangent), (&b.unknowns, &b.tangent), share);
-        let way: Vec<f64> = b.unknowns.iter().zip(&a.unknowns).map(|(b, a)| b - a).collect();
-        self.at(&predicted, &direction(way), held, Some(&a.derivative))
+        let heading: Vec<f64> = b.unknowns.iter().zip(&a.unknowns).map(|(b, a)| b - a).collect();
+        self.at(&predicted, &normalised(heading), held, Some(&a.derivative))
     }
 }
 
-/// The normal of a plane of one parameter, for `n` numbers of a state.
+/// The normal of a hyperplane of constant parameter, for a state of `n` entries.
 fn upright(n: usize, towards: f64) -> Vec<f64> {
     let mut normal = vec![0.0; n + 1];
     normal[n] = towards;
     normal
 }
 
-/// What a step led to.
+/// The outcome of a step.
 pub(super) enum StepOutcome<S> {
-    /// On along the piece.
+    /// The next solution on the same piece.
     On(Box<BranchSolution<S>>),
-    /// To a border, and beyond it where there is something.
+    /// A border was reached; with the solution beyond it, if there is one.
     Over(Option<Box<BranchSolution<S>>>),
-    /// Nowhere at this length.
+    /// The step failed at this length.
     Failed,
 }
 
 impl<F: PeriodMap> ContinuationRun<'_, F> {
-    /// One step of a length from `here`, with what is passed on it.
+    /// One step of a given length from `here`; the special points on it are added to `out`.
     pub(super) fn step(
         &self,
         here: &BranchSolution<F::Signature>,
@@ -209,7 +209,7 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         if reaches {
             next.unknowns[n] = end;
         } else if corrected_past {
-            // The correction went over the end of the window: back to the end itself.
+            // The correction overshot the end of the window: return to the end itself.
             let share = (end - here.unknowns[n]) / (next.unknowns[n] - here.unknowns[n]);
             predicted = between(here.with_tangent(), next.with_tangent(), share);
             predicted[n] = end;
@@ -232,15 +232,15 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
             return StepOutcome::Failed;
         }
         if next.image.distance <= 0.0 {
-            let touched = self.root(here, &next, held, |it| it.image.distance);
-            let Some((touch, error)) = touched else { return StepOutcome::Failed };
-            self.thresholds(here, &touch, out);
-            let after = self.beyond(&touch, here.tangent[n].signum());
+            let located = self.root(here, &next, held, |solution| solution.image.distance);
+            let Some((grazing, error)) = located else { return StepOutcome::Failed };
+            self.thresholds(here, &grazing, out);
+            let after = self.beyond(&grazing, here.tangent[n].signum());
             out.push(self.special_point(
                 BifurcationKind::Grazing,
-                &touch,
+                &grazing,
                 error,
-                &touch_side(here, &touch),
+                &grazing_side(here, &grazing),
                 after.as_ref(),
             ));
             return StepOutcome::Over(after.map(Box::new));
@@ -249,31 +249,32 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         StepOutcome::On(Box::new(next))
     }
 
-    /// From one signature to another.
+    /// A step from one signature to another.
     fn across(
         &self,
         here: &BranchSolution<F::Signature>,
         next: &BranchSolution<F::Signature>,
         out: &mut Vec<SpecialPoint<F::Signature>>,
     ) -> StepOutcome<F::Signature> {
-        // Where the piece beyond knows its border, that is a touch met from outside.
+        // If the distance from its border is defined on the piece beyond, this is grazing approached from outside.
         let held = Some(&next.image.signature);
         if next.image.distance.is_finite()
-            && let Some((touch, error)) = self.root(here, next, held, |it| it.image.distance)
+            && let Some((grazing, error)) =
+                self.root(here, next, held, |solution| solution.image.distance)
         {
             out.push(self.special_point(
                 BifurcationKind::Grazing,
-                &touch,
+                &grazing,
                 error,
                 here,
-                Some(&on_from(&touch, next)),
+                Some(&on_from(&grazing, next)),
             ));
-            self.thresholds(&touch, next, out);
+            self.thresholds(&grazing, next, out);
             return StepOutcome::Over(Some(Box::new(next.clone())));
         }
         let (near, far) = self.border(here, next);
         if distance(&near.unknowns, &far.unknowns) > 1e-8 {
-            // The two do not meet: they belong to different branches.
+            // The two points do not meet: they belong to different branches.
             return StepOutcome::Failed;
         }
         self.thresholds(here, &near, out);
@@ -284,20 +285,23 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
     }
 }
 
-/// A touch seen as the end of the piece before it: its own multipliers, on the side where the run was.
-fn touch_side<S: Clone>(here: &BranchSolution<S>, touch: &BranchSolution<S>) -> BranchSolution<S> {
+/// A grazing point as the end of the piece before it: with its own multipliers, on the side that the run comes from.
+fn grazing_side<S: Clone>(
+    here: &BranchSolution<S>,
+    grazing: &BranchSolution<S>,
+) -> BranchSolution<S> {
     BranchSolution {
         unknowns: here.unknowns.clone(),
         tangent: here.tangent.clone(),
-        ..touch.clone()
+        ..grazing.clone()
     }
 }
 
-/// A touch seen as the beginning of the piece after it.
-fn on_from<S: Clone>(touch: &BranchSolution<S>, next: &BranchSolution<S>) -> BranchSolution<S> {
+/// A grazing point as the beginning of the piece after it.
+fn on_from<S: Clone>(grazing: &BranchSolution<S>, next: &BranchSolution<S>) -> BranchSolution<S> {
     BranchSolution {
         unknowns: next.unknowns.clone(),
         tangent: next.tangent.clone(),
-        ..touch.clone()
+        ..grazing.clone()
     }
 }
