@@ -1,16 +1,16 @@
-//! Bessel functions of integer order and positive argument, each with its right neighbour, scaled where they grow.
+//! Bessel functions of integer order and positive argument, each with its next order; I and K are scaled exponentially.
 //!
-//! Every function returns the pair of orders n and n + 1: with it the derivative costs no further call,
+//! Every function returns the values of orders n and n + 1, from which the derivative follows without a further call,
 //!
 //! ```text
 //! J' = (n/x) J − Jₙ₊₁     Y' = (n/x) Y − Yₙ₊₁     I' = (n/x) I + Iₙ₊₁     K' = (n/x) K − Kₙ₊₁
 //! ```
 //!
-//! and a second derivative follows from Bessel's equation. I is multiplied by e^{−x} and K by e^{x}: the plain ones
+//! and the second derivative follows from Bessel's equation. I is multiplied by e^{−x} and K by e^{x}: the unscaled functions
 //! leave the range of `f64` beyond x ≈ 713. The values are those of D. E. Amos's algorithms (ACM TOMS 644), as
-//! implemented by the crate `complex-bessel`. Products of J and Y, and of I and K, keep Wronski's determinants within
-//! 10⁻¹³ for n ≤ 21 and 10⁻² ≤ x ≤ 10³ (the tests below); frequencies made of them agree with 40-digit arithmetic to
-//! 2·10⁻¹⁵ (`quell-disc`, `plate`).
+//! implemented by the crate `complex-bessel`. Products of J and Y, and of I and K, satisfy the Wronskian identities within
+//! 10⁻¹³ for n ≤ 21 and 10⁻² ≤ x ≤ 10³ (see the tests below); frequencies computed from them agree with 40-digit arithmetic
+//! to 2·10⁻¹⁵ (`quell-disc`, `plate`).
 
 use complex_bessel::{
     BesselResult, Error, Scaling, besseli_seq, besselj_seq, besselk_seq, bessely_seq,
@@ -22,7 +22,7 @@ pub type Neighbours = [f64; 2];
 
 type Sequence = fn(f64, Complex<f64>, usize, Scaling) -> Result<BesselResult<f64>, Error>;
 
-/// The two values, or nothing where x is not positive or a value is out of the range of `f64`.
+/// The two values; `None` if x is not positive or a value is out of the range of `f64`.
 fn neighbours(sequence: Sequence, order: u32, x: f64, scaling: Scaling) -> Option<Neighbours> {
     if !(x > 0.0 && x.is_finite()) {
         return None;
@@ -32,25 +32,25 @@ fn neighbours(sequence: Sequence, order: u32, x: f64, scaling: Scaling) -> Optio
     pair.iter().all(|value| value.is_finite()).then_some(pair)
 }
 
-/// Jₙ(x) and Jₙ₊₁(x); `None` where x is not positive or too large for any digit (x > 10⁹).
+/// Jₙ(x) and Jₙ₊₁(x); `None` if x is not positive or too large for any correct digit (x > 10⁹).
 #[must_use]
 pub fn bessel_j(order: u32, x: f64) -> Option<Neighbours> {
     neighbours(besselj_seq, order, x, Scaling::Unscaled)
 }
 
-/// Yₙ(x) and Yₙ₊₁(x); `None` where x is not positive, or so small that −Y is out of the range of `f64`.
+/// Yₙ(x) and Yₙ₊₁(x); `None` if x is not positive, or so small that −Y is out of the range of `f64`.
 #[must_use]
 pub fn bessel_y(order: u32, x: f64) -> Option<Neighbours> {
     neighbours(bessely_seq, order, x, Scaling::Unscaled)
 }
 
-/// e^{−x} Iₙ(x) and e^{−x} Iₙ₊₁(x); `None` where x is not positive.
+/// e^{−x} Iₙ(x) and e^{−x} Iₙ₊₁(x); `None` if x is not positive.
 #[must_use]
 pub fn bessel_i_scaled(order: u32, x: f64) -> Option<Neighbours> {
     neighbours(besseli_seq, order, x, Scaling::Exponential)
 }
 
-/// eˣ Kₙ(x) and eˣ Kₙ₊₁(x); `None` where x is not positive, or so small that K is out of the range of `f64`.
+/// eˣ Kₙ(x) and eˣ Kₙ₊₁(x); `None` if x is not positive, or so small that K is out of the range of `f64`.
 #[must_use]
 pub fn bessel_k_scaled(order: u32, x: f64) -> Option<Neighbours> {
     neighbours(besselk_seq, order, x, Scaling::Exponential)
@@ -78,7 +78,7 @@ mod tests {
         }
     }
 
-    /// J₀(1), Y₀(1), I₀(1), K₀(1) and their neighbours, printed tables.
+    /// J₀(1), Y₀(1), I₀(1), K₀(1) and the next order, from published tables.
     #[test]
     fn table_values() {
         let close = |pair: Option<Neighbours>, exact: Neighbours| {

@@ -1,22 +1,22 @@
-//! The best instructions of the machine, chosen at run time, with the same bits on all of them.
+//! Run-time dispatch to the best instruction set of the machine, with the same bits on all of them.
 //!
 //! The baseline build calls a library routine for each fused multiply-add and has no wide
-//! vectors. Work handed to this module is compiled once more per instruction set and runs in
-//! the best copy that the processor allows. Every operation of a [`Lane`] is correctly rounded
-//! in each copy, so that bits do not depend on the choice.
+//! vectors. Work passed to this module is compiled once per instruction set and runs in
+//! the best version that the processor supports. Every operation of a [`Lane`] is correctly rounded
+//! in each version, so that the bits of the result do not depend on the instruction set.
 //!
 //! The lane types of AVX2 and AVX-512 are private to this file: code is generic over
-//! [`Lane`] and meets them only inside a copy compiled for their instructions.
+//! [`Lane`] and is instantiated with them only in a version compiled for their instructions.
 
 #[cfg(target_arch = "x86_64")]
 use std::ops::{Add, Mul, Neg, Sub};
 
 use crate::lane::Lane;
 #[cfg(target_arch = "x86_64")]
-use crate::lane::Pair;
+use crate::lane::LanePair;
 
-/// Work compiled per instruction set. `run` and all it calls in a hot loop must be
-/// `#[inline(always)]`, or they stay in the baseline copy.
+/// Work compiled per instruction set. `run` and everything it calls in a hot loop must be
+/// `#[inline(always)]`, otherwise they stay in the baseline version.
 pub trait Work {
     /// Result of the work.
     type Output;
@@ -24,7 +24,7 @@ pub trait Work {
     fn run(self) -> Self::Output;
 }
 
-/// Work on as many lanes as the machine has, compiled per instruction set like [`Work`].
+/// Work on as many lanes as the machine supports, compiled per instruction set like [`Work`].
 pub trait LaneWork {
     /// Result of the work.
     type Output;
@@ -32,12 +32,12 @@ pub trait LaneWork {
     fn run<V: Lane>(self) -> Self::Output;
 }
 
-/// Instructions that lanes are made of.
+/// Instruction sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum InstructionSet {
-    /// One number at a time, without fused multiply-add in hardware: runs everywhere.
+    /// One number at a time, without hardware fused multiply-add: runs on every machine.
     Baseline,
-    /// One number at a time, with fused multiply-add (x86-64-v3): the best for a single run.
+    /// One number at a time, with fused multiply-add (x86-64-v3): the fastest for a single run.
     Fma,
     /// AVX2 with FMA (x86-64-v3): 2 × 4 lanes.
     Avx2,
@@ -46,15 +46,15 @@ pub enum InstructionSet {
 }
 
 impl InstructionSet {
-    /// Every one that there is, the widest first.
+    /// All instruction sets, the widest first.
     pub const ALL: [Self; 4] = [Self::Avx512, Self::Avx2, Self::Fma, Self::Baseline];
 
-    /// The widest of this machine.
+    /// The widest one that this machine supports.
     pub fn widest() -> Self {
         Self::ALL.into_iter().find(|set| set.is_available()).unwrap_or(Self::Baseline)
     }
 
-    /// Whether this machine has it.
+    /// Whether this machine supports it.
     pub fn is_available(self) -> bool {
         match self {
             Self::Baseline => true,
@@ -67,7 +67,7 @@ impl InstructionSet {
         }
     }
 
-    /// Name for people.
+    /// Name for output.
     pub fn name(self) -> &'static str {
         match self {
             Self::Baseline => "baseline",
@@ -95,8 +95,8 @@ pub fn with_fused_multiply_add<W: Work>(work: W) -> W::Output {
     with_scalar_of(InstructionSet::Fma, work)
 }
 
-/// Runs `work` with the scalar instructions that go with the lanes of `set`: those of the baseline, or
-/// fused multiply-add where the machine has it.
+/// Runs `work` with the scalar instructions that correspond to the lanes of `set`: those of the baseline, or
+/// fused multiply-add if the machine supports it.
 #[inline]
 pub fn with_scalar_of<W: Work>(set: InstructionSet, work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
@@ -123,14 +123,14 @@ impl<W: LaneWork, V: Lane> pulp::NullaryFnOnce for InLanes<W, V> {
     }
 }
 
-/// Runs `work` in lanes of `set`, or of the widest set there is where the machine lacks it.
+/// Runs `work` in lanes of `set`, or of the widest supported set if the machine does not support `set`.
 pub fn with_lanes<W: LaneWork>(set: InstructionSet, work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
     {
         if set == InstructionSet::Avx512
             && let Some(simd) = pulp::x86::V4::try_new()
         {
-            return simd.vectorize(InLanes::<W, Pair<Eight>>(work, std::marker::PhantomData));
+            return simd.vectorize(InLanes::<W, LanePair<Eight>>(work, std::marker::PhantomData));
         }
         if set != InstructionSet::Baseline
             && let Some(simd) = pulp::x86::V3::try_new()
@@ -138,7 +138,7 @@ pub fn with_lanes<W: LaneWork>(set: InstructionSet, work: W) -> W::Output {
             return if set == InstructionSet::Fma {
                 simd.vectorize(InLanes::<W, f64>(work, std::marker::PhantomData))
             } else {
-                simd.vectorize(InLanes::<W, Pair<Four>>(work, std::marker::PhantomData))
+                simd.vectorize(InLanes::<W, LanePair<Four>>(work, std::marker::PhantomData))
             };
         }
     }
@@ -155,12 +155,12 @@ macro_rules! vector_lane {
         struct $name(pulp::$vector);
 
         impl $name {
-            /// Proof that the instructions are there.
+            /// Proof that the instructions are available.
             #[inline(always)]
-            #[expect(unsafe_code, reason = "the type is private and met only inside `vectorize`")]
+            #[expect(unsafe_code, reason = "the type is private and only used inside `vectorize`")]
             fn token() -> pulp::x86::$token {
                 // SAFETY: the type cannot be named outside this file, and in this file
-                // `with_lanes` alone hands it to work, inside `vectorize` of a token that
+                // only `with_lanes` passes it to work, inside `vectorize` of a token that
                 // `try_new` has checked.
                 unsafe { pulp::x86::$token::new_unchecked() }
             }
@@ -234,8 +234,8 @@ macro_rules! vector_lane {
 
             #[inline(always)]
             fn map(self, function: impl Fn(f64) -> f64) -> Self {
-                // A loop, for an iterator of the standard library may not be inlined, and then
-                // lacks the instructions of this lane.
+                // A loop, because an iterator of the standard library may not be inlined and would then
+                // be compiled without the instructions of this lane.
                 let mut lanes = self.lanes();
                 for lane in &mut lanes {
                     *lane = function(*lane);
@@ -363,7 +363,7 @@ mod tests {
     }
 
     #[test]
-    fn a_positive_number_is_seen_in_every_lane() {
+    fn any_positive_detects_every_lane() {
         for set in InstructionSet::ALL {
             let mut numbers = [-1.0, 0.0, -0.0, f64::NAN].repeat(4);
             for lane in 0..LANES {
@@ -379,10 +379,10 @@ mod tests {
     }
 
     #[test]
-    fn every_operation_has_the_same_bits_on_every_instruction_set() {
+    fn operations_are_bit_identical_on_all_instruction_sets() {
         let a = std::array::from_fn(|lane| (lane as f64 - 7.3) * 1.37);
         let mut b: [f64; LANES] = std::array::from_fn(|lane| 40.0 / (lane as f64 + 0.7));
-        // Equal numbers and zeros of both signs: which operand max and min return.
+        // Equal numbers and zeros of both signs test which operand max and min return.
         (b[3], b[4], b[5]) = (a[3], 0.0, -0.0);
         let alone = Operations(&a, &b).run::<f64>();
         let zeros = ([0.0; LANES], [-0.0; LANES]);

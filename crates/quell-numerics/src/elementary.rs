@@ -1,9 +1,9 @@
-//! exp, sin and cos of the engine: our own, so that their bits are the same everywhere.
+//! An own implementation of exp, sin and cos with the same bits on every machine.
 //!
 //! Scheme: Cody–Waite reduction by fused multiply-add, then the Taylor polynomial on the
-//! reduced interval (degree 13 on |r| ≤ ln 2 / 2; degrees 17 and 16 on |r| ≤ π/4), all in
-//! [`Lane::mul_add`] without a branch or a table. Largest error measured against libm:
-//! see the tests at the end of this file.
+//! reduced interval (degree 13 on |r| ≤ ln 2 / 2; degrees 17 and 16 on |r| ≤ π/4), all with
+//! [`Lane::mul_add`] and without branches or tables. The tests at the end of this file measure
+//! the largest error against libm.
 
 use crate::lane::Lane;
 
@@ -12,7 +12,7 @@ const LOG2_E: f64 = std::f64::consts::LOG2_E;
 const LN_2_HIGH: f64 = 0.693_147_180_369_123_8;
 const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 
-/// Below this the exponential is held at e^−708 ≈ 3·10⁻³⁰⁸: friction of that size is nothing.
+/// Below this the exponential is replaced by e^−708 ≈ 3·10⁻³⁰⁸: friction of that size is negligible.
 const EXP_FLOOR: f64 = -708.0;
 
 /// 1/k! for k = 0…17.
@@ -52,8 +52,8 @@ const FRAC_PI_2_LOW: f64 = 6.123_233_995_736_766e-17;
 
 /// (sin θ, cos θ) of θ = rate·(time + time_low) + phase.
 ///
-/// The product is formed exactly before it is reduced, so that the error stays at rounding
-/// level for |θ| up to 2⁴⁰: a long run loses no phase.
+/// The product is computed exactly before it is reduced, so that the error stays at rounding
+/// level for |θ| up to 2⁴⁰: long runs do not lose phase accuracy.
 #[inline(always)]
 pub fn sin_cos_of_phase<V: Lane>(rate: V, time: V, time_low: V, phase: V) -> (V, V) {
     let product = rate * time;
@@ -86,7 +86,7 @@ pub fn sin_cos_of_phase<V: Lane>(rate: V, time: V, time_low: V, phase: V) -> (V,
 /// 2π minus its nearest double.
 const TAU_LOW: f64 = 4.0 * FRAC_PI_2_LOW;
 
-/// θ = rate·(time + time_low) + phase less the nearest multiple of 2π: in [−π, π], but for rounding.
+/// θ = rate·(time + time_low) + phase minus the nearest multiple of 2π: in [−π, π] up to rounding.
 #[inline(always)]
 pub fn reduced_phase(rate: f64, time: f64, time_low: f64, phase: f64) -> f64 {
     let product = rate * time;
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_reduced_phase_has_the_sine_of_the_phase() {
+    fn phase_reduction_preserves_sine_and_cosine() {
         for i in 0..20_000_i32 {
             let time = f64::from(i * 977) / 1024.0;
             let reduced = reduced_phase(7.3, time, 1e-13, 0.4);
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn reduction_constants_complete_each_other() {
+    fn reduction_constants_sum_to_ln_2() {
         assert_eq!(LN_2_HIGH.to_bits() & 0xf_ffff, 0);
         assert_eq!(LN_2_HIGH + LN_2_LOW, std::f64::consts::LN_2);
     }
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn sine_and_cosine_are_accurate_far_out() {
+    fn sine_and_cosine_are_accurate_for_large_arguments() {
         let mut worst: f64 = 0.0;
         for i in 0..100_000_i32 {
             // Multiples of 2⁻¹⁰ and an integral rate: the argument is exact in a double.
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn the_low_part_of_time_counts() {
+    fn the_low_part_of_time_is_used() {
         let (time, low) = (1e6, 3e-11);
         let (sine, cosine) = sin_cos_of_phase(10.0, time, 0.0, 0.25);
         let (moved, _) = sin_cos_of_phase(10.0, time, low, 0.25);

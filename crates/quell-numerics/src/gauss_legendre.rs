@@ -13,11 +13,11 @@ pub struct GaussLegendre {
     pub weights: Vec<f64>,
 }
 
-/// Newton's iteration is quadratic from a start good to 10⁻³ or better: six steps are more than enough.
+/// Newton's iteration converges quadratically from a start accurate to 10⁻³ or better: six steps are more than enough.
 const STEPS: usize = 8;
 
 impl GaussLegendre {
-    /// The rule with `count` nodes (at least one is made).
+    /// The rule with `count` nodes (at least one).
     #[must_use]
     pub fn new(count: usize) -> Self {
         let count = count.max(1);
@@ -41,7 +41,7 @@ impl GaussLegendre {
         Self { nodes, weights }
     }
 
-    /// The same rule on [0, 1] as tables: the first N nodes and weights, zeros where the rule has fewer.
+    /// The same rule on [0, 1] as tables: the first N nodes and weights, padded with zeros if the rule has fewer.
     #[must_use]
     pub fn on_unit_interval<const N: usize>(&self) -> [[f64; N]; 2] {
         let table = |values: &[f64], map: fn(f64) -> f64| {
@@ -78,7 +78,7 @@ mod tests {
 
     /// ∫ x^m = 2/(m + 1) for even m up to 2n − 1, and not beyond.
     #[test]
-    fn exact_up_to_its_degree() {
+    fn exact_up_to_degree_2n_minus_1() {
         for count in [1, 2, 3, 7, 20, 41, 64] {
             let rule = GaussLegendre::new(count);
             let integral = |power: i32| -> f64 {

@@ -1,32 +1,32 @@
 //! Interval arithmetic with outward rounding, for proofs about formulas.
 //!
 //! Every operation returns an interval that contains the exact result for all real numbers in its arguments. The four
-//! operations and the square root are correctly rounded, so their bounds move outward by one unit in the last place;
-//! the functions of libm err by less than one, so theirs move by two. An infinite bound means "unbounded": the numbers
-//! inside are finite all the same. What is not defined on the whole argument is `None`.
+//! operations and the square root are correctly rounded, so their bounds are moved outward by one unit in the last place;
+//! the functions of libm have errors below one unit, so their bounds are moved by two. An infinite bound means "unbounded":
+//! the numbers inside are still finite. An operation that is not defined on the whole argument returns `None`.
 
 use std::f64::consts::TAU;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// All real numbers from `lower` to `upper`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interval {
+pub struct RealInterval {
     /// Lower bound.
     pub lower: f64,
     /// Upper bound, at least the lower one.
     pub upper: f64,
 }
 
-impl Interval {
-    /// Every real number.
+impl RealInterval {
+    /// All real numbers.
     pub const WHOLE: Self = Self { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
 
-    /// From its bounds, `lower` ≤ `upper`.
+    /// The interval with these bounds, `lower` ≤ `upper`.
     pub const fn new(lower: f64, upper: f64) -> Self {
         Self { lower, upper }
     }
 
-    /// One number.
+    /// The interval of a single number.
     pub const fn point(value: f64) -> Self {
         Self { lower: value, upper: value }
     }
@@ -36,12 +36,12 @@ impl Interval {
         self.lower.is_finite() && self.upper.is_finite()
     }
 
-    /// Whether a number lies inside.
+    /// Whether the interval contains a number.
     pub fn contains(self, value: f64) -> bool {
         self.lower <= value && value <= self.upper
     }
 
-    /// Bounds one unit in the last place outward.
+    /// Moves the bounds outward by one unit in the last place.
     fn outward(lower: f64, upper: f64) -> Self {
         Self { lower: lower.next_down(), upper: upper.next_up() }
     }
@@ -52,7 +52,7 @@ impl Interval {
         Self::outward(wide.lower, wide.upper)
     }
 
-    /// Both bounds brought into a range that the exact result cannot leave.
+    /// Clamps both bounds to a range that the exact result cannot leave.
     fn within(self, lower: f64, upper: f64) -> Self {
         Self { lower: self.lower.clamp(lower, upper), upper: self.upper.clamp(lower, upper) }
     }
@@ -62,14 +62,14 @@ impl Interval {
         Self { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
     }
 
-    /// Quotient; `None` where the divisor may be zero.
+    /// Quotient; `None` if the divisor may be zero.
     #[must_use]
     pub fn over(self, divisor: Self) -> Option<Self> {
         if divisor.contains(0.0) {
             return None;
         }
         let inverse = Self::outward(1.0 / divisor.upper, 1.0 / divisor.lower);
-        // The exact inverse keeps the divisor's sign.
+        // The exact inverse has the sign of the divisor.
         let inverse = if divisor.lower > 0.0 {
             inverse.within(0.0, f64::INFINITY)
         } else {
@@ -90,7 +90,7 @@ impl Interval {
         }
     }
 
-    /// Whole power, n ≥ 0.
+    /// Integer power, n ≥ 0.
     #[must_use]
     pub fn power(self, n: u32) -> Self {
         if n == 0 {
@@ -104,7 +104,7 @@ impl Interval {
         bounds.power_of_bounds(n)
     }
 
-    /// The power of both bounds, where it increases.
+    /// The power of both bounds, on a range where it is increasing.
     fn power_of_bounds(self, n: u32) -> Self {
         let of =
             |bound: f64| (1..n).fold(Self::point(bound), |product, _| product * Self::point(bound));
@@ -117,12 +117,12 @@ impl Interval {
         self.increasing(libm::exp).within(0.0, f64::INFINITY)
     }
 
-    /// log x; `None` where an argument may not be above 0.
+    /// log x; `None` if the interval contains numbers that are not positive.
     pub fn log(self) -> Option<Self> {
         (self.lower > 0.0).then(|| self.increasing(libm::log))
     }
 
-    /// √x; `None` where an argument may be negative.
+    /// √x; `None` if the interval contains negative numbers.
     pub fn sqrt(self) -> Option<Self> {
         (self.lower >= 0.0)
             .then(|| Self::outward(self.lower.sqrt(), self.upper.sqrt()).within(0.0, f64::INFINITY))
@@ -131,10 +131,10 @@ impl Interval {
     /// sin x.
     #[must_use]
     pub fn sin(self) -> Self {
-        // Crests at π/2 + 2πn, troughs at −π/2 + 2πn; their places are known to a few roundings.
-        let meets = |place: f64| {
-            let turns = |x: f64| (x - place) / TAU;
-            let (from, to) = (turns(self.lower), turns(self.upper));
+        // Maxima at π/2 + 2πn, minima at −π/2 + 2πn; their positions are known to a few rounding errors.
+        let meets = |extremum: f64| {
+            let cycles = |x: f64| (x - extremum) / TAU;
+            let (from, to) = (cycles(self.lower), cycles(self.upper));
             let rounding = 8.0 * f64::EPSILON * (1.0 + from.abs().max(to.abs()));
             (from - rounding).ceil() <= (to + rounding).floor()
         };
@@ -154,7 +154,7 @@ impl Interval {
     /// cos x.
     #[must_use]
     pub fn cos(self) -> Self {
-        // The shift is rounded once; the bounds of the sum contain that.
+        // The shift is rounded once; the bounds of the sum include this error.
         (self + Self::outward(0.25 * TAU, 0.25 * TAU)).sin()
     }
 
@@ -181,7 +181,7 @@ impl Interval {
     }
 }
 
-impl Neg for Interval {
+impl Neg for RealInterval {
     type Output = Self;
 
     fn neg(self) -> Self {
@@ -189,7 +189,7 @@ impl Neg for Interval {
     }
 }
 
-impl Add for Interval {
+impl Add for RealInterval {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -197,7 +197,7 @@ impl Add for Interval {
     }
 }
 
-impl Sub for Interval {
+impl Sub for RealInterval {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
@@ -205,11 +205,11 @@ impl Sub for Interval {
     }
 }
 
-impl Mul for Interval {
+impl Mul for RealInterval {
     type Output = Self;
 
     fn mul(self, other: Self) -> Self {
-        // The numbers inside are finite: nothing times an unbounded one is nothing.
+        // The numbers inside are finite: zero times an unbounded interval is zero.
         let product = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
         let corners = [
             product(self.lower, other.lower),
@@ -219,8 +219,8 @@ impl Mul for Interval {
         ];
         let lower = corners.into_iter().fold(f64::INFINITY, f64::min);
         let upper = corners.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        // A product with exactly nothing is exact.
-        let zero = |it: Self| it.lower == 0.0 && it.upper == 0.0;
+        // A product with exactly zero is exact.
+        let zero = |x: Self| x.lower == 0.0 && x.upper == 0.0;
         if zero(self) || zero(other) {
             return Self::point(0.0);
         }
@@ -236,31 +236,31 @@ impl Mul for Interval {
 mod tests {
     use super::*;
 
-    /// Every value of a function at points inside lies in its interval, and the interval is no wider than needed.
+    /// The interval contains all values of a function at points of its argument, and is not much wider than needed.
     #[test]
-    fn images_contain_every_value_and_little_else() {
-        type Image = fn(Interval) -> Interval;
+    fn images_are_tight_enclosures() {
+        type Image = fn(RealInterval) -> RealInterval;
         type Function = fn(f64) -> f64;
         let functions: [(&str, Image, Function); 8] = [
-            ("exp", Interval::exp, f64::exp),
-            ("sin", Interval::sin, f64::sin),
-            ("cos", Interval::cos, f64::cos),
-            ("tanh", Interval::tanh, f64::tanh),
-            ("sech", Interval::sech, |x| 1.0 / x.cosh()),
-            ("atan", Interval::atan, f64::atan),
-            ("abs", Interval::abs, f64::abs),
+            ("exp", RealInterval::exp, f64::exp),
+            ("sin", RealInterval::sin, f64::sin),
+            ("cos", RealInterval::cos, f64::cos),
+            ("tanh", RealInterval::tanh, f64::tanh),
+            ("sech", RealInterval::sech, |x| 1.0 / x.cosh()),
+            ("atan", RealInterval::atan, f64::atan),
+            ("abs", RealInterval::abs, f64::abs),
             ("fourth power", |x| x.power(4), |x| x.powi(4)),
         ];
         for (name, image, function) in functions {
             for (from, to) in [(-3.0, 0.5), (0.1, 0.1), (1.5, 1.7), (-0.2, 7.1), (4.0, 5.0)] {
-                let found = image(Interval::new(from, to));
+                let found = image(RealInterval::new(from, to));
                 let values: Vec<f64> = (0..=2000)
                     .map(|k| function(from + (to - from) * f64::from(k) / 2000.0))
                     .collect();
                 let low = values.iter().copied().fold(f64::INFINITY, f64::min);
                 let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
                 assert!(found.lower <= low && high <= found.upper, "{name} on [{from}, {to}]");
-                // |x| has its least value between two of the points.
+                // The minimum of |x| lies between two of the points.
                 let slack = 1e-5 * (high.abs() + low.abs()) + (to - from) / 2000.0;
                 assert!(
                     low - found.lower < slack && found.upper - high < slack,
@@ -271,20 +271,21 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_defined_is_no_interval() {
-        let around = Interval::new(-1e-9, 1e-9);
-        assert!(Interval::point(1.0).over(around).is_none());
+    fn undefined_operations_return_none() {
+        let around = RealInterval::new(-1e-9, 1e-9);
+        assert!(RealInterval::point(1.0).over(around).is_none());
         assert!(around.log().is_none() && around.sqrt().is_none());
-        assert!(Interval::point(0.0).over(Interval::point(0.0)).is_none());
+        assert!(RealInterval::point(0.0).over(RealInterval::point(0.0)).is_none());
     }
 
     #[test]
-    fn unbounded_numbers_are_finite_ones() {
-        let large = Interval::new(800.0, 900.0).exp();
+    fn unbounded_intervals_contain_only_finite_numbers() {
+        let large = RealInterval::new(800.0, 900.0).exp();
         assert!(large.lower > 0.0 && large.lower.is_finite() && large.upper.is_infinite());
-        assert_eq!(Interval::point(0.0) * Interval::WHOLE, Interval::point(0.0));
-        let small =
-            Interval::point(1.0).over(Interval::new(1e300, f64::INFINITY)).expect("above 0");
+        assert_eq!(RealInterval::point(0.0) * RealInterval::WHOLE, RealInterval::point(0.0));
+        let small = RealInterval::point(1.0)
+            .over(RealInterval::new(1e300, f64::INFINITY))
+            .expect("above 0");
         assert!(small.lower == 0.0 && small.upper < 1e-299);
     }
 }

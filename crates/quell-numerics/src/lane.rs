@@ -1,16 +1,16 @@
-//! The number type of the hot kernels: one `f64`, or several side by side.
+//! The number type of the hot kernels: one `f64`, or several in SIMD lanes.
 //!
-//! Every kernel of the engine is written once over [`Lane`] and uses only the
-//! operations below, in a declared order. Addition, multiplication and the fused
-//! [`Lane::mul_add`] are correctly rounded everywhere, so a kernel gives the same bits
-//! alone (`f64`), in any SIMD lane and on any instruction set ([`crate::dispatch`]).
+//! Every kernel of the engine is generic over [`Lane`] and uses only the
+//! operations below, in a fixed order. Addition, multiplication and the fused
+//! [`Lane::mul_add`] are correctly rounded on every machine, so a kernel gives the same bits
+//! in scalar form (`f64`), in any SIMD lane and with any instruction set ([`crate::dispatch`]).
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// 1.5·2⁵²: adding and subtracting it rounds to the nearest integer, ties to even.
 const ROUNDING_SHIFT: f64 = 6_755_399_441_055_744.0;
 
-/// The most lanes that any type of this crate has.
+/// Maximum number of lanes of any type of this crate.
 pub const MOST_LANES: usize = 16;
 
 /// One real number per lane.
@@ -30,18 +30,18 @@ pub trait Lane:
     /// The same value in every lane.
     fn splat(value: f64) -> Self;
 
-    /// The first [`Lane::LANES`] numbers of `from`, which holds at least as many.
+    /// The first [`Lane::LANES`] numbers of `from`, which has at least as many.
     fn load(from: &[f64]) -> Self;
 
-    /// Writes the lanes to the first [`Lane::LANES`] places of `to`, which has at least as many.
+    /// Writes the lanes to the first [`Lane::LANES`] entries of `to`, which has at least as many.
     fn store(self, to: &mut [f64]);
 
-    /// `function` of every lane. For what needs bits, divisions or roots: without a branch
-    /// inside, the compiler makes vector instructions of it.
+    /// Applies `function` to every lane, for bit operations, divisions or roots. If the function has no branch,
+    /// the compiler generates vector instructions for it.
     #[must_use]
     fn map(self, function: impl Fn(f64) -> f64) -> Self;
 
-    /// `function` of every pair of lanes.
+    /// Applies `function` to every pair of corresponding lanes.
     #[must_use]
     fn zip(self, other: Self, function: impl Fn(f64, f64) -> f64) -> Self;
 
@@ -53,27 +53,27 @@ pub trait Lane:
     #[must_use]
     fn abs(self) -> Self;
 
-    /// The larger of two numbers; the second where they are equal.
+    /// The larger of two numbers; the second if they are equal.
     #[must_use]
     fn max(self, other: Self) -> Self;
 
-    /// The smaller of two numbers; the second where they are equal.
+    /// The smaller of two numbers; the second if they are equal.
     #[must_use]
     fn min(self, other: Self) -> Self;
 
-    /// `yes` in the lanes where `self` > 0, else `no`.
+    /// `yes` in the lanes where `self` > 0, otherwise `no`.
     #[must_use]
     fn where_positive(self, yes: Self, no: Self) -> Self;
 
     /// Whether any lane is > 0.
     fn any_positive(self) -> bool;
 
-    /// 2ⁿ for integral `self` = n in −1022…1023.
+    /// 2ⁿ for integer `self` = n in −1022…1023.
     #[inline(always)]
     #[must_use]
     fn power_of_two(self) -> Self {
-        // The low bits of n + 1.5·2⁵² hold n in two's complement; the shift moves the
-        // biased exponent into place.
+        // The low bits of n + 1.5·2⁵² are n in two's complement; the shift moves the
+        // biased exponent to its position.
         self.map(|n| f64::from_bits((n + (ROUNDING_SHIFT + 1023.0)).to_bits() << 52))
     }
 
@@ -145,12 +145,12 @@ impl Lane for f64 {
     }
 }
 
-/// Two groups of lanes worked on in turn: while one waits for the result of an operation, the
+/// Two groups of lanes processed alternately: while one waits for the result of an operation, the
 /// other one is computed.
 #[derive(Clone, Copy, Debug)]
-pub struct Pair<V>(V, V);
+pub struct LanePair<V>(V, V);
 
-impl<V: Lane> Add for Pair<V> {
+impl<V: Lane> Add for LanePair<V> {
     type Output = Self;
 
     #[inline(always)]
@@ -159,7 +159,7 @@ impl<V: Lane> Add for Pair<V> {
     }
 }
 
-impl<V: Lane> Sub for Pair<V> {
+impl<V: Lane> Sub for LanePair<V> {
     type Output = Self;
 
     #[inline(always)]
@@ -168,7 +168,7 @@ impl<V: Lane> Sub for Pair<V> {
     }
 }
 
-impl<V: Lane> Mul for Pair<V> {
+impl<V: Lane> Mul for LanePair<V> {
     type Output = Self;
 
     #[inline(always)]
@@ -177,7 +177,7 @@ impl<V: Lane> Mul for Pair<V> {
     }
 }
 
-impl<V: Lane> Neg for Pair<V> {
+impl<V: Lane> Neg for LanePair<V> {
     type Output = Self;
 
     #[inline(always)]
@@ -186,7 +186,7 @@ impl<V: Lane> Neg for Pair<V> {
     }
 }
 
-impl<V: Lane> Lane for Pair<V> {
+impl<V: Lane> Lane for LanePair<V> {
     const LANES: usize = 2 * V::LANES;
 
     #[inline(always)]
@@ -249,8 +249,8 @@ impl<V: Lane> Lane for Pair<V> {
 /// Σ aⱼ bₖ₋ⱼ over j = `from`…`to`: part of the k-th coefficient of a product of two series.
 ///
 /// Order of summation: from the middle outwards, downwards in one accumulator and upwards in
-/// another, then their sum. Both ends hold the newest coefficients of a recurrence: they come
-/// last, so that all before them is summed while they are still being computed.
+/// another, then their sum. The newest coefficients of a recurrence are at both ends and are added
+/// last, so that all other terms are summed while they are still being computed.
 #[inline(always)]
 pub fn partial_product<V: Lane>(a: &[V], b: &[V], k: usize, from: usize, to: usize) -> V {
     if to < from {
@@ -275,8 +275,8 @@ pub fn partial_product<V: Lane>(a: &[V], b: &[V], k: usize, from: usize, to: usi
     down + up
 }
 
-/// Half of Σ aⱼ aₖ₋ⱼ over j = 1…k−1: the square of a series without its newest coefficient, at
-/// half the work of a product, the newest terms last.
+/// Half of Σ aⱼ aₖ₋ⱼ over j = 1…k−1: the square of a series without its newest coefficient, with
+/// half the work of a product; the newest terms are added last.
 #[inline(always)]
 pub fn half_inner_square<V: Lane>(a: &[V], k: usize) -> V {
     if k < 2 {
@@ -293,8 +293,8 @@ pub fn half_inner_square<V: Lane>(a: &[V], k: usize) -> V {
     sum
 }
 
-/// Repeats a block for `$k` = 0…15 with `$k` a constant, so that every loop inside has a
-/// constant length and no bound is checked at run time.
+/// Repeats a block for `$k` = 0…15 with constant `$k`, so that every loop inside has a
+/// constant length and no bounds are checked at run time.
 #[macro_export]
 macro_rules! for_each_order_below_16 {
     ($k:ident, $body:block) => {
@@ -338,7 +338,7 @@ mod tests {
 
     #[test]
     fn products_of_series_agree_with_the_plain_sum() {
-        // Small integers: every order of summation is exact.
+        // For small integers every order of summation is exact.
         let a: Vec<f64> = (0..17).map(|k| f64::from((k * 7 + 3) % 11) - 5.0).collect();
         let b: Vec<f64> = (0..17).map(|k| f64::from((k * 5 + 1) % 13) - 6.0).collect();
         for k in 0..17 {

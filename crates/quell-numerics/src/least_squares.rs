@@ -1,23 +1,23 @@
 //! Linear least squares by Householder reflections, for tall systems of a few columns.
 //!
-//! Of our own, because the sums have one declared order: a fit has the same bits on every machine.
+//! An own implementation whose sums have a fixed order, so that a fit has the same bits on every machine.
 
-/// Solution of min ‖A x − b‖ and what it leaves.
+/// Solution of min ‖A x − b‖ with its residuals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeastSquares {
     /// x.
     pub solution: Vec<f64>,
     /// b − A x, row by row.
     pub residuals: Vec<f64>,
-    /// How much of each row its own datum decides, 0…1: diagonal of A(AᵀA)⁻¹Aᵀ.
+    /// Leverage of each row, 0…1: the diagonal of A(AᵀA)⁻¹Aᵀ.
     pub leverages: Vec<f64>,
 }
 
-/// Columns whose rest is below this share of their length depend on the others.
+/// Relative length of a column's orthogonal remainder below which the column is linearly dependent on the others.
 const DEPENDENT: f64 = 1e-13;
 
-/// Solves for the columns of A, each as long as `data`, b; the solution has one number a column. `None` where the lengths
-/// differ, where there are more columns than rows, and where columns depend on one another to 10⁻¹³ of their length.
+/// Solves the problem for the columns of A, each as long as `data`, b; the solution has one entry per column. `None` if the
+/// lengths differ, if there are more columns than rows, or if columns are linearly dependent to 10⁻¹³ of their length.
 pub fn least_squares(columns: &[Vec<f64>], data: &[f64]) -> Option<LeastSquares> {
     let (rows, count) = (data.len(), columns.len());
     if count > rows || columns.iter().any(|column| column.len() != rows) {
@@ -83,7 +83,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_line_through_points() {
+    fn a_line_is_fitted_with_its_leverages() {
         let x: Vec<f64> = (0..9).map(f64::from).collect();
         let columns = [vec![1.0; 9], x.clone()];
         let exact: Vec<f64> = x.iter().map(|x| 2.0 - 0.5 * x).collect();
@@ -94,7 +94,7 @@ mod tests {
             let away = i as f64 - 4.0;
             assert!((leverage - (1.0 / 9.0 + away * away / 60.0)).abs() < 1e-14);
         }
-        // What is left is orthogonal to the columns.
+        // The residuals are orthogonal to the columns.
         let bent: Vec<f64> = x.iter().map(|x| x * x).collect();
         let left = least_squares(&columns, &bent).expect("independent").residuals;
         for column in &columns {
@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_one_solution_is_refused() {
+    fn problems_without_a_unique_solution_are_rejected() {
         let column = vec![1.0, 2.0, 3.0];
         assert_eq!(least_squares(&[column.clone(), column.clone()], &[1.0, 2.0, 3.0]), None);
         assert_eq!(least_squares(&[vec![1.0], vec![2.0]], &[1.0]), None);

@@ -1,12 +1,12 @@
-//! Mathematics of Quell; no physics.
+//! Numerical methods of Quell; no physics.
 //!
-//! * [`lane`], [`elementary`], [`dispatch`]: the arithmetic of the hot kernels, the same bits everywhere;
+//! * [`lane`], [`elementary`], [`dispatch`]: the arithmetic of the hot kernels, with the same bits on every machine;
 //! * [`matrix`], [`eigen`], [`floquet`]: small dense matrices, eigenvalues, exponents of periodic systems with error bounds;
 //! * [`polynomial`]: first root of a Taylor step, isolated or proven absent; step length;
 //! * [`quadrature`], [`gauss_legendre`], [`roots`], [`special`], [`bessel`], [`spectrum`]: integrals, scalar roots and minima,
 //!   special functions, spectra;
 //! * [`symmetric`], [`least_squares`]: eigenvalues of symmetric pencils, fits of a few columns;
-//! * [`interval`]: bounds of functions over intervals, rounded outward, for proofs;
+//! * [`interval`]: bounds of functions over intervals with outward rounding, for proofs;
 //! * [`continuation`]: fixed points of period maps by shooting, their branches, thresholds and curves of thresholds.
 
 pub mod bessel;

@@ -1,8 +1,8 @@
-//! Small dense real matrices, stored by rows.
+//! Small dense real matrices in row-major storage.
 
 use core::ops::{Index, IndexMut};
 
-/// A dense real matrix, stored by rows.
+/// A dense real matrix in row-major storage.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matrix {
     rows: usize,
@@ -11,17 +11,17 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// All zeros.
+    /// The zero matrix.
     pub fn zeros(rows: usize, columns: usize) -> Self {
         Self { rows, columns, values: vec![0.0; rows * columns] }
     }
 
-    /// Ones on the diagonal, zeros elsewhere.
+    /// The identity matrix.
     pub fn identity(size: usize) -> Self {
         Self::from_fn(size, size, |i, j| f64::from(u8::from(i == j)))
     }
 
-    /// Entry (i, j) given by a function of i and j.
+    /// The matrix whose entry (i, j) is given by a function of i and j.
     pub fn from_fn(rows: usize, columns: usize, entry: impl Fn(usize, usize) -> f64) -> Self {
         let values = (0..rows * columns).map(|at| entry(at / columns, at % columns)).collect();
         Self { rows, columns, values }
@@ -42,17 +42,17 @@ impl Matrix {
         &self.values[i * self.columns..(i + 1) * self.columns]
     }
 
-    /// Row i, to be changed.
+    /// Mutable row i.
     pub fn row_mut(&mut self, i: usize) -> &mut [f64] {
         &mut self.values[i * self.columns..(i + 1) * self.columns]
     }
 
-    /// All entries, row after row.
+    /// All entries in row-major order.
     pub fn as_slice(&self) -> &[f64] {
         &self.values
     }
 
-    /// All entries, row after row, to be changed.
+    /// All entries in row-major order, mutable.
     pub fn as_mut_slice(&mut self) -> &mut [f64] {
         &mut self.values
     }
@@ -63,11 +63,11 @@ impl Matrix {
         Self::from_fn(self.columns, self.rows, |i, j| self[(j, i)])
     }
 
-    /// The product with a matrix that has as many rows as this has columns; each entry is summed
+    /// The product with a matrix that has as many rows as this one has columns; each entry is summed
     /// from the first term to the last.
     ///
     /// # Panics
-    /// If the sizes do not fit.
+    /// If the sizes do not match.
     #[must_use]
     pub fn times(&self, other: &Self) -> Self {
         assert_eq!(self.columns, other.rows, "sizes of a product");
@@ -92,7 +92,7 @@ impl Matrix {
         }
     }
 
-    /// Root of the sum of squares of all entries.
+    /// Square root of the sum of squares of all entries.
     pub fn frobenius_norm(&self) -> f64 {
         self.values.iter().map(|value| value * value).sum::<f64>().sqrt()
     }
@@ -107,10 +107,10 @@ impl Matrix {
         self.values.iter().all(|value| value.is_finite())
     }
 
-    /// Solves A X = B by elimination with partial pivoting; `None` where a pivot vanishes.
+    /// Solves A X = B by elimination with partial pivoting; `None` if a pivot vanishes.
     ///
     /// # Panics
-    /// If this is not square or B has another number of rows.
+    /// If this matrix is not square or B has a different number of rows.
     pub fn solve(&self, right: &Self) -> Option<Self> {
         assert!(self.rows == self.columns && self.rows == right.rows, "sizes of a system");
         let n = self.rows;
@@ -181,7 +181,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_system_is_solved_through_zero_pivots() {
+    fn systems_with_zero_pivots_are_solved() {
         let a =
             Matrix::from_fn(3, 3, |i, j| [[0.0, 2.0, 1.0], [1.0, 0.0, 3.0], [4.0, 1.0, 0.0]][i][j]);
         let x = Matrix::from_fn(3, 2, |i, j| f64::from(u8::try_from(2 * i + j).expect("small")));

@@ -1,53 +1,53 @@
 //! Scalar roots in a bracket (Chandrupatla) and minima of unimodal functions (Brent).
 //!
-//! Root: f(a) and f(b) have opposite signs; each step takes inverse quadratic interpolation through
-//! the last three points where Chandrupatla's test shows it to be safe (f monotone and not too curved on the bracket),
-//! bisection otherwise. The bracket always holds a sign change, so the answer is a root of the
-//! *computed* f within the tolerance; superlinear on simple roots, never worse than about three times bisection.
-//! A jump through zero is found like a root: the answer is the place of the sign change.
+//! Root: f(a) and f(b) have opposite signs; each step uses inverse quadratic interpolation through
+//! the last three points if Chandrupatla's test shows it to be safe (f monotone and not too curved on the bracket),
+//! and bisection otherwise. The bracket always contains a sign change, so the result is a root of the
+//! *computed* f within the tolerance; convergence is superlinear for simple roots and never slower than about three times
+//! bisection. A jump through zero is treated like a root: the result is the location of the sign change.
 //! Reference: T. R. Chandrupatla, *Adv. Eng. Software* 28 (1997) 145–149.
 //!
 //! Minimum: golden section with parabolic steps, R. P. Brent, *Algorithms for Minimization without
-//! Derivatives* (1973), ch. 5. The place of a smooth minimum is only defined to √ε.
+//! Derivatives* (1973), ch. 5. The location of a smooth minimum is only determined to √ε.
 //!
 //! Both are deterministic: the same f gives the same sequence of points.
 
-/// A root and the bracket it was caught in.
+/// A root and its final bracket.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Root {
+pub struct ScalarRoot {
     /// The end of the last bracket with the smaller |f|.
     pub location: f64,
-    /// f there.
+    /// f at the root.
     pub residual: f64,
-    /// Width of the last bracket, at most twice the tolerance: the error bound (0 where f vanished exactly).
+    /// Width of the last bracket, at most twice the tolerance: the error bound (0 if f vanished exactly).
     pub width: f64,
-    /// Evaluations of f, the two ends included.
+    /// Number of evaluations of f, including both ends.
     pub evaluations: usize,
 }
 
 /// A minimum inside an interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Minimum {
-    /// Where the smallest value was met.
+    /// Location of the smallest value found.
     pub location: f64,
-    /// The smallest value met.
+    /// The smallest value found.
     pub value: f64,
-    /// Evaluations of f.
+    /// Number of evaluations of f.
     pub evaluations: usize,
 }
 
-/// How closely a root or a minimum is to be located: within `absolute + relative·|x|`.
+/// Tolerance for the location of a root or a minimum: `absolute + relative·|x|`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Closeness {
     /// Part of the tolerance that does not depend on x.
     pub absolute: f64,
-    /// Part of the tolerance proportional to |x|; in effect never below 2ε for a root, nor below 10⁻⁹ for a minimum, whose place is
-    /// not defined more closely.
+    /// Part of the tolerance proportional to |x|; effectively at least 2ε for a root and 10⁻⁹ for a minimum, whose location
+    /// is not determined more accurately.
     pub relative: f64,
 }
 
 impl Default for Closeness {
-    /// As close as the arithmetic allows.
+    /// The tightest tolerance that the arithmetic allows.
     fn default() -> Self {
         Self { absolute: 0.0, relative: 2.0 * f64::EPSILON }
     }
@@ -59,7 +59,7 @@ impl Closeness {
     }
 }
 
-/// Why no root or minimum was returned.
+/// The reason why no root or minimum was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RootError {
     /// f has the same sign at both ends.
@@ -74,7 +74,7 @@ pub enum RootError {
         /// The point.
         at: f64,
     },
-    /// [`MAX_STEPS`] evaluations were not enough.
+    /// The search did not converge within [`MAX_STEPS`] evaluations.
     TooManySteps {
         /// Lower end of the last bracket.
         lower: f64,
@@ -99,27 +99,27 @@ impl core::fmt::Display for RootError {
 
 impl core::error::Error for RootError {}
 
-/// Bound on the steps of either search; bisection alone needs at most about 1080 over all of `f64`
-/// (and 64 once the bracket spans one binary order).
+/// Maximum number of steps of either search; bisection alone needs at most about 1080 over the whole range of `f64`
+/// (and 64 once the bracket spans one power of two).
 pub const MAX_STEPS: usize = 2200;
 
-/// Root of `f` between `a` and `b`, where it changes sign.
+/// Root of `f` between `a` and `b`, between which it changes sign.
 ///
 /// # Errors
-/// [`RootError`] where there is no sign change, or f is not a number.
+/// [`RootError`] if there is no sign change or f is not a number.
 pub fn find_root(
     mut f: impl FnMut(f64) -> f64,
     a: f64,
     b: f64,
     closeness: Closeness,
-) -> Result<Root, RootError> {
-    // b: newest point, a: other end of the bracket, c: the point dropped last.
+) -> Result<ScalarRoot, RootError> {
+    // b: newest point, a: other end of the bracket, c: the point discarded last.
     let (mut a, mut b) = (b, a);
     let mut fa = number(f(a), a)?;
     let mut fb = number(f(b), b)?;
     if fa == 0.0 || fb == 0.0 {
         let location = if fa == 0.0 { a } else { b };
-        return Ok(Root { location, residual: 0.0, width: 0.0, evaluations: 2 });
+        return Ok(ScalarRoot { location, residual: 0.0, width: 0.0, evaluations: 2 });
     }
     if (fa > 0.0) == (fb > 0.0) {
         return Err(RootError::NotBracketed { at_lower: fb, at_upper: fa });
@@ -138,12 +138,12 @@ pub fn find_root(
         (a, fa) = (x, fx);
         let (location, residual) = if fa.abs() < fb.abs() { (a, fa) } else { (b, fb) };
         if residual == 0.0 {
-            return Ok(Root { location, residual, width: 0.0, evaluations });
+            return Ok(ScalarRoot { location, residual, width: 0.0, evaluations });
         }
         let width = (b - a).abs();
         let limit = closeness.at(location) / width;
         if limit > 0.5 {
-            return Ok(Root { location, residual, width, evaluations });
+            return Ok(ScalarRoot { location, residual, width, evaluations });
         }
         let xi = (a - b) / (c - b);
         let phi = (fa - fb) / (fc - fb);
@@ -157,13 +157,13 @@ pub fn find_root(
     Err(RootError::TooManySteps { lower: a.min(b), upper: a.max(b) })
 }
 
-/// Smallest value of a function that falls and then rises between `a` and `b`.
+/// Minimum of a function that decreases and then increases between `a` and `b`.
 ///
-/// For a function with several dips it returns one of them; for a monotone one it runs to an end
+/// For a function with several local minima it returns one of them; for a monotone function it converges to an end
 /// (which it approaches within the tolerance but does not evaluate).
 ///
 /// # Errors
-/// [`RootError::NotANumber`] where an end or f is not a number, [`RootError::TooManySteps`] if it does not end.
+/// [`RootError::NotANumber`] if an end or f is not a number, [`RootError::TooManySteps`] if it does not converge.
 pub fn minimise(
     mut f: impl FnMut(f64) -> f64,
     a: f64,
@@ -232,10 +232,11 @@ pub fn minimise(
     Err(RootError::TooManySteps { lower: low, upper: high })
 }
 
-/// The two real roots of c + bx + ax², the second of which may be infinite or not a number where coefficients vanish; `None`
-/// where there are none.
+/// The two real roots of c + bx + ax², the second of which may be infinite or not a number if coefficients vanish; `None`
+/// if there are no real roots.
 ///
-/// The root without cancellation comes first where it is the one of −(b ± √(b² − 4ac))/2a, the other from the product of the two.
+/// The first root is the one of −(b ± √(b² − 4ac))/2a that is computed without cancellation; the second one follows from the
+/// product of the two.
 pub fn quadratic(constant: f64, linear: f64, square: f64) -> Option<[f64; 2]> {
     let discriminant = linear * linear - 4.0 * square * constant;
     if discriminant < 0.0 {
@@ -245,25 +246,25 @@ pub fn quadratic(constant: f64, linear: f64, square: f64) -> Option<[f64; 2]> {
     Some([large / square, constant / large])
 }
 
-/// [`find_root`] of a function that can fail itself.
+/// [`find_root`] for a fallible function.
 ///
 /// # Errors
-/// The first failure of `f`, which ends the search; inside, what [`find_root`] says.
+/// The first error of `f`, which ends the search; the inner result is that of [`find_root`].
 pub fn try_find_root<E>(
     mut f: impl FnMut(f64) -> Result<f64, E>,
     a: f64,
     b: f64,
     closeness: Closeness,
-) -> Result<Result<Root, RootError>, E> {
+) -> Result<Result<ScalarRoot, RootError>, E> {
     let mut failure = None;
     let found = find_root(|x| kept(f(x), &mut failure), a, b, closeness);
     failure.map_or(Ok(found), Err)
 }
 
-/// [`minimise`] of a function that can fail itself.
+/// [`minimise`] for a fallible function.
 ///
 /// # Errors
-/// The first failure of `f`, which ends the search; inside, what [`minimise`] says.
+/// The first error of `f`, which ends the search; the inner result is that of [`minimise`].
 pub fn try_minimise<E>(
     mut f: impl FnMut(f64) -> Result<f64, E>,
     a: f64,
@@ -275,7 +276,7 @@ pub fn try_minimise<E>(
     failure.map_or(Ok(found), Err)
 }
 
-/// A value, or not a number, which ends a search, with the failure put aside.
+/// The value, or NaN after storing the failure, which ends the search.
 fn kept<E>(value: Result<f64, E>, failure: &mut Option<E>) -> f64 {
     value.unwrap_or_else(|why| {
         *failure = Some(why);
@@ -291,13 +292,13 @@ fn number(y: f64, at: f64) -> Result<f64, RootError> {
 mod tests {
     use super::*;
 
-    fn root(f: impl FnMut(f64) -> f64, a: f64, b: f64) -> Root {
+    fn root(f: impl FnMut(f64) -> f64, a: f64, b: f64) -> ScalarRoot {
         find_root(f, a, b, Closeness::default()).expect("a root")
     }
 
-    /// Planted roots: easy, flat, steep, multiple, at an end, both directions of the bracket.
+    /// Known roots: simple, triple, a jump, at an end, in both orientations.
     #[test]
-    fn planted_roots() {
+    fn known_roots_are_found() {
         for k in 1..200 {
             let r = 0.013 * f64::from(k);
             for flip in [1.0, -1.0] {
@@ -315,8 +316,8 @@ mod tests {
     }
 
     #[test]
-    fn quadratics_do_not_cancel() {
-        // (x − 1)(x − 10⁻¹²) and its mirror.
+    fn roots_of_quadratics_are_free_of_cancellation() {
+        // (x − 1)(x − 10⁻¹²) and its mirror image.
         for side in [1.0, -1.0] {
             let roots = quadratic(1e-12, -side * (1.0 + 1e-12), 1.0).expect("real ones");
             assert!((roots[0] * side - 1.0).abs() < 1e-15);
@@ -326,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn hard_roots_end() {
+    fn searches_for_difficult_roots_converge() {
         let flat = root(|x| libm::atan(1e8 * (x - 0.7)) + 1e-9 * x, -1e6, 1e9);
         assert!((flat.location - 0.7).abs() < 1e-7, "{flat:?}");
         let tiny = root(|x| x - 1e-200, 0.0, 1.0);
@@ -337,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn tolerance_is_kept_and_misuse_told() {
+    fn tolerances_are_met_and_invalid_brackets_rejected() {
         let coarse = Closeness { absolute: 1e-3, relative: 0.0 };
         let r = find_root(|x| x * x - 2.0, 0.0, 2.0, coarse).expect("a root");
         assert!(
@@ -353,9 +354,9 @@ mod tests {
         ));
     }
 
-    /// A failure half-way is told, and nothing is asked after it; where there is none the search is the plain one.
+    /// A failure during the search is returned and f is not called again; without failures the result is the plain one.
     #[test]
-    fn failures_of_the_function_are_told() {
+    fn failures_of_the_function_are_returned() {
         let c = Closeness { absolute: 1e-6, relative: 0.0 };
         for last in 1..4 {
             let mut asked = 0;
@@ -379,7 +380,7 @@ mod tests {
     }
 
     #[test]
-    fn planted_minima() {
+    fn known_minima_are_found() {
         for k in 1..50 {
             let m = 0.037 * f64::from(k);
             let c = Closeness { absolute: 1e-10, relative: 0.0 };

@@ -1,13 +1,13 @@
 //! Eigenvalues of a symmetric pencil: M x = μ K x with K positive definite.
 //!
 //! K = L Lᵀ (Cholesky), then the eigenvalues of the symmetric L⁻¹ M L⁻ᵀ, by the crate `faer`, on one thread.
-//! The largest μ are good to a few units of rounding relative to the largest of all: solve for the reciprocal of what
-//! is wanted small (K the stiffness, M the mass: μ = 1/ω²).
+//! The largest μ are accurate to a few rounding errors relative to the largest one: if the smallest values are needed, solve
+//! for their reciprocals (K the stiffness, M the mass: μ = 1/ω²).
 
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, Par, Side};
 
-/// Symmetric matrix that is summed up entry by entry; only the lower triangle is kept.
+/// Symmetric matrix that is assembled entry by entry; only the lower triangle is stored.
 #[derive(Debug, Clone)]
 pub struct SymmetricMatrix {
     lower: Mat<f64>,
@@ -35,7 +35,7 @@ impl SymmetricMatrix {
     }
 }
 
-/// All μ with M x = μ K x, ascending; `None` where K is not positive definite, the sizes differ, or an entry is not finite.
+/// All μ with M x = μ K x, ascending; `None` if K is not positive definite, the sizes differ, or an entry is not finite.
 #[must_use]
 pub fn pencil_eigenvalues(m: &SymmetricMatrix, k: &SymmetricMatrix) -> Option<Vec<f64>> {
     let size = k.size();
@@ -48,9 +48,9 @@ pub fn pencil_eigenvalues(m: &SymmetricMatrix, k: &SymmetricMatrix) -> Option<Ve
     let factor = k.lower.llt(Side::Lower).ok()?;
     let mut full = Mat::from_fn(size, size, |i, j| m.lower[(i.max(j), i.min(j))]);
     solve_lower_triangular_in_place(factor.L(), full.as_mut(), Par::Seq);
-    let mut turned = full.transpose().to_owned();
-    solve_lower_triangular_in_place(factor.L(), turned.as_mut(), Par::Seq);
-    let values = turned.self_adjoint_eigenvalues(Side::Lower).ok()?;
+    let mut transposed = full.transpose().to_owned();
+    solve_lower_triangular_in_place(factor.L(), transposed.as_mut(), Par::Seq);
+    let values = transposed.self_adjoint_eigenvalues(Side::Lower).ok()?;
     values.iter().all(|value| value.is_finite()).then_some(values)
 }
 
@@ -60,7 +60,7 @@ mod tests {
 
     /// A chain of equal masses and springs fixed at one end: ω² = 4 sin²((2j − 1)π/(2(2n + 1))).
     #[test]
-    fn chain_of_masses() {
+    fn frequencies_of_a_chain_of_masses() {
         let size = 30;
         let (mut mass, mut stiffness) =
             (SymmetricMatrix::zeros(size), SymmetricMatrix::zeros(size));
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_what_is_not_positive_definite() {
+    fn indefinite_matrices_are_rejected() {
         let mut indefinite = SymmetricMatrix::zeros(2);
         indefinite.add(0, 0, 1.0);
         indefinite.add(1, 1, -1.0);

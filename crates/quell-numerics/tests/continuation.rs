@@ -1,12 +1,12 @@
-//! Fixed points, thresholds and their curves against planted answers.
+//! Fixed points, thresholds and their curves against exact solutions.
 
 use std::f64::consts::FRAC_PI_3;
 
-use quell_numerics::continuation::branch::{End, Follow, Passage, follow};
-use quell_numerics::continuation::curve::{Curve, CurveEnd, Trace, trace};
+use quell_numerics::continuation::branch::{End, Follow, SpecialPoint, follow};
+use quell_numerics::continuation::curve::{BifurcationCurve, CurveEnd, Trace, trace};
 use quell_numerics::continuation::shooting::{NotClosed, Shooting, fixed_point};
-use quell_numerics::continuation::threshold::Kind;
-use quell_numerics::continuation::{Family, Image};
+use quell_numerics::continuation::threshold::BifurcationKind;
+use quell_numerics::continuation::{Image, PeriodMap};
 use quell_numerics::matrix::Matrix;
 
 /// Hénon's map (x, y) → (1 − a x² + y, b x), parameters a and then b.
@@ -20,7 +20,7 @@ impl Henon {
     }
 }
 
-impl Family for Henon {
+impl PeriodMap for Henon {
     type Signature = ();
     type Error = String;
 
@@ -52,10 +52,10 @@ impl Family for Henon {
     }
 }
 
-/// Delayed logistic map (x, y) → (r x (1 − y), x), parameter r, with y weighted by a second parameter c where there is one.
+/// Delayed logistic map (x, y) → (r x (1 − y), x), parameter r, with y weighted by an optional second parameter c.
 struct Delayed;
 
-impl Family for Delayed {
+impl PeriodMap for Delayed {
     type Signature = ();
     type Error = ();
 
@@ -80,15 +80,15 @@ impl Family for Delayed {
     }
 }
 
-/// The piecewise linear map x → slope·x + p with one slope on either side of x = q: its fixed point touches the border
-/// where p = (1 − inside)·q. `continued` says whether the inner piece can be held beyond its border.
+/// The piecewise linear map x → slope·x + p with different slopes on the two sides of x = q: its fixed point reaches the border
+/// at p = (1 − inside)·q. `continued` is true if the inner piece can be extended beyond its border.
 struct Corner {
     inside: f64,
     outside: f64,
     continued: bool,
 }
 
-impl Family for Corner {
+impl PeriodMap for Corner {
     type Signature = bool;
     type Error = ();
 
@@ -124,86 +124,92 @@ fn near(found: f64, wanted: f64, closeness: f64) {
     assert!((found - wanted).abs() < closeness, "{found} {wanted}: {:e}", found - wanted);
 }
 
-fn counts<S>(passage: &Passage<S>) -> (Option<usize>, Option<usize>) {
-    (passage.below.as_ref().map(|it| it.unstable), passage.above.as_ref().map(|it| it.unstable))
+fn counts<S>(special_point: &SpecialPoint<S>) -> (Option<usize>, Option<usize>) {
+    (
+        special_point.below.as_ref().map(|side| side.unstable),
+        special_point.above.as_ref().map(|side| side.unstable),
+    )
 }
 
 #[test]
-fn henon_flips_and_is_followed_around_its_fold() {
+fn henon_map_has_its_flip_and_is_continued_around_its_fold() {
     let b = 0.3;
     let fold = -0.25 * (1.0 - b) * (1.0 - b);
     let flip = 0.75 * (1.0 - b) * (1.0 - b);
     let stable = |a: f64| (-(1.0 - b) + ((1.0_f64 - b).powi(2) + 4.0 * a).sqrt()) / (2.0 * a);
-    // The stable one of the two fixed points, followed down around the fold and up again.
+    // The stable fixed point of the two is continued downwards, around the fold and up again.
     let x = stable(-0.06);
     let window = Follow::window(-0.4, -0.05, 40);
     let branch = follow(&Henon { b }, &[x, b * x], -0.06, false, window).expect("a branch");
-    assert_eq!(branch.passages.len(), 1, "{:?}", branch.passages);
-    let passage = &branch.passages[0];
-    assert_eq!(passage.kind, Kind::Fold);
-    near(passage.parameter, fold, 1e-9);
-    assert_eq!(counts(passage), (None, Some(0)));
+    assert_eq!(branch.special_points.len(), 1, "{:?}", branch.special_points);
+    let special_point = &branch.special_points[0];
+    assert_eq!(special_point.kind, BifurcationKind::Fold);
+    near(special_point.parameter, fold, 1e-9);
+    assert_eq!(counts(special_point), (None, Some(0)));
     assert!(matches!(branch.end, End::Window { at: -0.05 }), "{:?}", branch.end);
     let last = branch.points.last().expect("points");
     near(last.state[0], (-(1.0 - b) - ((1.0_f64 - b).powi(2) - 0.2).sqrt()) / -0.1, 1e-10);
-    // Upwards it flips.
+    // Upwards there is a flip.
     let x = stable(0.2);
     let branch = follow(&Henon { b }, &[x, b * x], 0.2, true, Follow::window(-1.0, 1.0, 40))
         .expect("a branch");
-    assert_eq!(branch.passages.len(), 1, "{:?}", branch.passages);
-    assert_eq!(branch.passages[0].kind, Kind::Flip);
-    near(branch.passages[0].parameter, flip, 1e-9);
-    assert_eq!(counts(&branch.passages[0]), (Some(0), Some(1)));
-    assert!(branch.passages[0].error < 1e-8);
+    assert_eq!(branch.special_points.len(), 1, "{:?}", branch.special_points);
+    assert_eq!(branch.special_points[0].kind, BifurcationKind::Flip);
+    near(branch.special_points[0].parameter, flip, 1e-9);
+    assert_eq!(counts(&branch.special_points[0]), (Some(0), Some(1)));
+    assert!(branch.special_points[0].error < 1e-8);
 }
 
 #[test]
-fn delayed_logistic_map_has_its_torus_born() {
+fn delayed_logistic_map_has_its_neimark_sacker_bifurcation() {
     let window = Follow::window(1.2, 3.0, 30);
     let branch = follow(&Delayed, &[1.0 - 1.0 / 1.5; 2], 1.5, true, window).expect("a branch");
-    assert_eq!(branch.passages.len(), 1, "{:?}", branch.passages);
-    let passage = &branch.passages[0];
-    assert_eq!(passage.kind, Kind::NeimarkSacker);
-    near(passage.parameter, 2.0, 1e-9);
-    assert_eq!(counts(passage), (Some(0), Some(2)));
-    // A walk in a reversed window goes the other way and finds the same.
+    assert_eq!(branch.special_points.len(), 1, "{:?}", branch.special_points);
+    let special_point = &branch.special_points[0];
+    assert_eq!(special_point.kind, BifurcationKind::NeimarkSacker);
+    near(special_point.parameter, 2.0, 1e-9);
+    assert_eq!(counts(special_point), (Some(0), Some(2)));
+    // A run through a reversed window proceeds in the opposite direction and finds the same point.
     let window = Follow::window(3.0, 1.2, 30);
     let branch = follow(&Delayed, &[1.0 - 1.0 / 2.5; 2], 2.5, false, window).expect("a branch");
-    near(branch.passages[0].parameter, 2.0, 1e-9);
-    assert_eq!(counts(&branch.passages[0]), (Some(0), Some(2)));
-    let angle = branch.points.iter().map(|it| it.multipliers[0].arg());
-    assert!(angle.clone().any(|it| it > FRAC_PI_3) && angle.clone().any(|it| it < FRAC_PI_3));
+    near(branch.special_points[0].parameter, 2.0, 1e-9);
+    assert_eq!(counts(&branch.special_points[0]), (Some(0), Some(2)));
+    let angle = branch.points.iter().map(|point| point.multipliers[0].arg());
+    assert!(
+        angle.clone().any(|angle| angle > FRAC_PI_3)
+            && angle.clone().any(|angle| angle < FRAC_PI_3)
+    );
 }
 
-/// Persistent and turning touches, met from the piece that can be continued and from the other one.
+/// Persistence and a nonsmooth fold at grazing, approached from the piece that can be extended and from the other one.
 #[test]
-fn touches_persist_or_turn_back() {
+fn branches_persist_or_turn_back_at_grazing() {
     for continued in [true, false] {
-        let kind = if continued { Kind::Touch } else { Kind::Border };
+        let kind = if continued { BifurcationKind::Grazing } else { BifurcationKind::Border };
         let closeness = if continued { 1e-10 } else { 1e-8 };
         let persists = Corner { inside: 0.5, outside: -0.3, continued };
         let window = Follow::window(-1.0, 1.0, 20);
         let down = follow(&persists, &[1.0], 0.5, false, window).expect("a branch");
         let up = follow(&persists, &[-0.5], -0.65, true, window).expect("a branch");
         for (branch, end) in [(down, -1.0), (up, 1.0)] {
-            assert_eq!(branch.passages.len(), 1, "{:?}", branch.passages);
-            assert_eq!(branch.passages[0].kind, kind);
-            near(branch.passages[0].parameter, 0.0, closeness);
-            assert_eq!(counts(&branch.passages[0]), (Some(0), Some(0)));
+            assert_eq!(branch.special_points.len(), 1, "{:?}", branch.special_points);
+            assert_eq!(branch.special_points[0].kind, kind);
+            near(branch.special_points[0].parameter, 0.0, closeness);
+            assert_eq!(counts(&branch.special_points[0]), (Some(0), Some(0)));
             assert!(matches!(branch.end, End::Window { at } if at == end), "{:?}", branch.end);
         }
-        // With an outer slope above 1 the fixed point of the outer piece lies on the same side: the branch turns back.
+        // With an outer slope above 1, the fixed point of the outer piece exists for the same parameters: the branch turns back.
         let turns = Corner { inside: 0.5, outside: 1.5, continued };
         let branch = follow(&turns, &[1.0], 0.5, false, window).expect("a branch");
-        assert_eq!(branch.passages.len(), 1, "{:?}", branch.passages);
-        near(branch.passages[0].parameter, 0.0, 1e-7);
-        assert_eq!(counts(&branch.passages[0]), (None, Some(0)));
+        assert_eq!(branch.special_points.len(), 1, "{:?}", branch.special_points);
+        near(branch.special_points[0].parameter, 0.0, 1e-7);
+        assert_eq!(counts(&branch.special_points[0]), (None, Some(0)));
         assert!(matches!(branch.end, End::Window { at: 1.0 }), "{:?}", branch.end);
         near(branch.points.last().expect("points").state[0], -2.0, 1e-10);
     }
 }
 
-fn all(curve: &Curve, wanted: impl Fn(f64) -> f64) {
+fn all(curve: &BifurcationCurve, wanted: impl Fn(f64) -> f64) {
     assert!(curve.points.len() > 20);
     for point in &curve.points {
         near(point.parameters[0], wanted(point.parameters[1]), 1e-9);
@@ -214,7 +220,9 @@ fn all(curve: &Curve, wanted: impl Fn(f64) -> f64) {
 fn curves_in_two_parameters() {
     let options = Trace::windows((-1.0, 2.0), (-0.5, 0.6), 40);
     let b = 0.3_f64;
-    for (kind, factor, sign) in [(Kind::Fold, -0.25, 0.0), (Kind::Flip, 0.75, 1.0)] {
+    for (kind, factor, sign) in
+        [(BifurcationKind::Fold, -0.25, 0.0), (BifurcationKind::Flip, 0.75, 1.0)]
+    {
         let a = factor * (1.0 - b) * (1.0 - b);
         let root = ((1.0 - b) * (1.0 - b) + 4.0 * a).max(0.0).sqrt();
         let x = (-(1.0 - b) + sign * root) / (2.0 * a);
@@ -222,26 +230,28 @@ fn curves_in_two_parameters() {
         assert_eq!(curve.ends, [CurveEnd::Window; 2]);
         all(&curve, |b| factor * (1.0 - b) * (1.0 - b));
         let ends = [&curve.points[0], curve.points.last().expect("points")];
-        let mut reached = ends.map(|it| it.parameters[1]);
+        let mut reached = ends.map(|point| point.parameters[1]);
         reached.sort_by(f64::total_cmp);
         assert_eq!(reached, [-0.5, 0.6]);
     }
     // The weight of the delay scales the state alone.
     let options = Trace::windows((1.0, 3.0), (0.5, 2.0), 40);
-    let curve = trace(&Delayed, Kind::NeimarkSacker, &(), &[0.5, 0.5], [2.0, 1.0], options)
-        .expect("a curve");
+    let curve =
+        trace(&Delayed, BifurcationKind::NeimarkSacker, &(), &[0.5, 0.5], [2.0, 1.0], options)
+            .expect("a curve");
     all(&curve, |_| 2.0);
     // p = (1 − inside) q.
     let corner = Corner { inside: 0.5, outside: -0.3, continued: true };
     let options = Trace::windows((-1.0, 1.0), (-1.0, 1.5), 40);
-    let curve = trace(&corner, Kind::Touch, &true, &[0.2], [0.1, 0.2], options).expect("a curve");
+    let curve = trace(&corner, BifurcationKind::Grazing, &true, &[0.2], [0.1, 0.2], options)
+        .expect("a curve");
     all(&curve, |q| 0.5 * q);
 }
 
-/// x → x + (x² + p² + … − 1)-like closed curve of folds: x → x + (x − q)² + p² + q² − 1 has its folds on p² + q² = 1.
+/// A map with a closed curve of folds: x → x + (x − q)² + p² + q² − 1 has its folds on p² + q² = 1.
 struct Ring;
 
-impl Family for Ring {
+impl PeriodMap for Ring {
     type Signature = ();
     type Error = ();
 
@@ -265,9 +275,10 @@ impl Family for Ring {
 }
 
 #[test]
-fn a_closed_curve_is_closed() {
+fn a_closed_curve_is_recognised() {
     let options = Trace::windows((-2.0, 2.0), (-2.0, 2.0), 60);
-    let curve = trace(&Ring, Kind::Fold, &(), &[0.6], [0.8, 0.6], options).expect("a curve");
+    let curve =
+        trace(&Ring, BifurcationKind::Fold, &(), &[0.6], [0.8, 0.6], options).expect("a curve");
     assert_eq!(curve.ends, [CurveEnd::Closed; 2]);
     for point in &curve.points {
         near(point.parameters[0].hypot(point.parameters[1]), 1.0, 1e-9);
@@ -275,20 +286,20 @@ fn a_closed_curve_is_closed() {
 }
 
 #[test]
-fn shooting_says_where_it_stopped() {
+fn shooting_reports_where_it_stopped() {
     let henon = Henon { b: 0.3 };
     // Below the fold there is no fixed point.
-    let told = fixed_point(&henon, &[1.0, 0.3], &[-0.5], None, &Shooting::default());
-    let Err(NotClosed::TooManySteps { steps, residual, at }) = told else {
-        panic!("{told:?}");
+    let result = fixed_point(&henon, &[1.0, 0.3], &[-0.5], None, &Shooting::default());
+    let Err(NotClosed::TooManySteps { steps, residual, at }) = result else {
+        panic!("{result:?}");
     };
-    assert!(steps == 40 && residual > 0.1 && at.iter().all(|it| it.is_finite()));
-    let told = fixed_point(&henon, &[2e3, 0.0], &[0.2], None, &Shooting::default());
-    assert!(matches!(&told, Err(NotClosed::NoImage { steps: 0, .. })), "{told:?}");
-    // The other fixed point is not meant by this guess.
+    assert!(steps == 40 && residual > 0.1 && at.iter().all(|x| x.is_finite()));
+    let result = fixed_point(&henon, &[2e3, 0.0], &[0.2], None, &Shooting::default());
+    assert!(matches!(&result, Err(NotClosed::NoImage { steps: 0, .. })), "{result:?}");
+    // The fixed point that is found is too far from this guess.
     let near_one = Shooting { reach: 0.01, ..Shooting::default() };
-    let told = fixed_point(&henon, &[0.5, 0.15], &[0.2], None, &near_one);
-    assert!(matches!(&told, Err(NotClosed::Strayed { .. })), "{told:?}");
-    let text = told.expect_err("strayed").to_string();
+    let result = fixed_point(&henon, &[0.5, 0.15], &[0.2], None, &near_one);
+    assert!(matches!(&result, Err(NotClosed::Strayed { .. })), "{result:?}");
+    let text = result.expect_err("strayed").to_string();
     assert!(text.contains("from the guess"), "{text}");
 }

@@ -1,10 +1,10 @@
-//! Eigenvalues of our own iteration against `faer` and against planted ones.
+//! Eigenvalues of the own iteration against `faer` and against known eigenvalues.
 
 use num_complex::Complex64;
 use quell_numerics::eigen::{Decomposition, eigenvalues, modulus};
 use quell_numerics::matrix::Matrix;
 
-/// Fixed-seed numbers in (−1, 1): SplitMix64.
+/// Random numbers in (−1, 1) with a fixed seed: SplitMix64.
 struct Numbers(u64);
 
 impl Numbers {
@@ -27,7 +27,7 @@ fn by_faer(a: &Matrix) -> Vec<Complex64> {
     faer::Mat::from_fn(a.rows(), a.rows(), |i, j| a[(i, j)]).eigenvalues().expect("converges")
 }
 
-/// Largest distance when each value is paired with the nearest one left.
+/// Largest distance when each value is paired with the nearest unpaired one.
 fn distance(ours: &[Complex64], others: &[Complex64]) -> f64 {
     let mut left = others.to_vec();
     let mut largest = 0.0f64;
@@ -44,7 +44,8 @@ fn distance(ours: &[Complex64], others: &[Complex64]) -> f64 {
     largest
 }
 
-/// Distance allowed: n ε ‖A‖ moves each simple eigenvalue by its condition at most, a double one by the root.
+/// Allowed distance: a perturbation of n ε ‖A‖ times the condition number for simple eigenvalues, the square root of the
+/// perturbation for double ones.
 fn allowed(a: &Matrix) -> f64 {
     let decomposition = Decomposition::new(a).expect("converges");
     let worst = (0..a.rows()).map(|i| decomposition.pair(i).condition).fold(1.0, f64::max);
@@ -76,7 +77,7 @@ fn large_matrices_agree_with_faer() {
 
 #[test]
 fn badly_scaled_matrices_keep_their_eigenvalues() {
-    // D⁻¹AD with D over twenty orders of magnitude, powers of two: exactly the eigenvalues of A.
+    // D⁻¹AD with powers of two over twenty orders of magnitude in D has exactly the eigenvalues of A.
     let mut numbers = Numbers(3);
     for case in 0..300 {
         let n = 2 + case % 15;
@@ -90,8 +91,8 @@ fn badly_scaled_matrices_keep_their_eigenvalues() {
 }
 
 #[test]
-fn defective_matrices_lose_half_of_their_digits_and_say_so() {
-    // A Jordan block of two, hidden by a random similarity.
+fn defective_matrices_lose_half_the_digits_and_have_large_condition_numbers() {
+    // A 2 × 2 Jordan block under a random similarity transformation.
     let mut numbers = Numbers(4);
     for case in 0..200 {
         let n = 3 + case % 6;
@@ -115,7 +116,7 @@ fn defective_matrices_lose_half_of_their_digits_and_say_so() {
 }
 
 #[test]
-fn vectors_belong_to_their_eigenvalues() {
+fn eigenvectors_satisfy_their_equations() {
     let mut numbers = Numbers(5);
     for n in [2, 3, 5, 10, 22, 44] {
         let a = numbers.matrix(n);
@@ -138,9 +139,9 @@ fn vectors_belong_to_their_eigenvalues() {
 }
 
 #[test]
-fn special_shapes_are_done() {
-    // Zero, identity, and a cyclic shift: its eigenvalues are of equal size, so that QR without
-    // exceptional shifts stands still.
+fn special_matrices_are_solved() {
+    // Zero, identity, and a cyclic shift, whose eigenvalues have equal moduli, so that QR without
+    // exceptional shifts stagnates.
     for n in [1, 2, 3, 8, 9] {
         let zero = eigenvalues(&Matrix::zeros(n, n)).expect("zero");
         assert_eq!(zero, vec![Complex64::new(0.0, 0.0); n]);

@@ -1,11 +1,11 @@
-//! Floquet exponents: orders measured, planted answers, bounds that hold.
+//! Floquet exponents: measured orders, exact solutions, validity of the error bounds.
 
 use num_complex::Complex64;
 use quell_numerics::eigen::{Decomposition, modulus};
 use quell_numerics::floquet::{ConstantFlow, Effort, Floquet, Phase};
 use quell_numerics::matrix::Matrix;
 
-/// Fixed-seed numbers in (−1, 1): SplitMix64.
+/// Random numbers in (−1, 1) with a fixed seed: SplitMix64.
 struct Numbers(u64);
 
 impl Numbers {
@@ -24,8 +24,8 @@ impl Numbers {
     }
 }
 
-/// Oscillators y″ = −Ky − Cy′ + u φ sᵀy as x′ = (A₀ + UΦVᵀ)x with VᵀU = 0 (forces follow displacements), or
-/// forces that follow velocities as well, VᵀU ≠ 0.
+/// Oscillators y″ = −Ky − Cy′ + u φ sᵀy as x′ = (A₀ + UΦVᵀ)x with VᵀU = 0 (forces depend on displacements only), or
+/// with forces that also depend on velocities, VᵀU ≠ 0.
 fn oscillators(
     numbers: &mut Numbers,
     n: usize,
@@ -51,7 +51,7 @@ fn oscillators(
     (a, u, v)
 }
 
-/// Φ = 0.3·(1 + ½cos + ¼sin of the double) on the diagonal, something smaller beside it.
+/// Φ = 0.3·(1 + ½ cos θ + ¼ sin 2θ) on the diagonal, with smaller off-diagonal entries.
 fn phi(phase: Phase, to: &mut Matrix) {
     let double = 2.0 * phase.sine * phase.cosine;
     for i in 0..to.rows() {
@@ -70,7 +70,7 @@ fn growth_of(multipliers: &[Complex64], period: f64) -> f64 {
 }
 
 #[test]
-fn exponents_are_of_order_four_where_kicks_are_nilpotent_and_of_order_two_elsewhere() {
+fn the_order_is_four_for_nilpotent_kicks_and_two_otherwise() {
     let mut numbers = Numbers(11);
     for (rank, nilpotent, order) in
         [(1, true, 4.0), (2, true, 4.0), (3, true, 4.0), (1, false, 2.0), (2, false, 2.0)]
@@ -93,7 +93,7 @@ fn exponents_are_of_order_four_where_kicks_are_nilpotent_and_of_order_two_elsewh
 }
 
 #[test]
-fn the_bound_covers_the_error() {
+fn the_error_bound_holds() {
     let mut numbers = Numbers(12);
     let effort = Effort { enough: f64::INFINITY, ..Effort::default() };
     for case in 0..120 {
@@ -140,7 +140,7 @@ fn without_dither_exponents_are_eigenvalues() {
 }
 
 #[test]
-fn one_state_grows_by_the_mean() {
+fn a_scalar_system_grows_at_the_mean_rate() {
     let one = |value| Matrix::from_fn(1, 1, |_, _| value);
     let flow = ConstantFlow::new(&one(-0.2), &one(1.0), &one(1.0)).expect("finite");
     let force = |phase: Phase, to: &mut Matrix| to[(0, 0)] = 0.3 + 0.7 * phase.cosine;
@@ -149,8 +149,8 @@ fn one_state_grows_by_the_mean() {
 }
 
 #[test]
-fn equal_eigenvalues_are_no_trouble() {
-    // Two equal oscillators, the force on one follows the other: double eigenvalues with two vectors each; and a
+fn multiple_eigenvalues_are_handled() {
+    // Two equal oscillators with cross-coupled forces: double eigenvalues with two vectors each; and a
     // defective pair (free motion, no spring).
     for spring in [1.0, 0.0] {
         let a = Matrix::from_fn(4, 4, |i, j| match (i, j) {
@@ -174,10 +174,10 @@ fn equal_eigenvalues_are_no_trouble() {
     }
 }
 
-/// A constant part with one eigenvector for two equal eigenvalues has no modal coordinates: the same system, split between
-/// constant part and kicks so that it has, gives the same exponents.
+/// A constant part with one eigenvector for two equal eigenvalues has no modal coordinates: the same system, split differently
+/// into constant part and kicks so that modal coordinates exist, has the same exponents.
 #[test]
-fn a_defective_constant_part_is_no_trouble() {
+fn a_defective_constant_part_is_handled() {
     // y″ + 2cy′ + (k + s(t))y = 0; at k = c² the constant part is defective.
     let damping = 0.15;
     let growth = |spring: f64| {

@@ -1,73 +1,24 @@
-//! Arrangement: where frames, margins and texts of a figure go.
+//! Arrangement: computes the positions of the frames, margins and texts of a figure.
 //!
-//! All frames of a figure are equally large. A column's left margin is as wide as its widest
-//! numbers ask, a row's upper margin as high as its highest title and legend ask.
+//! All frames of a figure have the same size. The left margin of a column fits its widest
+//! tick labels; the upper margin of a row fits its tallest title and legend.
 
-use super::bar::BarPlan;
+use super::axis_limits::{AxisLimits, axis_limits};
 use super::canvas::Rectangle;
-use super::draw::Sizes;
+use super::colour_bar::ColourBar;
 use super::figure::{Figure, Legend, Panel, SharedLegend, Sharing, Size};
+use super::font_sizes::FontSizes;
 use super::layer::Layer;
-use super::legend::{self, Entry};
+use super::layout::{FigureLayout, LABEL_GAP, LegendLayout, NUMBER_GAP, PanelLayout};
+use super::legend::{self, LegendEntry};
 use super::obstacles::Obstacles;
-use super::stretches::{Stretches, stretches};
 use super::ticks::{Room, Ticks};
-use super::typeset::{Label, wrap};
+use super::typeset::{RichText, wrap};
 
-/// Space between a number and its frame (pixels).
-pub(super) const NUMBER_GAP: f64 = 6.0;
-/// Space between numbers and the axis label (pixels).
-pub(super) const LABEL_GAP: f64 = 7.0;
 const EDGE: f64 = 10.0;
 const LEAST_FRAME: f64 = 60.0;
 
-/// Where the legend of one panel goes.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum LegendPlan {
-    None,
-    Box(Rectangle),
-    Above,
-}
-
-/// One panel with its place.
-#[derive(Debug, Clone)]
-pub(super) struct PanelPlan {
-    pub(super) frame: Rectangle,
-    pub(super) x_stretch: (f64, f64),
-    pub(super) y_stretch: (f64, f64),
-    pub(super) x_ticks: Ticks,
-    pub(super) y_ticks: Ticks,
-    pub(super) x_numbers: bool,
-    pub(super) y_numbers: bool,
-    pub(super) x_label: Vec<Label>,
-    pub(super) y_label: Vec<Label>,
-    pub(super) title: Vec<Label>,
-    /// Distance from the frame to the nearest baseline of the y label.
-    pub(super) y_label_distance: f64,
-    pub(super) entries: Vec<Entry>,
-    pub(super) legend: LegendPlan,
-    pub(super) bar: Option<BarPlan>,
-}
-
-/// A figure with all places.
-#[derive(Debug)]
-pub(super) struct Plan {
-    pub(super) width: f64,
-    pub(super) height: f64,
-    pub(super) sizes: Sizes,
-    pub(super) panels: Vec<PanelPlan>,
-    pub(super) title: Vec<Label>,
-    pub(super) caption: Vec<Label>,
-    /// Top of the caption.
-    pub(super) caption_top: f64,
-    pub(super) shared: Vec<Entry>,
-    /// Top of the shared legend.
-    pub(super) shared_top: f64,
-    /// Left and right of all frames.
-    pub(super) body: (f64, f64),
-}
-
-/// Margins of every column and row.
+/// Margins of all columns and rows.
 #[derive(Debug, Clone, Default)]
 struct Margins {
     left: Vec<f64>,
@@ -77,7 +28,7 @@ struct Margins {
 }
 
 /// Arranges a figure.
-pub(super) fn arrange(figure: &Figure) -> Plan {
+pub(super) fn arrange(figure: &Figure) -> FigureLayout {
     let columns = figure.columns.max(1).min(figure.panels.len().max(1));
     let rows = figure.panels.len().div_ceil(columns).max(1);
     let (frame, sizes) = frame_size(figure, columns, rows);
@@ -95,9 +46,10 @@ pub(super) fn arrange(figure: &Figure) -> Plan {
         let mut left = 0.0;
         for column in 0..columns {
             left += margins.left[column];
-            if let Some(plan) = panels.get_mut(row * columns + column) {
-                plan.frame = Rectangle { left, top, right: left + frame.0, bottom: top + frame.1 };
-                if let LegendPlan::Box(area) = &mut plan.legend {
+            if let Some(layout) = panels.get_mut(row * columns + column) {
+                layout.frame =
+                    Rectangle { left, top, right: left + frame.0, bottom: top + frame.1 };
+                if let LegendLayout::Box(area) = &mut layout.legend {
                     *area = Rectangle {
                         left: area.left + left,
                         top: area.top + top,
@@ -117,7 +69,7 @@ pub(super) fn arrange(figure: &Figure) -> Plan {
     if figure.legend == SharedLegend::Below {
         top += outer.shared_height;
     }
-    Plan {
+    FigureLayout {
         width,
         height: top + outer.caption_height,
         sizes,
@@ -131,18 +83,18 @@ pub(super) fn arrange(figure: &Figure) -> Plan {
     }
 }
 
-/// What stands around the panels.
+/// Texts around the panels.
 struct Outer {
-    title: Vec<Label>,
-    caption: Vec<Label>,
-    shared: Vec<Entry>,
+    title: Vec<RichText>,
+    caption: Vec<RichText>,
+    shared: Vec<LegendEntry>,
     /// Height of everything above the panels.
     head: f64,
     shared_height: f64,
     caption_height: f64,
 }
 
-fn outer(figure: &Figure, width: f64, body: (f64, f64), sizes: Sizes) -> Outer {
+fn outer(figure: &Figure, width: f64, body: (f64, f64), sizes: FontSizes) -> Outer {
     let line = |size: u32| 1.35 * f64::from(size);
     let room = width - 2.0 * EDGE;
     let title = lines(&figure.title, sizes.figure_title, true, room);
@@ -165,13 +117,13 @@ fn outer(figure: &Figure, width: f64, body: (f64, f64), sizes: Sizes) -> Outer {
     Outer { title, caption, shared, head, shared_height, caption_height }
 }
 
-fn lines(source: &str, size: u32, bold: bool, room: f64) -> Vec<Label> {
+fn lines(source: &str, size: u32, bold: bool, room: f64) -> Vec<RichText> {
     let lines =
         if source.is_empty() { Vec::new() } else { wrap(source, f64::from(size), bold, room) };
     lines.into_iter().filter(|line| !line.is_empty()).collect()
 }
 
-fn frame_size(figure: &Figure, columns: usize, rows: usize) -> ((f64, f64), Sizes) {
+fn frame_size(figure: &Figure, columns: usize, rows: usize) -> ((f64, f64), FontSizes) {
     let usual = match columns {
         1 => (440.0, 280.0),
         2 => (300.0, 205.0),
@@ -181,18 +133,18 @@ fn frame_size(figure: &Figure, columns: usize, rows: usize) -> ((f64, f64), Size
         if pixels.is_finite() { pixels.clamp(LEAST_FRAME, 2e4) } else { usual }
     };
     match figure.size {
-        Size::Auto => (usual, Sizes::for_frame(usual.0)),
+        Size::Auto => (usual, FontSizes::for_frame(usual.0)),
         Size::Frame(width, height) => {
             let frame = (sensible(width, usual.0), sensible(height, usual.1));
-            (frame, Sizes::for_frame(frame.0))
+            (frame, FontSizes::for_frame(frame.0))
         }
         Size::Whole(width, height) => {
             let mut frame = (
                 sensible(0.85 * width / columns as f64, usual.0),
                 sensible(0.8 * height / rows as f64, usual.1),
             );
-            let sizes = Sizes::for_frame(frame.0);
-            // Margins depend on the numbers, these on the frame: three rounds settle it.
+            let sizes = FontSizes::for_frame(frame.0);
+            // Margins depend on the tick labels and these on the frame size: three iterations converge.
             for _ in 0..3 {
                 let (_, margins) = measure(figure, columns, frame, sizes);
                 let across: f64 = margins.left.iter().chain(&margins.right).sum();
@@ -216,52 +168,52 @@ fn frame_size(figure: &Figure, columns: usize, rows: usize) -> ((f64, f64), Size
     }
 }
 
-/// Plans every panel for a frame at the origin, and the margins around the frames.
+/// Lays out every panel for a frame at the origin, and computes the margins around the frames.
 fn measure(
     figure: &Figure,
     columns: usize,
     frame: (f64, f64),
-    sizes: Sizes,
-) -> (Vec<PanelPlan>, Margins) {
+    sizes: FontSizes,
+) -> (Vec<PanelLayout>, Margins) {
     let count = figure.panels.len();
     let rows = count.div_ceil(columns).max(1);
-    let stretches = stretches(figure, columns);
+    let axis_limits = axis_limits(figure, columns);
     let mut margins = Margins {
         left: vec![EDGE; columns],
         right: vec![EDGE; columns],
         top: vec![6.0; rows],
         bottom: vec![EDGE; rows],
     };
-    let mut plans: Vec<PanelPlan> = Vec::with_capacity(count);
+    let mut layouts: Vec<PanelLayout> = Vec::with_capacity(count);
     for (index, panel) in figure.panels.iter().enumerate() {
         let (row, column) = (index / columns, index % columns);
         let x_numbers = figure.sharing_x == Sharing::Separate || index + columns >= count;
         let y_numbers = figure.sharing_y == Sharing::Separate || column == 0;
-        let plan =
-            plan_panel(figure, panel, stretches[index], frame, sizes, (x_numbers, y_numbers));
-        grow(&mut margins, (row, column), &plan, frame.0, sizes);
-        plans.push(plan);
+        let layout =
+            lay_out_panel(figure, panel, axis_limits[index], frame, sizes, (x_numbers, y_numbers));
+        grow(&mut margins, (row, column), &layout, frame.0, sizes);
+        layouts.push(layout);
     }
-    // The labels of one column stand in one line.
+    // The y labels of one column are aligned.
     for column in 0..columns {
         let mine = || (column..count).step_by(columns);
-        let widest = mine().map(|index| plans[index].y_label_distance).fold(0.0, f64::max);
-        mine().for_each(|index| plans[index].y_label_distance = widest);
+        let widest = mine().map(|index| layouts[index].y_label_distance).fold(0.0, f64::max);
+        mine().for_each(|index| layouts[index].y_label_distance = widest);
     }
-    (plans, margins)
+    (layouts, margins)
 }
 
-fn plan_panel(
+fn lay_out_panel(
     figure: &Figure,
     panel: &Panel,
-    (x_stretch, y_stretch): Stretches,
+    (x_limits, y_limits): AxisLimits,
     frame: (f64, f64),
-    sizes: Sizes,
+    sizes: FontSizes,
     (x_numbers, y_numbers): (bool, bool),
-) -> PanelPlan {
+) -> PanelLayout {
     let number_size = f64::from(sizes.number);
-    let x_ticks = Ticks::of(&panel.x, x_stretch, Room::Across(frame.0, number_size));
-    let y_ticks = Ticks::of(&panel.y, y_stretch, Room::Upright(frame.1));
+    let x_ticks = Ticks::of(&panel.x, x_limits, Room::Across(frame.0, number_size));
+    let y_ticks = Ticks::of(&panel.y, y_limits, Room::Upright(frame.1));
     let widest =
         y_ticks.major.iter().map(|(_, label)| label.width(number_size, false)).fold(0.0, f64::max);
     let label = |wanted: bool, text: String, room: f64| {
@@ -273,10 +225,10 @@ fn plan_panel(
         }
         _ => Vec::new(),
     };
-    let mut plan = PanelPlan {
+    let mut layout = PanelLayout {
         frame: Rectangle { left: 0.0, top: 0.0, right: frame.0, bottom: frame.1 },
-        x_stretch,
-        y_stretch,
+        x_limits,
+        y_limits,
         x_ticks,
         y_ticks,
         x_numbers,
@@ -286,86 +238,86 @@ fn plan_panel(
         title: lines(&panel.title, sizes.title, false, frame.0),
         y_label_distance: NUMBER_GAP + widest + LABEL_GAP + 0.2 * f64::from(sizes.label),
         entries,
-        legend: LegendPlan::None,
-        bar: BarPlan::of(panel, frame.1, sizes),
+        legend: LegendLayout::None,
+        bar: ColourBar::of(panel, frame.1, sizes),
     };
-    if !plan.entries.is_empty() {
-        plan.legend = match panel.legend {
-            Legend::Inside(place) => {
-                let size = legend::box_size(&plan.entries, sizes);
-                LegendPlan::Box(legend::box_at(place, plan.frame, size))
+    if !layout.entries.is_empty() {
+        layout.legend = match panel.legend {
+            Legend::Inside(position) => {
+                let size = legend::box_size(&layout.entries, sizes);
+                LegendLayout::Box(legend::box_at(position, layout.frame, size))
             }
-            // A map fills the frame.
-            Legend::Auto if has_grid(panel) => LegendPlan::Above,
-            Legend::Auto => free_place(panel, &plan, sizes),
-            Legend::None | Legend::Above => LegendPlan::Above,
+            // A heatmap fills the frame.
+            Legend::Auto if has_grid(panel) => LegendLayout::Above,
+            Legend::Auto => free_position(panel, &layout, sizes),
+            Legend::None | Legend::Above => LegendLayout::Above,
         };
     }
-    plan
+    layout
 }
 
 fn has_grid(panel: &Panel) -> bool {
-    panel.layers.iter().any(|layer| matches!(layer, Layer::Grid(_)))
+    panel.layers.iter().any(|layer| matches!(layer, Layer::Heatmap(_)))
 }
 
-/// The first place where the legend covers nothing.
-fn free_place(panel: &Panel, plan: &PanelPlan, sizes: Sizes) -> LegendPlan {
-    use super::figure::Place::{
+/// The first position where the legend covers nothing.
+fn free_position(panel: &Panel, layout: &PanelLayout, sizes: FontSizes) -> LegendLayout {
+    use super::figure::LegendPosition::{
         Bottom, BottomLeft, BottomRight, Left, Right, Top, TopLeft, TopRight,
     };
-    let size = legend::box_size(&plan.entries, sizes);
-    let fits = size.0 <= 0.7 * plan.frame.width() && size.1 <= 0.7 * plan.frame.height();
-    let obstacles = Obstacles::of(panel, plan, sizes);
+    let size = legend::box_size(&layout.entries, sizes);
+    let fits = size.0 <= 0.7 * layout.frame.width() && size.1 <= 0.7 * layout.frame.height();
+    let obstacles = Obstacles::of(panel, layout, sizes);
     [TopRight, TopLeft, BottomRight, BottomLeft, Right, Left, Top, Bottom]
         .into_iter()
-        .map(|place| legend::box_at(place, plan.frame, size))
+        .map(|position| legend::box_at(position, layout.frame, size))
         .find(|area| fits && obstacles.covered_by(area.grown(3.0)) == 0)
-        .map_or(LegendPlan::Above, LegendPlan::Box)
+        .map_or(LegendLayout::Above, LegendLayout::Box)
 }
 
 fn grow(
     margins: &mut Margins,
     (row, column): (usize, usize),
-    plan: &PanelPlan,
+    layout: &PanelLayout,
     frame_width: f64,
-    sizes: Sizes,
+    sizes: FontSizes,
 ) {
     let (number, label) = (f64::from(sizes.number), f64::from(sizes.label));
     let widen = |margin: &mut f64, wanted: f64| *margin = margin.max(wanted);
     let mut left = EDGE;
-    if plan.y_numbers {
-        left += plan.y_label_distance - LABEL_GAP;
+    if layout.y_numbers {
+        left += layout.y_label_distance - LABEL_GAP;
     }
-    if !plan.y_label.is_empty() {
-        left += LABEL_GAP + 1.25 * label * plan.y_label.len() as f64 - 2.0;
+    if !layout.y_label.is_empty() {
+        left += LABEL_GAP + 1.25 * label * layout.y_label.len() as f64 - 2.0;
     }
     widen(&mut margins.left[column], left);
     let overhang = |ticks: &Ticks, first: bool| {
         let end = if first { ticks.major.first() } else { ticks.major.last() };
         end.map_or(0.0, |(_, text)| 0.5 * text.width(number, false))
     };
-    if plan.x_numbers {
-        widen(&mut margins.right[column], overhang(&plan.x_ticks, false) + 4.0);
-        widen(&mut margins.left[column], overhang(&plan.x_ticks, true) + 4.0);
+    if layout.x_numbers {
+        widen(&mut margins.right[column], overhang(&layout.x_ticks, false) + 4.0);
+        widen(&mut margins.left[column], overhang(&layout.x_ticks, true) + 4.0);
     }
-    if let Some(bar) = &plan.bar {
+    if let Some(bar) = &layout.bar {
         widen(&mut margins.right[column], bar.room(sizes) + EDGE);
     }
-    let mut top = 6.0 + 1.3 * f64::from(sizes.title) * plan.title.len() as f64;
-    if plan.legend == LegendPlan::Above {
-        top += legend::lines_height(&plan.entries, frame_width, sizes) + 2.0;
+    let mut top = 6.0 + 1.3 * f64::from(sizes.title) * layout.title.len() as f64;
+    if layout.legend == LegendLayout::Above {
+        top += legend::lines_height(&layout.entries, frame_width, sizes) + 2.0;
     }
-    let exponent = plan.bar.as_ref().is_some_and(BarPlan::has_exponent);
-    if (plan.y_ticks.exponent != 0 && plan.y_numbers) || exponent {
+    let exponent = layout.bar.as_ref().is_some_and(ColourBar::has_exponent);
+    if (layout.y_ticks.exponent != 0 && layout.y_numbers) || exponent {
         top = top.max(number + 8.0);
     }
     widen(&mut margins.top[row], top);
     let mut bottom = EDGE;
-    if plan.x_numbers {
+    if layout.x_numbers {
         bottom += NUMBER_GAP + number;
     }
-    if !plan.x_label.is_empty() || (plan.x_ticks.exponent != 0 && plan.x_numbers) {
-        bottom += LABEL_GAP + 1.25 * label * plan.x_label.len().max(1) as f64;
+    if !layout.x_label.is_empty() || (layout.x_ticks.exponent != 0 && layout.x_numbers) {
+        bottom += LABEL_GAP + 1.25 * label * layout.x_label.len().max(1) as f64;
     }
     widen(&mut margins.bottom[row], bottom);
 }

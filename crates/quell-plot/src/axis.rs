@@ -1,26 +1,26 @@
-//! Axes: name, symbol, unit, scale and range of one coordinate.
+//! Axes: name, symbol, unit, scale and limits of one coordinate.
 
-/// How a coordinate is laid out along its axis.
+/// Scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Scale {
-    /// Equal steps.
+    /// Linear.
     #[default]
     Linear,
-    /// Equal ratios; values that are not positive are left out.
+    /// Logarithmic; values that are not positive are omitted.
     Log,
 }
 
-/// Which part of a coordinate is shown.
+/// Limits of an axis: fixed, or determined by the layers.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Range {
-    /// What the layers need, with a little air.
+pub enum AxisRange {
+    /// The extent of the layers with a small margin.
     #[default]
     Auto,
     /// From the first to the second value.
     Between(f64, f64),
-    /// From this value to what the layers need.
+    /// A fixed lower limit; the layers determine the upper one.
     From(f64),
-    /// From what the layers need to this value.
+    /// A fixed upper limit; the layers determine the lower one.
     UpTo(f64),
 }
 
@@ -28,67 +28,67 @@ pub enum Range {
 ///
 /// It prints as `name symbol (unit)`, with the symbol in italics: `slip velocity v_r (m/s)`.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Axis {
-    /// The quantity in words; may hold `$…$`.
+pub struct PlotAxis {
+    /// The quantity in words; may contain `$…$`.
     pub name: String,
-    /// Its symbol, written as between dollars, e.g. `v_r`; empty for none.
+    /// Its symbol in the syntax used between dollars, e.g. `v_r`; empty for none.
     pub symbol: String,
     /// Its unit; empty for a dimensionless quantity.
     pub unit: String,
     /// Linear or logarithmic.
     pub scale: Scale,
-    /// What is shown.
-    pub range: Range,
-    /// Values to label in place of those found by themselves.
+    /// The limits.
+    pub range: AxisRange,
+    /// Values to label; `None` for automatic ticks.
     pub ticks: Option<Vec<f64>>,
 }
 
-impl Axis {
-    /// A linear axis of the quantity with this name.
+impl PlotAxis {
+    /// A linear axis for the quantity with this name.
     #[must_use]
     pub fn new(name: impl Into<String>) -> Self {
         Self { name: name.into(), ..Self::default() }
     }
 
-    /// The symbol of the quantity, written as between dollars (`v_r`, `\bar{μ}`).
+    /// Sets the symbol of the quantity, in the syntax used between dollars (`v_r`, `\bar{μ}`).
     #[must_use]
     pub fn symbol(mut self, symbol: impl Into<String>) -> Self {
         self.symbol = symbol.into();
         self
     }
 
-    /// The unit of the quantity.
+    /// Sets the unit of the quantity.
     #[must_use]
     pub fn unit(mut self, unit: impl Into<String>) -> Self {
         self.unit = unit.into();
         self
     }
 
-    /// A logarithmic axis.
+    /// Makes the axis logarithmic.
     #[must_use]
     pub fn log(mut self) -> Self {
         self.scale = Scale::Log;
         self
     }
 
-    /// Shows exactly this stretch.
+    /// Sets both limits.
     #[must_use]
     pub fn between(mut self, lower: f64, upper: f64) -> Self {
-        self.range = Range::Between(lower, upper);
+        self.range = AxisRange::Between(lower, upper);
         self
     }
 
-    /// Starts at this value.
+    /// Sets the lower limit.
     #[must_use]
     pub fn from(mut self, lower: f64) -> Self {
-        self.range = Range::From(lower);
+        self.range = AxisRange::From(lower);
         self
     }
 
-    /// Ends at this value.
+    /// Sets the upper limit.
     #[must_use]
     pub fn up_to(mut self, upper: f64) -> Self {
-        self.range = Range::UpTo(upper);
+        self.range = AxisRange::UpTo(upper);
         self
     }
 
@@ -99,7 +99,7 @@ impl Axis {
         self
     }
 
-    /// The whole label, still to be typeset.
+    /// The whole label, before typesetting.
     pub(super) fn label(&self) -> String {
         let mut words = Vec::new();
         if !self.name.is_empty() {
@@ -114,15 +114,15 @@ impl Axis {
         words.join(" ")
     }
 
-    /// The stretch to show, when the layers reach over `extent` (nothing when there are none).
+    /// The limits for layers of this extent (`None` if there are no layers).
     ///
-    /// `air` is the share of the length added at an end that the layers decide.
-    pub(super) fn stretch(&self, extent: Option<(f64, f64)>, air: f64) -> (f64, f64) {
+    /// `margin` is the fraction of the length that is added at each end determined by the layers.
+    pub(super) fn limits(&self, extent: Option<(f64, f64)>, margin: f64) -> (f64, f64) {
         let (fixed_lower, fixed_upper) = match self.range {
-            Range::Auto => (None, None),
-            Range::Between(lower, upper) => (Some(lower), Some(upper)),
-            Range::From(lower) => (Some(lower), None),
-            Range::UpTo(upper) => (None, Some(upper)),
+            AxisRange::Auto => (None, None),
+            AxisRange::Between(lower, upper) => (Some(lower), Some(upper)),
+            AxisRange::From(lower) => (Some(lower), None),
+            AxisRange::UpTo(upper) => (None, Some(upper)),
         };
         let usable =
             |value: &f64| value.is_finite() && (self.scale == Scale::Linear || *value > 0.0);
@@ -157,13 +157,13 @@ impl Axis {
         if width <= 1e-12 * self.along(upper).abs().max(self.along(lower).abs()) {
             return (self.step_away(lower, -1.0), self.step_away(upper, 1.0));
         }
-        // A quantity that starts at zero (an amplitude, a time) keeps zero as its end.
+        // For a quantity that starts at zero (an amplitude, a time), the lower limit stays zero.
         let keeps_zero = self.scale == Scale::Linear && lower == 0.0;
         if fixed_lower.is_none() && !keeps_zero {
-            lower = self.back(self.along(lower) - air * width);
+            lower = self.back(self.along(lower) - margin * width);
         }
         if fixed_upper.is_none() {
-            upper = self.back(self.along(upper) + air * width);
+            upper = self.back(self.along(upper) + margin * width);
         }
         let rounded = self.round_ends((lower, upper));
         (
@@ -172,7 +172,7 @@ impl Axis {
         )
     }
 
-    /// Ends moved outwards to a round value that lies close by: 99.999 becomes 100.
+    /// Moves the limits outwards to nearby round values: 99.999 becomes 100.
     fn round_ends(&self, (lower, upper): (f64, f64)) -> (f64, f64) {
         const CLOSE: f64 = 0.015;
         if self.scale == Scale::Log {
@@ -206,13 +206,13 @@ impl Axis {
         match self.scale {
             Scale::Linear if value == 0.0 => sign,
             Scale::Linear => value + sign * 0.1 * value.abs(),
-            // An end that is infinite, or zero, has no place on the axis.
+            // An infinite limit, or zero, cannot be represented on the axis.
             Scale::Log => (value * 2f64.powf(sign)).clamp(f64::MIN_POSITIVE, f64::MAX),
         }
     }
 }
 
-/// An axis with its stretch and its pixels: takes values to the picture.
+/// Mapping of an axis: converts values to pixels.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Mapping {
     scale: Scale,
@@ -220,27 +220,27 @@ pub(super) struct Mapping {
     slope: f64,
     first_pixel: f64,
     /// Least and greatest value shown.
-    pub(super) stretch: (f64, f64),
+    pub(super) limits: (f64, f64),
 }
 
 impl Mapping {
-    pub(super) fn new(axis: &Axis, stretch: (f64, f64), pixels: (f64, f64)) -> Self {
-        let origin = axis.along(stretch.0);
-        let slope = (pixels.1 - pixels.0) / (axis.along(stretch.1) - origin);
-        Self { scale: axis.scale, origin, slope, first_pixel: pixels.0, stretch }
+    pub(super) fn new(axis: &PlotAxis, limits: (f64, f64), pixels: (f64, f64)) -> Self {
+        let origin = axis.along(limits.0);
+        let slope = (pixels.1 - pixels.0) / (axis.along(limits.1) - origin);
+        Self { scale: axis.scale, origin, slope, first_pixel: pixels.0, limits }
     }
 
-    /// Position on the axis, before scaling, of a pixel.
+    /// Position on the axis, before scaling to pixels, of a pixel.
     pub(super) fn along(&self, pixel: f64) -> f64 {
         self.origin + (pixel - self.first_pixel) / self.slope
     }
 
-    /// Pixel of a position on the axis that is not yet scaled; what lies far out stays outside.
-    pub(super) fn place(&self, along: f64) -> f64 {
+    /// Pixel of a position on the axis before scaling; clamped far outside the frame.
+    pub(super) fn pixel_of_position(&self, along: f64) -> f64 {
         (self.first_pixel + (along - self.origin) * self.slope).clamp(-1e5, 1e5)
     }
 
-    /// Pixel of a value; nothing for a value without a place on this axis.
+    /// Pixel of a value; `None` for a value that this axis cannot represent.
     pub(super) fn pixel(&self, value: f64) -> Option<f64> {
         let along = match self.scale {
             Scale::Linear => value,
@@ -248,7 +248,7 @@ impl Mapping {
             Scale::Log => return None,
         };
         let pixel = self.first_pixel + (along - self.origin) * self.slope;
-        // Far outside the frame a coordinate only has to stay outside.
+        // Far outside the frame the exact coordinate is irrelevant.
         pixel.is_finite().then(|| pixel.clamp(-1e5, 1e5))
     }
 }
@@ -258,23 +258,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ends_settle_on_round_values_and_zero() {
-        let axis = Axis::new("time");
-        assert_eq!(axis.stretch(Some((0.0, 99.999)), 0.0), (0.0, 100.0));
-        assert_eq!(axis.stretch(Some((0.0, 93.0)), 0.0), (0.0, 93.0));
-        assert_eq!(axis.clone().up_to(50.0).stretch(Some((-1.0, 99.0)), 0.0).1, 50.0);
+    fn limits_snap_to_round_values_and_zero() {
+        let axis = PlotAxis::new("time");
+        assert_eq!(axis.limits(Some((0.0, 99.999)), 0.0), (0.0, 100.0));
+        assert_eq!(axis.limits(Some((0.0, 93.0)), 0.0), (0.0, 93.0));
+        assert_eq!(axis.clone().up_to(50.0).limits(Some((-1.0, 99.0)), 0.0).1, 50.0);
     }
 
     #[test]
-    fn every_stretch_has_a_length() {
+    fn limits_are_finite_and_distinct() {
         for axis in [
-            Axis::new("x"),
-            Axis::new("x").log(),
-            Axis::new("x").from(5.0),
-            Axis::new("x").between(2.0, 2.0),
+            PlotAxis::new("x"),
+            PlotAxis::new("x").log(),
+            PlotAxis::new("x").from(5.0),
+            PlotAxis::new("x").between(2.0, 2.0),
         ] {
             for extent in [None, Some((3.0, 3.0)), Some((1e-300, 1e-300)), Some((0.5, 1.0))] {
-                let (lower, upper) = axis.stretch(extent, 0.05);
+                let (lower, upper) = axis.limits(extent, 0.05);
                 assert!(
                     lower < upper && lower.is_finite() && upper.is_finite(),
                     "{axis:?} {extent:?}"
@@ -284,13 +284,13 @@ mod tests {
     }
 
     #[test]
-    fn a_reversed_stretch_is_turned() {
-        assert_eq!(Axis::new("x").between(3.0, 1.0).stretch(Some((0.0, 9.0)), 0.1), (1.0, 3.0));
+    fn reversed_limits_are_swapped() {
+        assert_eq!(PlotAxis::new("x").between(3.0, 1.0).limits(Some((0.0, 9.0)), 0.1), (1.0, 3.0));
     }
 
     #[test]
-    fn what_is_not_positive_has_no_place_on_a_log_axis() {
-        let mapping = Mapping::new(&Axis::new("x").log(), (1.0, 100.0), (0.0, 200.0));
+    fn a_log_axis_omits_values_that_are_not_positive() {
+        let mapping = Mapping::new(&PlotAxis::new("x").log(), (1.0, 100.0), (0.0, 200.0));
         assert_eq!(mapping.pixel(0.0), None);
         assert!((mapping.pixel(10.0).unwrap_or(f64::NAN) - 100.0).abs() < 1e-9);
     }

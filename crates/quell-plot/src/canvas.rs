@@ -1,4 +1,4 @@
-//! The sheet on which a figure is drawn: pixels in, kuva's scene inside, SVG text out.
+//! The canvas on which a figure is drawn: takes shapes in pixels, collects a kuva scene, returns SVG text.
 
 use std::fmt::Write as _;
 
@@ -9,9 +9,9 @@ use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 use super::fonts::FAMILY;
 use super::palette::{Colour, FRAME};
 use super::tspan::Tags;
-use super::typeset::Label;
+use super::typeset::RichText;
 
-/// Stands for the picture's own name in identifiers until its contents are known.
+/// Placeholder for the figure's own name in identifiers until its contents are known.
 const PICTURE_NAME: &str = "quell-picture";
 
 /// A rectangle in pixels, y downwards.
@@ -56,25 +56,25 @@ impl Stroke {
     }
 }
 
-/// How a text is set.
+/// Style and rotation of a text.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Setting {
+pub(super) struct TextStyle {
     pub(super) size: u32,
     pub(super) anchor: TextAnchor,
     pub(super) bold: bool,
     pub(super) colour: Colour,
-    /// Turn about its place, clockwise in degrees.
-    pub(super) turn: f64,
+    /// Rotation about its anchor, clockwise in degrees.
+    pub(super) rotation: f64,
 }
 
-impl Setting {
+impl TextStyle {
     pub(super) fn new(size: u32, anchor: TextAnchor) -> Self {
-        Self { size, anchor, bold: false, colour: FRAME, turn: 0.0 }
+        Self { size, anchor, bold: false, colour: FRAME, rotation: 0.0 }
     }
 
-    /// Turned clockwise by so many degrees.
-    pub(super) fn turned(self, turn: f64) -> Self {
-        Self { turn, ..self }
+    /// The same style rotated clockwise by this angle in degrees.
+    pub(super) fn rotated(self, rotation: f64) -> Self {
+        Self { rotation, ..self }
     }
 }
 
@@ -93,7 +93,7 @@ impl Canvas {
         Self { scene, tags: Tags::default(), clips: 0, hatches: Vec::new(), images: Vec::new() }
     }
 
-    pub(super) fn text(&mut self, label: &Label, (x, y): (f64, f64), setting: Setting) {
+    pub(super) fn text(&mut self, label: &RichText, (x, y): (f64, f64), setting: TextStyle) {
         if label.is_empty() {
             return;
         }
@@ -103,7 +103,7 @@ impl Canvas {
             content: label.encode(&mut self.tags),
             size: setting.size,
             anchor: setting.anchor,
-            rotate: (setting.turn != 0.0).then_some(setting.turn),
+            rotate: (setting.rotation != 0.0).then_some(setting.rotation),
             bold: setting.bold,
             color: Some(paint(setting.colour)),
         });
@@ -129,18 +129,18 @@ impl Canvas {
         self.fill_with(path, paint(colour), Some(opacity));
     }
 
-    /// Fills an SVG path with thin strokes: falling, rising or crossed, by the style.
+    /// Fills an SVG path with a hatch: falling, rising or crossed strokes, depending on the style.
     pub(super) fn hatch(&mut self, path: String, colour: Colour, style: usize) {
         let style = style % 3;
         let known = self.hatches.iter().position(|hatch| *hatch == (colour, style));
         let number = known.unwrap_or_else(|| {
             self.hatches.push((colour, style));
             let number = self.hatches.len() - 1;
-            let turn = if style == 1 { -45 } else { 45 };
+            let rotation = if style == 1 { -45 } else { 45 };
             let strokes = if style == 2 { "M3.5 -1V8M-1 3.5H8" } else { "M3.5 -1V8" };
             self.scene.defs.push(format!(
                 "<pattern id=\"{PICTURE_NAME}-hatch{number}\" patternUnits=\"userSpaceOnUse\" \
-                 width=\"7\" height=\"7\" patternTransform=\"rotate({turn})\"><path d=\"{strokes}\" \
+                 width=\"7\" height=\"7\" patternTransform=\"rotate({rotation})\"><path d=\"{strokes}\" \
                  stroke=\"{}\" stroke-width=\"0.8\" stroke-opacity=\"0.6\" /></pattern>",
                 paint(colour).to_svg_string()
             ));
@@ -182,7 +182,7 @@ impl Canvas {
         });
     }
 
-    /// Puts an image (a `data:` address) into a rectangle; its pixels stay sharp.
+    /// Draws an image (a `data:` address) into a rectangle, without interpolation of its pixels.
     pub(super) fn image(&mut self, area: Rectangle, address: Option<String>) {
         let Some(address) = address else {
             return;
@@ -199,7 +199,7 @@ impl Canvas {
         ));
     }
 
-    /// Everything until [`Canvas::end_clip`] is cut at this rectangle.
+    /// Clips everything up to [`Canvas::end_clip`] to this rectangle.
     pub(super) fn begin_clip(&mut self, area: Rectangle) {
         let id = format!("{PICTURE_NAME}-clip{}", self.clips);
         self.clips += 1;
@@ -238,17 +238,17 @@ impl Canvas {
 
     /// The finished SVG.
     ///
-    /// Identifiers get a name made from the contents, so that several pictures can stand in one page.
+    /// Identifiers contain a hash of the contents, so that several figures can be embedded in one page.
     pub(super) fn into_svg(self) -> String {
         let drawn = SvgBackend::new().render_scene(&self.scene);
         let mut svg = self.tags.resolve(&drawn);
-        // kuva knows no images: they are put into the groups that keep their places.
+        // kuva has no image primitive: images are inserted into their placeholder groups.
         for (number, image) in self.images.iter().enumerate() {
             let name = format!("{}>", image_name(number));
             svg = svg.replacen(&name, &format!("{name}{image}"), 1);
         }
         let svg = svg.replace(PICTURE_NAME, &format!("q{:016x}", fingerprint(svg.as_bytes())));
-        // kuva writes no view box, without which a picture does not scale in a page.
+        // kuva writes no view box, without which a figure does not scale in a page.
         let view_box =
             format!("<svg viewBox=\"0 0 {} {}\" role=\"img\"", self.scene.width, self.scene.height);
         svg.replacen("<svg", &view_box, 1)
@@ -262,7 +262,7 @@ fn fingerprint(bytes: &[u8]) -> u64 {
     })
 }
 
-/// Attribute of the group that keeps the place of an image.
+/// Attribute of the placeholder group of an image.
 fn image_name(number: usize) -> String {
     format!("id=\"{PICTURE_NAME}-image{number}\"")
 }
@@ -271,12 +271,12 @@ fn paint((red, green, blue): Colour) -> Color {
     Color::Rgb(red, green, blue)
 }
 
-/// A path with more points than this is written in tenths of a pixel.
+/// Paths with more points than this are written in tenths of a pixel.
 const LONG_PATH: usize = 10_000;
 
 /// Writes polylines as one SVG path; closed ones end at their start.
 ///
-/// Each step is written from the rounded place of the last, so that rounding never adds up.
+/// Each step is relative to the previous rounded point, so that rounding errors do not accumulate.
 pub(super) fn path(pieces: &[Vec<(f64, f64)>], closed: bool) -> String {
     let count: usize = pieces.iter().map(Vec::len).sum();
     let grain: i64 = if count > LONG_PATH { 10 } else { 1 };
@@ -284,15 +284,15 @@ pub(super) fn path(pieces: &[Vec<(f64, f64)>], closed: bool) -> String {
     for piece in pieces {
         let mut last: Option<(i64, i64)> = None;
         for point in piece {
-            let place = (hundredths(point.0, grain), hundredths(point.1, grain));
+            let position = (hundredths(point.0, grain), hundredths(point.1, grain));
             let step = match last {
                 None => {
                     path.push('M');
-                    place
+                    position
                 }
                 Some(last) => {
                     path.push('l');
-                    (place.0 - last.0, place.1 - last.1)
+                    (position.0 - last.0, position.1 - last.1)
                 }
             };
             if last.is_some() && step == (0, 0) && piece.len() > 2 {
@@ -304,7 +304,7 @@ pub(super) fn path(pieces: &[Vec<(f64, f64)>], closed: bool) -> String {
                 path.push(' ');
             }
             push_hundredths(&mut path, step.1);
-            last = Some(place);
+            last = Some(position);
         }
         if closed && !piece.is_empty() {
             path.push('Z');
@@ -322,7 +322,7 @@ fn hundredths(pixel: f64, grain: i64) -> i64 {
     whole * grain
 }
 
-/// Writes hundredths as a decimal number without idle zeros.
+/// Writes hundredths as a decimal number without trailing zeros.
 fn push_hundredths(path: &mut String, value: i64) {
     if value < 0 {
         path.push('-');
@@ -346,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn rounding_does_not_add_up() {
+    fn rounding_errors_do_not_accumulate() {
         let piece: Vec<_> = (0..30_000).map(|step| (0.013 * f64::from(step), 0.0)).collect();
         let text = path(&[piece], false);
         let end: f64 = text

@@ -1,27 +1,27 @@
-//! Colouring: which colour a value of a map has.
+//! Colouring: the mapping of values to colours in a heatmap.
 
-use super::axis::{Axis, Scale};
-use super::palette::{Colour, Role};
+use super::axis::{PlotAxis, Scale};
+use super::palette::{Colour, PlotRole};
 use super::shades::{Palette, tint};
 
-/// How numbers are spread over a palette.
+/// Normalisation of numbers to a palette.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Spread {
-    /// Equal steps.
+    /// Linear.
     #[default]
     Linear,
-    /// Equal ratios; what is not positive has the lowest colour.
+    /// Logarithmic; values that are not positive have the lowest colour.
     Log,
-    /// Equal steps up to this size and equal ratios beyond it, on both sides of zero: asinh. A size
-    /// that is not positive counts as a millionth of the range.
+    /// Linear up to this magnitude and logarithmic beyond it, on both sides of zero: asinh. A magnitude
+    /// that is not positive is replaced by a millionth of the range.
     SignedLog(f64),
 }
 
-/// A flat colour for one of few outcomes, or for what lies beyond a scale.
+/// A flat colour for one of several outcomes, or for values below a scale.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tint {
-    /// What it stands for.
-    pub role: Role,
+    /// What it represents.
+    pub role: PlotRole,
     /// Text in the legend.
     pub label: String,
 }
@@ -29,7 +29,7 @@ pub struct Tint {
 impl Tint {
     /// A tint of this role.
     #[must_use]
-    pub fn new(role: Role, label: impl Into<String>) -> Self {
+    pub fn new(role: PlotRole, label: impl Into<String>) -> Self {
         Self { role, label: label.into() }
     }
 
@@ -43,45 +43,45 @@ impl Tint {
     }
 }
 
-/// How strongly outcomes are tinted: black lines and numbers stay readable.
+/// Opacity of the tint of outcomes, low enough to keep black lines and numbers readable.
 const TINT: f64 = 0.34;
 
 /// Colours of numbers.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Shading {
-    /// The colours.
+    /// The palette.
     pub palette: Palette,
-    /// How numbers are spread over them.
+    /// Normalisation of numbers to the palette.
     pub spread: Spread,
-    /// Numbers at the ends of the palette; from the values themselves when not given. A diverging
-    /// palette always reaches as far below zero as above.
+    /// Numbers at the ends of the palette; `None` for the extremes of the values. A diverging
+    /// palette is always symmetric about zero.
     pub range: Option<(f64, f64)>,
     /// Another colour for numbers below this one.
     pub below: Option<(f64, Tint)>,
 }
 
 impl Shading {
-    /// A palette with equal steps over all values.
+    /// A palette with a linear normalisation over all values.
     #[must_use]
     pub fn new(palette: Palette) -> Self {
         Self { palette, ..Self::default() }
     }
 
-    /// How numbers are spread over the palette.
+    /// Sets the normalisation.
     #[must_use]
     pub fn spread(mut self, spread: Spread) -> Self {
         self.spread = spread;
         self
     }
 
-    /// Numbers at the ends of the palette.
+    /// Sets the numbers at the ends of the palette.
     #[must_use]
     pub fn range(mut self, lower: f64, upper: f64) -> Self {
         self.range = Some((lower, upper));
         self
     }
 
-    /// Another colour for numbers below this one.
+    /// Sets another colour for numbers below this one.
     #[must_use]
     pub fn below(mut self, limit: f64, tint: Tint) -> Self {
         self.below = Some((limit, tint));
@@ -89,32 +89,32 @@ impl Shading {
     }
 }
 
-/// How a map is coloured.
+/// Colouring of a heatmap.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Colouring {
-    /// Numbers by a palette, with a colour bar.
+    /// Numbers mapped to a palette, with a colour bar.
     Shaded(Shading),
-    /// The value is the place of its outcome in this list (0, 1, …), which the legend shows.
+    /// Each value is the index of its outcome in this list (0, 1, …), which the legend shows.
     Outcomes(Vec<Tint>),
 }
 
-/// Places of the colours in an image.
+/// Number of palette colours in an image; their indices start at 0.
 pub(super) const SHADES: usize = 250;
-/// The colour for what lies below the scale.
+/// Index of the colour of values below the scale.
 const BELOW: u8 = 251;
-/// Nothing is printed.
+/// Index of the transparent colour.
 pub(super) const CLEAR: u8 = 255;
 
-/// A colouring for the values of one map.
+/// The colouring of one heatmap with the range of its values.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Paintbox {
+pub(super) struct ColourMap {
     colouring: Colouring,
     /// Values at the ends of the palette.
     pub(super) range: (f64, f64),
 }
 
-impl Paintbox {
-    /// The colouring when values lie between these extremes.
+impl ColourMap {
+    /// The colouring of values between these extremes.
     pub(super) fn new(colouring: &Colouring, extremes: Option<(f64, f64)>) -> Self {
         let range = match colouring {
             Colouring::Outcomes(outcomes) => (0.0, outcomes.len() as f64),
@@ -123,65 +123,68 @@ impl Paintbox {
         Self { colouring: colouring.clone(), range }
     }
 
-    /// Where a value lies between the ends of the palette, from 0 to 1.
+    /// Position of a value between the ends of the palette, from 0 to 1.
     pub(super) fn share(&self, value: f64) -> f64 {
         let (lower, upper) = self.range;
         let Colouring::Shaded(shading) = &self.colouring else {
             return 0.0;
         };
-        let place = |value: f64| match shading.spread {
+        let position = |value: f64| match shading.spread {
             Spread::Linear => value,
             Spread::Log => value.max(f64::MIN_POSITIVE).ln(),
-            // asinh of what lies beyond overflows.
+            // asinh of larger values overflows.
             Spread::SignedLog(size) => {
                 let whole = lower.abs().max(upper.abs());
                 let size = if size > 0.0 && size.is_finite() { size } else { 1e-6 * whole };
                 (value / size).clamp(-1e300, 1e300).asinh()
             }
         };
-        // Quarters, so that no difference leaves the range of numbers.
-        let (low, high, at) =
-            (0.25 * place(lower), 0.25 * place(upper), 0.25 * place(value.clamp(lower, upper)));
+        // Quarters, so that no difference overflows.
+        let (low, high, at) = (
+            0.25 * position(lower),
+            0.25 * position(upper),
+            0.25 * position(value.clamp(lower, upper)),
+        );
         ((at - low) / (high - low)).clamp(0.0, 1.0)
     }
 
-    /// Place of a value's colour in the image.
-    pub(super) fn ink(&self, value: f64) -> u8 {
+    /// Index of a value's colour in the image.
+    pub(super) fn index(&self, value: f64) -> u8 {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "from 0 to the number of colours"
         )]
-        let place = |place: f64| place as u8;
+        let position = |position: f64| position as u8;
         match &self.colouring {
             Colouring::Outcomes(outcomes) => {
                 let whole = value.round();
                 let known = whole >= 0.0 && whole < outcomes.len().min(SHADES) as f64;
-                if known { place(whole) } else { CLEAR }
+                if known { position(whole) } else { CLEAR }
             }
             Colouring::Shaded(shading) => match &shading.below {
                 Some((limit, _)) if value < *limit => BELOW,
-                _ => place((self.share(value) * (SHADES - 1) as f64).round()),
+                _ => position((self.share(value) * (SHADES - 1) as f64).round()),
             },
         }
     }
 
-    /// All colours of the image, in order; the last is clear.
-    pub(super) fn inks(&self) -> Vec<Colour> {
-        let mut inks = match &self.colouring {
+    /// All colours of the image in order of their indices; the last is transparent.
+    pub(super) fn colours(&self) -> Vec<Colour> {
+        let mut colours = match &self.colouring {
             Colouring::Outcomes(outcomes) => {
                 outcomes.iter().take(SHADES).map(Tint::colour).collect()
             }
             Colouring::Shaded(shading) => shading.palette.shades(SHADES),
         };
-        inks.resize(usize::from(CLEAR) + 1, (255, 255, 255));
+        colours.resize(usize::from(CLEAR) + 1, (255, 255, 255));
         if let Colouring::Shaded(Shading { below: Some((_, tint)), .. }) = &self.colouring {
-            inks[usize::from(BELOW)] = tint.colour();
+            colours[usize::from(BELOW)] = tint.colour();
         }
-        inks
+        colours
     }
 
-    /// Whether values below and above the palette's ends have its end colours.
+    /// Whether there are values below and above the range that get the end colours of the palette.
     pub(super) fn overflows(&self, extremes: Option<(f64, f64)>) -> (bool, bool) {
         let Colouring::Shaded(shading) = &self.colouring else {
             return (false, false);
@@ -192,11 +195,11 @@ impl Paintbox {
     }
 
     /// The axis of the colour bar.
-    pub(super) fn axis(&self, quantity: &Axis) -> Axis {
+    pub(super) fn axis(&self, quantity: &PlotAxis) -> PlotAxis {
         let axis = quantity.clone().between(self.range.0, self.range.1);
         match self.spread() {
             Spread::Log => axis.log(),
-            _ => Axis { scale: Scale::Linear, ..axis },
+            _ => PlotAxis { scale: Scale::Linear, ..axis },
         }
     }
 
@@ -208,7 +211,7 @@ impl Paintbox {
     }
 }
 
-/// Values at the ends of the palette: given or found, in order and apart.
+/// Values at the ends of the palette, given or determined from the extremes, in increasing order and distinct.
 fn range_of(shading: &Shading, extremes: Option<(f64, f64)>) -> (f64, f64) {
     let finite = |range: &(f64, f64)| range.0.is_finite() && range.1.is_finite();
     let found = shading.range.filter(finite).or(extremes).unwrap_or((0.0, 1.0));
@@ -219,7 +222,7 @@ fn range_of(shading: &Shading, extremes: Option<(f64, f64)>) -> (f64, f64) {
     }
     if shading.spread == Spread::Log {
         upper = if upper > 0.0 { upper } else { 1.0 };
-        // What is not positive says nothing about the lower end: six decades are shown.
+        // A value that is not positive does not determine the lower end: six decades are shown.
         lower = if lower > 0.0 { lower } else { 1e-6 * upper };
     }
     if lower < upper {
@@ -233,58 +236,61 @@ fn range_of(shading: &Shading, extremes: Option<(f64, f64)>) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    fn paintbox(shading: Shading, extremes: (f64, f64)) -> Paintbox {
-        Paintbox::new(&Colouring::Shaded(shading), Some(extremes))
+    fn colour_map(shading: Shading, extremes: (f64, f64)) -> ColourMap {
+        ColourMap::new(&Colouring::Shaded(shading), Some(extremes))
     }
 
     #[test]
-    fn zero_lies_in_the_middle_of_a_diverging_palette() {
+    fn a_diverging_palette_is_centred_on_zero() {
         for spread in [Spread::Linear, Spread::SignedLog(1e-3)] {
             let shading = Shading::new(Palette::Diverging).spread(spread);
-            let paints = paintbox(shading, (-0.2, 3.0));
-            assert_eq!(paints.range, (-3.0, 3.0));
-            assert!((paints.share(0.0) - 0.5).abs() < 1e-15);
-            assert!((paints.share(0.7) + paints.share(-0.7) - 1.0).abs() < 1e-15);
-            assert_eq!((paints.share(3.0), paints.share(-9.0)), (1.0, 0.0));
+            let colour_map = colour_map(shading, (-0.2, 3.0));
+            assert_eq!(colour_map.range, (-3.0, 3.0));
+            assert!((colour_map.share(0.0) - 0.5).abs() < 1e-15);
+            assert!((colour_map.share(0.7) + colour_map.share(-0.7) - 1.0).abs() < 1e-15);
+            assert_eq!((colour_map.share(3.0), colour_map.share(-9.0)), (1.0, 0.0));
         }
     }
 
     #[test]
-    fn ratios_are_equal_on_a_log_spread() {
-        let paints = paintbox(Shading::default().spread(Spread::Log), (1e-4, 1.0));
-        assert!((paints.share(1e-2) - 0.5).abs() < 1e-12);
-        assert_eq!(paints.share(-1.0), 0.0);
+    fn a_log_spread_is_linear_in_the_logarithm() {
+        let colour_map = colour_map(Shading::default().spread(Spread::Log), (1e-4, 1.0));
+        assert!((colour_map.share(1e-2) - 0.5).abs() < 1e-12);
+        assert_eq!(colour_map.share(-1.0), 0.0);
     }
 
     #[test]
-    fn every_range_has_a_length() {
+    fn every_range_has_distinct_ends() {
         for extremes in [(0.0, 0.0), (3.0, 3.0), (-1e308, 1e308), (-2.0, -1.0)] {
             for spread in [Spread::Linear, Spread::Log, Spread::SignedLog(1.0)] {
                 for palette in [Palette::Viridis, Palette::Diverging] {
-                    let paints = paintbox(Shading::new(palette).spread(spread), extremes);
-                    assert!(paints.range.0 < paints.range.1, "{extremes:?} {spread:?}");
-                    assert!(paints.share(0.3).is_finite());
+                    let colour_map = colour_map(Shading::new(palette).spread(spread), extremes);
+                    assert!(colour_map.range.0 < colour_map.range.1, "{extremes:?} {spread:?}");
+                    assert!(colour_map.share(0.3).is_finite());
                 }
             }
         }
     }
 
     #[test]
-    fn what_lies_below_the_scale_can_have_its_own_colour() {
-        let tint = Tint::new(Role::Unstable, "worse");
-        let paints =
-            paintbox(Shading::new(Palette::Pale).range(0.0, 1.0).below(0.0, tint), (-1.0, 2.0));
-        assert_eq!(paints.ink(-0.1), BELOW);
-        assert_eq!(paints.ink(0.0), 0);
-        assert_eq!(usize::from(paints.ink(5.0)), SHADES - 1);
-        assert_eq!(paints.overflows(Some((-1.0, 2.0))), (false, true));
-        assert_eq!(paints.inks().len(), 256);
+    fn values_below_the_scale_can_have_their_own_colour() {
+        let tint = Tint::new(PlotRole::Unstable, "worse");
+        let colour_map =
+            colour_map(Shading::new(Palette::Pale).range(0.0, 1.0).below(0.0, tint), (-1.0, 2.0));
+        assert_eq!(colour_map.index(-0.1), BELOW);
+        assert_eq!(colour_map.index(0.0), 0);
+        assert_eq!(usize::from(colour_map.index(5.0)), SHADES - 1);
+        assert_eq!(colour_map.overflows(Some((-1.0, 2.0))), (false, true));
+        assert_eq!(colour_map.colours().len(), 256);
     }
 
     #[test]
-    fn an_outcome_that_is_not_listed_is_not_printed() {
-        let outcomes = Colouring::Outcomes(vec![Tint::new(Role::Stable, "stable")]);
-        let paints = Paintbox::new(&outcomes, Some((0.0, 1.0)));
-        assert_eq!((paints.ink(0.0), paints.ink(1.0), paints.ink(-1.0)), (0, CLEAR, CLEAR));
+    fn an_unlisted_outcome_is_transparent() {
+        let outcomes = Colouring::Outcomes(vec![Tint::new(PlotRole::Stable, "stable")]);
+        let colour_map = ColourMap::new(&outcomes, Some((0.0, 1.0)));
+        assert_eq!(
+            (colour_map.index(0.0), colour_map.index(1.0), colour_map.index(-1.0)),
+            (0, CLEAR, CLEAR)
+        );
     }
 }

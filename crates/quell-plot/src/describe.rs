@@ -1,38 +1,40 @@
-//! A figure as plain data, with its style resolved: what another renderer needs to draw the same picture.
+//! A figure as plain data with its style resolved, from which another renderer can draw the same figure.
 //!
-//! Lengths are pixels of 1/96 inch from the upper left, colours `#rrggbb`, texts as they are typeset here
-//! (symbols between dollars). Frames and stretches of axes are those of the picture that is drawn here. The
-//! Python package draws figures from this with matplotlib.
+//! Lengths are pixels of 1/96 inch from the upper left, colours are `#rrggbb`, and texts use the syntax of this crate
+//! (symbols between dollars). Frames and axis limits are those of the figure that this crate draws. The
+//! Python package draws figures from this data with matplotlib.
 
 use serde_json::{Value as Json, json};
 
 use super::arrange::arrange;
-use super::axis::{Axis, Scale};
+use super::axis::{PlotAxis, Scale};
 use super::canvas::Rectangle;
 use super::colouring::{Colouring, Spread};
-use super::figure::{Figure, Legend, Panel, Place, SharedLegend};
-use super::layer::{Direction, Layer, Line, Marker, Note, Points, Region, Rule, Shape};
-use super::map_layers::{Contours, Grid};
-use super::palette::{Colour, FAINT, FRAME, GAP, LineStyle, Role};
+use super::figure::{Figure, Legend, LegendPosition, Panel, SharedLegend};
+use super::layer::{
+    Layer, Marker, Note, Orientation, Points, Polyline, ReferenceLine, Region, RegionShape,
+};
+use super::map_layers::{Contours, Heatmap};
+use super::palette::{Colour, FAINT, FRAME, GAP, LineStyle, PlotRole};
 
 impl Figure {
     /// The figure as plain data.
     pub fn described(&self) -> Json {
-        let plan = arrange(self);
-        let panels = self.panels.iter().zip(&plan.panels).map(|(panel, planned)| {
+        let layout = arrange(self);
+        let panels = self.panels.iter().zip(&layout.panels).map(|(panel, panel_layout)| {
             let mut data = described_panel(panel);
-            data["x"]["stretch"] = stretch(planned.x_stretch);
-            data["y"]["stretch"] = stretch(planned.y_stretch);
-            data["x"]["numbered"] = planned.x_numbers.into();
-            data["y"]["numbered"] = planned.y_numbers.into();
-            data["x"]["labelled"] = (!planned.x_label.is_empty()).into();
-            data["y"]["labelled"] = (!planned.y_label.is_empty()).into();
-            let Rectangle { left, top, right, bottom } = planned.frame;
+            data["x"]["stretch"] = limits(panel_layout.x_limits);
+            data["y"]["stretch"] = limits(panel_layout.y_limits);
+            data["x"]["numbered"] = panel_layout.x_numbers.into();
+            data["y"]["numbered"] = panel_layout.y_numbers.into();
+            data["x"]["labelled"] = (!panel_layout.x_label.is_empty()).into();
+            data["y"]["labelled"] = (!panel_layout.y_label.is_empty()).into();
+            let Rectangle { left, top, right, bottom } = panel_layout.frame;
             data["frame"] = json!({ "left": left, "top": top, "right": right, "bottom": bottom });
             data
         });
         let panels: Vec<Json> = panels.collect();
-        let sizes = plan.sizes;
+        let sizes = layout.sizes;
         json!({
             "title": self.title,
             "caption": self.caption,
@@ -42,11 +44,11 @@ impl Figure {
                 SharedLegend::Above => "above",
                 SharedLegend::Below => "below",
             },
-            "width": plan.width,
-            "height": plan.height,
-            "body": [plan.body.0, plan.body.1],
-            "legend_top": plan.shared_top,
-            "caption_top": plan.caption_top,
+            "width": layout.width,
+            "height": layout.height,
+            "body": [layout.body.0, layout.body.1],
+            "legend_top": layout.shared_top,
+            "caption_top": layout.caption_top,
             "sizes": {
                 "figure_title": sizes.figure_title,
                 "title": sizes.title,
@@ -63,126 +65,126 @@ impl Figure {
 }
 
 fn described_panel(panel: &Panel) -> Json {
-    let layers: Vec<Json> = panel.layers.iter().map(layer).collect();
+    let layers: Vec<Json> = panel.layers.iter().map(described_layer).collect();
     json!({
         "title": panel.title,
-        "x": axis(&panel.x),
-        "y": axis(&panel.y),
+        "x": described_axis(&panel.x),
+        "y": described_axis(&panel.y),
         "legend": match panel.legend {
             Legend::Auto => "best",
             Legend::None => "none",
             Legend::Above => "above",
-            Legend::Inside(place) => match place {
-                Place::TopRight => "upper right",
-                Place::TopLeft => "upper left",
-                Place::BottomRight => "lower right",
-                Place::BottomLeft => "lower left",
-                Place::Top => "upper center",
-                Place::Bottom => "lower center",
-                Place::Right => "center right",
-                Place::Left => "center left",
+            Legend::Inside(position) => match position {
+                LegendPosition::TopRight => "upper right",
+                LegendPosition::TopLeft => "upper left",
+                LegendPosition::BottomRight => "lower right",
+                LegendPosition::BottomLeft => "lower left",
+                LegendPosition::Top => "upper center",
+                LegendPosition::Bottom => "lower center",
+                LegendPosition::Right => "center right",
+                LegendPosition::Left => "center left",
             },
         },
         "layers": layers,
     })
 }
 
-fn axis(axis: &Axis) -> Json {
+fn described_axis(axis: &PlotAxis) -> Json {
     json!({ "label": axis.label(), "log": axis.scale == Scale::Log, "ticks": axis.ticks })
 }
 
-fn stretch((lower, upper): (f64, f64)) -> Json {
+fn limits((lower, upper): (f64, f64)) -> Json {
     json!([lower, upper])
 }
 
-fn layer(layer: &Layer) -> Json {
+fn described_layer(layer: &Layer) -> Json {
     match layer {
-        Layer::Line(it) => line(it),
-        Layer::Points(it) => points(it),
-        Layer::Region(it) => region(it),
-        Layer::Rule(it) => rule(it),
-        Layer::Note(it) => note(it),
-        Layer::Grid(it) => grid(it),
-        Layer::Contours(it) => contours(it),
+        Layer::Polyline(polyline) => described_polyline(polyline),
+        Layer::Points(points) => described_points(points),
+        Layer::Region(region) => described_region(region),
+        Layer::ReferenceLine(line) => described_reference_line(line),
+        Layer::Note(note) => described_note(note),
+        Layer::Heatmap(heatmap) => described_heatmap(heatmap),
+        Layer::Contours(contours) => described_contours(contours),
     }
 }
 
-fn line(it: &Line) -> Json {
-    let pieces: Vec<Json> = it.pieces.iter().map(|piece| columns(piece)).collect();
+fn described_polyline(polyline: &Polyline) -> Json {
+    let pieces: Vec<Json> = polyline.pieces.iter().map(|piece| columns(piece)).collect();
     json!({
         "kind": "line",
-        "label": it.label,
-        "colour": hex(it.role.colour()),
-        "width": it.width.unwrap_or(it.role.width()),
-        "dashes": dashes(it.style.unwrap_or(it.role.style())),
+        "label": polyline.label,
+        "colour": hex(polyline.role.colour()),
+        "width": polyline.width.unwrap_or(polyline.role.width()),
+        "dashes": dashes(polyline.style.unwrap_or(polyline.role.style())),
         "pieces": pieces,
     })
 }
 
-fn points(it: &Points) -> Json {
+fn described_points(points: &Points) -> Json {
     json!({
         "kind": "points",
-        "label": it.label,
-        "colour": hex(it.role.colour()),
-        "marker": match it.marker {
+        "label": points.label,
+        "colour": hex(points.role.colour()),
+        "marker": match points.marker {
             Marker::Disc => "disc",
             Marker::Circle => "circle",
             Marker::Cross => "cross",
         },
-        "size": it.size,
-        "points": columns(&it.points),
+        "size": points.size,
+        "points": columns(&points.points),
     })
 }
 
-fn region(it: &Region) -> Json {
+fn described_region(region: &Region) -> Json {
     let mut data = json!({
         "kind": "region",
-        "label": it.label,
-        "colour": hex(it.role.colour()),
-        "opacity": it.fill.opacity(),
+        "label": region.label,
+        "colour": hex(region.role.colour()),
+        "opacity": region.fill.opacity(),
     });
-    match &it.shape {
-        Shape::Polygon(corners) => data["polygon"] = columns(corners),
-        Shape::AcrossX(from, to) => data["across_x"] = ends(*from, *to),
-        Shape::AcrossY(from, to) => data["across_y"] = ends(*from, *to),
+    match &region.shape {
+        RegionShape::Polygon(corners) => data["polygon"] = columns(corners),
+        RegionShape::AcrossX(from, to) => data["across_x"] = ends(*from, *to),
+        RegionShape::AcrossY(from, to) => data["across_y"] = ends(*from, *to),
     }
     data
 }
 
-/// Ends of a strip; null where it reaches the frame.
+/// Ends of a strip; null where it extends to the frame.
 fn ends(from: f64, to: f64) -> Json {
     json!([from, to])
 }
 
-fn rule(it: &Rule) -> Json {
+fn described_reference_line(line: &ReferenceLine) -> Json {
     json!({
         "kind": "rule",
-        "label": it.label,
-        "colour": hex(it.role.colour()),
-        "width": it.role.width(),
-        "dashes": dashes(it.style.unwrap_or(it.role.style())),
-        "vertical": it.direction == Direction::Vertical,
-        "value": it.value,
+        "label": line.label,
+        "colour": hex(line.role.colour()),
+        "width": line.role.width(),
+        "dashes": dashes(line.style.unwrap_or(line.role.style())),
+        "vertical": line.orientation == Orientation::Vertical,
+        "value": line.value,
     })
 }
 
-fn note(it: &Note) -> Json {
+fn described_note(note: &Note) -> Json {
     json!({
         "kind": "note",
-        "text": it.text,
-        "at": [it.at.0, it.at.1],
-        "colour": hex(it.role.map_or(FRAME, Role::colour)),
+        "text": note.text,
+        "at": [note.at.0, note.at.1],
+        "colour": hex(note.role.map_or(FRAME, PlotRole::colour)),
     })
 }
 
-fn grid(it: &Grid) -> Json {
-    let paintbox = it.paintbox();
-    let gaps: Vec<Json> = it
+fn described_heatmap(heatmap: &Heatmap) -> Json {
+    let colour_map = heatmap.colour_map();
+    let gaps: Vec<Json> = heatmap
         .all_gaps()
         .into_iter()
         .map(|(_, label, cells)| json!({ "label": label, "cells": cells }))
         .collect();
-    let colours = match &it.colouring {
+    let colours = match &heatmap.colouring {
         Colouring::Outcomes(outcomes) => {
             let outcomes: Vec<Json> = outcomes
                 .iter()
@@ -202,7 +204,7 @@ fn grid(it: &Grid) -> Json {
             });
             json!({
                 "shades": shades,
-                "range": [paintbox.range.0, paintbox.range.1],
+                "range": [colour_map.range.0, colour_map.range.1],
                 "spread": spread,
                 "below": below,
             })
@@ -210,39 +212,42 @@ fn grid(it: &Grid) -> Json {
     };
     json!({
         "kind": "grid",
-        "x": it.field.x(),
-        "y": it.field.y(),
-        "values": it.field.values(),
-        "bar": it.bar.as_ref().map(axis),
+        "x": heatmap.field.x(),
+        "y": heatmap.field.y(),
+        "values": heatmap.field.values(),
+        "bar": heatmap.bar.as_ref().map(described_axis),
         "gaps": gaps,
         "colouring": colours,
     })
 }
 
-fn contours(it: &Contours) -> Json {
-    let levels: Vec<Json> =
-        it.levels.iter().map(|(level, text)| json!({ "level": level, "text": text })).collect();
+fn described_contours(contours: &Contours) -> Json {
+    let levels: Vec<Json> = contours
+        .levels
+        .iter()
+        .map(|(level, text)| json!({ "level": level, "text": text }))
+        .collect();
     json!({
         "kind": "contours",
-        "label": it.label,
-        "colour": hex(it.role.colour()),
-        "width": it.width,
-        "dashes": dashes(it.role.style()),
-        "x": it.field.x(),
-        "y": it.field.y(),
-        "values": it.field.values(),
+        "label": contours.label,
+        "colour": hex(contours.role.colour()),
+        "width": contours.width,
+        "dashes": dashes(contours.role.style()),
+        "x": contours.field.x(),
+        "y": contours.field.y(),
+        "values": contours.field.values(),
         "levels": levels,
     })
 }
 
-/// Points as two lists.
+/// Points as a list of x and a list of y.
 fn columns(points: &[(f64, f64)]) -> Json {
     let x: Vec<f64> = points.iter().map(|point| point.0).collect();
     let y: Vec<f64> = points.iter().map(|point| point.1).collect();
     json!([x, y])
 }
 
-/// Lengths of dashes and gaps in widths of the line; none of a solid line.
+/// Lengths of dashes and gaps in line widths; empty for a solid line.
 fn dashes(style: LineStyle) -> Vec<f64> {
     style.pattern().to_vec()
 }
@@ -257,17 +262,17 @@ mod tests {
     use crate::{Field, Shading};
 
     #[test]
-    fn every_kind_of_layer_is_told_with_its_style() {
+    fn every_kind_of_layer_is_described_with_its_style() {
         let field =
             Field::new(vec![0.0, 1.0], vec![0.0, 1.0], vec![Some(1.0), None, Some(3.0), None])
                 .expect("a field");
-        let panel = Panel::new(Axis::new("time").symbol("τ"), Axis::new("x").log())
-            .with(Line::new(Role::Undithered, [(0.0, 1.0), (1.0, 2.0)]).label("without"))
-            .with(Points::new(Role::Dithered, [(0.5, 1.5)]))
-            .with(Region::across_x(Role::Stable, 0.0, f64::INFINITY))
-            .with(Rule::vertical(0.5).label("here"))
+        let panel = Panel::new(PlotAxis::new("time").symbol("τ"), PlotAxis::new("x").log())
+            .with(Polyline::new(PlotRole::Undithered, [(0.0, 1.0), (1.0, 2.0)]).label("without"))
+            .with(Points::new(PlotRole::Dithered, [(0.5, 1.5)]))
+            .with(Region::across_x(PlotRole::Stable, 0.0, f64::INFINITY))
+            .with(ReferenceLine::vertical(0.5).label("here"))
             .with(Note::new(0.5, 1.0, "a note"))
-            .with(Grid::new(field.clone(), Colouring::Shaded(Shading::default())))
+            .with(Heatmap::new(field.clone(), Colouring::Shaded(Shading::default())))
             .with(Contours::new(field, [2.0]));
         let data = Figure::single(panel).title("all").described();
         let layers = data["panels"][0]["layers"].as_array().expect("layers");

@@ -1,27 +1,27 @@
-//! What can go wrong on the way from a figure to a picture.
+//! Errors of rendering a figure.
 
 use std::error::Error;
 use std::fmt;
 
-/// Why a picture could not be made.
+/// The reason why a figure could not be rendered.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum PlotError {
-    /// The picture is too large, or of no size, for a pixel image.
+    /// The figure is too large for a pixel image, or its size is zero.
     PixelSize {
-        /// Width asked for (pixels).
+        /// Requested width (pixels).
         width: u32,
-        /// Height asked for (pixels).
+        /// Requested height (pixels).
         height: u32,
     },
-    /// Values do not lie on a rectangular grid.
+    /// The values do not form a rectangular grid.
     Field {
-        /// What is wrong with them.
+        /// The reason.
         why: String,
     },
-    /// The drawn scene could not be turned into pixels.
+    /// The drawn scene could not be rasterised.
     Raster {
-        /// What the rasteriser said.
+        /// Error of the rasteriser.
         source: Box<dyn Error + Send + Sync>,
     },
 }
@@ -30,10 +30,10 @@ impl fmt::Display for PlotError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::PixelSize { width, height } => {
-                write!(out, "a picture of {width} by {height} pixels cannot be made")
+                write!(out, "cannot create an image of {width} by {height} pixels")
             }
-            Self::Field { why } => write!(out, "the values of a map lie on no grid: {why}"),
-            Self::Raster { source } => write!(out, "cannot turn the picture into pixels: {source}"),
+            Self::Field { why } => write!(out, "the values of a map do not form a grid: {why}"),
+            Self::Raster { source } => write!(out, "cannot rasterise the figure: {source}"),
         }
     }
 }

@@ -5,7 +5,7 @@ use super::error::PlotError;
 
 /// Values at the points of a rectangular grid whose steps need not be equal.
 ///
-/// A point without a value is `None`; why it has none is said by the layer that shows the field.
+/// A point without a value is `None`; the layer that shows the field gives the reason.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Field {
     x: Vec<f64>,
@@ -14,12 +14,12 @@ pub struct Field {
 }
 
 impl Field {
-    /// A field of `x.len() · y.len()` values, row by row: those of the least y first, x running
-    /// fastest. A value that is not finite counts as none.
+    /// A field of `x.len() · y.len()` values in row-major order: the row of the least y first, x varying
+    /// fastest. Non-finite values are treated as missing.
     ///
     /// # Errors
     /// [`PlotError::Field`] when an axis is empty, not finite or not strictly increasing, or
-    /// when the number of values is another.
+    /// when the number of values does not match.
     pub fn new(x: Vec<f64>, y: Vec<f64>, values: Vec<Option<f64>>) -> Result<Self, PlotError> {
         for (name, axis) in [("x", &x), ("y", &y)] {
             if axis.is_empty() {
@@ -78,7 +78,7 @@ impl Field {
         &self.values
     }
 
-    /// Least and greatest value; nothing when there is none.
+    /// Least and greatest value; `None` if the field has no values.
     #[must_use]
     pub fn extremes(&self) -> Option<(f64, f64)> {
         self.values
@@ -99,30 +99,30 @@ impl Field {
     }
 }
 
-/// Borders between the cells around these values, halfway along the axis: one more than values.
+/// Borders between the cells around these values, halfway between them along the axis: one more than the values.
 ///
-/// The outer cells are as wide on their outer side as on their inner one; a lone value has a cell
-/// without ends. On a logarithmic axis values that are not positive lie infinitely far down.
+/// The outer cells are symmetric about their values; the cell of a single value is unbounded.
+/// On a logarithmic axis, values that are not positive lie infinitely far down.
 pub(super) fn borders(values: &[f64], scale: Scale) -> Vec<f64> {
     let along = |value: f64| match scale {
         Scale::Linear => value,
         Scale::Log if value > 0.0 => value.log10(),
         Scale::Log => f64::NEG_INFINITY,
     };
-    let places: Vec<f64> = values.iter().map(|value| along(*value)).collect();
-    let inner = places.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
-    let (first, last) = match places.as_slice() {
+    let positions: Vec<f64> = values.iter().map(|value| along(*value)).collect();
+    let inner = positions.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+    let (first, last) = match positions.as_slice() {
         [first, second, ..] => {
-            let count = places.len();
+            let count = positions.len();
             (
                 first - 0.5 * (second - first),
-                places[count - 1] + 0.5 * (places[count - 1] - places[count - 2]),
+                positions[count - 1] + 0.5 * (positions[count - 1] - positions[count - 2]),
             )
         }
         _ => (f64::NEG_INFINITY, f64::INFINITY),
     };
-    // Two values at minus infinity have no middle; their cells are empty.
-    let clean = |place: f64| if place.is_nan() { f64::NEG_INFINITY } else { place };
+    // Two values at minus infinity have no midpoint; their cells are empty.
+    let clean = |position: f64| if position.is_nan() { f64::NEG_INFINITY } else { position };
     std::iter::once(first).chain(inner).chain(std::iter::once(last)).map(clean).collect()
 }
 
@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_field_refuses_what_is_no_grid() {
+    fn a_field_rejects_invalid_grids() {
         let axis = || vec![0.0, 1.0];
         assert!(Field::new(axis(), axis(), vec![None; 4]).is_ok());
         for (x, y, count) in [
@@ -149,13 +149,13 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_finite_is_no_value() {
+    fn non_finite_values_are_missing() {
         let field = Field::new(vec![0.0, 1.0], vec![0.0], vec![Some(f64::NAN), Some(2.0)]);
         assert_eq!(field.expect("a field").extremes(), Some((2.0, 2.0)));
     }
 
     #[test]
-    fn cells_end_halfway_along_their_axis() {
+    fn cells_end_halfway_between_neighbours() {
         assert_eq!(borders(&[0.0, 1.0, 3.0], Scale::Linear), vec![-0.5, 0.5, 2.0, 4.0]);
         assert_eq!(borders(&[1.0, 100.0], Scale::Log), vec![-1.0, 1.0, 3.0]);
         assert!(borders(&[0.0, 0.0, 1.0], Scale::Log).iter().all(|border| !border.is_nan()));

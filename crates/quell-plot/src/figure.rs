@@ -1,25 +1,25 @@
-//! Figures and panels: what a picture consists of.
+//! Figures and panels.
 
-use super::axis::Axis;
+use super::axis::PlotAxis;
 use super::layer::Layer;
 
-/// Where the legend of one panel stands.
+/// Placement of the legend of one panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Legend {
-    /// In the first place inside the frame where it covers no data, else above the frame.
+    /// At the first position inside the frame where it covers no data, otherwise above the frame.
     #[default]
     Auto,
-    /// Nowhere.
+    /// No legend.
     None,
-    /// At this place inside the frame, whatever it covers.
-    Inside(Place),
-    /// In lines between the title and the frame.
+    /// At this position inside the frame, even if it covers data.
+    Inside(LegendPosition),
+    /// In rows between the title and the frame.
     Above,
 }
 
-/// A place inside the frame of a panel.
+/// A position of the legend inside the frame of a panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
+pub enum LegendPosition {
     /// Upper right corner.
     TopRight,
     /// Upper left corner.
@@ -38,29 +38,30 @@ pub enum Place {
     Left,
 }
 
-/// One frame with two axes and layers.
+/// One frame with two axes and its layers.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Panel {
     /// Text above the frame, e.g. `(a) $D$ = 0.3`.
     pub title: String,
     /// Horizontal axis.
-    pub x: Axis,
+    pub x: PlotAxis,
     /// Vertical axis.
-    pub y: Axis,
-    /// What is drawn: regions below, then rules, lines, points and notes, each kind in this order.
+    pub y: PlotAxis,
+    /// The layers: heatmaps are drawn first, then regions, reference lines, contours, lines, points and notes; layers of
+    /// one kind are drawn in the order of this list.
     pub layers: Vec<Layer>,
-    /// Where the legend stands; unused when the figure has a shared one.
+    /// Placement of the legend; unused when the figure has a shared legend.
     pub legend: Legend,
 }
 
 impl Panel {
     /// An empty panel.
     #[must_use]
-    pub fn new(x: Axis, y: Axis) -> Self {
+    pub fn new(x: PlotAxis, y: PlotAxis) -> Self {
         Self { x, y, ..Self::default() }
     }
 
-    /// Text above the frame.
+    /// Sets the text above the frame.
     #[must_use]
     pub fn title(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
@@ -81,7 +82,7 @@ impl Panel {
         self
     }
 
-    /// Where the legend stands.
+    /// Sets the placement of the legend.
     #[must_use]
     pub fn legend(mut self, legend: Legend) -> Self {
         self.legend = legend;
@@ -89,22 +90,22 @@ impl Panel {
     }
 }
 
-/// Which panels show the same stretch of a coordinate, and so need its numbers only once.
+/// Which panels share the limits of an axis, so that its tick labels are needed only once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Sharing {
-    /// Each panel has its own.
+    /// Each panel has its own limits.
     #[default]
     Separate,
-    /// The panels of one column (for x) or of one row (for y) share it.
+    /// The panels of one column (for x) or of one row (for y) share their limits.
     Aligned,
-    /// All panels share it.
+    /// All panels share their limits.
     All,
 }
 
 /// One legend for the whole figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SharedLegend {
-    /// None: each panel has its own.
+    /// No shared legend: each panel has its own.
     #[default]
     None,
     /// Between the title and the panels.
@@ -113,41 +114,41 @@ pub enum SharedLegend {
     Below,
 }
 
-/// How large a figure is.
+/// Size of a figure.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Size {
-    /// Frames of a size that suits the number of columns.
+    /// A frame size that suits the number of columns.
     #[default]
     Auto,
-    /// Each frame this wide and high (pixels of 1/96 inch).
+    /// Width and height of each frame (pixels of 1/96 inch).
     Frame(f64, f64),
-    /// The whole picture this wide and high (pixels of 1/96 inch).
+    /// Width and height of the whole figure (pixels of 1/96 inch).
     Whole(f64, f64),
 }
 
-/// A picture: panels in rows and columns.
+/// A figure: panels in rows and columns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// Title above all; empty for none.
+    /// Title above all panels; empty for none.
     pub title: String,
-    /// Caption or footnote below all; it is broken into lines as needed; empty for none.
+    /// Caption or footnote below all panels, broken into lines as needed; empty for none.
     pub caption: String,
     /// The panels, row by row from the upper left.
     pub panels: Vec<Panel>,
-    /// How many panels stand side by side.
+    /// Number of columns.
     pub columns: usize,
-    /// Which panels share the stretch of x.
+    /// Which panels share the limits of x.
     pub sharing_x: Sharing,
-    /// Which panels share the stretch of y.
+    /// Which panels share the limits of y.
     pub sharing_y: Sharing,
-    /// One legend for all panels.
+    /// Legend for all panels.
     pub legend: SharedLegend,
-    /// How large the picture is.
+    /// Size of the figure.
     pub size: Size,
 }
 
 impl Figure {
-    /// One panel alone.
+    /// A figure of one panel.
     #[must_use]
     pub fn single(panel: Panel) -> Self {
         Self::grid(1, [panel])
@@ -168,42 +169,42 @@ impl Figure {
         }
     }
 
-    /// Title above all.
+    /// Sets the title above all panels.
     #[must_use]
     pub fn title(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
         self
     }
 
-    /// Caption or footnote below all.
+    /// Sets the caption or footnote below all panels.
     #[must_use]
     pub fn caption(mut self, caption: impl Into<String>) -> Self {
         self.caption = caption.into();
         self
     }
 
-    /// Which panels share the stretch of x.
+    /// Sets which panels share the limits of x.
     #[must_use]
     pub fn sharing_x(mut self, sharing: Sharing) -> Self {
         self.sharing_x = sharing;
         self
     }
 
-    /// Which panels share the stretch of y.
+    /// Sets which panels share the limits of y.
     #[must_use]
     pub fn sharing_y(mut self, sharing: Sharing) -> Self {
         self.sharing_y = sharing;
         self
     }
 
-    /// One legend for all panels.
+    /// Sets the legend for all panels.
     #[must_use]
     pub fn legend(mut self, legend: SharedLegend) -> Self {
         self.legend = legend;
         self
     }
 
-    /// How large the picture is.
+    /// Sets the size of the figure.
     #[must_use]
     pub fn size(mut self, size: Size) -> Self {
         self.size = size;

@@ -1,6 +1,6 @@
-//! The fonts of every picture: DejaVu Sans as kuva bundles it, never the machine's own.
+//! The fonts of all figures: DejaVu Sans as bundled with kuva, never a system font.
 //!
-//! kuva hands its fonts out only inside an SVG with embedded faces; they are taken from there once.
+//! kuva exposes its fonts only inside an SVG with embedded faces; they are extracted from there once.
 
 use std::sync::{Arc, OnceLock};
 
@@ -11,9 +11,9 @@ use kuva::render::render::Scene;
 use resvg::usvg::fontdb::Database;
 use ttf_parser::Face as Table;
 
-/// Families asked for in an SVG; the later ones have nearly the widths of the first.
+/// Font families requested in an SVG; the fallbacks have nearly the widths of the first.
 pub(super) const FAMILY: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, sans-serif";
-/// Family asked for when turning an SVG into pixels.
+/// Font family requested when rasterising an SVG.
 pub(super) const BUNDLED_FAMILY: &str = "DejaVu Sans";
 
 /// A face of the family, in the order in which kuva embeds them.
@@ -57,7 +57,7 @@ pub(super) fn database() -> Arc<Database> {
 
 /// Width of a text at font size 1.
 pub(super) fn width(text: &str, face: Face) -> f64 {
-    // A plain estimate, should a face or a glyph be missing.
+    // Estimate for a missing face or glyph.
     const TYPICAL: f64 = 0.6;
     let Some(table) = tables().get(face as usize) else {
         return TYPICAL * text.chars().count() as f64;
@@ -78,7 +78,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_bundled_faces_hold_the_letters_of_the_field() {
+    fn the_bundled_faces_contain_the_required_symbols() {
         assert!(tables().len() >= 3);
         for face in [Face::Regular, Face::Bold, Face::Oblique] {
             for letter in "τωαζμκγξβΩφθ−×⁻²₀ρ≤∞".chars() {

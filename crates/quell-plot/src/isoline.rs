@@ -1,34 +1,34 @@
 //! Isolines of a field by marching squares.
 //!
-//! Each cell of four neighbouring points is cut where its edges pass the level; the place on an
+//! Each cell of four neighbouring points is cut where its edges cross the level; the crossing of an
 //! edge is found by linear interpolation. A cell whose diagonal corners lie on the same side (a
-//! saddle) is resolved by the mean of its four corners. Pieces are joined at shared edges into
-//! polylines, closed where they return to their start. A cell with a corner without a value is not
-//! entered: an isoline ends at its border.
+//! saddle) is resolved by the mean of its four corners. Segments are joined at shared edges into
+//! polylines, closed where they return to their start. A cell with a missing corner is skipped:
+//! isolines end at its border.
 //!
-//! For a field with bounded second derivatives the lines lie within O(h²) of the true ones; a field
-//! that is linear in x and y gives straight lines to rounding. Points at the level count as above.
+//! For a field with bounded second derivatives the error of the lines is O(h²); for a field
+//! that is linear in x and y the lines are straight up to rounding. Points exactly at the level count as above it.
 //!
 //! Source: W. E. Lorensen, H. E. Cline, Marching cubes, Computer Graphics 21 (1987) 163–169, in two
 //! dimensions.
 
-/// One line of equal values.
+/// One isoline.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Isoline {
-    /// The points (x, y) in order; the first stands at the end again when the line is closed.
+    /// The points (x, y) in order; the first is repeated at the end when the line is closed.
     pub points: Vec<(f64, f64)>,
-    /// Whether it returns to its start.
+    /// Whether the line is closed.
     pub closed: bool,
 }
 
 /// No edge.
 const NONE: u32 = u32::MAX;
 
-/// All lines on which the values equal `level`.
+/// All isolines of the values at `level`.
 ///
-/// `values` stand row by row, x running fastest. Lines are straight between grid points in the
-/// coordinates given: for a logarithmic axis hand in the logarithms. A table of another size than
-/// `x.len() · y.len()` has no lines.
+/// `values` are in row-major order, x varying fastest. The interpolation between grid points is linear in the
+/// given coordinates: for a logarithmic axis, pass the logarithms. If the number of values is not
+/// `x.len() · y.len()`, there are no lines.
 #[must_use]
 pub fn isolines(x: &[f64], y: &[f64], values: &[Option<f64>], level: f64) -> Vec<Isoline> {
     // Edges are counted in 32 bits, two for each point.
@@ -56,7 +56,7 @@ pub fn isolines(x: &[f64], y: &[f64], values: &[Option<f64>], level: f64) -> Vec
     }
     let mut lines = Vec::new();
     let mut used = vec![false; joints.len()];
-    // Open lines from their ends first; what is left are loops.
+    // Open lines are traced first, from their ends; the remaining lines are loops.
     let is_end = |edge: &&u32| joints[**edge as usize][1] == NONE;
     let starts = crossed.iter().filter(is_end).chain(&crossed);
     for &start in starts {
@@ -98,7 +98,7 @@ impl Cells<'_> {
         row * self.x.len() + column
     }
 
-    /// The pairs of edges that lines join within a cell.
+    /// The pairs of edges of a cell that are connected by a line.
     fn cuts(&self, column: usize, row: usize) -> [Option<[u32; 2]>; 2] {
         let at = |right: usize, up: usize| self.values[self.point(column + right, row + up)];
         let (Some(a), Some(b), Some(c), Some(d)) = (at(0, 0), at(1, 0), at(1, 1), at(0, 1)) else {
@@ -114,7 +114,7 @@ impl Cells<'_> {
         // Corners counter-clockwise from the lower left.
         match above {
             [true, false, true, false] | [false, true, false, true] => {
-                // The sides may be large: their mean is taken without leaving the range.
+                // The corners may be large: their mean is computed without overflow.
                 let mean = 0.25 * a + 0.25 * b + 0.25 * c + 0.25 * d;
                 if (mean >= self.level) == above[0] {
                     [Some([bottom, right]), Some([left, top])]
@@ -124,7 +124,7 @@ impl Cells<'_> {
             }
             [a, b, c, d] if a == b && c == d => one(left, right),
             [a, b, c, d] if a == d && b == c => one(bottom, top),
-            // One corner stands alone.
+            // One corner lies alone on its side.
             [a, b, c, d] if b == c && c == d && a != b => one(left, bottom),
             [a, _, c, d] if a == c && c == d => one(bottom, right),
             [a, b, _, d] if a == b && b == d => one(right, top),
@@ -144,7 +144,7 @@ impl Cells<'_> {
         self.level_edge(column, row) + 1
     }
 
-    /// Where an edge passes the level.
+    /// The point where an edge crosses the level.
     fn crossing(&self, edge: u32) -> (f64, f64) {
         let point = (edge / 2) as usize;
         let (column, row) = (point % self.x.len(), point / self.x.len());
@@ -152,7 +152,7 @@ impl Cells<'_> {
         let next = if upright { point + self.x.len() } else { point + 1 };
         let share = match (self.values[point], self.values[next]) {
             (Some(here), Some(there)) => {
-                // Halves, so that the difference of two large values stays in range.
+                // Halves, so that the difference of two large values does not overflow.
                 ((0.5 * self.level - 0.5 * here) / (0.5 * there - 0.5 * here)).clamp(0.0, 1.0)
             }
             _ => 0.5,
@@ -220,14 +220,14 @@ mod tests {
         for (x, y) in &lines[0].points {
             assert!((2.0 * x + 3.0 * y - 1.0).abs() < 1e-14, "{x} {y}");
         }
-        // From the point on y = 0 to the one on x = -0.9 or y = 1.7, whichever comes first.
+        // The line runs from the point on y = 0 to the one on x = -0.9 or y = 1.7, whichever comes first.
         let (first, last) = (lines[0].points[0], lines[0].points[lines[0].points.len() - 1]);
         let lowest = if first.1 < last.1 { first } else { last };
         assert!((lowest.0 - 0.5).abs() < 1e-14 && lowest.1 == 0.0);
     }
 
     #[test]
-    fn every_case_of_a_cell_parts_the_corners_above_from_those_below() {
+    fn every_case_of_a_cell_separates_the_corners_above_from_those_below() {
         let unit = [0.0, 1.0];
         for case in 0..16_u8 {
             let corner = |bit: u8| if case >> bit & 1 == 1 { 1.0 } else { 0.0 };
@@ -238,7 +238,7 @@ mod tests {
             let diagonal = case == 0b0110 || case == 0b1001;
             let expected = if ones == 0 || ones == 4 { 0 } else { 1 + usize::from(diagonal) };
             assert_eq!(lines.len(), expected, "case {case:04b}");
-            // The edges that are cut are those whose ends lie on different sides.
+            // An edge is cut if its ends lie on different sides.
             let mut ends: Vec<(f64, f64)> =
                 lines.iter().flat_map(|line| line.points.clone()).collect();
             let cut = |one: u8, other: u8| corner(one) != corner(other);
@@ -278,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_ends_at_a_point_without_value() {
+    fn a_line_ends_at_a_missing_point() {
         let x = axis(-1.0, 1.0, 21);
         let mut values = table(&x, &x, |_, y| y);
         // The point (0.3, 0) is missing; no line may enter the four cells around it.
@@ -292,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn a_level_on_grid_points_gives_no_doubled_points() {
+    fn a_level_on_grid_points_gives_no_duplicate_points() {
         let x = axis(-2.0, 2.0, 5);
         let lines = isolines(&x, &x, &table(&x, &x, |x, y| x + y), 0.0);
         assert_eq!(lines.len(), 1);
@@ -301,7 +301,7 @@ mod tests {
     }
 
     #[test]
-    fn odd_tables_have_no_lines() {
+    fn invalid_tables_have_no_lines() {
         assert!(isolines(&[], &[], &[], 0.0).is_empty());
         assert!(isolines(&[0.0], &[0.0, 1.0], &[Some(0.0), Some(1.0)], 0.5).is_empty());
         assert!(isolines(&[0.0, 1.0], &[0.0, 1.0], &[Some(0.0)], 0.5).is_empty());

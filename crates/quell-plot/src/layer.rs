@@ -1,33 +1,33 @@
-//! Layers of a panel: curves, points, regions, rules and notes.
+//! Layers of a panel: curves, points, regions, reference lines and notes.
 
-use super::map_layers::{Contours, Grid};
-use super::palette::{LineStyle, Role};
+use super::map_layers::{Contours, Heatmap};
+use super::palette::{LineStyle, PlotRole};
 
-/// A curve, perhaps in several pieces, under one entry of the legend.
+/// A curve of one or more pieces with one legend entry.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
-    /// What the curve stands for.
-    pub role: Role,
-    /// The pieces, each a list of (x, y); no stroke leads from one piece to the next.
+pub struct Polyline {
+    /// What the curve represents.
+    pub role: PlotRole,
+    /// The pieces, each a list of (x, y); pieces are not connected.
     pub pieces: Vec<Vec<(f64, f64)>>,
-    /// Dashes, where the role's own are not wanted.
+    /// Dashes; `None` for those of the role.
     pub style: Option<LineStyle>,
-    /// Width in pixels, where the role's own is not wanted.
+    /// Width in pixels; `None` for that of the role.
     pub width: Option<f64>,
     /// Text in the legend; empty for no entry.
     pub label: String,
 }
 
-impl Line {
-    /// A curve through these points. A point that is not finite ends one piece.
+impl Polyline {
+    /// A curve through these points. A non-finite point ends a piece.
     #[must_use]
-    pub fn new(role: Role, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+    pub fn new(role: PlotRole, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Self::pieces(role, [points])
     }
 
-    /// A curve of several pieces: a discontinuity stays open between them.
+    /// A curve of several pieces, with gaps between them.
     #[must_use]
-    pub fn pieces<Piece>(role: Role, pieces: impl IntoIterator<Item = Piece>) -> Self
+    pub fn pieces<Piece>(role: PlotRole, pieces: impl IntoIterator<Item = Piece>) -> Self
     where
         Piece: IntoIterator<Item = (f64, f64)>,
     {
@@ -55,14 +55,14 @@ impl Line {
         self
     }
 
-    /// Dashes other than the role's.
+    /// Overrides the dashes of the role.
     #[must_use]
     pub fn style(mut self, style: LineStyle) -> Self {
         self.style = Some(style);
         self
     }
 
-    /// Width (pixels) other than the role's.
+    /// Overrides the width of the role (pixels).
     #[must_use]
     pub fn width(mut self, width: f64) -> Self {
         self.width = Some(width);
@@ -70,7 +70,7 @@ impl Line {
     }
 }
 
-/// Shape of a point.
+/// Shape of a marker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Marker {
     /// Filled circle.
@@ -82,37 +82,37 @@ pub enum Marker {
     Cross,
 }
 
-/// Separate points.
+/// Scattered points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Points {
-    /// What the points stand for.
-    pub role: Role,
+    /// What the points represent.
+    pub role: PlotRole,
     /// The points (x, y).
     pub points: Vec<(f64, f64)>,
-    /// Their shape.
+    /// Shape of the markers.
     pub marker: Marker,
-    /// Their diameter (pixels).
+    /// Diameter of the markers (pixels).
     pub size: f64,
     /// Text in the legend; empty for no entry.
     pub label: String,
 }
 
 impl Points {
-    /// Discs of 5 pixels at these points; a point that is not finite is left out.
+    /// Discs of 5 pixels at these points; non-finite points are omitted.
     #[must_use]
-    pub fn new(role: Role, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+    pub fn new(role: PlotRole, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let points = points.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
         Self { role, points, marker: Marker::Disc, size: 5.0, label: String::new() }
     }
 
-    /// Shape of the points.
+    /// Sets the shape of the markers.
     #[must_use]
     pub fn marker(mut self, marker: Marker) -> Self {
         self.marker = marker;
         self
     }
 
-    /// Diameter of the points (pixels).
+    /// Sets the diameter of the markers (pixels).
     #[must_use]
     pub fn size(mut self, size: f64) -> Self {
         self.size = size;
@@ -127,20 +127,20 @@ impl Points {
     }
 }
 
-/// How a region is filled.
+/// Fill style of a region.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Fill {
-    /// A light tint, under which curves stay readable.
+    /// A light tint that keeps curves readable.
     #[default]
     Shade,
     /// A stronger tint.
     Solid,
-    /// Thin diagonal strokes, for a second region over a first.
+    /// Thin diagonal strokes, for a region on top of another.
     Hatched,
 }
 
 impl Fill {
-    /// Opacity of a tint; none of strokes.
+    /// Opacity of a tint; `None` for a hatch.
     pub(super) fn opacity(self) -> Option<f64> {
         match self {
             Self::Shade => Some(0.16),
@@ -150,42 +150,42 @@ impl Fill {
     }
 }
 
-/// What a region covers.
+/// Shape of a region.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Shape {
-    /// The inside of a closed polygon of (x, y).
+pub enum RegionShape {
+    /// The interior of a closed polygon of (x, y).
     Polygon(Vec<(f64, f64)>),
-    /// All y while x is between two values; infinite values reach the frame.
+    /// The vertical strip between two values of x; infinite values extend to the frame.
     AcrossX(f64, f64),
-    /// All x while y is between two values; infinite values reach the frame.
+    /// The horizontal strip between two values of y; infinite values extend to the frame.
     AcrossY(f64, f64),
 }
 
-/// A part of the plane.
+/// A region of the plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Region {
-    /// What the region stands for.
-    pub role: Role,
-    /// What it covers.
-    pub shape: Shape,
-    /// How it is filled.
+    /// What the region represents.
+    pub role: PlotRole,
+    /// Its shape.
+    pub shape: RegionShape,
+    /// Its fill style.
     pub fill: Fill,
     /// Text in the legend; empty for no entry.
     pub label: String,
 }
 
 impl Region {
-    /// The inside of a polygon; it closes itself.
+    /// The interior of a polygon, which is closed automatically.
     #[must_use]
-    pub fn polygon(role: Role, corners: impl IntoIterator<Item = (f64, f64)>) -> Self {
+    pub fn polygon(role: PlotRole, corners: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let corners = corners.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
-        Self::of(role, Shape::Polygon(corners))
+        Self::of(role, RegionShape::Polygon(corners))
     }
 
-    /// What lies between two curves, each given from left to right; their x need not be the same.
+    /// The region between two curves, each given from left to right; their x values may differ.
     #[must_use]
     pub fn between(
-        role: Role,
+        role: PlotRole,
         lower: impl IntoIterator<Item = (f64, f64)>,
         upper: impl IntoIterator<Item = (f64, f64)>,
     ) -> Self {
@@ -194,23 +194,23 @@ impl Region {
         Self::polygon(role, lower.into_iter().chain(back))
     }
 
-    /// The vertical strip between two x.
+    /// The vertical strip between two values of x.
     #[must_use]
-    pub fn across_x(role: Role, from: f64, to: f64) -> Self {
-        Self::of(role, Shape::AcrossX(from, to))
+    pub fn across_x(role: PlotRole, from: f64, to: f64) -> Self {
+        Self::of(role, RegionShape::AcrossX(from, to))
     }
 
-    /// The horizontal strip between two y.
+    /// The horizontal strip between two values of y.
     #[must_use]
-    pub fn across_y(role: Role, from: f64, to: f64) -> Self {
-        Self::of(role, Shape::AcrossY(from, to))
+    pub fn across_y(role: PlotRole, from: f64, to: f64) -> Self {
+        Self::of(role, RegionShape::AcrossY(from, to))
     }
 
-    fn of(role: Role, shape: Shape) -> Self {
+    fn of(role: PlotRole, shape: RegionShape) -> Self {
         Self { role, shape, fill: Fill::Shade, label: String::new() }
     }
 
-    /// How the region is filled.
+    /// Sets the fill style.
     #[must_use]
     pub fn fill(mut self, fill: Fill) -> Self {
         self.fill = fill;
@@ -225,62 +225,62 @@ impl Region {
     }
 }
 
-/// Direction of a rule.
+/// Orientation of a reference line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Direction {
+pub enum Orientation {
     /// At one x, from bottom to top.
     Vertical,
     /// At one y, from left to right.
     Horizontal,
 }
 
-/// A straight line through the whole panel, at one value.
+/// A straight line across the whole panel, at one value.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rule {
-    /// What the rule stands for.
-    pub role: Role,
-    /// Upright or level.
-    pub direction: Direction,
-    /// The x of an upright rule, the y of a level one.
+pub struct ReferenceLine {
+    /// What the line represents.
+    pub role: PlotRole,
+    /// Vertical or horizontal.
+    pub orientation: Orientation,
+    /// The x of a vertical line, the y of a horizontal one.
     pub value: f64,
-    /// Dashes, where the role's own are not wanted.
+    /// Dashes; `None` for those of the role.
     pub style: Option<LineStyle>,
-    /// Text beside the rule; empty for none.
+    /// Text next to the line; empty for none.
     pub label: String,
 }
 
-impl Rule {
+impl ReferenceLine {
     /// A thin dotted grey line at this x.
     #[must_use]
     pub fn vertical(x: f64) -> Self {
-        Self::of(Direction::Vertical, x)
+        Self::of(Orientation::Vertical, x)
     }
 
     /// A thin dotted grey line at this y.
     #[must_use]
     pub fn horizontal(y: f64) -> Self {
-        Self::of(Direction::Horizontal, y)
+        Self::of(Orientation::Horizontal, y)
     }
 
-    fn of(direction: Direction, value: f64) -> Self {
-        Self { role: Role::Guide, direction, value, style: None, label: String::new() }
+    fn of(orientation: Orientation, value: f64) -> Self {
+        Self { role: PlotRole::Guide, orientation, value, style: None, label: String::new() }
     }
 
-    /// What the rule stands for.
+    /// Sets what the line represents.
     #[must_use]
-    pub fn role(mut self, role: Role) -> Self {
+    pub fn role(mut self, role: PlotRole) -> Self {
         self.role = role;
         self
     }
 
-    /// Dashes other than the role's.
+    /// Overrides the dashes of the role.
     #[must_use]
     pub fn style(mut self, style: LineStyle) -> Self {
         self.style = Some(style);
         self
     }
 
-    /// Text beside the rule; it takes whichever end covers no data.
+    /// Sets the text next to the line; it is placed where it covers least.
     #[must_use]
     pub fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
@@ -288,15 +288,15 @@ impl Rule {
     }
 }
 
-/// A text at a point of the data.
+/// A text at a point in data coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Note {
     /// The point (x, y) it belongs to.
     pub at: (f64, f64),
     /// The text.
     pub text: String,
-    /// Colour of this role in place of black.
-    pub role: Option<Role>,
+    /// Role that sets the colour; `None` for black.
+    pub role: Option<PlotRole>,
 }
 
 impl Note {
@@ -306,30 +306,30 @@ impl Note {
         Self { at: (x, y), text: text.into(), role: None }
     }
 
-    /// Prints in the colour of this role.
+    /// Uses the colour of this role.
     #[must_use]
-    pub fn role(mut self, role: Role) -> Self {
+    pub fn role(mut self, role: PlotRole) -> Self {
         self.role = Some(role);
         self
     }
 }
 
-/// Anything that can lie on a panel.
+/// One layer of a panel.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Layer {
     /// A curve.
-    Line(Line),
+    Polyline(Polyline),
     /// Points.
     Points(Points),
-    /// A part of the plane.
+    /// A region of the plane.
     Region(Region),
     /// A line at one value.
-    Rule(Rule),
+    ReferenceLine(ReferenceLine),
     /// A text.
     Note(Note),
     /// A field as colours.
-    Grid(Grid),
+    Heatmap(Heatmap),
     /// Isolines of a field.
     Contours(Contours),
 }
@@ -343,13 +343,13 @@ macro_rules! layer_from {
         }
     )*};
 }
-layer_from!(Line, Points, Region, Rule, Note, Grid, Contours);
+layer_from!(Polyline, Points, Region, ReferenceLine, Note, Heatmap, Contours);
 
 impl Layer {
-    /// Hands every (x, y) that asks for room on the axes to `visit`; a strip or a rule asks in one coordinate only.
+    /// Calls `visit` with every (x, y) that the axis limits must include; strips and reference lines have one coordinate only.
     pub(super) fn each_extent(&self, mut visit: impl FnMut(Option<f64>, Option<f64>)) {
         match self {
-            Self::Line(line) => {
+            Self::Polyline(line) => {
                 for &(x, y) in line.pieces.iter().flatten() {
                     visit(Some(x), Some(y));
                 }
@@ -360,26 +360,26 @@ impl Layer {
                 }
             }
             Self::Region(region) => match &region.shape {
-                Shape::Polygon(corners) => {
+                RegionShape::Polygon(corners) => {
                     for &(x, y) in corners {
                         visit(Some(x), Some(y));
                     }
                 }
-                Shape::AcrossX(from, to) => {
+                RegionShape::AcrossX(from, to) => {
                     visit(Some(*from), None);
                     visit(Some(*to), None);
                 }
-                Shape::AcrossY(from, to) => {
+                RegionShape::AcrossY(from, to) => {
                     visit(None, Some(*from));
                     visit(None, Some(*to));
                 }
             },
-            Self::Rule(rule) => match rule.direction {
-                Direction::Vertical => visit(Some(rule.value), None),
-                Direction::Horizontal => visit(None, Some(rule.value)),
+            Self::ReferenceLine(rule) => match rule.orientation {
+                Orientation::Vertical => visit(Some(rule.value), None),
+                Orientation::Horizontal => visit(None, Some(rule.value)),
             },
             Self::Note(note) => visit(Some(note.at.0), Some(note.at.1)),
-            Self::Grid(Grid { field, .. }) | Self::Contours(Contours { field, .. }) => {
+            Self::Heatmap(Heatmap { field, .. }) | Self::Contours(Contours { field, .. }) => {
                 for (x, y) in field.corners() {
                     visit(Some(x), Some(y));
                 }

@@ -1,45 +1,45 @@
-//! Numbers on isolines: at a straight stretch, upright, clear of other strokes and texts.
+//! Labels on isolines: on a straight section, upright, clear of other strokes and texts.
 //!
-//! What is drawn is kept in a map of the frame's pixels. Along each line places are tried in the
-//! order of their cost (bend, slope, distance from the middle); the first one that covers nothing
-//! else gets the number, and the line is opened there.
+//! An occupancy map records the pixels of the frame that are drawn on. Along each line, candidate positions are tried in
+//! order of increasing cost (bend, slope, distance from the middle); the label is placed at the first one that covers
+//! nothing else, and the line is interrupted there.
 
 use super::canvas::Rectangle;
-use super::typeset::Label;
+use super::typeset::RichText;
 
-/// The lines of one level in pixels.
+/// The lines of one level (pixels).
 #[derive(Debug, Clone)]
 pub(super) struct LevelLines {
-    pub(super) text: Label,
+    pub(super) text: RichText,
     pub(super) pieces: Vec<Vec<(f64, f64)>>,
 }
 
-/// A number on a line.
+/// A label on a line.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Placed {
+pub(super) struct PlacedLabel {
     pub(super) level: usize,
-    /// Middle of the text.
+    /// Centre of the text.
     pub(super) centre: (f64, f64),
-    /// Turn, clockwise in degrees, from −90 to 90.
-    pub(super) turn: f64,
+    /// Rotation, clockwise in degrees, from −90 to 90.
+    pub(super) rotation: f64,
     piece: usize,
-    /// Stretch of the line under the text (pixels along it).
+    /// Section of the line under the text (arc length in pixels).
     from: f64,
     to: f64,
 }
 
-/// Space before and behind a number (pixels).
+/// Space before and after a label (pixels).
 const MARGIN: f64 = 3.0;
-/// Steps along a line (pixels).
+/// Distance between candidates along a line (pixels).
 const STEP: f64 = 3.0;
-/// Numbers of one level at most.
+/// Maximum number of labels of one level.
 const MOST: usize = 5;
-/// A line gets one number for each such length (pixels).
+/// Line length per label (pixels).
 const ONE_EACH: f64 = 520.0;
 
-/// Which stroke passes a pixel: nothing, one line, or what no text may cover.
+/// The owner of each pixel of the frame: nothing, one line, or something that no text may cover.
 #[derive(Debug, Clone)]
-pub(super) struct Occupied {
+pub(super) struct OccupancyMap {
     frame: Rectangle,
     width: usize,
     height: usize,
@@ -49,7 +49,7 @@ pub(super) struct Occupied {
 const FREE: u32 = 0;
 const TAKEN: u32 = u32::MAX;
 
-impl Occupied {
+impl OccupancyMap {
     pub(super) fn new(frame: Rectangle) -> Self {
         #[expect(
             clippy::cast_possible_truncation,
@@ -82,7 +82,7 @@ impl Occupied {
         }
     }
 
-    /// Marks a stroke that no number may cover.
+    /// Marks a stroke that no label may cover.
     pub(super) fn stroke(&mut self, points: &[(f64, f64)]) {
         self.stroke_of(points, TAKEN);
     }
@@ -90,7 +90,7 @@ impl Occupied {
     fn stroke_of(&mut self, points: &[(f64, f64)], owner: u32) {
         for pair in points.windows(2) {
             let (dx, dy) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
-            // Strokes far outside the frame are long and mark nothing.
+            // Strokes far outside the frame may be very long but mark nothing.
             #[expect(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,
@@ -117,10 +117,10 @@ impl Occupied {
         }
     }
 
-    /// Whether a turned rectangle lies in the frame and covers nothing but this line.
-    fn is_free(&self, stand: &Stand, half: (f64, f64), owner: u32) -> bool {
+    /// Whether a rotated rectangle lies in the frame and covers nothing but this line.
+    fn is_free(&self, candidate: &Candidate, half: (f64, f64), owner: u32) -> bool {
         let mut free = true;
-        stand.each_pixel(half, |point| {
+        candidate.each_pixel(half, |point| {
             free &= self
                 .index(point)
                 .is_some_and(|index| self.owners[index] == FREE || self.owners[index] == owner);
@@ -128,21 +128,21 @@ impl Occupied {
         free
     }
 
-    fn take(&mut self, stand: &Stand, half: (f64, f64)) {
-        stand.each_pixel(half, |point| self.mark(point, TAKEN));
+    fn take(&mut self, candidate: &Candidate, half: (f64, f64)) {
+        candidate.each_pixel(half, |point| self.mark(point, TAKEN));
     }
 }
 
-/// A place for a text: its middle and the direction in which it reads.
+/// A candidate position of a label: its centre and the direction of its baseline.
 #[derive(Debug, Clone, Copy)]
-struct Stand {
+struct Candidate {
     centre: (f64, f64),
     direction: (f64, f64),
     at: f64,
     cost: f64,
 }
 
-impl Stand {
+impl Candidate {
     fn each_pixel(&self, half: (f64, f64), mut visit: impl FnMut((f64, f64))) {
         #[expect(clippy::cast_possible_truncation, reason = "half the size of a text")]
         let (across, up) = (half.0.ceil() as i32, half.1.ceil() as i32);
@@ -156,48 +156,49 @@ impl Stand {
     }
 }
 
-/// A line with the way along it.
-struct Way<'a> {
+/// A line with its arc length at every point.
+struct MeasuredPath<'a> {
     points: &'a [(f64, f64)],
-    reached: Vec<f64>,
+    arc_length: Vec<f64>,
 }
 
-impl<'a> Way<'a> {
+impl<'a> MeasuredPath<'a> {
     fn new(points: &'a [(f64, f64)]) -> Self {
-        let mut reached = vec![0.0];
+        let mut arc_length = vec![0.0];
         for pair in points.windows(2) {
             let leg = (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
-            reached.push(reached[reached.len() - 1] + leg);
+            arc_length.push(arc_length[arc_length.len() - 1] + leg);
         }
-        Self { points, reached }
+        Self { points, arc_length }
     }
 
     fn length(&self) -> f64 {
-        self.reached.last().copied().unwrap_or(0.0)
+        self.arc_length.last().copied().unwrap_or(0.0)
     }
 
-    fn at(&self, way: f64) -> (f64, f64) {
+    fn at(&self, path: f64) -> (f64, f64) {
         let last = self.points.len() - 1;
-        let leg = self.reached.partition_point(|reached| *reached <= way).clamp(1, last.max(1));
+        let leg =
+            self.arc_length.partition_point(|arc_length| *arc_length <= path).clamp(1, last.max(1));
         let (Some(from), Some(to)) = (self.points.get(leg - 1), self.points.get(leg)) else {
             return self.points[last];
         };
-        let long = self.reached[leg] - self.reached[leg - 1];
-        let share = if long > 0.0 { (way - self.reached[leg - 1]) / long } else { 0.0 };
+        let chord = self.arc_length[leg] - self.arc_length[leg - 1];
+        let share = if chord > 0.0 { (path - self.arc_length[leg - 1]) / chord } else { 0.0 };
         (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1))
     }
 
-    /// The stand of a text of this half width around a place on the line; nothing where the line
+    /// The candidate for a text of this half width around a position on the line; `None` where the line
     /// bends too much.
-    fn stand(&self, at: f64, half: f64, most_bend: f64) -> Option<Stand> {
+    fn candidate(&self, at: f64, half: f64, most_bend: f64) -> Option<Candidate> {
         const SAMPLES: i32 = 8;
         let (from, to) = (self.at(at - half), self.at(at + half));
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
-        let long = dx.hypot(dy);
-        if long < 1.8 * half {
+        let chord = dx.hypot(dy);
+        if chord < 1.8 * half {
             return None;
         }
-        let mut direction = (dx / long, dy / long);
+        let mut direction = (dx / chord, dy / chord);
         let (mut bend, mut shift) = (0.0_f64, 0.0);
         for sample in 1..SAMPLES {
             let point = self.at(at - half + 2.0 * half * f64::from(sample) / f64::from(SAMPLES));
@@ -210,18 +211,22 @@ impl<'a> Way<'a> {
         }
         let middle = (0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1));
         let centre = (middle.0 - shift * direction.1, middle.1 + shift * direction.0);
-        // Upright: from left to right, and straight up rather than down.
+        // Keeps the text upright: from left to right, and upwards rather than downwards if vertical.
         if direction.0 < -1e-9 || (direction.0.abs() <= 1e-9 && direction.1 > 0.0) {
             direction = (-direction.0, -direction.1);
         }
         let off_middle = (at / self.length() - 0.5).abs();
         let cost = bend / most_bend + 0.6 * direction.1.abs() + 0.8 * off_middle;
-        Some(Stand { centre, direction, at, cost })
+        Some(Candidate { centre, direction, at, cost })
     }
 }
 
-/// Numbers on these lines.
-pub(super) fn place(levels: &[LevelLines], occupied: &mut Occupied, size: f64) -> Vec<Placed> {
+/// Places labels on these lines.
+pub(super) fn place(
+    levels: &[LevelLines],
+    occupied: &mut OccupancyMap,
+    size: f64,
+) -> Vec<PlacedLabel> {
     let mut owner = FREE;
     let mut owners: Vec<Vec<u32>> = Vec::new();
     for level in levels {
@@ -239,32 +244,32 @@ pub(super) fn place(levels: &[LevelLines], occupied: &mut Occupied, size: f64) -
             continue;
         }
         let half = (0.5 * level.text.width(size, false) + MARGIN, 0.58 * size);
-        let mut ways: Vec<(usize, Way<'_>)> = level
+        let mut paths: Vec<(usize, MeasuredPath<'_>)> = level
             .pieces
             .iter()
             .enumerate()
             .filter(|(_, piece)| piece.len() > 1)
-            .map(|(piece, points)| (piece, Way::new(points)))
-            .filter(|(_, way)| way.length() > 4.0 * half.0 + 8.0)
+            .map(|(piece, points)| (piece, MeasuredPath::new(points)))
+            .filter(|(_, path)| path.length() > 4.0 * half.0 + 8.0)
             .collect();
-        ways.sort_by(|one, other| other.1.length().total_cmp(&one.1.length()));
+        paths.sort_by(|one, other| other.1.length().total_cmp(&one.1.length()));
         let mut count = 0;
-        for (piece, way) in &ways {
-            for (from, to) in parts(way.length()) {
+        for (piece, path) in &paths {
+            for (from, to) in parts(path.length()) {
                 if count == MOST {
                     break;
                 }
                 let owner = owners[number][*piece];
-                if let Some(stand) = best(way, (from, to), half, owner, occupied, size) {
-                    occupied.take(&stand, (half.0 + 2.0, half.1 + 1.0));
+                if let Some(candidate) = best(path, (from, to), half, owner, occupied, size) {
+                    occupied.take(&candidate, (half.0 + 2.0, half.1 + 1.0));
                     count += 1;
-                    placed.push(Placed {
+                    placed.push(PlacedLabel {
                         level: number,
-                        centre: stand.centre,
-                        turn: stand.direction.1.atan2(stand.direction.0).to_degrees(),
+                        centre: candidate.centre,
+                        rotation: candidate.direction.1.atan2(candidate.direction.0).to_degrees(),
                         piece: *piece,
-                        from: stand.at - half.0,
-                        to: stand.at + half.0,
+                        from: candidate.at - half.0,
+                        to: candidate.at + half.0,
                     });
                 }
             }
@@ -273,7 +278,7 @@ pub(super) fn place(levels: &[LevelLines], occupied: &mut Occupied, size: f64) -
     placed
 }
 
-/// Equal parts of a long line, each for one number.
+/// Equal parts of a long line, one per label.
 fn parts(length: f64) -> Vec<(f64, f64)> {
     let count = (length / ONE_EACH).round().clamp(1.0, MOST as f64);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to a few")]
@@ -283,40 +288,40 @@ fn parts(length: f64) -> Vec<(f64, f64)> {
     parts
 }
 
-/// The cheapest free place on a part of a line, first where it is straight, then where it bends.
+/// The free candidate of least cost on a part of a line; straight sections are tried before bent ones.
 fn best(
-    way: &Way<'_>,
+    path: &MeasuredPath<'_>,
     (from, to): (f64, f64),
     half: (f64, f64),
     owner: u32,
-    occupied: &Occupied,
+    occupied: &OccupancyMap,
     size: f64,
-) -> Option<Stand> {
-    let (first, last) = (from.max(half.0 + 2.0), to.min(way.length() - half.0 - 2.0));
+) -> Option<Candidate> {
+    let (first, last) = (from.max(half.0 + 2.0), to.min(path.length() - half.0 - 2.0));
     for most_bend in [0.12 * size, 0.3 * size] {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "lines in a frame are some thousand pixels long"
+            reason = "lines in a frame are some thousand pixels chord"
         )]
         let count = ((last - first) / STEP).clamp(0.0, 1e4) as usize;
-        let mut stands: Vec<Stand> = (0..=count)
-            .filter_map(|step| way.stand(first + STEP * step as f64, half.0, most_bend))
+        let mut candidates: Vec<Candidate> = (0..=count)
+            .filter_map(|step| path.candidate(first + STEP * step as f64, half.0, most_bend))
             .collect();
-        stands.sort_by(|one, other| one.cost.total_cmp(&other.cost));
-        let free = |stand: &&Stand| occupied.is_free(stand, half, owner);
-        if let Some(stand) = stands.iter().find(free) {
-            return Some(*stand);
+        candidates.sort_by(|one, other| one.cost.total_cmp(&other.cost));
+        let free = |candidate: &&Candidate| occupied.is_free(candidate, half, owner);
+        if let Some(candidate) = candidates.iter().find(free) {
+            return Some(*candidate);
         }
     }
     None
 }
 
-/// The lines of a level with openings under its numbers.
+/// The lines of a level, interrupted at its labels.
 pub(super) fn opened(
     level: usize,
     pieces: &[Vec<(f64, f64)>],
-    placed: &[Placed],
+    placed: &[PlacedLabel],
 ) -> Vec<Vec<(f64, f64)>> {
     let mut drawn = Vec::new();
     for (number, piece) in pieces.iter().enumerate() {
@@ -330,15 +335,15 @@ pub(super) fn opened(
             continue;
         }
         openings.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let way = Way::new(piece);
+        let path = MeasuredPath::new(piece);
         let mut from = 0.0;
-        for (start, end) in openings.into_iter().chain([(way.length(), 0.0)]) {
-            let within = way.reached.iter().zip(piece);
+        for (start, end) in openings.into_iter().chain([(path.length(), 0.0)]) {
+            let within = path.arc_length.iter().zip(piece);
             let inner =
                 within.filter(|(at, _)| **at > from && **at < start).map(|(_, point)| *point);
-            let mut part = vec![way.at(from)];
+            let mut part = vec![path.at(from)];
             part.extend(inner);
-            part.push(way.at(start));
+            part.push(path.at(start));
             drawn.push(part);
             from = end;
         }
@@ -353,7 +358,7 @@ mod tests {
     const FRAME: Rectangle = Rectangle { left: 0.0, top: 0.0, right: 400.0, bottom: 300.0 };
 
     fn level(text: &str, pieces: Vec<Vec<(f64, f64)>>) -> LevelLines {
-        LevelLines { text: Label::parse(text), pieces }
+        LevelLines { text: RichText::parse(text), pieces }
     }
 
     fn circle(radius: f64) -> Vec<(f64, f64)> {
@@ -366,15 +371,15 @@ mod tests {
     }
 
     #[test]
-    fn every_level_with_room_has_a_number_and_none_collide() {
+    fn every_level_with_room_is_labelled_without_collisions() {
         let levels: Vec<LevelLines> =
             (1..=6).map(|n| level("20", vec![circle(22.0 * f64::from(n))])).collect();
-        let placed = place(&levels, &mut Occupied::new(FRAME), 10.0);
+        let placed = place(&levels, &mut OccupancyMap::new(FRAME), 10.0);
         for number in 1..levels.len() {
             assert!(placed.iter().any(|text| text.level == number), "level {number}");
         }
         for text in &placed {
-            assert!(text.turn.abs() <= 90.0);
+            assert!(text.rotation.abs() <= 90.0);
         }
         for (at, one) in placed.iter().enumerate() {
             for other in &placed[at + 1..] {
@@ -385,12 +390,12 @@ mod tests {
     }
 
     #[test]
-    fn a_number_prefers_the_straight_stretch() {
-        // A zigzag, then a straight run.
+    fn labels_prefer_straight_sections() {
+        // A zigzag, then a straight section.
         let mut line: Vec<(f64, f64)> =
             (0..40).map(|k| (5.0 * f64::from(k), 100.0 + 15.0 * f64::from(k % 2))).collect();
         line.push((390.0, 100.0));
-        let placed = place(&[level("40", vec![line])], &mut Occupied::new(FRAME), 10.0);
+        let placed = place(&[level("40", vec![line])], &mut OccupancyMap::new(FRAME), 10.0);
         assert!(
             !placed.is_empty() && placed.iter().all(|text| text.centre.0 > 200.0),
             "{placed:?}"
@@ -398,9 +403,9 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_covered() {
+    fn labels_avoid_occupied_areas() {
         let line = vec![(10.0, 150.0), (390.0, 150.0)];
-        let mut occupied = Occupied::new(FRAME);
+        let mut occupied = OccupancyMap::new(FRAME);
         occupied.area(Rectangle { left: 0.0, top: 100.0, right: 300.0, bottom: 200.0 });
         let placed = place(&[level("40", vec![line.clone()])], &mut occupied, 10.0);
         assert!(placed.len() == 1 && placed[0].centre.0 > 305.0, "{placed:?}");
@@ -409,10 +414,10 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_open_under_its_number_only() {
+    fn a_line_is_interrupted_only_at_its_labels() {
         let line = vec![(10.0, 150.0), (390.0, 150.0)];
         let levels = [level("40", vec![line.clone()])];
-        let placed = place(&levels, &mut Occupied::new(FRAME), 10.0);
+        let placed = place(&levels, &mut OccupancyMap::new(FRAME), 10.0);
         let drawn = opened(0, &levels[0].pieces, &placed);
         let length: f64 =
             drawn.iter().flat_map(|part| part.windows(2)).map(|pair| pair[1].0 - pair[0].0).sum();

@@ -1,49 +1,49 @@
-//! Layers of maps: a field as colours, and its isolines.
+//! Layers of maps: a field shown as colours, and its isolines.
 
-use super::axis::{Axis, Scale};
-use super::colouring::{Colouring, Paintbox};
+use super::axis::{PlotAxis, Scale};
+use super::colouring::{ColourMap, Colouring};
 use super::field::Field;
 use super::isoline::isolines;
-use super::palette::Role;
+use super::palette::PlotRole;
 
-/// A field as colours, each grid point a cell.
+/// A field shown as colours, with one cell per grid point.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Grid {
+pub struct Heatmap {
     /// The values.
     pub field: Field,
     /// Their colours.
     pub colouring: Colouring,
-    /// What the numbers are: label and ticks of the colour bar; no bar without it.
-    pub bar: Option<Axis>,
-    /// Why points have no value; each reason is hatched in its own way.
+    /// Quantity shown: label and ticks of the colour bar; `None` for no bar.
+    pub bar: Option<PlotAxis>,
+    /// Reasons why points have no value, each with its own hatch.
     pub gaps: Vec<Gap>,
 }
 
-/// Points without a value for one reason.
+/// Points without a value, for one reason.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gap {
-    /// The reason: text in the legend.
+    /// The reason, shown in the legend.
     pub label: String,
-    /// Where it holds, in the order of the field's values.
+    /// Whether the reason applies to each value of the field, in the order of the values.
     pub cells: Vec<bool>,
 }
 
-impl Grid {
-    /// A field in these colours. Points without a value are hatched.
+impl Heatmap {
+    /// A field with this colouring. Points without a value are hatched.
     #[must_use]
     pub fn new(field: Field, colouring: Colouring) -> Self {
         Self { field, colouring, bar: None, gaps: Vec::new() }
     }
 
-    /// A colour bar beside the frame, for the quantity of this axis.
+    /// Adds a colour bar next to the frame, for the quantity of this axis.
     #[must_use]
-    pub fn bar(mut self, quantity: Axis) -> Self {
+    pub fn bar(mut self, quantity: PlotAxis) -> Self {
         self.bar = Some(quantity);
         self
     }
 
-    /// Says why points have no value: those without value where `holds(column, row)`, and for
-    /// which no earlier reason holds.
+    /// Gives the reason why points have no value: those without a value where `holds(column, row)` is true and
+    /// no earlier reason applies.
     #[must_use]
     pub fn gap(mut self, label: impl Into<String>, holds: impl Fn(usize, usize) -> bool) -> Self {
         let across = self.field.x().len();
@@ -60,8 +60,8 @@ impl Grid {
         self
     }
 
-    /// All points without value by reason, those without a reason last; reasons that hold nowhere
-    /// are left out.
+    /// All points without a value, grouped by reason, those without a reason last; reasons that apply nowhere
+    /// are omitted.
     pub(super) fn all_gaps(&self) -> Vec<(usize, &str, Vec<bool>)> {
         let holds = |cells: &[bool]| cells.iter().any(|cell| *cell);
         let mut gaps: Vec<(usize, &str, Vec<bool>)> = Vec::new();
@@ -79,20 +79,20 @@ impl Grid {
         gaps
     }
 
-    pub(super) fn paintbox(&self) -> Paintbox {
-        Paintbox::new(&self.colouring, self.field.extremes())
+    pub(super) fn colour_map(&self) -> ColourMap {
+        ColourMap::new(&self.colouring, self.field.extremes())
     }
 }
 
-/// Lines on which a field has given values.
+/// Isolines of a field at given levels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contours {
     /// The values.
     pub field: Field,
-    /// The levels, each with the text on its lines; an empty text for none.
+    /// The levels, each with the label on its lines; empty for no label.
     pub levels: Vec<(f64, String)>,
-    /// What the lines stand for; they are thinner than a curve of this role.
-    pub role: Role,
+    /// What the lines represent; they are thinner than a curve of this role.
+    pub role: PlotRole,
     /// Width of the lines (pixels).
     pub width: f64,
     /// Text in the legend; empty for no entry.
@@ -103,7 +103,7 @@ pub struct Contours {
 const WIDTH: f64 = 0.9;
 
 impl Contours {
-    /// Lines at these levels, each with its number on it.
+    /// Isolines at these levels, labelled with their values.
     #[must_use]
     pub fn new(field: Field, levels: impl IntoIterator<Item = f64>) -> Self {
         let levels = levels
@@ -111,39 +111,39 @@ impl Contours {
             .filter(|level| level.is_finite())
             .map(|level| (level, printed(level)))
             .collect();
-        Self { field, levels, role: Role::Boundary, width: WIDTH, label: String::new() }
+        Self { field, levels, role: PlotRole::Boundary, width: WIDTH, label: String::new() }
     }
 
-    /// Lines at about `count` round levels within the range of the field.
+    /// Isolines at about `count` round levels within the range of the field.
     #[must_use]
     pub fn about(field: Field, count: usize) -> Self {
         let levels = field.extremes().map_or_else(Vec::new, |range| round_levels(range, count));
         Self::new(field, levels)
     }
 
-    /// Adds this to the numbers on the lines: a unit.
+    /// Appends a unit to the labels on the lines.
     #[must_use]
     pub fn unit(mut self, unit: &str) -> Self {
-        // A narrow space that does not break.
+        // A narrow no-break space.
         self.levels.iter_mut().for_each(|(_, text)| *text = format!("{text}\u{202f}{unit}"));
         self
     }
 
-    /// No numbers on the lines.
+    /// Removes the labels from the lines.
     #[must_use]
     pub fn plain(mut self) -> Self {
         self.levels.iter_mut().for_each(|(_, text)| text.clear());
         self
     }
 
-    /// What the lines stand for.
+    /// Sets what the lines represent.
     #[must_use]
-    pub fn role(mut self, role: Role) -> Self {
+    pub fn role(mut self, role: PlotRole) -> Self {
         self.role = role;
         self
     }
 
-    /// Width of the lines (pixels).
+    /// Sets the width of the lines (pixels).
     #[must_use]
     pub fn width(mut self, width: f64) -> Self {
         self.width = width;
@@ -157,13 +157,13 @@ impl Contours {
         self
     }
 
-    /// The lines of each level in values of x and y, straight as the axes are drawn.
-    pub(super) fn lines(&self, x: &Axis, y: &Axis) -> Vec<Vec<Vec<(f64, f64)>>> {
-        let places = |axis: &Axis, values: &[f64]| -> Vec<f64> {
+    /// The lines of each level in values of x and y; the interpolation is linear along the axes as drawn.
+    pub(super) fn lines(&self, x: &PlotAxis, y: &PlotAxis) -> Vec<Vec<Vec<(f64, f64)>>> {
+        let positions = |axis: &PlotAxis, values: &[f64]| -> Vec<f64> {
             values.iter().map(|value| axis.along(*value)).collect()
         };
-        let (at_x, at_y) = (places(x, self.field.x()), places(y, self.field.y()));
-        // A point that has no place on a logarithmic axis is no corner of a cell.
+        let (at_x, at_y) = (positions(x, self.field.x()), positions(y, self.field.y()));
+        // A point that a logarithmic axis cannot represent is treated as missing.
         let across = at_x.len();
         let placed = |at: usize| at_x[at % across].is_finite() && at_y[at / across].is_finite();
         let values: Vec<Option<f64>> = self
@@ -173,9 +173,9 @@ impl Contours {
             .enumerate()
             .map(|(at, value)| value.filter(|_| placed(at)))
             .collect();
-        let back = |axis: &Axis, place: f64| match axis.scale {
-            Scale::Linear => place,
-            Scale::Log => 10f64.powf(place),
+        let back = |axis: &PlotAxis, position: f64| match axis.scale {
+            Scale::Linear => position,
+            Scale::Log => 10f64.powf(position),
         };
         self.levels
             .iter()
@@ -194,7 +194,7 @@ impl Contours {
     }
 }
 
-/// A level as it prints on its line.
+/// Formats a level for its label.
 fn printed(level: f64) -> String {
     let text = format!("{level:.3e}");
     let short = text.parse::<f64>().unwrap_or(level);
@@ -237,7 +237,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn levels_are_round_and_lie_within_the_range() {
+    fn levels_are_round_and_within_the_range() {
         assert_eq!(round_levels((0.0, 1.0), 5), vec![0.2, 0.4, 0.6000000000000001, 0.8]);
         assert_eq!(round_levels((-3.0, 4.0), 3), vec![-2.0, 0.0, 2.0]);
         assert!(round_levels((2.0, 2.0), 5).is_empty());
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_on_lines_are_short() {
+    fn labels_of_isolines_are_short() {
         for (level, text) in [
             (0.6000000000000001, "0.6"),
             (-20.0, "−20"),
@@ -259,10 +259,10 @@ mod tests {
     }
 
     #[test]
-    fn a_point_has_one_reason() {
+    fn every_missing_point_has_exactly_one_reason() {
         let values = vec![None, Some(1.0), None, None];
         let field = Field::new(vec![0.0, 1.0], vec![0.0, 1.0], values).expect("a field");
-        let grid = Grid::new(field, Colouring::Outcomes(Vec::new()))
+        let grid = Heatmap::new(field, Colouring::Outcomes(Vec::new()))
             .gap("first", |column, row| (column, row) == (0, 0))
             .gap("all below", |_, row| row == 0)
             .gap("lower left again", |column, _| column == 0);

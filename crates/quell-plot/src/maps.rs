@@ -1,32 +1,32 @@
-//! Drawing of maps: the image of a field, hatched gaps, isolines with their numbers.
+//! Drawing of maps: the image of a field, hatched gaps, isolines with their labels.
 
 use kuva::render::render::TextAnchor;
 
-use super::arrange::{LegendPlan, PanelPlan};
-use super::axis::{Axis, Mapping};
-use super::canvas::{Canvas, Rectangle, Setting, Stroke, path};
-use super::draw::{self, Sizes};
+use super::axis::{Mapping, PlotAxis};
+use super::canvas::{Canvas, Rectangle, Stroke, TextStyle, path};
 use super::field::borders;
 use super::figure::Panel;
-use super::layer::{Layer, Rule};
-use super::line_labels::{self, LevelLines, Occupied, Placed};
-use super::map_layers::Grid;
-use super::obstacles::rule_ends;
+use super::font_sizes::FontSizes;
+use super::layer::{Layer, ReferenceLine};
+use super::layout::{LegendLayout, PanelLayout};
+use super::line_labels::{self, LevelLines, OccupancyMap, PlacedLabel};
+use super::map_layers::Heatmap;
 use super::palette::{Colour, FRAME, GAP};
+use super::projection::{self, reference_line_ends};
 use super::raster::raster;
 use super::{marks, thin};
 
-/// Draws the image of a field and hatches what has no value.
+/// Draws the image of a field and hatches the cells without a value.
 pub(super) fn draw_grid(
     canvas: &mut Canvas,
-    grid: &Grid,
+    grid: &Heatmap,
     panel: &Panel,
     (x, y): (&Mapping, &Mapping),
     frame: Rectangle,
 ) {
-    let paints = grid.paintbox();
-    let image = raster(&grid.field, &paints, (&panel.x, &panel.y), (x, y), frame);
-    canvas.image(frame, image.address(&paints.inks()));
+    let colour_map = grid.colour_map();
+    let image = raster(&grid.field, &colour_map, (&panel.x, &panel.y), (x, y), frame);
+    canvas.image(frame, image.address(&colour_map.colours()));
     let gaps = grid.all_gaps();
     if gaps.is_empty() {
         return;
@@ -40,11 +40,13 @@ pub(super) fn draw_grid(
     }
 }
 
-/// Pixels of both ends of each cell along an axis.
-fn ends(axis: &Axis, values: &[f64], mapping: &Mapping) -> Vec<(f64, f64)> {
-    let places: Vec<f64> =
-        borders(values, axis.scale).into_iter().map(|border| mapping.place(border)).collect();
-    places.windows(2).map(|pair| (pair[0], pair[1])).collect()
+/// Both ends of each cell along an axis (pixels).
+fn ends(axis: &PlotAxis, values: &[f64], mapping: &Mapping) -> Vec<(f64, f64)> {
+    let positions: Vec<f64> = borders(values, axis.scale)
+        .into_iter()
+        .map(|border| mapping.pixel_of_position(border))
+        .collect();
+    positions.windows(2).map(|pair| (pair[0], pair[1])).collect()
 }
 
 /// The isolines of a panel, ready to draw.
@@ -53,14 +55,14 @@ pub(super) struct Isolines {
     levels: Vec<LevelLines>,
     /// Colour and width of each level.
     strokes: Vec<(Colour, f64)>,
-    placed: Vec<Placed>,
+    placed: Vec<PlacedLabel>,
     size: f64,
 }
 
 impl Isolines {
-    /// The isolines of all layers, their numbers clear of everything else.
-    pub(super) fn of(panel: &Panel, plan: &PanelPlan, sizes: Sizes) -> Self {
-        let (x, y) = draw::mappings(panel, plan);
+    /// The isolines of all layers, with labels placed clear of everything else.
+    pub(super) fn of(panel: &Panel, layout: &PanelLayout, sizes: FontSizes) -> Self {
+        let (x, y) = projection::mappings(panel, layout);
         let mut isolines = Self { size: f64::from(number_size(sizes)), ..Self::default() };
         for layer in &panel.layers {
             let Layer::Contours(lines) = layer else {
@@ -68,20 +70,20 @@ impl Isolines {
             };
             for (pieces, (_, text)) in lines.lines(&panel.x, &panel.y).iter().zip(&lines.levels) {
                 isolines.levels.push(LevelLines {
-                    text: super::typeset::Label::parse(text),
-                    pieces: draw::pixels(pieces, &x, &y, plan.frame),
+                    text: super::typeset::RichText::parse(text),
+                    pieces: projection::pixels(pieces, &x, &y, layout.frame),
                 });
                 isolines.strokes.push((lines.role.colour(), lines.width));
             }
         }
         if !isolines.levels.is_empty() {
-            let mut occupied = occupied(panel, plan, (&x, &y), sizes);
+            let mut occupied = occupied(panel, layout, (&x, &y), sizes);
             isolines.placed = line_labels::place(&isolines.levels, &mut occupied, isolines.size);
         }
         isolines
     }
 
-    /// Strokes the lines, open under their numbers.
+    /// Draws the lines, interrupted at their labels.
     pub(super) fn draw(&self, canvas: &mut Canvas) {
         for (number, (level, stroke)) in self.levels.iter().zip(&self.strokes).enumerate() {
             let pieces: Vec<_> = line_labels::opened(number, &level.pieces, &self.placed)
@@ -92,8 +94,8 @@ impl Isolines {
         }
     }
 
-    /// Prints the numbers, each with a rim of paper.
-    pub(super) fn print(&self, canvas: &mut Canvas, sizes: Sizes) {
+    /// Draws the labels, each with a white outline.
+    pub(super) fn draw_labels(&self, canvas: &mut Canvas, sizes: FontSizes) {
         if self.placed.is_empty() {
             return;
         }
@@ -101,24 +103,24 @@ impl Isolines {
             "stroke=\"#fff\" stroke-width=\"2\" stroke-opacity=\"0.6\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
         );
         for text in &self.placed {
-            let (sin, cos) = text.turn.to_radians().sin_cos();
+            let (sin, cos) = text.rotation.to_radians().sin_cos();
             let drop = 0.36 * self.size;
-            let place = (text.centre.0 - drop * sin, text.centre.1 + drop * cos);
+            let position = (text.centre.0 - drop * sin, text.centre.1 + drop * cos);
             let colour = self.strokes[text.level].0;
-            let setting = Setting {
+            let setting = TextStyle {
                 colour: if colour == (0, 0, 0) { FRAME } else { colour },
-                ..Setting::new(number_size(sizes), TextAnchor::Middle)
+                ..TextStyle::new(number_size(sizes), TextAnchor::Middle)
             };
-            canvas.text(&self.levels[text.level].text, place, setting.turned(text.turn));
+            canvas.text(&self.levels[text.level].text, position, setting.rotated(text.rotation));
         }
         canvas.end_group();
     }
 
-    /// Upright rectangles around the numbers.
-    pub(super) fn texts(&self) -> impl Iterator<Item = Rectangle> {
+    /// Axis-aligned rectangles around the labels.
+    pub(super) fn label_areas(&self) -> impl Iterator<Item = Rectangle> {
         self.placed.iter().map(|text| {
             let half = 0.5 * self.levels[text.level].text.width(self.size, false);
-            let (sin, cos) = text.turn.to_radians().sin_cos();
+            let (sin, cos) = text.rotation.to_radians().sin_cos();
             let across = half * cos.abs() + 0.5 * self.size * sin.abs();
             let up = half * sin.abs() + 0.5 * self.size * cos.abs();
             Rectangle {
@@ -131,48 +133,48 @@ impl Isolines {
     }
 }
 
-/// Numbers on lines are a little smaller than those on axes.
-fn number_size(sizes: Sizes) -> u32 {
+/// Labels of isolines are slightly smaller than tick labels.
+fn number_size(sizes: FontSizes) -> u32 {
     sizes.number - 1
 }
 
-/// What numbers on isolines must not cover: all but the isolines themselves.
+/// Everything that labels of isolines must not cover, except the isolines themselves.
 fn occupied(
     panel: &Panel,
-    plan: &PanelPlan,
+    layout: &PanelLayout,
     (x, y): (&Mapping, &Mapping),
-    sizes: Sizes,
-) -> Occupied {
-    let frame = plan.frame;
-    let mut occupied = Occupied::new(frame);
+    sizes: FontSizes,
+) -> OccupancyMap {
+    let frame = layout.frame;
+    let mut occupied = OccupancyMap::new(frame);
     for layer in &panel.layers {
         match layer {
-            Layer::Line(line) => {
-                for piece in draw::pixels(&line.pieces, x, y, frame) {
+            Layer::Polyline(line) => {
+                for piece in projection::pixels(&line.pieces, x, y, frame) {
                     occupied.stroke(&piece);
                 }
             }
             Layer::Points(points) => {
                 let half = 0.5 * points.size;
-                for (left, top) in draw::point_pixels(&points.points, x, y, frame) {
+                for (left, top) in projection::point_pixels(&points.points, x, y, frame) {
                     let mark = Rectangle { left, top, right: left, bottom: top };
                     occupied.area(mark.grown(half));
                 }
             }
-            Layer::Rule(Rule { direction, value, .. }) => {
-                if let Some(ends) = rule_ends(*direction, *value, x, y, frame) {
+            Layer::ReferenceLine(ReferenceLine { orientation, value, .. }) => {
+                if let Some(ends) = reference_line_ends(*orientation, *value, x, y, frame) {
                     occupied.stroke(&ends);
                 }
             }
             Layer::Note(note) => {
-                if let Some(area) = draw::note_area(note, (x, y), frame, sizes) {
+                if let Some(area) = projection::note_area(note, (x, y), frame, sizes) {
                     occupied.area(area.grown(1.0));
                 }
             }
-            Layer::Region(_) | Layer::Grid(_) | Layer::Contours(_) => {}
+            Layer::Region(_) | Layer::Heatmap(_) | Layer::Contours(_) => {}
         }
     }
-    if let LegendPlan::Box(area) = &plan.legend {
+    if let LegendLayout::Box(area) = &layout.legend {
         occupied.area(area.grown(2.0));
     }
     occupied

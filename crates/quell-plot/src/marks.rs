@@ -1,14 +1,14 @@
-//! Marks: markers of points and fillings of regions, for panels and legends alike.
+//! Marks: markers of points and fills of regions, for panels and legends.
 
 use super::canvas::{Canvas, Rectangle, Stroke, path};
 use super::layer::{Fill, Marker};
-use super::palette::{PAPER, Role};
+use super::palette::{PAPER, PlotRole};
 
 /// Draws markers at these pixels.
 pub(super) fn markers(
     canvas: &mut Canvas,
     points: &[(f64, f64)],
-    role: Role,
+    role: PlotRole,
     marker: Marker,
     size: f64,
 ) {
@@ -28,7 +28,7 @@ pub(super) fn markers(
     let outline = Stroke::solid(colour, (0.22 * size).clamp(0.8, 1.5));
     match marker {
         Marker::Disc | Marker::Circle => {
-            // A stroke of no length with round ends is a disc, and the shortest way to write one.
+            // A stroke of zero length with round ends is a disc, and the shortest path for one.
             let dots = path(&shape(&[(0.0, 0.0)]), false);
             canvas.begin_group("stroke-linecap=\"round\"");
             canvas.stroke(dots.clone(), &Stroke::solid(colour, size));
@@ -56,12 +56,12 @@ pub(super) fn outline(area: Rectangle) -> String {
     path(&[corners], true)
 }
 
-/// The outline of all marked cells as one path; `columns` and `rows` give the ends of each in pixels.
+/// The outline of all marked cells as one path; `columns` and `rows` are the ends of each column and row (pixels).
 ///
-/// Neighbours in a row are joined, and equal runs of neighbouring rows.
+/// Neighbouring cells of a row are merged into runs, and equal runs of neighbouring rows into rectangles.
 pub(super) fn union(cells: &[bool], columns: &[(f64, f64)], rows: &[(f64, f64)]) -> String {
     let mut outlines = Vec::new();
-    // Runs that may still grow: columns and the pixels of their rows.
+    // Runs that may still grow: their columns, and the pixels of their rows.
     let mut open: Vec<((usize, usize), (f64, f64))> = Vec::new();
     let close = |((first, last), (from, to)): ((usize, usize), (f64, f64))| {
         let (left, right) = (columns[first].0, columns[last].1);
@@ -88,8 +88,8 @@ pub(super) fn union(cells: &[bool], columns: &[(f64, f64)], rows: &[(f64, f64)])
     path(&outlines, true)
 }
 
-/// Fills an outline as a role's region.
-pub(super) fn fill(canvas: &mut Canvas, outline: String, role: Role, fill: Fill) {
+/// Fills an outline in the colour of a role.
+pub(super) fn fill(canvas: &mut Canvas, outline: String, role: PlotRole, fill: Fill) {
     match fill.opacity() {
         Some(opacity) => canvas.fill(outline, role.colour(), opacity),
         None => canvas.hatch(outline, role.colour(), 0),

@@ -1,11 +1,11 @@
-//! What is already drawn in a frame, so that texts and legends can keep clear of it.
+//! Obstacles: the drawn content of a frame that texts and legends must avoid.
 
-use super::arrange::PanelPlan;
-use super::axis::Mapping;
 use super::canvas::Rectangle;
-use super::draw::{self, Sizes};
 use super::figure::Panel;
-use super::layer::{Direction, Layer};
+use super::font_sizes::FontSizes;
+use super::layer::Layer;
+use super::layout::PanelLayout;
+use super::projection::{self, reference_line_ends};
 
 /// Strokes, points and texts of a panel (pixels).
 #[derive(Debug, Default)]
@@ -15,37 +15,47 @@ pub(super) struct Obstacles {
 }
 
 impl Obstacles {
-    /// The curves, points, rules and notes of a panel.
-    pub(super) fn of(panel: &Panel, plan: &PanelPlan, sizes: Sizes) -> Self {
-        let (x, y) = draw::mappings(panel, plan);
+    /// The curves, points, reference lines, isolines and notes of a panel.
+    pub(super) fn of(panel: &Panel, layout: &PanelLayout, sizes: FontSizes) -> Self {
+        let (x, y) = projection::mappings(panel, layout);
         let mut obstacles = Self::default();
         for layer in &panel.layers {
             match layer {
-                Layer::Line(line) => {
-                    obstacles.strokes.extend(draw::pixels(&line.pieces, &x, &y, plan.frame));
+                Layer::Polyline(line) => {
+                    obstacles.strokes.extend(projection::pixels(
+                        &line.pieces,
+                        &x,
+                        &y,
+                        layout.frame,
+                    ));
                 }
                 Layer::Points(points) => {
-                    let drawn = draw::point_pixels(&points.points, &x, &y, plan.frame);
+                    let drawn = projection::point_pixels(&points.points, &x, &y, layout.frame);
                     obstacles.strokes.extend(drawn.into_iter().map(|point| vec![point, point]));
                 }
-                Layer::Rule(rule) => {
-                    obstacles.strokes.extend(rule_ends(
-                        rule.direction,
+                Layer::ReferenceLine(rule) => {
+                    obstacles.strokes.extend(reference_line_ends(
+                        rule.orientation,
                         rule.value,
                         &x,
                         &y,
-                        plan.frame,
+                        layout.frame,
                     ));
                 }
                 Layer::Note(note) => {
-                    obstacles.texts.extend(draw::note_area(note, (&x, &y), plan.frame, sizes));
+                    obstacles.texts.extend(projection::note_area(
+                        note,
+                        (&x, &y),
+                        layout.frame,
+                        sizes,
+                    ));
                 }
                 Layer::Contours(lines) => {
                     for level in lines.lines(&panel.x, &panel.y) {
-                        obstacles.strokes.extend(draw::pixels(&level, &x, &y, plan.frame));
+                        obstacles.strokes.extend(projection::pixels(&level, &x, &y, layout.frame));
                     }
                 }
-                Layer::Region(_) | Layer::Grid(_) => {}
+                Layer::Region(_) | Layer::Heatmap(_) => {}
             }
         }
         obstacles
@@ -56,7 +66,7 @@ impl Obstacles {
         self.texts.push(area);
     }
 
-    /// How many strokes and texts this rectangle would cover.
+    /// Weighted number of strokes and texts that this rectangle would cover.
     pub(super) fn covered_by(&self, area: Rectangle) -> usize {
         let texts = self.texts.iter().filter(|text| overlap(text, &area)).count();
         let strokes = self
@@ -65,28 +75,8 @@ impl Obstacles {
             .flat_map(|stroke| stroke.windows(2))
             .filter(|ends| crosses(ends[0], ends[1], &area))
             .count();
-        // Text over text is worse than text over a line.
+        // Covering a text is worse than covering a line.
         20 * texts + strokes
-    }
-}
-
-/// Ends of a rule; nothing when it lies outside the frame.
-pub(super) fn rule_ends(
-    direction: Direction,
-    value: f64,
-    x: &Mapping,
-    y: &Mapping,
-    frame: Rectangle,
-) -> Option<Vec<(f64, f64)>> {
-    match direction {
-        Direction::Vertical => {
-            let x = x.pixel(value).filter(|x| *x >= frame.left && *x <= frame.right)?;
-            Some(vec![(x, frame.bottom), (x, frame.top)])
-        }
-        Direction::Horizontal => {
-            let y = y.pixel(value).filter(|y| *y >= frame.top && *y <= frame.bottom)?;
-            Some(vec![(frame.left, y), (frame.right, y)])
-        }
     }
 }
 
@@ -97,7 +87,7 @@ fn overlap(one: &Rectangle, other: &Rectangle) -> bool {
         && other.top < one.bottom
 }
 
-/// Whether a stroke passes through a rectangle (Liang–Barsky).
+/// Whether a line segment intersects a rectangle (Liang–Barsky).
 fn crosses(from: (f64, f64), to: (f64, f64), area: &Rectangle) -> bool {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
@@ -125,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_stroke_crosses_what_it_passes_through() {
+    fn segments_that_intersect_a_rectangle_are_detected() {
         let area = Rectangle { left: 0.0, top: 0.0, right: 10.0, bottom: 10.0 };
         assert!(crosses((-5.0, 5.0), (15.0, 5.0), &area));
         assert!(crosses((5.0, 5.0), (5.0, 5.0), &area));

@@ -1,4 +1,4 @@
-//! Figures as SVG text and PNG bytes; `quell::picture::write` makes files of them.
+//! Figures as SVG text and PNG bytes; `quell::picture::write` writes them to files.
 
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
@@ -7,20 +7,20 @@ use super::error::PlotError;
 use super::figure::Figure;
 use super::{draw, fonts};
 
-/// Pixels of a PNG to one unit of the picture (1/96 inch): 192 dots per inch.
+/// Pixels of a PNG per unit of the figure (1/96 inch): 192 dots per inch.
 const PIXELS_PER_UNIT: f64 = 2.0;
 
 impl Figure {
-    /// The picture as SVG. Equal figures give equal text.
+    /// Renders the figure as SVG. Equal figures give equal text.
     #[must_use]
     pub fn to_svg(&self) -> String {
         draw::figure(self)
     }
 
-    /// The picture as PNG, 192 dots per inch. Equal figures give equal bytes.
+    /// Renders the figure as PNG, 192 dots per inch. Equal figures give equal bytes.
     ///
     /// # Errors
-    /// [`PlotError::PixelSize`] when it is too large, [`PlotError::Raster`] when the rasteriser fails.
+    /// [`PlotError::PixelSize`] when the figure is too large, [`PlotError::Raster`] when the rasteriser fails.
     pub fn to_png(&self) -> Result<Vec<u8>, PlotError> {
         png(&self.to_svg())
     }
@@ -38,7 +38,7 @@ fn png(svg: &str) -> Result<Vec<u8>, PlotError> {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "the cast saturates; the pixel map refuses what is too large"
+            reason = "the cast saturates; the pixel map rejects sizes that are too large"
         )]
         let pixels = (f64::from(units) * PIXELS_PER_UNIT).round() as u32;
         pixels

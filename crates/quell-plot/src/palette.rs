@@ -1,8 +1,8 @@
-//! Colours, widths and dashes of every role, in one place.
+//! Colours, widths and dashes of all roles.
 //!
-//! Colours are those of Okabe and Ito (2008), which remain distinct under the common kinds of
-//! colour blindness; roles differ in dash or width as well, so that a grey print still tells them
-//! apart.
+//! The colours are those of Okabe and Ito (2008), which remain distinct under the common kinds of
+//! colour blindness; roles also differ in dashes or width, so that they can be distinguished in a
+//! greyscale print.
 
 /// A colour as red, green, blue.
 pub(super) type Colour = (u8, u8, u8);
@@ -16,33 +16,33 @@ const ORANGE: Colour = (0xE6, 0x9F, 0x00);
 const SKY: Colour = (0x56, 0xB4, 0xE9);
 const GREY: Colour = (0x80, 0x80, 0x80);
 
-/// Frames, ticks and text.
+/// Colour of frames, ticks and text.
 pub(super) const FRAME: Colour = (0x22, 0x22, 0x22);
-/// Paper.
+/// Colour of the background.
 pub(super) const PAPER: Colour = (0xFF, 0xFF, 0xFF);
-/// Footnotes.
+/// Colour of footnotes.
 pub(super) const FAINT: Colour = (0x55, 0x55, 0x55);
-/// Under the hatch of what has no value: cells too small for a stroke show too.
+/// Background colour of hatched cells without a value, so that cells too small for a stroke remain visible.
 pub(super) const GAP: Colour = (0xD6, 0xD6, 0xD6);
-/// Box of a legend.
+/// Edge colour of a legend box.
 pub(super) const LEGEND_EDGE: Colour = (0xC8, 0xC8, 0xC8);
 
-/// Order in which numbered series take their colours (the yellow of the set is too pale for lines).
+/// Colours of numbered series, in order (the yellow of the set is too pale for lines).
 const SERIES: [Colour; 7] = [BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY, BLACK];
 
-/// What a curve, a set of points or a region stands for.
+/// What a curve, a set of points or a region represents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum Role {
+pub enum PlotRole {
     /// The response with dither: solid blue.
     Dithered,
     /// The response without dither: dashed grey.
     Undithered,
-    /// What averaging predicts: solid vermillion, wider.
+    /// The prediction of averaging: solid vermillion, wider.
     Averaged,
-    /// What exact numerics give: solid black.
+    /// The result of exact numerics: solid black.
     Exact,
-    /// What a publication prints: black.
+    /// Values printed in a publication: black.
     Printed,
     /// A boundary in a parameter plane: solid black.
     Boundary,
@@ -50,15 +50,15 @@ pub enum Role {
     Stable,
     /// A set of parameters where sliding is unstable: vermillion.
     Unstable,
-    /// A set of parameters that could not be decided: grey.
+    /// A set of parameters whose stability could not be determined: grey.
     Undecided,
     /// A line that only guides the eye: thin dotted grey.
     Guide,
-    /// Member number `n`, from 0, of a family of curves; colours repeat after seven, dashes change then.
+    /// Member number `n`, from 0, of a family of curves; colours repeat after seven members, with other dashes.
     Series(usize),
 }
 
-/// Dashes of a line.
+/// Dash style of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum LineStyle {
     /// No gaps.
@@ -72,7 +72,7 @@ pub enum LineStyle {
 }
 
 impl LineStyle {
-    /// Dash lengths for a line of this width (pixels); nothing for a solid line.
+    /// Dash lengths for a line of this width (pixels); `None` for a solid line.
     pub(super) fn dashes(self, width: f64) -> Option<String> {
         let scale = width.max(1.0);
         let lengths = self.pattern();
@@ -81,7 +81,7 @@ impl LineStyle {
         (!words.is_empty()).then(|| words.join(" "))
     }
 
-    /// Lengths of dashes and gaps in turn, in widths of the line; none of a solid line.
+    /// Alternating lengths of dashes and gaps, in line widths; empty for a solid line.
     pub(super) fn pattern(self) -> &'static [f64] {
         match self {
             Self::Solid => &[],
@@ -92,7 +92,7 @@ impl LineStyle {
     }
 }
 
-impl Role {
+impl PlotRole {
     pub(super) fn colour(self) -> Colour {
         match self {
             Self::Dithered | Self::Stable => BLUE,

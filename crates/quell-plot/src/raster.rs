@@ -1,58 +1,61 @@
-//! Images of maps: the values of a field at the pixels of a frame.
+//! Images of heatmaps: the values of a field at the pixels of a frame.
 //!
-//! Each pixel has the colour of the grid point nearest to it along the axes as they are drawn: no
-//! value is invented, no seam can open, and uneven or logarithmic axes come out right. The image
+//! Each pixel has the colour of the grid point nearest to it along the axes as they are drawn: there is no
+//! interpolation, there are no seams, and uneven or logarithmic axes are handled correctly. The image
 //! is a PNG of at most 256 colours.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-use super::axis::{Axis, Mapping};
+use super::axis::{Mapping, PlotAxis};
 use super::canvas::Rectangle;
-use super::colouring::{CLEAR, Paintbox};
+use super::colouring::{CLEAR, ColourMap};
 use super::field::{Field, borders};
 use super::palette::Colour;
 
-/// Pixels of an image to one unit of the picture; a PNG of the picture has as many.
+/// Pixels of an image per unit of the figure, the same as for a PNG of the figure.
 const DENSITY: f64 = 2.0;
-/// No image has more pixels than this along one side.
+/// Maximum number of pixels along one side of an image.
 const MOST_PIXELS: f64 = 4096.0;
 
-/// Pixels that each name a colour.
+/// An image whose pixels are indices into a list of colours.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Raster {
     pub(super) width: usize,
     pub(super) height: usize,
-    pub(super) inks: Vec<u8>,
+    pub(super) indices: Vec<u8>,
 }
 
-/// The field over the whole frame; what lies beyond its cells, and what has no value, is clear.
+/// The image of a field over the whole frame; pixels outside its cells and cells without a value are transparent.
 pub(super) fn raster(
     field: &Field,
-    paints: &Paintbox,
-    (x_axis, y_axis): (&Axis, &Axis),
+    colour_map: &ColourMap,
+    (x_axis, y_axis): (&PlotAxis, &PlotAxis),
     (x, y): (&Mapping, &Mapping),
     frame: Rectangle,
 ) -> Raster {
     let (width, height) = (pixels(frame.width()), pixels(frame.height()));
     let columns = nearest(&borders(field.x(), x_axis.scale), x, frame.left, frame.right, width);
     let rows = nearest(&borders(field.y(), y_axis.scale), y, frame.top, frame.bottom, height);
-    let colours: Vec<u8> =
-        field.values().iter().map(|value| value.map_or(CLEAR, |value| paints.ink(value))).collect();
+    let colours: Vec<u8> = field
+        .values()
+        .iter()
+        .map(|value| value.map_or(CLEAR, |value| colour_map.index(value)))
+        .collect();
     let across = field.x().len();
-    let mut inks: Vec<u8> = Vec::with_capacity(width * height);
+    let mut indices: Vec<u8> = Vec::with_capacity(width * height);
     for (number, row) in rows.iter().enumerate() {
         if number > 0 && *row == rows[number - 1] {
-            let last = inks.len() - width;
-            inks.extend_from_within(last..);
+            let last = indices.len() - width;
+            indices.extend_from_within(last..);
             continue;
         }
         let values = row.and_then(|row| colours.get(row * across..(row + 1) * across));
-        inks.extend(columns.iter().map(|column| {
+        indices.extend(columns.iter().map(|column| {
             column.zip(values).and_then(|(column, row)| row.get(column)).copied().unwrap_or(CLEAR)
         }));
     }
-    Raster { width, height, inks }
+    Raster { width, height, indices }
 }
 
 fn pixels(length: f64) -> usize {
@@ -65,7 +68,7 @@ fn pixels(length: f64) -> usize {
     pixels
 }
 
-/// The cell under the middle of each of `count` pixels between two places; none beyond the cells.
+/// The cell under the centre of each of `count` pixels between two positions; `None` outside the cells.
 fn nearest(
     borders: &[f64],
     mapping: &Mapping,
@@ -74,8 +77,8 @@ fn nearest(
     count: usize,
 ) -> Vec<Option<usize>> {
     let cell = |step: usize| {
-        let place = from + (to - from) * (step as f64 + 0.5) / count as f64;
-        let along = mapping.along(place);
+        let position = from + (to - from) * (step as f64 + 0.5) / count as f64;
+        let along = mapping.along(position);
         let above = borders.partition_point(|border| *border <= along);
         above.checked_sub(1).filter(|cell| cell + 1 < borders.len())
     };
@@ -83,7 +86,7 @@ fn nearest(
 }
 
 impl Raster {
-    /// The image as a `data:` address; nothing if it cannot be encoded.
+    /// The image as a `data:` address; `None` if it cannot be encoded.
     pub(super) fn address(&self, colours: &[Colour]) -> Option<String> {
         let bytes = self.png(colours).ok()?;
         Some(format!("data:image/png;base64,{}", STANDARD.encode(bytes)))
@@ -97,14 +100,14 @@ impl Raster {
         encoder.set_depth(png::BitDepth::Eight);
         let palette: Vec<u8> = colours.iter().flat_map(|(r, g, b)| [*r, *g, *b]).collect();
         encoder.set_palette(palette);
-        let opacity = |ink: usize| if ink == usize::from(CLEAR) { 0 } else { 255 };
+        let opacity = |index: usize| if index == usize::from(CLEAR) { 0 } else { 255 };
         encoder.set_trns((0..colours.len()).map(opacity).collect::<Vec<u8>>());
-        // Rows that repeat the one above become rows of zeros.
+        // This filter encodes rows that repeat the one above as zeros.
         encoder.set_filter(png::FilterType::Up);
-        // The crate's own choice is faster and writes three times as much.
+        // The crate's default is faster but its output is three times as large.
         encoder.set_compression(png::Compression::Default);
         let mut writer = encoder.write_header()?;
-        writer.write_image_data(&self.inks)?;
+        writer.write_image_data(&self.indices)?;
         writer.finish()?;
         Ok(bytes)
     }
@@ -113,29 +116,29 @@ impl Raster {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Colouring, Palette, Role, Shading, Tint};
+    use crate::{Colouring, Palette, PlotRole, Shading, Tint};
 
     const FRAME: Rectangle = Rectangle { left: 10.0, top: 20.0, right: 110.0, bottom: 70.0 };
 
-    fn mapping(axis: &Axis, stretch: (f64, f64), upright: bool) -> Mapping {
+    fn mapping(axis: &PlotAxis, limits: (f64, f64), upright: bool) -> Mapping {
         let pixels = if upright { (FRAME.bottom, FRAME.top) } else { (FRAME.left, FRAME.right) };
-        Mapping::new(axis, stretch, pixels)
+        Mapping::new(axis, limits, pixels)
     }
 
-    fn outcomes() -> Paintbox {
-        let tints = ["a", "b", "c", "d"].map(|label| Tint::new(Role::Stable, label));
-        Paintbox::new(&Colouring::Outcomes(tints.to_vec()), None)
+    fn outcomes() -> ColourMap {
+        let tints = ["a", "b", "c", "d"].map(|label| Tint::new(PlotRole::Stable, label));
+        ColourMap::new(&Colouring::Outcomes(tints.to_vec()), None)
     }
 
     #[test]
-    fn a_pixel_has_the_colour_of_the_nearest_point_on_uneven_and_log_axes() {
-        let (x, y) = (Axis::new("x").log(), Axis::new("y"));
+    fn pixels_have_the_colour_of_the_nearest_point_on_uneven_and_log_axes() {
+        let (x, y) = (PlotAxis::new("x").log(), PlotAxis::new("y"));
         let values = vec![Some(0.0), Some(1.0), None, Some(2.0), Some(3.0), Some(0.0)];
         let field = Field::new(vec![1.0, 10.0, 10_000.0], vec![0.0, 1.0], values).expect("a field");
         let maps = (mapping(&x, (1.0, 10_000.0), false), mapping(&y, (0.0, 1.0), true));
         let image = raster(&field, &outcomes(), (&x, &y), (&maps.0, &maps.1), FRAME);
         assert_eq!((image.width, image.height), (200, 100));
-        let row = |number: usize| &image.inks[number * 200..(number + 1) * 200];
+        let row = |number: usize| &image.indices[number * 200..(number + 1) * 200];
         // Borders at 10^0.5 and 10^2.5 of 4 decades: 25 and 125 of 200 pixels; y upwards.
         let bottom: Vec<u8> = [vec![0; 25], vec![1; 100], vec![CLEAR; 75]].concat();
         let top: Vec<u8> = [vec![2; 25], vec![3; 100], vec![0; 75]].concat();
@@ -144,23 +147,23 @@ mod tests {
     }
 
     #[test]
-    fn beyond_the_outer_cells_nothing_is_printed() {
-        let axis = Axis::new("x");
+    fn pixels_outside_the_cells_are_transparent() {
+        let axis = PlotAxis::new("x");
         let field =
             Field::new(vec![1.0, 2.0], vec![1.0, 2.0], vec![Some(1.0); 4]).expect("a field");
         let maps = (mapping(&axis, (0.0, 5.0), false), mapping(&axis, (1.0, 2.0), true));
         let image = raster(&field, &outcomes(), (&axis, &axis), (&maps.0, &maps.1), FRAME);
-        let printed = image.inks[..200].iter().filter(|ink| **ink != CLEAR).count();
+        let printed = image.indices[..200].iter().filter(|index| **index != CLEAR).count();
         // From 0.5 to 2.5 of 5.
         assert_eq!(printed, 80);
     }
 
     #[test]
-    fn the_image_holds_what_was_drawn() {
-        let paints =
-            Paintbox::new(&Colouring::Shaded(Shading::new(Palette::Viridis)), Some((0.0, 1.0)));
-        let image = Raster { width: 2, height: 2, inks: vec![0, 249, CLEAR, 10] };
-        let bytes = image.png(&paints.inks()).expect("a PNG");
+    fn an_encoded_image_decodes_to_its_colours() {
+        let colour_map =
+            ColourMap::new(&Colouring::Shaded(Shading::new(Palette::Viridis)), Some((0.0, 1.0)));
+        let image = Raster { width: 2, height: 2, indices: vec![0, 249, CLEAR, 10] };
+        let bytes = image.png(&colour_map.colours()).expect("a PNG");
         let mut decoder = png::Decoder::new(bytes.as_slice());
         decoder.set_transformations(png::Transformations::EXPAND);
         let mut reader = decoder.read_info().expect("a header");

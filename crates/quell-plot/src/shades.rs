@@ -1,18 +1,18 @@
-//! Shades: colours of numbers, in perceptually equal steps.
+//! Shades: perceptually uniform palettes.
 //!
-//! A palette is a smooth path (Catmull–Rom) through few published colours; it is walked at constant speed in OKLab
+//! A palette is a smooth curve (Catmull–Rom) through a few published colours, parametrised by arc length in OKLab
 //! (B. Ottosson, A perceptual color space for image processing, 2020), so that equal steps of the
 //! number look equally large.
 //!
 //! - [`Palette::Viridis`]: S. van der Walt, N. Smith, the default of Matplotlib 2 (2015, CC0).
 //! - [`Palette::Pale`]: the light half of `YlGnBu` of C. A. Brewer, M. Harrower, ColorBrewer
 //!   (The Cartographic Journal 40, 2003): black lines and numbers stay readable on it.
-//! - [`Palette::Diverging`]: `RdBu` of the same without its darkest ends, on which black lines would
-//!   drown; red for positive numbers, nearly paper at zero.
+//! - [`Palette::Diverging`]: `RdBu` of ColorBrewer without its darkest ends, on which black lines would be
+//!   invisible; red for positive numbers, nearly white at zero.
 
 use super::palette::Colour;
 
-/// A path through colours.
+/// A colour palette for numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Palette {
     /// Dark violet to yellow.
@@ -20,7 +20,7 @@ pub enum Palette {
     Viridis,
     /// Pale yellow to light blue, for maps with lines over them.
     Pale,
-    /// Blue over nearly white to red, for numbers whose sign matters.
+    /// Blue through nearly white to red, for numbers whose sign matters.
     Diverging,
 }
 
@@ -31,18 +31,18 @@ const BELOW_ZERO: &[u32] = &[0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7];
 const ABOVE_ZERO: &[u32] = &[0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b];
 
 impl Palette {
-    /// `count` colours from the lower end to the upper.
+    /// `count` colours from the lower end to the upper end.
     pub(super) fn shades(self, count: usize) -> Vec<Colour> {
         match self {
-            Self::Viridis => walk(VIRIDIS, &shares(count)),
-            Self::Pale => walk(PALE, &shares(count)),
+            Self::Viridis => interpolate(VIRIDIS, &shares(count)),
+            Self::Pale => interpolate(PALE, &shares(count)),
             Self::Diverging => {
                 let (below, above): (Vec<f64>, Vec<f64>) =
                     shares(count).into_iter().partition(|share| *share < 0.5);
                 let below: Vec<f64> = below.iter().map(|share| 2.0 * share).collect();
                 let above: Vec<f64> = above.iter().map(|share| 2.0 * share - 1.0).collect();
-                let mut shades = walk(BELOW_ZERO, &below);
-                shades.extend(walk(ABOVE_ZERO, &above));
+                let mut shades = interpolate(BELOW_ZERO, &below);
+                shades.extend(interpolate(ABOVE_ZERO, &above));
                 shades
             }
         }
@@ -54,25 +54,25 @@ fn shares(count: usize) -> Vec<f64> {
     (0..count).map(|step| step as f64 / last).collect()
 }
 
-/// Colours at these shares of the way through the stops.
-fn walk(stops: &[u32], shares: &[f64]) -> Vec<Colour> {
+/// Colours at these fractions of the arc length of the curve through the stops.
+fn interpolate(stops: &[u32], shares: &[f64]) -> Vec<Colour> {
     let stops = smooth(&stops.iter().map(|stop| lab(split(*stop))).collect::<Vec<_>>());
     let mut reached = vec![0.0];
     for pair in stops.windows(2) {
         reached.push(reached[reached.len() - 1] + distance(pair[0], pair[1]));
     }
     let whole = reached[reached.len() - 1];
-    let place = |share: &f64| {
+    let position = |share: &f64| {
         let wanted = share.clamp(0.0, 1.0) * whole;
         let leg = reached.partition_point(|way| *way <= wanted).clamp(1, stops.len() - 1);
         let share = (wanted - reached[leg - 1]) / (reached[leg] - reached[leg - 1]);
         let (from, to) = (stops[leg - 1], stops[leg]);
         colour([0, 1, 2].map(|axis| from[axis] + share * (to[axis] - from[axis])))
     };
-    shares.iter().map(place).collect()
+    shares.iter().map(position).collect()
 }
 
-/// Many points of the Catmull–Rom curve through these, which it meets without corners.
+/// Dense points on the Catmull–Rom curve through these points, which has no corners.
 fn smooth(stops: &[[f64; 3]]) -> Vec<[f64; 3]> {
     const PARTS: u32 = 24;
     let last = stops.len() - 1;
@@ -145,7 +145,7 @@ fn colour([lightness, a, b]: [f64; 3]) -> Colour {
     )
 }
 
-/// A colour as it prints on paper at this opacity.
+/// A colour at this opacity on a white background.
 pub(super) fn tint((red, green, blue): Colour, opacity: f64) -> Colour {
     let mix = |level: u8| {
         #[expect(
@@ -194,12 +194,12 @@ mod tests {
     }
 
     #[test]
-    fn the_pale_palette_stays_light() {
+    fn the_pale_palette_is_light() {
         assert!(Palette::Pale.shades(32).into_iter().all(|shade| lab(shade)[0] > 0.7));
     }
 
     #[test]
-    fn conversion_is_undone() {
+    fn conversion_to_oklab_and_back_is_exact() {
         for code in [0x000000, 0xffffff, 0x440154, 0xd6604d, 0x010203] {
             assert_eq!(colour(lab(split(code))), split(code));
         }

@@ -1,17 +1,17 @@
-//! Thinning: fewer points, the same picture.
+//! Thinning: reduces the number of points without a visible change.
 //!
-//! Of neighbouring points in one half-pixel column of the picture only the first, lowest, highest
+//! Of consecutive points in one half-pixel column of the figure, only the first, lowest, highest
 //! and last are kept (so no extremum is lost); then points that lie within a twentieth of a pixel
-//! of the stroke between their neighbours are dropped. Works for any curve, also one that turns back.
+//! of the stroke between their neighbours are dropped. This works for any curve, including one that reverses in x.
 
 /// Width of a column (pixels).
 const COLUMN: f64 = 0.5;
-/// How far the stroke may move (pixels).
+/// Maximum displacement of the stroke (pixels).
 const SLACK: f64 = 0.05;
-/// Points of a scatter closer than this print as one (pixels).
+/// Scattered points closer than this are merged (pixels).
 const GRAIN: f64 = 0.25;
 
-/// Fewer points with the same stroke; input and output in pixels.
+/// Thins a polyline; input and output in pixels.
 pub(super) fn polyline(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     if points.len() <= 64 {
         return points.to_vec();
@@ -48,17 +48,17 @@ fn keep_extremes(run: &[(f64, f64)], kept: &mut Vec<(f64, f64)>) {
     kept.extend(indices.into_iter().map(|index| run[index]));
 }
 
-/// Drops points whose absence moves the stroke by less than the slack.
+/// Drops points whose removal moves the stroke by less than the slack.
 ///
-/// From each kept point the cone of directions that pass all later points closely enough is
-/// narrowed until it is empty; the point before becomes the next kept one.
+/// From each kept point, the cone of directions that pass close enough to all later points is
+/// narrowed until it is empty; the previous point is the next kept one.
 fn straighten(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let Some(&first) = points.first() else {
         return Vec::new();
     };
     let mut kept = vec![first];
     let mut anchor = first;
-    let mut cone: Option<(f64, f64, f64)> = None; // reference direction, least and greatest turn
+    let mut cone: Option<(f64, f64, f64)> = None; // reference direction, least and greatest deviation
     let mut reach = 0.0_f64;
     let mut previous = first;
     for &point in &points[1..] {
@@ -73,7 +73,7 @@ fn straighten(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
             None => Some((dy.atan2(dx), -opening, opening)),
             Some((reference, least, greatest)) => {
                 let turn = wrap(dy.atan2(dx) - reference);
-                // A stroke that turns back is not straight, whatever its direction.
+                // A stroke that reverses is not straight even if its direction lies in the cone.
                 let inside = turn >= least && turn <= greatest && distance >= reach;
                 inside.then(|| (reference, least.max(turn - opening), greatest.min(turn + opening)))
             }
@@ -102,7 +102,7 @@ fn wrap(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }
 
-/// Scatter points without those that would print on top of an earlier one.
+/// Scattered points without those that would be drawn on top of an earlier one.
 pub(super) fn scatter(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut seen = std::collections::HashSet::new();
     #[expect(clippy::cast_possible_truncation, reason = "pixels are clamped to 1e5")]
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn extremes_of_every_column_stay() {
+    fn extremes_of_every_column_are_kept() {
         let mut points = wave(100_000);
         points[56_789].1 = 199.0;
         let thin = polyline(&points);
@@ -171,14 +171,14 @@ mod tests {
     }
 
     #[test]
-    fn a_stroke_that_turns_back_keeps_its_turning_point() {
+    fn a_reversing_stroke_keeps_its_reversal_point() {
         let mut points: Vec<_> = (0..100).map(|step| (f64::from(step), 0.0)).collect();
         points.extend((0..100).map(|step| (99.0 - f64::from(step), 0.0)));
         assert!(straighten(&points).contains(&(99.0, 0.0)));
     }
 
     #[test]
-    fn points_that_print_as_one_are_drawn_once() {
+    fn coincident_points_are_drawn_once() {
         let points = vec![(1.0, 1.0), (1.01, 1.0), (5.0, 1.0)];
         assert_eq!(scatter(&points), vec![(1.0, 1.0), (5.0, 1.0)]);
     }

@@ -1,44 +1,44 @@
-//! Ticks: where an axis carries marks, and what numbers stand beside them.
+//! Ticks: positions of the marks of an axis, and their labels.
 
 use kuva::render::render_utils::generate_ticks_with_step;
 
-use super::axis::{Axis, Scale};
-use super::typeset::{Label, number};
+use super::axis::{PlotAxis, Scale};
+use super::typeset::{RichText, number};
 
 /// The marks of one axis.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ticks {
-    /// Values with a number, and the number.
-    pub(super) major: Vec<(f64, Label)>,
-    /// Values with a short mark only.
+    /// Values with a label, and the label.
+    pub(super) major: Vec<(f64, RichText)>,
+    /// Values with a short mark and no label.
     pub(super) minor: Vec<f64>,
-    /// Power of ten taken out of all numbers; 0 for none.
+    /// Exponent of the power of ten factored out of all labels; 0 for none.
     pub(super) exponent: i32,
 }
 
-/// How numbers take room along the axis.
+/// Space for tick labels along the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Room {
-    /// Side by side, in this many pixels at this font size.
+    /// Labels side by side, in this many pixels at this font size.
     Across(f64, f64),
-    /// One above the other, in this many pixels.
+    /// Labels one above the other, in this many pixels.
     Upright(f64),
 }
 
 impl Ticks {
-    /// Ticks for an axis that shows `stretch`.
-    pub(super) fn of(axis: &Axis, stretch: (f64, f64), room: Room) -> Self {
+    /// Ticks for an axis with these limits.
+    pub(super) fn of(axis: &PlotAxis, limits: (f64, f64), room: Room) -> Self {
         if let Some(chosen) = &axis.ticks {
-            let inside = |value: &f64| *value >= stretch.0 && *value <= stretch.1;
+            let inside = |value: &f64| *value >= limits.0 && *value <= limits.1;
             let values: Vec<f64> = chosen.iter().copied().filter(inside).collect();
             let step = values
                 .windows(2)
                 .map(|pair| (pair[1] - pair[0]).abs())
-                .fold(stretch.1 - stretch.0, f64::min);
+                .fold(limits.1 - limits.0, f64::min);
             return Self::linear(values, Vec::new(), step);
         }
-        if axis.scale == Scale::Log && stretch.1 / stretch.0 >= 10.0 {
-            return Self::logarithmic(stretch, room);
+        if axis.scale == Scale::Log && limits.1 / limits.0 >= 10.0 {
+            return Self::logarithmic(limits, room);
         }
         let most = match room {
             Room::Across(pixels, _) => pixels / 42.0,
@@ -47,17 +47,17 @@ impl Ticks {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "2 to 9")]
         let mut count = most.clamp(2.0, 9.0) as usize;
         loop {
-            let ticks = Self::evenly(stretch, count);
-            if count <= 2 || ticks.fits(axis, stretch, room) {
+            let ticks = Self::evenly(limits, count);
+            if count <= 2 || ticks.fits(axis, limits, room) {
                 return ticks;
             }
             count -= 1;
         }
     }
 
-    fn evenly(stretch: (f64, f64), count: usize) -> Self {
-        let step = step_for((stretch.1 - stretch.0) / count as f64);
-        let values = generate_ticks_with_step(stretch.0, stretch.1, step);
+    fn evenly(limits: (f64, f64), count: usize) -> Self {
+        let step = step_for((limits.1 - limits.0) / count as f64);
+        let values = generate_ticks_with_step(limits.0, limits.1, step);
         let leading = step / 10f64.powf((step.log10() + 1e-9).floor());
         let parts = if (leading - 2.0).abs() < 0.1 { 4 } else { 5 };
         let minor = values
@@ -65,7 +65,7 @@ impl Ticks {
             .map(|first| {
                 (-parts..=parts * 12)
                     .map(|part| first + step * f64::from(part) / f64::from(parts))
-                    .filter(|value| *value > stretch.0 && *value < stretch.1)
+                    .filter(|value| *value > limits.0 && *value < limits.1)
                     .collect()
             })
             .unwrap_or_default();
@@ -85,13 +85,13 @@ impl Ticks {
         let decimals = decimals(step / unit);
         let major = values
             .into_iter()
-            .map(|value| (value, Label::parse(&number(value / unit, decimals))))
+            .map(|value| (value, RichText::parse(&number(value / unit, decimals))))
             .collect();
         Self { major, minor, exponent }
     }
 
-    fn logarithmic(stretch: (f64, f64), room: Room) -> Self {
-        let (low, high) = (stretch.0.log10(), stretch.1.log10());
+    fn logarithmic(limits: (f64, f64), room: Room) -> Self {
+        let (low, high) = (limits.0.log10(), limits.1.log10());
         let decades = high - low;
         let most = match room {
             Room::Across(pixels, _) => pixels / 45.0,
@@ -106,7 +106,7 @@ impl Ticks {
             (low.floor() as i32, high.ceil() as i32, (decades / most).ceil().max(1.0) as i32);
         let plain = first >= -2 && last <= 3 && decades < 3.2;
         let inside =
-            |value: &f64| *value >= stretch.0 * (1.0 - 1e-9) && *value <= stretch.1 * (1.0 + 1e-9);
+            |value: &f64| *value >= limits.0 * (1.0 - 1e-9) && *value <= limits.1 * (1.0 + 1e-9);
         let (mut major, mut minor) = (Vec::new(), Vec::new());
         for exponent in first..=last {
             let decade = 10f64.powi(exponent);
@@ -116,7 +116,7 @@ impl Ticks {
                     leading.contains(&f64::from(digit)) && exponent.rem_euclid(stride) == 0;
                 if !inside(&value) {
                 } else if labelled {
-                    major.push((value, Label::parse(&power(digit, exponent, plain))));
+                    major.push((value, RichText::parse(&power(digit, exponent, plain))));
                 } else if stride == 1 || digit == 1 {
                     minor.push(value);
                 }
@@ -125,11 +125,11 @@ impl Ticks {
         Self { major, minor, exponent: 0 }
     }
 
-    fn fits(&self, axis: &Axis, stretch: (f64, f64), room: Room) -> bool {
+    fn fits(&self, axis: &PlotAxis, limits: (f64, f64), room: Room) -> bool {
         let Room::Across(pixels, size) = room else {
             return true;
         };
-        let per_unit = pixels / (axis.along(stretch.1) - axis.along(stretch.0));
+        let per_unit = pixels / (axis.along(limits.1) - axis.along(limits.0));
         self.major.windows(2).all(|pair| {
             let apart = (axis.along(pair[1].0) - axis.along(pair[0].0)) * per_unit;
             apart
@@ -138,7 +138,7 @@ impl Ticks {
     }
 }
 
-/// The least of 1, 2 and 5 times a power of ten that comes near `wanted` or lies above it.
+/// The least of 1, 2 and 5 times a power of ten that is at least 0.65 `wanted`.
 fn step_for(wanted: f64) -> f64 {
     let least = 0.65 * wanted;
     let decade = 10f64.powf(least.log10().floor());
@@ -158,7 +158,7 @@ fn power(digit: i32, exponent: i32, plain: bool) -> String {
     format!("{mantissa}$10^{{{exponent}}}$")
 }
 
-/// Decimals that tell multiples of `step` apart.
+/// Number of decimals that distinguishes multiples of `step`.
 fn decimals(step: f64) -> usize {
     (0..9)
         .find(|decimals| {
@@ -177,9 +177,9 @@ mod tests {
     }
 
     #[test]
-    fn numbers_of_one_axis_have_equal_decimals() {
-        let ticks = Ticks::of(&Axis::new("x"), (0.0, 1.0), Room::Upright(200.0));
-        assert_eq!(ticks.major[0].1, Label::parse("0.0"));
+    fn labels_of_one_axis_have_equal_decimals() {
+        let ticks = Ticks::of(&PlotAxis::new("x"), (0.0, 1.0), Room::Upright(200.0));
+        assert_eq!(ticks.major[0].1, RichText::parse("0.0"));
         assert!(ticks.major.len() >= 4);
         assert_eq!(decimals(0.25), 2);
         assert_eq!(decimals(20.0), 0);
@@ -187,21 +187,21 @@ mod tests {
 
     #[test]
     fn small_values_share_a_power_of_ten() {
-        let ticks = Ticks::of(&Axis::new("x"), (0.0, 3e-5), Room::Upright(200.0));
+        let ticks = Ticks::of(&PlotAxis::new("x"), (0.0, 3e-5), Room::Upright(200.0));
         assert_eq!(ticks.exponent, -5);
     }
 
     #[test]
-    fn a_log_axis_has_its_decades() {
-        let axis = Axis::new("f").log();
+    fn a_log_axis_is_labelled_at_decades() {
+        let axis = PlotAxis::new("f").log();
         let ticks = Ticks::of(&axis, (1e-6, 1e2), Room::Upright(300.0));
         assert!(printed(&ticks).iter().any(|value| (value - 1e-3).abs() < 1e-12));
         assert!(ticks.major.len() >= 4 && ticks.major.len() <= 9);
     }
 
     #[test]
-    fn numbers_side_by_side_do_not_touch() {
-        let ticks = Ticks::of(&Axis::new("x"), (-0.0123, 0.0117), Room::Across(120.0, 11.0));
+    fn labels_side_by_side_do_not_overlap() {
+        let ticks = Ticks::of(&PlotAxis::new("x"), (-0.0123, 0.0117), Room::Across(120.0, 11.0));
         let widest =
             ticks.major.iter().map(|(_, label)| label.width(11.0, false)).fold(0.0, f64::max);
         assert!(widest * ticks.major.len() as f64 <= 160.0);

@@ -1,75 +1,30 @@
 //! Labels: plain text with symbols between dollars, measured with the bundled fonts.
 //!
-//! Between `$` and `$`: Latin and lower-case Greek letters print in italics, `_x` and `_{xy}` lower
-//! (upright), `^x` and `^{xy}` raise (`_x` within lowers again), `\bar{…}` puts a bar over its letters (so does a combining
-//! macron after a letter), `\word` prints the word upright (`\ln`), and `-` prints as a minus sign.
-//! A dollar without a partner prints as itself. Greek letters are typed as they are: `$τ$`, `$ω_0$`.
+//! Between `$` and `$`: Latin and lower-case Greek letters print in italics, `_x` and `_{xy}` are subscripts
+//! (upright), `^x` and `^{xy}` are superscripts (which may contain a subscript `_x`), `\bar{…}` puts a bar over its letters
+//! (as does a combining macron after a letter), `\word` prints the word upright (`\ln`), and `-` prints as a minus sign.
+//! An unpaired dollar prints as itself. Greek letters are written literally: `$τ$`, `$ω_0$`.
 //!
-//! How a look becomes elements of the picture: [`super::tspan`].
+//! [`super::tspan`] converts letter styles to SVG elements.
 
 use super::fonts::{self, Face};
+use super::letter_style::{LetterStyle, ScriptLevel};
 use super::tspan::{Pen, Tags};
 
-/// Size of a subscript or superscript, as a share of the text's.
-const SMALL: f64 = 0.72;
-/// How far they are lowered (em of the text, downwards).
-const LOWERED: f64 = 0.20;
-/// How far they are raised (em of the text, downwards).
-const RAISED: f64 = -0.36;
-/// Size of a subscript within a superscript, and how far it is raised.
-const SMALLER: f64 = 0.55;
-const RAISED_LESS: f64 = -0.24;
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum Level {
-    #[default]
-    Base,
-    Lowered,
-    Raised,
-    RaisedLowered,
-}
-
-impl Level {
-    /// Size as a share of the text's.
-    pub(super) fn share(self) -> f64 {
-        match self {
-            Self::Base => 1.0,
-            Self::Lowered | Self::Raised => SMALL,
-            Self::RaisedLowered => SMALLER,
-        }
-    }
-
-    /// Distance below the base line (em of the text).
-    fn depth(self) -> f64 {
-        match self {
-            Self::Base => 0.0,
-            Self::Lowered => LOWERED,
-            Self::Raised => RAISED,
-            Self::RaisedLowered => RAISED_LESS,
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Look {
-    pub(super) italic: bool,
-    pub(super) barred: bool,
-    pub(super) level: Level,
-}
-
 #[derive(Debug, Clone, PartialEq, Eq)]
-struct Run {
+struct TextRun {
     text: String,
-    look: Look,
+    look: LetterStyle,
 }
 
-/// A label taken apart into runs of one look.
+/// A label, parsed into runs of one letter style.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Label {
-    runs: Vec<Run>,
+pub(super) struct RichText {
+    runs: Vec<TextRun>,
 }
 
-impl Label {
-    /// Takes a label apart.
+impl RichText {
+    /// Parses a label.
     pub(super) fn parse(source: &str) -> Self {
         let mut label = Self { runs: Vec::new() };
         let mut rest = source;
@@ -77,11 +32,11 @@ impl Label {
             let Some(length) = rest[start + 1..].find('$') else {
                 break;
             };
-            label.push_text(&rest[..start], Look::default());
+            label.push_text(&rest[..start], LetterStyle::default());
             label.push_symbols(&rest[start + 1..start + 1 + length]);
             rest = &rest[start + length + 2..];
         }
-        label.push_text(rest, Look::default());
+        label.push_text(rest, LetterStyle::default());
         label
     }
 
@@ -105,11 +60,11 @@ impl Label {
             .sum()
     }
 
-    /// The text for kuva, with looks as private-use characters.
+    /// The text for kuva, with styles encoded as private-use characters.
     pub(super) fn encode(&self, tags: &mut Tags) -> String {
         let mut pen = Pen::new(tags);
         for run in &self.runs {
-            // kuva reads `$…$` and `\$` itself; a dollar that is left here is to print.
+            // kuva interprets `$…$` and `\$` itself; a dollar that is left here is literal.
             let printed = run.text.replace('$', "\\$");
             if run.look.barred {
                 run.text.chars().for_each(|letter| pen.put_barred(letter, run.look));
@@ -120,11 +75,11 @@ impl Label {
         pen.into_text()
     }
 
-    /// The text for a page of HTML.
+    /// The text as HTML.
     pub(super) fn html(&self) -> String {
         let mut html = String::new();
         for run in &self.runs {
-            let Look { italic, barred, level } = run.look;
+            let LetterStyle { italic, barred, level } = run.look;
             let mut text = String::new();
             for letter in run.text.chars() {
                 match letter {
@@ -141,10 +96,10 @@ impl Label {
                 text = format!("<i>{text}</i>");
             }
             let (open, close) = match level {
-                Level::Base => ("", ""),
-                Level::Lowered => ("<sub>", "</sub>"),
-                Level::Raised => ("<sup>", "</sup>"),
-                Level::RaisedLowered => ("<sup><sub>", "</sub></sup>"),
+                ScriptLevel::Base => ("", ""),
+                ScriptLevel::Lowered => ("<sub>", "</sub>"),
+                ScriptLevel::Raised => ("<sup>", "</sup>"),
+                ScriptLevel::RaisedLowered => ("<sup><sub>", "</sub></sup>"),
             };
             html += open;
             html += &text;
@@ -153,9 +108,9 @@ impl Label {
         html
     }
 
-    fn push_text(&mut self, text: &str, look: Look) {
+    fn push_text(&mut self, text: &str, look: LetterStyle) {
         for letter in text.chars() {
-            // Controls and private-use characters have no print, and no place in XML.
+            // Control and private-use characters are not printable and must not appear in the XML.
             let private = ('\u{E000}'..='\u{F8FF}').contains(&letter);
             if private || matches!(letter, '\u{FFFE}' | '\u{FFFF}') {
                 continue;
@@ -163,7 +118,7 @@ impl Label {
             let letter = if letter.is_control() { ' ' } else { letter };
             match self.runs.last_mut() {
                 Some(run) if run.look == look => run.text.push(letter),
-                _ => self.runs.push(Run { text: letter.to_string(), look }),
+                _ => self.runs.push(TextRun { text: letter.to_string(), look }),
             }
         }
     }
@@ -174,7 +129,8 @@ impl Label {
         while at < letters.len() {
             match letters[at] {
                 '_' | '^' => {
-                    let level = if letters[at] == '_' { Level::Lowered } else { Level::Raised };
+                    let level =
+                        if letters[at] == '_' { ScriptLevel::Lowered } else { ScriptLevel::Raised };
                     let (inner, next) = group(&letters, at + 1);
                     self.push_letters(&inner, level, false);
                     at = next;
@@ -184,40 +140,41 @@ impl Label {
                     let word: String = letters[at + 1..end].iter().collect();
                     if word == "bar" {
                         let (inner, next) = group(&letters, end);
-                        self.push_letters(&inner, Level::Base, true);
+                        self.push_letters(&inner, ScriptLevel::Base, true);
                         at = next;
                     } else {
-                        self.push_text(&word, Look::default());
+                        self.push_text(&word, LetterStyle::default());
                         at = end.max(at + 1);
                     }
                 }
                 '{' | '}' => at += 1,
                 letter => {
                     let barred = letters.get(at + 1).is_some_and(|next| is_macron(*next));
-                    self.push_letters(&[letter], Level::Base, barred);
+                    self.push_letters(&[letter], ScriptLevel::Base, barred);
                     at += 1;
                 }
             }
         }
     }
 
-    fn push_letters(&mut self, letters: &[char], level: Level, barred: bool) {
+    fn push_letters(&mut self, letters: &[char], level: ScriptLevel, barred: bool) {
         let mut level = level;
         let usual = level;
         for &letter in letters.iter().filter(|letter| !is_macron(**letter)) {
-            if letter == '_' && usual == Level::Raised {
-                level = Level::RaisedLowered;
+            if letter == '_' && usual == ScriptLevel::Raised {
+                level = ScriptLevel::RaisedLowered;
                 continue;
             }
-            let italic = matches!(level, Level::Base | Level::Raised) && is_slanted(letter);
+            let italic =
+                matches!(level, ScriptLevel::Base | ScriptLevel::Raised) && is_slanted(letter);
             let printed = if letter == '-' { '\u{2212}' } else { letter };
-            self.push_text(printed.encode_utf8(&mut [0; 4]), Look { italic, barred, level });
+            self.push_text(printed.encode_utf8(&mut [0; 4]), LetterStyle { italic, barred, level });
             level = usual;
         }
     }
 }
 
-/// The letters of `{…}` or the one letter at `at`, and where the text goes on.
+/// The letters of `{…}`, or the one letter at `at`, and the index after them.
 fn group(letters: &[char], at: usize) -> (Vec<char>, usize) {
     match letters.get(at) {
         Some('{') => {
@@ -239,17 +196,17 @@ fn is_macron(letter: char) -> bool {
     matches!(letter, '\u{304}' | '\u{305}')
 }
 
-/// Symbols that print in italics: Latin letters and lower-case Greek.
+/// Whether a symbol prints in italics: Latin letters and lower-case Greek.
 fn is_slanted(letter: char) -> bool {
     letter.is_ascii_alphabetic()
         || ('α'..='ω').contains(&letter)
         || matches!(letter, 'ϕ' | 'ϵ' | 'ϑ')
 }
 
-/// Breaks a text into labels no wider than `room` pixels, at spaces outside of `$…$`.
+/// Breaks a text into labels no wider than `room` pixels, at spaces outside `$…$`.
 ///
-/// A single word that is wider stands alone on its line.
-pub(super) fn wrap(source: &str, size: f64, bold: bool, room: f64) -> Vec<Label> {
+/// A single word that is wider gets a line of its own.
+pub(super) fn wrap(source: &str, size: f64, bold: bool, room: f64) -> Vec<RichText> {
     let mut lines: Vec<String> = Vec::new();
     for paragraph in source.lines() {
         let mut line = String::new();
@@ -260,7 +217,7 @@ pub(super) fn wrap(source: &str, size: f64, bold: bool, room: f64) -> Vec<Label>
         });
         for word in words {
             let longer = if line.is_empty() { word.to_string() } else { format!("{line} {word}") };
-            if line.is_empty() || Label::parse(&longer).width(size, bold) <= room {
+            if line.is_empty() || RichText::parse(&longer).width(size, bold) <= room {
                 line = longer;
             } else {
                 lines.push(std::mem::replace(&mut line, word.to_string()));
@@ -268,10 +225,10 @@ pub(super) fn wrap(source: &str, size: f64, bold: bool, room: f64) -> Vec<Label>
         }
         lines.push(line);
     }
-    lines.iter().map(|line| Label::parse(line)).collect()
+    lines.iter().map(|line| RichText::parse(line)).collect()
 }
 
-/// A number as it prints on an axis: minus sign, and never minus zero.
+/// Formats a number for an axis: with a minus sign, and never as minus zero.
 pub(super) fn number(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
@@ -288,35 +245,35 @@ mod tests {
     use super::super::tspan::BAR;
     use super::*;
 
-    fn looks(source: &str) -> Vec<(String, Look)> {
-        Label::parse(source).runs.into_iter().map(|run| (run.text, run.look)).collect()
+    fn runs_of(source: &str) -> Vec<(String, LetterStyle)> {
+        RichText::parse(source).runs.into_iter().map(|run| (run.text, run.look)).collect()
     }
 
     #[test]
     fn symbols_are_italic_and_subscripts_upright() {
-        let runs = looks("slip velocity $v_r$ (m/s)");
-        let italic = Look { italic: true, ..Look::default() };
-        let lowered = Look { level: Level::Lowered, ..Look::default() };
+        let runs = runs_of("slip velocity $v_r$ (m/s)");
+        let italic = LetterStyle { italic: true, ..LetterStyle::default() };
+        let lowered = LetterStyle { level: ScriptLevel::Lowered, ..LetterStyle::default() };
         assert_eq!(
             runs,
             vec![
-                ("slip velocity ".into(), Look::default()),
+                ("slip velocity ".into(), LetterStyle::default()),
                 ("v".into(), italic),
                 ("r".into(), lowered),
-                (" (m/s)".into(), Look::default()),
+                (" (m/s)".into(), LetterStyle::default()),
             ]
         );
     }
 
     #[test]
-    fn a_bar_can_be_written_in_two_ways() {
-        assert_eq!(looks("$\\bar{μ}(v)$"), looks("$μ\u{304}(v)$"));
-        assert!(looks("$\\bar{μ}$")[0].1.barred);
+    fn both_notations_of_a_bar_are_equivalent() {
+        assert_eq!(runs_of("$\\bar{μ}(v)$"), runs_of("$μ\u{304}(v)$"));
+        assert!(runs_of("$\\bar{μ}$")[0].1.barred);
     }
 
     #[test]
-    fn a_bar_leaves_the_width_as_it_is() {
-        let (plain, barred) = (Label::parse("$μ(v)$"), Label::parse("$\\bar{μ}(v)$"));
+    fn a_bar_does_not_change_the_width() {
+        let (plain, barred) = (RichText::parse("$μ(v)$"), RichText::parse("$\\bar{μ}(v)$"));
         assert_eq!(plain.width(10.0, false), barred.width(10.0, false));
         let mut tags = Tags::default();
         let svg = tags_of(&barred, &mut tags);
@@ -328,37 +285,37 @@ mod tests {
         assert!((moves + fonts::width(BAR, Face::Regular)).abs() < 2e-3, "{svg}");
     }
 
-    fn tags_of(label: &Label, tags: &mut Tags) -> String {
+    fn tags_of(label: &RichText, tags: &mut Tags) -> String {
         let text = label.encode(tags);
         tags.resolve(&text)
     }
 
     #[test]
-    fn a_lone_dollar_prints_and_survives_kuva() {
-        assert_eq!(looks("5 $ each"), vec![("5 $ each".into(), Look::default())]);
-        assert_eq!(Label::parse("5 $ each").encode(&mut Tags::default()), "5 \\$ each");
+    fn an_unpaired_dollar_is_printed_literally() {
+        assert_eq!(runs_of("5 $ each"), vec![("5 $ each".into(), LetterStyle::default())]);
+        assert_eq!(RichText::parse("5 $ each").encode(&mut Tags::default()), "5 \\$ each");
     }
 
     #[test]
-    fn private_characters_of_a_label_cannot_pass_for_tags() {
+    fn private_use_characters_of_a_label_are_removed() {
         let mut tags = Tags::default();
-        let text = Label::parse("a\u{E000}b\u{F8FF}\u{1}").encode(&mut tags);
+        let text = RichText::parse("a\u{E000}b\u{F8FF}\u{1}").encode(&mut tags);
         assert_eq!(tags.resolve(&text), "ab ");
     }
 
     #[test]
-    fn a_shift_is_undone_after_a_subscript() {
+    fn the_baseline_shift_is_undone_after_a_subscript() {
         let mut tags = Tags::default();
-        let text = Label::parse("$x_1y$").encode(&mut tags);
+        let text = RichText::parse("$x_1y$").encode(&mut tags);
         let svg = tags.resolve(&text);
         assert!(svg.contains("dy=\"0.278em\"") && svg.contains("dy=\"-0.200em\""), "{svg}");
         assert_eq!(svg.matches("<tspan").count(), svg.matches("</tspan>").count());
     }
 
     #[test]
-    fn lines_break_at_spaces_but_not_within_symbols() {
+    fn lines_break_at_spaces_outside_symbols() {
         let lines = wrap("aaaa bbbb $x + y$", 10.0, false, 60.0);
-        assert_eq!(lines, vec![Label::parse("aaaa bbbb"), Label::parse("$x + y$")]);
+        assert_eq!(lines, vec![RichText::parse("aaaa bbbb"), RichText::parse("$x + y$")]);
     }
 
     #[test]

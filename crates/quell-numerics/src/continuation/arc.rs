@@ -1,35 +1,39 @@
 //! One step along a one-dimensional set of solutions: N equations for N + 1 unknowns.
 //!
-//! Predictor: the tangent. Corrector: Newton's method on the hyperplane through the predicted point, orthogonal to the way
-//! (Keller's pseudo-arclength), which passes folds without noticing. What the equations are is told by a [`System`].
+//! Predictor: the tangent. Corrector: Newton's method on the hyperplane through the predicted point, orthogonal to the
+//! direction of the step (Keller's pseudo-arclength), which is regular at folds. The equations are given by an
+//! [`UnderdeterminedSystem`].
 
 use crate::matrix::Matrix;
 
-/// Mismatch that counts as solved.
+/// Mismatch below which the equations count as solved.
 const SOLVED: f64 = 1e-12;
 
-/// Mismatch that rounding may leave.
+/// Mismatch that may remain because of rounding.
 const NEARLY_SOLVED: f64 = 1e-9;
 
-/// Corrections of one step.
+/// Maximum number of Newton corrections per step.
 const MOST_CORRECTIONS: u32 = 12;
 
-/// A corrected point off the predicted one by more than this share of the step is not believed.
+/// Largest accepted distance of the corrected point from the predicted one, as a fraction of the step.
 pub(super) const NEAR: f64 = 0.1;
 
-/// Least cosine of the turn of a step.
+/// Least cosine of the angle between successive tangents.
 pub(super) const TURN: f64 = 0.9;
 
-/// Points before a way may close.
+/// Increment of the finite difference with respect to a parameter; it only steers Newton's method.
+pub(super) const NUDGE: f64 = 1e-6;
+
+/// Number of points before a curve may close.
 const CLOSING: usize = 8;
 
-/// The value at a share of a window; its ends exactly.
+/// The value at a fraction of a window; exact at both ends.
 pub(super) fn value((from, to): (f64, f64), share: f64) -> f64 {
     if share == 1.0 { to } else { (to - from).mul_add(share, from) }
 }
 
-/// Whether a way of so many points is back where it began: nearer than a part of the last step, in the same direction. Each
-/// of the two is a point and its tangent.
+/// Whether a curve with this number of points has returned to its start: closer than a fraction of the last step, in the same
+/// direction. `here` and `begin` are each a point and its tangent.
 pub(super) fn closes(
     points: usize,
     last_step: f64,
@@ -42,23 +46,23 @@ pub(super) fn closes(
 }
 
 /// N equations for N + 1 unknowns, all scaled.
-pub(super) trait System {
-    /// What is known beside the mismatch.
+pub(super) trait UnderdeterminedSystem {
+    /// Data computed along with the mismatch.
     type Known;
-    /// Why there is none.
+    /// The reason why there is no mismatch.
     type Error;
 
     /// Mismatch of the equations.
     fn mismatch(&self, unknowns: &[f64]) -> Result<(Vec<f64>, Self::Known), Self::Error>;
 
-    /// Derivative of the mismatch, N × (N + 1). `before` is one from nearby whose expensive parts may be kept; `way`
-    /// is where the step goes, the side to which one-sided differences are taken.
+    /// Derivative of the mismatch, N × (N + 1). `before` is a derivative at a nearby point whose expensive parts may be
+    /// reused; `heading` is the direction of the step, in which one-sided differences are taken.
     fn derivative(
         &self,
         unknowns: &[f64],
         known: &Self::Known,
         before: Option<&Matrix>,
-        way: &[f64],
+        heading: &[f64],
     ) -> Result<Matrix, Self::Error>;
 }
 
@@ -75,13 +79,13 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Distance of two points.
+/// Distance between two points.
 pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
-/// The vector of length 1 in a direction.
-pub(super) fn direction(mut vector: Vec<f64>) -> Vec<f64> {
+/// The vector scaled to length 1.
+pub(super) fn normalised(mut vector: Vec<f64>) -> Vec<f64> {
     let length = product(&vector, &vector).sqrt();
     if length > 0.0 {
         for entry in &mut vector {
@@ -91,14 +95,14 @@ pub(super) fn direction(mut vector: Vec<f64>) -> Vec<f64> {
     vector
 }
 
-/// Cosine of the angle of two directions.
+/// Cosine of the angle between two unit vectors.
 pub(super) fn cosine(a: &[f64], b: &[f64]) -> f64 {
     product(a, b)
 }
 
-/// The solution on the hyperplane through `predicted` orthogonal to `normal`; `None` where corrections do not come to an
-/// end, or the equations have no mismatch on the way.
-pub(super) fn corrected<S: System>(
+/// The solution on the hyperplane through `predicted` orthogonal to `normal`; `None` if the corrections do not converge
+/// or the mismatch does not exist at an iterate.
+pub(super) fn corrected<S: UnderdeterminedSystem>(
     system: &S,
     predicted: &[f64],
     normal: &[f64],
@@ -134,12 +138,12 @@ pub(super) fn corrected<S: System>(
     None
 }
 
-/// The tangent at a solution, towards `way`.
-pub(super) fn tangent(derivative: &Matrix, way: &[f64]) -> Option<Vec<f64>> {
+/// The unit tangent at a solution, oriented towards `heading`.
+pub(super) fn tangent(derivative: &Matrix, heading: &[f64]) -> Option<Vec<f64>> {
     let n = derivative.rows();
     let right = Matrix::from_fn(n + 1, 1, |i, _| f64::from(u8::from(i == n)));
-    let found = bordered(derivative, way).solve(&right).filter(Matrix::is_finite)?;
-    Some(direction(found.as_slice().to_vec()))
+    let found = bordered(derivative, heading).solve(&right).filter(Matrix::is_finite)?;
+    Some(normalised(found.as_slice().to_vec()))
 }
 
 fn bordered(derivative: &Matrix, row: &[f64]) -> Matrix {
@@ -147,7 +151,7 @@ fn bordered(derivative: &Matrix, row: &[f64]) -> Matrix {
     Matrix::from_fn(n + 1, n + 1, |i, j| if i < n { derivative[(i, j)] } else { row[j] })
 }
 
-/// The cubic through two points with their tangents, at the share `s` of the way; tangents have length 1.
+/// The cubic Hermite interpolant of two points and their unit tangents, at the fraction `s` between them.
 pub(super) fn between(a: (&[f64], &[f64]), b: (&[f64], &[f64]), s: f64) -> Vec<f64> {
     let length = distance(a.0, b.0);
     let (s2, s3) = (s * s, s * s * s);

@@ -1,21 +1,23 @@
 //! The curve of a threshold in two parameters, by pseudo-arclength.
 //!
-//! Unknowns are the state and both parameters; equations are φ(x) = x and the test function of the threshold's kind. The
-//! derivative of the image by the state is exact; that by the parameters and the gradient of the test are differences, taken
-//! once a step: they steer Newton's method and bound no digit of the result.
+//! The unknowns are the state and both parameters; the equations are φ(x) = x and the test function of the bifurcation. The
+//! derivative of the image with respect to the state is exact; the derivative with respect to the parameters and the gradient
+//! of the test function are finite differences, computed once per step: they steer Newton's method and do not limit the
+//! accuracy of the result.
 //!
-//! A curve of folds, flips or Neimark–Sacker bifurcations ends where its orbit touches the border of its signature; one of
-//! Neimark–Sacker bifurcations also where its pair becomes real, at ±1.
+//! A curve of folds, flips or Neimark–Sacker bifurcations ends where its orbit grazes the border of its signature; a curve of
+//! Neimark–Sacker bifurcations also ends where its pair becomes real, at ±1.
 
 use num_complex::Complex64;
 
-use super::arc::{self, NEAR, Solved, System, TURN, cosine, distance, tangent};
-use super::branch::NUDGE;
-use super::threshold::{Kind, confirmed, test};
-use super::{Family, Image, multipliers};
+use super::arc::{
+    self, NEAR, NUDGE, Solved, TURN, UnderdeterminedSystem, cosine, distance, tangent,
+};
+use super::threshold::{BifurcationKind, confirmed, test};
+use super::{Image, PeriodMap, multipliers};
 use crate::matrix::Matrix;
 
-/// The windows of the two parameters and the steps of a trace.
+/// Settings for tracing a curve: the windows of the two parameters and the step lengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trace {
     /// Window of the first parameter.
@@ -24,14 +26,14 @@ pub struct Trace {
     pub second: (f64, f64),
     /// Longest step in scaled coordinates, in which both windows have width 1.
     pub longest: f64,
-    /// Shortest step: below it the curve counts as lost.
+    /// Shortest step; below it the curve counts as lost.
     pub shortest: f64,
-    /// Most points on each side of the first one.
+    /// Maximum number of points on each side of the first one.
     pub most_points: u32,
 }
 
 impl Trace {
-    /// Through two windows with at least `steps` points across either of them.
+    /// Settings for two windows with at least `steps` points across each of them.
     pub fn windows(first: (f64, f64), second: (f64, f64), steps: u32) -> Self {
         let longest = 1.0 / f64::from(steps.max(1));
         Self { first, second, longest, shortest: 1e-7, most_points: 2000 }
@@ -40,69 +42,69 @@ impl Trace {
 
 /// A point of a curve.
 #[derive(Clone, Debug)]
-pub struct CurvePoint {
+pub struct BifurcationCurvePoint {
     /// The fixed point.
     pub state: Vec<f64>,
     /// The two parameters.
     pub parameters: [f64; 2],
-    /// Multipliers, the largest modulus first; at a touch those of the piece inside.
+    /// Multipliers, the largest modulus first; at grazing, those of the piece inside the border.
     pub multipliers: Vec<Complex64>,
     /// Largest mismatch of the equations, scaled.
     pub residual: f64,
 }
 
-/// How a curve ends.
+/// End of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CurveEnd {
     /// At the border of a window.
     Window,
-    /// Where it began.
+    /// At its start: the curve is closed.
     Closed,
-    /// Its orbit touches the border of its signature.
-    Touch,
-    /// The pair of multipliers is real: a resonance 1 : 1 or 1 : 2.
+    /// The orbit grazes the border of its signature.
+    Grazing,
+    /// The pair of multipliers becomes real: a resonance 1 : 1 or 1 : 2.
     Resonance,
-    /// Steps became too short.
+    /// The steps became too short.
     Lost,
-    /// After as many points as were allowed.
+    /// After the maximum number of points.
     TooLong,
 }
 
 /// A curve, from one of its ends to the other.
 #[derive(Clone, Debug)]
-pub struct Curve {
-    /// What happens on it.
-    pub kind: Kind,
+pub struct BifurcationCurve {
+    /// Kind of the bifurcation.
+    pub kind: BifurcationKind,
     /// Points in order.
-    pub points: Vec<CurvePoint>,
-    /// How it ends before the first and after the last point.
+    pub points: Vec<BifurcationCurvePoint>,
+    /// Ends before the first and after the last point.
     pub ends: [CurveEnd; 2],
 }
 
 /// The equations of a threshold in scaled unknowns.
-struct Equations<'a, F: Family> {
+struct Equations<'a, F: PeriodMap> {
     family: &'a F,
     trace: Trace,
-    kind: Kind,
+    kind: BifurcationKind,
     held: &'a F::Signature,
 }
 
-impl<F: Family> Equations<'_, F> {
+impl<F: PeriodMap> Equations<'_, F> {
     fn unscaled(&self, unknowns: &[f64]) -> (Vec<f64>, [f64; 2]) {
         let n = unknowns.len() - 2;
-        let state = unknowns[..n].iter().map(|it| it * self.family.scale()).collect();
+        let state = unknowns[..n].iter().map(|x| x * self.family.scale()).collect();
         let Trace { first, second, .. } = self.trace;
         (state, [arc::value(first, unknowns[n]), arc::value(second, unknowns[n + 1])])
     }
 
-    /// The test at an image; a distance is a length.
+    /// The test function at an image; a distance is scaled as a length.
     fn test(&self, image: &Image<F::Signature>) -> f64 {
         let value = test(self.kind, image).unwrap_or(f64::NAN);
-        if self.kind == Kind::Touch { value / self.family.scale() } else { value }
+        if self.kind == BifurcationKind::Grazing { value / self.family.scale() } else { value }
     }
 }
 
-impl<F: Family> System for Equations<'_, F> {
+impl<F: PeriodMap> UnderdeterminedSystem for Equations<'_, F> {
     type Known = Image<F::Signature>;
     type Error = F::Error;
 
@@ -151,9 +153,9 @@ impl<F: Family> System for Equations<'_, F> {
     }
 }
 
-/// A point with what the trace needs.
+/// A solution on the curve with the data that the trace needs.
 #[derive(Clone)]
-struct Place<S> {
+struct CurveSolution<S> {
     unknowns: Vec<f64>,
     tangent: Vec<f64>,
     image: Image<S>,
@@ -161,51 +163,51 @@ struct Place<S> {
     multipliers: Vec<Complex64>,
 }
 
-impl<S> Place<S> {
+impl<S> CurveSolution<S> {
     fn with_tangent(&self) -> (&[f64], &[f64]) {
         (&self.unknowns, &self.tangent)
     }
 }
 
-/// The share of a step at which it leaves a window first, and through which coordinate and end.
-fn leaves<S>(here: &Place<S>, length: f64) -> Option<(f64, usize, f64)> {
+/// The length at which a step first leaves a window, with the coordinate and the end through which it leaves.
+fn leaves<S>(here: &CurveSolution<S>, length: f64) -> Option<(f64, usize, f64)> {
     let n = here.unknowns.len() - 2;
     (n..n + 2)
         .filter_map(|column| {
             let (at, speed) = (here.unknowns[column], here.tangent[column]);
             let end = if speed > 0.0 { 1.0 } else { 0.0 };
-            let way = (end - at) / speed;
-            (speed != 0.0 && way <= length).then_some((way, column, end))
+            let until = (end - at) / speed;
+            (speed != 0.0 && until <= length).then_some((until, column, end))
         })
         .min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-impl<F: Family> Equations<'_, F> {
-    fn at(&self, predicted: &[f64], normal: &[f64]) -> Option<Place<F::Signature>> {
+impl<F: PeriodMap> Equations<'_, F> {
+    fn at(&self, predicted: &[f64], normal: &[f64]) -> Option<CurveSolution<F::Signature>> {
         let solved = arc::corrected(self, predicted, normal, None)?;
         let Solved { unknowns, residual, known, derivative } = solved;
         let multipliers = multipliers(&known.derivative)?;
         let tangent = tangent(&derivative, normal)?;
-        Some(Place { unknowns, tangent, image: known, residual, multipliers })
+        Some(CurveSolution { unknowns, tangent, image: known, residual, multipliers })
     }
 
-    fn point(&self, place: &Place<F::Signature>) -> CurvePoint {
-        let (state, parameters) = self.unscaled(&place.unknowns);
-        let multipliers = place.multipliers.clone();
-        CurvePoint { state, parameters, multipliers, residual: place.residual }
+    fn point(&self, solution: &CurveSolution<F::Signature>) -> BifurcationCurvePoint {
+        let (state, parameters) = self.unscaled(&solution.unknowns);
+        let multipliers = solution.multipliers.clone();
+        BifurcationCurvePoint { state, parameters, multipliers, residual: solution.residual }
     }
 
-    /// One step; `Err` where this length does not do, or for good where the end is known.
+    /// One step; `Err(None)` if it fails at this length, `Err(Some)` if the curve ends there.
     fn step(
         &self,
-        here: &Place<F::Signature>,
+        here: &CurveSolution<F::Signature>,
         length: f64,
-    ) -> Result<(Place<F::Signature>, bool), Option<CurveEnd>> {
+    ) -> Result<(CurveSolution<F::Signature>, bool), Option<CurveEnd>> {
         let leaving = leaves(here, length);
         let mut normal = here.tangent.clone();
-        let way = leaving.map_or(length, |(way, ..)| way.max(0.0));
+        let step_length = leaving.map_or(length, |(until, ..)| until.max(0.0));
         let mut predicted: Vec<f64> =
-            here.unknowns.iter().zip(&here.tangent).map(|(u, t)| u + way * t).collect();
+            here.unknowns.iter().zip(&here.tangent).map(|(u, t)| u + step_length * t).collect();
         if let Some((_, column, end)) = leaving {
             predicted[column] = end;
             normal = vec![0.0; normal.len()];
@@ -215,15 +217,15 @@ impl<F: Family> Equations<'_, F> {
         if let Some((_, column, end)) = leaving {
             next.unknowns[column] = end;
         }
-        if distance(&next.unknowns, &predicted) > NEAR * way.max(1e-7)
+        if distance(&next.unknowns, &predicted) > NEAR * step_length.max(1e-7)
             || cosine(&next.tangent, &here.tangent) < TURN
         {
             return Err(None);
         }
         if next.image.signature != *self.held
-            || (self.kind != Kind::Touch && next.image.distance <= 0.0)
+            || (self.kind != BifurcationKind::Grazing && next.image.distance <= 0.0)
         {
-            return Err(Some(CurveEnd::Touch));
+            return Err(Some(CurveEnd::Grazing));
         }
         if !confirmed(self.kind, &next.multipliers) {
             return Err(Some(CurveEnd::Resonance));
@@ -236,8 +238,8 @@ impl<F: Family> Equations<'_, F> {
         Ok((next, leaving.is_some()))
     }
 
-    /// The curve from a place in the direction of its tangent.
-    fn side(&self, begin: &Place<F::Signature>) -> (Vec<CurvePoint>, CurveEnd) {
+    /// The curve from a solution in the direction of its tangent.
+    fn side(&self, begin: &CurveSolution<F::Signature>) -> (Vec<BifurcationCurvePoint>, CurveEnd) {
         let mut here = begin.clone();
         let mut points = Vec::new();
         let mut length = self.trace.longest;
@@ -251,14 +253,14 @@ impl<F: Family> Equations<'_, F> {
                     if leaves {
                         return (points, CurveEnd::Window);
                     }
-                    let way = distance(&next.unknowns, &here.unknowns);
-                    let turned = 1.0 - cosine(&next.tangent, &here.tangent);
-                    if turned < 3e-3 {
-                        length = (2.0 * way).min(self.trace.longest);
+                    let step_length = distance(&next.unknowns, &here.unknowns);
+                    let deviation = 1.0 - cosine(&next.tangent, &here.tangent);
+                    if deviation < 3e-3 {
+                        length = (2.0 * step_length).min(self.trace.longest);
                     }
                     here = next;
                     let (now, first) = (here.with_tangent(), begin.with_tangent());
-                    if arc::closes(points.len(), way, now, first) {
+                    if arc::closes(points.len(), step_length, now, first) {
                         return (points, CurveEnd::Closed);
                     }
                 }
@@ -269,38 +271,38 @@ impl<F: Family> Equations<'_, F> {
     }
 }
 
-/// The curve of a threshold of a kind through a fixed point that has it, on the piece of `signature`, in both directions
-/// to the borders of the windows. State and both parameters are unscaled, in the order of [`Trace`]'s windows; they are the guess
-/// of Newton's method. `None` where it finds no point of the curve from there.
-pub fn trace<F: Family>(
+/// The curve of a bifurcation through a fixed point with this bifurcation, on the piece of `signature`, in both directions
+/// to the borders of the windows. The state and both parameters are unscaled, in the order of the windows of [`Trace`]; they
+/// are the initial guess of Newton's method. `None` if no point of the curve is found from there.
+pub fn trace<F: PeriodMap>(
     family: &F,
-    kind: Kind,
+    kind: BifurcationKind,
     signature: &F::Signature,
     state: &[f64],
     parameters: [f64; 2],
     options: Trace,
-) -> Option<Curve> {
+) -> Option<BifurcationCurve> {
     let equations = Equations { family, trace: options, kind, held: signature };
     let share = |(from, to): (f64, f64), value: f64| (value - from) / (to - from);
-    let mut unknowns: Vec<f64> = state.iter().map(|it| it / family.scale()).collect();
+    let mut unknowns: Vec<f64> = state.iter().map(|x| x / family.scale()).collect();
     unknowns.push(share(options.first, parameters[0]));
     unknowns.push(share(options.second, parameters[1]));
     let n = state.len();
-    // The curve is met across its second parameter, or along its first one where it runs so.
-    let met = (0..2).find_map(|turn| {
+    // The first point is computed at a fixed second parameter or, if that fails, at a fixed first parameter.
+    let met = (0..2).find_map(|offset| {
         let mut normal = vec![0.0; n + 2];
-        normal[n + 1 - turn] = 1.0;
+        normal[n + 1 - offset] = 1.0;
         equations.at(&unknowns, &normal)
     })?;
-    let back = Place { tangent: met.tangent.iter().map(|it| -it).collect(), ..met.clone() };
+    let back = CurveSolution { tangent: met.tangent.iter().map(|x| -x).collect(), ..met.clone() };
     let (forward, end) = equations.side(&met);
     let (backward, begin) = if end == CurveEnd::Closed {
         (Vec::new(), CurveEnd::Closed)
     } else {
         equations.side(&back)
     };
-    let mut points: Vec<CurvePoint> = backward.into_iter().rev().collect();
+    let mut points: Vec<BifurcationCurvePoint> = backward.into_iter().rev().collect();
     points.push(equations.point(&met));
     points.extend(forward);
-    Some(Curve { kind, points, ends: [begin, end] })
+    Some(BifurcationCurve { kind, points, ends: [begin, end] })
 }

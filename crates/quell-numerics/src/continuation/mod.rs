@@ -1,17 +1,17 @@
-//! Fixed points of maps that depend on parameters: found by shooting, followed by pseudo-arclength, with the
+//! Fixed points of maps that depend on parameters: computed by shooting, continued by pseudo-arclength, with the
 //! thresholds at which their stability changes, and curves of such thresholds in two parameters.
 //!
-//! A system enters by [`Family`]: where a state comes to after a period, the derivative of that, and what happens on the
-//! way. How many masses and contacts it has, and how their impacts, sticks and slips are integrated, is its own affair:
-//! a saltation matrix is part of the derivative, and two periods with other events have other signatures.
+//! A system implements [`PeriodMap`]: the state after one period, its derivative, and the signature of the events during the
+//! period. The number of masses and contacts, and the integration of their impacts, sticks and slips, are up to the system:
+//! the derivative includes saltation matrices, and periods with different events have different signatures.
 //!
-//! * [`shooting`]: Newton's method for a fixed point, which says where it stopped and why;
+//! * [`shooting`]: Newton's method for a fixed point, which reports where and why it stopped;
 //! * [`branch`]: a branch of fixed points in one parameter, around folds and through borders of signatures;
-//! * [`threshold`]: what is zero at a fold, a flip, a Neimark–Sacker bifurcation, a touch;
+//! * [`threshold`]: the test functions of a fold, a flip, a Neimark–Sacker bifurcation and a grazing bifurcation;
 //! * [`curve`]: the curve of a threshold in two parameters.
 //!
-//! Lengths along a branch are counted in scaled coordinates: the state in [`Family::scale`], each parameter in the width of
-//! its window.
+//! Lengths along a branch are measured in scaled coordinates: the state in units of [`PeriodMap::scale`], each parameter in
+//! units of the width of its window.
 //!
 //! References: H. B. Keller, *Lectures on Numerical Methods in Bifurcation Problems* (1987), for the bordered
 //! systems; Yu. A. Kuznetsov, *Elements of Applied Bifurcation Theory* (3rd ed. 2004), ch. 4, 5 and 10, for the test
@@ -31,26 +31,27 @@ use crate::eigen::eigenvalues;
 pub use crate::eigen::modulus;
 use crate::matrix::Matrix;
 
-/// A map of a state over one period, which depends on parameters.
-pub trait Family {
-    /// What happens along a period. States of one signature have images that depend smoothly on state and parameters.
+/// A map of the state over one period, which depends on parameters.
+pub trait PeriodMap {
+    /// The sequence of events during a period. Where the signature is constant, the image depends smoothly on state and
+    /// parameters.
     type Signature: Clone + PartialEq + Debug;
-    /// Why there is no image.
+    /// The reason why an image does not exist.
     type Error: Clone + Debug;
 
-    /// Length of a state.
+    /// Number of entries of a state.
     fn dimension(&self) -> usize;
 
-    /// Size of the entries of a state by which closeness is judged, above zero.
+    /// Typical size of the entries of a state, used for tolerances; above zero.
     fn scale(&self) -> f64;
 
     /// The image of a state.
     ///
-    /// `held` is a signature whose smooth piece is to be continued beyond its border where the family can do that;
-    /// one that cannot gives the image as it is, with its own signature.
+    /// `held` is a signature whose smooth piece is to be extended beyond its border if the map supports that;
+    /// otherwise the map returns the actual image with its own signature.
     ///
     /// # Errors
-    /// Where there is no image: parameters without meaning, or an integration that stopped.
+    /// Where there is no image: invalid parameters, or an integration that stopped.
     fn image(
         &self,
         state: &[f64],
@@ -59,21 +60,21 @@ pub trait Family {
     ) -> Result<Image<Self::Signature>, Self::Error>;
 }
 
-/// Where a state comes to after a period.
+/// The image of a state after a period.
 #[derive(Clone, Debug)]
 pub struct Image<S> {
     /// The state after the period.
     pub state: Vec<f64>,
-    /// Its derivative by the state before, saltation at events included.
+    /// Its derivative with respect to the initial state, including saltation at events.
     pub derivative: Matrix,
-    /// Distance from the border of the signature: positive inside, zero at a touch, negative on a
-    /// continuation beyond it; infinite where the family knows none.
+    /// Distance from the border of the signature: positive inside, zero at grazing, negative on an
+    /// extension beyond it; infinite where the map does not define it.
     pub distance: f64,
-    /// What happened.
+    /// The events during the period.
     pub signature: S,
 }
 
-/// Eigenvalues of a real matrix, the largest modulus first; `None` where they cannot be computed.
+/// Eigenvalues of a real matrix, the largest modulus first; `None` if they cannot be computed.
 pub fn multipliers(derivative: &Matrix) -> Option<Vec<Complex64>> {
     let mut found = match derivative.rows() {
         1 => vec![Complex64::new(derivative[(0, 0)], 0.0)],
@@ -83,14 +84,14 @@ pub fn multipliers(derivative: &Matrix) -> Option<Vec<Complex64>> {
         }
         _ => eigenvalues(derivative).ok()?,
     };
-    if found.iter().any(|it| !it.re.is_finite() || !it.im.is_finite()) {
+    if found.iter().any(|z| !z.re.is_finite() || !z.im.is_finite()) {
         return None;
     }
     found.sort_by(|a, b| modulus(*b).total_cmp(&modulus(*a)));
     Some(found)
 }
 
-/// Eigenvalues of ((a, b), (c, d)), the larger modulus first; of a complex pair the upper one.
+/// Eigenvalues of ((a, b), (c, d)), the larger modulus first; for a complex pair, the one in the upper half plane first.
 fn of_two(a: f64, b: f64, c: f64, d: f64) -> [Complex64; 2] {
     let half = 0.5 * (a + d);
     let determinant = a * d - b * c;
@@ -100,19 +101,19 @@ fn of_two(a: f64, b: f64, c: f64, d: f64) -> [Complex64; 2] {
         return [Complex64::new(half, im), Complex64::new(half, -im)];
     }
     let large = half + libm::copysign(libm::sqrt(discriminant), half);
-    // The smaller one by the product, which does not cancel.
+    // The smaller one follows from the product, without cancellation.
     let small = if large == 0.0 { 0.0 } else { determinant / large };
     [Complex64::new(large, 0.0), Complex64::new(small, 0.0)]
 }
 
-/// Largest modulus of multipliers in their order; 0 of none.
+/// Largest modulus of multipliers sorted by modulus; 0 if there are none.
 pub fn spectral_radius(multipliers: &[Complex64]) -> f64 {
-    multipliers.first().map_or(0.0, |&it| modulus(it))
+    multipliers.first().map_or(0.0, |&z| modulus(z))
 }
 
 /// Number of multipliers outside the unit circle.
 pub fn unstable(multipliers: &[Complex64]) -> usize {
-    multipliers.iter().filter(|&&it| modulus(it) > 1.0).count()
+    multipliers.iter().filter(|&&z| modulus(z) > 1.0).count()
 }
 
 #[cfg(test)]
@@ -131,8 +132,7 @@ mod tests {
             let own = multipliers(&matrix).expect("finite");
             let general = eigenvalues(&matrix).expect("finite");
             for value in own {
-                let off =
-                    general.iter().map(|it| (it - value).norm()).fold(f64::INFINITY, f64::min);
+                let off = general.iter().map(|z| (z - value).norm()).fold(f64::INFINITY, f64::min);
                 assert!(off < 1e-14, "{matrix:?}: {off}");
             }
         }

@@ -1,26 +1,26 @@
 //! Newton's method for a fixed point of a period map.
 //!
-//! x ← x − (M − 1)⁻¹(φ(x) − x). Quadratic where the image is smooth. Across borders of signatures the derivative jumps and
-//! Newton's method may cycle: it then ends with the best place it met. It may also close perfectly on
-//! another branch than the one that was meant: [`Shooting::reach`] bounds how far from the guess it may go.
+//! x ← x − (M − 1)⁻¹(φ(x) − x). Convergence is quadratic where the image is smooth. Across borders of signatures the
+//! derivative jumps and Newton's method may cycle: it then reports the best iterate. It may also converge to a fixed point
+//! on another branch than intended: [`Shooting::reach`] limits the distance from the guess.
 
 use std::fmt;
 
-use super::{Family, Image};
+use super::{Image, PeriodMap};
 use crate::matrix::Matrix;
 
-/// How a fixed point is looked for. Lengths are relative to [`Family::scale`].
+/// Settings of the shooting method. Lengths are relative to [`PeriodMap::scale`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shooting {
-    /// Most steps.
+    /// Maximum number of steps.
     pub most_steps: u32,
-    /// Mismatch after a period that counts as closed.
+    /// Mismatch after a period below which the orbit counts as closed.
     pub closed: f64,
-    /// Mismatch that rounding of a long period may leave: counts as closed where a step no longer halves it.
+    /// Mismatch that rounding over a long period may leave: the orbit counts as closed if a step no longer halves it.
     pub nearly_closed: f64,
-    /// Longest step: far from a fixed point the first order may send the state anywhere.
+    /// Longest step: far from a fixed point, the linearisation may give an arbitrarily large step.
     pub longest_step: f64,
-    /// How far from the guess a fixed point may lie.
+    /// Largest distance of the fixed point from the guess.
     pub reach: f64,
 }
 
@@ -49,43 +49,43 @@ pub struct FixedPoint<S> {
     pub steps: u32,
 }
 
-/// Why no fixed point was found, and where the search stopped.
+/// The reason why no fixed point was found, and the state at which the search stopped.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NotClosed<E> {
-    /// The steps were used up.
+    /// The maximum number of steps was reached.
     TooManySteps {
         /// Steps taken.
         steps: u32,
-        /// Least mismatch met.
+        /// Least mismatch found.
         residual: f64,
-        /// Where that was.
+        /// The state with the least mismatch.
         at: Vec<f64>,
     },
-    /// The derivative has the multiplier 1 to rounding: no step is defined.
+    /// The derivative has a multiplier that equals 1 up to rounding, so that no step is defined.
     Singular {
         /// Steps taken.
         steps: u32,
         /// Mismatch there.
         residual: f64,
-        /// Where.
+        /// The state.
         at: Vec<f64>,
     },
-    /// A fixed point was found, but too far from the guess to be meant by it.
+    /// A fixed point was found, but too far from the guess.
     Strayed {
         /// Steps taken.
         steps: u32,
-        /// Largest entry of the way from the guess.
+        /// Largest entry of the difference from the guess.
         distance: f64,
-        /// Where it is.
+        /// The fixed point.
         at: Vec<f64>,
     },
-    /// There is no image at a place on the way.
+    /// An iterate has no image.
     NoImage {
         /// Steps taken.
         steps: u32,
-        /// Where.
+        /// The state.
         at: Vec<f64>,
-        /// Why.
+        /// The reason.
         why: E,
     },
 }
@@ -103,7 +103,7 @@ impl<E: fmt::Display> fmt::Display for NotClosed<E> {
             ),
             Self::Strayed { steps, distance, at } => write!(
                 f,
-                "shooting found an orbit at {at:?} after {steps} steps, but {distance:.1e} from the guess: another one"
+                "shooting found an orbit at {at:?} after {steps} steps, but {distance:.1e} from the guess, so it is another orbit"
             ),
             Self::NoImage { steps, at, why } => {
                 write!(f, "shooting stopped after {steps} steps at {at:?}: {why}")
@@ -117,11 +117,11 @@ pub(super) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, value| value.abs().max(most))
 }
 
-/// The fixed point near `guess` at given parameters, on the piece `held` where one is held.
+/// The fixed point near `guess` at given parameters, on the piece `held` if one is given.
 ///
 /// # Errors
 /// [`NotClosed`].
-pub fn fixed_point<F: Family>(
+pub fn fixed_point<F: PeriodMap>(
     family: &F,
     guess: &[f64],
     parameters: &[f64],
@@ -146,8 +146,9 @@ pub fn fixed_point<F: Family>(
         if residual <= shooting.closed * scale
             || (residual <= shooting.nearly_closed * scale && !improves)
         {
-            let way: Vec<f64> = state.iter().zip(guess).map(|(to, from)| to - from).collect();
-            let distance = largest(&way);
+            let difference: Vec<f64> =
+                state.iter().zip(guess).map(|(to, from)| to - from).collect();
+            let distance = largest(&difference);
             if distance > shooting.reach * scale {
                 return Err(NotClosed::Strayed { steps, distance, at: state });
             }

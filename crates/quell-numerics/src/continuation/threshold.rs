@@ -1,32 +1,32 @@
-//! What is zero at a threshold.
+//! Test functions of bifurcations.
 //!
-//! With multipliers λᵢ of the period map: a fold or a branching has Π(λᵢ − 1) = 0, a flip Π(λᵢ + 1) = 0, a
+//! With the multipliers λᵢ of the period map, a fold or a branching has Π(λᵢ − 1) = 0, a flip Π(λᵢ + 1) = 0, and a
 //! Neimark–Sacker bifurcation Π(λᵢλⱼ − 1) = 0 over pairs i < j (Kuznetsov's bialternate product). All three are smooth
-//! in state and parameters where the image is. The last vanishes for two real multipliers with product 1 too, which
-//! is no bifurcation: a root counts only with a complex pair on the circle. At a touch the distance from the border of the
-//! signature is zero; multipliers say nothing there, for they jump.
+//! in state and parameters where the image is. The last also vanishes for two real multipliers with product 1, which
+//! is not a bifurcation: a root counts only if a complex pair lies on the unit circle. At grazing, the distance from the
+//! border of the signature is zero; the multipliers jump there and give no test function.
 
 use num_complex::Complex64;
 
 use super::{Image, modulus, multipliers};
 
-/// How near to the unit circle the pair of a Neimark–Sacker bifurcation must be.
+/// Largest distance of the pair of a Neimark–Sacker bifurcation from the unit circle.
 const ON_THE_CIRCLE: f64 = 1e-5;
 
-/// What happens to a fixed point at a threshold.
+/// Bifurcation of a fixed point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Kind {
-    /// A multiplier passes +1 and the branch turns back.
+pub enum BifurcationKind {
+    /// A multiplier crosses +1 and the branch turns back.
     Fold,
-    /// A multiplier passes +1 and the branch goes on: another one crosses.
+    /// A multiplier crosses +1 and the branch continues: another branch crosses it.
     Branching,
-    /// A multiplier passes −1.
+    /// A multiplier crosses −1.
     Flip,
-    /// A complex pair of multipliers passes the unit circle.
+    /// A complex pair of multipliers crosses the unit circle.
     NeimarkSacker,
-    /// The distance from the border of the signature is zero; what lies beyond has another signature.
-    Touch,
-    /// The signature changes, and the family knows no distance from its border.
+    /// The distance from the border of the signature is zero; beyond it the signature is different.
+    Grazing,
+    /// The signature changes, and the map does not define the distance from its border.
     Border,
 }
 
@@ -36,13 +36,13 @@ pub(super) struct Tests {
     pub(super) values: [f64; 3],
 }
 
-/// Kinds in the order of [`Tests::values`]; branching is told from a fold by the branch.
-pub(super) const SMOOTH: [Kind; 3] = [Kind::Fold, Kind::Flip, Kind::NeimarkSacker];
+/// Kinds in the order of [`Tests::values`]; branching is distinguished from a fold by the shape of the branch.
+pub(super) const SMOOTH: [BifurcationKind; 3] =
+    [BifurcationKind::Fold, BifurcationKind::Flip, BifurcationKind::NeimarkSacker];
 
 impl Tests {
     pub(super) fn of(multipliers: &[Complex64]) -> Self {
-        let product =
-            |shift: f64| multipliers.iter().map(|it| it + shift).product::<Complex64>().re;
+        let product = |shift: f64| multipliers.iter().map(|z| z + shift).product::<Complex64>().re;
         let mut pairs = Complex64::new(1.0, 0.0);
         for (i, a) in multipliers.iter().enumerate() {
             for b in &multipliers[i + 1..] {
@@ -53,19 +53,19 @@ impl Tests {
     }
 }
 
-/// What is zero at a threshold of this kind; `None` where multipliers cannot be computed.
-pub(super) fn test<S>(kind: Kind, image: &Image<S>) -> Option<f64> {
+/// The test function of this kind of bifurcation; `None` if the multipliers cannot be computed.
+pub(super) fn test<S>(kind: BifurcationKind, image: &Image<S>) -> Option<f64> {
     let index = match kind {
-        Kind::Touch | Kind::Border => return Some(image.distance),
-        Kind::Fold | Kind::Branching => 0,
-        Kind::Flip => 1,
-        Kind::NeimarkSacker => 2,
+        BifurcationKind::Grazing | BifurcationKind::Border => return Some(image.distance),
+        BifurcationKind::Fold | BifurcationKind::Branching => 0,
+        BifurcationKind::Flip => 1,
+        BifurcationKind::NeimarkSacker => 2,
     };
     Some(Tests::of(&multipliers(&image.derivative)?).values[index])
 }
 
-/// Whether a root of the test of a kind is one of its bifurcations.
-pub(super) fn confirmed(kind: Kind, multipliers: &[Complex64]) -> bool {
-    kind != Kind::NeimarkSacker
-        || multipliers.iter().any(|&it| it.im != 0.0 && (modulus(it) - 1.0).abs() < ON_THE_CIRCLE)
+/// Whether a root of the test function of a kind is a bifurcation of this kind.
+pub(super) fn confirmed(kind: BifurcationKind, multipliers: &[Complex64]) -> bool {
+    kind != BifurcationKind::NeimarkSacker
+        || multipliers.iter().any(|&z| z.im != 0.0 && (modulus(z) - 1.0).abs() < ON_THE_CIRCLE)
 }

@@ -1,15 +1,15 @@
-//! Balancing: a diagonal similarity by powers of two that brings the rows and the columns of a matrix
-//! to like sizes, so that rounding errors of the eigenvalues follow the balanced matrix.
+//! Balancing: a diagonal similarity transformation by powers of two that gives the rows and columns of a matrix
+//! similar norms, so that the rounding errors of the eigenvalues are those of the balanced matrix.
 //!
 //! A ← D⁻¹ A D with D = diag(2^eᵢ), swept over i until no column and row sum differ by more than a factor of
 //! about two (Parlett and Reinsch, *Numer. Math.* 13 (1969) 293; the 1-norm without the diagonal).
-//! Powers of two change no digit. A change is made only where it lowers c + r by five per cent,
-//! which also guards against balancing that makes things worse (James, Langou and Lowery, 2014).
+//! Scaling by powers of two is exact. A scaling is applied only if it lowers c + r by five per cent,
+//! which also prevents balancing from increasing the errors (James, Langou and Lowery, 2014).
 
-/// A sweep that changes nothing ends the work; more than this many never helped a matrix yet.
+/// Maximum number of sweeps; a sweep without changes ends the iteration. More sweeps have not improved any matrix so far.
 const SWEEPS: usize = 32;
 
-/// Largest exponent of one scale: products of two scales stay finite.
+/// Largest exponent of a scale factor, so that products of two factors stay finite.
 const LARGEST_EXPONENT: i32 = 400;
 
 /// Balances the n × n matrix in rows of length `stride`; returns D, a power of two for each row.
@@ -54,7 +54,7 @@ pub(crate) fn balance(a: &mut [f64], n: usize, stride: usize) -> Vec<f64> {
     scales
 }
 
-/// Sums of magnitudes of column i and of row i, both without the diagonal. Summed anew each time: a difference of
+/// Sums of the magnitudes of column i and of row i, both without the diagonal. They are recomputed each time: a difference of
 /// larger sums would lose entries that are many orders of magnitude smaller than the diagonal.
 #[inline(always)]
 fn sums(a: &[f64], n: usize, stride: usize, i: usize) -> (f64, f64) {

@@ -2,21 +2,21 @@
 //!
 //! Implicit double shifts from the trailing 2 × 2 block, exceptional shifts every tenth iteration, deflation where
 //! a subdiagonal entry is below ε times its two neighbours on the diagonal (the algorithm `hqr` of Martin, Peters
-//! and Wilkinson, *Numer. Math.* 14 (1970) 219). Only eigenvalues are wanted, so reflectors act
-//! on the active window; row operations run on over whole groups of the padded rows, where what lies
-//! right of the window is never read again.
-//! Cost about 10 n³ operations. Backward stable as the reduction.
+//! and Wilkinson, *Numer. Math.* 14 (1970) 219). Only eigenvalues are computed, so reflectors act
+//! on the active window; row operations extend over whole groups of the padded rows, where entries to the
+//! right of the window are never read again.
+//! The cost is about 10 n³ operations. Backward stable, like the reduction.
 
 use num_complex::Complex64;
 
 use super::hessenberg::LANES;
 
-/// Iterations for one eigenvalue before giving up; three or four are usual.
+/// Maximum number of iterations for one eigenvalue; three or four are usual.
 const ITERATIONS: usize = 90;
 
-/// Eigenvalues of the n × n Hessenberg matrix in rows of length `stride`, exact zeros below its
-/// subdiagonal and zero padding; a complex pair stands together, positive imaginary part first.
-/// `None` without convergence. The matrix is destroyed.
+/// Eigenvalues of the n × n Hessenberg matrix in rows of length `stride`, with exact zeros below its
+/// subdiagonal and zero padding; complex pairs are adjacent, positive imaginary part first.
+/// `None` without convergence. The matrix is overwritten.
 #[inline(always)]
 pub(crate) fn eigenvalues(a: &mut [f64], n: usize, stride: usize) -> Option<Vec<Complex64>> {
     let mut values = vec![Complex64::new(0.0, 0.0); n];
@@ -26,7 +26,7 @@ pub(crate) fn eigenvalues(a: &mut [f64], n: usize, stride: usize) -> Option<Vec<
     }
     // Sum of exceptional shifts.
     let mut shift = 0.0;
-    // Rows and columns below `end` are still to be done.
+    // Rows and columns below `end` are not yet deflated.
     let mut end = n;
     let mut iterations = 0;
     while end > 0 {
@@ -65,7 +65,7 @@ pub(crate) fn eigenvalues(a: &mut [f64], n: usize, stride: usize) -> Option<Vec<
     Some(values)
 }
 
-/// First row of the window that ends at `last`: the nearest negligible subdiagonal entry above, made zero.
+/// First row of the window that ends at `last`: the row of the nearest negligible subdiagonal entry above, which is set to zero.
 #[inline(always)]
 fn window_start(a: &mut [f64], stride: usize, last: usize, norm: f64) -> usize {
     let mut start = last;
@@ -97,8 +97,8 @@ fn of_two(x: f64, y: f64, w: f64, shift: f64) -> [Complex64; 2] {
     }
 }
 
-/// Where the bulge of a double-shift step may start and its first column: two consecutive small subdiagonal entries let it start
-/// further down than at `start`.
+/// The row at which the bulge of a double-shift step may start, and its first column: two consecutive small subdiagonal entries
+/// allow it to start below `start`.
 #[inline(always)]
 fn start_of_bulge(
     a: &[f64],
@@ -164,7 +164,7 @@ fn sweep(a: &mut [f64], stride: usize, start: usize, last: usize, shifts: (f64, 
         let (x, y, z) = (p * over_s, q * over_s, r * over_s);
         q *= over_p;
         r *= over_p;
-        // Whole groups from the one that holds column k: further left the three rows are zero but for the entries
+        // Whole groups from the one that contains column k: further left the three rows are zero except for the entries
         // written below.
         let from = k / LANES * LANES;
         let to = (last / LANES + 1) * LANES;
@@ -196,7 +196,7 @@ fn sweep(a: &mut [f64], stride: usize, start: usize, last: usize, shifts: (f64, 
     }
 }
 
-/// The reflector of three rows, from the left, on the columns of `range`.
+/// Applies the reflector of three rows from the left to the columns of `range`.
 #[inline(always)]
 fn rotate_three_rows(
     rows: &mut [f64],
@@ -220,7 +220,7 @@ fn rotate_three_rows(
     }
 }
 
-/// The reflector of two rows, from the left, on the columns of `range`.
+/// Applies the reflector of two rows from the left to the columns of `range`.
 #[inline(always)]
 fn rotate_two_rows(
     rows: &mut [f64],

@@ -1,8 +1,8 @@
 //! Reduction to Hessenberg form by Householder reflectors: QᵀAQ = H, H zero below the first subdiagonal.
 //!
-//! Reflector k acts on rows and columns k+1…n−1 and sends column k onto its first entry. From the left it is
+//! Reflector k acts on rows and columns k+1…n−1 and maps column k to a multiple of its first entry. From the left it is
 //! wᵀ = vᵀA, A ← A − β v wᵀ; from the right A ← A − β (Av) vᵀ. Rows are padded to whole groups of [`LANES`]: every loop
-//! runs over whole groups, and a sum over a row has one accumulator per lane, added in a declared order.
+//! runs over whole groups, and a sum over a row has one accumulator per lane, added in a fixed order.
 //! Backward stable: the eigenvalues are those of A + E with ‖E‖ of the order of n ε ‖A‖.
 
 /// Numbers in a group of a row.
@@ -13,7 +13,7 @@ pub(crate) const fn stride_of(n: usize) -> usize {
     n.div_ceil(LANES) * LANES
 }
 
-/// The reflectors of a reduction: row k holds v of reflector k (zero up to k) and β.
+/// The reflectors of a reduction: row k contains v of reflector k (zero up to k) and β.
 #[derive(Clone, Debug)]
 pub(crate) struct Reflectors {
     n: usize,
@@ -87,7 +87,7 @@ pub(crate) fn reduce(a: &mut [f64], n: usize, stride: usize) -> Reflectors {
             v.fill(0.0);
             continue;
         }
-        // Scaled by the largest entry: no square overflows or vanishes.
+        // Scaled by the largest entry, so that no square overflows or underflows.
         for value in v.iter_mut() {
             *value /= largest;
         }
@@ -97,7 +97,7 @@ pub(crate) fn reduce(a: &mut [f64], n: usize, stride: usize) -> Reflectors {
         v[k + 1] = first + signed;
         let beta = 1.0 / (signed * v[k + 1]);
         reflectors.factors[k] = beta;
-        // Whole groups that hold every column from k on.
+        // Whole groups that contain all columns from k on.
         let from = k / LANES * LANES;
         let along = &mut along[from..];
         along.fill(0.0);

@@ -1,13 +1,13 @@
 //! Eigenvalues and eigenvectors of small dense real matrices.
 //!
-//! Balancing, Hessenberg reduction and Francis' QR iteration of our own, compiled with fused multiply-add where the
-//! machine has it: the same bits on every machine, several times faster below fifty rows than a library made
-//! for large matrices. `faer` takes over where the iteration does not converge (no such matrix is
-//! known) and for complex matrices; tests hold the two together on random, defective and badly
+//! An own implementation of balancing, Hessenberg reduction and Francis' QR iteration, compiled with fused multiply-add if the
+//! machine supports it: it gives the same bits on every machine and, below fifty rows, is several times faster than a library
+//! designed for large matrices. `faer` is used if the iteration does not converge (no such matrix is
+//! known) and for complex matrices; the tests compare the two on random, defective and badly
 //! scaled matrices.
 //!
-//! Accuracy: the values are those of A + E with ‖E‖ ≤ n ε ‖A‖ (A balanced); a simple eigenvalue moves by at most
-//! κ‖E‖ with κ = ‖x‖‖y‖/|yᵀx| ([`Pair::condition`]), a defective one by the root of it.
+//! Accuracy: the values are those of A + E with ‖E‖ ≤ n ε ‖A‖ (A balanced); a simple eigenvalue changes by at most
+//! κ‖E‖ with κ = ‖x‖‖y‖/|yᵀx| ([`EigenPair::condition`]), a defective one by the square root of ‖E‖.
 
 mod balance;
 mod francis;
@@ -26,7 +26,7 @@ pub use rightmost::Rightmost;
 pub(crate) use shifted::{Shifted, Split};
 pub use tridiagonal::Tridiagonal;
 
-/// Why there are no eigenvalues.
+/// The reason why eigenvalues could not be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EigenError {
     /// An entry is not finite.
@@ -48,10 +48,10 @@ impl core::fmt::Display for EigenError {
 
 impl core::error::Error for EigenError {}
 
-/// Eigenvalues of a square matrix in the order of deflation; complex pairs stand together.
+/// Eigenvalues of a square matrix in the order of deflation; complex pairs are adjacent.
 ///
 /// # Errors
-/// [`EigenError`] for entries that are not finite, and without convergence.
+/// [`EigenError`] if an entry is not finite or the iteration does not converge.
 pub fn eigenvalues(a: &Matrix) -> Result<Vec<Complex64>, EigenError> {
     Ok(Decomposition::new(a)?.values)
 }
@@ -69,7 +69,7 @@ pub fn complex_eigenvalues(a: &[Complex64], n: usize) -> Result<Vec<Complex64>, 
         .map_err(|_| EigenError::NotConverged)
 }
 
-/// The eigenvalues of a real matrix and what is needed for vectors of a few of them.
+/// The eigenvalues of a real matrix, with the data needed to compute vectors of a few of them.
 #[derive(Clone, Debug)]
 pub struct Decomposition {
     n: usize,
@@ -83,14 +83,14 @@ pub struct Decomposition {
 
 /// An eigenvalue with its vectors.
 #[derive(Clone, Debug)]
-pub struct Pair {
+pub struct EigenPair {
     /// The eigenvalue.
     pub value: Complex64,
     /// Right vector x, A x = λ x.
     pub right: Vec<Complex64>,
     /// Left vector y, yᵀA = λ yᵀ (transposed, not conjugated), scaled so that yᵀx = 1 unless that vanishes.
     pub left: Vec<Complex64>,
-    /// κ = ‖x‖‖y‖/|yᵀx| in balanced coordinates: how far the eigenvalue moves for a unit change of the matrix.
+    /// Condition number κ = ‖x‖‖y‖/|yᵀx| in balanced coordinates: the change of the eigenvalue per unit change of the matrix.
     pub condition: f64,
 }
 
@@ -132,10 +132,10 @@ impl Work for Reduce<'_> {
 }
 
 impl Decomposition {
-    /// Balances, reduces and iterates.
+    /// Balances the matrix, reduces it to Hessenberg form and computes its eigenvalues.
     ///
     /// # Errors
-    /// [`EigenError`] for entries that are not finite, and without convergence.
+    /// [`EigenError`] if an entry is not finite or the iteration does not converge.
     pub fn new(a: &Matrix) -> Result<Self, EigenError> {
         with_fused_multiply_add(Reduce { a, balanced: true })
     }
@@ -148,7 +148,7 @@ impl Decomposition {
         with_fused_multiply_add(Reduce { a, balanced: false })
     }
 
-    /// All eigenvalues, in the order of deflation; complex pairs stand together.
+    /// All eigenvalues, in the order of deflation; complex pairs are adjacent.
     pub fn values(&self) -> &[Complex64] {
         &self.values
     }
@@ -158,18 +158,18 @@ impl Decomposition {
         self.norm
     }
 
-    /// n ε ‖A‖: size of the change of the balanced matrix for which the computed values are exact.
+    /// n ε ‖A‖: the computed values are exact for a matrix that differs from the balanced one by at most this.
     pub fn backward_error(&self) -> f64 {
         self.n as f64 * f64::EPSILON * self.norm
     }
 
     /// Eigenvalue `index` with its right and left vector, by inverse iteration.
-    pub fn pair(&self, index: usize) -> Pair {
+    pub fn pair(&self, index: usize) -> EigenPair {
         self.pair_from(index, 0)
     }
 
-    /// As [`Decomposition::pair`] from another start: another vector where the eigenvalue is multiple.
-    pub(crate) fn pair_from(&self, index: usize, variant: usize) -> Pair {
+    /// As [`Decomposition::pair`] with another starting vector, which gives another vector for a multiple eigenvalue.
+    pub(crate) fn pair_from(&self, index: usize, variant: usize) -> EigenPair {
         let value = self.values[index];
         let (right, left) = with_fused_multiply_add(Vectors { of: self, value, variant });
         let product = product_without_conjugation(&right, &left);
@@ -178,7 +178,7 @@ impl Decomposition {
         let right = self.outside(right, |scale| scale, Complex64::new(1.0, 0.0));
         let factor = if size > 0.0 { product.inv() } else { Complex64::new(1.0, 0.0) };
         let left = self.outside(left, f64::recip, factor);
-        Pair { value, right, left, condition }
+        EigenPair { value, right, left, condition }
     }
 
     /// The factors of H − σ.
@@ -187,7 +187,7 @@ impl Decomposition {
         Shifted::new(&self.hessenberg, self.n, self.stride, self.norm, shift)
     }
 
-    /// A vector of the reduced coordinates in those of the matrix: Dᵖ Q x.
+    /// Transforms a vector from the reduced coordinates to those of the matrix: Dᵖ Q x.
     fn outside(
         &self,
         mut x: Split,
@@ -238,7 +238,7 @@ pub(crate) fn product_without_conjugation(x: &Split, y: &Split) -> Complex64 {
     Complex64::new(re, im)
 }
 
-/// |z|, the same bits on every machine.
+/// |z|, with the same bits on every machine.
 pub fn modulus(z: Complex64) -> f64 {
     libm::hypot(z.re, z.im)
 }

@@ -1,8 +1,8 @@
-//! A shifted Hessenberg matrix H − σ, factored: right and left eigenvectors by inverse iteration.
+//! Factorisation of a shifted Hessenberg matrix H − σ: right and left eigenvectors by inverse iteration.
 //!
-//! Elimination with pivoting between neighbours, E·P·(H − σ) = U. A vanishing pivot (σ is an eigenvalue to the last digit) is
-//! replaced by ε‖H‖, which is what makes inverse iteration converge in one or two steps. Real and imaginary
-//! parts stand in arrays of their own, in whole groups of lanes.
+//! Elimination with pivoting between neighbouring rows, E·P·(H − σ) = U. A vanishing pivot (σ is an eigenvalue to the last
+//! digit) is replaced by ε‖H‖, so that inverse iteration converges in one or two steps. Real and imaginary
+//! parts are stored in separate arrays, in whole groups of lanes.
 //! The left vector y solves yᵀ(H − σ) = 0 (transposed, not conjugated), so that for a simple eigenvalue yᵀx ≠ 0 and
 //! yᵀEx / yᵀx is the change of the eigenvalue under a small change E.
 
@@ -10,7 +10,7 @@ use num_complex::Complex64;
 
 use super::hessenberg::LANES;
 
-/// Complex numbers, parts apart, in whole groups.
+/// Complex numbers with separate real and imaginary parts, in whole groups of lanes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Split {
     pub(crate) re: Vec<f64>,
@@ -40,7 +40,7 @@ impl Split {
         self.im.swap(i, j);
     }
 
-    /// Scaled to the length one.
+    /// Scales the vector to length one.
     #[inline(always)]
     fn normalise(&mut self) {
         let largest = self.re.iter().chain(&self.im).fold(0.0f64, |largest, value| {
@@ -74,7 +74,7 @@ pub(crate) struct Shifted {
     swapped: Vec<bool>,
 }
 
-/// a − m·b over whole groups, parts apart.
+/// a − m·b over whole groups, with separate real and imaginary parts.
 #[inline(always)]
 fn subtract(a_re: &mut [f64], a_im: &mut [f64], m: Complex64, b_re: &[f64], b_im: &[f64]) {
     let a = a_re.chunks_exact_mut(LANES).zip(a_im.chunks_exact_mut(LANES));
@@ -88,7 +88,7 @@ fn subtract(a_re: &mut [f64], a_im: &mut [f64], m: Complex64, b_re: &[f64], b_im
 }
 
 impl Shifted {
-    /// Factors H − σ; `h` in rows of length `stride`, zero below the subdiagonal, `norm` its size.
+    /// Factors H − σ; `h` is stored in rows of length `stride` and zero below the subdiagonal, `norm` is its norm.
     #[inline(always)]
     pub(crate) fn new(h: &[f64], n: usize, stride: usize, norm: f64, shift: Complex64) -> Self {
         let mut upper = Split { re: h.to_vec(), im: vec![0.0; h.len()] };
@@ -149,7 +149,7 @@ impl Shifted {
         }
     }
 
-    /// x of U x = b.
+    /// Solves U x = b.
     #[inline(always)]
     fn back(&self, b: &Split) -> Split {
         let stride = self.stride;
@@ -159,7 +159,7 @@ impl Shifted {
             let row_re = &self.upper.re[k * stride + from..(k + 1) * stride];
             let row_im = &self.upper.im[k * stride + from..(k + 1) * stride];
             let (mut re, mut im) = ([0.0f64; LANES], [0.0f64; LANES]);
-            // Entries of x up to k are still zero, so whole groups add nothing wrong.
+            // Entries of x up to k are still zero, so whole groups give the correct sum.
             let row = row_re.chunks_exact(LANES).zip(row_im.chunks_exact(LANES));
             let known = x.re[from..].chunks_exact(LANES).zip(x.im[from..].chunks_exact(LANES));
             for ((u_re, u_im), (x_re, x_im)) in row.zip(known) {
@@ -179,7 +179,7 @@ impl Shifted {
         x
     }
 
-    /// x of (H − σ) x = b.
+    /// Solves (H − σ) x = b.
     #[inline(always)]
     pub(crate) fn solve(&self, mut b: Split) -> Split {
         for k in 0..self.n.saturating_sub(1) {
@@ -192,7 +192,7 @@ impl Shifted {
         self.back(&b)
     }
 
-    /// y of (H − σ)ᵀ y = b.
+    /// Solves (H − σ)ᵀ y = b.
     #[inline(always)]
     pub(crate) fn solve_transposed(&self, mut b: Split) -> Split {
         let stride = self.stride;
@@ -218,15 +218,15 @@ impl Shifted {
         b
     }
 
-    /// Right and left eigenvector of the eigenvalue next to σ, each of length one. Where the eigenvalue is multiple, other
-    /// values of `variant` give other vectors of its space.
+    /// Right and left eigenvector of the eigenvalue closest to σ, each of length one. For a multiple eigenvalue, other
+    /// values of `variant` give other vectors of its eigenspace.
     #[inline(always)]
     pub(crate) fn vectors(&self, variant: usize) -> (Split, Split) {
         let mut start = Split::zeros(self.stride);
         for i in 0..self.n {
-            // Not symmetric, so that no symmetry of the matrix makes it orthogonal to the vector sought.
-            let turned = variant > 0 && (i / variant) % 2 == 1;
-            start.re[i] = if turned { -1.0 } else { 1.0 } + 0.01 * i as f64;
+            // Not symmetric, so that no symmetry of the matrix makes it orthogonal to the eigenvector.
+            let flipped = variant > 0 && (i / variant) % 2 == 1;
+            start.re[i] = if flipped { -1.0 } else { 1.0 } + 0.01 * i as f64;
         }
         let mut left = self.solve_transposed(start.clone());
         left.normalise();

@@ -1,27 +1,27 @@
-//! Eigenvalues of complex tridiagonal matrices: all of them by QL, one of them by Newton's method.
+//! Eigenvalues of complex tridiagonal matrices: all of them by QL, a single one by Newton's method.
 //!
-//! Only the diagonal d and the products c of entries across it decide the eigenvalues, so that any tridiagonal matrix is as
-//! good as the complex symmetric one with √c beside the diagonal. QL with implicit Wilkinson shifts on that one costs
-//! O(n²) in all, against O(n³) for a matrix that is not known to be tridiagonal; see Cullum and Willoughby (1996). Its rotations are
-//! orthogonal, not unitary: they may be large, and in rare matrices break down, where the dense iteration takes over.
+//! The eigenvalues depend only on the diagonal d and the products c of opposite off-diagonal entries, so that any tridiagonal
+//! matrix is equivalent to the complex symmetric one with √c next to the diagonal. QL with implicit Wilkinson shifts on this
+//! matrix costs O(n²) in total, compared with O(n³) for a general matrix; see Cullum and Willoughby (1996). Its rotations are
+//! orthogonal, not unitary: they may be large, and for rare matrices they break down, in which case the dense iteration is used.
 //!
-//! One eigenvalue is refined by p/p′ of p(μ) = det(T − μ), from the quotients of neighbouring leading minors; that costs
-//! O(n) a turn and does not depend on how good the start is, once it converges.
+//! One eigenvalue is refined by p/p′ of p(μ) = det(T − μ), from the quotients of successive leading minors; this costs
+//! O(n) per step, and the result does not depend on the quality of the start if the iteration converges.
 
 use num_complex::Complex64;
 
 use super::{EigenError, complex_eigenvalues, modulus};
 
-/// QL turns for one eigenvalue before the dense iteration takes over; two or three are usual.
-const TURNS: usize = 60;
+/// Maximum number of QL sweeps for one eigenvalue before the dense iteration is used; two or three are usual.
+const SWEEPS: usize = 60;
 
-/// Newton turns before giving up.
-const NEWTON_TURNS: usize = 12;
+/// Maximum number of Newton steps.
+const NEWTON_STEPS: usize = 12;
 
-/// Fraction of the norm below which an entry beside the diagonal never counts.
+/// Fraction of the norm below which an entry next to the diagonal is negligible.
 const NEGLIGIBLE: f64 = 1e-3 * f64::EPSILON;
 
-/// A complex tridiagonal matrix, up to a similarity by a diagonal one.
+/// A complex tridiagonal matrix, up to a diagonal similarity transformation.
 #[derive(Clone, Debug)]
 pub struct Tridiagonal {
     /// The diagonal d.
@@ -30,7 +30,7 @@ pub struct Tridiagonal {
     pub across: Vec<Complex64>,
 }
 
-/// √z with a real part that is not negative, the same bits on every machine.
+/// √z with a nonnegative real part, with the same bits on every machine.
 fn root(z: Complex64) -> Complex64 {
     let size = modulus(z);
     if size == 0.0 {
@@ -49,7 +49,7 @@ impl Tridiagonal {
     /// All eigenvalues.
     ///
     /// # Errors
-    /// [`EigenError`] for entries that are not finite, and without convergence.
+    /// [`EigenError`] if an entry is not finite or the iteration does not converge.
     pub fn eigenvalues(&self) -> Result<Vec<Complex64>, EigenError> {
         let entries = self.diagonal.iter().chain(&self.across);
         if !entries.into_iter().all(|z| z.re.is_finite() && z.im.is_finite()) {
@@ -61,7 +61,7 @@ impl Tridiagonal {
         }
     }
 
-    /// QL with implicit shifts; `None` where it breaks down.
+    /// QL with implicit shifts; `None` if it breaks down.
     fn by_ql(&self) -> Option<Vec<Complex64>> {
         let n = self.diagonal.len();
         let mut d = self.diagonal.clone();
@@ -70,21 +70,21 @@ impl Tridiagonal {
         let size = |z: Complex64| z.re.abs() + z.im.abs();
         let norm = d.iter().chain(&e).fold(0.0, |most: f64, &z| most.max(size(z)));
         for first in 0..n {
-            let mut turns = 0;
+            let mut sweeps = 0;
             loop {
                 let small = |k: usize| {
-                    let beside = f64::EPSILON * (size(d[k]) + size(d[k + 1]));
-                    size(e[k]) <= beside.max(NEGLIGIBLE * norm)
+                    let neighbour = f64::EPSILON * (size(d[k]) + size(d[k + 1]));
+                    size(e[k]) <= neighbour.max(NEGLIGIBLE * norm)
                 };
                 let last = (first..n - 1).find(|&k| small(k)).unwrap_or(n - 1);
                 if last == first {
                     break;
                 }
-                turns += 1;
-                if turns > TURNS {
+                sweeps += 1;
+                if sweeps > SWEEPS {
                     return None;
                 }
-                turn(&mut d, &mut e, first, last)?;
+                sweep(&mut d, &mut e, first, last)?;
             }
         }
         d.iter().all(|z| z.re.is_finite() && z.im.is_finite()).then_some(d)
@@ -97,28 +97,28 @@ impl Tridiagonal {
             dense[k * n + k] = value;
         }
         for (k, &product) in self.across.iter().enumerate() {
-            let beside = root(product);
-            dense[k * n + k + 1] = beside;
-            dense[(k + 1) * n + k] = beside;
+            let neighbour = root(product);
+            dense[k * n + k + 1] = neighbour;
+            dense[(k + 1) * n + k] = neighbour;
         }
         complex_eigenvalues(&dense, n)
     }
 
-    /// The eigenvalue that Newton's method comes to from `start`, to the last digits; `None` where it comes to none or
+    /// The eigenvalue to which Newton's method converges from `start`, to the last digits; `None` if it does not converge or
     /// leaves the circle of radius `within` about the start.
     pub fn refine(&self, start: Complex64, within: f64) -> Option<Complex64> {
         let mut value = start;
-        for _ in 0..NEWTON_TURNS {
+        for _ in 0..NEWTON_STEPS {
             let step = self.newton_step(value);
             let next = value - step;
-            // Not finite is not near.
+            // False for values that are not finite.
             let near = modulus(next - start) <= within;
             if !near {
                 return None;
             }
             value = next;
             if modulus(step) <= 1e-11 * modulus(value) {
-                // Newton's method doubles the digits: one more turn is below the last one.
+                // Newton's method doubles the number of digits: one more step reaches rounding level.
                 return Some(value - self.newton_step(value));
             }
         }
@@ -145,10 +145,10 @@ impl Tridiagonal {
     }
 }
 
-/// One QL turn on rows `first`…`last`; `None` where a rotation is not finite.
-fn turn(d: &mut [Complex64], e: &mut [Complex64], first: usize, last: usize) -> Option<()> {
+/// One QL sweep on rows `first`…`last`; `None` if a rotation is not finite.
+fn sweep(d: &mut [Complex64], e: &mut [Complex64], first: usize, last: usize) -> Option<()> {
     let one = Complex64::new(1.0, 0.0);
-    // Wilkinson's shift: the eigenvalue of the leading two rows that is nearer to the first.
+    // Wilkinson's shift: the eigenvalue of the leading 2 × 2 block that is closer to its first diagonal entry.
     let g = (d[first + 1] - d[first]) / (e[first] * 2.0);
     let r = root(g * g + 1.0);
     let larger = if (g + r).norm_sqr() >= (g - r).norm_sqr() { g + r } else { g - r };
@@ -171,10 +171,10 @@ fn turn(d: &mut [Complex64], e: &mut [Complex64], first: usize, last: usize) -> 
         s = f * inverse;
         c = g * inverse;
         g = d[k + 1] - p;
-        let turned = (d[k] - g) * s + c * b * 2.0;
-        p = s * turned;
+        let rotated = (d[k] - g) * s + c * b * 2.0;
+        p = s * rotated;
         d[k + 1] = g + p;
-        g = c * turned - b;
+        g = c * rotated - b;
         if !(g.re.is_finite() && g.im.is_finite()) {
             return None;
         }
@@ -196,7 +196,7 @@ mod tests {
         (*state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
     }
 
-    /// Random matrices: full, graded to both ends, and with a diagonal of zeros.
+    /// Random matrices: uniform, graded towards both ends, and with a zero diagonal.
     fn sample(kind: usize, n: usize, state: &mut u64) -> Tridiagonal {
         let mut number = |k: usize| {
             let middle = (k as f64 - 0.5 * n as f64).abs();
@@ -210,31 +210,31 @@ mod tests {
     }
 
     #[test]
-    fn ql_and_the_dense_iteration_agree() {
+    fn ql_agrees_with_the_dense_iteration() {
         let mut state = 0x9e37_79b9_7f4a_7c15;
-        let (mut turned, mut worst) = (0, 0.0f64);
+        let (mut rotated, mut worst) = (0, 0.0f64);
         for round in 0..300 {
             let n = 1 + round % 60;
             let matrix = sample(round % 3, n, &mut state);
             let mut dense = matrix.by_dense().expect("finite");
             let Some(found) = matrix.by_ql() else { continue };
-            turned += 1;
+            rotated += 1;
             let norm = dense.iter().map(|z| modulus(*z)).fold(0.0, f64::max);
             for value in found {
                 let near = (0..dense.len()).min_by(|&i, &j| {
                     modulus(dense[i] - value).total_cmp(&modulus(dense[j] - value))
                 });
                 let other = dense.swap_remove(near.expect("as many"));
-                // The condition of these eigenvalues is some hundreds.
+                // The condition numbers of these eigenvalues are several hundred.
                 worst = worst.max(modulus(value - other) / norm);
             }
         }
-        println!("{turned} matrices, worst difference {worst:.1e}");
-        assert!(turned > 295 && worst < 1e-10, "{turned} {worst:e}");
+        println!("{rotated} matrices, worst difference {worst:.1e}");
+        assert!(rotated > 295 && worst < 1e-10, "{rotated} {worst:e}");
     }
 
     #[test]
-    fn newton_finds_what_ql_finds() {
+    fn newton_converges_to_the_eigenvalues_of_ql() {
         let mut state = 0x2545_f491_4f6c_dd1d;
         for round in 0..60 {
             let matrix = sample(round % 3, 30, &mut state);
@@ -253,8 +253,8 @@ mod tests {
     }
 
     #[test]
-    fn a_known_matrix_has_its_eigenvalues() {
-        // 2 on the diagonal and 1 beside it: 2 + 2 cos(kπ/(n + 1)).
+    fn eigenvalues_agree_with_a_closed_form() {
+        // 2 on the diagonal and 1 next to it: 2 + 2 cos(kπ/(n + 1)).
         let n = 17;
         let one = Complex64::new(1.0, 0.0);
         let matrix = Tridiagonal { diagonal: vec![one * 2.0; n], across: vec![one; n - 1] };

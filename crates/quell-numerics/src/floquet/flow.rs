@@ -1,35 +1,35 @@
-//! The constant part of a periodic system, solved exactly: x′ = A₀x in modal coordinates.
+//! The exact solution of the constant part of a periodic system: x′ = A₀x in modal coordinates.
 //!
-//! A₀ is diagonalised once; a pair λ = σ ± iω takes two real coordinates (Re z, Im z), a real eigenvalue one, and only
-//! the products of the modes with U and V are kept. Each mode is scaled so that its row of U and its column of V are
-//! of one size, which balances the monodromy matrix. Where A₀ is defective or nearly so (a mode of
-//! condition above [`CONDITION`]) the coordinates stay as they are and e^{A₀t} is a dense matrix: right, but
-//! slower by far.
+//! A₀ is diagonalised once; a pair λ = σ ± iω has two real coordinates (Re z, Im z), a real eigenvalue has one, and only
+//! the products of the modes with U and V are stored. Each mode is scaled so that its row of U and its column of V have
+//! the same size, which balances the monodromy matrix. If A₀ is defective or nearly so (a mode with a
+//! condition number above [`CONDITION`]), the original coordinates are used and e^{A₀t} is a dense matrix, which is correct
+//! but much slower.
 
 use num_complex::Complex64;
 
-use crate::eigen::{Decomposition, EigenError, Pair};
+use crate::eigen::{Decomposition, EigenError, EigenPair};
 use crate::matrix::Matrix;
 
-/// Beyond this condition modal coordinates would cost more than three digits.
+/// Largest condition number for modal coordinates: above it they would lose more than three digits.
 const CONDITION: f64 = 1e3;
 
-/// Eigenvalues this close, over ‖A₀‖, count as one group.
+/// Eigenvalues closer than this, relative to ‖A₀‖, form one group.
 const NEARLY_EQUAL: f64 = 1e-7;
 
-/// VᵀU counts as zero below this fraction of ‖U‖‖V‖: it is zero by structure or not at all.
+/// VᵀU counts as zero below this fraction of ‖U‖‖V‖: it is either zero by structure or clearly nonzero.
 const NILPOTENT: f64 = 1e-14;
 
 /// Coordinates in which the constant flow is applied.
 #[derive(Clone, Debug)]
 pub(super) enum Coordinates {
-    /// One entry for each block: a pair (ω > 0) of two coordinates, or a real eigenvalue (ω = 0) of one.
+    /// One entry for each block: a complex pair (ω > 0) with two coordinates, or a real eigenvalue (ω = 0) with one.
     Modal(Vec<Complex64>),
     /// A₀ itself.
     Dense(Matrix),
 }
 
-/// A₀, U and V of x′ = A₀x + U Φ(t) Vᵀ x, ready for any Φ.
+/// A₀, U and V of x′ = A₀x + U Φ(t) Vᵀ x, applicable to any Φ.
 #[derive(Clone, Debug)]
 pub struct ConstantFlow {
     pub(super) size: usize,
@@ -44,12 +44,12 @@ pub struct ConstantFlow {
     /// VᵀU and VᵀA₀U.
     pub(super) vu: Matrix,
     pub(super) vau: Matrix,
-    /// Whether VᵀU = 0: a kick then leaves Vᵀx as it is.
+    /// Whether VᵀU = 0: then a kick does not change Vᵀx.
     pub(super) nilpotent: bool,
     /// Largest |λ| and largest |Re λ|.
     pub(super) fastest: f64,
     pub(super) strongest: f64,
-    /// ε‖A₀‖ times the largest condition: what rounding may do to the eigenvalues of A₀.
+    /// ε‖A₀‖ times the largest condition number: the effect of rounding on the eigenvalues of A₀.
     pub(super) rounding: f64,
 }
 
@@ -60,14 +60,14 @@ impl ConstantFlow {
     /// [`EigenError`] for entries that are not finite.
     ///
     /// # Panics
-    /// If the sizes do not fit.
+    /// If the sizes do not match.
     pub fn new(a: &Matrix, u: &Matrix, v: &Matrix) -> Result<Self, EigenError> {
         assert!(
             u.rows() == a.rows() && v.rows() == a.rows() && u.columns() == v.columns(),
             "sizes"
         );
         if u.columns() == 0 {
-            // Without any kick: one that does nothing.
+            // Without kicks, a kick with no effect is used.
             let nothing = Matrix::zeros(a.rows(), 1);
             return Self::new(a, &nothing, &nothing);
         }
@@ -103,12 +103,12 @@ impl ConstantFlow {
         Ok(flow)
     }
 
-    /// Whether kicks are nilpotent (VᵀU = 0), and splittings therefore of fourth order in the exponents.
+    /// Whether kicks are nilpotent (VᵀU = 0), so that the exponents of the splitting are fourth-order accurate.
     pub fn is_nilpotent(&self) -> bool {
         self.nilpotent
     }
 
-    fn make_modal(&mut self, pairs: &[Pair]) {
+    fn make_modal(&mut self, pairs: &[EigenPair]) {
         let (n, r) = (self.size, self.rank);
         let (mut u, mut v) = (Matrix::zeros(n, r), Matrix::zeros(r, n));
         let (mut au, mut va) = (Matrix::zeros(n, r), Matrix::zeros(r, n));
@@ -161,9 +161,9 @@ impl ConstantFlow {
     }
 }
 
-/// The modes of A₀ with Im λ ≥ 0, left and right vectors orthonormal to each other also where eigenvalues are equal: the
-/// vectors of a group of equal eigenvalues start from different vectors, and Y ← (YᵀX)⁻¹Y makes them dual.
-fn modes(decomposition: &Decomposition) -> Vec<Pair> {
+/// The modes of A₀ with Im λ ≥ 0. Left and right vectors are biorthonormal even for equal eigenvalues: within a group of
+/// equal eigenvalues the inverse iterations start from different vectors, and Y ← (YᵀX)⁻¹Y makes the vectors dual.
+fn modes(decomposition: &Decomposition) -> Vec<EigenPair> {
     let values = decomposition.values();
     let mut open: Vec<usize> = (0..values.len()).filter(|&i| values[i].im >= 0.0).collect();
     let near = NEARLY_EQUAL * decomposition.norm();
@@ -172,7 +172,7 @@ fn modes(decomposition: &Decomposition) -> Vec<Pair> {
         let close = |i: usize| crate::eigen::modulus(values[i] - values[first]) <= near;
         let group: Vec<usize> = open.iter().copied().filter(|&i| close(i)).collect();
         open.retain(|&i| !close(i));
-        let mut pairs: Vec<Pair> = group
+        let mut pairs: Vec<EigenPair> = group
             .iter()
             .enumerate()
             .map(|(variant, &i)| decomposition.pair_from(i, variant))
@@ -185,8 +185,8 @@ fn modes(decomposition: &Decomposition) -> Vec<Pair> {
     modes
 }
 
-/// Y ← (YᵀX)⁻¹Y by elimination with pivoting; conditions anew, infinite where the vectors depend on each other.
-fn make_dual(pairs: &mut [Pair]) {
+/// Y ← (YᵀX)⁻¹Y by elimination with pivoting; recomputes the condition numbers, infinite if the vectors are linearly dependent.
+fn make_dual(pairs: &mut [EigenPair]) {
     let k = pairs.len();
     let product =
         |x: &[Complex64], y: &[Complex64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<Complex64>();

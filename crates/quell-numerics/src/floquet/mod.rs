@@ -1,17 +1,17 @@
 //! Floquet exponents of x′ = A₀x + U Φ(t) Vᵀ x, Φ periodic, with an error bound.
 //!
-//! Strang splitting with the exact constant flow ([`ConstantFlow`]) and exact kicks, N and 2N steps a period. The growth
-//! rate ρ = ln|μ|/T of N steps has an error in even powers of h, h⁴ where kicks are nilpotent (VᵀU = 0), h² otherwise; both
-//! orders are measured in the tests. So
+//! Strang splitting with the exact constant flow ([`ConstantFlow`]) and exact kicks, with N and 2N steps per period. The error
+//! of the growth rate ρ = ln|μ|/T of N steps is a series in even powers of h, starting with h⁴ if the kicks are nilpotent
+//! (VᵀU = 0) and with h² otherwise; the tests measure both orders. Hence
 //!
 //! ```text
 //! ρ = (16ρ₂ₙ − ρₙ)/15   or   (4ρ₂ₙ − ρₙ)/3,      error ≤ |ρ₂ₙ − ρₙ| + 10⁻¹³ + rounding
 //! ```
 //!
-//! and N is doubled until the sign of ρ is sure or the bound is small enough. The eigenvalues of one map serve all others
-//! (`shared`). Where multipliers are defective or the maps differ too much, all maps are solved in full.
-//! The splitting has no damping of its own: a marginal exponent stays marginal, where an integrator of the ode45 kind reports
-//! −10⁻⁵ and hides what grows more slowly.
+//! and N is doubled until the sign of ρ is certain or the bound is small enough. The eigenvalues of one map are reused for
+//! the others (`shared`). If multipliers are defective or the maps differ too much, the full eigenvalue problem is solved for
+//! each map. The splitting has no numerical damping: a marginal exponent stays marginal, whereas an integrator such as ode45
+//! reports −10⁻⁵ and hides any slower growth.
 
 mod flow;
 mod kick;
@@ -28,29 +28,29 @@ use num_complex::Complex64;
 use crate::eigen::{Decomposition, EigenError, eigenvalues, modulus};
 use crate::matrix::Matrix;
 use processing::Generator;
-use shared::Branch;
+use shared::TrackedMultiplier;
 use steps::Steps;
 
-/// Least of all error bounds.
+/// Smallest error bound.
 const FLOOR: f64 = 1e-13;
 
-/// Branches that are followed one by one; with more in question a full solve is cheaper.
-const BRANCHES: usize = 6;
+/// Maximum number of multipliers that are tracked individually; for more candidates a full solve is cheaper.
+const MOST_TRACKED: usize = 6;
 
-/// When to stop.
+/// Stopping criteria.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// Steps are doubled while the sign of the growth rate is open and the bound is above this.
+    /// Steps are doubled while the sign of the growth rate is uncertain and the bound is above this.
     pub enough: f64,
-    /// Steps are doubled while the bound is above this, whether the sign is open or not. The extrapolated rate is
-    /// some hundred times better than its bound, so that 10⁻⁷ keeps rates to 10⁻⁹.
+    /// Steps are doubled while the bound is above this, whether or not the sign is certain. The extrapolated rate is
+    /// about a hundred times more accurate than its bound, so that 10⁻⁷ gives rates to 10⁻⁹.
     pub at_least: f64,
-    /// Largest number of steps a period.
+    /// Maximum number of steps per period.
     pub finest: usize,
 }
 
 impl Default for Effort {
-    /// Bound 10⁻¹¹ where the sign is open, 10⁻⁷ where it is sure, at most 8192 steps.
+    /// Bound 10⁻¹¹ if the sign is uncertain, 10⁻⁷ if it is certain, at most 8192 steps.
     fn default() -> Self {
         Self { enough: 1e-11, at_least: 1e-7, finest: 8192 }
     }
@@ -63,13 +63,13 @@ pub struct Exponent {
     pub growth_rate: f64,
     /// Bound on its error.
     pub error: f64,
-    /// Its frequency |Im ρ| in radians per unit of time, from 0 to π/T: exponents are known up to multiples of i·2π/T.
+    /// Its frequency |Im ρ| in radians per unit of time, from 0 to π/T: exponents are defined up to multiples of i·2π/T.
     pub frequency: f64,
-    /// Steps a period of the finest map used.
+    /// Steps per period of the finest map used.
     pub steps: usize,
 }
 
-/// A constant flow and the tables of its first two levels for one period: ready for any Φ of that period.
+/// A constant flow and the tables of its first two levels for one period, applicable to any Φ of that period.
 #[derive(Clone, Debug)]
 pub struct Floquet {
     flow: ConstantFlow,
@@ -78,7 +78,7 @@ pub struct Floquet {
 }
 
 impl Floquet {
-    /// Prepares the flow for kicks of a period T. The first level has the least power of two of steps, at least
+    /// Prepares the flow for kicks of period T. The number of steps of the first level is the least power of two, at least
     /// 32, with |λ|h ≤ 1.
     pub fn new(flow: ConstantFlow, period: f64) -> Self {
         let mut count = 32;
@@ -88,22 +88,22 @@ impl Floquet {
         Self::with_steps(flow, period, count)
     }
 
-    /// The same with a given number of steps at the first level, rounded up to a power of two.
+    /// As [`Floquet::new`] with a given number of steps at the first level, rounded up to a power of two.
     pub fn with_steps(flow: ConstantFlow, period: f64, count: usize) -> Self {
         let count = count.next_power_of_two();
         let levels = [count, 2 * count].map(|count| Steps::new(&flow, period, count));
         Self { flow, period, levels }
     }
 
-    /// Steps a period of the first level.
+    /// Steps per period of the first level.
     pub fn first_steps(&self) -> usize {
         self.levels[0].phases.len()
     }
 
-    /// Multipliers of one period by `count` steps (rounded up to a power of two), without extrapolation.
+    /// Multipliers of one period with `count` steps (rounded up to a power of two), without extrapolation.
     ///
     /// # Errors
-    /// [`EigenError`] where the map is not finite.
+    /// [`EigenError`] if the map is not finite.
     pub fn multipliers(
         &self,
         phi: &dyn Fn(Phase, &mut Matrix),
@@ -116,7 +116,7 @@ impl Floquet {
     /// Largest growth rate with its error bound. `phi` writes the r × r matrix Φ at a phase of the period.
     ///
     /// # Errors
-    /// [`EigenError`] where a map is not finite.
+    /// [`EigenError`] if a map is not finite.
     pub fn growth(
         &self,
         phi: &dyn Fn(Phase, &mut Matrix),
@@ -131,21 +131,20 @@ impl Floquet {
         let mut fine = map(&self.levels[1]);
         let mut count = 2 * self.first_steps();
         let decomposition = Decomposition::of_balanced(&fine)?;
-        let branches = candidates(&decomposition, &coarse, &fine);
+        let tracked = candidates(&decomposition, &coarse, &fine);
         let mut known: Option<Vec<Complex64>> = None;
         loop {
-            let followed = branches.as_ref().and_then(|branches| {
+            let pairs = tracked.as_ref().and_then(|tracked| {
                 let old = match known.take() {
                     Some(known) => Some(known),
-                    None => follow_all(branches, &decomposition, &coarse),
+                    None => track_all(tracked, &decomposition, &coarse),
                 }?;
-                let new = follow_all(branches, &decomposition, &fine)?;
+                let new = track_all(tracked, &decomposition, &fine)?;
                 Some((old, new))
             });
-            let (found, difference) = if let (Some((old, new)), Some(branches)) =
-                (followed, &branches)
-            {
-                let conditions: Vec<f64> = branches.iter().map(|branch| branch.condition).collect();
+            let (found, difference) = if let (Some((old, new)), Some(tracked)) = (pairs, &tracked) {
+                let conditions: Vec<f64> =
+                    tracked.iter().map(|multiplier| multiplier.condition).collect();
                 let found = self.extrapolate(&old, &new, &conditions, &decomposition, count);
                 known = Some(new);
                 found
@@ -154,7 +153,7 @@ impl Floquet {
             };
             let sure = found.growth_rate.abs() > found.error;
             let decided = sure && found.error <= effort.at_least;
-            // What is left is rounding: more steps would not help.
+            // The remaining difference is rounding: more steps would not help.
             let rounded = difference <= FLOOR;
             if decided || rounded || found.error <= effort.enough || 2 * count > effort.finest {
                 return Ok(found);
@@ -165,7 +164,7 @@ impl Floquet {
         }
     }
 
-    /// Every exponent that grows by more than its error, one of each conjugate pair, the fastest first.
+    /// All exponents whose growth rate exceeds its error, one of each conjugate pair, the fastest first.
     ///
     /// # Errors
     /// As [`Floquet::growth`].
@@ -205,7 +204,7 @@ impl Floquet {
         if self.flow.nilpotent { 1.0 / 15.0 } else { 1.0 / 3.0 }
     }
 
-    /// The leading exponent of two levels, and the largest difference between the levels of a branch.
+    /// The leading exponent of two levels, and the largest difference of a growth rate between the levels.
     fn extrapolate(
         &self,
         old: &[Complex64],
@@ -240,12 +239,12 @@ impl Floquet {
             frequency: 0.0,
             steps,
         });
-        // A branch that is a little lower with a larger error may be the true leader.
+        // A slightly smaller exponent with a larger error may be the true leading one.
         best.error = best.error.max(highest - best.growth_rate);
         (best, largest_difference)
     }
 
-    /// Both maps solved in full, multipliers paired by nearness.
+    /// Solves the full eigenvalue problem for both maps; each multiplier is paired with the nearest one.
     fn in_full(
         &self,
         coarse: &Matrix,
@@ -258,7 +257,7 @@ impl Floquet {
     }
 }
 
-/// The finer map, and for each of its multipliers the nearest of the coarser one, each taken once.
+/// The decomposition of the finer map, and for each of its multipliers the nearest one of the coarser map, each used once.
 fn paired(coarse: &Matrix, fine: &Matrix) -> Result<(Decomposition, Vec<Complex64>), EigenError> {
     let decomposition = Decomposition::of_balanced(fine)?;
     let mut left = eigenvalues(coarse)?;
@@ -273,8 +272,8 @@ fn paired(coarse: &Matrix, fine: &Matrix) -> Result<(Decomposition, Vec<Complex6
     Ok((decomposition, old))
 }
 
-/// Conditions of the multipliers beyond a fraction of the largest, 1 for the others. Defective multipliers move by the
-/// root of a rounding error, which their difference shows; the condition is capped where that holds.
+/// Condition numbers of the multipliers larger than a fraction of the largest, 1 for the others. Defective multipliers change
+/// by the square root of a rounding error, which their difference shows; the condition number is capped in that case.
 fn conditions(decomposition: &Decomposition, beyond: f64) -> Vec<f64> {
     let cap = 1.0 / decomposition.backward_error().max(f64::MIN_POSITIVE).sqrt();
     let values = decomposition.values();
@@ -287,12 +286,12 @@ fn conditions(decomposition: &Decomposition, beyond: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Branches that may hold the largest multiplier of the true map; `None` where vectors do not serve.
+/// Multipliers that may be the largest one of the true map; `None` if there are too many or their vectors are unusable.
 fn candidates(
     decomposition: &Decomposition,
     coarse: &Matrix,
     fine: &Matrix,
-) -> Option<Vec<Branch>> {
+) -> Option<Vec<TrackedMultiplier>> {
     let mut difference = coarse.clone();
     difference.add_scaled(-1.0, fine);
     let values = decomposition.values();
@@ -301,17 +300,17 @@ fn candidates(
     let chosen: Vec<usize> = (0..values.len())
         .filter(|&i| values[i].im >= 0.0 && modulus(values[i]) >= largest - margin)
         .collect();
-    if chosen.len() > BRANCHES {
+    if chosen.len() > MOST_TRACKED {
         return None;
     }
-    chosen.into_iter().map(|i| Branch::new(decomposition, i)).collect()
+    chosen.into_iter().map(|i| TrackedMultiplier::new(decomposition, i)).collect()
 }
 
-/// Every branch in another map.
-fn follow_all(
-    branches: &[Branch],
+/// All tracked multipliers in another map.
+fn track_all(
+    tracked: &[TrackedMultiplier],
     decomposition: &Decomposition,
     map: &Matrix,
 ) -> Option<Vec<Complex64>> {
-    branches.iter().map(|branch| branch.follow(decomposition, map)).collect()
+    tracked.iter().map(|multiplier| multiplier.in_map(decomposition, map)).collect()
 }

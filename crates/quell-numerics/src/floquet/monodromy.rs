@@ -1,8 +1,8 @@
 //! The monodromy matrix of one period by Strang splitting.
 //!
-//! Columns go in panels of [`WIDTH`], which stay in the processor's registers and first cache through the whole period. For
-//! rank one a step is one pass over the panel: the kick is added to row i and row i goes straight into the next step's Vᵀx,
-//! summed in one accumulator for even rows and one for odd ones.
+//! Columns are processed in panels of [`WIDTH`], which stay in the registers and the first-level cache for the whole period.
+//! For rank one, a step is one pass over the panel: the kick is added to row i, and row i is immediately accumulated into Vᵀx
+//! of the next step, with one accumulator for even rows and one for odd rows.
 
 use super::flow::ConstantFlow;
 use super::kick::kick;
@@ -13,7 +13,7 @@ use crate::matrix::Matrix;
 /// Columns of a panel.
 const WIDTH: usize = 8;
 
-type Row = [f64; WIDTH];
+type PanelRow = [f64; WIDTH];
 
 /// The map of one period in the coordinates of the flow.
 pub(super) fn monodromy(
@@ -67,7 +67,7 @@ impl Work for Panels<'_> {
     fn run(self) -> Matrix {
         let n = self.size;
         let mut map = Matrix::zeros(n, n);
-        let mut x: Vec<Row> = vec![[0.0; WIDTH]; self.rows];
+        let mut x: Vec<PanelRow> = vec![[0.0; WIDTH]; self.rows];
         let rank = self.rank;
         let mut sums = vec![[0.0; WIDTH]; 2 * rank];
         let mut first = 0;
@@ -94,24 +94,24 @@ impl Work for Panels<'_> {
     }
 }
 
-/// Four columns of a row: one vector register. Loops over eight were not vectorized.
-type Group = [f64; 4];
+/// Four columns of a row, which fit one vector register. The compiler did not vectorise loops over eight columns.
+type ColumnGroup = [f64; 4];
 
 /// a·x + y, element by element.
 #[inline(always)]
-fn multiply_add(a: f64, x: Group, y: Group) -> Group {
+fn multiply_add(a: f64, x: ColumnGroup, y: ColumnGroup) -> ColumnGroup {
     [a.mul_add(x[0], y[0]), a.mul_add(x[1], y[1]), a.mul_add(x[2], y[2]), a.mul_add(x[3], y[3])]
 }
 
 /// The two groups of a row.
 #[inline(always)]
-fn groups(row: &Row) -> [Group; 2] {
+fn groups(row: &PanelRow) -> [ColumnGroup; 2] {
     [[row[0], row[1], row[2], row[3]], [row[4], row[5], row[6], row[7]]]
 }
 
 /// kick·(even + odd).
 #[inline(always)]
-fn force(kick: f64, even: Group, odd: Group) -> Group {
+fn force(kick: f64, even: ColumnGroup, odd: ColumnGroup) -> ColumnGroup {
     let mut force = [0.0; 4];
     for j in 0..4 {
         force[j] = kick * (even[j] + odd[j]);
@@ -121,7 +121,7 @@ fn force(kick: f64, even: Group, odd: Group) -> Group {
 
 /// All kicks of a chunk, rank one.
 #[inline(always)]
-fn rank_one(x: &mut [Row], u: &[f64], v: &[f64], kicks: &[f64]) {
+fn rank_one(x: &mut [PanelRow], u: &[f64], v: &[f64], kicks: &[f64]) {
     let rows = x.len();
     let zero = [0.0; 4];
     let (mut even, mut odd) = ([zero; 2], [zero; 2]);
@@ -134,7 +134,7 @@ fn rank_one(x: &mut [Row], u: &[f64], v: &[f64], kicks: &[f64]) {
         let (low, high) = (force(kick, even[0], odd[0]), force(kick, even[1], odd[1]));
         (even, odd) = ([zero; 2], [zero; 2]);
         let u = u[k * rows..(k + 1) * rows].chunks_exact(2);
-        // After the last kick there is no next: its own row is summed again and not used.
+        // After the last kick there is no next one: its own row is accumulated again and not used.
         let next = if k + 1 < kicks.len() { k + 1 } else { k };
         let v = v[next * rows..(next + 1) * rows].chunks_exact(2);
         for ((x, u), v) in x.chunks_exact_mut(2).zip(u).zip(v) {
@@ -154,7 +154,14 @@ fn rank_one(x: &mut [Row], u: &[f64], v: &[f64], kicks: &[f64]) {
 
 /// All kicks of a chunk, any rank.
 #[inline(always)]
-fn any_rank(x: &mut [Row], u: &[f64], v: &[f64], kicks: &[f64], rank: usize, sums: &mut [Row]) {
+fn any_rank(
+    x: &mut [PanelRow],
+    u: &[f64],
+    v: &[f64],
+    kicks: &[f64],
+    rank: usize,
+    sums: &mut [PanelRow],
+) {
     let rows = x.len();
     let (along, force) = sums.split_at_mut(rank);
     for (k, kick) in kicks.chunks_exact(rank * rank).enumerate() {
@@ -192,7 +199,7 @@ fn any_rank(x: &mut [Row], u: &[f64], v: &[f64], kicks: &[f64], rank: usize, sum
 
 /// The constant flow of a chunk.
 #[inline(always)]
-fn carry(x: &mut [Row], end: &[(f64, f64, bool)]) {
+fn carry(x: &mut [PanelRow], end: &[(f64, f64, bool)]) {
     let mut at = 0;
     for &(re, im, pair) in end {
         if pair {
@@ -211,7 +218,7 @@ fn carry(x: &mut [Row], end: &[(f64, f64, bool)]) {
     }
 }
 
-/// Every step with dense matrices.
+/// All steps with dense matrices.
 fn dense(flow: &ConstantFlow, half: &Matrix, whole: &Matrix, kicks: &[f64]) -> Matrix {
     let r = flow.rank;
     let mut x = half.clone();

@@ -1,15 +1,16 @@
-//! Processing: a change of coordinates that makes the Strang map itself of fourth order.
+//! Processing: a change of coordinates that makes the Strang map itself fourth-order accurate.
 //!
-//! The Strang map is e^{εX} M e^{−εX} up to h⁴, ε = h²/24, X = [A, B] + B′ at the start of the period, B = UΦVᵀ: it has the right
-//! exponents (see [`super::kick`]) in slightly wrong coordinates. M ≈ (1 + εX)⁻¹ S (1 + εX), X of rank 2r, costs O(n²r) and makes
-//! maps of N and 2N steps agree to h⁴ instead of h², so that one's eigenvectors serve the other. A similarity changes no
-//! exponent, whether or not it helps.
+//! The Strang map S is e^{εX} M e^{−εX} up to h⁴, with ε = h²/24, X = [A, B] + B′ at the start of the period and B = UΦVᵀ: it
+//! has the correct exponents (see [`super::kick`]) in slightly wrong coordinates. M ≈ (1 + εX)⁻¹ S (1 + εX), with X of rank
+//! 2r, costs O(n²r) and makes the maps of N and 2N steps agree to h⁴ instead of h², so that the eigenvectors of one can be used
+//! for the other. A similarity transformation never changes the exponents.
 
 use super::flow::ConstantFlow;
 use super::steps::Phase;
 use crate::matrix::Matrix;
 
-/// Turns over which Φ′(0) is differenced; its accuracy decides how well vectors agree, and no exponent.
+/// Increment, in periods, of the finite difference for Φ′(0). Its accuracy affects the agreement of the vectors, but not the
+/// exponents.
 const DIFFERENCE: f64 = 1e-3;
 
 /// X = left · right at the start of the period.
@@ -49,7 +50,7 @@ impl Generator {
         Self { left, right, inner }
     }
 
-    /// (1 + εX)⁻¹ S (1 + εX) for a map of steps h; S itself where 1 + εX cannot be inverted.
+    /// (1 + εX)⁻¹ S (1 + εX) for a map with steps h; S itself if 1 + εX cannot be inverted.
     pub(super) fn process(&self, mut map: Matrix, step: f64) -> Matrix {
         let epsilon = step * step / 24.0;
         let mut small = Matrix::identity(self.inner.rows());

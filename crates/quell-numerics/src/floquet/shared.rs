@@ -1,9 +1,9 @@
-//! Exponents of several maps that nearly agree, from the eigenvalues of one of them.
+//! Multipliers of several nearly equal maps, from the eigenvalues of one of them.
 //!
-//! One QR iteration on a map S gives all multipliers. Those that may be the largest get their right and left vectors x, y by
-//! inverse iteration; the multiplier of another map M follows from x ← x − (S − μ)⁻¹(Mx − θx), θ = yᵀMx/yᵀx, the part along x taken
-//! out. Each turn costs O(n²) and gains a factor ‖M − S‖κ/gap, 10⁻⁴ or less after processing. What does not converge is
-//! left to a full solve.
+//! One QR iteration on a map S gives all multipliers. For those that may be the largest, inverse iteration gives the right and
+//! left vectors x, y; the multiplier of another map M follows from x ← x − (S − μ)⁻¹(Mx − θx), θ = yᵀMx/yᵀx, with the component
+//! along x removed. Each iteration costs O(n²) and reduces the error by a factor ‖M − S‖κ/gap, 10⁻⁴ or less after processing.
+//! If it does not converge, the full eigenvalue problem is solved.
 
 use num_complex::Complex64;
 
@@ -11,30 +11,30 @@ use crate::dispatch::{Work, with_fused_multiply_add};
 use crate::eigen::{Decomposition, LANES, Shifted, Split, modulus, product_without_conjugation};
 use crate::matrix::Matrix;
 
-/// Turns before giving up; two or three are usual.
-const TURNS: usize = 12;
+/// Maximum number of iterations; two or three are usual.
+const ITERATIONS: usize = 12;
 
-/// Changes of a multiplier below this fraction of it are rounding.
+/// Relative change of a multiplier below which it is rounding.
 const CONVERGED: f64 = 4e-16;
 
-/// A multiplier of the map S with what is needed to find it in others.
-pub(super) struct Branch {
-    /// Its condition κ.
+/// A multiplier of the map S with the data needed to compute it for other maps.
+pub(super) struct TrackedMultiplier {
+    /// Its condition number κ.
     pub(super) condition: f64,
     shifted: Shifted,
     right: Split,
     left: Split,
-    /// x and y in the coordinates of the maps.
+    /// x and y in the original coordinates of the maps.
     right_outside: Split,
     left_outside: Split,
 }
 
-struct NewBranch<'a> {
+struct FactorAndVectors<'a> {
     of: &'a Decomposition,
     value: Complex64,
 }
 
-impl Work for NewBranch<'_> {
+impl Work for FactorAndVectors<'_> {
     type Output = (Shifted, Split, Split);
 
     #[inline(always)]
@@ -97,12 +97,12 @@ fn subtract(a: &mut Split, f: Complex64, b: &Split) {
     }
 }
 
-impl Branch {
-    /// Branch `index` of the map S; `None` where its vectors say nothing (a defective multiplier).
+impl TrackedMultiplier {
+    /// Multiplier `index` of the map S; `None` if its vectors are unusable (a defective multiplier).
     pub(super) fn new(of: &Decomposition, index: usize) -> Option<Self> {
         let multiplier = of.values()[index];
         let (shifted, mut right, left) =
-            with_fused_multiply_add(NewBranch { of, value: multiplier });
+            with_fused_multiply_add(FactorAndVectors { of, value: multiplier });
         let product = product_without_conjugation(&left, &right);
         let size = modulus(product);
         if size.is_nan() || size < 1e-10 {
@@ -122,11 +122,11 @@ impl Branch {
         Some(Self { condition: 1.0 / size, shifted, right, left, right_outside, left_outside })
     }
 
-    /// The multiplier of another map on this branch; `None` where the iteration does not converge.
-    pub(super) fn follow(&self, of: &Decomposition, map: &Matrix) -> Option<Complex64> {
+    /// The corresponding multiplier of another map; `None` if the iteration does not converge.
+    pub(super) fn in_map(&self, of: &Decomposition, map: &Matrix) -> Option<Complex64> {
         let mut x = self.right_outside.clone();
         let mut last: Option<(Complex64, f64)> = None;
-        for _ in 0..TURNS {
+        for _ in 0..ITERATIONS {
             let mut image = with_fused_multiply_add(Apply(map, &x));
             let theta = product_without_conjugation(&self.left_outside, &image);
             if !(theta.re.is_finite() && theta.im.is_finite()) {
@@ -138,12 +138,12 @@ impl Branch {
                 if now <= CONVERGED * size {
                     return Some(theta);
                 }
-                // A change that no longer falls: rounding if it is small, no convergence if not.
+                // A change that no longer decreases is rounding if it is small, otherwise no convergence.
                 if now >= 0.5 * change {
                     return (now <= 1e-14 * self.condition * size).then_some(theta);
                 }
                 last = Some((theta, now));
-                // The next change will be smaller by as much again.
+                // The next change will be smaller by the same factor.
                 if now * (now / change) <= CONVERGED * size && change < f64::INFINITY {
                     return Some(theta);
                 }

@@ -1,38 +1,38 @@
-//! N equal steps of a period: where the kicks fall, and the constant flow between them.
+//! N equal steps of a period: the times of the kicks, and the constant flow between them.
 //!
-//! In modal coordinates a kick at time s after the start of a chunk becomes the rank-r change of Z = e^{−A₀s}X
-//! by e^{−A₀s}U and Vᵀe^{A₀s}: between kicks nothing happens. A chunk is as long as e^{|Re λ|s} stays below e²; at its end
-//! Z is carried on by the flow of the chunk. Powers are made by halving, e^{λhk} = e^{λh⌊k/2⌋} e^{λh⌈k/2⌉}: rounding grows
-//! with log N, not with N.
+//! In modal coordinates a kick at time s after the start of a chunk is a rank-r update of Z = e^{−A₀s}X
+//! with e^{−A₀s}U and Vᵀe^{A₀s}: Z is constant between kicks. The length of a chunk is limited by e^{|Re λ|s} < e²; at its end
+//! Z is advanced by the flow of the chunk. Powers are computed by halving, e^{λhk} = e^{λh⌊k/2⌋} e^{λh⌈k/2⌉}, so that rounding
+//! errors grow with log N, not with N.
 
 use num_complex::Complex64;
 
 use super::flow::{ConstantFlow, Coordinates};
 use crate::matrix::Matrix;
 
-/// A moment of the period.
+/// A phase of the period.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Phase {
-    /// Time over the period.
-    pub turns: f64,
-    /// Cosine of 2π·turns.
+    /// Time divided by the period.
+    pub cycles: f64,
+    /// Cosine of 2π·cycles.
     pub cosine: f64,
-    /// Sine of 2π·turns.
+    /// Sine of 2π·cycles.
     pub sine: f64,
 }
 
 impl Phase {
-    /// The phase of a number of turns.
-    pub fn new(turns: f64) -> Self {
-        let (sine, cosine) = libm::sincos(core::f64::consts::TAU * turns);
-        Self { turns, cosine, sine }
+    /// The phase after a number of cycles.
+    pub fn new(cycles: f64) -> Self {
+        let (sine, cosine) = libm::sincos(core::f64::consts::TAU * cycles);
+        Self { cycles, cosine, sine }
     }
 }
 
-/// Growth within a chunk stays below e to this.
+/// Largest exponent of the growth within a chunk.
 const CHUNK_GROWTH: f64 = 2.0;
 
-/// A period in equal steps, for a given flow.
+/// A period divided into equal steps, for a given flow.
 #[derive(Clone, Debug)]
 pub(super) struct Steps {
     pub(super) step: f64,
@@ -45,15 +45,15 @@ pub(super) struct Steps {
 pub(super) enum Motion {
     /// Tables of one chunk and its flow.
     Modal {
-        /// Kicks in a chunk.
+        /// Number of kicks in a chunk.
         chunk: usize,
-        /// Rows of the tables: the size, made even.
+        /// Rows of the tables: the size, rounded up to an even number.
         rows: usize,
         /// e^{−A₀s}U, [kick][r][row].
         u: Vec<f64>,
         /// Vᵀe^{A₀s}, [kick][r][row].
         v: Vec<f64>,
-        /// e^{λs} of a whole chunk for each block: real part, imaginary part, whether it is a pair.
+        /// e^{λs} of a whole chunk for each block: real part, imaginary part, and whether the block is a complex pair.
         flow: Vec<(f64, f64, bool)>,
     },
     /// e^{A₀h/2} and e^{A₀h}.
@@ -65,7 +65,7 @@ pub(super) enum Motion {
     },
 }
 
-/// e^{zk} for k = 0…count, by halving.
+/// e^{zk} for k = 0…count, computed by halving.
 fn powers(z: Complex64, count: usize) -> Vec<Complex64> {
     let mut powers = vec![Complex64::new(1.0, 0.0); count + 1];
     if count > 0 {
@@ -77,7 +77,7 @@ fn powers(z: Complex64, count: usize) -> Vec<Complex64> {
     powers
 }
 
-/// e^z, the same bits on every machine.
+/// e^z, with the same bits on every machine.
 pub(super) fn exponential(z: Complex64) -> Complex64 {
     let (sine, cosine) = libm::sincos(z.im);
     let size = libm::exp(z.re);
@@ -85,7 +85,7 @@ pub(super) fn exponential(z: Complex64) -> Complex64 {
 }
 
 impl Steps {
-    /// `count` steps, a power of two, of a period.
+    /// A period divided into `count` steps, a power of two.
     pub(super) fn new(flow: &ConstantFlow, period: f64, count: usize) -> Self {
         let step = period / count as f64;
         let turn = Complex64::new(0.0, core::f64::consts::TAU / count as f64);
@@ -95,8 +95,8 @@ impl Steps {
             .enumerate()
             .map(|(k, power)| {
                 let middle = power * half;
-                let turns = (k as f64 + 0.5) / count as f64;
-                Phase { turns, cosine: middle.re, sine: middle.im }
+                let cycles = (k as f64 + 0.5) / count as f64;
+                Phase { cycles, cosine: middle.re, sine: middle.im }
             })
             .collect();
         let motion = match &flow.coordinates {
@@ -132,7 +132,7 @@ fn modal(flow: &ConstantFlow, values: &[Complex64], step: f64, count: usize) -> 
                 let to = (k * r + c) * rows + at;
                 if pair {
                     let b = back * Complex64::new(flow.u[(at, c)], flow.u[(at + 1, c)]);
-                    // The row is (2 Re c, −2 Im c): the conjugate turns it into 2c.
+                    // The row is (2 Re c, −2 Im c): conjugation gives 2c.
                     let row = ahead * Complex64::new(flow.v[(c, at)], -flow.v[(c, at + 1)]);
                     (u[to], u[to + 1]) = (b.re, b.im);
                     (v[to], v[to + 1]) = (row.re, -row.im);
@@ -167,7 +167,7 @@ fn exponential_of_matrix(a: &Matrix, t: f64) -> Matrix {
     }
     let mut power = Matrix::identity(n);
     let mut sum = power.clone();
-    // ½^16/16! is far below the last digit.
+    // ½^16/16! is far below the rounding error.
     for k in 1..=16 {
         let mut next = Matrix::zeros(n, n);
         next.add_scaled(scaled / f64::from(k), &power.times(a));

@@ -1,39 +1,39 @@
 //! First root of a polynomial on a step, isolated or proven absent; length of a Taylor step.
 //!
-//! Scheme: p(t) = Σ cₖtᵏ on (0, h], three proofs in the order of their cost.
-//! 1. the Bernstein coefficients of the cubic part exceed Σ|cₖ|hᵏ over k ≥ 4: no root.
+//! Scheme: for p(t) = Σ cₖtᵏ on (0, h], three tests in the order of their cost.
+//! 1. The Bernstein coefficients of the cubic part exceed Σ|cₖ|hᵏ over k ≥ 4: no root.
 //! 2. |c₁| > Σ k|cₖ|hᵏ⁻¹: p is monotone, so that the sign at h decides.
-//! 3. Bernstein coefficients and Descartes' rule of signs: no variation, no root; one
-//!    variation, exactly one root; more, the interval is halved (de Casteljau).
+//! 3. Bernstein coefficients and Descartes' rule of signs: without a sign variation there is no root; with one
+//!    variation, there is exactly one root; with more, the interval is halved (de Casteljau).
 //!
-//! The isolated root is polished by Newton's method kept inside its bracket. Two roots
-//! inside one step (a grazing dip) are therefore found, which tests of the end points alone
-//! miss. See Rouillier and Zimmermann (2004).
+//! The isolated root is refined by Newton's method, safeguarded by its bracket. Two roots
+//! within one step (a grazing dip), which tests of the end points alone
+//! miss, are therefore found. See Rouillier and Zimmermann (2004).
 //!
 //! [`side_by_side`] does the same for many polynomials at once.
 //!
-//! Limits: a double root (a touch without crossing) separated by less than 2⁻⁴⁸ of the
-//! step counts as absent.
+//! Limits: a double root (grazing without crossing), or two roots separated by less than 2⁻⁴⁸ of the
+//! step, count as absent.
 
 use crate::lane::Lane;
 
 pub mod side_by_side;
 
-/// Halvings before two roots count as a touch.
+/// Maximum number of halvings; two roots that are still not separated count as grazing.
 const MAX_DEPTH: u32 = 48;
 
-/// First t in (0, h] where Σ cₖtᵏ leaves the sign of c₀, or `None` if it keeps it.
+/// First t in (0, h] at which Σ cₖtᵏ no longer has the sign of c₀, or `None` if it keeps the sign.
 ///
-/// c₀ must not be zero: known roots at t = 0 are for [`first_crossing_after`].
+/// c₀ must not be zero; for known roots at t = 0 use [`first_crossing_after`].
 #[inline(always)]
 pub fn first_crossing<const N: usize>(c: &[f64; N], h: f64) -> Option<f64> {
     first_crossing_after(c, 0, h)
 }
 
-/// [`first_crossing`] of Σ cₖ₊ₙtᵏ, that is with n = `zeros` roots at t = 0 divided out.
+/// [`first_crossing`] of Σ cₖ₊ₙtᵏ, that is, with n = `zeros` roots at t = 0 divided out.
 #[inline(always)]
 pub fn first_crossing_after<const N: usize>(c: &[f64; N], zeros: usize, h: f64) -> Option<f64> {
-    // On [0, 1] and positive at 0.
+    // Scaled to [0, 1] and positive at 0.
     let a = match zeros {
         0 => scaled::<N, 0>(c, h),
         1 => scaled::<N, 1>(c, h),
@@ -52,7 +52,7 @@ pub fn first_crossing_after<const N: usize>(c: &[f64; N], zeros: usize, h: f64) 
     for k in 2..N {
         slope_tail = f64::mul_add(k as f64, a[k].abs(), slope_tail);
     }
-    // The value at the end is what the next step starts from: it decides.
+    // The next step starts from the value at the end, so its sign decides.
     let end = value(&a, 1.0);
     if a[1].abs() > slope_tail {
         if end > 0.0 {
@@ -69,7 +69,7 @@ pub fn first_crossing_after<const N: usize>(c: &[f64; N], zeros: usize, h: f64) 
     }
 }
 
-/// cₖ₊ₙ hᵏ with the sign that makes the first one positive, padded with zeros.
+/// cₖ₊ₙ hᵏ with the sign chosen such that the first one is positive, padded with zeros.
 #[inline(always)]
 fn scaled<const N: usize, const ZEROS: usize>(c: &[f64; N], h: f64) -> [f64; N] {
     let mut a = [0.0; N];
@@ -87,14 +87,14 @@ fn scaled<const N: usize, const ZEROS: usize>(c: &[f64; N], h: f64) -> [f64; N] 
     a
 }
 
-/// By how much the Bernstein coefficients of the cubic part exceed what the rest can take away.
+/// Margin by which the Bernstein coefficients of the cubic part exceed the bound on the remaining terms.
 #[inline(always)]
 fn margin_by_cubic<V: Lane>(a: &[V; 4], tail: V) -> V {
     let third = V::splat(1.0 / 3.0);
     let b1 = a[1].mul_add(third, a[0]);
     let b2 = V::splat(2.0).mul_add(a[1], a[2]).mul_add(third, a[0]);
     let b3 = (a[0] + a[1]) + (a[2] + a[3]);
-    // b3 last: it is not a number where any of the four is none, and then so is the result.
+    // b3 last: it is NaN if any of the four is NaN, and then so is the result.
     (a[0] - tail).min(b1 - tail).min(b2 - tail).min(b3 - tail)
 }
 
@@ -115,7 +115,7 @@ fn clipped(u: f64, h: f64) -> f64 {
     if t < h { t } else { h }
 }
 
-/// Σ aₖuᵏ as four interleaved sums in u⁴: a quarter of the waiting of Horner's rule.
+/// Σ aₖuᵏ as four interleaved sums in u⁴, with a quarter of the latency of Horner's rule.
 #[inline(always)]
 pub fn value<V: Lane, const N: usize>(a: &[V; N], u: V) -> V {
     let square = u * u;
@@ -172,14 +172,14 @@ fn to_bernstein<const N: usize>(a: &[f64; N]) -> [f64; N] {
     b
 }
 
-/// An interval of [0, 1] with exactly one root, and where the control polygon crosses zero.
+/// A subinterval of [0, 1] with exactly one root, and the zero crossing of the control polygon.
 struct Bracket {
     low: f64,
     high: f64,
     guess: f64,
 }
 
-/// The leftmost interval with exactly one root of p, where p falls from plus to minus.
+/// The leftmost interval with exactly one root of p, where p decreases from positive to negative values.
 fn isolate<const N: usize>(b: &[f64; N], low: f64, high: f64, depth: u32) -> Option<Bracket> {
     match variations(b) {
         0 => return None,
@@ -193,7 +193,7 @@ fn isolate<const N: usize>(b: &[f64; N], low: f64, high: f64, depth: u32) -> Opt
     if depth == MAX_DEPTH {
         return (b[0] > 0.0 && b[N - 1] <= 0.0).then_some(Bracket { low, high, guess: middle });
     }
-    // De Casteljau: the diagonal of the averages is the left half, what remains the right.
+    // De Casteljau: the diagonal of the averages gives the left half, the remaining entries the right half.
     let mut right = *b;
     let mut left = [0.0; N];
     #[expect(clippy::needless_range_loop, reason = "the pass shortens the inner loop too")]
@@ -206,7 +206,7 @@ fn isolate<const N: usize>(b: &[f64; N], low: f64, high: f64, depth: u32) -> Opt
     isolate(&left, low, middle, depth + 1).or_else(|| isolate(&right, middle, high, depth + 1))
 }
 
-/// Changes of sign in a row of coefficients, zeros passed over.
+/// Number of sign changes in a sequence of coefficients, ignoring zeros.
 fn variations<const N: usize>(b: &[f64; N]) -> usize {
     let mut count = 0;
     let mut last = 0.0;
@@ -221,7 +221,7 @@ fn variations<const N: usize>(b: &[f64; N]) -> usize {
     count
 }
 
-/// Where the control polygon of `b` first falls through zero, in [0, 1].
+/// The point in [0, 1] at which the control polygon of `b` first decreases through zero.
 fn polygon_zero<const N: usize>(b: &[f64; N]) -> f64 {
     let below = b.iter().position(|&value| value < 0.0).unwrap_or(N - 1).max(1);
     let (before, after) = (b[below - 1], b[below]);
@@ -229,7 +229,7 @@ fn polygon_zero<const N: usize>(b: &[f64; N]) -> f64 {
     ((below - 1) as f64 + share) / (N - 1) as f64
 }
 
-/// The one root of Σ aₖuᵏ in [low, high], where it falls from plus to minus, to the last bits.
+/// The single root of Σ aₖuᵏ in [low, high], where it decreases from positive to negative values, to the last bits.
 #[inline(always)]
 fn polish<const N: usize>(a: &[f64; N], mut low: f64, mut high: f64, guess: f64) -> f64 {
     let mut u = guess;
@@ -243,7 +243,7 @@ fn polish<const N: usize>(a: &[f64; N], mut low: f64, mut high: f64, guess: f64)
         }
         let newton = u - value / slope;
         let correction = (newton - u).abs();
-        // Newton doubles the digits: after a correction this small the error is below rounding.
+        // Newton's method doubles the number of digits: after a correction this small the error is below rounding.
         if correction <= 1e-9 * u {
             return newton.clamp(low, high);
         }
@@ -255,27 +255,27 @@ fn polish<const N: usize>(a: &[f64; N], mut low: f64, mut high: f64, guess: f64)
     u
 }
 
-/// log₂ x of a positive number from its bits alone: the chord between powers of two, low by up to
-/// 0.086. No logarithm is called, so that the bits are the same everywhere.
+/// log₂ x of a positive number from its bits alone: the chord between powers of two, too low by up to
+/// 0.086. No logarithm is called, so that the bits are the same on every machine.
 #[inline(always)]
 fn chord_logarithm<V: Lane>(x: V) -> V {
-    /// 2⁵², and its bits: the lowest bits of the sum of it and a small integer are that integer.
+    /// 2⁵²: the lowest bits of its sum with a small integer are that integer.
     const SHIFT: f64 = 4_503_599_627_370_496.0;
     const SHIFT_BITS: u64 = SHIFT.to_bits();
     const ONE_BITS: u64 = 1f64.to_bits();
     const FRACTION: u64 = (1 << 52) - 1;
-    // Clamped so that no exponent overflows below: steps beyond 10^±17 are of no use at order 16.
+    // Clamped so that no exponent overflows below: steps beyond 10^±17 are useless at order 16.
     let x = x.max(V::splat(1e-280)).min(V::splat(1e280));
     let exponent = x.map(|x| f64::from_bits((x.to_bits() >> 52) | SHIFT_BITS));
     let significand = x.map(|x| f64::from_bits((x.to_bits() & FRACTION) | ONE_BITS));
     (exponent - V::splat(SHIFT + 1024.0)) + significand
 }
 
-/// Step for which |last|·hᵏ and |previous|·hᵏ⁻¹ both stay below `tolerance`, the last two
-/// retained terms of a Taylor series of degree k, in every lane.
+/// Step for which the last two retained terms of a Taylor series of degree k, |last|·hᵏ and |previous|·hᵏ⁻¹, both stay below
+/// `tolerance`, in every lane.
 ///
-/// (tolerance/|last|)^(1/k) with chords for log₂ and 2^: the first errs by ±0.086/k in the
-/// exponent, the second is high by up to 6.2 %; the factor 0.93 takes both back for k ≥ 8, at
+/// (tolerance/|last|)^(1/k) with chords for log₂ and 2^: the first has an error of ±0.086/k in the
+/// exponent, the second is too high by up to 6.2 %; the factor 0.93 compensates both for k ≥ 8, at
 /// the price of a step up to 8 % shorter than allowed.
 #[inline(always)]
 pub fn step_length<V: Lane>(tolerance: V, last: V, previous: V, k: usize) -> V {
@@ -310,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn finds_the_first_of_many_planted_roots() {
+    fn the_first_of_many_known_roots_is_found() {
         let c = planted(&[0.7, 0.31, 0.9, 1.4, -0.2, 0.55], 3.0);
         let root = first_crossing(&c, 1.0).expect("a root was planted");
         assert!((root - 0.31).abs() < 1e-14, "{root}");
@@ -318,27 +318,27 @@ mod tests {
     }
 
     #[test]
-    fn finds_a_dip_that_both_ends_hide() {
+    fn two_roots_within_one_step_are_found() {
         for gap in [1e-1, 1e-3, 1e-5] {
             let c = planted(&[0.5, 0.5 + gap, -1.0, 3.0], -1.0);
             let root = first_crossing(&c, 1.0).expect("a dip was planted");
             assert!((root - 0.5).abs() < 1e-15 / gap, "gap {gap}: {root}");
         }
-        // Lifted clear of the axis there is nothing to find.
+        // Shifted clear of the axis, the polynomial has no root.
         let mut c = planted(&[0.5, 0.5, -1.0, 3.0], -1.0);
         c[0] += 1e-9;
         assert!(c[0] > 0.0 && first_crossing(&c, 1.0).is_none());
     }
 
     #[test]
-    fn a_root_at_the_very_end_is_in_the_step() {
+    fn a_root_at_the_end_of_the_step_is_included() {
         let root = first_crossing(&[1.0, -2.0, 0.0, 0.0], 0.5).expect("root at the end");
         assert!((root - 0.5).abs() < 1e-15);
     }
 
     #[test]
-    fn no_root_is_lost_against_a_dense_scan() {
-        // A chirp-like family; the scan may only miss what lies closer than its step.
+    fn all_roots_of_a_dense_scan_are_found() {
+        // A chirp-like family; the scan may only miss roots closer together than its step.
         let mut state = 0x9e37_79b9_7f4a_7c15_u64;
         let mut random = move || {
             state ^= state << 13;
@@ -375,7 +375,7 @@ mod tests {
                     let largest = |h: f64| (last * h.powi(power)).max(previous * h.powi(power - 1));
                     let terms = largest(h);
                     assert!(terms <= 1e-12, "k = {k}, last = {last:e}: {terms:e}");
-                    // … and not much shorter than that needs.
+                    // … and the step is not much shorter than necessary.
                     let terms = largest(1.16 * h);
                     assert!(terms >= 1e-12, "k = {k}, last = {last:e}: {terms:e}");
                 }

@@ -1,18 +1,18 @@
-//! First roots of many polynomials at once, one per lane, by the proofs of [`super`].
+//! First roots of many polynomials at once, one per lane, by the tests of [`super`].
 //!
-//! What is rare stays with the scalar search: a polynomial whose Bernstein coefficients change
-//! their sign more than once is returned as [`unsure`](Crossings). Every lane stops its own Newton iteration
-//! by its own measure, so that a result does not depend on the neighbours.
+//! Rare cases are left to the scalar search: a polynomial whose Bernstein coefficients change
+//! their sign more than once is returned as [`unsure`](Crossings). Every lane has its own stopping criterion
+//! for the Newton iteration, so that a result does not depend on the other lanes.
 
 use super::{ToBernstein, absolute_sum, derivative, margin_by_cubic, value};
 use crate::lane::Lane;
 
-/// Positive where Σ cₖ₊ₙtᵏ has no root on (0, h], by the first proof of
+/// Positive if Σ cₖ₊ₙtᵏ is proven to have no root on (0, h] by the first test of
 /// [`super::first_crossing_after`]. The lanes may have different n = `zeros`, 0, 1 or 2;
-/// coefficients below n must be zero. Needs N ≥ 6.
+/// coefficients below n must be zero. Requires N ≥ 6.
 #[inline(always)]
 pub fn margin_of_no_root<V: Lane, const N: usize>(c: &[V; N], zeros: V, h: V) -> V {
-    // Dividing tⁿ out of Σ cₖtᵏ divides every scaled coefficient by hⁿ: signs stay.
+    // Dividing tⁿ out of Σ cₖtᵏ divides every scaled coefficient by hⁿ, which keeps the signs.
     let b = scaled(c, h);
     let sign = V::splat(1.0).zip(shifted(&b, zeros, 0), f64::copysign);
     let mut head = [sign; 4];
@@ -25,12 +25,12 @@ pub fn margin_of_no_root<V: Lane, const N: usize>(c: &[V; N], zeros: V, h: V) ->
     margin_by_cubic(&head, pick(zeros, beyond, beyond_first, beyond_second))
 }
 
-/// What was found in each lane.
+/// Result of the search in each lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossings<V> {
-    /// First root as a time, at most h; meaningless where none was found.
+    /// First root as a time, at most h; undefined if no root was found.
     pub time: V,
-    /// 1 where it was found, −1 where there is none, 0 where the scalar search must decide.
+    /// 1 if a root was found, −1 if there is none, 0 if the scalar search must decide.
     pub found: V,
 }
 
@@ -60,7 +60,7 @@ pub fn first_crossings<V: Lane, const N: usize>(
     }
     let (variations, guess) = control_polygon(&a);
     let one = V::splat(1.0);
-    // Variations are whole: ½ and 1½ divide 0, 1 and more.
+    // The number of variations is an integer: ½ and 1½ separate 0, 1 and more.
     let several = variations - V::splat(1.5);
     let found = several
         .where_positive(V::splat(0.0), (variations - V::splat(0.5)).where_positive(one, -one));
@@ -86,20 +86,20 @@ fn scaled<V: Lane, const N: usize>(c: &[V; N], h: V) -> [V; N] {
     b
 }
 
-/// The first, second or third by n = 0, 1 or 2.
+/// Selects the first, second or third argument for n = 0, 1 or 2.
 #[inline(always)]
 fn pick<V: Lane>(zeros: V, none: V, one: V, two: V) -> V {
     (zeros - V::splat(1.5)).where_positive(two, zeros.where_positive(one, none))
 }
 
-/// Coefficient k after n roots at 0 are divided out.
+/// Coefficient k after dividing out n roots at 0.
 #[inline(always)]
 fn shifted<V: Lane, const N: usize>(b: &[V; N], zeros: V, k: usize) -> V {
     pick(zeros, b[k], b[k + 1], b[k + 2])
 }
 
-/// Changes of sign in the Bernstein coefficients of Σ aₖuᵏ on [0, 1], zeros passed over, and where
-/// the control polygon first falls through zero.
+/// Number of sign changes in the Bernstein coefficients of Σ aₖuᵏ on [0, 1], ignoring zeros, and the point at which
+/// the control polygon first decreases through zero.
 #[inline(always)]
 fn control_polygon<V: Lane, const N: usize>(a: &[V; N]) -> (V, V) {
     let matrix = &ToBernstein::<N>::MATRIX;
@@ -109,13 +109,13 @@ fn control_polygon<V: Lane, const N: usize>(a: &[V; N]) -> (V, V) {
             bernstein[j] = V::splat(matrix[k][j]).mul_add(a[k], bernstein[j]);
         }
     }
-    // The value at the end is what the next step starts from: it decides.
+    // The next step starts from the value at the end, so its sign decides.
     bernstein[N - 1] = value(a, V::splat(1.0));
     let one = V::splat(1.0);
     let mut variations = V::splat(0.0);
     let mut last = one;
-    // The pair of neighbours between which the polygon first falls through zero.
-    let (mut above, mut below, mut place) = (one, -one, one);
+    // The neighbouring points between which the polygon first decreases through zero.
+    let (mut above, mut below, mut position) = (one, -one, one);
     let mut fallen = -one;
     for (j, &coefficient) in bernstein.iter().enumerate().skip(1) {
         let changes = -(coefficient * last);
@@ -123,21 +123,21 @@ fn control_polygon<V: Lane, const N: usize>(a: &[V; N]) -> (V, V) {
         let falls_now = (-coefficient).min(-fallen);
         above = falls_now.where_positive(bernstein[j - 1], above);
         below = falls_now.where_positive(coefficient, below);
-        place = falls_now.where_positive(V::splat((j - 1) as f64), place);
+        position = falls_now.where_positive(V::splat((j - 1) as f64), position);
         fallen = falls_now.where_positive(one, fallen);
         last = coefficient.abs().where_positive(one.zip(coefficient, f64::copysign), last);
     }
     let share = above.zip(above - below, |above, drop| above / drop);
-    let crossing = (place + share) * V::splat(1.0 / (N - 1) as f64);
+    let crossing = (position + share) * V::splat(1.0 / (N - 1) as f64);
     let guess = fallen.where_positive(crossing, one);
-    // An exact zero at the end is a root there.
+    // An exact zero at the end is a root.
     let ends_at_zero = fallen.where_positive(-one, -bernstein[N - 1].abs());
-    let touches = ends_at_zero.map(|it| if it == 0.0 { 1.0 } else { 0.0 });
+    let touches = ends_at_zero.map(|x| if x == 0.0 { 1.0 } else { 0.0 });
     (variations + touches, guess.max(V::splat(0.0)).min(one))
 }
 
-/// The root of Σ aₖuᵏ in [0, 1], where it falls from plus to minus, in the lanes where `wanted`
-/// is positive: Newton's method kept inside its bracket.
+/// The root of Σ aₖuᵏ in [0, 1], where it decreases from positive to negative values, in the lanes where `wanted`
+/// is positive: Newton's method safeguarded by its bracket.
 #[inline(always)]
 fn polished<V: Lane, const N: usize>(a: &[V; N], guess: V, wanted: V) -> V {
     let slopes = derivative(a);
@@ -152,7 +152,7 @@ fn polished<V: Lane, const N: usize>(a: &[V; N], guess: V, wanted: V) -> V {
         low = height.where_positive(u, low);
         high = height.where_positive(high, u);
         let newton = u - height.zip(slope, |height, slope| height / slope);
-        // Newton doubles the digits: after a correction this small the error is below rounding.
+        // Newton's method doubles the number of digits: after a correction this small the error is below rounding.
         let converged = V::splat(1e-9) * u - (newton - u).abs();
         let inside = (newton - low).min(high - newton);
         let middle = V::splat(0.5) * (low + high);
@@ -175,7 +175,7 @@ mod tests {
 
     const N: usize = 17;
 
-    /// A row of polynomials, coefficient by coefficient.
+    /// Several polynomials, stored by coefficient.
     struct Search<'a> {
         rows: &'a [[f64; MOST_LANES]; N],
         zeros: &'a [f64; MOST_LANES],
@@ -205,7 +205,7 @@ mod tests {
         }
     }
 
-    /// Random polynomials with 0, 1 or 2 roots at the start, of few and of many wiggles.
+    /// Random polynomials with 0, 1 or 2 roots at the start, with few and many oscillations.
     fn rows(
         random: &mut impl FnMut() -> f64,
         growth: f64,
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn a_root_at_the_very_end_is_in_the_step() {
+    fn a_root_at_the_end_of_the_step_is_included() {
         let mut c = [0.0; N];
         (c[0], c[1]) = (1.0, -2.0);
         let crossings = first_crossings(&c, 0.0, 0.5, 1.0);

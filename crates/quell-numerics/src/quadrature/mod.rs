@@ -2,48 +2,39 @@
 //!
 //! ∫ₐᵇ f dx is the sum over panels of the 21-point Kronrod rule; the panel with the largest error
 //! estimate is bisected until the sum of the estimates is below the tolerance. The estimate of a
-//! panel is QUADPACK's: `d·min(1, (200 |K − G|/d)^{3/2})` with d = ∫|f − mean|, never below
-//! the rounding floor `4ε ∫|f|`. A panel at its floor is not bisected again, nor one whose two halves give the same value
-//! within 10⁻¹⁰ of its ∫|f| without a smaller error: its estimate is the noise of the integrand. When only such panels are left
-//! and the tolerance is still not met, rounding forbids it and the result says so.
+//! panel is that of QUADPACK: `d·min(1, (200 |K − G|/d)^{3/2})` with d = ∫|f − mean|, never below
+//! the rounding floor `4ε ∫|f|`. A panel at its floor is not bisected again; neither is a panel whose two halves give the same
+//! value within 10⁻¹⁰ of its ∫|f| without a smaller error, because its estimate is the noise of the integrand. If only such
+//! panels are left and the tolerance is still not met, the result reports that rounding prevents it.
 //!
-//! Assumptions and limits: f is smooth between the break points given. An integrable singularity of
-//! the value or of a derivative at a break point costs a chain of bisections towards it (never an
-//! evaluation at it: the nodes are interior). Features narrower than about 1/10 of a panel that leave no trace at
-//! the nodes are invisible to any sampling rule: give a break point near them, or raise
+//! Assumptions and limits: f is smooth between the given break points. An integrable singularity of
+//! the value or of a derivative at a break point costs a chain of bisections towards it, but f is never
+//! evaluated there because the nodes are interior. Features narrower than about 1/10 of a panel that do not affect
+//! the nodes are invisible to any sampling rule: pass a break point near them, or increase
 //! [`QuadratureOptions::panels`]. With 64 panels a Gaussian peak of width 10⁻³ of the interval is found anywhere.
 //!
 //! Reference: R. Piessens, E. de Doncker-Kapenga, C. W. Überhuber, D. K. Kahaner, *QUADPACK*, Springer 1983
-//! (QAGP without extrapolation). Nodes and weights were computed anew to 34 digits; the tests check
+//! (QAGP without extrapolation). Nodes and weights were recomputed to 34 digits; the tests check
 //! their exactness on polynomials up to degree 31 (Kronrod) and 19 (Gauss).
 
+mod integral;
 mod rule;
 
 use std::collections::BinaryHeap;
 
-use rule::{Panel, panel};
+pub use integral::{Integral, QuadratureError};
+use rule::{QuadraturePanel, panel};
 
-/// Value of an integral, the bound on its error that was reached, and what it cost.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Integral {
-    /// ∫ f dx.
-    pub value: f64,
-    /// Estimated absolute error; includes the rounding of the sums, but not that of the integrand's own evaluation.
-    pub error: f64,
-    /// Number of evaluations of the integrand.
-    pub evaluations: usize,
-}
-
-/// When a quadrature is good enough, and how much it may cost.
+/// Tolerances of a quadrature, and limits on its cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct QuadratureOptions {
     /// Accepted error relative to |∫ f dx|.
     pub relative: f64,
-    /// Accepted absolute error; the larger of the two bounds counts.
+    /// Accepted absolute error; the larger of the two bounds applies.
     pub absolute: f64,
-    /// Equal panels each piece between break points is first cut into (at least 1).
+    /// Number of equal panels into which each piece between break points is first divided (at least 1).
     pub panels: usize,
-    /// Largest number of evaluations of the integrand.
+    /// Maximum number of evaluations of the integrand.
     pub evaluations: usize,
 }
 
@@ -54,69 +45,10 @@ impl Default for QuadratureOptions {
     }
 }
 
-/// Why a quadrature could not keep its tolerance.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum QuadratureError {
-    /// An end or a break point is not finite.
-    NotFinite {
-        /// The offending end or break point.
-        limit: f64,
-    },
-    /// The integrand is not finite at an interior point.
-    IntegrandNotFinite {
-        /// Where it was evaluated.
-        at: f64,
-    },
-    /// The rounding of the integrand (∫|f| ≫ |∫f|) hides the digits asked for.
-    Rounding {
-        /// The best value, with its error.
-        best: Integral,
-    },
-    /// The budget of evaluations was used up.
-    Evaluations {
-        /// The best value, with its error.
-        best: Integral,
-    },
-}
-
-impl QuadratureError {
-    /// The best value reached, where there is one.
-    #[must_use]
-    pub fn best(&self) -> Option<Integral> {
-        match *self {
-            Self::Rounding { best } | Self::Evaluations { best } => Some(best),
-            Self::NotFinite { .. } | Self::IntegrandNotFinite { .. } => None,
-        }
-    }
-}
-
-impl core::fmt::Display for QuadratureError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::NotFinite { limit } => {
-                write!(f, "the limit {limit} of an integral is not finite")
-            }
-            Self::IntegrandNotFinite { at } => write!(f, "the integrand is not finite at {at}"),
-            Self::Rounding { best } => write!(
-                f,
-                "rounding of the integrand leaves an error of {:e} in the integral {:e}",
-                best.error, best.value
-            ),
-            Self::Evaluations { best } => write!(
-                f,
-                "after {} evaluations the integral {:e} still has an error of {:e}",
-                best.evaluations, best.value, best.error
-            ),
-        }
-    }
-}
-
-impl core::error::Error for QuadratureError {}
-
-/// Agreement of a panel with its halves, relative to ∫|f|, at which an error that does not shrink is noise.
+/// Relative difference between a panel and its halves, in units of ∫|f|, below which an error that does not shrink is noise.
 const NOISE: f64 = 1e-10;
 
-/// Sum that carries its rounding along (Neumaier).
+/// Compensated sum (Neumaier).
 #[derive(Default)]
 struct CompensatedSum {
     sum: f64,
@@ -139,8 +71,8 @@ impl CompensatedSum {
 }
 
 /// Sums of the values and of the errors of all panels.
-fn summed(open: &BinaryHeap<Panel>, done: &[Panel]) -> (f64, f64) {
-    // The heap's inner order is a function of the work done, hence the same everywhere.
+fn summed(open: &BinaryHeap<QuadraturePanel>, done: &[QuadraturePanel]) -> (f64, f64) {
+    // The internal order of the heap is determined by the sequence of operations, hence the same on every machine.
     let mut value = CompensatedSum::default();
     let mut error = 0.0;
     for p in open.iter().chain(done) {
@@ -150,7 +82,7 @@ fn summed(open: &BinaryHeap<Panel>, done: &[Panel]) -> (f64, f64) {
     (value.total(), error)
 }
 
-/// Panels to begin with: `count` equal ones between neighbouring break points.
+/// Initial panels: `count` equal ones between neighbouring break points.
 fn first_panels(low: f64, high: f64, breaks: &[f64], count: usize) -> Vec<[f64; 2]> {
     let mut cuts: Vec<f64> = breaks.iter().copied().filter(|b| *b > low && *b < high).collect();
     cuts.push(low);
@@ -170,13 +102,13 @@ fn first_panels(low: f64, high: f64, breaks: &[f64], count: usize) -> Vec<[f64; 
     panels.filter(|[from, to]| to > from).collect()
 }
 
-/// Adaptive integral of `f` from `from` to `to` (either order), cut at those of `breaks` that lie between them.
+/// Adaptive integral of `f` from `from` to `to` (in either order), divided at those of `breaks` that lie between them.
 ///
 /// The integrand is never evaluated at an end or at a break point.
 ///
 /// # Errors
-/// [`QuadratureError`] where a limit or the integrand is not finite, or where the tolerance was not
-/// reached; in the latter case the error carries the best value.
+/// [`QuadratureError`] if a limit or the integrand is not finite, or if the tolerance was not
+/// reached; in the latter case the error contains the best value.
 pub fn integrate(
     mut f: impl FnMut(f64) -> f64,
     from: f64,
@@ -190,10 +122,12 @@ pub fn integrate(
         }
     }
     let sign = if from <= to { 1.0 } else { -1.0 };
-    let mut open: BinaryHeap<Panel> = BinaryHeap::new();
-    let mut done: Vec<Panel> = Vec::new();
+    let mut open: BinaryHeap<QuadraturePanel> = BinaryHeap::new();
+    let mut done: Vec<QuadraturePanel> = Vec::new();
     let mut evaluations = 0;
-    let place = |p: Panel, open: &mut BinaryHeap<Panel>, done: &mut Vec<Panel>| {
+    let store = |p: QuadraturePanel,
+                 open: &mut BinaryHeap<QuadraturePanel>,
+                 done: &mut Vec<QuadraturePanel>| {
         if p.can_improve() {
             open.push(p);
         } else {
@@ -202,17 +136,18 @@ pub fn integrate(
     };
     for [from, to] in first_panels(from.min(to), from.max(to), breaks, options.panels) {
         evaluations += 21;
-        place(panel(&mut f, from, to)?, &mut open, &mut done);
+        store(panel(&mut f, from, to)?, &mut open, &mut done);
     }
-    let total = |open: &BinaryHeap<Panel>, done: &[Panel], evaluations: usize| {
-        let (value, error) = summed(open, done);
-        Integral { value: sign * value, error, evaluations }
-    };
+    let total =
+        |open: &BinaryHeap<QuadraturePanel>, done: &[QuadraturePanel], evaluations: usize| {
+            let (value, error) = summed(open, done);
+            Integral { value: sign * value, error, evaluations }
+        };
     let mut running: f64 = open.iter().chain(&done).map(|p| p.value).sum();
     let mut running_error: f64 = open.iter().chain(&done).map(|p| p.error).sum();
     loop {
         if running_error <= f64::max(options.absolute, options.relative * running.abs()) {
-            // The running sums drift by rounding: decide by fresh ones.
+            // The running sums drift by rounding: the decision uses newly computed sums.
             let best = total(&open, &done, evaluations);
             running = sign * best.value;
             running_error = best.error;
@@ -239,8 +174,8 @@ pub fn integrate(
         evaluations += 42;
         running += left.value + right.value - worst.value;
         running_error += left.error + right.error - worst.error;
-        place(left, &mut open, &mut done);
-        place(right, &mut open, &mut done);
+        store(left, &mut open, &mut done);
+        store(right, &mut open, &mut done);
     }
 }
 
@@ -276,7 +211,7 @@ mod tests {
                 assert!((gauss - exact).abs() < 1e-15, "Gauss, degree {degree}: {gauss}");
             }
         }
-        // Degree 20 is beyond the Gauss rule: the test above can fail.
+        // Degree 20 is beyond the Gauss rule, which shows that the test above can fail.
         let p20 = |x: f64| {
             let (mut p, mut q) = (1.0, x);
             for k in 1..20 {
@@ -304,14 +239,14 @@ mod tests {
         }
     }
 
-    /// A Gaussian of width 10⁻³ leaves no trace beside its peak: found by initial panels or a break point.
+    /// A Gaussian of width 10⁻³ vanishes away from its peak: it is found with initial panels or a break point.
     #[test]
     fn narrow_gaussian() {
         let w = 1e-3;
         let exact = w * PI.sqrt();
         for k in 1..20 {
             let centre = 0.0493 * f64::from(k);
-            // Counted from the peak: x − centre in the integrand would cost 10⁻¹⁶/w of its digits.
+            // x is measured from the peak: computing x − centre in the integrand would lose 10⁻¹⁶/w of its digits.
             let f = |x: f64| libm::exp(-(x / w) * (x / w));
             let (from, to) = (-centre, 1.0 - centre);
             let options = QuadratureOptions { panels: 64, ..tight() };
@@ -342,9 +277,9 @@ mod tests {
         assert_eq!(integrate(f, 1.0, 1.0, &[], &tight()).expect("ok").value, 0.0);
     }
 
-    /// What cannot be done is said, with the best value.
+    /// Failures are reported with the best value.
     #[test]
-    fn failures_are_told() {
+    fn failures_are_reported() {
         let rounding = integrate(|x| 1e16 * libm::sin(x) + 1.0, -1.0, 1.0, &[], &tight());
         assert!(matches!(rounding, Err(QuadratureError::Rounding { best }) if best.error > 1.0));
         // Noise of 10⁻¹² in the integrand itself ends early, with an error that covers it.
@@ -364,7 +299,7 @@ mod tests {
         assert!(matches!(limit, Err(QuadratureError::NotFinite { .. })));
     }
 
-    /// The error bound is a bound: over a family of integrands of known value.
+    /// The error estimate bounds the actual error for a family of integrands with known integrals.
     #[test]
     fn error_bound_holds() {
         for k in 1..60 {

@@ -1,8 +1,8 @@
-//! The pair of rules (10, 21) on one panel: its value, and an estimate of its error.
+//! The pair of rules (10, 21) on one panel: the value and an estimate of its error.
 
-use super::QuadratureError;
+use super::integral::QuadratureError;
 
-/// Nodes in (0, 1) of the 21-point Kronrod rule, outermost first; odd places are the Gauss nodes.
+/// Nodes in (0, 1) of the 21-point Kronrod rule, outermost first; the Gauss nodes have odd indices.
 pub(super) const NODES: [f64; 10] = [
     0.9956571630258080807355272806890028,
     0.9739065285171717200779640120844521,
@@ -30,7 +30,7 @@ const KRONROD: [f64; 10] = [
 ];
 /// Kronrod weight of the centre.
 const KRONROD_CENTRE: f64 = 0.1494455540029169056649364683898212;
-/// Gauss weights of the odd places of [`NODES`].
+/// Gauss weights of the nodes with odd indices in [`NODES`].
 pub(super) const GAUSS: [f64; 5] = [
     0.06667134430868813759356880989333179,
     0.1494513491505805931457763396576973,
@@ -41,7 +41,7 @@ pub(super) const GAUSS: [f64; 5] = [
 
 /// One panel with its Kronrod value, its error estimate and ∫|f|.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Panel {
+pub(super) struct QuadraturePanel {
     pub(super) from: f64,
     pub(super) to: f64,
     pub(super) value: f64,
@@ -49,7 +49,7 @@ pub(super) struct Panel {
     pub(super) floor: f64,
 }
 
-impl Panel {
+impl QuadraturePanel {
     /// Whether bisection could still lower the error.
     pub(super) fn can_improve(&self) -> bool {
         let middle = self.from.midpoint(self.to);
@@ -57,19 +57,19 @@ impl Panel {
     }
 }
 
-impl PartialEq for Panel {
+impl PartialEq for QuadraturePanel {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
-impl Eq for Panel {}
-impl PartialOrd for Panel {
+impl Eq for QuadraturePanel {}
+impl PartialOrd for QuadraturePanel {
     fn partial_cmp(&self, other: &Self) -> Option<core::cmp::Ordering> {
         Some(self.cmp(other))
     }
 }
-impl Ord for Panel {
-    /// Largest error first; ties by place, so that the order of work is always the same.
+impl Ord for QuadraturePanel {
+    /// Largest error first; ties are broken by position, so that the order of bisection is always the same.
     fn cmp(&self, other: &Self) -> core::cmp::Ordering {
         self.error.total_cmp(&other.error).then(other.from.total_cmp(&self.from))
     }
@@ -80,7 +80,7 @@ pub(super) fn panel(
     f: &mut impl FnMut(f64) -> f64,
     from: f64,
     to: f64,
-) -> Result<Panel, QuadratureError> {
+) -> Result<QuadraturePanel, QuadratureError> {
     let centre = from.midpoint(to);
     let half = 0.5 * (to - from);
     let mut below = [0.0; 10];
@@ -119,5 +119,5 @@ pub(super) fn panel(
     } else {
         difference
     };
-    Ok(Panel { from, to, value: kronrod * half, error: estimate.max(floor), floor })
+    Ok(QuadraturePanel { from, to, value: kronrod * half, error: estimate.max(floor), floor })
 }

@@ -1,14 +1,14 @@
-//! Largest spectral line of the lowest frequencies, from samples that are not kept.
+//! Largest spectral line at low frequencies, without storing the samples.
 //!
-//! What [`super::Spectrum`] says of a record at low frequencies, and of its two halves, with memory for a
+//! Computes the low-frequency part of [`super::Spectrum`] for a record and for its two halves, with memory for a
 //! few numbers per slow period instead of the record, and with the same bits on every machine.
 //!
-//! Scheme: samples are spread over coarse cells by the p-fold running mean of m samples (p = [`FOLDS`]), whose response
-//! [sin(mθ/2)/(m sin(θ/2))]^p at θ = ωh is divided out again. Lines at ω alias with
-//! |2πk/(mh) ± ω| and are suppressed there by the same factor: for ω up to a quarter of the coarse
-//! Nyquist frequency to 3·10⁻⁹ of what stands at those frequencies. The sum over the cells
-//! at one line is a polynomial in its phasor (Horner's rule, several lines side by side). The rectangular transforms
-//! of the halves combine to that of the whole; the Hann window is applied to the lines,
+//! Scheme: samples are distributed over coarse cells by the p-fold running mean of m samples (p = [`FOLDS`]), whose response
+//! [sin(mθ/2)/(m sin(θ/2))]^p at θ = ωh is divided out afterwards. Lines at ω alias with
+//! |2πk/(mh) ± ω|, whose components are suppressed by the same factor: for ω up to a quarter of the coarse
+//! Nyquist frequency, to 3·10⁻⁹ of their amplitude. The sum over the cells
+//! at one line is a polynomial in its phasor (Horner's rule, several lines in SIMD lanes). The rectangular transforms
+//! of the halves are combined to that of the whole record; the Hann window is applied to the lines,
 //! ½X_j − ¼(X_{j−q} + X_{j+q}) with q lines per unpadded bin; the weighted mean is removed last.
 //!
 //! Reference: E. B. Hogenauer, *IEEE Trans. ASSP* 29 (1981) 155–162 (cascaded running means).
@@ -23,13 +23,13 @@ use crate::lane::{Lane, MOST_LANES};
 /// Number of running means.
 pub const FOLDS: usize = 16;
 
-/// Accumulates the samples of one record of an even number of samples.
+/// Accumulates the samples of one record with an even number of samples.
 #[derive(Clone, Debug)]
 pub struct LowBand {
     samples: usize,
     decimation: usize,
     step: f64,
-    /// Weight of a sample at each place of its cell in the [`FOLDS`] cells that it reaches.
+    /// Weights of a sample in the [`FOLDS`] cells to which it contributes, for each position in its cell.
     weights: Vec<[f64; FOLDS]>,
     taken: usize,
     /// Cells of the two halves of the record.
@@ -46,8 +46,8 @@ pub struct LargestLines {
 }
 
 impl LowBand {
-    /// For `samples` at equal steps `step` of time, in cells of `decimation` samples. Half the record
-    /// should be a whole number of cells; what is missing is rounded up.
+    /// An accumulator for `samples` samples at equal time steps `step`, in cells of `decimation` samples. Half the record
+    /// should be an integer number of cells; otherwise the number is rounded up.
     pub fn new(samples: usize, step: f64, decimation: usize) -> Self {
         let decimation = decimation.max(1);
         let cells = (samples / 2).div_ceil(decimation) + FOLDS;
@@ -66,27 +66,27 @@ impl LowBand {
         self.samples - self.taken
     }
 
-    /// The next sample; what comes after the last is ignored.
+    /// Adds the next sample; samples after the last one are ignored.
     #[inline(always)]
     pub fn push(&mut self, sample: f64) {
         if self.taken == self.samples {
             return;
         }
         let half = self.samples / 2;
-        let (cells, place) = if self.taken < half {
+        let (cells, position) = if self.taken < half {
             (&mut self.halves[0], self.taken)
         } else {
             (&mut self.halves[1], self.taken - half)
         };
-        let weights = &self.weights[place % self.decimation];
-        let first = place / self.decimation;
+        let weights = &self.weights[position % self.decimation];
+        let first = position / self.decimation;
         for (cell, weight) in cells[first..first + FOLDS].iter_mut().zip(weights) {
             *cell = weight.mul_add(sample, *cell);
         }
         self.taken += 1;
     }
 
-    /// Largest lines at 0 < ω ≤ `high`, a quarter of the cells' Nyquist frequency at most.
+    /// Largest lines at 0 < ω ≤ `high`, where `high` must not exceed a quarter of the Nyquist frequency of the cells.
     pub fn largest_lines(&self, high: f64) -> LargestLines {
         let spacing = 2.0 * PI / ((ZERO_PADDING * self.samples) as f64 * self.step);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
@@ -129,7 +129,7 @@ impl LowBand {
         for line in 0..count {
             let theta = line as f64 * spacing * self.step;
             let response = response(theta, self.decimation) / self.decimation as f64;
-            // The middle of a cell's kernel, in samples after the cell.
+            // The centre of the kernel of a cell, in samples after the cell.
             let (folds, m) = (FOLDS as f64, self.decimation as f64);
             let shift = 0.5 * folds * (m - 1.0) - m + folds;
             let (sine, cosine) = sin_cos_of_phase(theta, shift, 0.0, 0.0);
@@ -145,7 +145,7 @@ impl LowBand {
         self.decimation as f64 * self.step
     }
 
-    /// Transform of `samples` ones.
+    /// Transform of a constant record of `samples` ones.
     fn rectangle(&self, samples: usize, spacing: f64, count: usize) -> Transform {
         let (re, im) = (0..count)
             .map(|line| {
@@ -162,23 +162,23 @@ impl LowBand {
     }
 }
 
-/// Weights of the p-fold running mean of m samples: [place in the cell][cell reached].
+/// Weights of the p-fold running mean of m samples: [position in the cell][cell].
 fn weights(decimation: usize) -> Vec<[f64; FOLDS]> {
     let m = decimation;
     let mut kernel = vec![1.0];
     for _ in 0..FOLDS {
         kernel = running_mean(&kernel, m);
     }
-    // A sample at place r of cell c stands m·(p − 1 − i) + r samples after the start of the kernel of
-    // the cell numbered c + i.
-    let at = |place: usize, i: usize| kernel.get(m * (FOLDS - 1 - i) + place).copied();
+    // A sample at position r of cell c lies m·(p − 1 − i) + r samples after the start of the kernel of
+    // cell c + i.
+    let at = |position: usize, i: usize| kernel.get(m * (FOLDS - 1 - i) + position).copied();
     (0..m).map(|r| core::array::from_fn(|i| at(r, i).unwrap_or(0.0))).collect()
 }
 
-/// Means of m neighbours at a time, with zeros on both sides.
+/// Running means of m neighbours, with zero padding on both sides.
 ///
-/// A window lies in two blocks of m numbers: its sum is that from its start to the end of the first and that from the start
-/// of the second, all of one sign, so that nothing cancels as in differences of sums from the beginning.
+/// A window overlaps two blocks of m numbers: its sum is the sum from its start to the end of the first block plus the sum from
+/// the start of the second block. All terms have one sign, so there is no cancellation as in differences of cumulative sums.
 fn running_mean(values: &[f64], m: usize) -> Vec<f64> {
     let windows = values.len() + m - 1;
     let mut to_end = vec![0.0; windows + m - 1];
@@ -234,7 +234,7 @@ impl Transform {
         (re, im)
     }
 
-    /// The sum of this and of `other` later by `delay` times the spacing.
+    /// The sum of this transform and of `other` delayed in time; `delay` is the delay multiplied by the spacing.
     fn plus_delayed(&self, other: &Self, delay: f64) -> Self {
         let (re, im) = (0..self.re.len())
             .map(|line| {
@@ -247,7 +247,7 @@ impl Transform {
     }
 }
 
-/// Σ y_c e^{−iωcH} at lines ω side by side.
+/// Σ y_c e^{−iωcH} at several lines ω in SIMD lanes.
 struct PhasorSums<'a> {
     cells: &'a [f64],
     spacing: f64,
@@ -311,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn it_says_what_the_spectrum_of_the_record_says() {
+    fn largest_lines_agree_with_the_spectrum_of_the_record() {
         let (samples, step) = record();
         let mut band = LowBand::new(samples.len(), step, 20);
         for &sample in &samples {
@@ -330,13 +330,13 @@ mod tests {
     }
 
     #[test]
-    fn running_means_are_sums_of_their_windows() {
+    fn running_means_agree_with_direct_sums() {
         let values: Vec<f64> = (0..37).map(|k| f64::from(k * k % 11)).collect();
         for m in [1, 2, 5, 36, 37, 50] {
             let found = running_mean(&values, m);
             assert_eq!(found.len(), values.len() + m - 1);
             for (k, mean) in found.iter().enumerate() {
-                // Whole numbers: sums are exact in any order.
+                // Sums of integers are exact in any order.
                 let window = (k + 1).saturating_sub(m)..=k.min(values.len() - 1);
                 assert_eq!(*mean, values[window].iter().sum::<f64>() / m as f64, "{m} {k}");
             }

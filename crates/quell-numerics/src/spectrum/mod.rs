@@ -1,17 +1,18 @@
 //! Amplitude spectrum of a sampled record.
 //!
 //! For n samples x_k at the step h: weighted mean removed, x̃ = x − Σw x/Σw; window w_k = ½(1 − cos 2πk/n)
-//! (periodic Hann); zeros appended to M = 4n; X_j = Σ w_k x̃_k e^{−2πi jk/M}. Reported are the angular
+//! (periodic Hann); zeros appended to M = 4n; X_j = Σ w_k x̃_k e^{−2πi jk/M}. The results are the angular
 //! frequencies ω_j = 2πj/(Mh) and the spectral amplitudes A_j = 2|X_j|/Σw: a pure tone a·cos ωt far from
-//! 0 and from the Nyquist frequency gives the peak a. Because the mean is removed with the window's own weights,
-//! the line at ω = 0 vanishes identically and is written as an exact zero.
+//! 0 and from the Nyquist frequency gives a peak of height a. Because the mean is removed with the window's own weights,
+//! the line at ω = 0 vanishes identically and is set to exactly zero.
 //!
 //! Peaks are interpolated with the window's own transform W(δ) ∝ sin πδ / (πδ(1 − δ²)), δ in bins of the unpadded
-//! record: the ratio of the two largest neighbouring lines is solved for δ, which is exact for a single tone in a long record (a
-//! parabola is not). What is left is the leakage of other tones: it falls like the third power of their distance in bins.
+//! record: δ is determined from the ratio of the two largest neighbouring lines, which is exact for a single tone in a long
+//! record (a parabola is not). The remaining error is the leakage of other tones, which decreases with the third power of
+//! their distance in bins.
 //!
-//! Limits: tones closer than two bins 2π/(nh) are one peak. The transform (`realfft`) picks the
-//! instructions of the machine, so spectra of two machines may differ in the last digits
+//! Limits: tones closer than two bins 2π/(nh) form one peak. The transform (`realfft`) selects the
+//! instruction set of the machine, so spectra of two machines may differ in the last digits
 //! (about 10⁻¹⁶ of the largest line); trajectories do not.
 //!
 //! Reference: F. J. Harris, *Proc. IEEE* 66 (1978) 51–83; T. Grandke, *IEEE Trans. Instrum. Meas.* 32 (1983) 350.
@@ -23,7 +24,7 @@ use realfft::RealFftPlanner;
 
 use crate::roots::{Closeness, find_root};
 
-/// Times the record is lengthened by zeros; the lines are that much closer than the record resolves.
+/// Factor by which the record is lengthened with zeros; the lines are closer than the resolution of the record by this factor.
 pub const ZERO_PADDING: usize = 4;
 
 /// Noise bandwidth of the Hann window, in bins of the unpadded record (Harris 1978, table 1).
@@ -47,27 +48,27 @@ pub struct Peak {
     pub amplitude: f64,
 }
 
-/// Why a record has no spectrum.
+/// The reason why a record has no spectrum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SpectrumError {
     /// Fewer than [`MINIMUM_SAMPLES`] samples.
     TooShort {
-        /// Samples given.
+        /// Number of samples.
         samples: usize,
     },
     /// The step is not a positive finite number.
     Step {
-        /// The step given.
+        /// The step.
         step: f64,
     },
     /// A sample is not finite.
     NotFinite {
-        /// Its place in the record.
+        /// Its index in the record.
         index: usize,
     },
 }
 
-/// A Hann window needs a few samples to be one.
+/// Minimum number of samples for a meaningful Hann window.
 pub const MINIMUM_SAMPLES: usize = 8;
 
 impl core::fmt::Display for SpectrumError {
@@ -85,10 +86,10 @@ impl core::fmt::Display for SpectrumError {
 impl core::error::Error for SpectrumError {}
 
 impl Spectrum {
-    /// Spectrum of `samples` taken at equal steps `step` of time.
+    /// Spectrum of `samples` taken at equal time steps `step`.
     ///
     /// # Errors
-    /// [`SpectrumError`] for a record that is too short or not finite, or an impossible step.
+    /// [`SpectrumError`] for a record that is too short or not finite, or an invalid step.
     pub fn of(samples: &[f64], step: f64) -> Result<Self, SpectrumError> {
         let n = samples.len();
         if n < MINIMUM_SAMPLES {
@@ -118,7 +119,7 @@ impl Spectrum {
         }
         let transform = RealFftPlanner::<f64>::new().plan_fft_forward(padded);
         let mut lines = transform.make_output_vec();
-        // The lengths come from the plan itself, so the transform has nothing to refuse.
+        // The lengths come from the plan itself, so the transform cannot fail.
         let outcome = transform.process(&mut input, &mut lines);
         debug_assert!(outcome.is_ok());
         let factor = 2.0 / weight;
@@ -139,12 +140,12 @@ impl Spectrum {
         (0..self.amplitudes.len()).map(|j| self.frequency(j))
     }
 
-    /// Root mean square of what the record has between two angular frequencies, and of its rate of change: sums over the
-    /// lines between them, in which a tone counts with the noise bandwidth of the window, 3/2 bins of the unpadded record.
-    /// `None` where the spectrum ends below `high`.
+    /// Root mean square of the record between two angular frequencies, and of its rate of change: sums over the
+    /// lines between them, where a tone is weighted with the noise bandwidth of the window, 3/2 bins of the unpadded record.
+    /// `None` if the spectrum ends below `high`.
     #[must_use]
     pub fn root_mean_square(&self, low: f64, high: f64) -> Option<[f64; 2]> {
-        // Lines on the ends of the band lie inside, whichever way the ends are rounded.
+        // Lines at the ends of the band count as inside, regardless of the rounding of the ends.
         let (low, high) = (low * (1.0 - 1e-9), high * (1.0 + 1e-9));
         let last = self.frequency(self.amplitudes.len() - 1);
         if high > last * (1.0 + 2e-9) {
@@ -168,8 +169,8 @@ impl Spectrum {
         &self.amplitudes
     }
 
-    /// The largest line with `low < ω ≤ high`, as it stands on the grid (no interpolation): what the
-    /// efficiency E = M₁/M₀ of (2.27) compares. None when no line lies there.
+    /// The largest line with `low < ω ≤ high`, on the frequency grid (without interpolation), as compared in the
+    /// efficiency E = M₁/M₀ of (2.27). `None` if no line lies there.
     #[must_use]
     pub fn largest_line(&self, low: f64, high: f64) -> Option<Peak> {
         let mut best: Option<Peak> = None;
@@ -185,8 +186,8 @@ impl Spectrum {
     /// Peaks whose amplitude is at least `floor` times the largest line, in order of frequency, with interpolated
     /// frequency and amplitude.
     ///
-    /// A line is a peak when it is the largest within one half-width of the window's main lobe (two bins of the unpadded record)
-    /// on either side, so the window's side lobes are none.
+    /// A line is a peak if it is the largest within one half-width of the window's main lobe (two bins of the unpadded record)
+    /// on either side, so that side lobes of the window are not peaks.
     #[must_use]
     pub fn peaks(&self, floor: f64) -> Vec<Peak> {
         let a = &self.amplitudes;
@@ -216,7 +217,7 @@ impl Spectrum {
         let bin = 1.0 / ZERO_PADDING as f64;
         // δ: distance of the tone from line j towards the neighbour, in unpadded bins, 0 … bin/2.
         let excess = |delta: f64| neighbour * hann_lobe(delta) - a[j] * hann_lobe(bin - delta);
-        // Leakage of other tones can push the ratio out of the window's range: then the nearer end is the best answer.
+        // Leakage of other tones can push the ratio out of the range of the window: then the nearer end is the best estimate.
         let delta = if excess(0.0) <= 0.0 {
             0.0
         } else if excess(0.5 * bin) >= 0.0 {
@@ -245,9 +246,9 @@ mod tests {
         (0..n).map(|k| f(k as f64 * step)).collect()
     }
 
-    /// A tone on a bin is exact, with any offset, and DC is exactly zero.
+    /// A tone on a bin is exact for any offset, and DC is exactly zero.
     #[test]
-    fn tone_on_a_bin() {
+    fn a_tone_on_a_bin_is_exact() {
         let (n, step) = (1000, 0.1);
         let omega = 2.0 * PI * 17.0 / (n as f64 * step);
         let x = tone(n, step, |t| 0.37 * libm::cos(omega * t + 0.4) + 12.5);
@@ -261,9 +262,9 @@ mod tests {
         assert!((peaks[0].amplitude - 0.37).abs() < 1e-9);
     }
 
-    /// Between the lines: the grid maximum is low by at most 1.0 %, the interpolated peak is not.
+    /// Between the lines, the grid maximum is too low by up to 1.0 %, but the interpolated peak is accurate.
     #[test]
-    fn tones_between_bins() {
+    fn tones_between_bins_are_interpolated() {
         let (n, step) = (4096, 0.05);
         for k in 0..40 {
             let omega = 1.0 + 0.00173 * f64::from(k);
@@ -273,15 +274,15 @@ mod tests {
             assert!(line.amplitude <= 2.0 + 1e-5 && line.amplitude > 2.0 * 0.989, "{line:?}");
             let peaks = s.peaks(0.01);
             assert_eq!(peaks.len(), 1);
-            // 33 bins from its mirror image at −ω: leakage 1/33³ at most.
+            // The mirror image at −ω is 33 bins away: leakage of at most 1/33³.
             assert!((peaks[0].frequency - omega).abs() < 2e-6, "{k}: {peaks:?} {omega}");
             assert!((peaks[0].amplitude - 2.0).abs() < 1e-4, "{k}: {peaks:?}");
         }
     }
 
-    /// Two tones 60 dB apart and the harmonics of neither's window.
+    /// Two tones 60 dB apart are resolved, without spurious peaks from the window.
     #[test]
-    fn weak_tone_beside_a_strong_one() {
+    fn a_weak_tone_next_to_a_strong_one_is_resolved() {
         let (n, step) = (20000, 0.05);
         let x = tone(n, step, |t| libm::cos(0.91 * t) + 1e-3 * libm::cos(2.73 * t + 1.0));
         let s = Spectrum::of(&x, step).expect("valid");
@@ -292,9 +293,9 @@ mod tests {
         assert!((peaks[1].amplitude - 1e-3).abs() < 1e-7);
     }
 
-    /// Energy: Σ A² over lines is that of the windowed record (Parseval).
+    /// The sum of A² over the lines is the energy of the windowed record (Parseval).
     #[test]
-    fn parseval() {
+    fn parseval_holds_for_the_windowed_record() {
         let n = 501;
         let x = tone(n, 1.0, |t| libm::sin(t * t * 0.01) + 0.2 * libm::cos(0.7 * t));
         let s = Spectrum::of(&x, 1.0).expect("valid");
@@ -311,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn scale_free_and_refusals() {
+    fn spectra_scale_linearly_and_invalid_records_are_rejected() {
         let x = tone(256, 0.1, |t| libm::sin(3.0 * t) + 0.3);
         let s = Spectrum::of(&x, 0.1).expect("valid");
         let small: Vec<f64> = x.iter().map(|y| y * 2.0_f64.powi(-400)).collect();
@@ -329,7 +330,7 @@ mod tests {
         assert_eq!(Spectrum::of(&broken, 1.0), Err(SpectrumError::NotFinite { index: 5 }));
     }
 
-    /// Two tones and a band about each: √½ of its amplitude, whatever lies outside, and that times its frequency.
+    /// For two tones with a band about each: √½ of its amplitude, regardless of the other tone, and that times its frequency.
     #[test]
     fn a_band_has_the_root_mean_square_of_its_tones() {
         let (step, count) = (0.05, 4000);

@@ -1,17 +1,17 @@
-//! Stretches: what every panel shows of its coordinates, alone or shared with others.
+//! Axis limits: the range of x and y that each panel shows, separate or shared with other panels.
 //!
-//! Panels that share a coordinate show what all of them need, by the axis of the first of them.
+//! Panels that share an axis show the range that all of them need, by the settings of the first panel's axis.
 
-use super::axis::{Axis, Range, Scale};
+use super::axis::{AxisRange, PlotAxis, Scale};
 use super::figure::{Figure, Panel, Sharing};
 use super::layer::Layer;
 
-/// What a panel shows of x and of y.
-pub(super) type Stretches = ((f64, f64), (f64, f64));
+/// Limits of x and y of one panel.
+pub(super) type AxisLimits = ((f64, f64), (f64, f64));
 type Extent = Option<(f64, f64)>;
 
-/// What every panel shows of x and y.
-pub(super) fn stretches(figure: &Figure, columns: usize) -> Vec<Stretches> {
+/// Limits of x and y of every panel.
+pub(super) fn axis_limits(figure: &Figure, columns: usize) -> Vec<AxisLimits> {
     let panels = &figure.panels;
     let group = |sharing: Sharing, index: usize, aligned: usize| match sharing {
         Sharing::Separate => index,
@@ -23,23 +23,23 @@ pub(super) fn stretches(figure: &Figure, columns: usize) -> Vec<Stretches> {
 
     let x_extents: Vec<Extent> = panels.iter().map(|panel| extent(panel, None)).collect();
     let x = shared(panels, &x_extents, x_group, |panel, extent| {
-        let air = if has_curves(panel) { 0.0 } else { 0.04 };
-        exact(panel, &panel.x, extent).unwrap_or_else(|| panel.x.stretch(extent, air))
+        let margin = if has_curves(panel) { 0.0 } else { 0.04 };
+        exact(panel, &panel.x, extent).unwrap_or_else(|| panel.x.limits(extent, margin))
     });
     let y_extents: Vec<Extent> =
         panels.iter().zip(&x).map(|(panel, x)| extent(panel, Some(*x))).collect();
     let y = shared(panels, &y_extents, y_group, |panel, extent| {
-        exact(panel, &panel.y, extent).unwrap_or_else(|| panel.y.stretch(extent, 0.06))
+        exact(panel, &panel.y, extent).unwrap_or_else(|| panel.y.limits(extent, 0.06))
     });
     x.into_iter().zip(y).collect()
 }
 
-/// One stretch for all panels of a group, by the axis of its first panel.
+/// Common limits for all panels of a group, by the axis of its first panel.
 fn shared(
     panels: &[Panel],
     extents: &[Extent],
     group: impl Fn(usize) -> usize,
-    stretch: impl Fn(&Panel, Extent) -> (f64, f64),
+    limits: impl Fn(&Panel, Extent) -> (f64, f64),
 ) -> Vec<(f64, f64)> {
     (0..panels.len())
         .map(|index| {
@@ -48,32 +48,32 @@ fn shared(
                 .filter_map(|member| extents[member])
                 .reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)));
             let first = members().next().unwrap_or(index);
-            stretch(&panels[first], whole)
+            limits(&panels[first], whole)
         })
         .collect()
 }
 
-/// A map fills its frame: no air, no rounding, unless its axis says what to show.
-fn exact(panel: &Panel, axis: &Axis, extent: Extent) -> Option<(f64, f64)> {
+/// Limits of a map, which fills its frame without margins or rounding, unless its axis sets the limits.
+fn exact(panel: &Panel, axis: &PlotAxis, extent: Extent) -> Option<(f64, f64)> {
     extent.filter(|(lower, upper)| {
-        panel.layers.iter().any(is_map) && axis.range == Range::Auto && lower < upper
+        panel.layers.iter().any(is_map) && axis.range == AxisRange::Auto && lower < upper
     })
 }
 
 fn is_map(layer: &Layer) -> bool {
-    matches!(layer, Layer::Grid(_) | Layer::Contours(_))
+    matches!(layer, Layer::Heatmap(_) | Layer::Contours(_))
 }
 
-/// True when a curve or a region spans the x axis, so that it needs no air at its ends.
+/// True when a curve or a region spans the x axis, which then needs no margins.
 fn has_curves(panel: &Panel) -> bool {
-    panel.layers.iter().any(|layer| matches!(layer, Layer::Line(_) | Layer::Region(_)))
+    panel.layers.iter().any(|layer| matches!(layer, Layer::Polyline(_) | Layer::Region(_)))
 }
 
-/// Least and greatest x that the layers need, or y of what lies within the stretch of x.
+/// Extent of the layers in x, or in y of the points within the given limits of x.
 fn extent(panel: &Panel, within: Option<(f64, f64)>) -> Extent {
     let axis = if within.is_some() { &panel.y } else { &panel.x };
     let mut whole: Extent = None;
-    // Where there is a map, its grid decides what is shown.
+    // In a panel with a map, the grid of the map determines the limits.
     let has_map = panel.layers.iter().any(is_map);
     for layer in panel.layers.iter().filter(|layer| !has_map || is_map(layer)) {
         layer.each_extent(|x, y| {

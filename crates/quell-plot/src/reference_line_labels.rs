@@ -1,26 +1,27 @@
-//! The label of a rule: beside it, at whichever end covers least.
+//! Placement of the label of a reference line: next to the line, where it covers least.
 
 use super::axis::Mapping;
 use super::canvas::Rectangle;
-use super::draw::Sizes;
-use super::layer::{Direction, Rule};
-use super::obstacles::{Obstacles, rule_ends};
-use super::typeset::Label;
+use super::font_sizes::FontSizes;
+use super::layer::{Orientation, ReferenceLine};
+use super::obstacles::Obstacles;
+use super::projection::reference_line_ends;
+use super::typeset::RichText;
 
-/// The place of the label; nothing when the rule lies outside the frame.
+/// The rectangle of the label; `None` if the line lies outside the frame.
 pub(super) fn place(
-    rule: &Rule,
+    rule: &ReferenceLine,
     (x, y): (&Mapping, &Mapping),
     frame: Rectangle,
     obstacles: &Obstacles,
-    sizes: Sizes,
+    sizes: FontSizes,
 ) -> Option<Rectangle> {
     const GAP: f64 = 5.0;
-    let at = *rule_ends(rule.direction, rule.value, x, y, frame)?.first()?;
+    let at = *reference_line_ends(rule.orientation, rule.value, x, y, frame)?.first()?;
     let size = f64::from(sizes.note);
-    let (width, height) = (Label::parse(&rule.label).width(size, false), 0.95 * size);
-    let (lefts, tops) = match rule.direction {
-        Direction::Vertical => (
+    let (width, height) = (RichText::parse(&rule.label).width(size, false), 0.95 * size);
+    let (lefts, tops) = match rule.orientation {
+        Orientation::Vertical => (
             vec![at.0 + GAP, at.0 - GAP - width],
             vec![
                 frame.top + 2.0 * GAP,
@@ -30,7 +31,7 @@ pub(super) fn place(
                 frame.top + 0.75 * frame.height(),
             ],
         ),
-        Direction::Horizontal => (
+        Orientation::Horizontal => (
             vec![
                 frame.right - 2.0 * GAP - width,
                 frame.left + 2.0 * GAP,

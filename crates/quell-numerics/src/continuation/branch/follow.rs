@@ -1,0 +1,137 @@
+//! Continuation of a branch of fixed points by pseudo-arclength.
+
+use super::super::PeriodMap;
+use super::super::arc::{self, cosine, distance};
+use super::super::shooting::{NotClosed, Shooting, fixed_point};
+use super::super::threshold::{BifurcationKind, SMOOTH};
+use super::parameter_window::Follow;
+use super::points::{End, FixedPointBranch, SpecialPoint};
+use super::run::{BranchSolution, ContinuationRun, MaybeSolution, StepOutcome};
+
+/// A branch of a period map, or the reason why there is none.
+pub type Followed<F> =
+    Result<FixedPointBranch<<F as PeriodMap>::Signature>, NotClosed<<F as PeriodMap>::Error>>;
+
+/// The branch through a fixed point near `state` at `parameter`, followed upwards or downwards through its window.
+///
+/// # Errors
+/// [`NotClosed`] if there is no fixed point to start from.
+pub fn follow<F: PeriodMap>(
+    family: &F,
+    state: &[f64],
+    parameter: f64,
+    upwards: bool,
+    options: Follow,
+) -> Followed<F> {
+    let run = ContinuationRun { family, follow: options };
+    let first = fixed_point(family, state, &[parameter], None, &Shooting::default())?;
+    let share = (parameter - options.from) / (options.to - options.from);
+    let towards = if upwards == (options.to > options.from) { 1.0 } else { -1.0 };
+    let stuck = || NotClosed::Singular {
+        steps: first.steps,
+        residual: first.residual,
+        at: first.state.clone(),
+    };
+    let mut here = run.standing(&first.state, share, towards).ok_or_else(stuck)?;
+    let begin = here.clone();
+    let n = family.dimension();
+    let mut points = vec![run.point(&here)];
+    let mut special_points = Vec::new();
+    let mut before: MaybeSolution<F> = None;
+    let mut length = options.longest;
+    // Whether the search beyond the obstacle that stopped the steps was already made.
+    let mut searched_beyond = false;
+    let end = loop {
+        let at = run.value(here.unknowns[n]);
+        let towards_end = if here.tangent[n] > 0.0 { 1.0 } else { 0.0 };
+        // A step across a border may end slightly beyond the window.
+        if points.len() > 1 && (here.unknowns[n] - towards_end) * here.tangent[n] >= 0.0 {
+            break End::Window { at: run.value(towards_end) };
+        }
+        if points.len() > options.most_points as usize {
+            break End::TooLong { at };
+        }
+        let passed = special_points.len();
+        match run.step(&here, length, &mut special_points) {
+            StepOutcome::On(next) => {
+                searched_beyond = false;
+                if let Some(before) = before.as_ref().filter(|_| special_points.len() == passed) {
+                    dips(&run, [before, &here, &next], &mut special_points);
+                }
+                let step_length = distance(&next.unknowns, &here.unknowns);
+                let deviation = 1.0 - cosine(&next.tangent, &here.tangent);
+                if deviation < 1e-3 {
+                    length = (if deviation < 1e-5 { 4.0 } else { 1.6 } * step_length)
+                        .min(options.longest);
+                }
+                points.push(run.point(&next));
+                before = Some(std::mem::replace(&mut here, *next));
+                let (now, first) = (here.with_tangent(), begin.with_tangent());
+                if arc::closes(points.len(), step_length, now, first) {
+                    break End::Closed;
+                }
+            }
+            StepOutcome::Over(Some(next)) => {
+                searched_beyond = false;
+                length = distance(&next.unknowns, &here.unknowns)
+                    .clamp(10.0 * options.shortest, options.longest);
+                points.push(run.point(&next));
+                before = None;
+                here = *next;
+            }
+            StepOutcome::Over(None) => {
+                let at =
+                    special_points.last().map_or(at, |point: &SpecialPoint<_>| point.parameter);
+                break End::Grazing { at };
+            }
+            StepOutcome::Failed if length > options.shortest => length *= 0.4,
+            StepOutcome::Failed => {
+                let over = if searched_beyond {
+                    None
+                } else {
+                    over_a_corner(&run, &here, &mut special_points)
+                };
+                let Some((next, step_length)) = over else { break End::Lost { at } };
+                searched_beyond = true;
+                length = step_length;
+                points.push(run.point(&next));
+                before = None;
+                here = next;
+            }
+        }
+    };
+    Ok(FixedPointBranch { points, special_points, end })
+}
+
+/// The point beyond a corner that no step can follow, and the distance to it, if the branch continues there.
+fn over_a_corner<F: PeriodMap>(
+    run: &ContinuationRun<'_, F>,
+    here: &BranchSolution<F::Signature>,
+    out: &mut Vec<SpecialPoint<F::Signature>>,
+) -> Option<(BranchSolution<F::Signature>, f64)> {
+    let Follow { from, to, shortest, .. } = run.follow;
+    let next = run.beyond(here, here.tangent.last()?.signum())?;
+    let step_length = distance(&next.unknowns, &here.unknowns).max(10.0 * shortest);
+    out.push(run.special_point(
+        BifurcationKind::Border,
+        here,
+        step_length * (to - from).abs(),
+        here,
+        Some(&next),
+    ));
+    Some((next, step_length))
+}
+
+/// Pairs of thresholds within a dip of a test function.
+fn dips<F: PeriodMap>(
+    run: &ContinuationRun<'_, F>,
+    solutions: [&BranchSolution<F::Signature>; 3],
+    out: &mut Vec<SpecialPoint<F::Signature>>,
+) {
+    for index in 0..SMOOTH.len() {
+        if let Some((segment, inside)) = run.dip(solutions, index) {
+            run.thresholds(solutions[segment], &inside, out);
+            run.thresholds(&inside, solutions[segment + 1], out);
+        }
+    }
+}

@@ -1,0 +1,258 @@
+//! Special points between two solutions on a branch: smooth thresholds, grazing, borders of signatures.
+
+use super::super::PeriodMap;
+use super::super::arc::{distance, normalised};
+use super::super::threshold::{BifurcationKind, SMOOTH, Tests, confirmed};
+use super::points::{BranchSide, SpecialPoint};
+use super::run::{BranchSolution, ContinuationRun, MaybeSolution};
+use crate::roots::{Closeness, find_root, minimise};
+
+/// First and last distance beyond a grazing point at which the branch is searched for, in the scaled parameter.
+const BEYOND: (f64, f64) = (1e-7, 2e-2);
+
+impl<F: PeriodMap> ContinuationRun<'_, F> {
+    /// The solution at which a test function changes sign between two solutions of one piece, and the error of its parameter.
+    pub(super) fn root(
+        &self,
+        a: &BranchSolution<F::Signature>,
+        b: &BranchSolution<F::Signature>,
+        held: Option<&F::Signature>,
+        value: impl Fn(&BranchSolution<F::Signature>) -> f64,
+    ) -> Option<(BranchSolution<F::Signature>, f64)> {
+        let mut last: MaybeSolution<F> = None;
+        let closeness = Closeness { absolute: 1e-11, relative: 0.0 };
+        let root = find_root(
+            |share| {
+                let solution = self.interpolated(a, b, held, share);
+                let value = solution.as_ref().map_or(f64::NAN, &value);
+                last = solution;
+                value
+            },
+            0.0,
+            1.0,
+            closeness,
+        )
+        .ok()?;
+        let solution = self.interpolated(a, b, held, root.location).or(last)?;
+        let span = (b.parameter() - a.parameter()).abs().max(distance(&a.unknowns, &b.unknowns));
+        Some((solution, (root.width * span + 1e-12) * (self.follow.to - self.follow.from).abs()))
+    }
+
+    /// Smooth thresholds between two solutions of one piece.
+    pub(super) fn thresholds(
+        &self,
+        a: &BranchSolution<F::Signature>,
+        b: &BranchSolution<F::Signature>,
+        out: &mut Vec<SpecialPoint<F::Signature>>,
+    ) {
+        let (at_a, at_b) = (Tests::of(&a.multipliers), Tests::of(&b.multipliers));
+        let held = Some(&a.image.signature);
+        let mut found: Vec<(f64, BifurcationKind, BranchSolution<F::Signature>, f64)> = Vec::new();
+        for (index, kind) in SMOOTH.into_iter().enumerate() {
+            let (before, after) = (at_a.values[index], at_b.values[index]);
+            if before == 0.0 || before * after > 0.0 {
+                continue;
+            }
+            let value = |solution: &BranchSolution<F::Signature>| {
+                Tests::of(&solution.multipliers).values[index]
+            };
+            // A root that cannot be located is reported with the whole step as its error.
+            let span = (b.parameter() - a.parameter()) * (self.follow.to - self.follow.from);
+            let (solution, error) =
+                self.root(a, b, held, value).unwrap_or_else(|| (b.clone(), span.abs()));
+            if !confirmed(kind, &solution.multipliers) {
+                continue;
+            }
+            let last = a.tangent.len() - 1;
+            let turns = a.tangent[last] * b.tangent[last] < 0.0;
+            let kind = if kind == BifurcationKind::Fold && !turns {
+                BifurcationKind::Branching
+            } else {
+                kind
+            };
+            found.push((distance(&a.unknowns, &solution.unknowns), kind, solution, error));
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut before = a.clone();
+        for number in 0..found.len() {
+            let (_, kind, solution, error) = &found[number];
+            let after = match found.get(number + 1) {
+                Some((_, _, next, _)) => {
+                    self.interpolated(solution, next, held, 0.5).unwrap_or_else(|| b.clone())
+                }
+                None => b.clone(),
+            };
+            out.push(self.special_point(*kind, solution, *error, &before, Some(&after)));
+            before = after;
+        }
+    }
+
+    /// A special point with its sides in the order of the parameter.
+    pub(super) fn special_point(
+        &self,
+        kind: BifurcationKind,
+        solution: &BranchSolution<F::Signature>,
+        error: f64,
+        before: &BranchSolution<F::Signature>,
+        after: Option<&BranchSolution<F::Signature>>,
+    ) -> SpecialPoint<F::Signature> {
+        let here = solution.parameter();
+        // The first side is the one that the run comes from, the second is the one that it continues on.
+        let came_up = before.parameter() < here
+            || (before.parameter() == here
+                && before.tangent.last().is_some_and(|slope| *slope > 0.0));
+        let (mut below, mut above) = (None, None);
+        let mut put = |is_below: bool, side: BranchSide<F::Signature>| {
+            let slot = if is_below { &mut below } else { &mut above };
+            if slot.as_ref().is_none_or(|there: &BranchSide<_>| side.unstable < there.unstable) {
+                *slot = Some(side);
+            }
+        };
+        put(came_up, before.side());
+        if let Some(after) = after {
+            put(after.parameter() < here, after.side());
+        }
+        if self.follow.to < self.follow.from {
+            std::mem::swap(&mut below, &mut above);
+        }
+        let (state, parameter) = self.unscaled(&solution.unknowns);
+        SpecialPoint { parameter, error, kind, state, below, above }
+    }
+
+    /// A solution with the opposite sign of the test function, if the function has one sign at three successive solutions
+    /// but changes sign in a dip between them.
+    pub(super) fn dip(
+        &self,
+        solutions: [&BranchSolution<F::Signature>; 3],
+        index: usize,
+    ) -> Option<(usize, BranchSolution<F::Signature>)> {
+        let value = |solution: &BranchSolution<F::Signature>| {
+            Tests::of(&solution.multipliers).values[index]
+        };
+        let [before, here, after] = solutions.map(value);
+        let sign = here.signum();
+        if before * here <= 0.0
+            || here * after <= 0.0
+            || here.abs() > before.abs()
+            || here.abs() > after.abs()
+        {
+            return None;
+        }
+        // The parabola through the three values shows whether the test function may come close to zero.
+        let (left, right) = (
+            distance(&solutions[0].unknowns, &solutions[1].unknowns),
+            distance(&solutions[1].unknowns, &solutions[2].unknowns),
+        );
+        let (fall, rise) = ((here - before) / left, (after - here) / right);
+        let bend = (rise - fall) / (left + right);
+        let slope = (fall * right + rise * left) / (left + right);
+        let lowest = here - slope * slope / (4.0 * bend);
+        if sign * lowest > 0.5 * here.abs() {
+            return None;
+        }
+        (0..2).find_map(|segment| {
+            let (a, b) = (solutions[segment], solutions[segment + 1]);
+            let held = Some(&a.image.signature);
+            let mut other: MaybeSolution<F> = None;
+            let _ = minimise(
+                |share| {
+                    let solution = self.interpolated(a, b, held, share);
+                    let found =
+                        solution.as_ref().map_or(f64::INFINITY, |solution| sign * value(solution));
+                    if found < 0.0 {
+                        other = solution;
+                    }
+                    found
+                },
+                0.0,
+                1.0,
+                Closeness { absolute: 1e-4, relative: 0.0 },
+            );
+            other.map(|solution| (segment, solution))
+        })
+    }
+
+    /// The branch beyond a grazing point: forward in the direction of the run, otherwise backward; accepted only if it is
+    /// continuous there.
+    pub(super) fn beyond(
+        &self,
+        grazing: &BranchSolution<F::Signature>,
+        towards: f64,
+    ) -> MaybeSolution<F> {
+        let n = grazing.unknowns.len() - 1;
+        let (state, _) = self.unscaled(&grazing.unknowns);
+        let share = grazing.unknowns[n];
+        for side in [towards, -towards] {
+            let mut away = BEYOND.0;
+            while away <= BEYOND.1 {
+                let far = share + side * away;
+                if (0.0..=1.0).contains(&far)
+                    && let Some(found) = self.standing(&state, far, side)
+                    && (side == towards || found.image.signature != grazing.image.signature)
+                    && self.is_joined(grazing, &found, side)
+                {
+                    return Some(found);
+                }
+                away *= 8.0;
+            }
+        }
+        None
+    }
+
+    /// Whether the state tends to the grazing state as the parameter tends to the grazing value.
+    fn is_joined(
+        &self,
+        grazing: &BranchSolution<F::Signature>,
+        found: &BranchSolution<F::Signature>,
+        side: f64,
+    ) -> bool {
+        let n = grazing.unknowns.len() - 1;
+        let far = distance(&grazing.unknowns[..n], &found.unknowns[..n]);
+        let middle: Vec<f64> =
+            grazing.unknowns.iter().zip(&found.unknowns).map(|(a, b)| a + 0.25 * (b - a)).collect();
+        let (guess, _) = self.unscaled(&middle);
+        self.standing(&guess, middle[n], side).is_some_and(|quarter| {
+            distance(&grazing.unknowns[..n], &quarter.unknowns[..n]) <= 0.6 * far + 1e-8
+        })
+    }
+
+    /// The border between two solutions of different signatures, neither of which can be extended, by bisection.
+    pub(super) fn border(
+        &self,
+        a: &BranchSolution<F::Signature>,
+        b: &BranchSolution<F::Signature>,
+    ) -> (BranchSolution<F::Signature>, BranchSolution<F::Signature>) {
+        let (mut near, mut far) = (a.clone(), b.clone());
+        let heading: Vec<f64> = b.unknowns.iter().zip(&a.unknowns).map(|(b, a)| b - a).collect();
+        let normal = normalised(heading);
+        let (mut low, mut high) = (0.0, 1.0);
+        while high - low > 1e-9 {
+            let share = 0.5 * (low + high);
+            let predicted: Vec<f64> =
+                a.unknowns.iter().zip(&b.unknowns).map(|(a, b)| a + share * (b - a)).collect();
+            // The midpoint of the two, moved onto the hyperplane of this fraction.
+            let mut guess: Vec<f64> =
+                near.unknowns.iter().zip(&far.unknowns).map(|(a, b)| 0.5 * (a + b)).collect();
+            let aside: f64 = normal
+                .iter()
+                .zip(predicted.iter().zip(&guess))
+                .map(|(n, (p, g))| n * (p - g))
+                .sum();
+            for (entry, along) in guess.iter_mut().zip(&normal) {
+                *entry += aside * along;
+            }
+            match self.at(&guess, &normal, None, None) {
+                Some(solution) if solution.image.signature == a.image.signature => {
+                    near = solution;
+                    low = share;
+                }
+                Some(solution) if solution.image.signature == b.image.signature => {
+                    far = solution;
+                    high = share;
+                }
+                _ => break,
+            }
+        }
+        (near, far)
+    }
+}

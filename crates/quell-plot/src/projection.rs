@@ -1,0 +1,106 @@
+//! Projection: converts the data of the layers to pixels of the figure.
+
+use super::axis::Mapping;
+use super::canvas::Rectangle;
+use super::figure::Panel;
+use super::font_sizes::FontSizes;
+use super::layer::{Note, Orientation};
+use super::layout::PanelLayout;
+use super::thin;
+use super::typeset::RichText;
+
+/// The mappings of both axes of a panel.
+pub(super) fn mappings(panel: &Panel, layout: &PanelLayout) -> (Mapping, Mapping) {
+    let frame = layout.frame;
+    (
+        Mapping::new(&panel.x, layout.x_limits, (frame.left, frame.right)),
+        Mapping::new(&panel.y, layout.y_limits, (frame.bottom, frame.top)),
+    )
+}
+
+/// Pieces of a curve in pixels, without the parts left and right of the frame, and thinned.
+pub(super) fn pixels(
+    pieces: &[Vec<(f64, f64)>],
+    x: &Mapping,
+    y: &Mapping,
+    frame: Rectangle,
+) -> Vec<Vec<(f64, f64)>> {
+    let beside = |point: (f64, f64)| {
+        if point.0 < frame.left - 2.0 { -1 } else { i32::from(point.0 > frame.right + 2.0) }
+    };
+    let mut drawn = Vec::new();
+    for piece in pieces {
+        let mapped: Vec<Option<(f64, f64)>> =
+            piece.iter().map(|&(at, value)| x.pixel(at).zip(y.pixel(value))).collect();
+        for run in mapped.split(Option::is_none) {
+            let run: Vec<(f64, f64)> = run.iter().copied().flatten().collect();
+            let visible = run.chunk_by(|before, after| {
+                beside(*before) == 0 || beside(*before) != beside(*after)
+            });
+            for part in visible {
+                if part.len() > 1 || beside(part[0]) == 0 {
+                    drawn.push(thin::polyline(part));
+                }
+            }
+        }
+    }
+    drawn
+}
+
+/// Points in pixels: those inside the frame, without points that would be drawn on top of each other.
+pub(super) fn point_pixels(
+    points: &[(f64, f64)],
+    x: &Mapping,
+    y: &Mapping,
+    frame: Rectangle,
+) -> Vec<(f64, f64)> {
+    let inside = |point: &(f64, f64)| {
+        point.0 >= frame.left - 0.5
+            && point.0 <= frame.right + 0.5
+            && point.1 >= frame.top - 0.5
+            && point.1 <= frame.bottom + 0.5
+    };
+    let drawn: Vec<(f64, f64)> = points
+        .iter()
+        .filter_map(|&(at, value)| x.pixel(at).zip(y.pixel(value)))
+        .filter(inside)
+        .collect();
+    thin::scatter(&drawn)
+}
+
+/// Ends of a reference line; `None` if it lies outside the frame.
+pub(super) fn reference_line_ends(
+    orientation: Orientation,
+    value: f64,
+    x: &Mapping,
+    y: &Mapping,
+    frame: Rectangle,
+) -> Option<Vec<(f64, f64)>> {
+    match orientation {
+        Orientation::Vertical => {
+            let x = x.pixel(value).filter(|x| *x >= frame.left && *x <= frame.right)?;
+            Some(vec![(x, frame.bottom), (x, frame.top)])
+        }
+        Orientation::Horizontal => {
+            let y = y.pixel(value).filter(|y| *y >= frame.top && *y <= frame.bottom)?;
+            Some(vec![(frame.left, y), (frame.right, y)])
+        }
+    }
+}
+
+/// The rectangle of a note, moved into the frame if necessary; `None` if the axes cannot represent its point.
+pub(super) fn note_area(
+    note: &Note,
+    (x, y): (&Mapping, &Mapping),
+    frame: Rectangle,
+    sizes: FontSizes,
+) -> Option<Rectangle> {
+    let at = (x.pixel(note.at.0)?, y.pixel(note.at.1)?);
+    let size = f64::from(sizes.note);
+    let (width, height) = (RichText::parse(&note.text).width(size, false), 0.95 * size);
+    let (left, top) = (at.0 - 0.5 * width, at.1 - 0.5 * height);
+    let inner = frame.grown(-4.0);
+    let left = left.min(inner.right - width).max(inner.left);
+    let top = top.min(inner.bottom - height).max(inner.top);
+    Some(Rectangle { left, top, right: left + width, bottom: top + height })
+}
