@@ -1,13 +1,16 @@
 //! Averaged stability of steady sliding: the sign of 2ζ + Fμ̄′(v₀) (2.26, 4.32).
 //!
 //! Negative: steady sliding is unstable, friction feeds the oscillation. The fast motion is frozen in the slope
-//! (see [`super::effective`]). The verdict is local, about small slow motions near steady sliding, and holds to the order of the
+//! (see [`super::mean_friction`]). The verdict is local, about small slow motions near steady sliding, and holds to the order of the
 //! averaging; a coexisting stick-slip cycle is not its business.
 
 use quell_model::Belt;
 
-use super::effective::{AveragingError, Effective, Side, effective};
-use super::fast_motion::{AveragingOptions, FastMotion};
+use super::dithers::AveragingOptions;
+use super::effective::{Effective, Side};
+use super::error::AveragingError;
+use super::fast_motion::FastMotion;
+use super::mean_friction::effective;
 
 /// Why a criterion has no sign.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,8 +13,10 @@
 use quell_model::{Belt, Direction, Dither};
 
 use super::criterion::Criterion;
-use super::effective::{AveragingError, effective};
-use super::fast_motion::{AveragingOptions, FastMotion, fast_wave};
+use super::dithers::{AveragingOptions, fast_wave};
+use super::error::AveragingError;
+use super::fast_motion::FastMotion;
+use super::mean_friction::effective;
 use super::sign_changes::{Crossing, grown, sign_changes};
 
 /// Steady sliding after a change of sign.

@@ -26,7 +26,8 @@ use quell_numerics::gauss_legendre::GaussLegendre;
 use quell_numerics::quadrature::{Integral, QuadratureOptions, integrate};
 use quell_numerics::special::{bessel_i0_scaled, dawson, erf, erfcx, exp, expm1, expm1_over};
 
-use super::effective::{AveragingError, Effective, Side, settled};
+use super::effective::{Effective, Side};
+use super::error::{AveragingError, settled};
 use super::wave::FastWave;
 
 /// Nodes and weights on [0, 1].

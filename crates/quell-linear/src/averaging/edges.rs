@@ -18,9 +18,12 @@ use quell_numerics::special::ln;
 
 use super::criterion::{Criterion, UndecidedBecause, Verdict};
 use super::decreasing::scaled_mean_exponential;
-use super::effective::{AveragingError, effective, single, undithered};
-use super::fast_motion::{AveragingOptions, FastMotion};
+use super::dithers::AveragingOptions;
+use super::error::AveragingError;
+use super::fast_motion::FastMotion;
+use super::mean_friction::effective;
 use super::sign_changes::{Crossing, sign_changes};
+use super::single_wave;
 use super::wave::FastWave;
 
 /// Belt velocities above which undithered steady sliding is stable.
@@ -160,8 +163,11 @@ fn searched_edge(
     let wave = FastWave::Integral(waveform);
     let corner = alpha * waveform.peak_integral();
     let value = |v: f64| -> Result<f64, AveragingError> {
-        let effective =
-            if alpha == 0.0 { undithered(law, v)? } else { single(law, wave, alpha, v)? };
+        let effective = if alpha == 0.0 {
+            single_wave::undithered(law, v)?
+        } else {
+            single_wave::effective(law, wave, alpha, v)?
+        };
         Ok(Criterion::new(damping_ratio, normal_load, effective).value)
     };
     let beyond = (0..260).map(|k| libm::exp(-20.0 + 0.1 * f64::from(k)));

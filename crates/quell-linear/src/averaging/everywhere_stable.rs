@@ -20,8 +20,9 @@ use quell_numerics::roots::{Closeness, minimise, try_minimise};
 
 use super::criterion::Criterion;
 use super::edges::{CriticalVelocity, kappa, undithered_critical_velocity};
-use super::effective::{AveragingError, single};
+use super::error::AveragingError;
 use super::sign_changes::{grown, sign_changes};
+use super::single_wave;
 use super::wave::FastWave;
 
 /// The amplitude ratio beyond which steady sliding is stable at every belt velocity.
@@ -102,7 +103,7 @@ struct Case<'a> {
 
 impl Case<'_> {
     fn criterion(&self, alpha: f64, v: f64) -> Result<f64, AveragingError> {
-        let effective = single(self.law, self.wave, alpha, v)?;
+        let effective = single_wave::effective(self.law, self.wave, alpha, v)?;
         Ok(Criterion::new(self.damping_ratio, self.normal_load, effective).value)
     }
 

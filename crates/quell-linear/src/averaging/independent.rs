@@ -12,9 +12,11 @@ use core::f64::consts::TAU;
 use quell_model::Friction;
 use quell_numerics::quadrature::{QuadratureError, QuadratureOptions, integrate};
 
-use super::effective::{AveragingError, Effective, Side, single};
-use super::fast_motion::PeriodicMotion;
+use super::effective::{Effective, Side};
+use super::error::AveragingError;
 use super::periodic::{Signal, mean};
+use super::periodic_motion::PeriodicMotion;
+use super::single_wave;
 use super::wave::FastWave;
 
 /// Largest number of incommensurate groups.
@@ -196,7 +198,7 @@ impl Context<'_> {
     ) -> Result<(f64, f64), AveragingError> {
         let effective = match &self.levels[self.levels.len() - 1] {
             Level::Closed { wave, amplitude } => {
-                let mut e = single(self.law, *wave, *amplitude, v)?;
+                let mut e = single_wave::effective(self.law, *wave, *amplitude, v)?;
                 e.coefficient *= base;
                 e.slope *= base;
                 e.coefficient_error *= base.abs();

@@ -24,25 +24,32 @@
 //! # Ok::<(), Vec<quell_model::Invalid>>(())
 //! ```
 //!
-//! | file | what |
+//! | file | content |
 //! |---|---|
 //! | `wave` | shape of the fast velocity of one dither: G, or the oscillator's own response |
-//! | `fast_motion` | fast slip and load of a belt's dithers, grouped by frequency |
-//! | `effective` | μ̄ and its frozen slope; which method serves which motion |
-//! | `stribeck`, `decreasing` | closed forms of one law |
-//! | `single_wave`, `periodic`, `independent` | quadrature: any law under one shape, a periodic sum, several frequencies |
+//! | `periodic_motion`, `fast_motion` | fast slip and load of one period, and of groups of incommensurate frequencies |
+//! | `dithers` | the fast motion of a belt's dithers, grouped by frequency |
+//! | `effective`, `error` | μ̄ and its frozen slope with their error bounds, or why they have no value |
+//! | `stribeck`, `decreasing` | closed forms for one law |
+//! | `single_wave`, `periodic`, `independent` | any law under one shape, a periodic sum, several frequencies |
+//! | `mean_friction` | the method for each fast motion |
 //! | `criterion` | 2ζ + Fμ̄′(v₀) and its verdict |
 //! | `critical_amplitudes`, `edges`, `everywhere_stable` | where the verdict changes: with α, with v₀, and α^L |
+//! | `sign_changes` | every change of sign of a function on a grid |
 
 mod criterion;
 mod critical_amplitudes;
 mod decreasing;
+mod dithers;
 mod edges;
 mod effective;
+mod error;
 mod everywhere_stable;
 mod fast_motion;
 mod independent;
+mod mean_friction;
 mod periodic;
+mod periodic_motion;
 mod sign_changes;
 mod single_wave;
 mod stribeck;
@@ -50,15 +57,17 @@ mod wave;
 
 pub use criterion::{Criterion, UndecidedBecause, Verdict, criterion};
 pub use critical_amplitudes::{Becomes, CriticalAmplitude, critical_amplitudes};
+pub use dithers::{AveragingOptions, MAX_HARMONIC, NormalOrder, Response, fast_wave};
 pub use edges::{
     Band, CriticalVelocity, NoBand, closed_band, undithered_critical_velocity, unstable_bands,
 };
-pub use effective::{AveragingError, Effective, Side, effective, effective_by_quadrature};
+pub use effective::{Effective, Side};
+pub use error::AveragingError;
 pub use everywhere_stable::{EverywhereStable, NeverStable, everywhere_stable_amplitude};
-pub use fast_motion::{
-    AveragingOptions, FastMotion, LoadTerm, MAX_HARMONIC, NormalOrder, PeriodicMotion, Response,
-    SlipTerm, fast_wave,
-};
+pub use fast_motion::FastMotion;
 pub use independent::MAX_GROUPS;
+pub use mean_friction::effective;
+pub use periodic_motion::{LoadTerm, PeriodicMotion, SlipTerm};
 pub use sign_changes::Crossing;
+pub use single_wave::effective_by_quadrature;
 pub use wave::FastWave;

@@ -15,8 +15,9 @@ use quell_model::Friction;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_numerics::roots::{Closeness, find_root};
 
-use super::effective::{AveragingError, Effective, Side, settled};
-use super::fast_motion::PeriodicMotion;
+use super::effective::{Effective, Side};
+use super::error::{AveragingError, settled};
+use super::periodic_motion::PeriodicMotion;
 
 /// Points per smooth stretch at which the sign of ds/dθ is looked at.
 const SAMPLES: usize = 8;

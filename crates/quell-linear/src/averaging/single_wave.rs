@@ -16,8 +16,10 @@ use quell_model::Friction;
 use quell_numerics::gauss_legendre::GaussLegendre;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
-use super::effective::{AveragingError, Effective, Side, settled};
+use super::effective::{Effective, Side};
+use super::error::{AveragingError, settled};
 use super::wave::FastWave;
+use super::{decreasing, stribeck};
 
 /// Nodes and weights on [0, 1] of the mean slope.
 static RULE: LazyLock<[[f64; 5]; 2]> = LazyLock::new(|| GaussLegendre::new(5).on_unit_interval());
@@ -25,8 +27,60 @@ static RULE: LazyLock<[[f64; 5]; 2]> = LazyLock::new(|| GaussLegendre::new(5).on
 /// Below this fraction of v_m the difference of two coefficients is integrated from the slope.
 const SMALL_SLIP: f64 = 0.05;
 
-/// Effective friction at slip velocity `v` ≥ 0 under s = α·wave, α > 0.
+/// The law itself.
+pub(super) fn undithered(law: &Friction, v: f64) -> Result<Effective, AveragingError> {
+    if v == 0.0 {
+        return Err(AveragingError::SetValued { static_coefficient: law.static_coefficient() });
+    }
+    let speed = v.abs();
+    let coefficient = law.coefficient(speed).copysign(v);
+    let slope = law.slope(speed);
+    let size = law.slope(0.0).abs() + slope.abs();
+    Ok(Effective::closed([coefficient, 0.0], [slope, 0.0], size, Side::Both))
+}
+
+/// One dither, `amplitude` ≠ 0: closed form where there is one, else quadrature over a quarter wave.
 pub(super) fn effective(
+    law: &Friction,
+    wave: FastWave,
+    amplitude: f64,
+    v: f64,
+) -> Result<Effective, AveragingError> {
+    let (wave, factor) = wave.canonical();
+    // s and −s have the same distribution.
+    let alpha = amplitude.abs() * factor;
+    let speed = v.abs();
+    let effective = match (law, wave) {
+        (Friction::Stribeck(law), FastWave::Integral(waveform)) => {
+            stribeck::effective(law, waveform, alpha, speed)
+        }
+        (Friction::Decreasing(law), FastWave::Integral(waveform)) => {
+            decreasing::effective(law, waveform, alpha, speed)?
+        }
+        (law, wave) => quarter_wave(law, wave, alpha, speed)?,
+    };
+    Ok(if v < 0.0 { effective.mirrored() } else { effective })
+}
+
+/// The same by quadrature, whatever the law: a second method for the closed forms.
+///
+/// # Errors
+/// A quadrature that did not converge.
+pub fn effective_by_quadrature(
+    law: &Friction,
+    wave: FastWave,
+    amplitude: f64,
+    v: f64,
+) -> Result<Effective, AveragingError> {
+    if amplitude == 0.0 {
+        return undithered(law, v);
+    }
+    let effective = quarter_wave(law, wave, amplitude.abs(), v.abs())?;
+    Ok(if v < 0.0 { effective.mirrored() } else { effective })
+}
+
+/// Effective friction at slip velocity `v` ≥ 0 under s = α·wave, α > 0.
+fn quarter_wave(
     law: &Friction,
     wave: FastWave,
     alpha: f64,

@@ -1,0 +1,40 @@
+//! Effective friction: the mean of the friction law over the fast slip velocity.
+//!
+//! μ̄(v) = ⟨μ(v − s)(1 + ν)⟩ (2.21, 3.19, 4.28): v the slow slip velocity, s the fast slip velocity and ν the fast part of
+//! the normal load, both zero-mean ([`FastMotion`]). The print has μ(v_r + αG) in places, which only waveforms with
+//! s(θ + π) = −s(θ) forgive. The slope keeps s frozen: that is what decides stability (with normal dither s depends on v, and
+//! differentiating through it is wrong; the limit R → ∞ differs from the frozen slope at a threshold beyond α_N² only, see
+//! `tests/averaging_errata.rs`).
+//!
+//! | motion | how | relative error of μ̄, μ̄′ |
+//! |---|---|---|
+//! | one dither, shape G (or sine of any R) | closed forms of the law | 10⁻¹², 10⁻¹¹ |
+//! | one dither, another shape | quarter-wave quadrature | 10⁻¹², 10⁻¹⁰ |
+//! | commensurate dithers, second order of normal dither, correlated load | quadrature over the period | 10⁻¹² absolute in units of μ |
+//! | two or three independent groups | nested quadrature | stated with the result |
+//!
+//! Away from a corner |v| = max|s|; there the slope inside grows like (max|s| − |v|)^{−1/2}, and its relative error like the
+//! rounding of that difference. Exactly at the corner the outer slope is given, and the result says so ([`Side::Outer`]).
+
+use quell_model::Friction;
+
+use super::effective::Effective;
+use super::error::AveragingError;
+use super::fast_motion::FastMotion;
+use super::{independent, periodic, single_wave};
+
+/// Effective friction and its frozen slope at slow slip velocity `v` (any sign) under a given fast motion.
+///
+/// # Errors
+/// [`AveragingError::SetValued`] at v = 0 without fast slip, [`AveragingError::TooManyGroups`], or a quadrature that
+/// did not converge.
+pub fn effective(law: &Friction, motion: &FastMotion, v: f64) -> Result<Effective, AveragingError> {
+    match motion.groups() {
+        [] => single_wave::undithered(law, v),
+        [group] => match group.single_term() {
+            Some((wave, amplitude)) => single_wave::effective(law, wave, amplitude, v),
+            None => periodic::effective(law, group, v),
+        },
+        groups => independent::effective(law, groups, v),
+    }
+}
