@@ -7,9 +7,12 @@
 use quell_linear::averaging::{FastMotion, FastWave, effective};
 use quell_model::{LawKind, Waveform};
 
+use super::axis::values;
+use super::caption::{letter, parameters, short, waveform_name};
+use super::failure::failed;
 use super::print::{self, LawNumbers};
 use super::product::{Product, Table};
-use super::source::{Source, failed, letter, parameters, short, values, waveform_name};
+use super::source::Source;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
@@ -31,7 +34,7 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
     let caption = format!(
         "Figure {}. Effective {} friction under sinusoidal tangential dither of five amplitudes. {}.",
         source.name,
-        super::source::law_name(study.belt().friction().kind()),
+        super::caption::law_name(study.belt().friction().kind()),
         parameters(&study),
     );
     Ok(Product::new(Figure::single(panel), caption, &study).by(&[Task::Friction]).table(table))
@@ -58,7 +61,7 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
     let caption = format!(
         "Figure {}. Effective {} friction under tangential dither of three waveforms and five amplitudes. {}.{note}",
         source.name,
-        super::source::law_name(law),
+        super::caption::law_name(law),
         parameters(&study),
     );
     let figure = Figure::grid(3, panels)

@@ -9,8 +9,11 @@ use std::sync::atomic::AtomicBool;
 use quell_linear::averaging::{Becomes, Response};
 use quell_model::{Direction, Waveform};
 
+use super::axis::values;
+use super::caption::{law_name, letter, parameters, short, waveform_name};
+use super::failure::failed;
 use super::product::{Cell, Product, Table};
-use super::source::{Source, failed, law_name, letter, parameters, short, values, waveform_name};
+use super::source::Source;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::picture::{self, MapAxis, MapKind};

@@ -4,8 +4,9 @@
 
 use quell_model::Friction;
 
+use super::caption::{law_name, parameters};
 use super::product::{Product, Table};
-use super::source::{Source, law_name, parameters};
+use super::source::Source;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Legend, Line, LineStyle, Panel, Place, Role, Rule};

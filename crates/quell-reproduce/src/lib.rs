@@ -26,11 +26,17 @@ use serde_json::{Value as Json, json};
 use quell::complaint::{Complaint, Failure};
 use quell::study::suggest;
 
+mod amplitude_columns;
+mod axis;
+mod caption;
+mod claim;
 pub mod claims;
 mod disc;
 mod effective_friction;
 mod efficiency_map;
+mod failure;
 mod laws;
+mod ledger;
 mod measured_friction;
 mod print;
 mod product;

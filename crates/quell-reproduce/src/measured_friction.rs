@@ -9,8 +9,11 @@ use quell_dynamics::response::{WindowMean, measured_effective_friction};
 use quell_dynamics::simulation::Start;
 use quell_linear::averaging::{AveragingOptions, FastMotion, NormalOrder, effective};
 
+use super::axis::values;
+use super::caption::{law_name, letter, parameters};
+use super::failure::failed;
 use super::product::{Product, Table};
-use super::source::{Source, failed, law_name, letter, parameters, values};
+use super::source::Source;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Line, Panel, Points, Role, SharedLegend, Sharing, Size};

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::claims::Claim;
+use super::claim::Claim;
 use quell::cite::{self, Sources, Task};
 use quell::plot::Figure;
 use quell::study::{DiscStudy, Study};

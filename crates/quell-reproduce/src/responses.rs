@@ -7,8 +7,11 @@ use quell_dynamics::response::{BAND_END, Response, Spectrum, respond};
 use quell_dynamics::simulation::{Sample, Sampler, simulate};
 use quell_model::{Belt, Direction, LawKind};
 
+use super::axis::values;
+use super::caption::{law_name, letter, parameters, waveform_name};
+use super::failure::failed;
 use super::product::{Product, Table};
-use super::source::{Source, failed, law_name, letter, parameters, values, waveform_name};
+use super::source::Source;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Legend, Line, Panel, Role, Rule, SharedLegend, Sharing, Size};

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use super::sections::Columns;
+use super::amplitude_columns::Columns;
 use quell::complaint::Failure;
 use quell::study::Study;
 

@@ -1,8 +1,6 @@
 //! Study files of the entries and the cases of a figure.
 
-use std::fmt::Display;
-
-use quell_model::{LawKind, Waveform};
+use quell_model::Waveform;
 
 use super::shared::Shared;
 use quell::complaint::Failure;
@@ -73,63 +71,4 @@ impl Source {
             })
             .collect()
     }
-}
-
-/// Values of the axis that varies `path`; empty where the study has none.
-pub(super) fn values(study: &Study, path: &str) -> Vec<f64> {
-    study
-        .sweeps()
-        .iter()
-        .find(|sweep| sweep.path == path)
-        .map(|sweep| (0..sweep.axis.len()).map(|index| sweep.axis.value(index)).collect())
-        .unwrap_or_default()
-}
-
-/// A number without the rounding of its last digits.
-pub(super) fn short(value: f64) -> String {
-    let text = format!("{value:.6}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-/// (a), (b), … of a panel.
-pub(super) fn letter(index: usize) -> char {
-    char::from(b'a' + u8::try_from(index % 26).unwrap_or(0))
-}
-
-/// How a law is called in a sentence.
-pub(super) fn law_name(kind: LawKind) -> &'static str {
-    match kind {
-        LawKind::Stribeck => "Stribeck",
-        LawKind::Decreasing => "decreasing",
-        // No figure has another; its name says enough.
-        kind => kind.name(),
-    }
-}
-
-/// How a waveform is called in a title.
-pub(super) fn waveform_name(waveform: Waveform) -> &'static str {
-    match waveform {
-        Waveform::Sine => "sinusoidal",
-        Waveform::Triangle => "triangular",
-        Waveform::Square => "square",
-    }
-}
-
-/// A piece of work that gave no value.
-pub(super) fn failed(name: &str, why: &impl Display) -> Failure {
-    Failure::Failed { key: format!("reproduce {name}"), why: why.to_string() }
-}
-
-/// ζ, F, v_m, μ_s, μ_m of a caption.
-pub(super) fn parameters(study: &Study) -> String {
-    let belt = study.belt();
-    let law = belt.friction();
-    let values = law.values();
-    let [static_level, minimum] =
-        [values.first().copied(), values.get(1).copied()].map(|v| v.unwrap_or(0.0));
-    format!(
-        "$F$ = {}, $v_m$ = {}, $μ_s$ = {static_level}, $μ_m$ = {minimum}",
-        belt.normal_load(),
-        law.velocity_scale()
-    )
 }

@@ -11,9 +11,12 @@ use quell_linear::averaging::{
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 
+use super::axis::values;
+use super::caption::{law_name, letter, parameters, waveform_name};
+use super::failure::failed;
 use super::print::{self, LawNumbers};
 use super::product::{Product, Table};
-use super::source::{Source, failed, law_name, letter, parameters, values, waveform_name};
+use super::source::Source;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{

@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 
 use quell_model::Waveform;
 
+use super::caption::{letter, waveform_name};
 use super::product::{Product, Table};
-use super::source::{Source, letter, waveform_name};
+use super::source::Source;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Legend, Line, Panel, Role, Rule, Sharing};

@@ -43,7 +43,7 @@ pub(super) fn product(
     };
     if let Some(figure) = &product.figure {
         put(format!("{stem}.svg"), figure.to_svg().as_bytes())?;
-        let png = figure.to_png().map_err(|error| super::source::failed(stem, &error))?;
+        let png = figure.to_png().map_err(|error| super::failure::failed(stem, &error))?;
         put(format!("{stem}.png"), &png)?;
     }
     for table in &product.tables {

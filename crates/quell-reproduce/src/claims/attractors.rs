@@ -4,8 +4,8 @@ use quell_dynamics::attractor::{Patience, Scene, gather, settle_many};
 use quell_dynamics::simulation::Start;
 use quell_model::{Direction, LawKind, Waveform};
 
-use super::super::sections::{Case, Change, Columns};
-use super::super::source::failed;
+use super::super::amplitude_columns::{Case, Change, Columns};
+use super::super::failure::failed;
 use super::chapter2::{LIGHT, belt, source};
 use super::sheet::{Sheet, digits, list};
 use quell::complaint::Failure;

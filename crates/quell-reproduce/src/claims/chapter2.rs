@@ -8,8 +8,8 @@ use quell_linear::averaging::{
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 
+use super::super::failure::failed;
 use super::super::responses::{Case, cases, fundamental};
-use super::super::source::failed;
 use super::super::{ENTRIES, Source};
 use super::sheet::{Sheet, digits, list, shares};
 use quell::complaint::Failure;

@@ -9,9 +9,10 @@ use quell_linear::averaging::{
 use quell_model::{Direction, LawKind, Waveform};
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
+use super::super::caption::waveform_name;
+use super::super::failure::failed;
 use super::super::print::{self, LawNumbers};
 use super::super::responses::{cases, fundamental};
-use super::super::source::{failed, waveform_name};
 use super::chapter2::{LIGHT, SUPPRESSED, belt, critical, efficiencies, law, partial, source};
 use super::sheet::{Sheet, digits, list, shares};
 use quell::complaint::Failure;

@@ -9,8 +9,8 @@ use quell_model::{LawKind, Waveform};
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_numerics::special::exp;
 
+use super::super::failure::failed;
 use super::super::print::{self, LawNumbers};
-use super::super::source::failed;
 use super::chapter2::{LIGHT, law};
 use super::sheet::Sheet;
 use quell::complaint::Failure;

@@ -6,10 +6,10 @@ use quell_linear::averaging::{
 };
 use quell_model::{Direction, LawKind, Waveform};
 
+use super::super::failure::failed;
 use super::super::measured_friction::{self, BIN, Case, interpolated};
 use super::super::print::{self, LawNumbers};
 use super::super::responses::cases;
-use super::super::source::failed;
 use super::chapter2::{LIGHT, SUPPRESSED, belt, critical, efficiencies, law, partial, source};
 use super::sheet::{Sheet, digits, list, shares};
 use quell::complaint::Failure;

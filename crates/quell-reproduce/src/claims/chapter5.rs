@@ -14,7 +14,7 @@ use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use super::super::disc::{
     FRICTION_PER_PRINTED, PRINTED_INDUCED, PRINTED_UNDITHERED, STRENGTH_PER_PRINTED, study,
 };
-use super::super::source::failed;
+use super::super::failure::failed;
 use super::chapter2::source;
 use super::sheet::{Sheet, digits, list};
 use quell::complaint::Failure;

@@ -9,7 +9,7 @@ use quell_linear::averaging::{Becomes, Response as FastResponse};
 use quell_model::{Direction, LawKind, Waveform};
 use rayon::prelude::*;
 
-use super::super::source::failed;
+use super::super::failure::failed;
 use super::chapter2::{LIGHT, SUPPRESSED, belt, critical};
 use super::sheet::Sheet;
 use quell::complaint::Failure;

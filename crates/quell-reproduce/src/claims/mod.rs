@@ -20,11 +20,10 @@ mod chapter3_formulas;
 mod chapter4;
 mod chapter5;
 mod isocline;
-mod ledger;
 mod sheet;
 
-pub use ledger::{Expected, LEDGER};
-pub use sheet::{Claim, Verdict};
+pub use super::claim::{Claim, Verdict};
+pub use super::ledger::{Expected, LEDGER};
 
 use sheet::Sheet;
 

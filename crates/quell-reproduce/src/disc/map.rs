@@ -12,8 +12,10 @@ use quell_model::disc::DiscDither;
 use quell_numerics::floquet::Effort;
 use rayon::prelude::*;
 
+use super::super::caption::letter;
+use super::super::failure::failed;
 use super::super::product::{Product, Table};
-use super::super::source::{Source, failed, letter};
+use super::super::source::Source;
 use super::{FRICTION_PER_PRINTED, OPEN, STRENGTH_PER_PRINTED, study};
 use quell::cite::Task;
 use quell::complaint::Failure;

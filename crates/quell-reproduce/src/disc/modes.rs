@@ -2,8 +2,10 @@
 
 use quell_disc::plate::{ModeSet, Plate, PlateMode, Reference};
 
+use super::super::caption::letter;
+use super::super::failure::failed;
 use super::super::product::{Product, Table};
-use super::super::source::{Source, failed, letter};
+use super::super::source::Source;
 use super::study;
 use quell::cite::Task;
 use quell::complaint::Failure;

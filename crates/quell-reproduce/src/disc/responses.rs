@@ -2,8 +2,9 @@
 //!
 //! x = e^{ρτ} cos τ with Re ρ = 0.03, 0, −0.03: the print gives no numbers.
 
+use super::super::caption::letter;
 use super::super::product::{Product, Table};
-use super::super::source::{Source, letter};
+use super::super::source::Source;
 use super::study;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Legend, Line, LineStyle, Panel, Role, Sharing, Size};

@@ -2,8 +2,9 @@
 
 use quell_disc::resonance::{Resonance, Waves};
 
+use super::super::failure::failed;
 use super::super::product::{Product, Table};
-use super::super::source::{Source, failed};
+use super::super::source::Source;
 use super::study;
 use quell::cite::Task;
 use quell::complaint::Failure;

@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 
 use super::super::Written;
 use super::super::claims::Claim;
+use super::claims;
 use super::html::{Page, escape, symbols, table};
-use super::{claims, summary};
 use crate::Cell;
 use quell::plot;
 
@@ -24,7 +24,7 @@ const CHAPTERS: [(char, &str); 4] = [
 
 /// Writes them, chapter by chapter.
 pub(super) fn write(page: &mut Page, written: &[Written]) {
-    let all = summary::claims(written);
+    let all = claims::all(written);
     for (digit, title) in CHAPTERS {
         let of: Vec<&Written> = written
             .iter()

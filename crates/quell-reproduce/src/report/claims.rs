@@ -3,11 +3,15 @@
 use super::super::claims::{Claim, Verdict};
 use super::super::{Entry, Written};
 use super::html::{Page, escape, symbols, table};
-use super::summary;
+
+/// The claims among what was made.
+pub(super) fn all(written: &[Written]) -> Vec<&Claim> {
+    written.iter().flat_map(|done| &done.product.claims).collect()
+}
 
 /// Writes the table of all claims.
 pub(super) fn write(page: &mut Page, written: &[Written]) {
-    let claims = summary::claims(written);
+    let claims = all(written);
     if claims.is_empty() {
         return;
     }

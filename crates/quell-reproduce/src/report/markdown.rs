@@ -3,11 +3,11 @@
 use std::fmt::Write as _;
 
 use super::super::{Pace, Written};
-use super::{claims, summary};
+use super::claims;
 
 /// The table.
 pub(crate) fn markdown(written: &[Written], pace: Pace) -> String {
-    let all = summary::claims(written);
+    let all = claims::all(written);
     let mut text = "# The dissertation, reproduced\n\n".to_owned();
     if pace == Pace::Quick {
         text += "Quick: maps have coarser grids than their studies say.\n\n";

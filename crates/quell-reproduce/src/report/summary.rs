@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::super::claims::{Claim, Verdict, count};
 use super::super::{Pace, Written};
-use super::claims::chip;
+use super::claims::{all, chip};
 use super::html::{Page, escape, symbols, table};
 use quell::cite::MICHAUX_2005;
 
@@ -22,7 +22,7 @@ const KINDS: [(&str, &str, &str); 4] = [
 
 /// Writes it.
 pub(super) fn write(page: &mut Page, written: &[Written], pace: Pace) {
-    let claims: Vec<&Claim> = claims(written);
+    let claims: Vec<&Claim> = all(written);
     page.put(&format!(
         "<header><p class=\"kicker\">Quell {} · reproduce{}</p><h1>The dissertation, reproduced</h1>\
          <p class=\"source\">{}</p>\
@@ -40,11 +40,6 @@ pub(super) fn write(page: &mut Page, written: &[Written], pace: Pace) {
     overview(page, &claims);
     changed(page, &claims);
     exceptions(page, &claims);
-}
-
-/// The claims among what was made.
-pub(super) fn claims(written: &[Written]) -> Vec<&Claim> {
-    written.iter().flat_map(|done| &done.product.claims).collect()
 }
 
 /// How much was made, in how much time.

@@ -14,7 +14,7 @@ pub enum Expected {
 }
 
 impl Expected {
-    /// Its kind, with the words of [`super::Verdict::name`].
+    /// Its kind, with the words of [`super::claim::Verdict::name`].
     pub fn name(self) -> &'static str {
         match self {
             Self::Reproduced => "reproduced",
@@ -34,7 +34,7 @@ impl Expected {
 }
 
 /// The verdict on record of this claim.
-pub(super) fn expected(name: &str) -> Option<Expected> {
+pub(crate) fn expected(name: &str) -> Option<Expected> {
     LEDGER.iter().find(|(known, _)| *known == name).map(|(_, expected)| *expected)
 }
 
