@@ -7,7 +7,7 @@
 use quell_model::Belt;
 
 use super::dithers::AveragingOptions;
-use super::effective::{Effective, Side};
+use super::effective::{Effective, SlopeSide};
 use super::error::AveragingError;
 use super::fast_motion::FastMotion;
 use super::mean_friction::effective;
@@ -23,7 +23,7 @@ pub enum UndecidedBecause {
 
 /// Averaged verdict on steady sliding.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Verdict {
+pub enum AveragedVerdict {
     /// Small slow motions decay.
     Stable,
     /// Small slow motions grow.
@@ -45,7 +45,7 @@ pub struct Criterion {
     /// Effective friction at v₀; `effective.side` tells whether the slope is one-sided.
     pub effective: Effective,
     /// What follows from the sign.
-    pub verdict: Verdict,
+    pub verdict: AveragedVerdict,
 }
 
 impl Criterion {
@@ -58,13 +58,13 @@ impl Criterion {
         let error = normal_load * effective.slope_error + rounding;
         let verdict = if value > error {
             // At a corner the inner slope is larger still.
-            Verdict::Stable
+            AveragedVerdict::Stable
         } else if value >= -error {
-            Verdict::Undecided { why: UndecidedBecause::WithinError }
-        } else if effective.side == Side::Outer {
-            Verdict::Undecided { why: UndecidedBecause::AtCorner }
+            AveragedVerdict::Undecided { why: UndecidedBecause::WithinError }
+        } else if effective.side == SlopeSide::Outer {
+            AveragedVerdict::Undecided { why: UndecidedBecause::AtCorner }
         } else {
-            Verdict::Unstable
+            AveragedVerdict::Unstable
         };
         Self { value, error, effective, verdict }
     }

@@ -17,7 +17,7 @@ use super::dithers::{AveragingOptions, fast_wave};
 use super::error::AveragingError;
 use super::fast_motion::FastMotion;
 use super::mean_friction::effective;
-use super::sign_changes::{Crossing, grown, sign_changes};
+use super::sign_changes::{CrossingKind, grown, sign_changes};
 
 /// Steady sliding after a change of sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +44,7 @@ pub struct CriticalAmplitude {
     /// Bound on the numerical error of `amplitude_ratio`.
     pub error: f64,
     /// Through zero or by a jump.
-    pub crossing: Crossing,
+    pub crossing: CrossingKind,
     /// Steady sliding for slightly larger amplitudes.
     pub becomes: Becomes,
     /// Whether the contact would stay closed: ΣD_N ≤ F. Always true for tangential dither.
@@ -78,10 +78,10 @@ pub fn critical_amplitudes(
     Ok(changes
         .into_iter()
         .map(|change| {
-            let amplitude = change.place * first.frequency_ratio;
+            let amplitude = change.location * first.frequency_ratio;
             let own = if first.direction == Direction::Normal { amplitude } else { 0.0 };
             CriticalAmplitude {
-                amplitude_ratio: change.place,
+                amplitude_ratio: change.location,
                 amplitude,
                 error: change.error,
                 crossing: change.crossing,
@@ -165,6 +165,6 @@ impl Probe<'_> {
             Ok(self.motion(alpha)?.largest_slip()? - v)
         };
         let changes = sign_changes(&mut excess, &points, &[])?;
-        Ok(changes.into_iter().map(|change| change.place).collect())
+        Ok(changes.into_iter().map(|change| change.location).collect())
     }
 }

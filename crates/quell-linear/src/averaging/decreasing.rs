@@ -26,7 +26,7 @@ use quell_numerics::gauss_legendre::GaussLegendre;
 use quell_numerics::quadrature::{Integral, QuadratureOptions, integrate};
 use quell_numerics::special::{bessel_i0_scaled, dawson, erf, erfcx, exp, expm1, expm1_over};
 
-use super::effective::{Effective, Side};
+use super::effective::{Effective, SlopeSide};
 use super::error::{AveragingError, settled};
 use super::wave::FastWave;
 
@@ -49,7 +49,7 @@ pub(super) fn effective(
     let corner = alpha * waveform.peak_integral();
     let a = alpha / vm;
     if v >= corner {
-        let side = if v == corner { Side::Outer } else { Side::Both };
+        let side = if v == corner { SlopeSide::Outer } else { SlopeSide::Both };
         let tail = b1 * exp(-((v - corner) / vm)) * scaled_mean_exponential(waveform, a);
         return Ok(Effective::closed([b0, tail], [-tail / vm, 0.0], tail / vm, side));
     }
@@ -69,7 +69,7 @@ pub(super) fn effective(
                 [b0 * sign, b1 * FRAC_2_PI / a * sinh],
                 [b0 * density, slope],
                 slope,
-                Side::Both,
+                SlopeSide::Both,
             ))
         }
         Waveform::Triangle => {
@@ -78,7 +78,7 @@ pub(super) fn effective(
                 [b0 * sign, b1 * value],
                 [(b0 + b1) * density, -b1 / vm * mean],
                 b1 / vm * mean,
-                Side::Both,
+                SlopeSide::Both,
             ))
         }
         Waveform::Sine => {
@@ -88,7 +88,7 @@ pub(super) fn effective(
                 [jump * sign, -b1 * k.value],
                 [jump * density, -b1 / vm * j.value],
                 b1 / vm * j.value,
-                Side::Both,
+                SlopeSide::Both,
             );
             effective.coefficient_error += b1 * k.error;
             effective.slope_error += b1 / vm * j.error;

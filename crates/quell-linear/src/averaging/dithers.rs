@@ -1,7 +1,7 @@
 //! The fast motion under one or several dithers: slip velocity s and normal load ν, grouped by frequency.
 //!
 //! Tangential dither D g(Rτ + φ) moves the mass with the velocity αG (α = D/R), or with the oscillator's exact response
-//! ([`Response`]). Normal dither moves it through friction, (4.23): φ′ = α_N μ G − (α_N²/2) μμ′ (G² − ⟨G²⟩) + …, α_N = D_N/R_N;
+//! ([`FastResponse`]). Normal dither moves it through friction, (4.23): φ′ = α_N μ G − (α_N²/2) μμ′ (G² − ⟨G²⟩) + …, α_N = D_N/R_N;
 //! [`NormalOrder`] says how many terms are kept. μ and μ′ there are taken at the slow slip velocity and then *frozen*.
 //!
 //! Dithers whose frequencies are in a ratio of small whole numbers form one periodic group and keep their phases; groups
@@ -12,7 +12,7 @@
 //! the tangential dithers alone; the sum and difference frequencies of the two directions are dropped. Exact to first
 //! order in α_N when α_T ≪ v.
 //!
-//! Limits: leading order in 1/R (with [`Response::Oscillator`] all orders of the forced part); differences of the
+//! Limits: leading order in 1/R (with [`FastResponse::Oscillator`] all orders of the forced part); differences of the
 //! dither frequencies must be fast too, a slow beat is not averaged away.
 
 use quell_model::{Belt, Direction, Dither, Friction};
@@ -25,7 +25,7 @@ use super::wave::FastWave;
 
 /// Which velocity a tangential force of high frequency is taken to produce.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Response {
+pub enum FastResponse {
     /// αG: the limit of high frequency, the dissertation's averaging.
     #[default]
     Limit,
@@ -47,7 +47,7 @@ pub enum NormalOrder {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct AveragingOptions {
     /// Velocity response to the dither force.
-    pub response: Response,
+    pub response: FastResponse,
     /// Terms kept for normal dither.
     pub normal_order: NormalOrder,
 }
@@ -86,14 +86,14 @@ impl FastMotion {
 ///
 /// # Errors
 /// [`AveragingError::NotFast`] where the oscillator's response is asked for at R ≤ 1.
-pub fn fast_wave(dither: &Dither, response: Response) -> Result<FastWave, AveragingError> {
+pub fn fast_wave(dither: &Dither, response: FastResponse) -> Result<FastWave, AveragingError> {
     let (waveform, frequency_ratio) = (dither.waveform, dither.frequency_ratio);
     match response {
-        Response::Limit => Ok(FastWave::Integral(waveform)),
-        Response::Oscillator if frequency_ratio > 1.0 => {
+        FastResponse::Limit => Ok(FastWave::Integral(waveform)),
+        FastResponse::Oscillator if frequency_ratio > 1.0 => {
             Ok(FastWave::Oscillator { waveform, frequency_ratio })
         }
-        Response::Oscillator => Err(AveragingError::NotFast { frequency_ratio }),
+        FastResponse::Oscillator => Err(AveragingError::NotFast { frequency_ratio }),
     }
 }
 
@@ -101,7 +101,7 @@ pub fn fast_wave(dither: &Dither, response: Response) -> Result<FastWave, Averag
 fn grouped(
     dithers: &[&Dither],
     (level, normal_load): (f64, f64),
-    response: Response,
+    response: FastResponse,
 ) -> Result<Vec<PeriodicMotion>, AveragingError> {
     let mut groups = Vec::new();
     for members in commensurate_groups(dithers) {

@@ -16,13 +16,13 @@ use quell_model::friction::{SlidingLaw, Stribeck};
 use quell_model::{Belt, Friction, Waveform};
 use quell_numerics::special::ln;
 
-use super::criterion::{Criterion, UndecidedBecause, Verdict};
+use super::criterion::{AveragedVerdict, Criterion, UndecidedBecause};
 use super::decreasing::scaled_mean_exponential;
 use super::dithers::AveragingOptions;
 use super::error::AveragingError;
 use super::fast_motion::FastMotion;
 use super::mean_friction::effective;
-use super::sign_changes::{Crossing, sign_changes};
+use super::sign_changes::{CrossingKind, sign_changes};
 use super::single_wave;
 use super::wave::FastWave;
 
@@ -40,11 +40,11 @@ pub enum CriticalVelocity {
 
 /// A band of unstable belt velocities.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Band {
+pub struct UnstableBand {
     /// Lower edge, a velocity; 0 where instability reaches down to rest.
     pub lower: f64,
     /// How stability is lost at the lower edge (for growing v₀); none at v₀ → 0.
-    pub lower_crossing: Option<Crossing>,
+    pub lower_crossing: Option<CrossingKind>,
     /// Upper edge; none where instability has no upper end, or none within what was looked at.
     pub upper: Option<f64>,
 }
@@ -96,13 +96,13 @@ pub fn closed_band(
     normal_load: f64,
     waveform: Waveform,
     alpha: f64,
-) -> Result<Band, NoBand> {
+) -> Result<UnstableBand, NoBand> {
     let lower = alpha * waveform.peak_integral();
     let upper = outer_edge(law, damping_ratio, normal_load, waveform, alpha);
     let upper = upper.map_err(NoBand::Failed)?;
-    let lower_crossing = (alpha > 0.0).then_some(Crossing::Jump);
+    let lower_crossing = (alpha > 0.0).then_some(CrossingKind::Jump);
     let is_there = upper.is_none_or(|upper| upper > lower);
-    is_there.then_some(Band { lower, lower_crossing, upper }).ok_or(NoBand::Stable)
+    is_there.then_some(UnstableBand { lower, lower_crossing, upper }).ok_or(NoBand::Stable)
 }
 
 /// κ = 4v_mζ/(3F(μ_s − μ_m)): damping over the steepest fall of the Stribeck law, which stabilises every velocity from 1 on.
@@ -174,7 +174,7 @@ fn searched_edge(
     let points: Vec<f64> = beyond.map(|share| corner + law.velocity_scale() * share).collect();
     let changes = sign_changes(value, &points, &[])?;
     Ok(match changes.last() {
-        Some(last) => last.becomes_positive.then_some(last.place),
+        Some(last) => last.becomes_positive.then_some(last.location),
         None => (value(points[0])? >= 0.0).then_some(0.0),
     })
 }
@@ -184,7 +184,10 @@ fn searched_edge(
 ///
 /// # Errors
 /// [`AveragingError`].
-pub fn unstable_bands(belt: &Belt, options: AveragingOptions) -> Result<Vec<Band>, AveragingError> {
+pub fn unstable_bands(
+    belt: &Belt,
+    options: AveragingOptions,
+) -> Result<Vec<UnstableBand>, AveragingError> {
     let law = belt.friction();
     let motion = |v: f64| FastMotion::of(belt, v, options);
     let criterion = |v: f64| -> Result<Criterion, AveragingError> {
@@ -205,7 +208,7 @@ pub fn unstable_bands(belt: &Belt, options: AveragingOptions) -> Result<Vec<Band
     points.dedup();
     let excess = |v: f64| -> Result<f64, AveragingError> { Ok(v - motion(v)?.largest_slip()?) };
     let corners: Vec<f64> =
-        sign_changes(excess, &points, &[])?.into_iter().map(|c| c.place).collect();
+        sign_changes(excess, &points, &[])?.into_iter().map(|c| c.location).collect();
     for corner in &corners {
         points.extend((0..24).map(|k| corner * (1.0 - libm::exp(-30.0 + 1.2 * f64::from(k)))));
     }
@@ -218,19 +221,19 @@ pub fn unstable_bands(belt: &Belt, options: AveragingOptions) -> Result<Vec<Band
     for change in changes {
         if change.becomes_positive {
             if let Some((lower, lower_crossing)) = open.take() {
-                bands.push(Band { lower, lower_crossing, upper: Some(change.place) });
+                bands.push(UnstableBand { lower, lower_crossing, upper: Some(change.location) });
             }
         } else {
-            open = Some((change.place, Some(change.crossing)));
+            open = Some((change.location, Some(change.crossing)));
         }
     }
     if let Some((lower, lower_crossing)) = open {
-        bands.push(Band { lower, lower_crossing, upper: None });
+        bands.push(UnstableBand { lower, lower_crossing, upper: None });
     }
     // Where the criterion is zero throughout, without damping and without a slope, nothing grows. One place would not say so: far
     // out a law that falls exponentially has no slope beyond rounding either.
-    let neutral = Verdict::Undecided { why: UndecidedBecause::WithinError };
-    let grows = |band: &Band| -> Result<bool, AveragingError> {
+    let neutral = AveragedVerdict::Undecided { why: UndecidedBecause::WithinError };
+    let grows = |band: &UnstableBand| -> Result<bool, AveragingError> {
         let is_inside = |v: &f64| *v > band.lower && band.upper.is_none_or(|upper| *v < upper);
         let mut inside = points.iter().copied().filter(is_inside).peekable();
         if inside.peek().is_none() {

@@ -2,7 +2,7 @@
 
 /// Whether the slope is the same on both sides of the slip velocity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
+pub enum SlopeSide {
     /// An ordinary slope.
     Both,
     /// |v| equals the largest fast velocity: the slope jumps there (to +∞ inside for sine and triangle, by a finite step for a
@@ -22,7 +22,7 @@ pub struct Effective {
     /// Bound on the numerical error of `slope`.
     pub slope_error: f64,
     /// Whether `slope` is one-sided.
-    pub side: Side,
+    pub side: SlopeSide,
 }
 
 impl Effective {
@@ -31,7 +31,7 @@ impl Effective {
         coefficient: [f64; 2],
         slope: [f64; 2],
         slope_size: f64,
-        side: Side,
+        side: SlopeSide,
     ) -> Self {
         let rounding = 16.0 * f64::EPSILON;
         Self {

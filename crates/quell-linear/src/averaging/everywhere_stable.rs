@@ -69,7 +69,7 @@ pub fn everywhere_stable_amplitude(
     wave: FastWave,
     direction: Direction,
 ) -> Result<EverywhereStable, AveragingError> {
-    let case = Case { law, damping_ratio, normal_load, wave };
+    let dithered = DitheredLaw { law, damping_ratio, normal_load, wave };
     let tangential = match undithered_critical_velocity(law, damping_ratio, normal_load)? {
         CriticalVelocity::StableEverywhere => EverywhereStable::Always,
         CriticalVelocity::UnstableEverywhere => {
@@ -77,11 +77,11 @@ pub fn everywhere_stable_amplitude(
             let why = if damped { NeverStable::NoEdge } else { NeverStable::NoDamping };
             EverywhereStable::Never { why }
         }
-        CriticalVelocity::Above(_) => case.tangential()?,
+        CriticalVelocity::Above(_) => dithered.tangential()?,
     };
     match (direction, tangential) {
         (Direction::Normal, EverywhereStable::From { amplitude_ratio, error }) => {
-            let (normal, searched) = case.normal(amplitude_ratio)?;
+            let (normal, searched) = dithered.normal(amplitude_ratio)?;
             let error = normal * (error / amplitude_ratio + searched + 4.0 * f64::EPSILON);
             Ok(EverywhereStable::From { amplitude_ratio: normal, error })
         }
@@ -94,14 +94,14 @@ pub fn everywhere_stable_amplitude(
 const SEARCHED: f64 = 1e-6;
 
 /// A law with damping and load under one shape of dither.
-struct Case<'a> {
+struct DitheredLaw<'a> {
     law: &'a Friction,
     damping_ratio: f64,
     normal_load: f64,
     wave: FastWave,
 }
 
-impl Case<'_> {
+impl DitheredLaw<'_> {
     fn criterion(&self, alpha: f64, v: f64) -> Result<f64, AveragingError> {
         let effective = single_wave::effective(self.law, self.wave, alpha, v)?;
         Ok(Criterion::new(self.damping_ratio, self.normal_load, effective).value)
@@ -119,10 +119,10 @@ impl Case<'_> {
     fn worst_inside(&self, alpha: f64) -> Result<f64, AveragingError> {
         const SAMPLES: usize = 24;
         let corner = alpha * self.wave.peak();
-        let place = |k: usize| corner * (k as f64 / SAMPLES as f64);
+        let location = |k: usize| corner * (k as f64 / SAMPLES as f64);
         let mut worst = (self.criterion(alpha, 0.0)?, 0);
         for k in 1..SAMPLES {
-            let value = self.criterion(alpha, place(k))?;
+            let value = self.criterion(alpha, location(k))?;
             if value < worst.0 {
                 worst = (value, k);
             }
@@ -132,7 +132,7 @@ impl Case<'_> {
         }
         let value = |v: f64| self.criterion(alpha, v);
         let closeness = Closeness { absolute: 0.0, relative: 1e-8 };
-        let bottom = try_minimise(value, place(worst.1 - 1), place(worst.1 + 1), closeness)?;
+        let bottom = try_minimise(value, location(worst.1 - 1), location(worst.1 + 1), closeness)?;
         Ok(bottom.map_or(worst.0, |bottom| bottom.value.min(worst.0)))
     }
 
@@ -155,8 +155,8 @@ impl Case<'_> {
         Ok(changes.last().map_or(
             EverywhereStable::From { amplitude_ratio: outer, error },
             |change| EverywhereStable::From {
-                amplitude_ratio: change.place,
-                error: change.error.max(1e-12 * change.place),
+                amplitude_ratio: change.location,
+                error: change.error.max(1e-12 * change.location),
             },
         ))
     }
@@ -174,7 +174,7 @@ impl Case<'_> {
         let points: Vec<f64> =
             (0..320).map(|k| vm * libm::exp(-18.0 + 0.1 * f64::from(k))).collect();
         let changes = sign_changes(|alpha| self.tip(alpha), &points, &[])?;
-        Ok(changes.last().filter(|c| c.becomes_positive).map(|c| (c.place, c.error)))
+        Ok(changes.last().filter(|c| c.becomes_positive).map(|c| (c.location, c.error)))
     }
 
     /// Largest α/μ(v₀) between the tip and the velocity from which on sliding is stable without dither, for a law or a
@@ -185,21 +185,21 @@ impl Case<'_> {
         let peak = self.wave.peak();
         // −α/μ(v₀), α the largest unstable one whose corner lies below v₀.
         let ratio = |v: f64| -> Result<f64, AveragingError> {
-            let place = |k: u32| v / peak * (1.0 - 1e-12) * f64::from(k) / f64::from(AMPLITUDES);
-            let points: Vec<f64> = (1..=AMPLITUDES).map(place).collect();
+            let location = |k: u32| v / peak * (1.0 - 1e-12) * f64::from(k) / f64::from(AMPLITUDES);
+            let points: Vec<f64> = (1..=AMPLITUDES).map(location).collect();
             let changes = sign_changes(|alpha| self.criterion(alpha, v), &points, &[])?;
-            Ok(-changes.last().map_or(0.0, |last| last.place) / self.law.coefficient(v))
+            Ok(-changes.last().map_or(0.0, |last| last.location) / self.law.coefficient(v))
         };
-        let place = |k: usize| tip + (end - tip) * k as f64 / VELOCITIES as f64;
+        let location = |k: usize| tip + (end - tip) * k as f64 / VELOCITIES as f64;
         let mut best = (0.0, 1);
         for k in 1..VELOCITIES {
-            let value = ratio(place(k))?;
+            let value = ratio(location(k))?;
             if value < best.0 {
                 best = (value, k);
             }
         }
         let closeness = Closeness { absolute: 0.0, relative: SEARCHED };
-        let bottom = try_minimise(ratio, place(best.1 - 1), place(best.1 + 1), closeness)?;
+        let bottom = try_minimise(ratio, location(best.1 - 1), location(best.1 + 1), closeness)?;
         Ok(-bottom.map_or(best.0, |bottom| bottom.value.min(best.0)))
     }
 

@@ -12,7 +12,7 @@ use core::f64::consts::TAU;
 use quell_model::Friction;
 use quell_numerics::quadrature::{QuadratureError, QuadratureOptions, integrate};
 
-use super::effective::{Effective, Side};
+use super::effective::{Effective, SlopeSide};
 use super::error::AveragingError;
 use super::periodic::{Signal, mean};
 use super::periodic_motion::PeriodicMotion;
@@ -33,12 +33,12 @@ const INNER_CLOSENESS: f64 = 1e-12;
 const EVALUATIONS: usize = 1500;
 
 /// One level: a closed form or a signal to integrate over.
-enum Level<'a> {
+enum NestedLevel<'a> {
     Closed { wave: FastWave, amplitude: f64 },
     Sampled(Signal<'a>),
 }
 
-impl Level<'_> {
+impl NestedLevel<'_> {
     fn extrema(&self) -> Vec<f64> {
         match self {
             Self::Closed { wave, amplitude } => {
@@ -70,15 +70,15 @@ pub(super) fn effective(
     for (depth, group) in order.iter().enumerate() {
         levels.push(match group.single_term() {
             Some((wave, amplitude)) if depth + 1 == order.len() => {
-                Level::Closed { wave, amplitude }
+                NestedLevel::Closed { wave, amplitude }
             }
-            _ => Level::Sampled(Signal::new(group)?),
+            _ => NestedLevel::Sampled(Signal::new(group)?),
         });
     }
     let corners = corner_sums(&levels);
-    let context = Context { law, levels: &levels, corners: &corners };
-    let value = context.integral(0, 1.0, v, Quantity::Coefficient)?;
-    let slope = context.integral(0, 1.0, v, Quantity::Slope)?;
+    let context = NestedMean { law, levels: &levels, corners: &corners };
+    let value = context.integral(0, 1.0, v, AveragedQuantity::Coefficient)?;
+    let slope = context.integral(0, 1.0, v, AveragedQuantity::Slope)?;
     let outermost = corners[0].iter().fold(0.0_f64, |m, c| m.max(c.abs()));
     Ok(Effective {
         coefficient: value.0,
@@ -86,12 +86,12 @@ pub(super) fn effective(
         slope: slope.0,
         slope_error: slope.1 + CORNER_NOISE * slope.0.abs(),
         // Convolution with a second wave smooths the corner, but its outer edge stays a one-sided place.
-        side: if v.abs() == outermost { Side::Outer } else { Side::Both },
+        side: if v.abs() == outermost { SlopeSide::Outer } else { SlopeSide::Both },
     })
 }
 
 /// For each level the corners of the mean over it and all levels inside: sums of extrema.
-fn corner_sums(levels: &[Level<'_>]) -> Vec<Vec<f64>> {
+fn corner_sums(levels: &[NestedLevel<'_>]) -> Vec<Vec<f64>> {
     let mut corners = vec![Vec::new(); levels.len()];
     let mut inner = vec![0.0];
     for (depth, level) in levels.iter().enumerate().rev() {
@@ -108,30 +108,30 @@ fn corner_sums(levels: &[Level<'_>]) -> Vec<Vec<f64>> {
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Quantity {
+enum AveragedQuantity {
     Coefficient,
     Slope,
 }
 
-struct Context<'a> {
+struct NestedMean<'a> {
     law: &'a Friction,
-    levels: &'a [Level<'a>],
+    levels: &'a [NestedLevel<'a>],
     corners: &'a [Vec<f64>],
 }
 
-impl Context<'_> {
+impl NestedMean<'_> {
     /// Mean over the levels from `depth` on with the weight base + Σν, and its error bound.
     fn integral(
         &self,
         depth: usize,
         base: f64,
         v: f64,
-        quantity: Quantity,
+        quantity: AveragedQuantity,
     ) -> Result<(f64, f64), AveragingError> {
         if depth + 1 == self.levels.len() {
             return self.innermost(base, v, quantity);
         }
-        let Level::Sampled(signal) = &self.levels[depth] else {
+        let NestedLevel::Sampled(signal) = &self.levels[depth] else {
             // Only the innermost level has a closed form; were it otherwise its mean would still be right.
             return self.innermost(base, v, quantity);
         };
@@ -142,8 +142,8 @@ impl Context<'_> {
         cuts.sort_unstable_by(f64::total_cmp);
         cuts.dedup_by(|a, b| (*a - *b).abs() < 1e-14);
         let scale = match quantity {
-            Quantity::Coefficient => self.law.static_coefficient(),
-            Quantity::Slope => self.law.static_coefficient() / self.law.velocity_scale(),
+            AveragedQuantity::Coefficient => self.law.static_coefficient(),
+            AveragedQuantity::Slope => self.law.static_coefficient() / self.law.velocity_scale(),
         };
         let inside = self.levels.len() - depth - 1;
         let closeness = if inside == 1 { INNER_CLOSENESS } else { 1e-9 };
@@ -194,10 +194,10 @@ impl Context<'_> {
         &self,
         base: f64,
         v: f64,
-        quantity: Quantity,
+        quantity: AveragedQuantity,
     ) -> Result<(f64, f64), AveragingError> {
         let effective = match &self.levels[self.levels.len() - 1] {
-            Level::Closed { wave, amplitude } => {
+            NestedLevel::Closed { wave, amplitude } => {
                 let mut e = single_wave::effective(self.law, *wave, *amplitude, v)?;
                 e.coefficient *= base;
                 e.slope *= base;
@@ -205,11 +205,11 @@ impl Context<'_> {
                 e.slope_error *= base.abs();
                 e
             }
-            Level::Sampled(signal) => mean(self.law, signal, base, v)?,
+            NestedLevel::Sampled(signal) => mean(self.law, signal, base, v)?,
         };
         Ok(match quantity {
-            Quantity::Coefficient => (effective.coefficient, effective.coefficient_error),
-            Quantity::Slope => (effective.slope, effective.slope_error),
+            AveragedQuantity::Coefficient => (effective.coefficient, effective.coefficient_error),
+            AveragedQuantity::Slope => (effective.slope, effective.slope_error),
         })
     }
 }

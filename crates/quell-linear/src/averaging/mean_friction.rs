@@ -14,7 +14,7 @@
 //! | two or three independent groups | nested quadrature | stated with the result |
 //!
 //! Away from a corner |v| = max|s|; there the slope inside grows like (max|s| − |v|)^{−1/2}, and its relative error like the
-//! rounding of that difference. Exactly at the corner the outer slope is given, and the result says so ([`Side::Outer`]).
+//! rounding of that difference. Exactly at the corner the outer slope is given, and the result says so ([`SlopeSide::Outer`]).
 
 use quell_model::Friction;
 

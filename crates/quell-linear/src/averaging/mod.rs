@@ -4,7 +4,7 @@
 //! unstable iff 2ζ + Fμ̄′(v₀) < 0 (2.26).
 //!
 //! ```
-//! use quell_linear::averaging::{AveragingOptions, Crossing, Response, critical_amplitudes};
+//! use quell_linear::averaging::{AveragingOptions, CrossingKind, FastResponse, critical_amplitudes};
 //! use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 //!
 //! let law = LawKind::Decreasing.build(&[0.4, 0.2857, 0.2])?;
@@ -17,10 +17,10 @@
 //! };
 //! let belt = Belt::new(0.005, 1.0, 1.0, law, vec![dither])?;
 //! // Dither destabilises between a root and the jump where the fast velocity reaches the belt's.
-//! let options = AveragingOptions { response: Response::Oscillator, ..Default::default() };
+//! let options = AveragingOptions { response: FastResponse::Oscillator, ..Default::default() };
 //! let critical = critical_amplitudes(&belt, options).expect("one dither");
 //! assert!((critical[0].amplitude - 4.322392).abs() < 1e-6); // exact: 4.322393
-//! assert!((critical[1].amplitude - 9.9).abs() < 1e-12 && critical[1].crossing == Crossing::Jump);
+//! assert!((critical[1].amplitude - 9.9).abs() < 1e-12 && critical[1].crossing == CrossingKind::Jump);
 //! # Ok::<(), Vec<quell_model::Invalid>>(())
 //! ```
 //!
@@ -55,19 +55,20 @@ mod single_wave;
 mod stribeck;
 mod wave;
 
-pub use criterion::{Criterion, UndecidedBecause, Verdict, criterion};
+pub use criterion::{AveragedVerdict, Criterion, UndecidedBecause, criterion};
 pub use critical_amplitudes::{Becomes, CriticalAmplitude, critical_amplitudes};
-pub use dithers::{AveragingOptions, MAX_HARMONIC, NormalOrder, Response, fast_wave};
+pub use dithers::{AveragingOptions, FastResponse, MAX_HARMONIC, NormalOrder, fast_wave};
 pub use edges::{
-    Band, CriticalVelocity, NoBand, closed_band, undithered_critical_velocity, unstable_bands,
+    CriticalVelocity, NoBand, UnstableBand, closed_band, undithered_critical_velocity,
+    unstable_bands,
 };
-pub use effective::{Effective, Side};
+pub use effective::{Effective, SlopeSide};
 pub use error::AveragingError;
 pub use everywhere_stable::{EverywhereStable, NeverStable, everywhere_stable_amplitude};
 pub use fast_motion::FastMotion;
 pub use independent::MAX_GROUPS;
 pub use mean_friction::effective;
 pub use periodic_motion::{LoadTerm, PeriodicMotion, SlipTerm};
-pub use sign_changes::Crossing;
+pub use sign_changes::CrossingKind;
 pub use single_wave::effective_by_quadrature;
 pub use wave::FastWave;

@@ -15,7 +15,7 @@ use quell_model::Friction;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_numerics::roots::{Closeness, find_root};
 
-use super::effective::{Effective, Side};
+use super::effective::{Effective, SlopeSide};
 use super::error::{AveragingError, settled};
 use super::periodic_motion::PeriodicMotion;
 
@@ -101,17 +101,17 @@ impl<'a> Signal<'a> {
 
     /// Phases where s = value.
     pub(super) fn crossings(&self, value: f64) -> Vec<f64> {
-        let mut places = Vec::new();
+        let mut locations = Vec::new();
         for pair in self.ends.windows(2) {
             let ((from, a), (to, b)) = (pair[0], pair[1]);
             if (a < value) != (b < value) {
                 let excess = |x: f64| self.value_and_slope(x).0 - value;
                 if let Ok(root) = find_root(excess, from, to, Closeness::default()) {
-                    places.push(root.location);
+                    locations.push(root.location);
                 }
             }
         }
-        places
+        locations
     }
 }
 
@@ -166,7 +166,7 @@ pub(super) fn mean(
     };
     let value = settled(integrate(value, 0.0, TAU, &cuts, &options(scale)))?;
     let smooth = settled(integrate(slope, 0.0, TAU, &cuts, &options(slope_scale)))?;
-    let side = if at_corner { Side::Outer } else { Side::Both };
+    let side = if at_corner { SlopeSide::Outer } else { SlopeSide::Both };
     let mut effective =
         Effective::closed([value.value / TAU, 0.0], [jump, smooth.value / TAU], slope_scale, side);
     effective.coefficient_error += value.error / TAU + 1e-14 * scale;

@@ -88,8 +88,8 @@ impl PeriodicMotion {
         let mut breaks = Vec::new();
         for (harmonic, phase) in terms.chain(loads) {
             for quarter in 0..4 * harmonic {
-                let place = (0.25 * TAU * f64::from(quarter) - phase) / f64::from(harmonic);
-                breaks.push(place.rem_euclid(TAU));
+                let location = (0.25 * TAU * f64::from(quarter) - phase) / f64::from(harmonic);
+                breaks.push(location.rem_euclid(TAU));
             }
         }
         breaks.sort_unstable_by(f64::total_cmp);

@@ -11,7 +11,7 @@ use quell_numerics::roots::{Closeness, try_find_root, try_minimise};
 
 /// How a function changes its sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Crossing {
+pub enum CrossingKind {
     /// Continuously, through zero.
     Root,
     /// By a jump, without passing zero.
@@ -21,9 +21,9 @@ pub enum Crossing {
 /// One change of sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SignChange {
-    pub(super) place: f64,
+    pub(super) location: f64,
     pub(super) error: f64,
-    pub(super) crossing: Crossing,
+    pub(super) crossing: CrossingKind,
     /// Positive after the place (for growing parameter).
     pub(super) becomes_positive: bool,
 }
@@ -61,9 +61,9 @@ pub(super) fn sign_changes<E>(
             let (before, after) = (f(to)?, f(from)?);
             if (before > 0.0) != (after > 0.0) {
                 changes.push(SignChange {
-                    place: corner,
+                    location: corner,
                     error: 4.0 * f64::EPSILON * corner,
-                    crossing: Crossing::Jump,
+                    crossing: CrossingKind::Jump,
                     becomes_positive: after > 0.0,
                 });
             }
@@ -116,15 +116,16 @@ fn locate<E>(
     becomes_positive: bool,
 ) -> Result<SignChange, E> {
     let root = try_find_root(&mut *f, a, b, Closeness::default())?;
-    let place = root.map_or(a.midpoint(b), |root| root.location);
-    let error = root.map_or(b - a, |root| root.width.max(4.0 * f64::EPSILON * place.abs()));
+    let location = root.map_or(a.midpoint(b), |root| root.location);
+    let error = root.map_or(b - a, |root| root.width.max(4.0 * f64::EPSILON * location.abs()));
     // Across a root the values nearby shrink with the distance; across a jump they do not.
-    let near = 1e-9 * place.abs();
+    let near = 1e-9 * location.abs();
     let mut value = |x: f64| f(x.clamp(a, b));
-    let wide = value(place + 8.0 * near)? - value(place - 8.0 * near)?;
-    let narrow = value(place + near)? - value(place - near)?;
-    let crossing = if narrow.abs() > 0.5 * wide.abs() { Crossing::Jump } else { Crossing::Root };
-    Ok(SignChange { place, error, crossing, becomes_positive })
+    let wide = value(location + 8.0 * near)? - value(location - 8.0 * near)?;
+    let narrow = value(location + near)? - value(location - near)?;
+    let crossing =
+        if narrow.abs() > 0.5 * wide.abs() { CrossingKind::Jump } else { CrossingKind::Root };
+    Ok(SignChange { location, error, crossing, becomes_positive })
 }
 
 /// The next of points that grow by a factor. The smallest numbers are their own multiples: after them comes the next
@@ -151,14 +152,17 @@ mod tests {
             _ => 2.0,
         };
         let found = changes(f, &grid, &[1.0]);
-        let places: Vec<f64> = found.iter().map(|c| c.place).collect();
+        let locations: Vec<f64> = found.iter().map(|c| c.location).collect();
         let expected = [0.53, 0.55, 1.0, 1.55];
-        assert_eq!(places.len(), 4, "{found:?}");
-        for (place, exact) in places.iter().zip(expected) {
-            assert!((place - exact).abs() < 1e-12, "{found:?}");
+        assert_eq!(locations.len(), 4, "{found:?}");
+        for (location, exact) in locations.iter().zip(expected) {
+            assert!((location - exact).abs() < 1e-12, "{found:?}");
         }
-        let kinds: Vec<Crossing> = found.iter().map(|c| c.crossing).collect();
-        assert_eq!(kinds, [Crossing::Root, Crossing::Root, Crossing::Jump, Crossing::Jump]);
+        let kinds: Vec<CrossingKind> = found.iter().map(|c| c.crossing).collect();
+        assert_eq!(
+            kinds,
+            [CrossingKind::Root, CrossingKind::Root, CrossingKind::Jump, CrossingKind::Jump]
+        );
         let signs: Vec<bool> = found.iter().map(|c| c.becomes_positive).collect();
         assert_eq!(signs, [false, true, false, true]);
     }

@@ -16,7 +16,7 @@ use quell_model::Friction;
 use quell_numerics::gauss_legendre::GaussLegendre;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
-use super::effective::{Effective, Side};
+use super::effective::{Effective, SlopeSide};
 use super::error::{AveragingError, settled};
 use super::wave::FastWave;
 use super::{decreasing, stribeck};
@@ -36,7 +36,7 @@ pub(super) fn undithered(law: &Friction, v: f64) -> Result<Effective, AveragingE
     let coefficient = law.coefficient(speed).copysign(v);
     let slope = law.slope(speed);
     let size = law.slope(0.0).abs() + slope.abs();
-    Ok(Effective::closed([coefficient, 0.0], [slope, 0.0], size, Side::Both))
+    Ok(Effective::closed([coefficient, 0.0], [slope, 0.0], size, SlopeSide::Both))
 }
 
 /// One dither, `amplitude` ≠ 0: closed form where there is one, else quadrature over a quarter wave.
@@ -133,7 +133,7 @@ fn quarter_wave(
     let scale = at_rest + law.slope(v).abs() + PI * law.coefficient(0.0) * density;
     let options = QuadratureOptions { relative, absolute: relative * scale, ..options };
     let smooth = settled(integrate(slopes, 0.0, FRAC_PI_2, &cuts, &options))?;
-    let side = if v == corner { Side::Outer } else { Side::Both };
+    let side = if v == corner { SlopeSide::Outer } else { SlopeSide::Both };
     let mut effective = Effective::closed(
         [near.value / PI, far / PI],
         [law.coefficient(0.0) * density, smooth.value / PI],

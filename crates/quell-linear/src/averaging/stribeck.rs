@@ -13,7 +13,7 @@
 use quell_model::Waveform;
 use quell_model::friction::{SlidingLaw, Stribeck};
 
-use super::effective::{Effective, Side};
+use super::effective::{Effective, SlopeSide};
 use super::wave::FastWave;
 
 /// Effective friction at slip velocity `v` ≥ 0 under s = αG, α > 0.
@@ -28,7 +28,7 @@ pub(super) fn effective(law: &Stribeck, waveform: Waveform, alpha: f64, v: f64) 
     let slope_size = 1.5 * difference / vm * (1.0 + w * w + moment);
     let corner = alpha * waveform.peak_integral();
     if v >= corner {
-        let side = if v == corner { Side::Outer } else { Side::Both };
+        let side = if v == corner { SlopeSide::Outer } else { SlopeSide::Both };
         return Effective::closed(
             [law.static_coefficient(), linear],
             [smooth_slope, 0.0],
@@ -45,6 +45,6 @@ pub(super) fn effective(law: &Stribeck, waveform: Waveform, alpha: f64, v: f64) 
         [law.static_coefficient() * sign, linear],
         [law.static_coefficient() * density, smooth_slope],
         slope_size,
-        Side::Both,
+        SlopeSide::Both,
     )
 }
