@@ -35,7 +35,7 @@ pub enum Marginal {
 
 /// A mode of the conservative loaded disc and where it is marginal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Boundary {
+pub struct ModeBoundary {
     /// Frequency ω in the frame of the loads.
     pub frequency: f64,
     /// The friction.
@@ -78,7 +78,7 @@ impl std::error::Error for NoBoundary {}
 ///
 /// # Errors
 /// [`NoBoundary`] where the condition above does not apply.
-pub fn boundaries(disc: &Disc) -> Result<Vec<Boundary>, NoBoundary> {
+pub fn boundaries(disc: &Disc) -> Result<Vec<ModeBoundary>, NoBoundary> {
     if disc.loads().len() != 1 {
         return Err(NoBoundary::Loads(disc.loads().len()));
     }
@@ -117,7 +117,7 @@ pub fn boundaries(disc: &Disc) -> Result<Vec<Boundary>, NoBoundary> {
                 Marginal::At(-disc.loads()[0].damping * value.im * ratio.im)
             }
         };
-        found.push(Boundary { frequency: value.im, friction });
+        found.push(ModeBoundary { frequency: value.im, friction });
     }
     found.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
     Ok(found)

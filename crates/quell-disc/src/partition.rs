@@ -46,7 +46,7 @@ const BESIDE_POLE: f64 = 1e-14;
 
 /// A friction at which an exponent is imaginary.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing {
+pub struct FrictionCrossing {
     /// Factor on the load's friction.
     pub factor: f64,
     /// Frequency ω of the exponent, 0 ≤ ω ≤ R/2.
@@ -165,7 +165,7 @@ impl Operator<'_> {
         mut value: Complex64,
         mut high: f64,
         mut beyond: Complex64,
-    ) -> Option<Crossing> {
+    ) -> Option<FrictionCrossing> {
         for turn in 0..TURNS {
             let middle = 0.5 * (low + high);
             if middle <= low || middle >= high {
@@ -184,12 +184,12 @@ impl Operator<'_> {
                 (high, beyond) = (omega, next);
             }
             if next.im.abs() <= REAL * next.re && gap <= 1e-3 * next.re {
-                return Some(Crossing { factor: next.re.recip(), frequency: omega });
+                return Some(FrictionCrossing { factor: next.re.recip(), frequency: omega });
             }
         }
         let jump = (value - beyond).norm_sqr().sqrt();
         let crossed = value.re > 0.0 && jump <= 1e-8 * value.re;
-        crossed.then(|| Crossing { factor: value.re.recip(), frequency: low })
+        crossed.then(|| FrictionCrossing { factor: value.re.recip(), frequency: low })
     }
 }
 
@@ -199,12 +199,12 @@ fn nearest(values: &[Complex64], to: Complex64) -> Option<Complex64> {
 }
 
 /// Eigenvalues that are real by symmetry, at the ends of the range of ω.
-fn real_ones(values: &[Complex64], frequency: f64, found: &mut Vec<Crossing>) {
+fn real_ones(values: &[Complex64], frequency: f64, found: &mut Vec<FrictionCrossing>) {
     let largest = values.iter().map(|value| value.norm_sqr().sqrt()).fold(0.0, f64::max);
     for value in values {
         // Tiny ones are frictions without bound, whose sign is rounding.
         if value.re > 1e-9 * largest && value.im.abs() <= 1e-10 * value.re {
-            found.push(Crossing { factor: value.re.recip(), frequency });
+            found.push(FrictionCrossing { factor: value.re.recip(), frequency });
         }
     }
 }
@@ -213,7 +213,7 @@ fn real_ones(values: &[Complex64], frequency: f64, found: &mut Vec<Crossing>) {
 ///
 /// # Errors
 /// [`NoPartition`] for other than one load, without dither, for a dither too slow, and where eigenvalues fail throughout.
-pub fn crossings(disc: &Disc) -> Result<Vec<Crossing>, NoPartition> {
+pub fn crossings(disc: &Disc) -> Result<Vec<FrictionCrossing>, NoPartition> {
     if disc.loads().len() != 1 {
         return Err(NoPartition::Loads(disc.loads().len()));
     }

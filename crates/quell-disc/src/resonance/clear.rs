@@ -13,8 +13,8 @@ use core::ops::RangeInclusive;
 
 use quell_numerics::roots::{Closeness, minimise, quadratic};
 
-use super::pair::Band;
-use super::places::Family;
+use super::meetings::MeetingFamily;
+use super::pair::DetuningBand;
 use super::tongue::{Resonance, Tongue};
 use super::wave::Wave;
 use super::waves::{Order, Waves};
@@ -162,7 +162,7 @@ pub fn within(waves: &Waves, speeds: RangeInclusive<f64>) -> Vec<Nearby> {
             let inside = speeds.contains(&speed);
             let mut reaches_in = reaches(&first, family, &speeds, frequency);
             if reaches_in || inside {
-                let resonance = first.resonance(&Waves::place_of(family, speed));
+                let resonance = first.resonance(&Waves::meeting_of(family, speed));
                 // A wave that grows alone has no band: it grows wherever it is.
                 if matches!(resonance.tongue, Tongue::WaveUnstable { .. }) {
                     reaches_in = inside;
@@ -191,10 +191,14 @@ pub fn within(waves: &Waves, speeds: RangeInclusive<f64>) -> Vec<Nearby> {
 }
 
 /// Parts of the range of speeds at which the pair grows for some frequency: p > η₁η₂.
-fn grown_speeds(waves: &Waves, family: &Family, speeds: &RangeInclusive<f64>) -> Vec<[f64; 2]> {
+fn grown_speeds(
+    waves: &Waves,
+    family: &MeetingFamily,
+    speeds: &RangeInclusive<f64>,
+) -> Vec<[f64; 2]> {
     let (start, end) = (*speeds.start(), *speeds.end());
     let excess = |speed: f64| {
-        let pair = waves.pair(&Waves::place_of(family, speed));
+        let pair = waves.pair(&Waves::meeting_of(family, speed));
         pair.product.re - pair.first.re * pair.second.re
     };
     let middle = 0.5 * (start + end);
@@ -218,15 +222,15 @@ fn grown_speeds(waves: &Waves, family: &Family, speeds: &RangeInclusive<f64>) ->
 }
 
 /// Lowest and highest frequency at which the pair grows at one speed.
-fn band(waves: &Waves, family: &Family, speed: f64) -> [f64; 2] {
-    let pair = waves.pair(&Waves::place_of(family, speed));
+fn band(waves: &Waves, family: &MeetingFamily, speed: f64) -> [f64; 2] {
+    let pair = waves.pair(&Waves::meeting_of(family, speed));
     let [first, second] = family.signed();
     let apart = waves.signed_frequency(&first, speed) - waves.signed_frequency(&second, speed);
     let centre = pair.second.im - pair.first.im;
     let (from, to) = match pair.band() {
-        Band::Between(from, to) => (from, to),
+        DetuningBand::Between(from, to) => (from, to),
         // An end of the interval of speeds, where the band closes to a point.
-        Band::Nowhere | Band::Outside => (centre, centre),
+        DetuningBand::Nowhere | DetuningBand::Outside => (centre, centre),
     };
     let h = f64::from(family.h);
     let (one, other) = ((apart - from) / h, (apart - to) / h);
@@ -243,13 +247,18 @@ fn least([start, end]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
 }
 
 /// Lowest and highest frequency at which the pair grows at some speed of the interval.
-fn swept(waves: &Waves, family: &Family, part: [f64; 2]) -> [f64; 2] {
+fn swept(waves: &Waves, family: &MeetingFamily, part: [f64; 2]) -> [f64; 2] {
     let lowest = least(part, |speed| band(waves, family, speed)[0]);
     [lowest, -least(part, |speed| -band(waves, family, speed)[1])]
 }
 
 /// Whether the pair grows at this frequency somewhere in the range of speeds.
-fn reaches(waves: &Waves, family: &Family, speeds: &RangeInclusive<f64>, frequency: f64) -> bool {
+fn reaches(
+    waves: &Waves,
+    family: &MeetingFamily,
+    speeds: &RangeInclusive<f64>,
+    frequency: f64,
+) -> bool {
     grown_speeds(waves, family, speeds).into_iter().any(|part| {
         let outside = |speed: f64| {
             let [from, to] = band(waves, family, speed);

@@ -21,8 +21,8 @@
 //! Accuracy: relative errors fall in proportion to ε (the tests measure it). Assumption: no third wave in resonance with the two.
 
 mod clear;
+mod meetings;
 mod pair;
-mod places;
 mod threshold;
 mod tongue;
 mod verified;
@@ -35,5 +35,5 @@ mod tests;
 pub use clear::{Blocked, Clearance, ClearanceError, Nearby, clear_frequencies, within};
 pub use tongue::{Coupling, Resonance, Tongue};
 pub use verified::{Verified, verified_frequency};
-pub use wave::{Direction, Wave};
+pub use wave::{Wave, WaveDirection};
 pub use waves::{Order, WaveError, Waves};

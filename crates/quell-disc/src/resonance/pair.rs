@@ -17,7 +17,7 @@ use quell_numerics::roots::quadratic;
 
 /// The slow system of a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Pair {
+pub(super) struct WavePair {
     pub(super) first: Complex64,
     pub(super) second: Complex64,
     pub(super) product: Complex64,
@@ -25,7 +25,7 @@ pub(super) struct Pair {
 
 /// For which detunings a pair grows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Band {
+pub(super) enum DetuningBand {
     /// For none.
     Nowhere,
     /// Between the two.
@@ -37,7 +37,7 @@ pub(super) enum Band {
 /// Relative size of a discriminant that is rounding: the tongues of an undamped disc end in a point there.
 const ROUNDING: f64 = 1e-13;
 
-impl Pair {
+impl WavePair {
     /// Larger real part of the two exponents at the detuning δ.
     pub(super) fn growth(&self, detuning: f64) -> f64 {
         let shift = Complex64::new(0.0, detuning);
@@ -62,17 +62,17 @@ impl Pair {
     }
 
     /// Detunings of growth.
-    pub(super) fn band(&self) -> Band {
+    pub(super) fn band(&self) -> DetuningBand {
         if !(self.first.re < 0.0 && self.second.re < 0.0) {
-            return Band::Outside;
+            return DetuningBand::Outside;
         }
         let [q0, q1, q2] = self.hurwitz();
         let discriminant = q1 * q1 - 4.0 * q2 * q0;
         if discriminant <= ROUNDING * (q1 * q1 + (4.0 * q2 * q0).abs()) {
-            return Band::Nowhere;
+            return DetuningBand::Nowhere;
         }
-        let Some([x, y]) = quadratic(q0, q1, q2) else { return Band::Nowhere };
-        if x <= y { Band::Between(x, y) } else { Band::Between(y, x) }
+        let Some([x, y]) = quadratic(q0, q1, q2) else { return DetuningBand::Nowhere };
+        if x <= y { DetuningBand::Between(x, y) } else { DetuningBand::Between(y, x) }
     }
 
     /// Detuning of the largest growth, and that growth.

@@ -1,6 +1,6 @@
 //! Tables of the dissertation, exact eigenvalues and exponents, limits.
 
-use super::places::Place;
+use super::meetings::WaveMeeting;
 use super::*;
 use crate::dithered::growth;
 use crate::plate::{ModeSet, Plate, Reference};
@@ -93,7 +93,7 @@ fn undithered_tongues_converge() {
             };
             assert!(
                 (lower - resonance.speed).abs() < 1e-12,
-                "K < 0: the tongue is above its place"
+                "K < 0: the tongue is above its meeting"
             );
             let width = upper - lower;
             let growth = |speed: f64| exact(&modes, &load, DiscDither::None, speed);
@@ -160,7 +160,7 @@ fn revived_tongues_converge() {
             let growth = |speed: f64| exact(&modes, &load, tangential(2.7), speed);
             let exact = largest(growth, lower - 0.3 * width, upper + 0.3 * width);
             println!(
-                "revived Ω_{}: ε {size}, place {:.5}, {lower:.6} to {upper:.6}, growth {peak_growth:.3e}, exact {exact:.3e}",
+                "revived Ω_{}: ε {size}, at {:.5}, {lower:.6} to {upper:.6}, growth {peak_growth:.3e}, exact {exact:.3e}",
                 index + 1,
                 resonance.speed
             );
@@ -172,14 +172,14 @@ fn revived_tongues_converge() {
 
 /// Larger growth rate of the pair of waves of a resonance at a speed near it, from the slow 2 × 2 system.
 fn pair_growth(waves: &Waves, resonance: &Resonance, speed: f64) -> f64 {
-    let place = Place {
+    let meeting = WaveMeeting {
         waves: resonance.waves,
         conjugate: resonance.sum,
         h: resonance.harmonic,
         speed: resonance.speed,
     };
-    let [first, second] = place.signed();
-    waves.pair(&place).growth((first.l - second.l) * (speed - resonance.speed))
+    let [first, second] = meeting.signed();
+    waves.pair(&meeting).growth((first.l - second.l) * (speed - resonance.speed))
 }
 
 /// Edges are where the slow system is marginal, the peak is its largest growth, the threshold is where the tongue begins.
@@ -221,7 +221,7 @@ fn tongue_agrees_with_its_own_pair() {
                                 && r.sum == resonance.sum
                                 && r.harmonic == resonance.harmonic
                         };
-                        list.iter().find(same).expect("same place").tongue
+                        list.iter().find(same).expect("the same meeting").tongue
                     };
                     assert_eq!(tongue_at(0.999 * threshold), Tongue::Absent, "{resonance:?}");
                     assert_ne!(tongue_at(1.001 * threshold), Tongue::Absent, "{resonance:?}");
@@ -241,7 +241,7 @@ fn single_waves() {
     let mut backward = 0;
     for wave in waves.waves() {
         let growth = |friction: f64| waves.with_friction(friction).growth_rate(wave, speed);
-        if wave.direction == Direction::Backward {
+        if wave.direction == WaveDirection::Backward {
             backward += 1;
             let (mode, l) = (&waves.modes[wave.mode], wave.signed_diameters());
             let own = 2.0 * mode.damping * mode.ratio * mode.ratio;
@@ -291,7 +291,7 @@ fn clear_intervals() {
         (0..=4000).any(|i| {
             let speed = 0.2 + 0.4 * f64::from(i) / 4000.0;
             waves.families(1).iter().any(|family| {
-                let pair = waves.pair(&Waves::place_of(family, speed));
+                let pair = waves.pair(&Waves::meeting_of(family, speed));
                 let [one, two] = family.signed();
                 let apart =
                     waves.signed_frequency(&one, speed) - waves.signed_frequency(&two, speed);

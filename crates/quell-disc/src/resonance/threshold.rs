@@ -11,8 +11,8 @@
 
 use quell_numerics::roots::{Closeness, find_root, quadratic};
 
-use super::pair::Band;
-use super::places::Place;
+use super::meetings::WaveMeeting;
+use super::pair::DetuningBand;
 use super::tongue::Coupling;
 use super::waves::{Order, Waves};
 
@@ -21,27 +21,27 @@ const STEPS_PER_DECADE: i32 = 24;
 const DECADES: i32 = 6;
 
 impl Waves {
-    pub(super) fn threshold(&self, place: &Place, coupling: Coupling) -> Option<f64> {
+    pub(super) fn threshold(&self, meeting: &WaveMeeting, coupling: Coupling) -> Option<f64> {
         if coupling != Coupling::Destabilising {
             return None;
         }
-        if place.h == 0 || self.order == Order::Second {
-            self.first_tongue(place)
+        if meeting.h == 0 || self.order == Order::Second {
+            self.first_tongue(meeting)
         } else {
-            self.dithered_tip(place)
+            self.dithered_tip(meeting)
         }
     }
 
     /// A and b of a wave: damping without friction, and what friction of zero mean couples with.
-    fn damping_parts(&self, place: &Place) -> [[f64; 2]; 2] {
-        place.signed().map(|wave| {
-            let still = self.with_friction(0.0).self_term(&wave, place.speed, &[]);
+    fn damping_parts(&self, meeting: &WaveMeeting) -> [[f64; 2]; 2] {
+        meeting.signed().map(|wave| {
+            let still = self.with_friction(0.0).self_term(&wave, meeting.speed, &[]);
             [-still.re, self.rho(&wave) * wave.l]
         })
     }
 
-    fn dithered_tip(&self, place: &Place) -> Option<f64> {
-        let [[a1, b1], [a2, b2]] = self.damping_parts(place);
+    fn dithered_tip(&self, meeting: &WaveMeeting) -> Option<f64> {
+        let [[a1, b1], [a2, b2]] = self.damping_parts(meeting);
         if !(a1 > 0.0 && a2 > 0.0) {
             return Some(0.0);
         }
@@ -55,30 +55,30 @@ impl Waves {
     }
 
     /// Smallest friction at which a pair without closed form has a tongue.
-    fn first_tongue(&self, place: &Place) -> Option<f64> {
-        let waves = place.waves;
-        if place.h == 0 && waves.iter().all(|wave| self.modes[wave.mode].damping == 0.0) {
+    fn first_tongue(&self, meeting: &WaveMeeting) -> Option<f64> {
+        let waves = meeting.waves;
+        if meeting.h == 0 && waves.iter().all(|wave| self.modes[wave.mode].damping == 0.0) {
             return Some(0.0);
         }
-        let [[a1, b1], [a2, b2]] = self.damping_parts(place);
+        let [[a1, b1], [a2, b2]] = self.damping_parts(meeting);
         let scale = (a1 + a2).abs() / (b1.abs() + b2.abs());
         if !(scale > 0.0 && scale.is_finite()) {
             return None;
         }
-        let excess = |friction: f64| self.with_friction(friction).pair(place).peak().1;
+        let excess = |friction: f64| self.with_friction(friction).pair(meeting).peak().1;
         let steps = STEPS_PER_DECADE * DECADES;
         let mut last = 0.0;
         for step in -steps..=steps {
             let friction = scale * libm::pow(10.0, f64::from(step) / f64::from(STEPS_PER_DECADE));
-            match self.with_friction(friction).pair(place).band() {
-                Band::Outside => return None,
-                Band::Between(..) => {
+            match self.with_friction(friction).pair(meeting).band() {
+                DetuningBand::Outside => return None,
+                DetuningBand::Between(..) => {
                     let closeness = Closeness { absolute: 0.0, relative: 1e-14 };
                     // Where growth at the tip is rounding on both sides the friction that has the band serves.
                     let root = find_root(excess, last, friction, closeness);
                     return Some(root.map_or(friction, |root| root.location));
                 }
-                Band::Nowhere => last = friction,
+                DetuningBand::Nowhere => last = friction,
             }
         }
         None

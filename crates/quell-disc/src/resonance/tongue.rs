@@ -2,8 +2,8 @@
 
 use core::ops::RangeInclusive;
 
-use super::pair::{Band, Pair};
-use super::places::{Family, Place};
+use super::meetings::{MeetingFamily, WaveMeeting};
+use super::pair::{DetuningBand, WavePair};
 use super::wave::Wave;
 use super::waves::{Order, Waves};
 
@@ -114,57 +114,57 @@ impl Waves {
     /// Meetings of waves with a speed in the range that need no dither, (5.55), ascending.
     #[must_use]
     pub fn undithered(&self, speeds: RangeInclusive<f64>) -> Vec<Resonance> {
-        self.places(0, &speeds).iter().map(|place| self.resonance(place)).collect()
+        self.meetings(0, &speeds).iter().map(|meeting| self.resonance(meeting)).collect()
     }
 
     /// Meetings of waves with a speed in the range that the dither makes, (5.56), ascending; in the second order those of
     /// twice its frequency too. Empty without dither.
     #[must_use]
     pub fn dithered(&self, speeds: RangeInclusive<f64>) -> Vec<Resonance> {
-        let mut places = self.places(1, &speeds);
+        let mut meetings = self.meetings(1, &speeds);
         if self.order == Order::Second {
-            places.extend(self.places(2, &speeds));
-            places.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+            meetings.extend(self.meetings(2, &speeds));
+            meetings.sort_by(|a, b| a.speed.total_cmp(&b.speed));
         }
-        places.iter().map(|place| self.resonance(place)).collect()
+        meetings.iter().map(|meeting| self.resonance(meeting)).collect()
     }
 
     /// Everything about one meeting.
-    pub(super) fn resonance(&self, place: &Place) -> Resonance {
-        let coupling = self.coupling(place);
+    pub(super) fn resonance(&self, meeting: &WaveMeeting) -> Resonance {
+        let coupling = self.coupling(meeting);
         let tongue =
-            if coupling == Coupling::Destabilising { self.tongue(place) } else { Tongue::Absent };
+            if coupling == Coupling::Destabilising { self.tongue(meeting) } else { Tongue::Absent };
         Resonance {
-            speed: place.speed,
-            waves: place.waves,
-            sum: place.conjugate,
-            harmonic: place.h,
+            speed: meeting.speed,
+            waves: meeting.waves,
+            sum: meeting.conjugate,
+            harmonic: meeting.h,
             coupling,
-            threshold: self.threshold(place, coupling),
+            threshold: self.threshold(meeting, coupling),
             tongue,
         }
     }
 
     /// The slow system of a pair at a speed.
-    pub(super) fn pair(&self, place: &Place) -> Pair {
-        let [first, second] = place.signed();
+    pub(super) fn pair(&self, meeting: &WaveMeeting) -> WavePair {
+        let [first, second] = meeting.signed();
         let resonant = [first, second];
-        Pair {
-            first: self.self_term(&first, place.speed, &resonant),
-            second: self.self_term(&second, place.speed, &resonant),
-            product: self.coupling_product(&first, &second, place.h, place.speed),
+        WavePair {
+            first: self.self_term(&first, meeting.speed, &resonant),
+            second: self.self_term(&second, meeting.speed, &resonant),
+            product: self.coupling_product(&first, &second, meeting.h, meeting.speed),
         }
     }
 
-    pub(super) fn coupling(&self, place: &Place) -> Coupling {
-        let [first, second] = place.signed();
+    pub(super) fn coupling(&self, meeting: &WaveMeeting) -> Coupling {
+        let [first, second] = meeting.signed();
         let touched = self.coupling_squared(first.mode) * self.coupling_squared(second.mode) > 0.0;
         let (mean, half) = self.friction_parts(1.0);
         if !touched || first.l == second.l {
             return Coupling::None;
         }
-        if place.h == 0 {
-            let w = self.signed_frequency(&first, place.speed);
+        if meeting.h == 0 {
+            let w = self.signed_frequency(&first, meeting.speed);
             let elastic = self.impedance(w).re != 0.0;
             let driven = mean > 0.0 || (self.order == Order::Second && half > 0.0);
             return if elastic && driven { Coupling::Destabilising } else { Coupling::None };
@@ -180,15 +180,15 @@ impl Waves {
         }
     }
 
-    pub(super) fn tongue(&self, place: &Place) -> Tongue {
-        let [first, second] = place.signed();
+    pub(super) fn tongue(&self, meeting: &WaveMeeting) -> Tongue {
+        let [first, second] = meeting.signed();
         let slope = first.l - second.l;
-        let pair = self.pair(place);
-        let speed = |detuning: f64| place.speed + detuning / slope;
+        let pair = self.pair(meeting);
+        let speed = |detuning: f64| meeting.speed + detuning / slope;
         match pair.band() {
-            Band::Nowhere => Tongue::Absent,
-            Band::Outside => Tongue::WaveUnstable { growth: pair.growth(0.0) },
-            Band::Between(from, to) => {
+            DetuningBand::Nowhere => Tongue::Absent,
+            DetuningBand::Outside => Tongue::WaveUnstable { growth: pair.growth(0.0) },
+            DetuningBand::Between(from, to) => {
                 let (peak, peak_growth) = pair.peak();
                 let (one, other) = (speed(from), speed(to));
                 Tongue::Between {
@@ -202,7 +202,7 @@ impl Waves {
     }
 
     /// A place of a family at a speed, whatever the dither's frequency would have to be.
-    pub(super) fn place_of(family: &Family, speed: f64) -> Place {
-        Place { waves: family.waves, conjugate: family.conjugate, h: family.h, speed }
+    pub(super) fn meeting_of(family: &MeetingFamily, speed: f64) -> WaveMeeting {
+        WaveMeeting { waves: family.waves, conjugate: family.conjugate, h: family.h, speed }
     }
 }

@@ -164,12 +164,12 @@ impl Exact<'_> {
         let equal = |k: u32| (to - from).mul_add(f64::from(k) / f64::from(steps), from);
         let mut grid: Vec<f64> = (0..=steps).map(equal).collect();
         let waves = self.waves.with_dither_frequency(ratio).ok()?;
-        for place in (0..=2).flat_map(|h| waves.places(h, &self.speeds)) {
-            if waves.coupling(&place) != Coupling::Destabilising {
+        for meeting in (0..=2).flat_map(|h| waves.meetings(h, &self.speeds)) {
+            if waves.coupling(&meeting) != Coupling::Destabilising {
                 continue;
             }
-            grid.push(place.speed);
-            if let Tongue::Between { lower, upper, peak_speed, .. } = waves.tongue(&place) {
+            grid.push(meeting.speed);
+            if let Tongue::Between { lower, upper, peak_speed, .. } = waves.tongue(&meeting) {
                 grid.push(peak_speed);
                 let share = |k: u32| f64::from(k) / f64::from(in_a_tongue);
                 grid.extend((1..in_a_tongue).map(|k| (upper - lower).mul_add(share(k), lower)));

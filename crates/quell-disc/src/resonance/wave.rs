@@ -2,7 +2,7 @@
 
 /// Where a wave runs, seen from the disc.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Direction {
+pub enum WaveDirection {
     /// With the load: frequency β − qΩ in the load's frame.
     Forward,
     /// Against the load: frequency β + qΩ.
@@ -20,17 +20,17 @@ pub struct Wave {
     pub radial: usize,
     /// Nodal diameters.
     pub diameters: usize,
-    /// Direction.
-    pub direction: Direction,
+    /// WaveDirection.
+    pub direction: WaveDirection,
 }
 
 impl core::fmt::Display for Wave {
     /// "forward (1,2)": direction, radial number, nodal diameters.
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let direction = match self.direction {
-            Direction::Forward => "forward",
-            Direction::Backward => "backward",
-            Direction::Axisymmetric => "axisymmetric",
+            WaveDirection::Forward => "forward",
+            WaveDirection::Backward => "backward",
+            WaveDirection::Axisymmetric => "axisymmetric",
         };
         write!(f, "{direction} ({},{})", self.radial, self.diameters)
     }
@@ -41,9 +41,9 @@ impl Wave {
     #[must_use]
     pub fn signed_diameters(&self) -> f64 {
         match self.direction {
-            Direction::Forward => -(self.diameters as f64),
-            Direction::Backward => self.diameters as f64,
-            Direction::Axisymmetric => 0.0,
+            WaveDirection::Forward => -(self.diameters as f64),
+            WaveDirection::Backward => self.diameters as f64,
+            WaveDirection::Axisymmetric => 0.0,
         }
     }
 }

@@ -16,7 +16,7 @@
 
 use num_complex::Complex64;
 
-use super::wave::{Direction, SignedWave, Wave};
+use super::wave::{SignedWave, Wave, WaveDirection};
 use quell_model::disc::{Disc, DiscDither};
 use quell_model::disc::{Load, Mode};
 
@@ -201,8 +201,8 @@ impl Waves {
             for b in -1..=1 {
                 let product = part(h - b) * part(b);
                 if product != 0.0 {
-                    let place = frequency + f64::from(b) * dither;
-                    sum += product * self.slope_response(place, speed, resonant);
+                    let shifted = frequency + f64::from(b) * dither;
+                    sum += product * self.slope_response(shifted, speed, resonant);
                 }
             }
         }
@@ -270,10 +270,10 @@ fn list(modes: &[Mode]) -> Vec<Wave> {
                 && (other.1.ratio < mode.ratio || (other.1.ratio == mode.ratio && other.0 < index))
         };
         let radial = 1 + modes.iter().enumerate().filter(lower).count();
-        let directions: &[Direction] = if mode.diameters == 0 {
-            &[Direction::Axisymmetric]
+        let directions: &[WaveDirection] = if mode.diameters == 0 {
+            &[WaveDirection::Axisymmetric]
         } else {
-            &[Direction::Forward, Direction::Backward]
+            &[WaveDirection::Forward, WaveDirection::Backward]
         };
         for direction in directions {
             let diameters = mode.diameters;

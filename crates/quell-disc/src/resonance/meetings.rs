@@ -11,7 +11,7 @@ use super::waves::{COINCIDENCE, Waves};
 
 /// A place where two waves meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
+pub(super) struct WaveMeeting {
     pub(super) waves: [Wave; 2],
     pub(super) conjugate: bool,
     pub(super) h: i32,
@@ -20,7 +20,7 @@ pub(super) struct Place {
 
 /// A pair of waves and a harmonic, with its meeting speed as a function of R: Ω = (offset + hR)/slope.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Family {
+pub(super) struct MeetingFamily {
     pub(super) waves: [Wave; 2],
     pub(super) conjugate: bool,
     pub(super) h: i32,
@@ -30,14 +30,14 @@ pub(super) struct Family {
     pub(super) slope: f64,
 }
 
-impl Family {
+impl MeetingFamily {
     /// The two waves in the complex form.
     pub(super) fn signed(&self) -> [SignedWave; 2] {
         signed(&self.waves, self.conjugate)
     }
 }
 
-impl Place {
+impl WaveMeeting {
     /// The two waves in the complex form.
     pub(super) fn signed(&self) -> [SignedWave; 2] {
         signed(&self.waves, self.conjugate)
@@ -50,7 +50,7 @@ fn signed(waves: &[Wave; 2], conjugate: bool) -> [SignedWave; 2] {
 
 impl Waves {
     /// All pairs of waves for the harmonics ±h.
-    pub(super) fn families(&self, h: i32) -> Vec<Family> {
+    pub(super) fn families(&self, h: i32) -> Vec<MeetingFamily> {
         let mut families = Vec::new();
         let harmonics: &[i32] = if h == 0 { &[0] } else { &[h, -h] };
         for (i, first) in self.list.iter().enumerate() {
@@ -63,7 +63,7 @@ impl Waves {
                     let offset =
                         two.sigma * self.modes[two.mode].ratio - self.modes[one.mode].ratio;
                     for h in harmonics {
-                        families.push(Family {
+                        families.push(MeetingFamily {
                             waves: [*first, *second],
                             conjugate,
                             h: *h,
@@ -78,27 +78,27 @@ impl Waves {
     }
 
     /// Places of the harmonics ±h with a speed in the range, ascending.
-    pub(super) fn places(&self, h: i32, speeds: &RangeInclusive<f64>) -> Vec<Place> {
+    pub(super) fn meetings(&self, h: i32, speeds: &RangeInclusive<f64>) -> Vec<WaveMeeting> {
         let dither = match (h, self.dither_frequency()) {
             (0, _) => 0.0,
             (_, Some(frequency)) => frequency,
             (_, None) => return Vec::new(),
         };
-        let mut places: Vec<Place> = self
+        let mut meetings: Vec<WaveMeeting> = self
             .families(h)
             .into_iter()
             .filter(|family| family.slope != 0.0)
-            .map(|Family { waves, conjugate, h, offset, slope }| {
+            .map(|MeetingFamily { waves, conjugate, h, offset, slope }| {
                 let speed = (offset + f64::from(h) * dither) / slope;
-                Place { waves, conjugate, h, speed }
+                WaveMeeting { waves, conjugate, h, speed }
             })
             // A meeting at the very end of the range is in it, whatever the last bit.
-            .filter(|place| {
-                place.speed >= speeds.start() - COINCIDENCE
-                    && place.speed <= speeds.end() + COINCIDENCE
+            .filter(|meeting| {
+                meeting.speed >= speeds.start() - COINCIDENCE
+                    && meeting.speed <= speeds.end() + COINCIDENCE
             })
             .collect();
-        places.sort_by(|a, b| a.speed.total_cmp(&b.speed));
-        places
+        meetings.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        meetings
     }
 }
