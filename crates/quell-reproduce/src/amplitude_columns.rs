@@ -19,7 +19,7 @@ const CLOSENESS: f64 = 1e-5;
 
 /// One column of a figure.
 #[derive(Debug)]
-pub(super) struct Case {
+pub(super) struct AmplitudeColumn {
     /// D.
     pub(super) amplitude: f64,
     /// Its study.
@@ -34,7 +34,7 @@ pub(super) struct Case {
     pub(super) period: f64,
 }
 
-impl Case {
+impl AmplitudeColumn {
     fn new(name: &str, study: &Study, amplitude: f64) -> Result<Self, Failure> {
         let study = study.with("dither.amplitude", amplitude)?;
         let belt = study.belt().clone();
@@ -66,32 +66,32 @@ fn ends(name: &str, study: &Study, scene: &Scene<'_>) -> Result<Settled, Failure
 
 /// Amplitudes between neighbouring columns at which something changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Change {
+pub(super) struct AmplitudeThreshold {
     /// The amplitude.
     pub(super) amplitude: f64,
     /// Whether it holds above.
-    pub(super) to: bool,
+    pub(super) holds_above: bool,
 }
 
 /// The columns of a figure with one waveform, and what changes between them.
 #[derive(Debug)]
-pub(super) struct Columns {
+pub(super) struct AmplitudeColumns {
     pub(super) study: Study,
-    pub(super) cases: Vec<Case>,
+    pub(super) cases: Vec<AmplitudeColumn>,
     /// Where the response of sliding gains or loses stability.
-    pub(super) local: Vec<Change>,
+    pub(super) local: Vec<AmplitudeThreshold>,
     /// Where the run from rest begins or ceases to end on it.
-    pub(super) from_rest: Vec<Change>,
+    pub(super) from_rest: Vec<AmplitudeThreshold>,
 }
 
-impl Columns {
+impl AmplitudeColumns {
     /// Measures every column of a study.
     pub(super) fn of(name: &str, study: Study) -> Result<Self, Failure> {
-        let cases: Vec<Case> = values(&study, "dither.amplitude")
+        let cases: Vec<AmplitudeColumn> = values(&study, "dither.amplitude")
             .into_iter()
-            .map(|amplitude| Case::new(name, &study, amplitude))
+            .map(|amplitude| AmplitudeColumn::new(name, &study, amplitude))
             .collect::<Result<_, Failure>>()?;
-        let of = |holds: fn(&Case) -> bool| {
+        let of = |holds: fn(&AmplitudeColumn) -> bool| {
             cases.iter().map(|case| (case.amplitude, holds(case))).collect::<Vec<_>>()
         };
         let stable = of(|case| case.local == Verdict::Stable);
@@ -110,7 +110,7 @@ fn changes(
     study: &Study,
     known: &[(f64, bool)],
     holds: impl Fn(&Study, &Scene<'_>) -> Result<bool, Failure>,
-) -> Result<Vec<Change>, Failure> {
+) -> Result<Vec<AmplitudeThreshold>, Failure> {
     let mut found = Vec::new();
     for pair in known.windows(2) {
         let [(mut low, before), (mut high, after)] = [pair[0], pair[1]];
@@ -124,7 +124,7 @@ fn changes(
             let scene = Scene::new(&belt).map_err(|why| failed("reproduce", &why))?;
             if holds(&study, &scene)? == before { low = middle } else { high = middle }
         }
-        found.push(Change { amplitude: 0.5 * (low + high), to: after });
+        found.push(AmplitudeThreshold { amplitude: 0.5 * (low + high), holds_above: after });
     }
     Ok(found)
 }

@@ -6,7 +6,7 @@ use super::ledger::Expected;
 
 /// What becomes of a claim.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Verdict {
+pub enum ClaimVerdict {
     /// The measured value rounds to the printed one; the statement holds.
     Reproduced,
     /// The largest relative deviation from the print is at most the claim's limit.
@@ -26,7 +26,7 @@ pub enum Verdict {
     },
 }
 
-impl Verdict {
+impl ClaimVerdict {
     /// Its kind, as counted in the summary.
     pub fn name(self) -> &'static str {
         match self {
@@ -52,7 +52,7 @@ impl Verdict {
     }
 }
 
-impl fmt::Display for Verdict {
+impl fmt::Display for ClaimVerdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Within { deviation } => write!(f, "reproduced within {}", percent(*deviation)),
@@ -93,7 +93,7 @@ pub struct Claim {
     /// The numbers behind `measured`.
     pub values: Vec<f64>,
     /// What follows.
-    pub verdict: Verdict,
+    pub verdict: ClaimVerdict,
     /// Largest relative deviation at which a printed number still counts as reproduced; none for a statement.
     pub tolerance: Option<f64>,
     /// The verdict on record, none for a claim that is not on record yet.

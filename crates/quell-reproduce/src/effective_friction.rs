@@ -11,8 +11,8 @@ use super::axis::values;
 use super::caption::{letter, parameters, short, waveform_name};
 use super::failure::failed;
 use super::print::{self, LawNumbers};
-use super::product::{Product, Table};
-use super::source::Source;
+use super::product::{DataTable, Product};
+use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
@@ -26,7 +26,7 @@ const TO: f64 = 2.0;
 const POINTS: u32 = 360;
 
 /// Figures 2.4 and 2.5: a sine.
-pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
     let panel = panel(source, &study, Waveform::Sine, &mut table)?
@@ -41,7 +41,7 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
 }
 
 /// Figures 3.3 and 3.4: three waveforms.
-pub(super) fn three(source: &Source) -> Result<Product, Failure> {
+pub(super) fn three(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
     let mut panels = Vec::new();
@@ -74,8 +74,8 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
     Ok(product.by(&[Task::Friction]).table(table))
 }
 
-fn empty_table() -> Table {
-    Table::new(
+fn empty_table() -> DataTable {
+    DataTable::new(
         "",
         &[
             ("waveform", "1"),
@@ -89,10 +89,10 @@ fn empty_table() -> Table {
 }
 
 fn panel(
-    source: &Source,
+    source: &EntrySource,
     study: &Study,
     waveform: Waveform,
-    table: &mut Table,
+    table: &mut DataTable,
 ) -> Result<Panel, Failure> {
     let belt = study.belt();
     let law = belt.friction();

@@ -6,14 +6,14 @@
 
 use std::sync::atomic::AtomicBool;
 
-use quell_linear::averaging::{Becomes, Response};
+use quell_linear::averaging::{Becomes, FastResponse};
 use quell_model::{Direction, Waveform};
 
 use super::axis::values;
 use super::caption::{law_name, letter, parameters, short, waveform_name};
 use super::failure::failed;
-use super::product::{Cell, Product, Table};
-use super::source::Source;
+use super::product::{Cell, DataTable, Product};
+use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::picture::{self, MapAxis, MapKind};
@@ -34,39 +34,39 @@ const THREE_VELOCITIES: [f64; 3] = [0.05, 0.1, 0.15];
 const FIVE_PER_CENT: f64 = 5.0;
 
 /// A panel: what is changed in the study, and its title.
-struct Case {
+struct MapPanel {
     belt_velocity: f64,
     waveform: Waveform,
 }
 
 /// Figures 2.8 and 2.9: four belt velocities.
-pub(super) fn velocities(source: &Source) -> Result<Product, Failure> {
+pub(super) fn velocities(source: &EntrySource) -> Result<Product, Failure> {
     let waveform = source.study()?.belt().dithers()[0].waveform;
-    let cases = FOUR_VELOCITIES.map(|belt_velocity| Case { belt_velocity, waveform });
+    let cases = FOUR_VELOCITIES.map(|belt_velocity| MapPanel { belt_velocity, waveform });
     figure(source, &cases, 2)
 }
 
 /// Figures 3.10 and 3.11: three waveforms from top to bottom, three belt velocities.
-pub(super) fn waveforms(source: &Source) -> Result<Product, Failure> {
-    let cases: Vec<Case> = Waveform::ALL
+pub(super) fn waveforms(source: &EntrySource) -> Result<Product, Failure> {
+    let cases: Vec<MapPanel> = Waveform::ALL
         .iter()
         .flat_map(|&waveform| {
-            THREE_VELOCITIES.map(|belt_velocity| Case { belt_velocity, waveform })
+            THREE_VELOCITIES.map(|belt_velocity| MapPanel { belt_velocity, waveform })
         })
         .collect();
     figure(source, &cases, THREE_VELOCITIES.len())
 }
 
 /// Figures 4.9 and 4.10: one panel.
-pub(super) fn single(source: &Source) -> Result<Product, Failure> {
+pub(super) fn single(source: &EntrySource) -> Result<Product, Failure> {
     let belt = source.study()?.belt().clone();
     let (belt_velocity, waveform) = (belt.belt_velocity(), belt.dithers()[0].waveform);
-    figure(source, &[Case { belt_velocity, waveform }], 1)
+    figure(source, &[MapPanel { belt_velocity, waveform }], 1)
 }
 
-fn figure(source: &Source, cases: &[Case], columns: usize) -> Result<Product, Failure> {
+fn figure(source: &EntrySource, cases: &[MapPanel], columns: usize) -> Result<Product, Failure> {
     let first = source.study()?;
-    let mut data = Table::new(
+    let mut data = DataTable::new(
         "",
         &[
             ("panel", "1"),
@@ -78,7 +78,7 @@ fn figure(source: &Source, cases: &[Case], columns: usize) -> Result<Product, Fa
             ("status", "1"),
         ],
     );
-    let mut edges = Table::new(
+    let mut edges = DataTable::new(
         "boundary",
         &[
             ("panel", "1"),
@@ -124,7 +124,7 @@ fn figure(source: &Source, cases: &[Case], columns: usize) -> Result<Product, Fa
 }
 
 /// The study of a panel: its sweep of D goes as far beyond the averaged boundary as the first panel's.
-fn study_of(source: &Source, first: &Study, case: &Case) -> Result<Study, Failure> {
+fn study_of(source: &EntrySource, first: &Study, case: &MapPanel) -> Result<Study, Failure> {
     let dither = first.belt().dithers()[0];
     let furthest = values(first, "dither.amplitude").last().copied().unwrap_or(1.0);
     let reach = case.belt_velocity / first.belt().belt_velocity()
@@ -145,7 +145,7 @@ fn study_of(source: &Source, first: &Study, case: &Case) -> Result<Study, Failur
 }
 
 /// E over the study's axes.
-fn efficiency(source: &Source, study: &Study) -> Result<Map, Failure> {
+fn efficiency(source: &EntrySource, study: &Study) -> Result<Map, Failure> {
     let quantity = Quantity::named("efficiency", "reproduce")?;
     let plan = Plan::new(study, &[quantity])?;
     let axes: Vec<&str> = plan.grid().axes().iter().map(|axis| axis.path.as_str()).collect();
@@ -156,7 +156,7 @@ fn efficiency(source: &Source, study: &Study) -> Result<Map, Failure> {
     run(plan, None, Running { threads: None, stop: &never, progress: &() })
 }
 
-fn record(table: &mut Table, panel: &str, case: &Case, done: &Map) {
+fn record(table: &mut DataTable, panel: &str, case: &MapPanel, done: &Map) {
     let grid = done.plan().grid();
     let entry = &done.plan().sheet().entries()[0];
     for point in 0..grid.len() {
@@ -174,16 +174,16 @@ fn record(table: &mut Table, panel: &str, case: &Case, done: &Map) {
 }
 
 /// D = α*R of averaging, and the same with the oscillator's own response.
-fn boundary(done: &Map, panel: &str, table: &mut Table) -> Vec<Line> {
+fn boundary(done: &Map, panel: &str, table: &mut DataTable) -> Vec<Line> {
     let grid = done.plan().grid();
     let furthest = grid.axes()[1].values.last().copied().unwrap_or(1.0);
     let mut lines = Vec::new();
     for boundary in boundaries(grid) {
         let (name, label, role, style) = match boundary.response {
-            Response::Limit => {
+            FastResponse::Limit => {
                 ("averaging", "averaging, $D$ = $α^*R$", Role::Boundary, LineStyle::Solid)
             }
-            Response::Oscillator => {
+            FastResponse::Oscillator => {
                 ("sharper", "with the exact fast motion", Role::Exact, LineStyle::Dashed)
             }
         };
@@ -200,7 +200,12 @@ fn boundary(done: &Map, panel: &str, table: &mut Table) -> Vec<Line> {
     lines
 }
 
-fn panel(source: &Source, study: &Study, done: &Map, lines: Vec<Line>) -> Result<Panel, Failure> {
+fn panel(
+    source: &EntrySource,
+    study: &Study,
+    done: &Map,
+    lines: Vec<Line>,
+) -> Result<Panel, Failure> {
     let grid = done.plan().grid();
     let entry = &done.plan().sheet().entries()[0];
     let symbols = match study.belt().dithers()[0].direction {
@@ -235,7 +240,7 @@ fn panel(source: &Source, study: &Study, done: &Map, lines: Vec<Line>) -> Result
     picture::map_panel(&map, false).map_err(|error| failed(source.name, &error))
 }
 
-fn caption(source: &Source, study: &Study) -> String {
+fn caption(source: &EntrySource, study: &Study) -> String {
     let belt = study.belt();
     let dither = belt.dithers()[0];
     let direction = match dither.direction {

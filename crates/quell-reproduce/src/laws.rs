@@ -5,8 +5,8 @@
 use quell_model::Friction;
 
 use super::caption::{law_name, parameters};
-use super::product::{Product, Table};
-use super::source::Source;
+use super::product::{DataTable, Product};
+use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Legend, Line, LineStyle, Panel, Place, Role, Rule};
@@ -16,9 +16,9 @@ const FROM: f64 = -1.0;
 const TO: f64 = 2.0;
 const POINTS: u32 = 300;
 
-pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let studies = [source.study()?, source.changed(&["friction.law=decreasing"])?];
-    let mut table = Table::new(
+    let mut table = DataTable::new(
         "",
         &[
             ("slip_velocity_over_reference", "1"),

@@ -14,7 +14,7 @@ pub enum Expected {
 }
 
 impl Expected {
-    /// Its kind, with the words of [`super::claim::Verdict::name`].
+    /// Its kind, with the words of [`super::claim::ClaimVerdict::name`].
     pub fn name(self) -> &'static str {
         match self {
             Self::Reproduced => "reproduced",

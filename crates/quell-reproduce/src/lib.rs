@@ -49,27 +49,27 @@ mod stability_map;
 mod waveforms;
 mod write;
 
-use shared::Shared;
+use shared::SharedMeasurements;
 
-pub use product::{Cell, Column, Product, Table};
-pub use source::Source;
+pub use product::{Cell, DataColumn, DataTable, Product};
+pub use source::EntrySource;
 
 /// One figure or table of the dissertation.
 #[derive(Clone, Copy)]
-pub struct Entry {
+pub struct CatalogueEntry {
     /// Name on the command line: `2.3`, `claims`.
     pub name: &'static str,
     /// What it shows, in one line.
     pub about: &'static str,
     /// Text of its study file; empty for a table that has its own.
     study: &'static str,
-    make: fn(&Source) -> Result<Product, Failure>,
+    make: fn(&EntrySource) -> Result<Product, Failure>,
 }
 
 /// A figure whose parameters stand in `studies/figure-NAME.toml`.
 macro_rules! figure {
     ($name:literal, $about:literal, $make:path) => {
-        Entry {
+        CatalogueEntry {
             name: $name,
             about: $about,
             study: include_str!(concat!("../studies/figure-", $name, ".toml")),
@@ -81,7 +81,7 @@ macro_rules! figure {
 /// A table whose parameters stand in `studies/NAME.toml`.
 macro_rules! table {
     ($name:literal, $about:literal, $make:path) => {
-        Entry {
+        CatalogueEntry {
             name: $name,
             about: $about,
             study: include_str!(concat!("../studies/", $name, ".toml")),
@@ -91,7 +91,7 @@ macro_rules! table {
 }
 
 /// Everything that can be reproduced, in the order of the dissertation.
-pub const ENTRIES: &[Entry] = &[
+pub const ENTRIES: &[CatalogueEntry] = &[
     figure!("2.2", "Stribeck and decreasing friction law", laws::figure),
     figure!("2.3", "responses, Stribeck law, sinusoidal tangential dither", responses::figure),
     figure!("2.4", "effective friction, Stribeck law", effective_friction::figure),
@@ -160,7 +160,7 @@ pub const ENTRIES: &[Entry] = &[
     figure!("5.13", "growth of the disc, tangential dither, ξ = 10⁻⁵", disc::maps),
     figure!("5.14", "growth of the disc, tangential dither, ξ = 10⁻⁴", disc::maps),
     figure!("5.15", "growth of the disc, tangential dither, ξ = 10⁻³", disc::maps),
-    Entry {
+    CatalogueEntry {
         name: "claims",
         about: "numerical claims and formulas: printed, measured, verdict",
         study: "",
@@ -168,7 +168,7 @@ pub const ENTRIES: &[Entry] = &[
     },
 ];
 
-impl Entry {
+impl CatalogueEntry {
     /// Makes the figure or table.
     ///
     /// # Errors
@@ -180,28 +180,28 @@ impl Entry {
     /// The same with at most so many points along each axis of its sweeps: a quick look.
     ///
     /// # Errors
-    /// As [`Entry::product`].
+    /// As [`CatalogueEntry::product`].
     pub fn coarse_product(&self, most_points: usize) -> Result<Product, Failure> {
-        (self.make)(&Source { most_points: Some(most_points), ..self.source() })
+        (self.make)(&EntrySource { most_points: Some(most_points), ..self.source() })
     }
 
-    /// The product at this pace, with what the run has measured already.
-    fn at(&self, pace: Pace, shared: &Shared) -> Result<Product, Failure> {
-        let most_points = match pace {
-            Pace::Full => None,
-            Pace::Quick => Some(QUICK_POINTS),
+    /// The product at this resolution, with what the run has measured already.
+    fn at(&self, resolution: Resolution, shared: &SharedMeasurements) -> Result<Product, Failure> {
+        let most_points = match resolution {
+            Resolution::Full => None,
+            Resolution::Quick => Some(QUICK_POINTS),
         };
-        (self.make)(&Source { most_points, shared: shared.clone(), ..self.source() })
+        (self.make)(&EntrySource { most_points, shared: shared.clone(), ..self.source() })
     }
 
     /// Its name and study file.
-    pub fn source(&self) -> Source {
-        Source {
+    pub fn source(&self) -> EntrySource {
+        EntrySource {
             name: self.name,
             about: self.about,
             text: self.study,
             most_points: None,
-            shared: Shared::default(),
+            shared: SharedMeasurements::default(),
         }
     }
 
@@ -214,9 +214,9 @@ impl Entry {
     }
 }
 
-impl fmt::Debug for Entry {
+impl fmt::Debug for CatalogueEntry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Entry")
+        f.debug_struct("CatalogueEntry")
             .field("name", &self.name)
             .field("about", &self.about)
             .finish_non_exhaustive()
@@ -227,7 +227,7 @@ impl fmt::Debug for Entry {
 ///
 /// # Errors
 /// A complaint for each unknown name, with the known ones.
-pub fn find(names: &[String]) -> Result<Vec<Entry>, Vec<Complaint>> {
+pub fn find(names: &[String]) -> Result<Vec<CatalogueEntry>, Vec<Complaint>> {
     use quell::complaint::{Fault, Origin};
     let known = || ENTRIES.iter().map(|entry| entry.name);
     let complaints: Vec<Complaint> = names
@@ -248,8 +248,9 @@ pub fn find(names: &[String]) -> Result<Vec<Entry>, Vec<Complaint>> {
     if !complaints.is_empty() {
         return Err(complaints);
     }
-    let wanted =
-        |entry: &&Entry| names.is_empty() || names.iter().any(|name| bare(name) == entry.name);
+    let wanted = |entry: &&CatalogueEntry| {
+        names.is_empty() || names.iter().any(|name| bare(name) == entry.name)
+    };
     Ok(ENTRIES.iter().filter(wanted).copied().collect())
 }
 
@@ -260,9 +261,9 @@ fn bare(name: &str) -> &str {
 
 /// One entry that has been written.
 #[derive(Clone, Debug)]
-pub struct Written {
+pub struct WrittenEntry {
     /// Its entry.
-    pub entry: Entry,
+    pub entry: CatalogueEntry,
     /// Its files.
     pub files: Vec<PathBuf>,
     /// What was made; the rows of its tables of data are in the files.
@@ -271,7 +272,7 @@ pub struct Written {
     pub elapsed: Duration,
 }
 
-impl Written {
+impl WrittenEntry {
     /// As JSON.
     pub fn json(&self) -> Json {
         let files: Vec<String> = self.files.iter().map(|file| file.display().to_string()).collect();
@@ -291,7 +292,7 @@ impl Written {
 
 /// How fine the grids of the figures are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Pace {
+pub enum Resolution {
     /// As their study files say.
     #[default]
     Full,
@@ -304,18 +305,18 @@ const QUICK_POINTS: usize = 12;
 
 /// What is heard while entries are made.
 #[derive(Clone, Copy, Debug)]
-pub enum Step<'a> {
+pub enum EntryProgress<'a> {
     /// Work on an entry begins.
-    Begun(&'a Entry),
+    Begun(&'a CatalogueEntry),
     /// An entry is written.
-    Done(&'a Written),
+    Done(&'a WrittenEntry),
 }
 
 /// Everything that was made.
 #[derive(Clone, Debug)]
 pub struct Reproduction {
     /// The entries, in the order of [`ENTRIES`].
-    pub written: Vec<Written>,
+    pub written: Vec<WrittenEntry>,
     /// The report: one page that needs no other file.
     pub report: PathBuf,
     /// The same as a Markdown table.
@@ -339,14 +340,14 @@ impl Reproduction {
     }
 
     /// As JSON, for what was written into `directory`.
-    pub fn json(&self, directory: &Path, pace: Pace) -> Json {
-        let entries: Vec<Json> = self.written.iter().map(Written::json).collect();
+    pub fn json(&self, directory: &Path, resolution: Resolution) -> Json {
+        let entries: Vec<Json> = self.written.iter().map(WrittenEntry::json).collect();
         json!({
             "ok": true,
             "directory": directory.display().to_string(),
             "report": self.report.display().to_string(),
             "table": self.table.display().to_string(),
-            "quick": pace == Pace::Quick,
+            "quick": resolution == Resolution::Quick,
             "entries": entries,
             "warnings": self.warnings(),
         })
@@ -359,25 +360,25 @@ impl Reproduction {
 /// # Errors
 /// A complaint where the directory cannot be written; the first failure otherwise. What was written stays.
 pub fn run(
-    entries: &[Entry],
+    entries: &[CatalogueEntry],
     directory: &Path,
-    pace: Pace,
-    progress: impl Fn(Step) + Sync,
+    resolution: Resolution,
+    progress: impl Fn(EntryProgress) + Sync,
 ) -> Result<Reproduction, Failure> {
     write::prepare(directory)?;
-    let shared = Shared::default();
+    let shared = SharedMeasurements::default();
     let next = AtomicUsize::new(0);
-    let done: Mutex<Vec<(usize, Result<Written, Failure>)>> = Mutex::new(Vec::new());
+    let done: Mutex<Vec<(usize, Result<WrittenEntry, Failure>)>> = Mutex::new(Vec::new());
     // The claims take longest: whoever begins with them ends with the others.
     let mut order: Vec<usize> = (0..entries.len()).collect();
     order.sort_by_key(|place| entries[*place].name != "claims");
     let work = || {
         while let Some(&place) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
             let entry = &entries[place];
-            progress(Step::Begun(entry));
-            let outcome = one(entry, directory, pace, &shared);
+            progress(EntryProgress::Begun(entry));
+            let outcome = one(entry, directory, resolution, &shared);
             match &outcome {
-                Ok(written) => progress(Step::Done(written)),
+                Ok(written) => progress(EntryProgress::Done(written)),
                 Err(_) => next.store(entries.len(), Ordering::Relaxed),
             }
             if let Ok(mut done) = done.lock() {
@@ -392,18 +393,23 @@ pub fn run(
     });
     let mut done = done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     done.sort_by_key(|(place, _)| *place);
-    let written: Vec<Written> =
+    let written: Vec<WrittenEntry> =
         done.into_iter().map(|(_, outcome)| outcome).collect::<Result<_, Failure>>()?;
-    let page = report::html(&written, pace);
-    let table = report::markdown(&written, pace);
+    let page = report::html(&written, resolution);
+    let table = report::markdown(&written, resolution);
     let report = write::file(directory, "report.html", page.as_bytes())?;
     let table = write::file(directory, "report.md", table.as_bytes())?;
     Ok(Reproduction { written, report, table })
 }
 
-fn one(entry: &Entry, directory: &Path, pace: Pace, shared: &Shared) -> Result<Written, Failure> {
+fn one(
+    entry: &CatalogueEntry,
+    directory: &Path,
+    resolution: Resolution,
+    shared: &SharedMeasurements,
+) -> Result<WrittenEntry, Failure> {
     let began = Instant::now();
-    let product = entry.at(pace, shared)?;
+    let product = entry.at(resolution, shared)?;
     let files = write::product(&product, &entry.stem(), directory)?;
-    Ok(Written { entry: *entry, files, product, elapsed: began.elapsed() })
+    Ok(WrittenEntry { entry: *entry, files, product, elapsed: began.elapsed() })
 }

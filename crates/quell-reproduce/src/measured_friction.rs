@@ -12,8 +12,8 @@ use quell_linear::averaging::{AveragingOptions, FastMotion, NormalOrder, effecti
 use super::axis::values;
 use super::caption::{law_name, letter, parameters};
 use super::failure::failed;
-use super::product::{Product, Table};
-use super::source::Source;
+use super::product::{DataTable, Product};
+use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Line, Panel, Points, Role, SharedLegend, Sharing, Size};
@@ -34,7 +34,7 @@ const TO: f64 = 0.3;
 const POINTS: u32 = 300;
 
 /// One panel: what was measured, and what averaging says at the same places.
-pub(super) struct Case {
+pub(super) struct FrictionPanel {
     /// D_N.
     pub(super) amplitude: f64,
     /// Windows with positive slip.
@@ -46,7 +46,7 @@ pub(super) struct Case {
 }
 
 /// Measures the cases of a figure.
-pub(super) fn cases(source: &Source) -> Result<Vec<Case>, Failure> {
+pub(super) fn cases(source: &EntrySource) -> Result<Vec<FrictionPanel>, Failure> {
     let study = source.study()?;
     let ratio = study.belt().dithers()[0].frequency_ratio;
     values(&study, "dither.amplitude")
@@ -76,15 +76,15 @@ pub(super) fn cases(source: &Source) -> Result<Vec<Case>, Failure> {
                 slow && window.slip_velocity > 0.0 && window.slip_velocity < TO
             });
             let averaged = averaged(source, &study.with("dither.amplitude", amplitude)?)?;
-            Ok(Case { amplitude, bins: medians(&windows), windows, averaged })
+            Ok(FrictionPanel { amplitude, bins: medians(&windows), windows, averaged })
         })
         .collect()
 }
 
-pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let law = study.belt().friction();
-    let mut bins = Table::new(
+    let mut bins = DataTable::new(
         "",
         &[
             ("amplitude", "length (force/k)"),
@@ -160,7 +160,7 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
 }
 
 /// μ̄(v) of (4.28) with φ′ of (4.23).
-fn averaged(source: &Source, study: &Study) -> Result<Vec<(f64, f64)>, Failure> {
+fn averaged(source: &EntrySource, study: &Study) -> Result<Vec<(f64, f64)>, Failure> {
     let options =
         AveragingOptions { normal_order: NormalOrder::Second, ..AveragingOptions::default() };
     (1..=POINTS)

@@ -15,7 +15,7 @@ pub struct Product {
     /// Caption with parameters and departures from the print; symbols between dollars.
     pub caption: String,
     /// The data behind the picture.
-    pub tables: Vec<Table>,
+    pub tables: Vec<DataTable>,
     /// The claims of the table of claims.
     pub claims: Vec<Claim>,
     /// Study text and changes, for the header of the data.
@@ -77,7 +77,7 @@ impl Product {
 
     /// Adds a table of data.
     #[must_use]
-    pub fn table(mut self, table: Table) -> Self {
+    pub fn table(mut self, table: DataTable) -> Self {
         self.tables.push(table);
         self
     }
@@ -91,7 +91,7 @@ impl Product {
     }
 
     /// A table as CSV: comment lines (`#`) with caption, units and study, names, rows.
-    pub fn csv(&self, table: &Table) -> String {
+    pub fn csv(&self, table: &DataTable) -> String {
         let mut text = String::new();
         let mut lines = vec![format!("quell {} reproduce", env!("CARGO_PKG_VERSION"))];
         lines.extend((!self.caption.is_empty()).then(|| self.plain_caption()));
@@ -119,7 +119,7 @@ impl Product {
 
 /// Name and unit of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Column {
+pub struct DataColumn {
     /// Name.
     pub name: String,
     /// Unit; `1` for a pure number.
@@ -171,20 +171,22 @@ impl From<Option<f64>> for Cell {
 
 /// Rows of cells under named columns.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
+pub struct DataTable {
     /// What follows the figure's name in the file's: empty for the main table.
     pub part: &'static str,
     /// The columns.
-    pub columns: Vec<Column>,
+    pub columns: Vec<DataColumn>,
     /// The rows, each as long as the columns.
     pub rows: Vec<Vec<Cell>>,
 }
 
-impl Table {
+impl DataTable {
     /// An empty table with these (name, unit) columns.
     pub fn new(part: &'static str, columns: &[(&str, &'static str)]) -> Self {
-        let columns =
-            columns.iter().map(|&(name, unit)| Column { name: name.to_owned(), unit }).collect();
+        let columns = columns
+            .iter()
+            .map(|&(name, unit)| DataColumn { name: name.to_owned(), unit })
+            .collect();
         Self { part, columns, rows: Vec::new() }
     }
 
@@ -201,7 +203,8 @@ impl Table {
                 columns.iter().map(|(_, _, values)| values.get(row).copied().into()).collect()
             })
             .collect();
-        let columns = columns.into_iter().map(|(name, unit, _)| Column { name, unit }).collect();
+        let columns =
+            columns.into_iter().map(|(name, unit, _)| DataColumn { name, unit }).collect();
         Self { part, columns, rows }
     }
 }

@@ -10,8 +10,8 @@ use quell_model::{Belt, Direction, LawKind};
 use super::axis::values;
 use super::caption::{law_name, letter, parameters, waveform_name};
 use super::failure::failed;
-use super::product::{Product, Table};
-use super::source::Source;
+use super::product::{DataTable, Product};
+use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Legend, Line, Panel, Role, Rule, SharedLegend, Sharing, Size};
@@ -26,7 +26,7 @@ const SAMPLES_PER_PERIOD: f64 = 40.0;
 const FLOOR: f64 = 1e-5;
 
 /// One column of the figure.
-pub(super) struct Case {
+pub(super) struct ResponseColumn {
     /// Its study.
     pub(super) study: Study,
     /// D.
@@ -36,7 +36,7 @@ pub(super) struct Case {
 }
 
 /// The steady responses of the study's amplitudes.
-pub(super) fn cases(source: &Source) -> Result<Vec<Case>, Failure> {
+pub(super) fn cases(source: &EntrySource) -> Result<Vec<ResponseColumn>, Failure> {
     let study = source.study()?;
     values(&study, "dither.amplitude")
         .into_iter()
@@ -45,12 +45,12 @@ pub(super) fn cases(source: &Source) -> Result<Vec<Case>, Failure> {
             let start = run::start(&study)?;
             let response = respond(study.belt(), start, study.solver())
                 .map_err(|error| failed(source.name, &error))?;
-            Ok(Case { study, amplitude, response })
+            Ok(ResponseColumn { study, amplitude, response })
         })
         .collect()
 }
 
-pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let dither = study.belt().dithers()[0];
     let cases = cases(source)?;
@@ -97,8 +97,8 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
     let caption = caption(source, &study, &cases[0].response);
     Ok(Product::new(figure, caption, &study)
         .by(&[Task::Simulate, Task::Response])
-        .table(Table::of_columns("", histories))
-        .table(Table::of_columns("spectrum", spectra)))
+        .table(DataTable::of_columns("", histories))
+        .table(DataTable::of_columns("spectrum", spectra)))
 }
 
 /// Frequency of the largest peak in the band of E.
@@ -117,7 +117,12 @@ pub(super) fn columns_of(name: &str, samples: &[Sample]) -> [(String, &'static s
 }
 
 /// Displacement and velocity of a case beside those without dither.
-fn histories_of(case: &Case, name: char, samples: &[Sample], undithered: &[Sample]) -> [Panel; 2] {
+fn histories_of(
+    case: &ResponseColumn,
+    name: char,
+    samples: &[Sample],
+    undithered: &[Sample],
+) -> [Panel; 2] {
     let belt = case.study.belt();
     let symbol = if belt.dithers()[0].direction == Direction::Normal { "D_N" } else { "D_T" };
     let efficiency = match &case.response.efficiency {
@@ -149,7 +154,7 @@ fn time_axis() -> Axis {
     Axis::new("time").symbol("τ").between(0.0, UNTIL)
 }
 
-fn spectrum_panel(case: &Case, top: f64) -> Panel {
+fn spectrum_panel(case: &ResponseColumn, top: f64) -> Panel {
     let Response { record, undithered_record, .. } = &case.response;
     let curve = |role, spectrum: &Spectrum| {
         let amplitudes = spectrum.amplitudes().iter().map(|amplitude| amplitude.max(0.1 * FLOOR));
@@ -167,7 +172,12 @@ fn spectrum_panel(case: &Case, top: f64) -> Panel {
 }
 
 /// Samples of the first [`UNTIL`] of a run.
-fn history(source: &Source, study: &Study, belt: &Belt, step: f64) -> Result<Vec<Sample>, Failure> {
+fn history(
+    source: &EntrySource,
+    study: &Study,
+    belt: &Belt,
+    step: f64,
+) -> Result<Vec<Sample>, Failure> {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -181,7 +191,7 @@ fn history(source: &Source, study: &Study, belt: &Belt, step: f64) -> Result<Vec
     Ok(sampler.samples)
 }
 
-fn caption(source: &Source, study: &Study, response: &Response) -> String {
+fn caption(source: &EntrySource, study: &Study, response: &Response) -> String {
     let belt = study.belt();
     let dither = belt.dithers()[0];
     let (direction, symbol) = match dither.direction {

@@ -10,12 +10,12 @@ use quell_dynamics::attractor::Attractor;
 use quell_dynamics::simulation::{Sample, Sampler, simulate};
 use quell_model::{Direction, Waveform};
 
-use super::amplitude_columns::{Case, Change, Columns};
+use super::amplitude_columns::{AmplitudeColumn, AmplitudeColumns, AmplitudeThreshold};
 use super::caption::{law_name, letter, parameters, short, waveform_name};
 use super::failure::failed;
-use super::product::{Cell, Product, Table};
+use super::product::{Cell, DataTable, Product};
 use super::responses::columns_of;
-use super::source::Source;
+use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
@@ -37,12 +37,12 @@ const TRANSIENT: usize = 900;
 const SETTLED: usize = 400;
 
 /// One waveform: that of the study.
-pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     of_waveforms(source, &[source.shared.columns(source.name, &source.study()?)?])
 }
 
 /// Figure 4.11: square as its caption says, and sine, which its text describes.
-pub(super) fn square_and_sine(source: &Source) -> Result<Product, Failure> {
+pub(super) fn square_and_sine(source: &EntrySource) -> Result<Product, Failure> {
     let of = |waveform: Waveform| {
         let study = source.changed(&[&format!("dither.waveform={}", waveform.name())])?;
         source.shared.columns(source.name, &study)
@@ -51,12 +51,15 @@ pub(super) fn square_and_sine(source: &Source) -> Result<Product, Failure> {
     of_waveforms(source, &[square, sine])
 }
 
-fn of_waveforms(source: &Source, blocks: &[Arc<Columns>]) -> Result<Product, Failure> {
+fn of_waveforms(
+    source: &EntrySource,
+    blocks: &[Arc<AmplitudeColumns>],
+) -> Result<Product, Failure> {
     let several = blocks.len() > 1;
     let mut panels = Vec::new();
     let mut histories: Vec<(String, &'static str, Vec<f64>)> = Vec::new();
-    let mut sections = Table::new("section", SECTION);
-    let mut summary = Table::new("", SUMMARY);
+    let mut sections = DataTable::new("section", SECTION);
+    let mut summary = DataTable::new("", SUMMARY);
     let columns = blocks.first().map_or(1, |block| block.cases.len());
     for block in blocks {
         let waveform = waveform_name(block.study.belt().dithers()[0].waveform);
@@ -102,10 +105,10 @@ fn of_waveforms(source: &Source, blocks: &[Arc<Columns>]) -> Result<Product, Fai
         .by(&[Task::Simulate, Task::Stability])
         .table(summary)
         .table(sections)
-        .table(Table::of_columns("history", histories)))
+        .table(DataTable::of_columns("history", histories)))
 }
 
-/// Columns of the table of sections.
+/// AmplitudeColumns of the table of sections.
 const SECTION: &[(&str, &str)] = &[
     ("waveform", "word"),
     ("case", "word"),
@@ -129,7 +132,7 @@ const SUMMARY: &[(&str, &str)] = &[
 ];
 
 /// A row of the summary.
-fn told(waveform: &str, name: char, case: &Case) -> Vec<Cell> {
+fn told(waveform: &str, name: char, case: &AmplitudeColumn) -> Vec<Cell> {
     let attractor = case.attractor.as_ref();
     let of = |value: fn(&Attractor) -> f64| Cell::from(attractor.map(value));
     let kind = attractor.map_or_else(|| "not settled".to_owned(), |it| it.kind.words());
@@ -147,7 +150,7 @@ fn told(waveform: &str, name: char, case: &Case) -> Vec<Cell> {
     ]
 }
 
-fn title(block: &Columns, several: bool, name: char, case: &Case) -> String {
+fn title(block: &AmplitudeColumns, several: bool, name: char, case: &AmplitudeColumn) -> String {
     let dither = block.study.belt().dithers()[0];
     let symbol = if dither.direction == Direction::Normal { "D_N" } else { "D_T" };
     let waveform =
@@ -156,7 +159,12 @@ fn title(block: &Columns, several: bool, name: char, case: &Case) -> String {
 }
 
 /// The three panels of a column.
-fn drawn(case: &Case, title: &str, samples: &[Sample], transient: &[(f64, f64)]) -> [Panel; 3] {
+fn drawn(
+    case: &AmplitudeColumn,
+    title: &str,
+    samples: &[Sample],
+    transient: &[(f64, f64)],
+) -> [Panel; 3] {
     let belt_velocity = case.study.belt().belt_velocity();
     let role = if case.quiet { Role::Dithered } else { Role::Unstable };
     let until = samples.last().map_or(1.0, |sample| sample.time);
@@ -187,7 +195,7 @@ fn drawn(case: &Case, title: &str, samples: &[Sample], transient: &[(f64, f64)])
 }
 
 /// Samples of the time shown.
-fn history(source: &Source, case: &Case) -> Result<Vec<Sample>, Failure> {
+fn history(source: &EntrySource, case: &AmplitudeColumn) -> Result<Vec<Sample>, Failure> {
     let decay = DECAY_TIMES / case.study.belt().damping_ratio();
     let until = decay.clamp(SHOWN[0], SHOWN[1]);
     let step = case.period / SAMPLES_PER_PERIOD;
@@ -195,12 +203,17 @@ fn history(source: &Source, case: &Case) -> Result<Vec<Sample>, Failure> {
 }
 
 /// States of the first periods.
-fn strobe(source: &Source, case: &Case) -> Result<Vec<(f64, f64)>, Failure> {
+fn strobe(source: &EntrySource, case: &AmplitudeColumn) -> Result<Vec<(f64, f64)>, Failure> {
     let samples = sampled(source, case, case.period, TRANSIENT)?;
     Ok(samples.iter().map(|sample| (sample.displacement, sample.velocity)).collect())
 }
 
-fn sampled(source: &Source, case: &Case, step: f64, count: usize) -> Result<Vec<Sample>, Failure> {
+fn sampled(
+    source: &EntrySource,
+    case: &AmplitudeColumn,
+    step: f64,
+    count: usize,
+) -> Result<Vec<Sample>, Failure> {
     let start = run::start(&case.study)?;
     let mut sampler = Sampler::new(0.0, step, count);
     let until = count as f64 * step;
@@ -214,7 +227,7 @@ fn count(steps: f64) -> usize {
     steps.floor().max(1.0) as usize + 1
 }
 
-fn caption(source: &Source, blocks: &[Arc<Columns>]) -> String {
+fn caption(source: &EntrySource, blocks: &[Arc<AmplitudeColumns>]) -> String {
     let study = &blocks[0].study;
     let belt = study.belt();
     let dither = belt.dithers()[0];
@@ -256,13 +269,13 @@ fn departure(name: &str) -> String {
     }
 }
 
-fn list(changes: &[Change], symbol: &str, words: [&str; 2]) -> String {
+fn list(changes: &[AmplitudeThreshold], symbol: &str, words: [&str; 2]) -> String {
     let parts: Vec<String> = changes
         .iter()
         .map(|change| {
             format!(
                 "{} above ${symbol}$ = {}",
-                words[usize::from(change.to)],
+                words[usize::from(change.holds_above)],
                 short4(change.amplitude)
             )
         })

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use super::amplitude_columns::Columns;
+use super::amplitude_columns::AmplitudeColumns;
 use quell::complaint::Failure;
 use quell::study::Study;
 
@@ -12,21 +12,25 @@ type Once<T> = Arc<OnceLock<Result<Arc<T>, Failure>>>;
 
 /// What the entries of one run have measured so far; a copy is another handle to the same.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Shared {
-    columns: Arc<Mutex<BTreeMap<String, Once<Columns>>>>,
+pub(super) struct SharedMeasurements {
+    columns: Arc<Mutex<BTreeMap<String, Once<AmplitudeColumns>>>>,
 }
 
-impl Shared {
+impl SharedMeasurements {
     /// The columns of a study of single responses.
     ///
     /// They are measured on the thread that asks first: one that waited here for work in the thread pool could be waited
     /// for by all of the pool.
-    pub(super) fn columns(&self, name: &str, study: &Study) -> Result<Arc<Columns>, Failure> {
+    pub(super) fn columns(
+        &self,
+        name: &str,
+        study: &Study,
+    ) -> Result<Arc<AmplitudeColumns>, Failure> {
         let key = format!("{}\n{:?}", study.text(), study.changes());
         let once = {
             let mut known = self.columns.lock().unwrap_or_else(PoisonError::into_inner);
             Arc::clone(known.entry(key).or_default())
         };
-        once.get_or_init(|| Columns::of(name, study.clone()).map(Arc::new)).clone()
+        once.get_or_init(|| AmplitudeColumns::of(name, study.clone()).map(Arc::new)).clone()
     }
 }

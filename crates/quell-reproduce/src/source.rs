@@ -2,13 +2,13 @@
 
 use quell_model::Waveform;
 
-use super::shared::Shared;
+use super::shared::SharedMeasurements;
 use quell::complaint::Failure;
 use quell::study::{Axis, Change, Study, Sweep};
 
 /// An entry's name and study file.
 #[derive(Clone, Debug)]
-pub struct Source {
+pub struct EntrySource {
     /// Name: `2.3`.
     pub name: &'static str,
     /// What it shows, in one line.
@@ -18,10 +18,10 @@ pub struct Source {
     /// Most points along an axis of its sweeps, where they shall be fewer than the file says.
     pub most_points: Option<usize>,
     /// What other entries of the run have measured.
-    pub(super) shared: Shared,
+    pub(super) shared: SharedMeasurements,
 }
 
-impl Source {
+impl EntrySource {
     /// The study.
     ///
     /// # Errors

@@ -6,7 +6,7 @@
 //! the triangle, (3.47), (4.35), where it is wrong.
 
 use quell_linear::averaging::{
-    AveragingOptions, EverywhereStable, FastWave, NoBand, Response, closed_band,
+    AveragingOptions, EverywhereStable, FastResponse, FastWave, NoBand, closed_band,
     everywhere_stable_amplitude, unstable_bands,
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
@@ -15,8 +15,8 @@ use super::axis::values;
 use super::caption::{law_name, letter, parameters, waveform_name};
 use super::failure::failed;
 use super::print::{self, LawNumbers};
-use super::product::{Product, Table};
-use super::source::Source;
+use super::product::{DataTable, Product};
+use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
@@ -31,11 +31,11 @@ const POINTS: u32 = 240;
 const FEWER_POINTS: u32 = 48;
 
 /// A curve of (α, v₀).
-type Curve = Vec<(f64, f64)>;
+type EdgeCurve = Vec<(f64, f64)>;
 
 /// The plane of one panel.
-struct Plane<'a> {
-    source: &'a Source,
+struct StabilityPlane<'a> {
+    source: &'a EntrySource,
     belt: &'a Belt,
     waveform: Waveform,
     direction: Direction,
@@ -46,14 +46,14 @@ struct Plane<'a> {
 /// An unstable region: its edges from α = 0 on, and the α beyond which there is none.
 struct Unstable {
     damping_ratio: f64,
-    lower: Curve,
-    upper: Curve,
+    lower: EdgeCurve,
+    upper: EdgeCurve,
     /// (α^L, α^L G_max) where it exists.
     tip: Option<(f64, f64)>,
 }
 
 /// Figures 2.6 and 2.7: one waveform, one damping ratio.
-pub(super) fn single(source: &Source) -> Result<Product, Failure> {
+pub(super) fn single(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
     let panel = panel(source, &study, study.belt().dithers()[0].waveform, &mut table)?;
@@ -68,7 +68,7 @@ pub(super) fn single(source: &Source) -> Result<Product, Failure> {
 }
 
 /// Figures 3.5, 3.6, 4.7, 4.8: three waveforms, three damping ratios.
-pub(super) fn three(source: &Source) -> Result<Product, Failure> {
+pub(super) fn three(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
     let mut panels = Vec::new();
@@ -96,7 +96,7 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
     Ok(product.by(&[Task::Stability]).table(table))
 }
 
-fn opening(source: &Source, study: &Study) -> String {
+fn opening(source: &EntrySource, study: &Study) -> String {
     let dither = study.belt().dithers()[0];
     format!(
         "Figure {}. Stability map with the {} law and {} dither: in the shaded region averaged steady sliding is unstable, \
@@ -153,8 +153,8 @@ fn closing(study: &Study, three: bool) -> String {
     sentences.join(" ")
 }
 
-fn empty_table() -> Table {
-    Table::new(
+fn empty_table() -> DataTable {
+    DataTable::new(
         "",
         &[
             ("waveform", "1"),
@@ -167,10 +167,10 @@ fn empty_table() -> Table {
 }
 
 fn panel(
-    source: &Source,
+    source: &EntrySource,
     study: &Study,
     waveform: Waveform,
-    table: &mut Table,
+    table: &mut DataTable,
 ) -> Result<Panel, Failure> {
     let belt = study.belt();
     let dither = belt.dithers()[0];
@@ -183,8 +183,13 @@ fn panel(
         (true, LawKind::Stribeck) => 0.8,
         (true, _) => 6.0,
     };
-    let plane =
-        Plane { source, belt, waveform, direction: dither.direction, reach: (alpha, velocity) };
+    let plane = StabilityPlane {
+        source,
+        belt,
+        waveform,
+        direction: dither.direction,
+        reach: (alpha, velocity),
+    };
     let mut damping = values(study, "belt.damping_ratio");
     if damping.is_empty() {
         damping.push(belt.damping_ratio());
@@ -217,7 +222,7 @@ fn panel(
     Ok(plane.words(panel, &regions))
 }
 
-impl Plane<'_> {
+impl StabilityPlane<'_> {
     fn law(&self) -> &Friction {
         self.belt.friction()
     }
@@ -273,7 +278,7 @@ impl Plane<'_> {
         &self,
         panel: Panel,
         damping_ratio: f64,
-        table: &mut Table,
+        table: &mut DataTable,
     ) -> Result<Panel, Failure> {
         let ratio = self.belt.dithers()[0].frequency_ratio;
         let edges = if self.waveform == Waveform::Sine {
@@ -281,7 +286,7 @@ impl Plane<'_> {
             let region = self.unstable(damping_ratio)?;
             let shorter = (ratio * ratio - 1.0) / (ratio * ratio);
             [region.lower, region.upper].map(|curve| {
-                curve.into_iter().map(|(alpha, v)| (alpha * shorter, v)).collect::<Curve>()
+                curve.into_iter().map(|(alpha, v)| (alpha * shorter, v)).collect::<EdgeCurve>()
             })
         } else {
             self.oscillator_edges(damping_ratio, ratio)?
@@ -293,14 +298,14 @@ impl Plane<'_> {
     }
 
     /// Edges of the bands under the oscillator's response to a triangle or square, by quadrature.
-    fn oscillator_edges(&self, damping_ratio: f64, ratio: f64) -> Result<[Curve; 2], Failure> {
+    fn oscillator_edges(&self, damping_ratio: f64, ratio: f64) -> Result<[EdgeCurve; 2], Failure> {
         let load = self.belt.normal_load();
         let wave = FastWave::Oscillator { waveform: self.waveform, frequency_ratio: ratio };
         let tip = self.tip(damping_ratio, wave)?;
         let end = tip.unwrap_or(f64::INFINITY).min(self.largest());
         let options =
-            AveragingOptions { response: Response::Oscillator, ..AveragingOptions::default() };
-        let mut edges: [Curve; 2] = Default::default();
+            AveragingOptions { response: FastResponse::Oscillator, ..AveragingOptions::default() };
+        let mut edges: [EdgeCurve; 2] = Default::default();
         for k in 0..=FEWER_POINTS {
             let alpha = end * f64::from(k) / f64::from(FEWER_POINTS);
             let dither = Dither {
@@ -345,7 +350,7 @@ impl Plane<'_> {
     }
 
     /// The print's upper edge for Stribeck and triangle, up to its own α^L.
-    fn printed(&self, panel: Panel, damping: &[f64], table: &mut Table) -> Panel {
+    fn printed(&self, panel: Panel, damping: &[f64], table: &mut DataTable) -> Panel {
         if self.waveform != Waveform::Triangle || self.law().kind() != LawKind::Stribeck {
             return panel;
         }
@@ -353,7 +358,7 @@ impl Plane<'_> {
         let mut pieces = Vec::new();
         for &zeta in damping {
             let end = print::everywhere_348(numbers, zeta);
-            let edge: Curve = (0..=POINTS)
+            let edge: EdgeCurve = (0..=POINTS)
                 .map(|k| end * f64::from(k) / f64::from(POINTS))
                 .map(|alpha| self.along(alpha, print::upper_edge_347(numbers, zeta, alpha)))
                 .collect();
@@ -368,7 +373,8 @@ impl Plane<'_> {
     /// Marks α^L where the plane shows it.
     fn tips(&self, mut panel: Panel, regions: &[Unstable], lone: bool) -> Panel {
         let shown = |tip: &(f64, f64)| tip.0 <= self.reach.0 && tip.1 <= self.reach.1;
-        let tips: Curve = regions.iter().filter_map(|region| region.tip).filter(shown).collect();
+        let tips: EdgeCurve =
+            regions.iter().filter_map(|region| region.tip).filter(shown).collect();
         if tips.is_empty() {
             return panel;
         }
@@ -399,7 +405,7 @@ impl Plane<'_> {
         panel
     }
 
-    fn record(&self, table: &mut Table, damping_ratio: f64, curve: &str, points: &Curve) {
+    fn record(&self, table: &mut DataTable, damping_ratio: f64, curve: &str, points: &EdgeCurve) {
         for &(alpha, v) in points {
             table.row([
                 self.waveform.name().into(),

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use quell_model::Waveform;
 
 use super::caption::{letter, waveform_name};
-use super::product::{Product, Table};
-use super::source::Source;
+use super::product::{DataTable, Product};
+use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Legend, Line, Panel, Role, Rule, Sharing};
@@ -14,7 +14,7 @@ use quell::plot::{Axis, Figure, Legend, Line, Panel, Role, Rule, Sharing};
 const CYCLES: u32 = 2;
 const POINTS_PER_CYCLE: u32 = 240;
 
-pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut columns = vec![("cycles".to_owned(), "1", cycles().collect::<Vec<f64>>())];
     let mut rows: [Vec<Panel>; 2] = [Vec::new(), Vec::new()];
@@ -55,7 +55,7 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
     let product = Product::new(figure, caption, &study)
         .also(studies.iter().map(|(_, study)| study))
         .by(&[Task::Friction]);
-    Ok(product.table(Table::of_columns("", columns)))
+    Ok(product.table(DataTable::of_columns("", columns)))
 }
 
 fn axes(name: &str, symbol: &str, below: &str) -> Panel {

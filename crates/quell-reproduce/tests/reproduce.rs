@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use quell::{Failure, Subject};
-use quell_reproduce::claims::{self, LEDGER, Verdict};
-use quell_reproduce::{Cell, ENTRIES, Entry, Pace, find, run};
+use quell_reproduce::claims::{self, ClaimVerdict, LEDGER};
+use quell_reproduce::{CatalogueEntry, Cell, ENTRIES, Resolution, find, run};
 
-fn entry(name: &str) -> &'static Entry {
+fn entry(name: &str) -> &'static CatalogueEntry {
     ENTRIES.iter().find(|entry| entry.name == name).expect(name)
 }
 
@@ -150,12 +150,14 @@ fn verdicts_are_those_on_record() {
     let on_record: Vec<&str> = LEDGER.iter().map(|(name, _)| *name).collect();
     assert_eq!(measured, on_record, "one line of claims::LEDGER for each claim, in their order");
     for claim in &claims {
-        let holds = claim.verdict.holds() || matches!(claim.verdict, Verdict::FormulaWrong { .. });
+        let holds =
+            claim.verdict.holds() || matches!(claim.verdict, ClaimVerdict::FormulaWrong { .. });
         assert_eq!(holds, claim.why().is_empty(), "{} says why it does not hold", claim.name);
         assert_eq!(claim.tolerance.is_some(), !claim.printed.is_empty(), "{}", claim.name);
     }
     // Formulas that are wrong, by name: the errata tell of each.
-    let wrong = claims.iter().filter(|claim| matches!(claim.verdict, Verdict::FormulaWrong { .. }));
+    let wrong =
+        claims.iter().filter(|claim| matches!(claim.verdict, ClaimVerdict::FormulaWrong { .. }));
     assert_eq!(wrong.count(), 18);
     let value = |name: &str| claims.iter().find(|claim| claim.name == name).expect(name).values[0];
     for (name, known, tolerance) in [
@@ -195,7 +197,7 @@ fn files_are_written_whole_into_a_new_directory() {
     let folder = tempfile::tempdir().expect("a folder");
     let directory = folder.path().join("new/deeper");
     let entries = find(&["2.2".to_owned(), "2.6".to_owned(), "3.2".to_owned()]).expect("known");
-    let written = run(&entries, &directory, Pace::Full, |_| ()).expect("written").written;
+    let written = run(&entries, &directory, Resolution::Full, |_| ()).expect("written").written;
     assert_eq!(
         written.iter().map(|done| done.entry.name).collect::<Vec<_>>(),
         ["2.2", "2.6", "3.2"]
@@ -233,7 +235,7 @@ fn files_are_written_whole_into_a_new_directory() {
     assert!(table.contains("[figure-2.6.csv](figure-2.6.csv)"), "{table}");
     // Once more, over what stands there: the same bytes.
     let first = std::fs::read(directory.join("figure-2.6.png")).expect("read");
-    run(&entries, &directory, Pace::Full, |_| ()).expect("written again");
+    run(&entries, &directory, Resolution::Full, |_| ()).expect("written again");
     assert_eq!(std::fs::read(directory.join("figure-2.6.png")).expect("read"), first);
 }
 
@@ -242,8 +244,9 @@ fn a_directory_that_cannot_be_made_is_refused_before_any_work() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("occupied");
     std::fs::write(&file, "a file").expect("written");
-    let failure = run(&find(&[]).expect("all"), &file, Pace::Full, |_| panic!("nothing is made"))
-        .expect_err("refused");
+    let failure =
+        run(&find(&[]).expect("all"), &file, Resolution::Full, |_| panic!("nothing is made"))
+            .expect_err("refused");
     let Failure::Wrong(complaints) = failure else { panic!("{failure}") };
     assert_eq!(complaints[0].key, "--out");
     assert!(complaints[0].to_string().contains("occupied"), "{}", complaints[0]);

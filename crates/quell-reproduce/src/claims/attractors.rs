@@ -4,10 +4,10 @@ use quell_dynamics::attractor::{Patience, Scene, gather, settle_many};
 use quell_dynamics::simulation::Start;
 use quell_model::{Direction, LawKind, Waveform};
 
-use super::super::amplitude_columns::{Case, Change, Columns};
+use super::super::amplitude_columns::{AmplitudeColumn, AmplitudeColumns, AmplitudeThreshold};
 use super::super::failure::failed;
 use super::chapter2::{LIGHT, belt, source};
-use super::sheet::{Sheet, digits, list};
+use super::sheet::{ClaimSheet, digits, list};
 use quell::complaint::Failure;
 
 /// What a figure claims: amplitudes that are stable and not, and between which of them that changes.
@@ -55,7 +55,7 @@ const TANGENTIAL: [Printed; 4] = [
 ];
 
 /// Figures 2.10, 2.11, 3.12, 3.13: the claims of one.
-pub(super) fn tangential(sheet: &mut Sheet, figure: &str) -> Result<(), Failure> {
+pub(super) fn tangential(sheet: &mut ClaimSheet, figure: &str) -> Result<(), Failure> {
     let printed = TANGENTIAL
         .iter()
         .find(|printed| printed.figure == figure)
@@ -77,7 +77,7 @@ pub(super) fn tangential(sheet: &mut Sheet, figure: &str) -> Result<(), Failure>
         sheet.number(&name, &place, &statement, averaged, &[change.amplitude]);
     }
     let vibrating = columns.cases.iter().filter(|case| !case.quiet);
-    let frequencies: Vec<f64> = vibrating.filter_map(Case::frequency).collect();
+    let frequencies: Vec<f64> = vibrating.filter_map(AmplitudeColumn::frequency).collect();
     let name = format!("{figure}-period-10");
     let statement =
         "the unstable response is close to period-10: its low frequency is at or near ω₀";
@@ -88,7 +88,13 @@ pub(super) fn tangential(sheet: &mut Sheet, figure: &str) -> Result<(), Failure>
 }
 
 /// Which columns settle from rest.
-fn columns_claim(sheet: &mut Sheet, stem: &str, figure: &str, columns: &Columns, stable: &[f64]) {
+fn columns_claim(
+    sheet: &mut ClaimSheet,
+    stem: &str,
+    figure: &str,
+    columns: &AmplitudeColumns,
+    stable: &[f64],
+) {
     let of = |quiet: bool| -> Vec<f64> {
         columns.cases.iter().filter(|case| case.quiet == quiet).map(|case| case.amplitude).collect()
     };
@@ -109,9 +115,9 @@ fn columns_claim(sheet: &mut Sheet, stem: &str, figure: &str, columns: &Columns,
 }
 
 /// "Becomes unstable for D ≥ 3": the threshold from rest lies between the last stable and the first unstable column.
-fn borders(sheet: &mut Sheet, printed: &Printed, columns: &Columns) {
+fn borders(sheet: &mut ClaimSheet, printed: &Printed, columns: &AmplitudeColumns) {
     let name = printed.figure;
-    for (word, claim, to, first) in [
+    for (word, claim, holds_above, first) in [
         ("unstable", "lower", false, printed.unstable_from),
         ("stable again", "upper", true, printed.stable_from),
     ] {
@@ -124,7 +130,7 @@ fn borders(sheet: &mut Sheet, printed: &Printed, columns: &Columns) {
         let found: Vec<f64> = columns
             .from_rest
             .iter()
-            .filter(|change| change.to == to)
+            .filter(|change| change.holds_above == holds_above)
             .map(|change| change.amplitude)
             .collect();
         let holds = found.iter().any(|it| before < *it && *it <= first);
@@ -135,7 +141,7 @@ fn borders(sheet: &mut Sheet, printed: &Printed, columns: &Columns) {
             &found,
             holds,
         );
-        if !to && let Some(Change { amplitude, .. }) = columns.local.first() {
+        if !holds_above && let Some(AmplitudeThreshold { amplitude, .. }) = columns.local.first() {
             claim.note(format!(
                 "the quiet response is stable up to {}: between both a stick-slip vibration coexists with it, and rest lies in the \
                  basin of that",
@@ -146,7 +152,7 @@ fn borders(sheet: &mut Sheet, printed: &Printed, columns: &Columns) {
 }
 
 /// Figure 4.11 with a waveform: that of its caption, or a sine.
-pub(super) fn normal(sheet: &mut Sheet, waveform: Waveform) -> Result<(), Failure> {
+pub(super) fn normal(sheet: &mut ClaimSheet, waveform: Waveform) -> Result<(), Failure> {
     let waveform = waveform.name();
     let study = source("4.11")?.changed(&[&format!("dither.waveform={waveform}")])?;
     let columns = sheet.shared.columns("4.11", &study)?;
@@ -174,7 +180,7 @@ pub(super) fn normal(sheet: &mut Sheet, waveform: Waveform) -> Result<(), Failur
 }
 
 /// Extent along x of the section of a response, where the run ended on one.
-fn spread(case: &Case) -> Option<f64> {
+fn spread(case: &AmplitudeColumn) -> Option<f64> {
     let displacements = case.attractor.as_ref()?.section.iter().map(|(x, _)| *x);
     let (low, high) = displacements
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
@@ -182,7 +188,7 @@ fn spread(case: &Case) -> Option<f64> {
 }
 
 /// "Multiple solutions have not been encountered", normal dither: 11 × 9 starts, x from −1 to 1.5, x′ from −1 to 1.
-pub(super) fn other_starts(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn other_starts(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let cases = [
         (LawKind::Stribeck, LIGHT, 0.05, Waveform::Sine, 0.9, 10.0),
         (LawKind::Decreasing, LIGHT, 0.05, Waveform::Sine, 0.6, 7.0),

@@ -3,15 +3,15 @@
 use quell_dynamics::response::{Solver, respond};
 use quell_dynamics::simulation::{EventKind, EventRecorder, Sampler, Start, simulate};
 use quell_linear::averaging::{
-    AveragingOptions, Becomes, CriticalAmplitude, EverywhereStable, FastWave,
-    Response as FastResponse, closed_band, critical_amplitudes, everywhere_stable_amplitude,
+    AveragingOptions, Becomes, CriticalAmplitude, EverywhereStable, FastResponse, FastWave,
+    closed_band, critical_amplitudes, everywhere_stable_amplitude,
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 
 use super::super::failure::failed;
-use super::super::responses::{Case, cases, fundamental};
-use super::super::{ENTRIES, Source};
-use super::sheet::{Sheet, digits, list, shares};
+use super::super::responses::{ResponseColumn, cases, fundamental};
+use super::super::{ENTRIES, EntrySource};
+use super::sheet::{ClaimSheet, digits, list, shares};
 use quell::complaint::Failure;
 
 /// Below this share of the undithered vibration the dissertation calls it suppressed (figure 2.8 takes 5 %).
@@ -44,16 +44,16 @@ pub(super) fn belt(
 }
 
 /// The study of a figure.
-pub(super) fn source(name: &str) -> Result<Source, Failure> {
+pub(super) fn source(name: &str) -> Result<EntrySource, Failure> {
     ENTRIES
         .iter()
         .find(|entry| entry.name == name)
-        .map(super::super::Entry::source)
+        .map(super::super::CatalogueEntry::source)
         .ok_or_else(|| failed("claims", &format!("there is no figure {name}")))
 }
 
 /// E of each case, where it is defined.
-pub(super) fn efficiencies(cases: &[Case]) -> Vec<f64> {
+pub(super) fn efficiencies(cases: &[ResponseColumn]) -> Vec<f64> {
     cases.iter().filter_map(|case| case.response.efficiency.ok()).collect()
 }
 
@@ -90,7 +90,7 @@ fn stick_slip_frequency(belt: &Belt) -> Result<f64, Failure> {
 }
 
 /// Figures 2.2, 2.3: laws and the undithered cycle.
-pub(super) fn friction_laws(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn friction_laws(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let undithered = belt(LawKind::Stribeck, LIGHT, 0.05, None)?;
     let frequency = stick_slip_frequency(&undithered)?;
     sheet
@@ -127,7 +127,7 @@ pub(super) fn friction_laws(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// Figure 2.3.
-pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let cases = cases(&source("2.3")?)?;
     let found = efficiencies(&cases);
     let dithered = fundamental(&cases[0].response.record.spectrum);
@@ -140,7 +140,7 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
             dithered.as_slice(),
         )
         .note("locked to the dither at 10·5/68");
-    let stuck = |case: &Case| {
+    let stuck = |case: &ResponseColumn| {
         let samples = &case.response.undithered_record.samples;
         samples.iter().filter(|sample| sample.sticking).count() as f64 / samples.len() as f64
     };
@@ -183,7 +183,7 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// "The amplitude of the steady-state response can be reduced further by decreasing the dither frequency ratio."
-pub(super) fn forced_response(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn forced_response(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let amplitude = |ratio: f64| -> Result<f64, Failure> {
         let dither = Some((Direction::Tangential, Waveform::Sine, 0.5, ratio));
         let belt = belt(LawKind::Stribeck, LIGHT, 0.05, dither)?;
@@ -217,7 +217,7 @@ fn upper(law: &Friction, alpha: f64) -> Option<f64> {
 }
 
 /// Figure 2.6.
-pub(super) fn stribeck_map(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn stribeck_map(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let law = law(LawKind::Stribeck)?;
     let words = "Stribeck: undithered sliding is stable above v₀";
     sheet.number("2.6-undithered", "Figure 2.6", words, "0.2", upper(&law, 0.0).as_slice());
@@ -260,7 +260,7 @@ pub(super) fn stribeck_map(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// Figure 2.7.
-pub(super) fn decreasing_map(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn decreasing_map(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let law = law(LawKind::Decreasing)?;
     let words = "decreasing: undithered sliding is stable above v₀";
     sheet
@@ -290,7 +290,7 @@ fn belt_at(kind: LawKind, belt_velocity: f64) -> Result<Belt, Failure> {
 }
 
 /// Decreasing law above its critical velocity: stable without dither, and not with.
-pub(super) fn destabilisation(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn destabilisation(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let undithered = belt(LawKind::Decreasing, LIGHT, 1.0, None)?;
     let late = |displacement: f64| -> Result<f64, Failure> {
         let start = Start { displacement, ..Start::REST };
@@ -332,7 +332,7 @@ pub(super) fn destabilisation(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// "Unstable for α_T = 0.43", "stable for α_T > 0.98" at v₀ = 1; 10 ≤ D_T ≤ 15 at v₀ = 1.5.
-fn averaged_thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
+fn averaged_thresholds(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let rows = [
         (1.0, 0, "2.10", Some("0.43"), "4.3"),
         (1.0, 1, "2.10", Some("0.98"), "9.8"),

@@ -3,8 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use quell_linear::averaging::{
-    EverywhereStable, FastMotion, FastWave, Response as FastResponse, effective,
-    everywhere_stable_amplitude,
+    EverywhereStable, FastMotion, FastResponse, FastWave, effective, everywhere_stable_amplitude,
 };
 use quell_model::{Direction, LawKind, Waveform};
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
@@ -14,13 +13,13 @@ use super::super::failure::failed;
 use super::super::print::{self, LawNumbers};
 use super::super::responses::{cases, fundamental};
 use super::chapter2::{LIGHT, SUPPRESSED, belt, critical, efficiencies, law, partial, source};
-use super::sheet::{Sheet, digits, list, shares};
+use super::sheet::{ClaimSheet, digits, list, shares};
 use quell::complaint::Failure;
 
 const NUMBERS: LawNumbers = LawNumbers::DISSERTATION;
 
 /// Section 3.2: integrals of the waveforms.
-pub(super) fn waveforms(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn waveforms(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let [sine, triangle, square] = [Waveform::Sine, Waveform::Triangle, Waveform::Square];
     // From the waveforms themselves: half the integral of g over its positive half cycle.
     let peak = |waveform: Waveform| {
@@ -66,7 +65,7 @@ fn everywhere(
 }
 
 /// α^L: formulas, order of the waveforms, the inner region.
-pub(super) fn everywhere_stable(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn everywhere_stable(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let tangential = |kind, zeta, waveform| everywhere(kind, zeta, waveform, Direction::Tangential);
     let stribeck = Waveform::ALL
         .iter()
@@ -122,7 +121,7 @@ pub(super) fn everywhere_stable(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// "It can be shown that μ̄′(v₀) ≥ 0 for |v₀| ≤ αG_max", for the dissertation's laws.
-fn inner_slope(sheet: &mut Sheet) -> Result<(), Failure> {
+fn inner_slope(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let mut smallest = [f64::INFINITY; 2];
     for (kind, smallest) in [LawKind::Stribeck, LawKind::Decreasing].into_iter().zip(&mut smallest)
     {
@@ -150,7 +149,7 @@ fn inner_slope(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// Thresholds predicted by averaging at v₀ = 1, R = 10, decreasing law.
-pub(super) fn thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn thresholds(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     type Row = (Waveform, usize, &'static str, bool, &'static str);
     let rows: [Row; 6] = [
         (Waveform::Triangle, 0, "0.54", true, "3.61"),
@@ -189,7 +188,7 @@ pub(super) fn thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// Figures 3.7–3.9.
-pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let figures = ["3.7", "3.8", "3.9"]
         .map(|name| Ok((name, cases(&source(name)?)?)))
         .into_iter()

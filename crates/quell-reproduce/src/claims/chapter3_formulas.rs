@@ -12,7 +12,7 @@ use quell_numerics::special::exp;
 use super::super::failure::failed;
 use super::super::print::{self, LawNumbers};
 use super::chapter2::{LIGHT, law};
-use super::sheet::Sheet;
+use super::sheet::ClaimSheet;
 use quell::complaint::Failure;
 
 const NUMBERS: LawNumbers = LawNumbers::DISSERTATION;
@@ -24,7 +24,7 @@ fn definition(kind: LawKind, waveform: Waveform, v: f64, alpha: f64) -> Result<E
 }
 
 /// Printed formulas against their definitions: v_r = 0.08, α = 0.2 unless said.
-pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn formulas(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let (v, alpha) = (0.08, 0.2);
     let (decreasing, triangle) = (LawKind::Decreasing, Waveform::Triangle);
     let inside = definition(decreasing, triangle, v, alpha)?;
@@ -76,7 +76,7 @@ pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// The triangle's mean square in the formulas of the Stribeck law.
-fn stribeck_formulas(sheet: &mut Sheet, v: f64, alpha: f64) -> Result<(), Failure> {
+fn stribeck_formulas(sheet: &mut ClaimSheet, v: f64, alpha: f64) -> Result<(), Failure> {
     let (stribeck, triangle) = (LawKind::Stribeck, Waveform::Triangle);
     let slope = definition(stribeck, triangle, v, alpha)?.slope;
     sheet
@@ -107,7 +107,7 @@ fn stribeck_formulas(sheet: &mut Sheet, v: f64, alpha: f64) -> Result<(), Failur
 }
 
 /// (B.3)–(B.5): integrals of appendix B.
-fn integrals(sheet: &mut Sheet, v: f64, alpha: f64) -> Result<(), Failure> {
+fn integrals(sheet: &mut ClaimSheet, v: f64, alpha: f64) -> Result<(), Failure> {
     let vm = NUMBERS.vm;
     let crossing = (PI * (PI / 4.0 - v / alpha)).sqrt();
     let integral = |from: f64, to: f64, sign: f64| {
@@ -149,7 +149,7 @@ fn integrals(sheet: &mut Sheet, v: f64, alpha: f64) -> Result<(), Failure> {
 }
 
 /// Some that are right as printed.
-fn right(sheet: &mut Sheet) -> Result<(), Failure> {
+fn right(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let (b0, b1, vm) = (NUMBERS.minimum, NUMBERS.difference(), NUMBERS.vm);
     let (v, alpha) = (0.08, 0.2);
     let square = definition(LawKind::Decreasing, Waveform::Square, v, alpha)?;

@@ -1,23 +1,23 @@
 //! Claims of chapter 4: normal dither.
 
 use quell_linear::averaging::{
-    AveragingOptions, EverywhereStable, FastWave, Response as FastResponse, criterion,
+    AveragingOptions, EverywhereStable, FastResponse, FastWave, criterion,
     everywhere_stable_amplitude, unstable_bands,
 };
 use quell_model::{Direction, LawKind, Waveform};
 
 use super::super::failure::failed;
-use super::super::measured_friction::{self, BIN, Case, interpolated};
+use super::super::measured_friction::{self, BIN, FrictionPanel, interpolated};
 use super::super::print::{self, LawNumbers};
 use super::super::responses::cases;
 use super::chapter2::{LIGHT, SUPPRESSED, belt, critical, efficiencies, law, partial, source};
-use super::sheet::{Sheet, digits, list, shares};
+use super::sheet::{ClaimSheet, digits, list, shares};
 use quell::complaint::Failure;
 
 const NUMBERS: LawNumbers = LawNumbers::DISSERTATION;
 
 /// Figures 4.3 and 4.4.
-pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let found = efficiencies(&cases(&source("4.3")?)?);
     sheet.statement(
         [
@@ -64,7 +64,7 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// Figures 4.5 and 4.6.
-pub(super) fn effective_friction(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn effective_friction(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     for figure in ["4.5", "4.6"] {
         let cases = measured_friction::cases(&source(figure)?)?;
         let place = format!("Figure {figure}");
@@ -102,7 +102,7 @@ pub(super) fn effective_friction(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// Slip velocity of the largest friction: measured, averaged.
-fn tops(case: &Case) -> (f64, f64) {
+fn tops(case: &FrictionPanel) -> (f64, f64) {
     let top = |points: &[(f64, f64)]| {
         points.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(f64::NAN, |point| point.0)
     };
@@ -116,7 +116,7 @@ fn tops(case: &Case) -> (f64, f64) {
 }
 
 /// Largest difference between measured and averaged friction from a bin beyond the top up to v_m.
-fn outer_deviation(case: &Case) -> f64 {
+fn outer_deviation(case: &FrictionPanel) -> f64 {
     let (measured, averaged) = tops(case);
     let from = measured.max(averaged) + BIN;
     let outer = case.bins.iter().filter(|(v, _, _)| *v > from && *v < NUMBERS.vm);
@@ -124,7 +124,7 @@ fn outer_deviation(case: &Case) -> f64 {
 }
 
 /// Figures 4.7, 4.8, and the predictions for figure 4.11.
-pub(super) fn stability_maps(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn stability_maps(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let everywhere = |direction| everywhere(Waveform::Sine, direction);
     let (normal, tangential) = (everywhere(Direction::Normal)?, everywhere(Direction::Tangential)?);
     sheet.statement(
@@ -190,7 +190,7 @@ fn everywhere(waveform: Waveform, direction: Direction) -> Result<f64, Failure> 
 }
 
 /// (4.34)–(4.38), with μ(v₀) at the tip v₀ = α^L G_max, which the print leaves open.
-pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn formulas(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     /// Equation, waveform, α^L as printed for ζ, what is wrong.
     type Row = (&'static str, Waveform, fn(LawNumbers, f64) -> f64, &'static str);
     let rows: [Row; 3] = [

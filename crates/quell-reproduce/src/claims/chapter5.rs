@@ -16,7 +16,7 @@ use super::super::disc::{
 };
 use super::super::failure::failed;
 use super::chapter2::source;
-use super::sheet::{Sheet, digits, list};
+use super::sheet::{ClaimSheet, digits, list};
 use quell::complaint::Failure;
 
 /// The print's unit of f.
@@ -75,7 +75,7 @@ fn meetings(disc: &Disc, dithered: bool) -> Result<Vec<Resonance>, Failure> {
 }
 
 /// Tables 5.1 and 5.2.
-pub(super) fn tables(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn tables(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let disc = disc([1, 2], 0.1, 0.0, TANGENTIAL)?;
     for (table, printed, dithered, star) in
         [("5.1", &PRINTED_UNDITHERED[..], false, ""), ("5.2", &PRINTED_INDUCED[..], true, "*")]
@@ -113,7 +113,7 @@ pub(super) fn tables(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// Thresholds without dither.
-pub(super) fn thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn thresholds(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     for (size, printed) in [(0.1, "2"), (0.2, "3.5"), (0.3, "5")] {
         let disc = disc([1, 2], size, 0.0, DiscDither::None)?;
         let mut highest = 0.0f64;
@@ -173,7 +173,7 @@ pub(super) fn thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// Normal dither.
-pub(super) fn normal(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn normal(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let still = disc([1, 2], 0.3, 0.0, DiscDither::None)?;
     let shaken = disc([1, 2], 0.3, 0.0, NORMAL)?;
     let first = |speed: f64| -> Result<f64, Failure> {
@@ -243,7 +243,7 @@ fn largest(disc: &Disc, speeds: [f64; 2], frictions: &[f64]) -> Result<f64, Fail
 }
 
 /// Tangential dither.
-pub(super) fn tangential(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn tangential(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let reversed = |theta: f64| theta.cos().signum() * theta.cos() / PI;
     let breaks = [FRAC_PI_2, 3.0 * FRAC_PI_2];
     let fundamental = integrate(reversed, 0.0, TAU, &breaks, &QuadratureOptions::default())
@@ -328,7 +328,7 @@ const BESIDE: [f64; 12] =
     [-0.02, 0.001, 0.005, 0.01, 0.02, 0.03, 0.05, 0.08, 0.12, 0.16, 0.2, 0.25];
 
 /// Modal damping without dither: which tongues are left.
-pub(super) fn damping(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn damping(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     for (damping, printed) in
         [(0.0, &[1, 2, 3, 4][..]), (1e-5, &[1, 2, 3, 4]), (1e-4, &[2, 3]), (1e-3, &[2])]
     {
@@ -382,7 +382,7 @@ fn first_unstable(disc: &Disc, speed: f64) -> Result<f64, Failure> {
 }
 
 /// Tangential dither and light modal damping: where the last two of the original tongues begin.
-pub(super) fn revived(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn revived(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let disc = disc([1, 2], 0.3, 1e-5, TANGENTIAL)?;
     let places = meetings(&disc, false)?;
     // Revived tongues lie below their places.

@@ -5,13 +5,13 @@
 
 use quell_dynamics::response::{Solver, amplitude_at_efficiency};
 use quell_dynamics::simulation::Start;
-use quell_linear::averaging::{Becomes, Response as FastResponse};
+use quell_linear::averaging::{Becomes, FastResponse};
 use quell_model::{Direction, LawKind, Waveform};
 use rayon::prelude::*;
 
 use super::super::failure::failed;
 use super::chapter2::{LIGHT, SUPPRESSED, belt, critical};
-use super::sheet::Sheet;
+use super::sheet::ClaimSheet;
 use quell::complaint::Failure;
 
 /// Relative closeness of D.
@@ -24,12 +24,12 @@ const SETTLE: f64 = 1200.0;
 const COINCIDES: f64 = 0.1;
 
 /// A point of the isoline: law, waveform, v₀ and R.
-type Point = (LawKind, Waveform, f64, f64);
+type IsolinePoint = (LawKind, Waveform, f64, f64);
 
 const LAWS: [LawKind; 2] = [LawKind::Stribeck, LawKind::Decreasing];
 
 /// Every combination of laws, the waveforms, belt velocities and frequency ratios.
-fn points(waveforms: &[Waveform], velocities: &[f64], ratios: &[f64]) -> Vec<Point> {
+fn points(waveforms: &[Waveform], velocities: &[f64], ratios: &[f64]) -> Vec<IsolinePoint> {
     let mut points = Vec::new();
     for law in LAWS {
         for &waveform in waveforms {
@@ -42,7 +42,7 @@ fn points(waveforms: &[Waveform], velocities: &[f64], ratios: &[f64]) -> Vec<Poi
 }
 
 /// D(5 %)/(α*R) of each point. The crossing is searched in 0.7…1.15 α*R.
-fn ratios(direction: Direction, points: &[Point]) -> Result<Vec<f64>, Failure> {
+fn ratios(direction: Direction, points: &[IsolinePoint]) -> Result<Vec<f64>, Failure> {
     let solver = Solver { settle: SETTLE, ..Solver::default() };
     points
         .par_iter()
@@ -76,7 +76,7 @@ fn extent(values: &[f64]) -> [f64; 2] {
 }
 
 /// Tangential dither: R = 5, 10, 20.
-pub(super) fn tangential(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn tangential(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let four = [0.05, 0.1, 0.125, 0.15];
     let three = [0.05, 0.1, 0.15];
     let others = [Waveform::Triangle, Waveform::Square];
@@ -103,7 +103,7 @@ pub(super) fn tangential(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// Normal dither, sine, v₀ of figures 4.9 and 4.10: R_N = 3…7.
-pub(super) fn normal(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn normal(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     for (law, place, name) in [
         (LawKind::Stribeck, "Figure 4.9", "4.9-isocline"),
         (LawKind::Decreasing, "Figure 4.10", "4.10-isocline"),

@@ -1,16 +1,16 @@
 //! The table of claims: what the dissertation says, what independent numerics measure, and the verdict.
 //!
 //! A claim is made by a function that measures (`chapter2` to `chapter5`, `attractors`, `isocline`); the verdict follows from printed and
-//! measured values by the rules of [`Verdict`], never from words. The verdict on record stands in [`LEDGER`]; a test holds
+//! measured values by the rules of [`ClaimVerdict`], never from words. The verdict on record stands in [`LEDGER`]; a test holds
 //! every claim to it, so that none changes unseen.
 
 use quell_model::Waveform;
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};
 
-use super::product::{Cell, Product, Table};
-use super::shared::Shared;
-use super::source::Source;
+use super::product::{Cell, DataTable, Product};
+use super::shared::SharedMeasurements;
+use super::source::EntrySource;
 use quell::complaint::Failure;
 
 mod attractors;
@@ -22,16 +22,16 @@ mod chapter5;
 mod isocline;
 mod sheet;
 
-pub use super::claim::{Claim, Verdict};
+pub use super::claim::{Claim, ClaimVerdict};
 pub use super::ledger::{Expected, LEDGER};
 
-use sheet::Sheet;
+use sheet::ClaimSheet;
 
 /// Measures a few claims and writes them down.
-type Section = fn(&mut Sheet) -> Result<(), Failure>;
+type ClaimMeasurement = fn(&mut ClaimSheet) -> Result<(), Failure>;
 
 /// In the order of the dissertation.
-const SECTIONS: &[Section] = &[
+const SECTIONS: &[ClaimMeasurement] = &[
     chapter2::friction_laws,
     chapter2::responses,
     chapter2::forced_response,
@@ -69,15 +69,15 @@ const SECTIONS: &[Section] = &[
 /// # Errors
 /// [`Failure`] if a run stops or an average has no value.
 pub fn measure() -> Result<Vec<Claim>, Failure> {
-    measure_with(&Shared::default())
+    measure_with(&SharedMeasurements::default())
 }
 
 /// The same, with what figures have measured already.
-fn measure_with(shared: &Shared) -> Result<Vec<Claim>, Failure> {
+fn measure_with(shared: &SharedMeasurements) -> Result<Vec<Claim>, Failure> {
     let sections: Result<Vec<Vec<Claim>>, Failure> = SECTIONS
         .par_iter()
         .map(|section| {
-            let mut sheet = Sheet { shared: shared.clone(), ..Sheet::default() };
+            let mut sheet = ClaimSheet { shared: shared.clone(), ..ClaimSheet::default() };
             section(&mut sheet).map(|()| sheet.claims)
         })
         .collect();
@@ -85,11 +85,11 @@ fn measure_with(shared: &Shared) -> Result<Vec<Claim>, Failure> {
 }
 
 /// The table as a product.
-pub(super) fn product(source: &Source) -> Result<Product, Failure> {
+pub(super) fn product(source: &EntrySource) -> Result<Product, Failure> {
     let claims = measure_with(&source.shared)?;
     let columns = ["claim", "where", "statement", "printed", "measured", "verdict", "note"]
         .map(|name| (name, "1"));
-    let mut table = Table::new("", &columns);
+    let mut table = DataTable::new("", &columns);
     for claim in &claims {
         let verdict = claim.verdict.to_string();
         let cells = [

@@ -1,14 +1,14 @@
 //! The sheet on which the measurements of claims are recorded, and the rules of their verdicts.
 
-use super::super::claim::{Claim, Verdict};
+use super::super::claim::{Claim, ClaimVerdict};
 use super::super::ledger;
-use super::super::shared::Shared;
+use super::super::shared::SharedMeasurements;
 
 /// Claims under construction.
 #[derive(Debug, Default)]
-pub(super) struct Sheet {
+pub(super) struct ClaimSheet {
     /// What figures have measured already.
-    pub(super) shared: Shared,
+    pub(super) shared: SharedMeasurements,
     /// Those finished.
     pub(super) claims: Vec<Claim>,
 }
@@ -18,7 +18,7 @@ const USUAL_LIMIT: f64 = 0.05;
 /// Relative difference below which a printed formula is right.
 const FORMULA_AGREES: f64 = 1e-9;
 
-impl Sheet {
+impl ClaimSheet {
     /// A printed number, such as `0.666`, against measured ones; all of them must agree.
     pub(super) fn number(
         &mut self,
@@ -43,13 +43,13 @@ impl Sheet {
         let off = measured.iter().map(|m| (m - value).abs()).fold(0.0, f64::max);
         let deviation = off / value.abs();
         let verdict = if measured.is_empty() {
-            Verdict::NotReproduced { deviation: None }
+            ClaimVerdict::NotReproduced { deviation: None }
         } else if off <= half_digit * (1.0 + 1e-9) {
-            Verdict::Reproduced
+            ClaimVerdict::Reproduced
         } else if deviation <= limit {
-            Verdict::Within { deviation }
+            ClaimVerdict::Within { deviation }
         } else {
-            Verdict::NotReproduced { deviation: Some(deviation) }
+            ClaimVerdict::NotReproduced { deviation: Some(deviation) }
         };
         let claim = self.push(words, printed.to_owned(), list(measured), measured, verdict);
         claim.tolerance = Some(limit);
@@ -64,8 +64,11 @@ impl Sheet {
         values: &[f64],
         holds: bool,
     ) -> &mut Claim {
-        let verdict =
-            if holds { Verdict::Reproduced } else { Verdict::NotReproduced { deviation: None } };
+        let verdict = if holds {
+            ClaimVerdict::Reproduced
+        } else {
+            ClaimVerdict::NotReproduced { deviation: None }
+        };
         self.push(words, String::new(), measured.into(), values, verdict)
     }
 
@@ -73,9 +76,9 @@ impl Sheet {
     pub(super) fn formula(&mut self, words: [&str; 3], printed: f64, right: f64) -> &mut Claim {
         let deviation = (printed - right).abs() / right.abs();
         let verdict = if deviation <= FORMULA_AGREES {
-            Verdict::Reproduced
+            ClaimVerdict::Reproduced
         } else {
-            Verdict::FormulaWrong { deviation }
+            ClaimVerdict::FormulaWrong { deviation }
         };
         let claim = self.push(words, digits(printed, 8), digits(right, 8), &[right], verdict);
         claim.tolerance = Some(FORMULA_AGREES);
@@ -88,7 +91,7 @@ impl Sheet {
         printed: String,
         measured: String,
         values: &[f64],
-        verdict: Verdict,
+        verdict: ClaimVerdict,
     ) -> &mut Claim {
         self.claims.push(Claim {
             name: name.to_owned(),
@@ -151,18 +154,18 @@ mod tests {
 
     #[test]
     fn verdicts_follow_from_the_numbers() {
-        let mut sheet = Sheet::default();
+        let mut sheet = ClaimSheet::default();
         let rounds = sheet.number("a", "", "", "0.67", &[0.6651]).verdict;
-        assert_eq!(rounds, Verdict::Reproduced);
+        assert_eq!(rounds, ClaimVerdict::Reproduced);
         let within = sheet.number("b", "", "", "0.666", &[0.6544]).verdict;
         assert_eq!(within.to_string(), "reproduced within 1.8 %");
         let off = sheet.number("c", "", "", "1.0", &[1.0, 1.2]).verdict;
         assert_eq!(off.name(), "not reproduced");
         let nothing = sheet.number("d", "", "", "1.0", &[]).verdict;
-        assert_eq!(nothing, Verdict::NotReproduced { deviation: None });
+        assert_eq!(nothing, ClaimVerdict::NotReproduced { deviation: None });
         let wrong = sheet.formula(["e", "", ""], 2.0, 1.0).verdict;
-        assert_eq!(wrong, Verdict::FormulaWrong { deviation: 1.0 });
-        assert_eq!(sheet.formula(["f", "", ""], 1.0, 1.0).verdict, Verdict::Reproduced);
+        assert_eq!(wrong, ClaimVerdict::FormulaWrong { deviation: 1.0 });
+        assert_eq!(sheet.formula(["f", "", ""], 1.0, 1.0).verdict, ClaimVerdict::Reproduced);
     }
 
     #[test]

@@ -14,8 +14,8 @@ use rayon::prelude::*;
 
 use super::super::caption::letter;
 use super::super::failure::failed;
-use super::super::product::{Product, Table};
-use super::super::source::Source;
+use super::super::product::{DataTable, Product};
+use super::super::source::EntrySource;
 use super::{FRICTION_PER_PRINTED, OPEN, STRENGTH_PER_PRINTED, study};
 use quell::cite::Task;
 use quell::complaint::Failure;
@@ -41,7 +41,7 @@ pub(crate) struct Growths {
 
 /// Growth of a disc over speeds and frictions, speed by speed on all cores.
 pub(crate) fn growths(
-    source: &Source,
+    source: &EntrySource,
     disc: &Disc,
     speeds: Vec<f64>,
     frictions: Vec<f64>,
@@ -68,7 +68,7 @@ pub(crate) fn growths(
 }
 
 /// The axes of a study: speeds with those beside meetings of waves, and frictions.
-fn axes(source: &Source, study: &DiscStudy) -> Result<[Vec<f64>; 2], Failure> {
+fn axes(source: &EntrySource, study: &DiscStudy) -> Result<[Vec<f64>; 2], Failure> {
     let grid = Grid::of(study)?;
     let values = |path: &str| {
         let axis = grid.axes().iter().find(|axis| axis.path == path);
@@ -79,7 +79,7 @@ fn axes(source: &Source, study: &DiscStudy) -> Result<[Vec<f64>; 2], Failure> {
 }
 
 /// Figures 5.3 to 5.5: two sizes of mass, damper and spring, no dither.
-pub(crate) fn sizes(source: &Source) -> Result<Product, Failure> {
+pub(crate) fn sizes(source: &EntrySource) -> Result<Product, Failure> {
     let small = format!("{}", 0.01 * STRENGTH_PER_PRINTED);
     let first = study(source, &[])?;
     let [_, frictions] = axes(source, &first)?;
@@ -104,7 +104,7 @@ pub(crate) fn sizes(source: &Source) -> Result<Product, Failure> {
 }
 
 /// Figures 5.7 to 5.15: without and with dither.
-pub(crate) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = study(source, &[])?;
     let disc = study.disc();
     let studies = [(study.clone(), disc.undithered()), (study.clone(), disc.clone())];
@@ -130,7 +130,7 @@ pub(crate) fn figure(source: &Source) -> Result<Product, Failure> {
 }
 
 fn draw(
-    source: &Source,
+    source: &EntrySource,
     studies: &[(DiscStudy, Disc); 2],
     titles: [&str; 2],
     caption: String,
@@ -144,7 +144,7 @@ fn draw(
         ("growth_rate_error", "ω_ref"),
         ("verdict", "1"),
     ];
-    let mut table = Table::new("", &columns);
+    let mut table = DataTable::new("", &columns);
     let mut panels = Vec::new();
     for (index, (study, disc)) in studies.iter().enumerate() {
         let [speeds, frictions] = axes(source, study)?;

@@ -16,7 +16,7 @@ pub(super) use tables::{PRINTED_INDUCED, PRINTED_UNDITHERED, induced, undithered
 
 use std::path::Path;
 
-use super::source::Source;
+use super::source::EntrySource;
 use quell::complaint::Failure;
 use quell::study::{Change, DiscStudy};
 
@@ -30,7 +30,7 @@ pub(super) const STRENGTH_PER_PRINTED: f64 = 1.0 / (0.75 * std::f64::consts::PI)
 ///
 /// # Errors
 /// Complaints about the study file, which a test excludes.
-pub(super) fn study(source: &Source, changes: &[&str]) -> Result<DiscStudy, Failure> {
+pub(super) fn study(source: &EntrySource, changes: &[&str]) -> Result<DiscStudy, Failure> {
     let changes: Result<Vec<Change>, _> =
         changes.iter().map(|change| Change::parse(change, "reproduce")).collect();
     let mut changes = changes?;

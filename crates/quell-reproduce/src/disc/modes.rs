@@ -4,8 +4,8 @@ use quell_disc::plate::{ModeSet, Plate, PlateMode, Reference};
 
 use super::super::caption::letter;
 use super::super::failure::failed;
-use super::super::product::{Product, Table};
-use super::super::source::Source;
+use super::super::product::{DataTable, Product};
+use super::super::source::EntrySource;
 use super::study;
 use quell::cite::Task;
 use quell::complaint::Failure;
@@ -18,13 +18,13 @@ const SHOWN: [(usize, u32); 3] = [(1, 2), (2, 0), (2, 3)];
 const RADII: usize = 101;
 
 /// Figure 5.2.
-pub(crate) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = study(source, &[])?;
     let told = |why: &dyn std::fmt::Display| failed(source.name, &why);
     let plate = Plate::new(0.5, 0.3).map_err(|why| told(&why))?;
     let set = ModeSet::new(&plate, 2, 3, Reference::Critical).map_err(|why| told(&why))?;
     let columns = [("radial", "1"), ("diameters", "1"), ("radius", "a"), ("shape", "1")];
-    let mut table = Table::new("", &columns);
+    let mut table = DataTable::new("", &columns);
     let mut panels = Vec::new();
     for (index, (radial, diameters)) in SHOWN.into_iter().enumerate() {
         let wanted = |mode: &&PlateMode| (mode.radial, mode.diameters) == (radial, diameters);

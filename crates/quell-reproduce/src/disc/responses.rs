@@ -3,8 +3,8 @@
 //! x = e^{ρτ} cos τ with Re ρ = 0.03, 0, −0.03: the print gives no numbers.
 
 use super::super::caption::letter;
-use super::super::product::{Product, Table};
-use super::super::source::Source;
+use super::super::product::{DataTable, Product};
+use super::super::source::EntrySource;
 use super::study;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Legend, Line, LineStyle, Panel, Role, Sharing, Size};
@@ -17,10 +17,10 @@ const END: f64 = 60.0;
 const POINTS: u32 = 900;
 
 /// Figure 5.6.
-pub(crate) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = study(source, &[])?;
     let columns = [("panel", "1"), ("growth_rate", "1"), ("time", "1"), ("displacement", "1")];
-    let mut table = Table::new("", &columns);
+    let mut table = DataTable::new("", &columns);
     let mut panels = Vec::new();
     for (index, rate) in RATES.into_iter().enumerate() {
         let times: Vec<f64> =

@@ -3,8 +3,8 @@
 use quell_disc::resonance::{Resonance, Waves};
 
 use super::super::failure::failed;
-use super::super::product::{Product, Table};
-use super::super::source::Source;
+use super::super::product::{DataTable, Product};
+use super::super::source::EntrySource;
 use super::study;
 use quell::cite::Task;
 use quell::complaint::Failure;
@@ -17,17 +17,17 @@ pub(crate) const PRINTED_INDUCED: [&str; 8] =
     ["0.325", "0.369", "0.458", "0.536", "0.675", "0.836", "0.879", "0.964"];
 
 /// Table 5.1.
-pub(crate) fn undithered(source: &Source) -> Result<Product, Failure> {
+pub(crate) fn undithered(source: &EntrySource) -> Result<Product, Failure> {
     table(source, |waves| waves.undithered(0.0..=1.0), "Ω", &PRINTED_UNDITHERED, "5.1")
 }
 
 /// Table 5.2.
-pub(crate) fn induced(source: &Source) -> Result<Product, Failure> {
+pub(crate) fn induced(source: &EntrySource) -> Result<Product, Failure> {
     table(source, |waves| waves.dithered(0.0..=1.0), "Ω*", &PRINTED_INDUCED, "5.2")
 }
 
 fn table(
-    source: &Source,
+    source: &EntrySource,
     found: impl Fn(&Waves) -> Vec<Resonance>,
     symbol: &str,
     printed: &[&str],
@@ -43,7 +43,7 @@ fn table(
         ("can_be_unstable", "1"),
         ("threshold_over_damper", "1"),
     ];
-    let mut table = Table::new("", &columns);
+    let mut table = DataTable::new("", &columns);
     let mut names = printed.iter().enumerate();
     let damper = study.disc().loads().first().map_or(1.0, |load| load.damping);
     for resonance in found(&waves) {

@@ -4,7 +4,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write as _;
 
-use super::super::Written;
+use super::super::WrittenEntry;
 use super::super::claims::Claim;
 use super::claims;
 use super::html::{Page, escape, symbols, table};
@@ -23,10 +23,10 @@ const CHAPTERS: [(char, &str); 4] = [
 ];
 
 /// Writes them, chapter by chapter.
-pub(super) fn write(page: &mut Page, written: &[Written]) {
+pub(super) fn write(page: &mut Page, written: &[WrittenEntry]) {
     let all = claims::all(written);
     for (digit, title) in CHAPTERS {
-        let of: Vec<&Written> = written
+        let of: Vec<&WrittenEntry> = written
             .iter()
             .filter(|done| done.entry.name.trim_start_matches("table-").starts_with(digit))
             .collect();
@@ -40,7 +40,7 @@ pub(super) fn write(page: &mut Page, written: &[Written]) {
     }
 }
 
-fn write_one(page: &mut Page, done: &Written, claims: &[&Claim]) {
+fn write_one(page: &mut Page, done: &WrittenEntry, claims: &[&Claim]) {
     let anchor = done.entry.stem();
     let number = done.entry.name.trim_start_matches("table-");
     let kind = if done.entry.name.starts_with("table") { "Table" } else { "Figure" };
@@ -87,7 +87,7 @@ fn compared(claim: &Claim) -> String {
 }
 
 /// The picture, or the first rows of the data.
-fn shown(done: &Written) -> String {
+fn shown(done: &WrittenEntry) -> String {
     match &done.product.figure {
         Some(figure) => {
             // The caption stands below it as text.
@@ -102,7 +102,7 @@ fn shown(done: &Written) -> String {
     }
 }
 
-fn rows(data: &super::super::Table) -> String {
+fn rows(data: &super::super::DataTable) -> String {
     let names: Vec<String> =
         data.columns.iter().map(|column| escape(&column.name.replace('_', " "))).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -115,7 +115,7 @@ fn rows(data: &super::super::Table) -> String {
 }
 
 /// Data files, equations, corrections, study, run time.
-fn details(done: &Written) -> String {
+fn details(done: &WrittenEntry) -> String {
     let files: Vec<String> = done
         .files
         .iter()

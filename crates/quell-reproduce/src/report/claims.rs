@@ -1,16 +1,16 @@
 //! The claims in the report: all in one table, and those of one figure beside it.
 
-use super::super::claims::{Claim, Verdict};
-use super::super::{Entry, Written};
+use super::super::claims::{Claim, ClaimVerdict};
+use super::super::{CatalogueEntry, WrittenEntry};
 use super::html::{Page, escape, symbols, table};
 
 /// The claims among what was made.
-pub(super) fn all(written: &[Written]) -> Vec<&Claim> {
+pub(super) fn all(written: &[WrittenEntry]) -> Vec<&Claim> {
     written.iter().flat_map(|done| &done.product.claims).collect()
 }
 
 /// Writes the table of all claims.
-pub(super) fn write(page: &mut Page, written: &[Written]) {
+pub(super) fn write(page: &mut Page, written: &[WrittenEntry]) {
     let claims = all(written);
     if claims.is_empty() {
         return;
@@ -52,16 +52,16 @@ fn tolerance(share: f64) -> String {
 /// The verdict in colour and words.
 pub(super) fn chip(claim: &Claim) -> String {
     let class = match claim.verdict {
-        Verdict::Reproduced => "holds",
-        Verdict::Within { .. } => "within",
-        Verdict::FormulaWrong { .. } => "wrong",
-        Verdict::NotReproduced { .. } => "fails",
+        ClaimVerdict::Reproduced => "holds",
+        ClaimVerdict::Within { .. } => "within",
+        ClaimVerdict::FormulaWrong { .. } => "wrong",
+        ClaimVerdict::NotReproduced { .. } => "fails",
     };
     format!("<span class=\"chip {class}\">{}</span>", claim.verdict)
 }
 
 /// The claims about a figure or table.
-pub(super) fn of<'a>(entry: &Entry, claims: &[&'a Claim]) -> Vec<&'a Claim> {
+pub(super) fn of<'a>(entry: &CatalogueEntry, claims: &[&'a Claim]) -> Vec<&'a Claim> {
     claims.iter().filter(|claim| about(&claim.place, entry.name)).copied().collect()
 }
 

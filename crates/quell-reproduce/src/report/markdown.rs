@@ -2,14 +2,14 @@
 
 use std::fmt::Write as _;
 
-use super::super::{Pace, Written};
+use super::super::{Resolution, WrittenEntry};
 use super::claims;
 
 /// The table.
-pub(crate) fn markdown(written: &[Written], pace: Pace) -> String {
+pub(crate) fn markdown(written: &[WrittenEntry], resolution: Resolution) -> String {
     let all = claims::all(written);
     let mut text = "# The dissertation, reproduced\n\n".to_owned();
-    if pace == Pace::Quick {
+    if resolution == Resolution::Quick {
         text += "Quick: maps have coarser grids than their studies say.\n\n";
     }
     text += "| name | what | claims that hold | corrections applied | files | seconds |\n|---|---|---|---|---|---|\n";

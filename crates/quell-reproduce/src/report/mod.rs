@@ -10,15 +10,15 @@ mod html;
 mod markdown;
 mod summary;
 
-use super::{Pace, Written};
+use super::{Resolution, WrittenEntry};
 use quell::cite::Sources;
 
 pub(super) use markdown::markdown;
 
 /// The page.
-pub(super) fn html(written: &[Written], pace: Pace) -> String {
+pub(super) fn html(written: &[WrittenEntry], resolution: Resolution) -> String {
     let mut page = html::Page::new("The dissertation, reproduced");
-    summary::write(&mut page, written, pace);
+    summary::write(&mut page, written, resolution);
     chapters::write(&mut page, written);
     claims::write(&mut page, written);
     errata::write(&mut page);
@@ -27,7 +27,7 @@ pub(super) fn html(written: &[Written], pace: Pace) -> String {
 }
 
 /// The literature behind what was made.
-fn sources(page: &mut html::Page, written: &[Written]) {
+fn sources(page: &mut html::Page, written: &[WrittenEntry]) {
     let mut all = Sources::default();
     for done in written {
         all.extend(&done.product.sources);

@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-use super::super::claims::{Claim, Verdict, count};
-use super::super::{Pace, Written};
+use super::super::claims::{Claim, ClaimVerdict, count};
+use super::super::{Resolution, WrittenEntry};
 use super::claims::{all, chip};
 use super::html::{Page, escape, symbols, table};
 use quell::cite::MICHAUX_2005;
@@ -21,7 +21,7 @@ const KINDS: [(&str, &str, &str); 4] = [
 ];
 
 /// Writes it.
-pub(super) fn write(page: &mut Page, written: &[Written], pace: Pace) {
+pub(super) fn write(page: &mut Page, written: &[WrittenEntry], resolution: Resolution) {
     let claims: Vec<&Claim> = all(written);
     page.put(&format!(
         "<header><p class=\"kicker\">Quell {} · reproduce{}</p><h1>The dissertation, reproduced</h1>\
@@ -29,9 +29,9 @@ pub(super) fn write(page: &mut Page, written: &[Written], pace: Pace) {
          <p class=\"lead\">Does a fast added vibration, dither, silence friction-induced vibration, as this dissertation says? Every \
          figure and table was computed again from its study file, every number and formula that could be measured was measured. {}</p></header>",
         env!("CARGO_PKG_VERSION"),
-        if pace == Pace::Quick { " --quick" } else { "" },
+        if resolution == Resolution::Quick { " --quick" } else { "" },
         escape(MICHAUX_2005.reference),
-        made(written, pace),
+        made(written, resolution),
     ));
     if claims.is_empty() {
         return;
@@ -43,12 +43,12 @@ pub(super) fn write(page: &mut Page, written: &[Written], pace: Pace) {
 }
 
 /// How much was made, in how much time.
-fn made(written: &[Written], pace: Pace) -> String {
+fn made(written: &[WrittenEntry], resolution: Resolution) -> String {
     let pictures = written.iter().filter(|done| done.product.figure.is_some()).count();
     let work: Duration = written.iter().map(|done| done.elapsed).sum();
-    let quick = match pace {
-        Pace::Full => "",
-        Pace::Quick => {
+    let quick = match resolution {
+        Resolution::Full => "",
+        Resolution::Quick => {
             " <strong>This is the quick report: maps have coarser grids than their studies say; claims are measured in full.</strong>"
         }
     };
@@ -112,7 +112,7 @@ fn changed(page: &mut Page, claims: &[&Claim]) {
 
 /// What does not hold, with the reason.
 fn exceptions(page: &mut Page, claims: &[&Claim]) {
-    let rows = |wanted: fn(&Verdict) -> bool| {
+    let rows = |wanted: fn(&ClaimVerdict) -> bool| {
         claims.iter().filter(move |claim| wanted(&claim.verdict)).map(|claim| {
             let reason = match claim.why() {
                 "" => symbols(&claim.note),
@@ -132,12 +132,12 @@ fn exceptions(page: &mut Page, claims: &[&Claim]) {
     page.put(&table(
         "claims",
         &names,
-        rows(|verdict| matches!(verdict, Verdict::NotReproduced { .. })),
+        rows(|verdict| matches!(verdict, ClaimVerdict::NotReproduced { .. })),
     ));
     page.put("<h3>Printed formulas that are wrong</h3>");
     page.put(&table(
         "claims",
         &names,
-        rows(|verdict| matches!(verdict, Verdict::FormulaWrong { .. })),
+        rows(|verdict| matches!(verdict, ClaimVerdict::FormulaWrong { .. })),
     ));
 }
