@@ -1,8 +1,8 @@
 //! Averaged stability of steady sliding: the sign of 2ζ + Fμ̄′(v₀) (2.26, 4.32).
 //!
-//! Negative: steady sliding is unstable, friction feeds the oscillation. The fast motion is frozen in the slope
-//! (see [`super::mean_friction`]). The verdict is local, about small slow motions near steady sliding, and holds to the order of the
-//! averaging; a coexisting stick-slip cycle is not its business.
+//! A negative value means that steady sliding is unstable: friction feeds the oscillation. The slope is taken with the fast motion
+//! frozen (see [`super::mean_friction`]). The verdict is local: it concerns small slow motions near steady sliding, and holds to the
+//! order of the averaging. It does not exclude a coexisting stick-slip cycle.
 
 use quell_model::Belt;
 
@@ -17,7 +17,8 @@ use super::mean_friction::effective;
 pub enum UndecidedBecause {
     /// Its magnitude is within its numerical error.
     WithinError,
-    /// The belt velocity equals the largest fast velocity: unstable on the outer side, stable on the inner side of a jump.
+    /// The belt velocity equals the largest fast velocity, where the criterion jumps: unstable on the outer side of the jump, stable
+    /// on the inner side.
     AtCorner,
 }
 
@@ -28,7 +29,7 @@ pub enum AveragedVerdict {
     Stable,
     /// Small slow motions grow.
     Unstable,
-    /// Neither can be said.
+    /// The sign is undetermined.
     Undecided {
         /// The reason.
         why: UndecidedBecause,
@@ -38,18 +39,18 @@ pub enum AveragedVerdict {
 /// Stability criterion of steady sliding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Criterion {
-    /// 2ζ + Fμ̄′(v₀): twice the effective damping ratio. At a corner the outer value.
+    /// 2ζ + Fμ̄′(v₀): twice the effective damping ratio. At a corner, the outer value.
     pub value: f64,
     /// Bound on its numerical error.
     pub error: f64,
-    /// Effective friction at v₀; `effective.side` tells whether the slope is one-sided.
+    /// Effective friction at v₀; `effective.side` states whether the slope is one-sided.
     pub effective: Effective,
-    /// What follows from the sign.
+    /// Verdict that follows from the sign.
     pub verdict: AveragedVerdict,
 }
 
 impl Criterion {
-    /// From ζ, F and the effective friction at the belt velocity.
+    /// Criterion from ζ, F and the effective friction at the belt velocity.
     #[must_use]
     pub fn new(damping_ratio: f64, normal_load: f64, effective: Effective) -> Self {
         let value = 2.0 * damping_ratio + normal_load * effective.slope;
@@ -57,7 +58,7 @@ impl Criterion {
             2.0 * f64::EPSILON * (2.0 * damping_ratio + (normal_load * effective.slope).abs());
         let error = normal_load * effective.slope_error + rounding;
         let verdict = if value > error {
-            // At a corner the inner slope is larger still.
+            // At a corner the inner slope is even larger.
             AveragedVerdict::Stable
         } else if value >= -error {
             AveragedVerdict::Undecided { why: UndecidedBecause::WithinError }
@@ -70,10 +71,10 @@ impl Criterion {
     }
 }
 
-/// Averaged stability of steady sliding of a belt with its dithers.
+/// Averaged stability criterion of steady sliding on a belt with its dithers.
 ///
 /// # Errors
-/// [`AveragingError`]; in particular [`AveragingError::SetValued`] for a belt at rest without tangential dither.
+/// [`AveragingError`], in particular [`AveragingError::SetValued`] for a belt at rest without tangential dither.
 pub fn criterion(belt: &Belt, options: AveragingOptions) -> Result<Criterion, AveragingError> {
     let v = belt.belt_velocity();
     let motion = FastMotion::of(belt, v, options)?;

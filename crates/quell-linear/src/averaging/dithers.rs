@@ -1,19 +1,19 @@
 //! The fast motion under one or several dithers: slip velocity s and normal load ν, grouped by frequency.
 //!
 //! Tangential dither D g(Rτ + φ) moves the mass with the velocity αG (α = D/R), or with the oscillator's exact response
-//! ([`FastResponse`]). Normal dither moves it through friction, (4.23): φ′ = α_N μ G − (α_N²/2) μμ′ (G² − ⟨G²⟩) + …, α_N = D_N/R_N;
-//! [`NormalOrder`] says how many terms are kept. μ and μ′ there are taken at the slow slip velocity and then *frozen*.
+//! ([`FastResponse`]). Normal dither moves it through friction (4.23): φ′ = α_N μ G − (α_N²/2) μμ′ (G² − ⟨G²⟩) + … with α_N = D_N/R_N;
+//! [`NormalOrder`] selects how many terms are kept. μ and μ′ are evaluated at the slow slip velocity and then *frozen*.
 //!
-//! Dithers whose frequencies are in a ratio of small whole numbers form one periodic group and keep their phases; groups
+//! Dithers whose frequency ratio is a ratio of small whole numbers form one periodic group and keep their phases; groups
 //! of incommensurate frequencies are averaged over independent phases. Several normal dithers of one group
-//! enter through their sum H = Σ α_N G, the second term is −(1/2)μμ′(H² − ⟨H²⟩).
+//! enter through their sum H = Σ α_N G; the second term is −(1/2)μμ′(H² − ⟨H²⟩).
 //!
-//! Closure where both directions act: the level μ that drives the normal dithers' motion is the effective friction under
-//! the tangential dithers alone; the sum and difference frequencies of the two directions are dropped. Exact to first
+//! Closure for dither in both directions: the level μ that drives the motion due to the normal dithers is the effective friction
+//! under the tangential dithers alone. The sum and difference frequencies of the two directions are neglected. This is exact to first
 //! order in α_N when α_T ≪ v.
 //!
-//! Limits: leading order in 1/R (with [`FastResponse::Oscillator`] all orders of the forced part); differences of the
-//! dither frequencies must be fast too, a slow beat is not averaged away.
+//! Limitations: leading order in 1/R (with [`FastResponse::Oscillator`] all orders of the forced part). The differences of the
+//! dither frequencies must be fast too: a slow beat is not averaged out.
 
 use quell_model::{Belt, Direction, Dither, Friction};
 
@@ -23,27 +23,27 @@ use super::mean_friction::effective;
 use super::periodic_motion::{LoadTerm, PeriodicMotion, SlipTerm};
 use super::wave::FastWave;
 
-/// Which velocity a tangential force of high frequency is taken to produce.
+/// Velocity that a tangential force of high frequency is assumed to produce.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FastResponse {
-    /// αG: the limit of high frequency, the dissertation's averaging.
+    /// αG: the limit of high frequency, as averaged in the dissertation.
     #[default]
     Limit,
-    /// The exact response of the undamped oscillator: sharper thresholds at no cost; needs R > 1.
+    /// The exact response of the undamped oscillator (finite-R averaging): more accurate thresholds at no extra cost. Requires R > 1.
     Oscillator,
 }
 
-/// How many terms of (4.23) are kept for normal dither.
+/// Number of terms of (4.23) that are kept for normal dither.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NormalOrder {
     /// φ′ = α_N μ G: the substitution α_T → μ(v₀)α_N of (4.33)–(4.42).
     #[default]
     First,
-    /// With −(α_N²/2) μμ′ (G² − ⟨G²⟩), the cos 2R_Nτ term of (4.22) for a sine.
+    /// Also −(α_N²/2) μμ′ (G² − ⟨G²⟩): for a sine, the cos 2R_Nτ term of (4.22).
     Second,
 }
 
-/// How the fast motion is modelled.
+/// Model of the fast motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct AveragingOptions {
     /// Velocity response to the dither force.
@@ -56,13 +56,13 @@ impl FastMotion {
     /// Fast motion of a belt's dithers at slow slip velocity `v`.
     ///
     /// # Errors
-    /// [`AveragingError`] where the oscillator's response is asked for at R ≤ 1, or where both directions act and
+    /// [`AveragingError`] where the oscillator's response is requested at R ≤ 1, or where dither acts in both directions and
     /// the friction level that drives the normal dither cannot be computed.
     pub fn of(belt: &Belt, v: f64, options: AveragingOptions) -> Result<Self, AveragingError> {
         Self::of_dithers(belt.friction(), belt.normal_load(), belt.dithers(), v, options)
     }
 
-    /// The same from its parts, whether or not the contact would stay closed.
+    /// The same from the parts of a belt, whether or not the contact would stay closed.
     pub(super) fn of_dithers(
         law: &Friction,
         normal_load: f64,
@@ -85,7 +85,7 @@ impl FastMotion {
 /// Shape of the fast slip velocity of a dither.
 ///
 /// # Errors
-/// [`AveragingError::NotFast`] where the oscillator's response is asked for at R ≤ 1.
+/// [`AveragingError::NotFast`] where the oscillator's response is requested at R ≤ 1.
 pub fn fast_wave(dither: &Dither, response: FastResponse) -> Result<FastWave, AveragingError> {
     let (waveform, frequency_ratio) = (dither.waveform, dither.frequency_ratio);
     match response {
@@ -97,7 +97,8 @@ pub fn fast_wave(dither: &Dither, response: FastResponse) -> Result<FastWave, Av
     }
 }
 
-/// Groups of dithers of commensurate frequencies, normal ones moved by the friction coefficient `level` under the load.
+/// Groups of dithers of commensurate frequencies; the motion due to normal dithers is driven by the friction coefficient `level`
+/// under the load.
 fn grouped(
     dithers: &[&Dither],
     (level, normal_load): (f64, f64),
@@ -130,7 +131,7 @@ fn grouped(
     Ok(groups)
 }
 
-/// Friction coefficient and slope that drive the motion of the normal dithers at slow slip velocity v.
+/// Friction coefficient and slope that drive the motion due to the normal dithers at slow slip velocity v.
 fn friction_level(
     law: &Friction,
     dithers: &[&Dither],
@@ -148,7 +149,7 @@ fn friction_level(
         }
         return Ok((law.coefficient(v.abs()).copysign(v), law.slope(v.abs())));
     }
-    // No normal dither is among them: level and load play no part.
+    // There is no normal dither among them, so level and load have no effect.
     let groups = grouped(&tangential, (0.0, 1.0), options.response)?;
     let mean = effective(law, &FastMotion::new(groups), v)?;
     Ok((mean.coefficient, mean.slope))
@@ -167,7 +168,7 @@ fn commensurate_groups<'a>(dithers: &[&'a Dither]) -> Vec<Vec<(&'a Dither, u32)>
             let Some((p, q)) = small_ratio(ratio) else {
                 continue;
             };
-            // In units of base/q the members are q times what they were.
+            // In units of base/q the harmonics of all members are multiplied by q.
             if group.iter().all(|(_, m)| m * q <= MAX_HARMONIC) && p <= MAX_HARMONIC {
                 for member in group.iter_mut() {
                     member.1 *= q;

@@ -5,8 +5,8 @@
 pub enum SlopeSide {
     /// An ordinary slope.
     Both,
-    /// |v| equals the largest fast velocity: the slope jumps there (to +∞ inside for sine and triangle, by a finite step for a
-    /// square), and the value given is that for growing |v|.
+    /// |v| equals the largest fast velocity. The slope jumps there (to +∞ inside for a sine and a triangle, by a finite step for a
+    /// square); the value given is the one for increasing |v|.
     Outer,
 }
 
@@ -26,7 +26,8 @@ pub struct Effective {
 }
 
 impl Effective {
-    /// Sum of named parts; the error counts the rounding of each (`slope_size`: size of the terms inside a slope part).
+    /// Sum of the parts of a closed form. The errors bound the rounding of each part (`slope_size`: magnitude of the terms of which
+    /// a slope part is the sum).
     pub(super) fn closed(
         coefficient: [f64; 2],
         slope: [f64; 2],
@@ -43,7 +44,7 @@ impl Effective {
         }
     }
 
-    /// The value at −v: μ̄ is odd there, its slope even.
+    /// The value at −v: μ̄ is odd in v, its slope even.
     pub(super) fn mirrored(self) -> Self {
         Self { coefficient: -self.coefficient, ..self }
     }

@@ -10,14 +10,14 @@ pub enum AveragingError {
         /// Static coefficient μ_s.
         static_coefficient: f64,
     },
-    /// More groups of incommensurate dithers than nested quadrature can serve.
+    /// More groups of incommensurate dithers than nested quadrature supports.
     TooManyGroups {
-        /// Groups with mutually incommensurate frequencies.
+        /// Number of groups with mutually incommensurate frequencies.
         groups: usize,
-        /// Largest number served.
+        /// Largest number supported.
         largest: usize,
     },
-    /// The oscillator's response is asked for at a frequency ratio that is not above resonance.
+    /// The oscillator's response was requested at a frequency ratio that is not above resonance.
     NotFast {
         /// Frequency ratio R ≤ 1.
         frequency_ratio: f64,
@@ -37,15 +37,15 @@ impl core::fmt::Display for AveragingError {
         match self {
             Self::SetValued { static_coefficient } => write!(
                 f,
-                "without slip and without fast motion friction takes any value up to ±{static_coefficient}"
+                "without slip and fast motion, the friction coefficient can take any value up to ±{static_coefficient}"
             ),
             Self::TooManyGroups { groups, largest } => write!(
                 f,
-                "{groups} dithers of mutually incommensurate frequencies; averaging serves up to {largest} such groups"
+                "the dithers have {groups} mutually incommensurate frequencies, but averaging supports at most {largest}"
             ),
             Self::NotFast { frequency_ratio } => write!(
                 f,
-                "the oscillator's own response to the dither needs a frequency ratio above 1, not {frequency_ratio}"
+                "the oscillator's own response to the dither requires a frequency ratio above 1, not {frequency_ratio}"
             ),
             Self::Quadrature(error) => write!(f, "averaging: {error}"),
         }
@@ -54,7 +54,7 @@ impl core::fmt::Display for AveragingError {
 
 impl core::error::Error for AveragingError {}
 
-/// An integral whose tolerance only the rounding of its integrand forbids serves, with the error it has.
+/// Accepts an integral whose tolerance was missed only because of the rounding of its integrand, with the error that it has.
 pub(super) fn settled(
     integral: Result<Integral, QuadratureError>,
 ) -> Result<Integral, AveragingError> {

@@ -12,8 +12,8 @@ pub struct FastMotion {
 }
 
 impl FastMotion {
-    /// From groups of mutually incommensurate frequencies; groups that do not move the mass are left out
-    /// (a load that is uncorrelated with the slip has no mean effect).
+    /// Motion of groups of mutually incommensurate frequencies. Groups that do not move the mass are dropped:
+    /// a load that is uncorrelated with the slip has no mean effect.
     #[must_use]
     pub fn new(groups: Vec<PeriodicMotion>) -> Self {
         let mut groups = groups;
@@ -26,14 +26,14 @@ impl FastMotion {
         Self { groups }
     }
 
-    /// One fast slip velocity amplitude·wave.
+    /// A single fast slip velocity amplitude·wave.
     #[must_use]
     pub fn single(wave: FastWave, amplitude: f64) -> Self {
         let term = SlipTerm { wave, amplitude, harmonic: 1, phase: 0.0 };
         Self::new(vec![PeriodicMotion { tangential: vec![term], ..PeriodicMotion::default() }])
     }
 
-    /// The groups, each of them moving.
+    /// The groups, all of which move the mass.
     #[must_use]
     pub fn groups(&self) -> &[PeriodicMotion] {
         &self.groups

@@ -1,12 +1,12 @@
-//! Dithers of incommensurate frequencies: the mean over independent phases, nested.
+//! Dithers of incommensurate frequencies: nested means over independent phases.
 //!
-//! μ̄(v) = ⟨…⟨μ(v − s₁ − s₂ − s₃)(1 + ν₁ + ν₂ + ν₃)⟩₁…⟩₃. The innermost group is one with a closed form where there is one;
-//! each outer mean is a quadrature over that group's phase, cut where s is extremal and where the argument of the inner mean
-//! meets one of its corners. Inside a corner the inner slope grows like an inverse square root: each stretch is therefore
-//! mapped by θ = a + (b − a)t²(3 − 2t), under which such ends are smooth.
+//! μ̄(v) = ⟨…⟨μ(v − s₁ − s₂ − s₃)(1 + ν₁ + ν₂ + ν₃)⟩₁…⟩₃. The innermost group is one with a closed form, if there is any. Each outer
+//! mean is a quadrature over the phase of its group, split where s is extremal and where the argument of the inner mean is at one
+//! of its corners. Inside a corner the inner slope grows like an inverse square root; each interval is therefore mapped by
+//! θ = a + (b − a)t²(3 − 2t), which makes such endpoints smooth.
 //!
-//! Cost: about 10² evaluations per level, so at most [`MAX_GROUPS`] groups. Accuracy: 10⁻¹¹ (two groups) and 10⁻⁸ (three) in units of
-//! μ_s and μ_s/v_m; where |v| is a sum or difference of the groups' peaks the slope itself has a logarithmic peak.
+//! Cost: about 10² evaluations per level, hence the limit of [`MAX_GROUPS`] groups. Accuracy: 10⁻¹¹ (two groups) and 10⁻⁸ (three
+//! groups) in units of μ_s and μ_s/v_m. Where |v| is a sum or difference of the groups' peaks the slope itself has a logarithmic peak.
 
 use core::f64::consts::TAU;
 use quell_model::Friction;
@@ -23,16 +23,17 @@ use super::wave::FastWave;
 pub const MAX_GROUPS: usize = 3;
 
 /// Relative noise of a slope that was integrated across corners of the inner mean, where rounding of the argument
-/// is magnified: measured 5·10⁻¹² over the grid of the tests.
+/// is amplified. Measured over the grid of the tests: 5·10⁻¹².
 const CORNER_NOISE: f64 = 1e-11;
 
-/// Accuracy asked of a mean over a closed form, in units of the law.
+/// Accuracy required of a mean over a closed form, in units of the law.
 const INNER_CLOSENESS: f64 = 1e-12;
 
-/// Evaluations per stretch; ordinary places take 21 to 400, only a corner within rounding of a cut takes more.
+/// Largest number of evaluations per interval. An ordinary interval takes 21 to 400; only one with a corner within rounding of its
+/// end takes more.
 const EVALUATIONS: usize = 1500;
 
-/// One level: a closed form or a signal to integrate over.
+/// One level of the nested mean: a closed form, or a signal to integrate over.
 enum NestedLevel<'a> {
     Closed { wave: FastWave, amplitude: f64 },
     Sampled(Signal<'a>),
@@ -61,7 +62,7 @@ pub(super) fn effective(
         return Err(AveragingError::TooManyGroups { groups, largest });
     }
     let mut order: Vec<&PeriodicMotion> = groups.iter().collect();
-    // Closed form innermost, that is last; of several the largest, so that the quadrature sees the gentler motion.
+    // The closed form is innermost, that is, last. Of several, the largest one, so that the quadrature handles the smaller motion.
     let reach = |group: &PeriodicMotion| {
         group.single_term().map_or(-1.0, |(wave, amplitude)| amplitude.abs() * wave.peak())
     };
@@ -85,12 +86,12 @@ pub(super) fn effective(
         coefficient_error: value.1 + INNER_CLOSENESS * law.static_coefficient(),
         slope: slope.0,
         slope_error: slope.1 + CORNER_NOISE * slope.0.abs(),
-        // Convolution with a second wave smooths the corner, but its outer edge stays a one-sided place.
+        // Convolution with a second wave smooths the corner, but the slope stays one-sided at its outer edge.
         side: if v.abs() == outermost { SlopeSide::Outer } else { SlopeSide::Both },
     })
 }
 
-/// For each level the corners of the mean over it and all levels inside: sums of extrema.
+/// For each level, the corners of the mean over that level and all inner levels: sums of extrema.
 fn corner_sums(levels: &[NestedLevel<'_>]) -> Vec<Vec<f64>> {
     let mut corners = vec![Vec::new(); levels.len()];
     let mut inner = vec![0.0];
@@ -120,7 +121,7 @@ struct NestedMean<'a> {
 }
 
 impl NestedMean<'_> {
-    /// Mean over the levels from `depth` on with the weight base + Σν, and its error bound.
+    /// Mean over the levels from `depth` inwards with the weight base + Σν, and its error bound.
     fn integral(
         &self,
         depth: usize,
@@ -132,7 +133,7 @@ impl NestedMean<'_> {
             return self.innermost(base, v, quantity);
         }
         let NestedLevel::Sampled(signal) = &self.levels[depth] else {
-            // Only the innermost level has a closed form; were it otherwise its mean would still be right.
+            // Only the innermost level has a closed form. If another had one, its mean would still be correct.
             return self.innermost(base, v, quantity);
         };
         let mut cuts: Vec<f64> = signal.edges().collect();
@@ -147,10 +148,10 @@ impl NestedMean<'_> {
         };
         let inside = self.levels.len() - depth - 1;
         let closeness = if inside == 1 { INNER_CLOSENESS } else { 1e-9 };
-        let stretches = (cuts.len() - 1) as f64;
+        let intervals = (cuts.len() - 1) as f64;
         let options = QuadratureOptions {
             relative: closeness,
-            absolute: closeness * scale * TAU / stretches,
+            absolute: closeness * scale * TAU / intervals,
             evaluations: EVALUATIONS,
             ..QuadratureOptions::default()
         };
@@ -175,7 +176,7 @@ impl NestedMean<'_> {
             };
             let part = match integrate(integrand, 0.0, 1.0, &[], &options) {
                 Ok(part) => part,
-                // Noise of the inner mean near a corner: keep the value with the error it has.
+                // Noise of the inner mean near a corner: keep the value with its error.
                 Err(QuadratureError::Rounding { best } | QuadratureError::Evaluations { best }) => {
                     best
                 }

@@ -1,6 +1,6 @@
-//! Averaging: what a fast dither makes of a friction law.
+//! Averaging: the effect of fast dither on a friction law and on the stability of steady sliding.
 //!
-//! The slow motion obeys Z″ + 2ζZ′ + Z = μ̄(v₀ − Z′)F with the effective friction μ̄ (2.21, 3.19, 4.27); steady sliding is
+//! The slow motion satisfies Z″ + 2ζZ′ + Z = μ̄(v₀ − Z′)F with the effective friction μ̄ (2.21, 3.19, 4.27). Steady sliding is
 //! unstable iff 2ζ + Fμ̄′(v₀) < 0 (2.26).
 //!
 //! ```
@@ -16,7 +16,7 @@
 //!     phase: 0.0,
 //! };
 //! let belt = Belt::new(0.005, 1.0, 1.0, law, vec![dither])?;
-//! // Dither destabilises between a root and the jump where the fast velocity reaches the belt's.
+//! // Dither destabilises between a root of the criterion and its jump, where the fast velocity reaches the belt velocity.
 //! let options = AveragingOptions { response: FastResponse::Oscillator, ..Default::default() };
 //! let critical = critical_amplitudes(&belt, options).expect("one dither");
 //! assert!((critical[0].amplitude - 4.322392).abs() < 1e-6); // exact: 4.322393
@@ -34,7 +34,7 @@
 //! | `single_wave`, `periodic`, `independent` | any law under one shape, a periodic sum, several frequencies |
 //! | `mean_friction` | the method for each fast motion |
 //! | `criterion` | 2ζ + Fμ̄′(v₀) and its verdict |
-//! | `critical_amplitudes`, `edges`, `everywhere_stable` | where the verdict changes: with α, with v₀, and α^L |
+//! | `critical_amplitudes`, `edges`, `everywhere_stable` | points at which the verdict changes: along α, along v₀, and α^L |
 //! | `sign_changes` | every change of sign of a function on a grid |
 
 mod criterion;

@@ -12,7 +12,7 @@ use super::wave::FastWave;
 pub struct SlipTerm {
     /// Shape for unit amplitude.
     pub wave: FastWave,
-    /// Amplitude: α for tangential dither, α_N μ for normal dither (a velocity, either sign).
+    /// Amplitude: α for tangential dither, α_N μ for normal dither (a velocity of either sign).
     pub amplitude: f64,
     /// Frequency as a multiple of the group's.
     pub harmonic: u32,
@@ -38,20 +38,20 @@ pub struct LoadTerm {
 pub struct PeriodicMotion {
     /// Slip due to tangential dithers.
     pub tangential: Vec<SlipTerm>,
-    /// Slip due to normal dithers, first order.
+    /// Slip due to normal dithers, to first order.
     pub normal: Vec<SlipTerm>,
-    /// Factor of S² − ⟨S²⟩ that is added, S the sum of `normal` (−μ′/(2μ) for the second order of normal dither, else 0).
+    /// Factor of the added term S² − ⟨S²⟩, where S is the sum of `normal`: −μ′/(2μ) for the second order of normal dither, else 0.
     pub distortion: f64,
     /// Fast part of the normal load divided by F.
     pub load: Vec<LoadTerm>,
 }
 
 impl PeriodicMotion {
-    /// The wave and amplitude where one undistorted wave is all that matters.
+    /// The wave and its amplitude where the motion reduces to a single undistorted wave.
     pub(super) fn single_term(&self) -> Option<(FastWave, f64)> {
         match (self.tangential.as_slice(), self.normal.as_slice()) {
             ([term], []) if self.load.is_empty() => Some((term.wave, term.amplitude)),
-            // The load of a single normal dither is odd where its slip is even: they are uncorrelated.
+            // The load of a single normal dither is odd and its slip is even: they are uncorrelated.
             ([], [term]) if self.distortion == 0.0 => Some((term.wave, term.amplitude)),
             _ => None,
         }
@@ -59,7 +59,7 @@ impl PeriodicMotion {
 
     /// Whether load and slip of the group can be correlated.
     ///
-    /// Without tangential dither they are not: the load is dS/dθ up to a factor, and ⟨f(S) dS/dθ⟩ = 0.
+    /// Without tangential dither they cannot: the load is dS/dθ up to a factor, and ⟨f(S) dS/dθ⟩ = 0.
     pub(super) fn has_correlated_load(&self) -> bool {
         !self.load.is_empty() && !self.tangential.is_empty()
     }
@@ -81,7 +81,7 @@ impl PeriodicMotion {
         })
     }
 
-    /// Phases in (0, 2π) where a term changes its formula.
+    /// Phases in (0, 2π) at which the formula of a term changes.
     pub(super) fn breaks(&self) -> Vec<f64> {
         let terms = self.tangential.iter().chain(&self.normal).map(|t| (t.harmonic, t.phase));
         let loads = self.load.iter().map(|t| (t.harmonic, t.phase));

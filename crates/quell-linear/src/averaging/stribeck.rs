@@ -1,14 +1,14 @@
 //! Stribeck law under one dither: closed forms of the effective friction and its slope.
 //!
-//! Law (2.7) as a₀ sgn v + a₁v + a₃v³ with a₀ = μ_s, a₁ = −3(μ_s − μ_m)/(2v_m), a₃ = (μ_s − μ_m)/(2v_m³).
+//! Law (2.7) is a₀ sgn v + a₁v + a₃v³ with a₀ = μ_s, a₁ = −3(μ_s − μ_m)/(2v_m), a₃ = (μ_s − μ_m)/(2v_m³).
 //! Averaging over s = αG, whose odd moments vanish, gives (3.29)–(3.31):
 //!
 //! * |v| < αG_max: a₀⟨sgn⟩ + (a₁ + 3a₃α²⟨G²⟩)v + a₃v³ with ⟨sgn⟩ = (2/π) arcsin(v/α) for a sine,
 //!   1 − √(1 − 4v/(πα)) for a triangle, 2v/(πα) for a square;
 //! * |v| ≥ αG_max: μ(v) + 3a₃α²⟨G²⟩v.
 //!
-//! 3⟨G²⟩ is 3/2, π²/10 and π²/4; the dissertation prints π²/16 for the triangle in (3.45a), (3.45b), from which
-//! its (3.46)–(3.48) inherit a wrong constant. ⟨sgn⟩ is evaluated without cancellation for v ≪ α.
+//! 3⟨G²⟩ is 3/2, π²/10 and π²/4. The dissertation prints π²/16 for the triangle in (3.45a) and (3.45b), and
+//! (3.46)–(3.48) inherit the wrong constant. ⟨sgn⟩ is evaluated without cancellation for v ≪ α.
 
 use quell_model::Waveform;
 use quell_model::friction::{SlidingLaw, Stribeck};
