@@ -1,8 +1,8 @@
 //! Averaged stability of steady sliding: the sign of 2ζ + Fμ̄′(v₀) (2.26, 4.32).
 //!
-//! A negative value means that steady sliding is unstable: friction feeds the oscillation. The slope is taken with the fast motion
-//! frozen (see [`super::mean_friction`]). The verdict is local: it concerns small slow motions near steady sliding, and holds to the
-//! order of the averaging. It does not exclude a coexisting stick-slip cycle.
+//! A negative value means that steady sliding is unstable: friction feeds the oscillation. The slope is taken with the fast
+//! motion frozen (see [`super::mean_friction`]). The verdict is local: it concerns small slow motions near steady sliding, and
+//! holds to the order of the averaging. It does not exclude a coexisting stick-slip cycle.
 
 use quell_model::Belt;
 
@@ -17,8 +17,8 @@ use super::mean_friction::effective;
 pub enum UndecidedBecause {
     /// Its magnitude is within its numerical error.
     WithinError,
-    /// The belt velocity equals the largest fast velocity, where the criterion jumps: unstable on the outer side of the jump, stable
-    /// on the inner side.
+    /// The belt velocity equals the largest fast velocity, where the criterion jumps: unstable on the outer side of the jump,
+    /// stable on the inner side.
     AtCorner,
 }
 

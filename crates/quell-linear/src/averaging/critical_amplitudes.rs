@@ -2,10 +2,10 @@
 //!
 //! For one dither, the amplitude at which the fast velocity reaches the belt velocity, α = v₀/G_max (v₀/(μ(v₀)G_max) for normal
 //! dither), divides the axis. Below it (outer region) the criterion is smooth. At it the criterion jumps: to +∞ for a sine and a
-//! triangle, by a finite step for a square. Above it (inner region) the criterion falls and may dip once more. A jump is a critical
-//! amplitude too, and a root finder alone misses it. Both regions are scanned, with extra points clustered just above the jump, and
-//! dips are followed to their minimum. With several dithers the other ones are held fixed, and the jump is where the sum of the fast
-//! velocities reaches v₀.
+//! triangle, by a finite step for a square. Above it (inner region) the criterion falls and may dip once more. A jump is a
+//! critical amplitude too, and a root finder alone misses it. Both regions are scanned, with extra points clustered just above
+//! the jump, and dips are followed to their minimum. With several dithers the other ones are held fixed, and the jump is where
+//! the sum of the fast velocities reaches v₀.
 //!
 //! The corresponding closed forms for one tangential dither are (3.43)–(3.60). Stribeck law: the outer root is
 //! α = v_m √((1 − κ − w²)/⟨G²⟩) with κ = 4v_mζ/(3F(μ_s − μ_m)), w = v₀/v_m. Decreasing law: the root of

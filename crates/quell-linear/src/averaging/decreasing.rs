@@ -11,9 +11,9 @@
 //! μ̄ = (b₀+b₁)⟨sgn⟩ − b₁K, μ̄′ = 2(b₀+b₁)ρ − (b₁/v_m)J with J(w) = ⟨e^{−|w−s|}⟩ and K = ∫₀ʷ J.
 //!
 //! * sine: no closed form; both means are integrated over one quarter wave by adaptive quadrature, split where s = w;
-//! * triangle, t₀ = √(γ−w): J = (1/(2√γ)) {e^{−w}F(√γ) + F(t₀) + (√π/2)[erfcx t₀ − e^{−w}erfcx √γ]}; ⟨sgn⟩ − K is the same
-//!   with −F(t₀). For w ≤ 1 that difference suffers cancellation and K is integrated instead, as ∫ 2tJ dt over t from t₀ to √γ.
-//!   Its integrand is entire: 16 Gauss points reach rounding error. The printed (3.38a) = (B.10a) has the factor e^{−w−γ} instead of
+//! * triangle, t₀ = √(γ−w): J = (1/(2√γ)) {e^{−w}F(√γ) + F(t₀) + (√π/2)[erfcx t₀ − e^{−w}erfcx √γ]}; ⟨sgn⟩ − K is the same with
+//!   −F(t₀). For w ≤ 1 that difference suffers cancellation and K is integrated instead, as ∫ 2tJ dt over t from t₀ to √γ. Its
+//!   integrand is entire: 16 Gauss points reach rounding error. The printed (3.38a) = (B.10a) has the factor e^{−w−γ} instead of
 //!   e^{γ−w} before the error functions and is wrong by up to 21 %; (3.53a) inherits the error;
 //! * square (3.39a), (3.57a): sums of positive terms as printed, e^{−c} sinh w and e^{−c} cosh w in scaled form.
 

@@ -1,16 +1,17 @@
 //! The fast motion under one or several dithers: slip velocity s and normal load ν, grouped by frequency.
 //!
 //! Tangential dither D g(Rτ + φ) moves the mass with the velocity αG (α = D/R), or with the oscillator's exact response
-//! ([`FastResponse`]). Normal dither moves it through friction (4.23): φ′ = α_N μ G − (α_N²/2) μμ′ (G² − ⟨G²⟩) + … with α_N = D_N/R_N;
-//! [`NormalOrder`] selects how many terms are kept. μ and μ′ are evaluated at the slow slip velocity and then *frozen*.
+//! ([`FastResponse`]). Normal dither moves it through friction (4.23): φ′ = α_N μ G − (α_N²/2) μμ′ (G² − ⟨G²⟩) + … with
+//! α_N = D_N/R_N; [`NormalOrder`] selects how many terms are kept. μ and μ′ are evaluated at the slow slip velocity and then
+//! *frozen*.
 //!
 //! Dithers whose frequency ratio is a ratio of small whole numbers form one periodic group and keep their phases; groups
 //! of incommensurate frequencies are averaged over independent phases. Several normal dithers of one group
 //! enter through their sum H = Σ α_N G; the second term is −(1/2)μμ′(H² − ⟨H²⟩).
 //!
 //! Closure for dither in both directions: the level μ that drives the motion due to the normal dithers is the effective friction
-//! under the tangential dithers alone. The sum and difference frequencies of the two directions are neglected. This is exact to first
-//! order in α_N when α_T ≪ v.
+//! under the tangential dithers alone. The sum and difference frequencies of the two directions are neglected. This is exact to
+//! first order in α_N when α_T ≪ v.
 //!
 //! Limitations: leading order in 1/R (with [`FastResponse::Oscillator`] all orders of the forced part). The differences of the
 //! dither frequencies must be fast too: a slow beat is not averaged out.
@@ -29,7 +30,8 @@ pub enum FastResponse {
     /// αG: the limit of high frequency, as averaged in the dissertation.
     #[default]
     Limit,
-    /// The exact response of the undamped oscillator (finite-R averaging): more accurate thresholds at no extra cost. Requires R > 1.
+    /// The exact response of the undamped oscillator (finite-R averaging): more accurate thresholds at no extra cost. Requires
+    /// R > 1.
     Oscillator,
 }
 

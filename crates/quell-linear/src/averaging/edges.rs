@@ -35,8 +35,8 @@ pub enum CriticalVelocity {
     StableEverywhere,
     /// Stable above this belt velocity, unstable below it.
     Above(f64),
-    /// Unstable at every belt velocity examined. Closed forms: all velocities, without damping. Other laws: velocities up to 365 v_m,
-    /// of which the fastest decides.
+    /// Unstable at every belt velocity examined. Closed forms: all velocities, without damping. Other laws: velocities up to 365
+    /// v_m, of which the fastest decides.
     UnstableEverywhere,
 }
 
@@ -182,8 +182,8 @@ fn searched_edge(
     })
 }
 
-/// Every band of belt velocities v₀ > 0 in which averaged steady sliding of `belt` is unstable, in ascending order. The dithers of
-/// `belt` are held fixed; its belt velocity is ignored. Velocities up to 200 v_m beyond the fast velocity are examined.
+/// Every band of belt velocities v₀ > 0 in which averaged steady sliding of `belt` is unstable, in ascending order. The dithers
+/// of `belt` are held fixed; its belt velocity is ignored. Velocities up to 200 v_m beyond the fast velocity are examined.
 ///
 /// # Errors
 /// [`AveragingError`].
@@ -233,8 +233,8 @@ pub fn unstable_bands(
     if let Some((lower, lower_crossing)) = open {
         bands.push(UnstableBand { lower, lower_crossing, upper: None });
     }
-    // Where the criterion is zero throughout, without damping and without a slope, nothing grows. A single point would not prove it:
-    // far out, the slope of an exponentially decreasing law is below rounding error too.
+    // Where the criterion is zero throughout, without damping and without a slope, nothing grows. A single point would not prove
+    // it: far out, the slope of an exponentially decreasing law is below rounding error too.
     let neutral = AveragedVerdict::Undecided { why: UndecidedBecause::WithinError };
     let grows = |band: &UnstableBand| -> Result<bool, AveragingError> {
         let is_inside = |v: &f64| *v > band.lower && band.upper.is_none_or(|upper| *v < upper);

@@ -5,8 +5,8 @@
 pub enum SlopeSide {
     /// An ordinary slope.
     Both,
-    /// |v| equals the largest fast velocity. The slope jumps there (to +∞ inside for a sine and a triangle, by a finite step for a
-    /// square); the value given is the one for increasing |v|.
+    /// |v| equals the largest fast velocity. The slope jumps there (to +∞ inside for a sine and a triangle, by a finite step for
+    /// a square); the value given is the one for increasing |v|.
     Outer,
 }
 
@@ -26,8 +26,8 @@ pub struct Effective {
 }
 
 impl Effective {
-    /// Sum of the parts of a closed form. The errors bound the rounding of each part (`slope_size`: magnitude of the terms of which
-    /// a slope part is the sum).
+    /// Sum of the parts of a closed form. The errors bound the rounding of each part (`slope_size`: magnitude of the terms of
+    /// which a slope part is the sum).
     pub(super) fn closed(
         coefficient: [f64; 2],
         slope: [f64; 2],

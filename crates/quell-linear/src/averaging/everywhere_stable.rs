@@ -3,13 +3,15 @@
 //! Outside the corner the criterion is smallest at the tip v₀ = αG_max, so the outer region is stable for all v₀ when
 //! h(α) = 2ζ + Fμ̄′(αG_max⁺; α) ≥ 0. Roots of h:
 //! * Stribeck law, closed form: α^L = v_m√((1 − κ)/(G_max² + ⟨G²⟩)), κ = 4v_mζ/(3F(μ_s − μ_m)): sine v_m√(2(1 − κ)/3), triangle
-//!   (v_m/π)√(240(1 − κ)/23), square (v_m/π)√(3(1 − κ)). The printed formulas (3.44) (a nested root) and (3.48) are wrong, and (4.38)
-//!   is too large by a factor of two;
-//! * decreasing law: e^{−c}m(α/v_m) = 2v_mζ/(F(μ_s − μ_m)), c = αG_max/v_m. The left side decreases to 0, so a root exists for any
-//!   ζ > 0, but for light damping and smooth waves it is far outside any plot (sine, ζ = 0.005: 104). Without damping no root exists.
+//!   (v_m/π)√(240(1 − κ)/23), square (v_m/π)√(3(1 − κ)). The printed formulas (3.44) (a nested root) and (3.48) are wrong, and
+//!   (4.38) is too large by a factor of two;
+//! * decreasing law: e^{−c}m(α/v_m) = 2v_mζ/(F(μ_s − μ_m)), c = αG_max/v_m. The left side decreases to 0, so a root exists for
+//!   any ζ > 0, but for light damping and smooth waves it is far outside any plot (sine, ζ = 0.005: 104). Without damping no root
+//!   exists.
 //!
-//! "μ̄′ ≥ 0 inside" is true for the values of the dissertation but not in general (Stribeck: iff (μ_s − μ_m)/μ_s ≤ √6/π, √0.4, 1 for
-//! sine, triangle, square). The inner region is therefore searched too, and α^L is the amplitude beyond which both regions are stable.
+//! "μ̄′ ≥ 0 inside" is true for the values of the dissertation but not in general (Stribeck: iff (μ_s − μ_m)/μ_s ≤ √6/π, √0.4, 1
+//! for sine, triangle, square). The inner region is therefore searched too, and α^L is the amplitude beyond which both regions
+//! are stable.
 //!
 //! Normal dither: v₀ is unstable for α_N up to α/μ(v₀), where α is the largest unstable tangential amplitude at v₀. α_N^L is the
 //! maximum over v₀. It is at the tip, α^L/μ(α^L G_max) ((4.34)–(4.42) leave μ(v₀) open), unless μ decreases steeply beyond it.
@@ -34,8 +36,9 @@ pub enum EverywhereStable {
     From {
         /// α^L (α_N^L for normal dither).
         amplitude_ratio: f64,
-        /// Estimate of its numerical error. Where a maximum over belt velocities is searched on a grid (normal dither with a law or
-        /// a wave without closed forms), a maximum between neighbouring grid points is missed, and the estimate does not include it.
+        /// Estimate of its numerical error. Where a maximum over belt velocities is searched on a grid (normal dither with a law
+        /// or a wave without closed forms), a maximum between neighbouring grid points is missed, and the estimate does not
+        /// include it.
         error: f64,
     },
     /// Stable for no amplitude.
@@ -54,8 +57,8 @@ pub enum NeverStable {
     InnerRegion,
     /// No root up to 10⁶ v_m.
     OffScale,
-    /// There is damping, but without dither sliding does not become stable at any belt velocity up to 365 v_m. Amplitudes were not
-    /// tried.
+    /// There is damping, but without dither sliding does not become stable at any belt velocity up to 365 v_m. Amplitudes were
+    /// not tried.
     NoEdge,
 }
 

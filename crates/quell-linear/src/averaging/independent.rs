@@ -1,12 +1,13 @@
 //! Dithers of incommensurate frequencies: nested means over independent phases.
 //!
-//! μ̄(v) = ⟨…⟨μ(v − s₁ − s₂ − s₃)(1 + ν₁ + ν₂ + ν₃)⟩₁…⟩₃. The innermost group is one with a closed form, if there is any. Each outer
-//! mean is a quadrature over the phase of its group, split where s is extremal and where the argument of the inner mean is at one
-//! of its corners. Inside a corner the inner slope grows like an inverse square root; each interval is therefore mapped by
+//! μ̄(v) = ⟨…⟨μ(v − s₁ − s₂ − s₃)(1 + ν₁ + ν₂ + ν₃)⟩₁…⟩₃. The innermost group is one with a closed form, if there is any. Each
+//! outer mean is a quadrature over the phase of its group, split where s is extremal and where the argument of the inner mean is
+//! at one of its corners. Inside a corner the inner slope grows like an inverse square root; each interval is therefore mapped by
 //! θ = a + (b − a)t²(3 − 2t), which makes such endpoints smooth.
 //!
 //! Cost: about 10² evaluations per level, hence the limit of [`MAX_GROUPS`] groups. Accuracy: 10⁻¹¹ (two groups) and 10⁻⁸ (three
-//! groups) in units of μ_s and μ_s/v_m. Where |v| is a sum or difference of the groups' peaks the slope itself has a logarithmic peak.
+//! groups) in units of μ_s and μ_s/v_m. Where |v| is a sum or difference of the groups' peaks the slope itself has a logarithmic
+//! peak.
 
 use core::f64::consts::TAU;
 use quell_model::Friction;
@@ -29,8 +30,8 @@ const CORNER_NOISE: f64 = 1e-11;
 /// Accuracy required of a mean over a closed form, in units of the law.
 const INNER_CLOSENESS: f64 = 1e-12;
 
-/// Largest number of evaluations per interval. An ordinary interval takes 21 to 400; only one with a corner within rounding of its
-/// end takes more.
+/// Largest number of evaluations per interval. An ordinary interval takes 21 to 400; only one with a corner within rounding of
+/// its end takes more.
 const EVALUATIONS: usize = 1500;
 
 /// One level of the nested mean: a closed form, or a signal to integrate over.
@@ -62,7 +63,8 @@ pub(super) fn effective(
         return Err(AveragingError::TooManyGroups { groups, largest });
     }
     let mut order: Vec<&PeriodicMotion> = groups.iter().collect();
-    // The closed form is innermost, that is, last. Of several, the largest one, so that the quadrature handles the smaller motion.
+    // The closed form is innermost, that is, last. Of several, the largest one, so that the quadrature handles the smaller
+    // motion.
     let reach = |group: &PeriodicMotion| {
         group.single_term().map_or(-1.0, |(wave, amplitude)| amplitude.abs() * wave.peak())
     };

@@ -7,8 +7,8 @@
 //! [`SAMPLES`] points between breaks. A pair of extrema closer than that is missed; it leaves a kink
 //! to the adaptive quadrature and costs accuracy only while v is between their two values.
 //!
-//! Accuracy: 10⁻¹², absolute, in units of μ_s (and of μ_s/v_m for the slope, away from extrema). There is no relative accuracy for
-//! μ̄ → 0, because a sum need not have a symmetry.
+//! Accuracy: 10⁻¹², absolute, in units of μ_s (and of μ_s/v_m for the slope, away from extrema). There is no relative accuracy
+//! for μ̄ → 0, because a sum need not have a symmetry.
 
 use core::f64::consts::TAU;
 use quell_model::Friction;

@@ -40,7 +40,8 @@ pub struct PeriodicMotion {
     pub tangential: Vec<SlipTerm>,
     /// Slip due to normal dithers, to first order.
     pub normal: Vec<SlipTerm>,
-    /// Factor of the added term S² − ⟨S²⟩, where S is the sum of `normal`: −μ′/(2μ) for the second order of normal dither, else 0.
+    /// Factor of the added term S² − ⟨S²⟩, where S is the sum of `normal`: −μ′/(2μ) for the second order of normal dither, else
+    /// 0.
     pub distortion: f64,
     /// Fast part of the normal load divided by F.
     pub load: Vec<LoadTerm>,

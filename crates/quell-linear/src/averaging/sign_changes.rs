@@ -1,9 +1,9 @@
 //! Every change of sign of a function of one parameter on a grid: roots, jumps, and pairs of roots in a dip.
 //!
 //! The function is sampled at given points. Between neighbours of opposite sign the change is located by a bracketing root
-//! finder. Where three neighbours of equal sign show a dip towards zero, the minimum of the dip is located first, so that a double
-//! crossing between two points is not lost. Declared `corners` (points at which the function may jump) are approached
-//! from both sides and never crossed.
+//! finder. Where three neighbours of equal sign show a dip towards zero, the minimum of the dip is located first, so that a
+//! double crossing between two points is not lost. Declared `corners` (points at which the function may jump) are approached from
+//! both sides and never crossed.
 //!
 //! A change is a jump if the function does not become small on both sides of it.
 

@@ -39,7 +39,8 @@ pub(super) fn undithered(law: &Friction, v: f64) -> Result<Effective, AveragingE
     Ok(Effective::closed([coefficient, 0.0], [slope, 0.0], size, SlopeSide::Both))
 }
 
-/// Effective friction under one dither, `amplitude` ≠ 0: the closed form where one exists, otherwise quadrature over a quarter wave.
+/// Effective friction under one dither, `amplitude` ≠ 0: the closed form where one exists, otherwise quadrature over a quarter
+/// wave.
 pub(super) fn effective(
     law: &Friction,
     wave: FastWave,
