@@ -1,13 +1,16 @@
 //! Friction at the tip of a tongue.
 //!
-//! With f₀ = μf, f₁ = αf/2 a wave's damping is η = A − Bf, A = (g²/2β)c(β + sΩ) + ξβ, B = μ(g²/2β)s, and a dither-induced pair
-//! of equal direction has p = b₁b₂α²f²/4, b = (g²/2β)s. The tip is p = η₁η₂, a quadratic in f:
+//! With f₀ = μf and f₁ = αf/2, the damping of a wave is η = A − Bf, A = (g²/2β)c(β + sΩ) + ξβ, B = μ(g²/2β)s, and a
+//! dither-induced pair of equal direction has p = b₁b₂α²f²/4, b = (g²/2β)s. The tip is at p = η₁η₂, a quadratic in f:
 //!
-//! * tangential (μ = 0): f = (2/α)√(A₁A₂/(b₁b₂)); with ξ = 0 it is 2c/α √((β₁/l₁ ∓ Ω)(β₂/l₂ ∓ Ω)), − forward;
-//! * normal (μ = 1): forward waves gain damping faster than coupling and have no tip for α < 2; backward waves do.
+//! * tangential dither (μ = 0): f = (2/α)√(A₁A₂/(b₁b₂)); with ξ = 0 it is 2c/α √((β₁/l₁ ∓ Ω)(β₂/l₂ ∓ Ω)), with − for forward
+//!   waves;
+//! * normal dither (μ = 1): for forward waves damping increases faster than coupling, so they have no tip for α < 2; backward
+//!   waves do.
 //!
 //! An undithered pair of an undamped plate has its tip at f = 0. With ξ > 0 the tip is where the discriminant of the pair's
-//! quadratic vanishes; it is bracketed on a logarithmic grid of friction (no closed form for unequal waves) and located to rounding.
+//! quadratic vanishes. It is bracketed on a logarithmic grid of friction (no closed form exists for unequal waves) and located to
+//! rounding.
 
 use quell_numerics::roots::{Closeness, find_root, quadratic};
 
@@ -16,7 +19,7 @@ use super::pair::DetuningBand;
 use super::tongue::Coupling;
 use super::waves::{Order, Waves};
 
-/// Steps of the logarithmic grid per decade, and decades on either side of the waves' own scale of friction.
+/// Steps of the logarithmic grid per decade, and decades on either side of the friction scale of the waves.
 const STEPS_PER_DECADE: i32 = 24;
 const DECADES: i32 = 6;
 
@@ -32,7 +35,7 @@ impl Waves {
         }
     }
 
-    /// A and b of a wave: damping without friction, and what friction of zero mean couples with.
+    /// A and b of each wave: its damping without friction, and its coupling by friction of zero mean.
     fn damping_parts(&self, meeting: &WaveMeeting) -> [[f64; 2]; 2] {
         meeting.signed().map(|wave| {
             let still = self.with_friction(0.0).self_term(&wave, meeting.speed, &[]);
@@ -54,7 +57,7 @@ impl Waves {
         roots.into_iter().filter(|root| *root > 0.0 && root.is_finite()).reduce(f64::min)
     }
 
-    /// Smallest friction at which a pair without closed form has a tongue.
+    /// Smallest friction at which a pair without a closed form has a tongue.
     fn first_tongue(&self, meeting: &WaveMeeting) -> Option<f64> {
         let waves = meeting.waves;
         if meeting.h == 0 && waves.iter().all(|wave| self.modes[wave.mode].damping == 0.0) {
@@ -74,7 +77,7 @@ impl Waves {
                 DetuningBand::Outside => return None,
                 DetuningBand::Between(..) => {
                     let closeness = Closeness { absolute: 0.0, relative: 1e-14 };
-                    // Where growth at the tip is rounding on both sides the friction that has the band serves.
+                    // Where the growth at the tip is rounding noise on both sides, use the friction at which the band was found.
                     let root = find_root(excess, last, friction, closeness);
                     return Some(root.map_or(friction, |root| root.location));
                 }
