@@ -1,5 +1,5 @@
-//! The columns of figures 2.10, 2.11, 3.12, 3.13, 4.11: the end of the run from rest and the stability of the base response at each
-//! amplitude, and the amplitudes between which either of them changes.
+//! Measurements for figures 2.10, 2.11, 3.12, 3.13, 4.11: at each amplitude, the attractor of the run from rest and the stability
+//! of the base response, and the amplitudes at which either of them changes.
 
 use quell_dynamics::attractor::{Attractor, Outcome, Patience, Scene, Settled, measure, settle};
 use quell_dynamics::orbit::Verdict;
@@ -10,27 +10,27 @@ use quell::complaint::Failure;
 use quell::run;
 use quell::study::Study;
 
-/// Most periods of a run. With fewer a run that is still settling counts as
-/// vibrating and shows no settled section; with more, one at a threshold only takes longer to say so.
+/// Largest number of periods of a run. With fewer, a run that is still settling counts as
+/// vibrating and has no settled section; with more, a run at a threshold only takes longer.
 const MOST_PERIODS: u64 = 40_000;
 
-/// Closeness of a threshold, relative.
+/// Relative tolerance of a threshold.
 const CLOSENESS: f64 = 1e-5;
 
-/// One column of a figure.
+/// One column of a figure: one amplitude.
 #[derive(Debug)]
 pub(super) struct AmplitudeColumn {
     /// D.
     pub(super) amplitude: f64,
     /// Its study.
     pub(super) study: Study,
-    /// Whether the response of sliding is stable.
+    /// Stability of the base response.
     pub(super) local: Verdict,
-    /// Whether the run from the start of the study ends on it.
+    /// Whether the run from the study's initial state converges to a quiescent attractor.
     pub(super) quiet: bool,
-    /// What it ends on.
+    /// The attractor to which the run converges, if it does.
     pub(super) attractor: Option<Attractor>,
-    /// Period of the section.
+    /// Period of the stroboscopic section.
     pub(super) period: f64,
 }
 
@@ -40,47 +40,47 @@ impl AmplitudeColumn {
         let belt = study.belt().clone();
         let scene = Scene::new(&belt).map_err(|why| failed(name, &why))?;
         let local = local(name, &scene)?;
-        let settled = ends(name, &study, &scene)?;
+        let settled = run_from_start(name, &study, &scene)?;
         let attractor = measure(&scene, &settled).map_err(|why| failed(name, &why))?;
-        let quiet = attractor.as_ref().is_some_and(|it| it.quiet);
+        let quiet = attractor.as_ref().is_some_and(|attractor| attractor.quiet);
         Ok(Self { amplitude, study, local, quiet, attractor, period: scene.strobe.period })
     }
 
-    /// Slow frequency (ω₀), where the response turns.
+    /// Slow frequency (ω₀), if the section of the response rotates.
     pub(super) fn frequency(&self) -> Option<f64> {
         self.attractor.as_ref()?.frequency(self.period)
     }
 }
 
-/// Whether the response of sliding is stable.
+/// Stability of the base response.
 fn local(name: &str, scene: &Scene<'_>) -> Result<Verdict, Failure> {
     scene.quiet.as_ref().map(|quiet| quiet.verdict).map_err(|why| failed(name, why))
 }
 
-/// Where the run from the start of the study ends.
-fn ends(name: &str, study: &Study, scene: &Scene<'_>) -> Result<Settled, Failure> {
+/// Outcome of the run from the study's initial state.
+fn run_from_start(name: &str, study: &Study, scene: &Scene<'_>) -> Result<Settled, Failure> {
     let start = run::start(study)?;
     let patience = Patience { periods: MOST_PERIODS, ..Patience::SWEEP };
     settle(scene, start, patience).map_err(|why| failed(name, &why))
 }
 
-/// Amplitudes between neighbouring columns at which something changes.
+/// An amplitude between neighbouring columns at which a property changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct AmplitudeThreshold {
     /// The amplitude.
     pub(super) amplitude: f64,
-    /// Whether it holds above.
+    /// Whether the property holds above the amplitude.
     pub(super) holds_above: bool,
 }
 
-/// The columns of a figure with one waveform, and what changes between them.
+/// The columns of a figure with one waveform, and the thresholds between them.
 #[derive(Debug)]
 pub(super) struct AmplitudeColumns {
     pub(super) study: Study,
     pub(super) cases: Vec<AmplitudeColumn>,
-    /// Where the response of sliding gains or loses stability.
+    /// Amplitudes at which the base response gains or loses stability.
     pub(super) local: Vec<AmplitudeThreshold>,
-    /// Where the run from rest begins or ceases to end on it.
+    /// Amplitudes at which the run from rest starts or stops converging to a quiescent attractor.
     pub(super) from_rest: Vec<AmplitudeThreshold>,
 }
 
@@ -96,17 +96,17 @@ impl AmplitudeColumns {
         };
         let stable = of(|case| case.local == Verdict::Stable);
         let local =
-            changes(&study, &stable, |_, scene| Ok(local(name, scene)? == Verdict::Stable))?;
+            thresholds(&study, &stable, |_, scene| Ok(local(name, scene)? == Verdict::Stable))?;
         let quiet = of(|case| case.quiet);
-        let from_rest = changes(&study, &quiet, |study, scene| {
-            Ok(ends(name, study, scene)?.outcome == Outcome::Quiet)
+        let from_rest = thresholds(&study, &quiet, |study, scene| {
+            Ok(run_from_start(name, study, scene)?.outcome == Outcome::Quiet)
         })?;
         Ok(Self { study, cases, local, from_rest })
     }
 }
 
-/// Bisects each change between neighbours; a pair of changes between two columns is missed.
-fn changes(
+/// Bisects each change between neighbouring columns; two changes between the same columns are missed.
+fn thresholds(
     study: &Study,
     known: &[(f64, bool)],
     holds: impl Fn(&Study, &Scene<'_>) -> Result<bool, Failure>,

@@ -2,7 +2,7 @@
 
 use quell::study::Study;
 
-/// Values of the axis that varies `path`; empty where the study has none.
+/// Values of the axis that varies `path`; empty where the study has no such axis.
 pub(super) fn values(study: &Study, path: &str) -> Vec<f64> {
     study
         .sweeps()

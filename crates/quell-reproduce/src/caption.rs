@@ -1,4 +1,4 @@
-//! Names and numbers as captions, titles and statements write them.
+//! Names and numbers in captions, titles and statements.
 
 use quell_model::{LawKind, Waveform};
 
@@ -15,17 +15,17 @@ pub(super) fn letter(index: usize) -> char {
     char::from(b'a' + u8::try_from(index % 26).unwrap_or(0))
 }
 
-/// How a law is called in a sentence.
+/// Name of a law in a sentence.
 pub(super) fn law_name(kind: LawKind) -> &'static str {
     match kind {
         LawKind::Stribeck => "Stribeck",
         LawKind::Decreasing => "decreasing",
-        // No figure has another; its name says enough.
+        // No figure has another law.
         kind => kind.name(),
     }
 }
 
-/// How a waveform is called in a title.
+/// Name of a waveform in a title.
 pub(super) fn waveform_name(waveform: Waveform) -> &'static str {
     match waveform {
         Waveform::Sine => "sinusoidal",
@@ -34,7 +34,7 @@ pub(super) fn waveform_name(waveform: Waveform) -> &'static str {
     }
 }
 
-/// ζ, F, v_m, μ_s, μ_m of a caption.
+/// F, v_m, μ_s and μ_m for a caption.
 pub(super) fn parameters(study: &Study) -> String {
     let belt = study.belt();
     let law = belt.friction();

@@ -1,33 +1,31 @@
-//! A claim of the dissertation and its verdict.
+//! A claim of the dissertation, its verdict and its expected verdict.
 
 use std::fmt;
 
-use super::ledger::Expected;
-
-/// What becomes of a claim.
+/// Verdict on a claim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ClaimVerdict {
-    /// The measured value rounds to the printed one; the statement holds.
+    /// The measured value rounds to the printed one, or the statement holds.
     Reproduced,
-    /// The largest relative deviation from the print is at most the claim's limit.
+    /// The largest relative deviation from the printed value is at most the tolerance of the claim.
     Within {
-        /// |measured − printed|/|printed|, the largest.
+        /// The largest |measured − printed|/|printed|.
         deviation: f64,
     },
-    /// Further off than the limit; the statement does not hold.
+    /// The deviation exceeds the tolerance, or the statement does not hold.
     NotReproduced {
         /// The relative deviation, where numbers are compared.
         deviation: Option<f64>,
     },
-    /// The printed formula does not give what its definition gives.
+    /// The printed formula differs from its definition.
     FormulaWrong {
-        /// |printed − right|/|right|.
+        /// |printed − correct|/|correct|.
         deviation: f64,
     },
 }
 
 impl ClaimVerdict {
-    /// Its kind, as counted in the summary.
+    /// Kind of the verdict, as counted in the summary.
     pub fn name(self) -> &'static str {
         match self {
             Self::Reproduced => "reproduced",
@@ -37,12 +35,12 @@ impl ClaimVerdict {
         }
     }
 
-    /// Does the claim hold?
+    /// Whether the claim holds.
     pub fn holds(self) -> bool {
         matches!(self, Self::Reproduced | Self::Within { .. })
     }
 
-    /// The relative deviation behind it.
+    /// The relative deviation on which the verdict is based.
     pub fn deviation(self) -> Option<f64> {
         match self {
             Self::Reproduced => None,
@@ -67,7 +65,7 @@ impl fmt::Display for ClaimVerdict {
     }
 }
 
-/// A share as a percentage, rounded up so that "within" stays true.
+/// A fraction as a percentage, rounded up so that "within" remains true.
 fn percent(share: f64) -> String {
     let value = 100.0 * share;
     if value >= 10.0 {
@@ -77,43 +75,76 @@ fn percent(share: f64) -> String {
     }
 }
 
+/// The verdict that a claim is expected to have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Expected {
+    /// Reproduced.
+    Reproduced,
+    /// Reproduced within the tolerance of the claim.
+    Within,
+    /// Not reproduced, with the reason.
+    NotReproduced(&'static str),
+    /// The printed formula is wrong.
+    FormulaWrong,
+}
+
+impl Expected {
+    /// Kind of the verdict, named as by [`ClaimVerdict::name`].
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Reproduced => "reproduced",
+            Self::Within => "reproduced within",
+            Self::NotReproduced(_) => "not reproduced",
+            Self::FormulaWrong => "printed formula wrong",
+        }
+    }
+
+    /// Why the claim does not hold; empty where it does.
+    pub fn why(self) -> &'static str {
+        match self {
+            Self::NotReproduced(why) => why,
+            Self::Reproduced | Self::Within | Self::FormulaWrong => "",
+        }
+    }
+}
+
 /// One claim with its verdict.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Claim {
-    /// Name that stays, such as `2.3-undithered-fundamental`.
+    /// Permanent name, such as `2.3-undithered-fundamental`.
     pub name: String,
     /// Figure, equation or section.
     pub place: String,
-    /// What is claimed.
+    /// The statement that is claimed.
     pub statement: String,
-    /// As printed; empty where the claim is no number.
+    /// The printed value; empty where the claim is not a number.
     pub printed: String,
-    /// As measured.
+    /// The measured value.
     pub measured: String,
-    /// The numbers behind `measured`.
+    /// The numbers in `measured`.
     pub values: Vec<f64>,
-    /// What follows.
+    /// The verdict.
     pub verdict: ClaimVerdict,
-    /// Largest relative deviation at which a printed number still counts as reproduced; none for a statement.
+    /// Largest relative deviation at which a printed number still counts as reproduced; `None` for a statement.
     pub tolerance: Option<f64>,
-    /// The verdict on record, none for a claim that is not on record yet.
+    /// The verdict on record; `None` for a claim that is not on record yet.
     pub expected: Option<Expected>,
-    /// What a reader should know; empty for nothing.
+    /// Remark for the reader; may be empty.
     pub note: String,
 }
 
 impl Claim {
-    /// Is the verdict the one on record?
+    /// Whether the verdict is the one on record.
     pub fn as_expected(&self) -> bool {
         self.expected.is_some_and(|expected| expected.name() == self.verdict.name())
     }
 
-    /// Why it does not hold, where it does not and the reason is on record; empty otherwise.
+    /// Why the claim does not hold, if it does not and the reason is on record; empty otherwise.
     pub fn why(&self) -> &'static str {
         self.expected.map_or("", Expected::why)
     }
 
-    /// Adds what a reader should know.
+    /// Sets the remark for the reader.
     pub(crate) fn note(&mut self, note: impl Into<String>) {
         self.note = note.into();
     }

@@ -1,8 +1,8 @@
-//! Figures 2.8, 2.9, 3.10, 3.11, 4.9, 4.10: isolines of the residual vibration E in the plane of R and D.
+//! Figures 2.8, 2.9, 3.10, 3.11, 4.9, 4.10: contours of the residual vibration E in the (R, D) plane.
 //!
-//! The study is the first panel. Further panels change the belt velocity and the waveform; the range of D grows with the averaged
-//! boundary D = α*R, of which a panel shows the same share each. Drawn over: that boundary, and the sharper one with the
-//! oscillator's own response at each R in place of αG (for a sine D = v₀(R² − 1)/R).
+//! The study defines the first panel. Further panels change the belt velocity and the waveform, and scale the range of D with the
+//! averaged boundary D = α*R, so that every panel shows the same fraction of it. Two boundaries are overlaid: that of averaging,
+//! and that of finite-R averaging, with the oscillator's own response at each R instead of αG (for a sine D = v₀(R² − 1)/R).
 
 use std::sync::atomic::AtomicBool;
 
@@ -30,10 +30,10 @@ const FOUR_VELOCITIES: [f64; 4] = [0.05, 0.1, 0.125, 0.15];
 /// Belt velocities of figures 3.10 and 3.11.
 const THREE_VELOCITIES: [f64; 3] = [0.05, 0.1, 0.15];
 
-/// The isoline that the dissertation compares with averaging.
+/// The contour that the dissertation compares with averaging.
 const FIVE_PER_CENT: f64 = 5.0;
 
-/// A panel: what is changed in the study, and its title.
+/// The parameters of a panel that differ from the study.
 struct MapPanel {
     belt_velocity: f64,
     waveform: Waveform,
@@ -113,7 +113,7 @@ fn figure(source: &EntrySource, cases: &[MapPanel], columns: usize) -> Result<Pr
     let figure = if columns == 1 {
         Figure::grid(1, panels).size(Size::Frame(400.0, 300.0))
     } else {
-        // Each panel has its own range of D, which grows with its boundary.
+        // Each panel has its own range of D, which scales with its boundary.
         Figure::grid(columns, panels)
             .sharing_x(Sharing::Aligned)
             .legend(SharedLegend::Below)
@@ -123,7 +123,7 @@ fn figure(source: &EntrySource, cases: &[MapPanel], columns: usize) -> Result<Pr
     Ok(product.by(&[Task::Response, Task::Stability]).table(data).table(edges))
 }
 
-/// The study of a panel: its sweep of D goes as far beyond the averaged boundary as the first panel's.
+/// The study of a panel. Its sweep of D extends beyond the averaged boundary by the same factor as in the first panel.
 fn study_of(source: &EntrySource, first: &Study, case: &MapPanel) -> Result<Study, Failure> {
     let dither = first.belt().dithers()[0];
     let furthest = values(first, "dither.amplitude").last().copied().unwrap_or(1.0);
@@ -137,7 +137,7 @@ fn study_of(source: &EntrySource, first: &Study, case: &MapPanel) -> Result<Stud
         format!("sweep[1].from={}", short(to / points)),
         format!("sweep[1].to={}", short(to)),
     ];
-    // The first panel is the study as it stands, so that `quell map` gives the same.
+    // The first panel is the unchanged study, so that `quell map` gives the same result.
     if reach == 1.0 {
         return Ok(first.clone());
     }
@@ -160,20 +160,20 @@ fn record(table: &mut DataTable, panel: &str, case: &MapPanel, done: &Map) {
     let grid = done.plan().grid();
     let entry = &done.plan().sheet().entries()[0];
     for point in 0..grid.len() {
-        let place = grid.values_at(point);
+        let values = grid.values_at(point);
         table.row([
             panel.into(),
             case.waveform.name().into(),
             case.belt_velocity.into(),
-            place[0].into(),
-            place[1].into(),
+            values[0].into(),
+            values[1].into(),
             done.number(entry, point).into(),
             Cell::from(done.status(entry, point).name()),
         ]);
     }
 }
 
-/// D = α*R of averaging, and the same with the oscillator's own response.
+/// The boundary D = α*R by averaging, and that by finite-R averaging.
 fn boundary(done: &Map, panel: &str, table: &mut DataTable) -> Vec<Line> {
     let grid = done.plan().grid();
     let furthest = grid.axes()[1].values.last().copied().unwrap_or(1.0);
@@ -220,7 +220,7 @@ fn panel(
     unknown.dedup();
     let value = |point: usize| {
         done.number(entry, point)
-            .ok_or_else(|| unknown.iter().position(|it| *it == states[point]).unwrap_or(0))
+            .ok_or_else(|| unknown.iter().position(|state| *state == states[point]).unwrap_or(0))
     };
     let map = picture::Map {
         axes: axes
@@ -250,14 +250,14 @@ fn caption(source: &EntrySource, study: &Study) -> String {
     let closing = match dither.direction {
         Direction::Tangential => "",
         Direction::Normal => {
-            " $D_N$ < $F$ keeps the contact closed; the print's line is $α_N^*$ with $μ$($v_0$)$α_N$ in place of $α$."
+            " $D_N$ < $F$ keeps the contact closed; the line in the dissertation is $α_N^*$ with $μ$($v_0$)$α_N$ instead of $α$."
         }
     };
     format!(
-        "Figure {}. Residual vibration $E$ (2.27) under {direction} dither with the {} law, from rest: isolines in per cent. Solid: averaged boundary \
-         $D$ = $α^*R$, which the print compares with $E$ = {FIVE_PER_CENT} %; dashed: with the exact fast motion of the oscillator. \
-         $ζ$ = {}, {}. Record: $τ$ < {} discarded, {} slow periods, mean removed, Hann window; the print gives \
-         none, nor the ranges of its axes.{closing}",
+        "Figure {}. Residual vibration $E$ (2.27) under {direction} dither with the {} law, from rest: contours in per cent. \
+         Solid: averaged boundary $D$ = $α^*R$, which the dissertation compares with $E$ = {FIVE_PER_CENT} %; dashed: with the \
+         exact fast motion of the oscillator. $ζ$ = {}, {}. Record: $τ$ < {} discarded, {} slow periods, mean removed, Hann \
+         window; the dissertation specifies neither its record nor the ranges of its axes.{closing}",
         source.name,
         law_name(belt.friction().kind()),
         belt.damping_ratio(),

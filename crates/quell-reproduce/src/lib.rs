@@ -1,18 +1,21 @@
-//! `reproduce`: every figure and table of the dissertation again, with its data, and a table of its claims.
+//! `reproduce`: reproduction of every figure and table of the dissertation with its data, and a table of its claims.
 //!
-//! One entry of [`ENTRIES`] is one figure or table: a name, a study file that holds its parameters, and a function that
-//! makes a [`Product`] of them. A further figure is one more line there.
+//! Each entry of [`ENTRIES`] is one figure or table: a name, a study file with its parameters, and a function that
+//! computes a [`Product`] from them. Another figure needs one more line there.
 //!
-//! | file | what |
+//! | file | content |
 //! |---|---|
-//! | `source` | study files of the entries, their cases |
-//! | `shared` | measurements that several entries need, made once |
-//! | `product`, `write` | pictures, tables of data, and their files |
-//! | `laws`, `waveforms`, `effective_friction`, `stability_map`, `responses`, `sections`, `efficiency_map`, `measured_friction` | the kinds of figures |
+//! | `source`, `axis` | study files of the entries, and the values of their axes |
+//! | `amplitude_columns`, `shared` | measurements needed by several entries, made once |
+//! | `product`, `write` | figures, data tables, and their files |
+//! | `laws`, `waveforms`, `effective_friction`, `stability_map` | figures of friction laws, waveforms and averaging |
+//! | `responses`, `sections`, `efficiency_map`, `measured_friction` | figures of simulated responses |
+//! | `caption` | names and numbers in captions |
 //! | `disc` | tables and figures of chapter 5 |
-//! | `print` | formulas as the dissertation prints them, right or wrong |
-//! | `claims` | claim, printed, measured, tolerance, verdict, expected verdict |
-//! | `report` | the page that holds everything, and a table of it |
+//! | `printed_formulas` | formulas as printed in the dissertation, correct or not |
+//! | `claim` | a claim, its verdict and its expected verdict |
+//! | `claims` | measurement of the claims, and the verdict on record of each of them |
+//! | `report` | the page with all results, and a summary table |
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -36,9 +39,8 @@ mod effective_friction;
 mod efficiency_map;
 mod failure;
 mod laws;
-mod ledger;
 mod measured_friction;
-mod print;
+mod printed_formulas;
 mod product;
 mod report;
 mod responses;
@@ -59,14 +61,14 @@ pub use source::EntrySource;
 pub struct CatalogueEntry {
     /// Name on the command line: `2.3`, `claims`.
     pub name: &'static str,
-    /// What it shows, in one line.
+    /// Its content in one line.
     pub about: &'static str,
-    /// Text of its study file; empty for a table that has its own.
+    /// Text of its study file; empty for the table of claims, which has none.
     study: &'static str,
     make: fn(&EntrySource) -> Result<Product, Failure>,
 }
 
-/// A figure whose parameters stand in `studies/figure-NAME.toml`.
+/// A figure with its parameters in `studies/figure-NAME.toml`.
 macro_rules! figure {
     ($name:literal, $about:literal, $make:path) => {
         CatalogueEntry {
@@ -78,7 +80,7 @@ macro_rules! figure {
     };
 }
 
-/// A table whose parameters stand in `studies/NAME.toml`.
+/// A table with its parameters in `studies/NAME.toml`.
 macro_rules! table {
     ($name:literal, $about:literal, $make:path) => {
         CatalogueEntry {
@@ -90,7 +92,7 @@ macro_rules! table {
     };
 }
 
-/// Everything that can be reproduced, in the order of the dissertation.
+/// All figures and tables that can be reproduced, in the order of the dissertation.
 pub const ENTRIES: &[CatalogueEntry] = &[
     figure!("2.2", "Stribeck and decreasing friction law", laws::figure),
     figure!("2.3", "responses, Stribeck law, sinusoidal tangential dither", responses::figure),
@@ -169,7 +171,7 @@ pub const ENTRIES: &[CatalogueEntry] = &[
 ];
 
 impl CatalogueEntry {
-    /// Makes the figure or table.
+    /// Computes the figure or table.
     ///
     /// # Errors
     /// [`Failure`] if a run stops or an average has no value.
@@ -177,7 +179,7 @@ impl CatalogueEntry {
         (self.make)(&self.source())
     }
 
-    /// The same with at most so many points along each axis of its sweeps: a quick look.
+    /// The same with at most `most_points` points along each axis of its sweeps.
     ///
     /// # Errors
     /// As [`CatalogueEntry::product`].
@@ -185,7 +187,7 @@ impl CatalogueEntry {
         (self.make)(&EntrySource { most_points: Some(most_points), ..self.source() })
     }
 
-    /// The product at this resolution, with what the run has measured already.
+    /// The product at this resolution, using the shared measurements of the run.
     fn at(&self, resolution: Resolution, shared: &SharedMeasurements) -> Result<Product, Failure> {
         let most_points = match resolution {
             Resolution::Full => None,
@@ -205,7 +207,7 @@ impl CatalogueEntry {
         }
     }
 
-    /// What its files are called, without extension.
+    /// Name of its files, without extension.
     pub fn stem(&self) -> String {
         match self.name.chars().next() {
             Some(first) if first.is_ascii_digit() => format!("figure-{}", self.name),
@@ -223,10 +225,10 @@ impl fmt::Debug for CatalogueEntry {
     }
 }
 
-/// The entries of these names, in the order of [`ENTRIES`]; all of them where no name is given.
+/// The entries with these names, in the order of [`ENTRIES`]; all entries where no name is given.
 ///
 /// # Errors
-/// A complaint for each unknown name, with the known ones.
+/// A complaint for each unknown name, listing the known names.
 pub fn find(names: &[String]) -> Result<Vec<CatalogueEntry>, Vec<Complaint>> {
     use quell::complaint::{Fault, Origin};
     let known = || ENTRIES.iter().map(|entry| entry.name);
@@ -248,10 +250,10 @@ pub fn find(names: &[String]) -> Result<Vec<CatalogueEntry>, Vec<Complaint>> {
     if !complaints.is_empty() {
         return Err(complaints);
     }
-    let wanted = |entry: &&CatalogueEntry| {
+    let selected = |entry: &&CatalogueEntry| {
         names.is_empty() || names.iter().any(|name| bare(name) == entry.name)
     };
-    Ok(ENTRIES.iter().filter(wanted).copied().collect())
+    Ok(ENTRIES.iter().filter(selected).copied().collect())
 }
 
 /// `figure-2.3` means 2.3.
@@ -259,16 +261,16 @@ fn bare(name: &str) -> &str {
     name.strip_prefix("figure-").unwrap_or(name)
 }
 
-/// One entry that has been written.
+/// An entry that has been written to files.
 #[derive(Clone, Debug)]
 pub struct WrittenEntry {
-    /// Its entry.
+    /// The entry.
     pub entry: CatalogueEntry,
-    /// Its files.
+    /// The files.
     pub files: Vec<PathBuf>,
-    /// What was made; the rows of its tables of data are in the files.
+    /// The product; the rows of its data tables are in the files.
     pub product: Product,
-    /// How long it took.
+    /// Run time.
     pub elapsed: Duration,
 }
 
@@ -290,34 +292,34 @@ impl WrittenEntry {
     }
 }
 
-/// How fine the grids of the figures are.
+/// Resolution of the grids of the figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Resolution {
-    /// As their study files say.
+    /// The resolution of the study files.
     #[default]
     Full,
-    /// At most a few points along each axis of a map: a quicker look; claims are measured in full.
+    /// At most a few points along each axis of a map. Claims are still measured in full.
     Quick,
 }
 
-/// Most points along an axis of a map in a quick look.
+/// Largest number of points along an axis of a map at quick resolution.
 const QUICK_POINTS: usize = 12;
 
-/// What is heard while entries are made.
+/// Progress of a reproduction.
 #[derive(Clone, Copy, Debug)]
 pub enum EntryProgress<'a> {
-    /// Work on an entry begins.
+    /// Work on an entry has begun.
     Begun(&'a CatalogueEntry),
-    /// An entry is written.
+    /// An entry has been written.
     Done(&'a WrittenEntry),
 }
 
-/// Everything that was made.
+/// Result of a reproduction.
 #[derive(Clone, Debug)]
 pub struct Reproduction {
     /// The entries, in the order of [`ENTRIES`].
     pub written: Vec<WrittenEntry>,
-    /// The report: one page that needs no other file.
+    /// The report: one self-contained page.
     pub report: PathBuf,
     /// The same as a Markdown table.
     pub table: PathBuf,
@@ -330,16 +332,16 @@ impl Reproduction {
         claims.filter(|claim| !claim.as_expected()).collect()
     }
 
-    /// Claims whose verdict is not the expected one, in words.
+    /// A warning for each claim whose verdict is not the expected one.
     pub fn warnings(&self) -> Vec<String> {
-        let told = |claim: &claims::Claim| {
+        let warning = |claim: &claims::Claim| {
             let expected = claim.expected.map_or("nothing on record", |expected| expected.name());
             format!("{}: {}, expected: {expected}", claim.name, claim.verdict)
         };
-        self.changed().into_iter().map(told).collect()
+        self.changed().into_iter().map(warning).collect()
     }
 
-    /// As JSON, for what was written into `directory`.
+    /// As JSON, for files written to `directory`.
     pub fn json(&self, directory: &Path, resolution: Resolution) -> Json {
         let entries: Vec<Json> = self.written.iter().map(WrittenEntry::json).collect();
         json!({
@@ -354,11 +356,11 @@ impl Reproduction {
     }
 }
 
-/// Makes `entries` and writes them into `directory`, which is made if it is missing, with a report; two at a time.
-/// `progress` hears of each.
+/// Computes `entries`, two at a time, and writes them with a report to `directory`, which is created if it does not exist.
+/// `progress` is called at the beginning and end of each entry.
 ///
 /// # Errors
-/// A complaint where the directory cannot be written; the first failure otherwise. What was written stays.
+/// A complaint where the directory cannot be written, otherwise the first failure. Files already written are kept.
 pub fn run(
     entries: &[CatalogueEntry],
     directory: &Path,
@@ -369,12 +371,12 @@ pub fn run(
     let shared = SharedMeasurements::default();
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<(usize, Result<WrittenEntry, Failure>)>> = Mutex::new(Vec::new());
-    // The claims take longest: whoever begins with them ends with the others.
+    // The claims take longest, so they are started first.
     let mut order: Vec<usize> = (0..entries.len()).collect();
-    order.sort_by_key(|place| entries[*place].name != "claims");
+    order.sort_by_key(|index| entries[*index].name != "claims");
     let work = || {
-        while let Some(&place) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let entry = &entries[place];
+        while let Some(&index) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let entry = &entries[index];
             progress(EntryProgress::Begun(entry));
             let outcome = one(entry, directory, resolution, &shared);
             match &outcome {
@@ -382,7 +384,7 @@ pub fn run(
                 Err(_) => next.store(entries.len(), Ordering::Relaxed),
             }
             if let Ok(mut done) = done.lock() {
-                done.push((place, outcome));
+                done.push((index, outcome));
             }
         }
     };
@@ -392,7 +394,7 @@ pub fn run(
         }
     });
     let mut done = done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    done.sort_by_key(|(place, _)| *place);
+    done.sort_by_key(|(index, _)| *index);
     let written: Vec<WrittenEntry> =
         done.into_iter().map(|(_, outcome)| outcome).collect::<Result<_, Failure>>()?;
     let page = report::html(&written, resolution);

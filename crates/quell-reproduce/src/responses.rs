@@ -1,7 +1,7 @@
 //! Figures 2.3, 3.7–3.9, 4.3, 4.4: displacement, velocity and spectrum, with and without dither.
 //!
-//! Rows: x(τ), x′(τ) from rest, and the spectral amplitudes of the steady record (settling time discarded, mean removed,
-//! Hann). One column for each amplitude of the study's sweep.
+//! Rows: x(τ) and x′(τ) from rest, and the spectral amplitudes of the steady record (settling time discarded, mean removed,
+//! Hann window). One column for each amplitude of the study's sweep.
 
 use quell_dynamics::response::{BAND_END, Response, Spectrum, respond};
 use quell_dynamics::simulation::{Sample, Sampler, simulate};
@@ -18,7 +18,7 @@ use quell::plot::{Axis, Figure, Legend, Line, Panel, Role, Rule, SharedLegend, S
 use quell::run;
 use quell::study::Study;
 
-/// Time shown.
+/// End of the time axis.
 const UNTIL: f64 = 80.0;
 /// Samples per dither period.
 const SAMPLES_PER_PERIOD: f64 = 40.0;
@@ -101,7 +101,7 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         .table(DataTable::of_columns("spectrum", spectra)))
 }
 
-/// Frequency of the largest peak in the band of E.
+/// Frequency of the largest peak in the frequency band in which E is measured.
 pub(super) fn fundamental(spectrum: &Spectrum) -> Option<f64> {
     let peaks = spectrum.peaks(1e-3).into_iter().filter(|peak| peak.frequency <= BAND_END);
     peaks.max_by(|a, b| a.amplitude.total_cmp(&b.amplitude)).map(|peak| peak.frequency)
@@ -116,7 +116,7 @@ pub(super) fn columns_of(name: &str, samples: &[Sample]) -> [(String, &'static s
     ]
 }
 
-/// Displacement and velocity of a case beside those without dither.
+/// Displacement and velocity of a case, together with those without dither.
 fn histories_of(
     case: &ResponseColumn,
     name: char,
@@ -204,16 +204,17 @@ fn caption(source: &EntrySource, study: &Study, response: &Response) -> String {
     ) {
         (LawKind::Stribeck, Some(frequency)) => {
             format!(
-                " The fundamental without dither, printed as 0.666 $ω_0$, is {frequency:.3} $ω_0$."
+                " The fundamental frequency without dither, printed as 0.666 $ω_0$, is {frequency:.3} $ω_0$."
             )
         }
         _ => String::new(),
     };
     format!(
-        "Figure {}. Responses from rest with the {} law and {} {direction} dither (solid) and without dither (dashed): displacement, \
-         velocity, and spectral amplitude of the steady displacement. $ζ$ = {}, $v_0$ = {}, ${symbol}$ = {}, {}. $E$ is the largest \
-         amplitude below {BAND_END} $ω_0$ over that without dither (2.27). Spectra: $τ$ < {} discarded, {} slow periods kept, mean \
-         removed, Hann window; the print gives no record.{fundamental}",
+        "Figure {}. Responses from rest with the {} law and {} {direction} dither (solid) and without dither (dashed): \
+         displacement, velocity, and spectral amplitude of the steady displacement. $ζ$ = {}, $v_0$ = {}, ${symbol}$ = {}, {}. \
+         $E$ is the largest amplitude below {BAND_END} $ω_0$ divided by that without dither (2.27). Spectra: $τ$ < {} \
+         discarded, {} slow periods kept, mean removed, Hann window; the dissertation does not specify its \
+         record.{fundamental}",
         source.name,
         law_name(belt.friction().kind()),
         waveform_name(dither.waveform),

@@ -1,7 +1,7 @@
 //! Figures 2.10, 2.11, 3.12, 3.13, 4.11: displacement, velocity and Poincaré section from rest, one column for each amplitude.
 //!
-//! What the prints judge by eye is measured: where the run from rest ends, whether the response of sliding is stable at that
-//! amplitude, and between which amplitudes either of them changes, bisected to `CLOSENESS`.
+//! The dissertation judges these responses by eye. Here the attractor of the run from rest, the stability of the base response,
+//! and the amplitudes at which either of them changes are measured (see `amplitude_columns`).
 
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -23,17 +23,17 @@ use quell::plot::{
 };
 use quell::run;
 
-/// Time shown, in decay times 1/ζ of the free oscillator, and its bounds.
+/// Length of the time axis in decay times 1/ζ of the free oscillator, and its bounds.
 const DECAY_TIMES: f64 = 2.0;
 const SHOWN: [f64; 2] = [80.0, 300.0];
 
 /// Samples per dither period.
 const SAMPLES_PER_PERIOD: f64 = 12.0;
 
-/// Periods of the section from the start of the run, as far as a grey trail shows where it goes.
+/// Periods of the transient section from the start of the run, drawn as a grey trail.
 const TRANSIENT: usize = 900;
 
-/// States of a settled section that are drawn.
+/// Largest number of states of a settled section that are drawn.
 const SETTLED: usize = 400;
 
 /// One waveform: that of the study.
@@ -74,7 +74,8 @@ fn of_waveforms(
                 histories.push(("time".to_owned(), "1/ω0", time));
             }
             histories.extend(columns_of(&prefix, &samples));
-            let settled = case.attractor.as_ref().map_or(&[][..], |it| it.section.as_slice());
+            let settled =
+                case.attractor.as_ref().map_or(&[][..], |attractor| attractor.section.as_slice());
             for (part, states) in [("from rest", transient.as_slice()), ("settled", settled)] {
                 for &(x, v) in states {
                     sections.row([
@@ -87,7 +88,7 @@ fn of_waveforms(
                     ]);
                 }
             }
-            summary.row(told(waveform, name, case));
+            summary.row(summary_row(waveform, name, case));
             let [x, v, section] =
                 drawn(case, &title(block, several, name, case), &samples, &transient);
             rows[0].push(x);
@@ -132,10 +133,11 @@ const SUMMARY: &[(&str, &str)] = &[
 ];
 
 /// A row of the summary.
-fn told(waveform: &str, name: char, case: &AmplitudeColumn) -> Vec<Cell> {
+fn summary_row(waveform: &str, name: char, case: &AmplitudeColumn) -> Vec<Cell> {
     let attractor = case.attractor.as_ref();
     let of = |value: fn(&Attractor) -> f64| Cell::from(attractor.map(value));
-    let kind = attractor.map_or_else(|| "not settled".to_owned(), |it| it.kind.words());
+    let kind =
+        attractor.map_or_else(|| "not settled".to_owned(), |attractor| attractor.kind.words());
     vec![
         waveform.into(),
         name.to_string().as_str().into(),
@@ -144,8 +146,11 @@ fn told(waveform: &str, name: char, case: &AmplitudeColumn) -> Vec<Cell> {
         case.local.name().into(),
         kind.as_str().into(),
         of(Attractor::size),
-        of(|it| it.stick_fraction),
-        attractor.and_then(|it| it.rotation).map(|it| it.turns_per_period).into(),
+        of(|attractor| attractor.stick_fraction),
+        attractor
+            .and_then(|attractor| attractor.rotation)
+            .map(|rotation| rotation.turns_per_period)
+            .into(),
         case.frequency().into(),
     ]
 }
@@ -178,7 +183,7 @@ fn drawn(
     let velocity = Panel::new(time(), Axis::new("velocity").symbol("x′"))
         .with(curve(|s| s.velocity))
         .with(Rule::horizontal(belt_velocity));
-    let settled = case.attractor.as_ref().map_or(&[][..], |it| it.section.as_slice());
+    let settled = case.attractor.as_ref().map_or(&[][..], |attractor| attractor.section.as_slice());
     let step = settled.len().div_ceil(SETTLED).max(1);
     let states: Vec<(f64, f64)> = settled.iter().step_by(step).copied().collect();
     let (marker, size) = if states.len() == 1 { (Marker::Disc, 5.0) } else { (Marker::Disc, 1.8) };
@@ -194,7 +199,7 @@ fn drawn(
     [displacement, velocity, section]
 }
 
-/// Samples of the time shown.
+/// Samples over the time axis.
 fn history(source: &EntrySource, case: &AmplitudeColumn) -> Result<Vec<Sample>, Failure> {
     let decay = DECAY_TIMES / case.study.belt().damping_ratio();
     let until = decay.clamp(SHOWN[0], SHOWN[1]);
@@ -202,7 +207,7 @@ fn history(source: &EntrySource, case: &AmplitudeColumn) -> Result<Vec<Sample>, 
     sampled(source, case, step, count(until / step))
 }
 
-/// States of the first periods.
+/// Stroboscopic states of the first periods.
 fn strobe(source: &EntrySource, case: &AmplitudeColumn) -> Result<Vec<(f64, f64)>, Failure> {
     let samples = sampled(source, case, case.period, TRANSIENT)?;
     Ok(samples.iter().map(|sample| (sample.displacement, sample.velocity)).collect())
@@ -236,9 +241,9 @@ fn caption(source: &EntrySource, blocks: &[Arc<AmplitudeColumns>]) -> String {
         Direction::Normal => ("normal", "D_N", "R_N"),
     };
     let mut text = format!(
-        "Figure {}. Responses from rest with the {} law and {direction} dither: displacement, velocity, and Poincaré section at \
-         ${r}τ$ = 2πn (grey: the first {TRANSIENT} periods; blue: settled on the period of the dither; red: vibrates for ever). \
-         $ζ$ = {}, $v_0$ = {}, ${r}$ = {}, {}.",
+        "Figure {}. Responses from rest with the {} law and {direction} dither: displacement, velocity, and Poincaré section \
+         at ${r}τ$ = 2πn (grey: the first {TRANSIENT} periods; blue: settled to the period of the dither; red: vibrates \
+         indefinitely). $ζ$ = {}, $v_0$ = {}, ${r}$ = {}, {}.",
         source.name,
         law_name(belt.friction().kind()),
         belt.damping_ratio(),
@@ -250,7 +255,7 @@ fn caption(source: &EntrySource, blocks: &[Arc<AmplitudeColumns>]) -> String {
         let waveform = waveform_name(block.study.belt().dithers()[0].waveform);
         let _ = write!(
             text,
-            " Measured, {waveform}: from rest it {}; the quiet response itself {}.",
+            " Measured, {waveform}: from rest the response {}; the base response itself {}.",
             list(&block.from_rest, d, ["vibrates", "settles"]),
             list(&block.local, d, ["is unstable", "is stable"]),
         );
@@ -258,13 +263,15 @@ fn caption(source: &EntrySource, blocks: &[Arc<AmplitudeColumns>]) -> String {
     text + &departure(source.name)
 }
 
-/// What a figure departs in from the print.
+/// Departure of a figure from the dissertation.
 fn departure(name: &str) -> String {
     match name {
-        "2.11" => " The caption prints $v_0$ = 1.0; text and responses are those of 1.5.".to_owned(),
-        "4.11" => " The caption says square; the pattern of the text appears with a sine.".to_owned(),
-        _ => " Below the local threshold the quiet response and a stick-slip vibration coexist: what simulation from rest finds \
-               lower than averaging is the border between them."
+        "2.11" => " The printed caption has $v_0$ = 1.0; its text and responses are for 1.5.".to_owned(),
+        "4.11" => {
+            " The printed caption says square; the pattern described in the text occurs with a sine.".to_owned()
+        }
+        _ => " Below the local threshold the base response and a stick-slip vibration coexist. The threshold from rest, which \
+               is lower than that of averaging, is where rest crosses the boundary between their basins."
             .to_owned(),
     }
 }

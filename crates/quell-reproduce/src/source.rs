@@ -1,4 +1,4 @@
-//! Study files of the entries and the cases of a figure.
+//! Study files of the entries.
 
 use quell_model::Waveform;
 
@@ -11,13 +11,13 @@ use quell::study::{Axis, Change, Study, Sweep};
 pub struct EntrySource {
     /// Name: `2.3`.
     pub name: &'static str,
-    /// What it shows, in one line.
+    /// Its content in one line.
     pub about: &'static str,
     /// Text of the study file.
     pub text: &'static str,
-    /// Most points along an axis of its sweeps, where they shall be fewer than the file says.
+    /// Largest number of points along an axis of its sweeps, if fewer than in the file.
     pub most_points: Option<usize>,
-    /// What other entries of the run have measured.
+    /// Measurements shared by the entries of the run.
     pub(super) shared: SharedMeasurements,
 }
 
@@ -25,7 +25,7 @@ impl EntrySource {
     /// The study.
     ///
     /// # Errors
-    /// Complaints about the study file, which a test excludes.
+    /// Complaints about the study file; a test checks that there are none.
     pub fn study(&self) -> Result<Study, Failure> {
         self.changed(&[])
     }
@@ -45,7 +45,7 @@ impl EntrySource {
         Ok(Study::parse(self.text, &changes)?)
     }
 
-    /// The changes that leave the axes of a study no more points than allowed; listed values stay.
+    /// Changes that limit the number of points on the axes of a study; listed values are kept.
     pub(super) fn coarser(&self, sweeps: &[Sweep]) -> Result<Vec<Change>, Failure> {
         let Some(most) = self.most_points else { return Ok(Vec::new()) };
         let mut changes = Vec::new();

@@ -1,9 +1,9 @@
-//! Figures 2.6, 2.7, 3.5, 3.6, 4.7, 4.8: where averaged steady sliding is unstable, in the plane of α and v₀.
+//! Figures 2.6, 2.7, 3.5, 3.6, 4.7, 4.8: the region of the (α, v₀) plane in which averaged steady sliding is unstable.
 //!
-//! At each α the unstable band is αG_max ≤ v₀ ≤ the upper edge of (3.43)–(3.59), in closed form. Normal dither is the same
-//! map with (α_T, v₀) → (α_T/μ(v₀), v₀), the substitution of (4.33)–(4.42). Drawn too: the boundary with the oscillator's
-//! own response at the study's R in place of αG (for a sine α = DR/(R² − 1)), and the print's upper edge for
-//! the triangle, (3.47), (4.35), where it is wrong.
+//! At each α the unstable band extends from v₀ = αG_max to the upper edge of (3.43)–(3.59), in closed form. The map for normal
+//! dither is the same with (α_T, v₀) → (α_T/μ(v₀), v₀), the substitution of (4.33)–(4.42). Also drawn are the boundary by
+//! finite-R averaging, with the oscillator's own response at the study's R instead of αG (for a sine α = DR/(R² − 1)), and the
+//! upper edge as printed for the triangle, (3.47), (4.35), where it is wrong.
 
 use quell_linear::averaging::{
     AveragingOptions, EverywhereStable, FastResponse, FastWave, NoBand, closed_band,
@@ -14,7 +14,7 @@ use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 use super::axis::values;
 use super::caption::{law_name, letter, parameters, waveform_name};
 use super::failure::failed;
-use super::print::{self, LawNumbers};
+use super::printed_formulas::{self, LawNumbers};
 use super::product::{DataTable, Product};
 use super::source::EntrySource;
 use quell::cite::Task;
@@ -27,7 +27,7 @@ use quell::study::Study;
 
 /// Points on an edge.
 const POINTS: u32 = 240;
-/// Points on an edge that needs quadrature.
+/// Points on an edge that requires quadrature.
 const FEWER_POINTS: u32 = 48;
 
 /// A curve of (α, v₀).
@@ -43,12 +43,12 @@ struct StabilityPlane<'a> {
     reach: (f64, f64),
 }
 
-/// An unstable region: its edges from α = 0 on, and the α beyond which there is none.
+/// An unstable region: its edges from α = 0, and its tip.
 struct Unstable {
     damping_ratio: f64,
     lower: EdgeCurve,
     upper: EdgeCurve,
-    /// (α^L, α^L G_max) where it exists.
+    /// (α^L, α^L G_max), if it exists.
     tip: Option<(f64, f64)>,
 }
 
@@ -107,7 +107,7 @@ fn opening(source: &EntrySource, study: &Study) -> String {
     )
 }
 
-/// What the picture shows beyond the print, and where it departs from it.
+/// Additions to the figure of the dissertation, and departures from it.
 fn closing(study: &Study, three: bool) -> String {
     let belt = study.belt();
     let dither = belt.dithers()[0];
@@ -116,13 +116,13 @@ fn closing(study: &Study, three: bool) -> String {
     let ratio = dither.frequency_ratio;
     let damping = if three { format!(", $ζ$ = {}", belt.damping_ratio()) } else { String::new() };
     let mut sentences = vec![format!(
-        "Dash-dotted: the boundary at $R$ = {ratio} with the exact fast motion of the oscillator in place of \
-         $αG$, for a sine $α$ = $DR$/($R^2$ − 1){damping}."
+        "Dash-dotted: the boundary at $R$ = {ratio} with the exact fast motion of the oscillator instead of \
+         $αG$ (for a sine, $α$ = $DR$/($R^2$ − 1)){damping}."
     )];
     if three && stribeck {
         let equation = if normal { "(4.35)" } else { "(3.47)" };
         sentences.push(format!(
-            "Dotted in (b): the upper edge as printed {equation}, with π²/48 in place of π²/30."
+            "Dotted in (b): the upper edge as printed {equation}, with π²/48 instead of π²/30."
         ));
     }
     if normal {
@@ -133,7 +133,8 @@ fn closing(study: &Study, three: bool) -> String {
     }
     if normal && stribeck {
         sentences.push(
-            "The square's $α^L$ is half of (4.38), which repeats the triangle's (4.36).".to_owned(),
+            "For the square, $α^L$ is half of (4.38), which repeats (4.36) of the triangle."
+                .to_owned(),
         );
     }
     if !stribeck && !normal && !three {
@@ -179,7 +180,7 @@ fn panel(
     let normal = dither.direction == Direction::Normal;
     let alpha = match (normal, belt.friction().kind()) {
         (false, _) => last("dither.amplitude").unwrap_or(1.0) / dither.frequency_ratio,
-        // The print goes beyond what a closed contact allows.
+        // The printed axis extends beyond the limit of a closed contact.
         (true, LawKind::Stribeck) => 0.8,
         (true, _) => 6.0,
     };
@@ -259,7 +260,7 @@ impl StabilityPlane<'_> {
             match closed_band(self.law(), damping_ratio, load, self.waveform, alpha) {
                 Ok(band) => {
                     region.lower.push(self.along(alpha, band.lower));
-                    // Without an upper edge the band leaves the plane.
+                    // Without an upper edge the band extends beyond the plane.
                     region.upper.push(self.along(alpha, band.upper.unwrap_or(10.0 * self.reach.1)));
                 }
                 Err(NoBand::Stable) => {}
@@ -273,7 +274,7 @@ impl StabilityPlane<'_> {
         Ok(region)
     }
 
-    /// The boundary with the oscillator's own response in place of αG.
+    /// The boundary by finite-R averaging: with the oscillator's own response instead of αG.
     fn sharper(
         &self,
         panel: Panel,
@@ -282,7 +283,7 @@ impl StabilityPlane<'_> {
     ) -> Result<Panel, Failure> {
         let ratio = self.belt.dithers()[0].frequency_ratio;
         let edges = if self.waveform == Waveform::Sine {
-            // The same curves over a shorter α.
+            // The same curves with α scaled down.
             let region = self.unstable(damping_ratio)?;
             let shorter = (ratio * ratio - 1.0) / (ratio * ratio);
             [region.lower, region.upper].map(|curve| {
@@ -297,7 +298,7 @@ impl StabilityPlane<'_> {
         Ok(panel.with(line.label(format!("exact fast motion, $R$ = {ratio}"))))
     }
 
-    /// Edges of the bands under the oscillator's response to a triangle or square, by quadrature.
+    /// Edges of the bands for the response of the oscillator to a triangle or square, by quadrature.
     fn oscillator_edges(&self, damping_ratio: f64, ratio: f64) -> Result<[EdgeCurve; 2], Failure> {
         let load = self.belt.normal_load();
         let wave = FastWave::Oscillator { waveform: self.waveform, frequency_ratio: ratio };
@@ -332,7 +333,7 @@ impl StabilityPlane<'_> {
         Ok(edges)
     }
 
-    /// α^L of tangential dither, none where it does not exist.
+    /// α^L of tangential dither; `None` where it does not exist.
     fn tip(&self, damping_ratio: f64, wave: FastWave) -> Result<Option<f64>, Failure> {
         let load = self.belt.normal_load();
         let everywhere = everywhere_stable_amplitude(
@@ -349,7 +350,7 @@ impl StabilityPlane<'_> {
         })
     }
 
-    /// The print's upper edge for Stribeck and triangle, up to its own α^L.
+    /// The upper edge as printed for the Stribeck law and a triangle, up to the printed α^L.
     fn printed(&self, panel: Panel, damping: &[f64], table: &mut DataTable) -> Panel {
         if self.waveform != Waveform::Triangle || self.law().kind() != LawKind::Stribeck {
             return panel;
@@ -357,10 +358,12 @@ impl StabilityPlane<'_> {
         let numbers = LawNumbers::DISSERTATION;
         let mut pieces = Vec::new();
         for &zeta in damping {
-            let end = print::everywhere_348(numbers, zeta);
+            let end = printed_formulas::everywhere_348(numbers, zeta);
             let edge: EdgeCurve = (0..=POINTS)
                 .map(|k| end * f64::from(k) / f64::from(POINTS))
-                .map(|alpha| self.along(alpha, print::upper_edge_347(numbers, zeta, alpha)))
+                .map(|alpha| {
+                    self.along(alpha, printed_formulas::upper_edge_347(numbers, zeta, alpha))
+                })
                 .collect();
             self.record(table, zeta, "upper_printed", &edge);
             pieces.push(edge);
@@ -370,7 +373,7 @@ impl StabilityPlane<'_> {
         panel.with(line.label(format!("as printed {equation}")))
     }
 
-    /// Marks α^L where the plane shows it.
+    /// Marks α^L where it is inside the plane.
     fn tips(&self, mut panel: Panel, regions: &[Unstable], lone: bool) -> Panel {
         let shown = |tip: &(f64, f64)| tip.0 <= self.reach.0 && tip.1 <= self.reach.1;
         let tips: EdgeCurve =
@@ -385,10 +388,10 @@ impl StabilityPlane<'_> {
         panel.with(Points::new(Role::Boundary, tips).label("$α^L$"))
     }
 
-    /// "stable", "unstable", and where (4.29) ends.
+    /// Labels "stable" and "unstable", and the limit (4.29).
     fn words(&self, mut panel: Panel, regions: &[Unstable]) -> Panel {
         let stribeck = self.law().kind() == LawKind::Stribeck;
-        // In the region of the lightest damping, where it is wide.
+        // In the wide part of the region of lightest damping.
         if let Some(region) = regions.last().filter(|region| !region.lower.is_empty()) {
             let v = if stribeck { 0.75 } else { 0.85 } * region.upper[0].1;
             let edge = region.lower.iter().take_while(|point| point.1 < v).last();

@@ -1,4 +1,4 @@
-//! Figure 3.2: two cycles of the waveforms g and of their zero-mean integrals G.
+//! Figure 3.2: two cycles of the waveforms g and their zero-mean integrals G.
 
 use std::f64::consts::TAU;
 
@@ -73,7 +73,7 @@ fn cycles() -> impl Iterator<Item = f64> {
     (0..=CYCLES * POINTS_PER_CYCLE).map(|k| f64::from(k) / f64::from(POINTS_PER_CYCLE))
 }
 
-/// g, with upright strokes where it jumps.
+/// g, with vertical segments where it jumps.
 fn force(waveform: Waveform) -> Vec<Vec<(f64, f64)>> {
     if waveform == Waveform::Square {
         let corners = (0..2 * CYCLES).flat_map(|half| {

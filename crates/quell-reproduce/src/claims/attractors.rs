@@ -1,4 +1,4 @@
-//! Claims about single responses from rest, figures 2.10, 2.11, 3.12, 3.13, 4.11, and about other starts.
+//! Claims about single responses from rest, figures 2.10, 2.11, 3.12, 3.13, 4.11, and from other initial conditions.
 
 use quell_dynamics::attractor::{Patience, Scene, gather, settle_many};
 use quell_dynamics::simulation::Start;
@@ -10,16 +10,16 @@ use super::chapter2::{LIGHT, belt, source};
 use super::sheet::{ClaimSheet, digits, list};
 use quell::complaint::Failure;
 
-/// What a figure claims: amplitudes that are stable and not, and between which of them that changes.
+/// Claims of a figure: stable and unstable amplitudes, and the amplitudes between which stability changes.
 struct Printed {
     figure: &'static str,
-    /// The columns called stable.
+    /// The amplitudes of the columns called stable.
     stable: &'static [f64],
     /// "Becomes unstable for D ≥": the first unstable column.
     unstable_from: f64,
     /// "Stabilised for D ≥".
     stable_from: f64,
-    /// What averaging predicts for both, as printed.
+    /// The predictions of averaging for both, as printed.
     averaged: [&'static str; 2],
 }
 
@@ -54,7 +54,7 @@ const TANGENTIAL: [Printed; 4] = [
     },
 ];
 
-/// Figures 2.10, 2.11, 3.12, 3.13: the claims of one.
+/// The claims of one of figures 2.10, 2.11, 3.12, 3.13.
 pub(super) fn tangential(sheet: &mut ClaimSheet, figure: &str) -> Result<(), Failure> {
     let printed = TANGENTIAL
         .iter()
@@ -72,7 +72,7 @@ pub(super) fn tangential(sheet: &mut ClaimSheet, figure: &str) -> Result<(), Fai
     {
         let name = format!("{figure}-local-{claim}");
         let statement = format!(
-            "the response is {word} from D_T = (averaging as printed, exact Floquet threshold as measured)"
+            "the response is {word} from D_T = (printed: averaging; measured: exact Floquet threshold)"
         );
         sheet.number(&name, &place, &statement, averaged, &[change.amplitude]);
     }
@@ -83,11 +83,11 @@ pub(super) fn tangential(sheet: &mut ClaimSheet, figure: &str) -> Result<(), Fai
         "the unstable response is close to period-10: its low frequency is at or near ω₀";
     sheet
         .number(&name, &place, statement, "1.0", &frequencies)
-        .note("turns of the section a period, times R");
+        .note("revolutions of the section per period, times R");
     Ok(())
 }
 
-/// Which columns settle from rest.
+/// The columns that settle from rest.
 fn columns_claim(
     sheet: &mut ClaimSheet,
     stem: &str,
@@ -102,9 +102,12 @@ fn columns_claim(
     let others: Vec<f64> =
         columns.cases.iter().map(|case| case.amplitude).filter(|d| !stable.contains(d)).collect();
     let plain = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
-    let statement =
-        format!("from rest D = {} settle, D = {} do not", plain(stable), plain(&others));
-    let measured = format!("settle: {}; do not: {}", plain(&settles), plain(&vibrates));
+    let statement = format!(
+        "responses from rest settle at D = {} and vibrate at D = {}",
+        plain(stable),
+        plain(&others)
+    );
+    let measured = format!("settle: {}; vibrate: {}", plain(&settles), plain(&vibrates));
     let holds = settles == stable;
     sheet.statement(
         [&format!("{stem}-columns"), &format!("Figure {figure}"), &statement],
@@ -133,8 +136,8 @@ fn borders(sheet: &mut ClaimSheet, printed: &Printed, columns: &AmplitudeColumns
             .filter(|change| change.holds_above == holds_above)
             .map(|change| change.amplitude)
             .collect();
-        let holds = found.iter().any(|it| before < *it && *it <= first);
-        let statement = format!("from rest it is {word} for D ≥ {first}, not yet at {before}");
+        let holds = found.iter().any(|amplitude| before < *amplitude && *amplitude <= first);
+        let statement = format!("from rest it is {word} for D ≥ {first}, but not yet at {before}");
         let claim = sheet.statement(
             [&format!("{name}-from-rest-{claim}"), &format!("Figure {name}"), &statement],
             format!("threshold {}", list(&found)),
@@ -143,15 +146,15 @@ fn borders(sheet: &mut ClaimSheet, printed: &Printed, columns: &AmplitudeColumns
         );
         if !holds_above && let Some(AmplitudeThreshold { amplitude, .. }) = columns.local.first() {
             claim.note(format!(
-                "the quiet response is stable up to {}: between both a stick-slip vibration coexists with it, and rest lies in the \
-                 basin of that",
+                "the base response is stable up to {}: between the two amplitudes a stick-slip vibration coexists with it, and \
+                 rest is in the basin of that vibration",
                 digits(*amplitude, 6)
             ));
         }
     }
 }
 
-/// Figure 4.11 with a waveform: that of its caption, or a sine.
+/// Figure 4.11 with one waveform: that of its caption, or a sine.
 pub(super) fn normal(sheet: &mut ClaimSheet, waveform: Waveform) -> Result<(), Failure> {
     let waveform = waveform.name();
     let study = source("4.11")?.changed(&[&format!("dither.waveform={waveform}")])?;
@@ -162,7 +165,7 @@ pub(super) fn normal(sheet: &mut ClaimSheet, waveform: Waveform) -> Result<(), F
     let thresholds: Vec<f64> = columns.local.iter().map(|change| change.amplitude).collect();
     let statement =
         "from rest it is stable at D_N = 0.6, unstable from 0.7, and nearly stable at 0.9 to 0.95";
-    // Peak of the section where the text calls it unstable, against what is left at its end.
+    // Size of the section where the text calls the response unstable, compared with its size at the end.
     let pattern = spreads.len() == 6
         && spreads[1] < 1e-6
         && spreads[2] > 0.01
@@ -175,11 +178,11 @@ pub(super) fn normal(sheet: &mut ClaimSheet, waveform: Waveform) -> Result<(), F
             &spreads,
             pattern,
         )
-        .note(format!("the quiet response changes stability at D_N = {}", list(&thresholds)));
+        .note(format!("the stability of the base response changes at D_N = {}", list(&thresholds)));
     Ok(())
 }
 
-/// Extent along x of the section of a response, where the run ended on one.
+/// Extent along x of the section of a response, if the run converged to one.
 fn spread(case: &AmplitudeColumn) -> Option<f64> {
     let displacements = case.attractor.as_ref()?.section.iter().map(|(x, _)| *x);
     let (low, high) = displacements
@@ -187,7 +190,7 @@ fn spread(case: &AmplitudeColumn) -> Option<f64> {
     (low <= high).then_some(high - low)
 }
 
-/// "Multiple solutions have not been encountered", normal dither: 11 × 9 starts, x from −1 to 1.5, x′ from −1 to 1.
+/// "Multiple solutions have not been encountered", normal dither: 11 × 9 initial conditions, x from −1 to 1.5, x′ from −1 to 1.
 pub(super) fn other_starts(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let cases = [
         (LawKind::Stribeck, LIGHT, 0.05, Waveform::Sine, 0.9, 10.0),
@@ -222,7 +225,7 @@ pub(super) fn other_starts(sheet: &mut ClaimSheet) -> Result<(), Failure> {
                 "normal dither: multiple solutions have not been encountered on a grid of initial conditions",
             ],
             format!(
-                "responses that 11 × 9 starts end on, five cases: {}; starts still on their way at the end: {unknown}",
+                "number of responses reached from 11 × 9 initial conditions, five cases: {}; runs that did not settle: {unknown}",
                 list(&found)
             ),
             &found,

@@ -1,8 +1,8 @@
-//! The table of claims: what the dissertation says, what independent numerics measure, and the verdict.
+//! The table of claims: the statements of the dissertation, independent numerical measurements, and the verdicts.
 //!
-//! A claim is made by a function that measures (`chapter2` to `chapter5`, `attractors`, `isocline`); the verdict follows from printed and
-//! measured values by the rules of [`ClaimVerdict`], never from words. The verdict on record stands in [`LEDGER`]; a test holds
-//! every claim to it, so that none changes unseen.
+//! The functions of `chapter2` to `chapter5`, `attractors` and `isocline` measure the claims. The verdict follows only from
+//! printed and measured values by the rules of [`ClaimVerdict`]. The verdicts on record are in [`LEDGER`]; a test compares every
+//! claim with it, so that no verdict changes unnoticed.
 
 use quell_model::Waveform;
 use rayon::prelude::*;
@@ -20,17 +20,18 @@ mod chapter3_formulas;
 mod chapter4;
 mod chapter5;
 mod isocline;
+mod ledger;
 mod sheet;
 
-pub use super::claim::{Claim, ClaimVerdict};
-pub use super::ledger::{Expected, LEDGER};
+pub use super::claim::{Claim, ClaimVerdict, Expected};
+pub use ledger::LEDGER;
 
 use sheet::ClaimSheet;
 
-/// Measures a few claims and writes them down.
+/// Measures a few claims and records them.
 type ClaimMeasurement = fn(&mut ClaimSheet) -> Result<(), Failure>;
 
-/// In the order of the dissertation.
+/// All measurements, in the order of the dissertation.
 const SECTIONS: &[ClaimMeasurement] = &[
     chapter2::friction_laws,
     chapter2::responses,
@@ -64,7 +65,7 @@ const SECTIONS: &[ClaimMeasurement] = &[
     chapter5::revived,
 ];
 
-/// Measures every claim, on all cores; the order is that of the dissertation.
+/// Measures every claim, in parallel on all cores. The claims are in the order of the dissertation.
 ///
 /// # Errors
 /// [`Failure`] if a run stops or an average has no value.
@@ -72,7 +73,7 @@ pub fn measure() -> Result<Vec<Claim>, Failure> {
     measure_with(&SharedMeasurements::default())
 }
 
-/// The same, with what figures have measured already.
+/// The same, sharing measurements with the figures.
 fn measure_with(shared: &SharedMeasurements) -> Result<Vec<Claim>, Failure> {
     let sections: Result<Vec<Vec<Claim>>, Failure> = SECTIONS
         .par_iter()
@@ -107,7 +108,7 @@ pub(super) fn product(source: &EntrySource) -> Result<Product, Failure> {
     Ok(Product { caption, tables: vec![table], claims, ..Product::default() })
 }
 
-/// How many have a verdict of this kind.
+/// Number of claims with a verdict of this kind.
 pub(super) fn count<'a>(claims: impl IntoIterator<Item = &'a Claim>, name: &str) -> usize {
     claims.into_iter().filter(|claim| claim.verdict.name() == name).count()
 }

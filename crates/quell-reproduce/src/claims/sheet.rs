@@ -1,25 +1,25 @@
 //! The sheet on which the measurements of claims are recorded, and the rules of their verdicts.
 
 use super::super::claim::{Claim, ClaimVerdict};
-use super::super::ledger;
 use super::super::shared::SharedMeasurements;
+use super::ledger;
 
-/// Claims under construction.
+/// The claims recorded so far by one measurement.
 #[derive(Debug, Default)]
 pub(super) struct ClaimSheet {
-    /// What figures have measured already.
+    /// Measurements shared with the figures.
     pub(super) shared: SharedMeasurements,
-    /// Those finished.
+    /// The recorded claims.
     pub(super) claims: Vec<Claim>,
 }
 
-/// Most that a number may be off and still be called reproduced.
+/// Largest relative deviation at which a number still counts as reproduced.
 const USUAL_LIMIT: f64 = 0.05;
-/// Relative difference below which a printed formula is right.
+/// Relative difference below which a printed formula counts as correct.
 const FORMULA_AGREES: f64 = 1e-9;
 
 impl ClaimSheet {
-    /// A printed number, such as `0.666`, against measured ones; all of them must agree.
+    /// Compares a printed number, such as `0.666`, with measured ones; all of them must agree.
     pub(super) fn number(
         &mut self,
         name: &str,
@@ -31,7 +31,7 @@ impl ClaimSheet {
         self.number_within(USUAL_LIMIT, [name, place, statement], printed, measured)
     }
 
-    /// The same with another limit, for a number that is printed as rough; `words` are name, place, statement.
+    /// The same with another limit, for a number that is printed as approximate; `words` are name, place, statement.
     pub(super) fn number_within(
         &mut self,
         limit: f64,
@@ -40,11 +40,11 @@ impl ClaimSheet {
         measured: &[f64],
     ) -> &mut Claim {
         let (value, half_digit) = read(printed);
-        let off = measured.iter().map(|m| (m - value).abs()).fold(0.0, f64::max);
-        let deviation = off / value.abs();
+        let error = measured.iter().map(|m| (m - value).abs()).fold(0.0, f64::max);
+        let deviation = error / value.abs();
         let verdict = if measured.is_empty() {
             ClaimVerdict::NotReproduced { deviation: None }
-        } else if off <= half_digit * (1.0 + 1e-9) {
+        } else if error <= half_digit * (1.0 + 1e-9) {
             ClaimVerdict::Reproduced
         } else if deviation <= limit {
             ClaimVerdict::Within { deviation }
@@ -56,7 +56,7 @@ impl ClaimSheet {
         claim
     }
 
-    /// A statement that holds or not, with the numbers that say so.
+    /// A statement that holds or not, with the numbers that decide it.
     pub(super) fn statement(
         &mut self,
         words: [&str; 3],
@@ -72,7 +72,7 @@ impl ClaimSheet {
         self.push(words, String::new(), measured.into(), values, verdict)
     }
 
-    /// A printed formula at one point against the value of its definition.
+    /// Compares a printed formula at one point with the value of its definition.
     pub(super) fn formula(&mut self, words: [&str; 3], printed: f64, right: f64) -> &mut Claim {
         let deviation = (printed - right).abs() / right.abs();
         let verdict = if deviation <= FORMULA_AGREES {
@@ -117,25 +117,25 @@ fn read(printed: &str) -> (f64, f64) {
     (value, 0.5 * 10f64.powi(-i32::try_from(decimals).unwrap_or(0)))
 }
 
-/// Numbers with four significant digits, in a row.
+/// Numbers with four significant digits, separated by commas.
 pub(super) fn list(values: &[f64]) -> String {
     let values: Vec<String> = values.iter().map(|value| digits(*value, 4)).collect();
     values.join(", ")
 }
 
-/// Ratios with three decimals, in a row.
+/// Ratios with three decimals, separated by commas.
 pub(super) fn shares(values: &[f64]) -> String {
     let values: Vec<String> = values.iter().map(|value| format!("{value:.3}")).collect();
     values.join(", ")
 }
 
-/// A number with so many significant digits.
+/// A number with `count` significant digits.
 pub(super) fn digits(value: f64, count: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }
     let scientific = format!("{value:.*e}", count - 1);
-    // The exponent after rounding: 9.9999 counts as 10.
+    // The exponent after rounding, so that 9.9999 counts as 10.
     let exponent =
         scientific.split_once('e').and_then(|(_, exponent)| exponent.parse::<i64>().ok());
     match exponent {

@@ -1,6 +1,6 @@
-//! Figure 5.6: what the real part of an exponent says, on one degree of freedom.
+//! Figure 5.6: meaning of the real part of an exponent, for one degree of freedom.
 //!
-//! x = e^{ρτ} cos τ with Re ρ = 0.03, 0, −0.03: the print gives no numbers.
+//! x = e^{ρτ} cos τ with Re ρ = 0.03, 0, −0.03; the dissertation gives no numbers.
 
 use super::super::caption::letter;
 use super::super::product::{DataTable, Product};
@@ -42,7 +42,7 @@ pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         panels.push(panel.title(format!("({name}) Re $ρ$ {sign}")).legend(Legend::None));
     }
     let figure = Figure::grid(3, panels).sharing_x(Sharing::All).size(Size::Frame(250.0, 180.0));
-    let caption = "Figure 5.6. Responses of one degree of freedom, $x$ = $e^{ρτ}$ cos $τ$ with Re $ρ$ = 0.03, 0, −0.03, and their \
-                   envelopes; the print gives no numbers.";
+    let caption = "Figure 5.6. Responses of one degree of freedom, $x$ = $e^{ρτ}$ cos $τ$ with Re $ρ$ = 0.03, 0, −0.03, and \
+                   their envelopes; the dissertation gives no numbers.";
     Ok(Product::of_disc(figure, caption, &study).by(&[]).table(table))
 }

@@ -1,4 +1,4 @@
-//! Tables 5.1 and 5.2: speeds at which waves meet, and what the print does not say of them.
+//! Tables 5.1 and 5.2: speeds at which waves meet, with properties of the meetings that the dissertation does not give.
 
 use quell_disc::resonance::{Resonance, Waves};
 
@@ -47,7 +47,7 @@ fn table(
     let mut names = printed.iter().enumerate();
     let damper = study.disc().loads().first().map_or(1.0, |load| load.damping);
     for resonance in found(&waves) {
-        // The print leaves Ω = 0 out.
+        // The dissertation omits Ω = 0.
         let (name, value) = match names.next().filter(|_| resonance.speed > 1e-9) {
             Some((index, printed)) => (format!("{symbol}_{}", index + 1), printed.parse().ok()),
             None => ("not printed".to_owned(), None),
@@ -65,9 +65,9 @@ fn table(
         ]);
     }
     let caption = format!(
-        "Table {number}. Speeds Ω at which two waves of the disc meet in the frame of the load, $N_r$ = 1, $N_θ$ = 2{}: every printed \
-         digit comes out with $b$/$a$ = 0.5, printed as 0.05. Added: the pair of waves, whether their meeting can be unstable at first \
-         order, and the friction $f$/$c$ at the tip of its tongue.",
+        "Table {number}. Speeds Ω at which two waves of the disc meet in the frame of the load, $N_r$ = 1, $N_θ$ = 2{}: every \
+         printed digit is reproduced with $b$/$a$ = 0.5, printed as 0.05. Added: the pair of waves, whether their meeting can \
+         be unstable at first order, and the friction $f$/$c$ at the tip of its tongue.",
         if number == "5.2" { ", $R$ = 2.7" } else { "" }
     );
     Ok(Product::table_of_disc(caption, &study).by(&[Task::Resonances]).table(table))

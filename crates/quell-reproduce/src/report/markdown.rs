@@ -1,4 +1,4 @@
-//! The report as a Markdown table: one line a figure or table, with its files, claims and run time.
+//! The report as a Markdown table: one line per figure or table, with its files, claims and run time.
 
 use std::fmt::Write as _;
 
@@ -10,7 +10,7 @@ pub(crate) fn markdown(written: &[WrittenEntry], resolution: Resolution) -> Stri
     let all = claims::all(written);
     let mut text = "# The dissertation, reproduced\n\n".to_owned();
     if resolution == Resolution::Quick {
-        text += "Quick: maps have coarser grids than their studies say.\n\n";
+        text += "Quick: maps have coarser grids than their study files specify.\n\n";
     }
     text += "| name | what | claims that hold | corrections applied | files | seconds |\n|---|---|---|---|---|---|\n";
     for done in written {
