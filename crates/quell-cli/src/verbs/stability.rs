@@ -6,7 +6,8 @@ use clap::Args;
 use quell::picture;
 use quell::run::disc;
 use quell::run::stability::{
-    Averaged, DECIBELS, LOOKED_AT, Side, Stability, becomes, growth_rate, kind, run as stability,
+    Averaged, DECIBELS, LOOKED_AT, SlopeSide, Stability, becomes, growth_rate, kind,
+    run as stability,
 };
 use quell::{DiscStudy, Failure, Study, Subject};
 use quell_model::units::Quantity;
@@ -150,7 +151,7 @@ fn averaged(study: &Study, found: &Averaged) -> String {
         table.number("  error", Quantity::Ratio, criterion.error);
         table.rate("growth rate", growth_rate(criterion.value));
         table.number("effective friction μ̄", Quantity::Ratio, criterion.effective.coefficient);
-        if criterion.effective.side == Side::Outer {
+        if criterion.effective.side == SlopeSide::Outer {
             table.word("  one-sided", "the slope is that for slightly faster belts");
         }
     }

@@ -5,7 +5,7 @@
 //! share it.
 
 use quell_dynamics::response::Effect;
-use quell_linear::averaging::{Criterion, UndecidedBecause, Verdict};
+use quell_linear::averaging::{AveragedVerdict, Criterion, UndecidedBecause};
 use quell_linear::growth::Growth;
 use quell_model::units;
 
@@ -364,10 +364,12 @@ fn sharper(results: &Results) -> Result<&Criterion, Status> {
 
 fn verdict(criterion: &Criterion) -> Result<f64, Status> {
     match criterion.verdict {
-        Verdict::Unstable => Ok(0.0),
-        Verdict::Stable => Ok(1.0),
-        Verdict::Undecided { why: UndecidedBecause::WithinError } => Err(Status::WithinError),
-        Verdict::Undecided { why: UndecidedBecause::AtCorner } => Err(Status::AtCorner),
+        AveragedVerdict::Unstable => Ok(0.0),
+        AveragedVerdict::Stable => Ok(1.0),
+        AveragedVerdict::Undecided { why: UndecidedBecause::WithinError } => {
+            Err(Status::WithinError)
+        }
+        AveragedVerdict::Undecided { why: UndecidedBecause::AtCorner } => Err(Status::AtCorner),
     }
 }
 
