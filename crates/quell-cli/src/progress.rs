@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use quell::sweep::Progress;
-use quell_reproduce::Step;
+use quell_reproduce::EntryProgress;
 
 use crate::answer::tell;
 
@@ -73,11 +73,11 @@ impl Entries {
     }
 
     /// Hears of one begun or done.
-    pub(crate) fn hear(&self, step: Step) {
+    pub(crate) fn hear(&self, step: EntryProgress) {
         let Ok(mut making) = self.making.lock() else { return };
         match step {
-            Step::Begun(entry) => making.push(entry.name),
-            Step::Done(done) => {
+            EntryProgress::Begun(entry) => making.push(entry.name),
+            EntryProgress::Done(done) => {
                 making.retain(|name| *name != done.entry.name);
                 self.bar.inc(1);
                 if self.bar.is_hidden() {

@@ -1,8 +1,9 @@
 //! Time per point against the number of modes N = (N_r, N_θ), up to (4, 12).
 //!
-//! `cargo run --release --package quell-disc --example cost` prints one line of CSV a mode set: states, µs of one growth
-//! rate with its bound without dither, µs of one Floquet exponent with its bound (normal dither, α = 1, R = 2.7).
-//! Of some passes over a few points the fastest counts, in processor time: other work on the machine only slows.
+//! `cargo run --release --package quell-disc --example cost` prints one line of CSV per mode set: number of states, time in µs of
+//! one growth rate with its error bound without dither, and time in µs of one Floquet exponent with its error bound (normal
+//! dither, α = 1, R = 2.7). Of several passes over a few points the fastest counts, in processor time, because other work on the
+//! machine can only slow a pass down.
 
 #[path = "clock/mod.rs"]
 mod clock;
@@ -21,7 +22,7 @@ use quell_numerics::floquet::Effort;
 /// Passes over the points.
 const PASSES: u32 = 5;
 
-/// Frictions of the points.
+/// Number of frictions, one per point.
 const FRICTIONS: usize = 8;
 
 const SPEED: f64 = 0.37;
@@ -37,7 +38,7 @@ fn disc(modes: &[Mode], dither: DiscDither) -> Disc {
     Disc::new(modes.to_vec(), vec![load], dither, SPEED).expect("valid")
 }
 
-/// Fastest pass, µs per point.
+/// Time of the fastest pass, in µs per point.
 fn fastest(mut point: impl FnMut(f64)) -> f64 {
     let mut fastest = f64::INFINITY;
     for _ in 0..PASSES {

@@ -1,8 +1,8 @@
 //! Time per point of a stability map of the disc, with and without dither.
 //!
-//! `cargo run --release --package quell-disc --example disc_speed` prints one JSON line;
-//! `benches/peers/compare_disc.py` runs it beside NumPy and prints the ratios.
-//! Each workload is repeated and the fastest pass counts, in processor time: other work on the machine only slows.
+//! `cargo run --release --package quell-disc --example disc_speed` prints one line of JSON; `benches/peers/compare_disc.py` runs
+//! it alongside NumPy and prints the ratios. Each workload is repeated and the fastest pass counts, in processor time, because
+//! other work on the machine can only slow a pass down.
 
 #[path = "clock/mod.rs"]
 mod clock;
@@ -44,7 +44,7 @@ const LARGE: [(usize, f64, f64); 12] = [
     (5, 20.59801190109086, -2.04368782383033),
 ];
 
-/// Speeds and frictions of the maps.
+/// Numbers of speeds and frictions of the maps.
 const SPEEDS: usize = 10;
 const FRICTIONS: usize = 20;
 
@@ -67,7 +67,7 @@ fn friction(index: usize) -> f64 {
     0.02 + 0.03 * index as f64
 }
 
-/// Fastest pass over all points, µs per point.
+/// Time of the fastest pass over all points, in µs per point.
 fn fastest(mut pass: impl FnMut()) -> f64 {
     let mut fastest = f64::INFINITY;
     for _ in 0..PASSES {
@@ -83,7 +83,7 @@ fn equations(disc: &Disc) -> Linearised {
 }
 
 fn main() {
-    // `speed 1_2` or `speed 2_5` runs one of the two.
+    // The argument `1_2` or `2_5` runs only one of the two mode sets.
     let only = std::env::args().nth(1);
     let mut fields = Vec::new();
     for (name, modes) in [("1_2", &SMALL[..]), ("2_5", &LARGE[..])] {

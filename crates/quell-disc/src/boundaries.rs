@@ -1,15 +1,15 @@
-//! Exact stability boundaries f(Ω) of an undithered disc without damping of its own.
+//! Exact stability boundaries f(Ω) of an undithered disc without modal damping.
 //!
-//! At ξ = 0 and under one load the equations with ρ = iω read (K_c + iωG − ω²M_c) y = −u (c iω w − f w_φ), w = uᵀy, w_φ = sᵀy, with
-//! the conservative system K_c, G, M_c of plate, mass and spring on the left. A motion on the boundary that is in reach of the
-//! force (w ≠ 0) needs a force in quadrature; real ω make the left side real, so the bracket vanishes:
+//! At ξ = 0 and under one load, the equations with ρ = iω are (K_c + iωG − ω²M_c) y = −u (c iω w − f w_φ), w = uᵀy, w_φ = sᵀy,
+//! with the conservative system K_c, G, M_c of plate, mass and spring on the left. A motion on the boundary that the force can
+//! excite (w ≠ 0) requires a force in quadrature. For real ω the left side is real, so the bracket vanishes:
 //!
 //! ```text
 //! f = c · iω w / w_φ        for each mode y of the conservative loaded disc
 //! ```
 //!
-//! exactly, linear in c, without a grid. A mode with w = 0 is out of the force's reach: iω stays an eigenvalue for every f. Such
-//! are the modes at the speeds of table 5.1 and at Ω = 0, vertical lines of the map.
+//! exactly, linearly in c, and without a grid. The force cannot excite a mode with w = 0: iω remains an eigenvalue for every f.
+//! Modes at the speeds of table 5.1 and at Ω = 0 are of this kind and form vertical lines in the map.
 
 use std::fmt;
 
@@ -20,22 +20,22 @@ use quell_model::Disc;
 use quell_model::disc::{Contribution, Contributions};
 
 /// Below this fraction of |y||u| a displacement counts as zero.
-const OUT_OF_REACH: f64 = 1e-10;
+const NEGLIGIBLE: f64 = 1e-10;
 
 /// Friction at which a mode of the conservative loaded disc is marginal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Marginal {
     /// At this friction f alone.
     At(f64),
-    /// At every friction: the force does not reach the mode.
+    /// At every friction: the force does not excite the mode.
     Always,
-    /// At none: the mode has no slope at the load (no nodal diameters).
+    /// At no friction: the mode has no slope at the load (no nodal diameters).
     Never,
 }
 
-/// A mode of the conservative loaded disc and where it is marginal.
+/// A mode of the conservative loaded disc and the friction at which it is marginal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Boundary {
+pub struct ModeBoundary {
     /// Frequency ω in the frame of the loads.
     pub frequency: f64,
     /// The friction.
@@ -45,13 +45,13 @@ pub struct Boundary {
 /// Why there is no exact boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoBoundary {
-    /// More or fewer loads than one: the bracket no longer vanishes as a whole.
+    /// The number of loads is not one: the bracket need not vanish.
     Loads(usize),
-    /// Modes have damping.
+    /// The modes are damped.
     DampedModes,
-    /// The conservative system has a growing motion of its own (Ω beyond β/q).
+    /// The conservative system itself is unstable (Ω beyond β/q).
     Unstable,
-    /// Eigenvalues cannot be computed.
+    /// The eigenvalues could not be computed.
     Eigenvalues(EigenError),
 }
 
@@ -59,13 +59,13 @@ impl fmt::Display for NoBoundary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Loads(count) => {
-                write!(f, "exact boundaries are known for one load, and there are {count}")
+                write!(f, "exact boundaries exist for one load only, but the disc has {count}")
             }
             Self::DampedModes => {
-                f.write_str("exact boundaries are known for a disc without modal damping")
+                f.write_str("exact boundaries exist only for a disc without modal damping")
             }
             Self::Unstable => {
-                f.write_str("the disc grows even without damper and friction at this speed")
+                f.write_str("at this speed the disc is unstable even without damper and friction")
             }
             Self::Eigenvalues(why) => why.fmt(f),
         }
@@ -74,11 +74,11 @@ impl fmt::Display for NoBoundary {
 
 impl std::error::Error for NoBoundary {}
 
-/// Boundaries at the disc's speed, sorted by frequency. The disc's own friction and dither play no part.
+/// Boundaries at the speed of the disc, sorted by frequency. The friction and dither of the disc are ignored.
 ///
 /// # Errors
 /// [`NoBoundary`] where the condition above does not apply.
-pub fn boundaries(disc: &Disc) -> Result<Vec<Boundary>, NoBoundary> {
+pub fn boundaries(disc: &Disc) -> Result<Vec<ModeBoundary>, NoBoundary> {
     if disc.loads().len() != 1 {
         return Err(NoBoundary::Loads(disc.loads().len()));
     }
@@ -107,19 +107,19 @@ pub fn boundaries(disc: &Disc) -> Result<Vec<Boundary>, NoBoundary> {
         let y = &pair.right[..n];
         let along =
             |row: &[f64]| y.iter().zip(row).map(|(y, r)| y * r).sum::<num_complex::Complex64>();
-        let (w, turning) = (along(contact), along(slope));
+        let (w, w_phi) = (along(contact), along(slope));
         let length = y.iter().map(num_complex::Complex64::norm_sqr).sum::<f64>().sqrt();
-        let reached = w.norm_sqr().sqrt() > OUT_OF_REACH * length * contact_size;
-        let turns = turning.norm_sqr().sqrt() > OUT_OF_REACH * length * slope_size;
-        let friction = match (reached, turns) {
+        let excited = w.norm_sqr().sqrt() > NEGLIGIBLE * length * contact_size;
+        let has_slope = w_phi.norm_sqr().sqrt() > NEGLIGIBLE * length * slope_size;
+        let friction = match (excited, has_slope) {
             (false, _) => Marginal::Always,
             (true, false) => Marginal::Never,
             (true, true) => {
-                let ratio = w / turning;
+                let ratio = w / w_phi;
                 Marginal::At(-disc.loads()[0].damping * value.im * ratio.im)
             }
         };
-        found.push(Boundary { frequency: value.im, friction });
+        found.push(ModeBoundary { frequency: value.im, friction });
     }
     found.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
     Ok(found)

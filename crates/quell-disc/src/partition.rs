@@ -1,24 +1,24 @@
-//! Stability boundaries under dither by D-partition: friction at which a Floquet exponent is imaginary, without a grid in f.
+//! Stability boundaries under dither by D-partition: frictions at which a Floquet exponent is imaginary, without a grid in f.
 //!
-//! Under one load a motion e^{ρτ} Σ y_h e^{ihRτ} has the slope θ_h = T(ρ + ihR) [f(τ) θ]_h at the load, T the receptance from
-//! follower force to slope of the disc with mass, damper and spring attached. With H₁ = uᵀG u, H₂ = sᵀG u of the free disc's G(λ),
+//! Under one load, a motion e^{ρτ} Σ y_h e^{ihRτ} has the slope θ_h = T(ρ + ihR) [f(τ) θ]_h at the load, where T is the
+//! receptance from follower force to slope of the disc with mass, damper and spring attached. With H₁ = uᵀG u and H₂ = sᵀG u from
+//! the G(λ) of the free disc,
 //!
 //! ```text
-//! T = H₂/(1 + Z H₁),  Z = mλ² + cλ + k,     θ/f = 𝒯 F θ,  F = mean on the diagonal, α/2 beside it
+//! T = H₂/(1 + Z H₁),  Z = mλ² + cλ + k,     θ/f = 𝒯 F θ,  F = mean on the diagonal, α/2 off the diagonal
 //! ```
 //!
-//! so that at ρ = iω every positive real eigenvalue of the tridiagonal 𝒯F over the harmonics is a 1/f with an exponent iω: a scalar
-//! Hill determinant det(1 − f𝒯F), whatever the number of modes. ω runs over [0, R/2]; where an eigenvalue crosses the real axis
-//! the crossing is closed in by bisection. H puts the highest harmonic above twice the fastest wave; there T falls like λ⁻³, and what is
-//! cut off counts with the product of such factors.
+//! At ρ = iω, every positive real eigenvalue of the tridiagonal 𝒯F over the harmonics is therefore a 1/f for which iω is an
+//! exponent: a scalar Hill determinant det(1 − f𝒯F), for any number of modes. ω covers [0, R/2]; where an eigenvalue crosses the
+//! real axis the crossing is bracketed and refined. H places the highest harmonic above twice the fastest wave. There T decreases
+//! like λ⁻³, and the truncation error is a product of such factors.
 //!
-//! Every crossing is listed, also those at which an already unstable disc gains one more unstable pair. At ξ = 0 and on the lines of
-//! table 5.1 an exponent is imaginary for every f; that one is out of the load's reach and does not appear.
-//! At ω = 0 and ω = R/2 eigenvalues are real or in pairs by symmetry, and real ones count as boundaries
-//! (divergence, and doubling of the dither's period).
-//! Eigenvalues come from QL on the tridiagonal matrix at every point, which sees them all; a crossing is closed in by a secant in ω
-//! along its own eigenvalue, which Newton's method follows, and by bisection where that does not serve.
-//! Limits: crossings that come and go within one step of ω are missed (`POINTS_PER_WAVE`); near poles of T, at ξ = 0 close to a
+//! Every crossing is listed, including those at which an already unstable disc gains one more unstable pair. At ξ = 0 and on the
+//! lines of table 5.1 an exponent is imaginary for every f; the load cannot excite that one, and it does not appear. At ω = 0 and
+//! ω = R/2 eigenvalues are real or in pairs by symmetry, and real ones count as boundaries (divergence, and doubling of the
+//! dither period). The eigenvalues are computed by QL on the tridiagonal matrix at every point, which finds all of them. A
+//! crossing is refined by a secant in ω along its own eigenvalue, tracked by Newton's method, with bisection as a fallback.
+//! Limitations: two crossings within one step of ω are missed (`POINTS_PER_WAVE`). Near poles of T, at ξ = 0 close to a
 //! coincidence, they can be that close.
 
 use std::fmt;
@@ -28,44 +28,44 @@ use quell_numerics::eigen::Tridiagonal;
 
 use quell_model::Disc;
 
-/// Largest H: time grows with its square, and with this one ten modes took 17 s on a 2.1 GHz Xeon. A smaller one refuses slow
-/// dithers that could be waited for.
+/// Largest H. Time grows with its square; with this one, ten modes took 17 s on a 2.1 GHz Xeon. A smaller limit would reject slow
+/// dithers that can be computed in acceptable time.
 pub const MOST_HARMONICS: usize = 200;
 
-/// Points over [0, R/2] for each free wave.
+/// Points in [0, R/2] for each free wave.
 const POINTS_PER_WAVE: usize = 40;
 
-/// Turns of closing in on a crossing: with bisections alone the interval shrinks below the last digit of ω.
-const TURNS: usize = 60;
+/// Most iterations per crossing: by bisection alone the interval would shrink below the last digit of ω.
+const ITERATIONS: usize = 60;
 
-/// A crossing is reached where the imaginary part of the eigenvalue is below this fraction of the eigenvalue.
+/// A crossing has converged when the imaginary part of the eigenvalue is below this fraction of the eigenvalue.
 const REAL: f64 = 1e-15;
 
-/// A resonant wave is detuned by this fraction of its stiffness: far below what a map shows, far above rounding.
-const BESIDE_POLE: f64 = 1e-14;
+/// A resonant wave is detuned by this fraction of its stiffness: far below the resolution of a map, far above rounding.
+const POLE_OFFSET: f64 = 1e-14;
 
 /// A friction at which an exponent is imaginary.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing {
-    /// Factor on the load's friction.
+pub struct FrictionCrossing {
+    /// Factor on the friction of the load.
     pub factor: f64,
     /// Frequency ω of the exponent, 0 ≤ ω ≤ R/2.
     pub frequency: f64,
 }
 
-/// Why there is no partition.
+/// Why no partition exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoPartition {
-    /// More or fewer loads than one.
+    /// The number of loads is not one.
     Loads(usize),
-    /// No dither.
+    /// There is no dither.
     Undithered,
-    /// The dither is so slow beside the waves that this many harmonics would be needed, more than [`MOST_HARMONICS`].
+    /// The dither is so slow compared to the waves that more than [`MOST_HARMONICS`] harmonics would be needed.
     TooManyHarmonics {
-        /// Their number.
+        /// The number of harmonics needed.
         harmonics: usize,
     },
-    /// Eigenvalues failed at every ω.
+    /// The eigenvalues could not be computed at any ω.
     Eigenvalues,
 }
 
@@ -73,24 +73,24 @@ impl fmt::Display for NoPartition {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Loads(count) => {
-                write!(f, "boundaries by D-partition are known for one load, and there are {count}")
+                write!(f, "a D-partition exists for one load only, but the disc has {count}")
             }
             Self::Undithered => f.write_str("there is no dither"),
             Self::TooManyHarmonics { harmonics } => write!(
                 f,
-                "the dither is too slow beside the waves: a D-partition would need {harmonics} harmonics, more than \
+                "the dither is too slow compared to the waves: a D-partition would need {harmonics} harmonics, more than \
                  {MOST_HARMONICS}"
             ),
-            Self::Eigenvalues => {
-                f.write_str("eigenvalues failed at every frequency: numbers are too large")
-            }
+            Self::Eigenvalues => f.write_str(
+                "the eigenvalues could not be computed at any frequency: the numbers are too large",
+            ),
         }
     }
 }
 
 impl std::error::Error for NoPartition {}
 
-/// The tridiagonal operator of a disc.
+/// The tridiagonal operator 𝒯F of a disc.
 struct Operator<'a> {
     disc: &'a Disc,
     mean: f64,
@@ -100,7 +100,7 @@ struct Operator<'a> {
 }
 
 impl Operator<'_> {
-    /// f T(iw), f the load's friction.
+    /// f T(iw), where f is the friction of the load.
     fn receptance(&self, w: f64) -> Complex64 {
         let speed = self.disc.speed();
         let load = &self.disc.loads()[0];
@@ -110,13 +110,13 @@ impl Operator<'_> {
             let q = mode.diameters as f64;
             let square = self.disc.shape(index, 0) * self.disc.shape(index, 0);
             let loss = 2.0 * mode.damping * mode.ratio;
-            // The wave e^{ilφ}: its oscillator rests in the disc and sees λ − ilΩ.
+            // The wave e^{ilφ}: its oscillator is fixed to the disc, where λ is λ − ilΩ.
             let wave = |l: f64| {
-                let seen = lambda - Complex64::new(0.0, l * speed);
-                let stiffness = seen * seen + seen * loss + mode.ratio * mode.ratio;
-                // On a pole H₁ and H₂ are infinite and their quotient is not: a step beside it.
-                let beside = Complex64::new(BESIDE_POLE * mode.ratio * mode.ratio, 0.0);
-                if stiffness.norm_sqr() > 0.0 { stiffness.inv() } else { beside.inv() }
+                let shifted = lambda - Complex64::new(0.0, l * speed);
+                let stiffness = shifted * shifted + shifted * loss + mode.ratio * mode.ratio;
+                // At a pole H₁ and H₂ are infinite but their quotient is not: evaluate close to the pole.
+                let offset = Complex64::new(POLE_OFFSET * mode.ratio * mode.ratio, 0.0);
+                if stiffness.norm_sqr() > 0.0 { stiffness.inv() } else { offset.inv() }
             };
             if mode.diameters == 0 {
                 h1 += wave(0.0) * square;
@@ -130,8 +130,8 @@ impl Operator<'_> {
         h2 / (z * h1 + 1.0) * load.friction
     }
 
-    /// 𝒯F at ρ = iω, whose eigenvalues are 1/factor. Harmonics are −H…H at ω = 0 and −H−1…H elsewhere: at either end of the range
-    /// the set is symmetric, so that what is real by symmetry is real to the last digits.
+    /// 𝒯F at ρ = iω, whose eigenvalues are 1/factor. The harmonics are −H…H at ω = 0 and −H−1…H elsewhere: at either end of the
+    /// range the set is symmetric, so that eigenvalues that are real by symmetry are real to the last digits.
     fn matrix(&self, omega: f64) -> Tridiagonal {
         let below = if omega == 0.0 { self.harmonics } else { self.harmonics + 1 };
         let receptances: Vec<Complex64> = (0..=self.harmonics + below)
@@ -144,12 +144,12 @@ impl Operator<'_> {
         }
     }
 
-    /// Eigenvalues 1/factor at ρ = iω; `None` where they fail, as on a pole: no crossing is seen there.
+    /// Eigenvalues 1/factor at ρ = iω; `None` where they cannot be computed, as at a pole. No crossing is detected there.
     fn inverse_factors(&self, omega: f64) -> Option<Vec<Complex64>> {
         self.matrix(omega).eigenvalues().ok()
     }
 
-    /// The eigenvalue at ρ = iω that is `guess` but for `gap`: by Newton's method, or the nearest of all.
+    /// The eigenvalue at ρ = iω within `gap` of `guess`: by Newton's method, or else the nearest of all eigenvalues.
     fn followed(&self, omega: f64, guess: Complex64, gap: f64) -> Option<Complex64> {
         let matrix = self.matrix(omega);
         matrix
@@ -157,22 +157,22 @@ impl Operator<'_> {
             .or_else(|| nearest(&matrix.eigenvalues().unwrap_or_default(), guess))
     }
 
-    /// Closes in on the crossing of one eigenvalue through the real axis; `None` where the eigenvalue jumps (two
-    /// were mistaken for one, or a pole lies between).
-    fn close_in(
+    /// Refines the crossing of one eigenvalue through the real axis; `None` where the eigenvalue jumps (two
+    /// were mistaken for one, or a pole is in between).
+    fn refine_crossing(
         &self,
         mut low: f64,
         mut value: Complex64,
         mut high: f64,
         mut beyond: Complex64,
-    ) -> Option<Crossing> {
-        for turn in 0..TURNS {
+    ) -> Option<FrictionCrossing> {
+        for iteration in 0..ITERATIONS {
             let middle = 0.5 * (low + high);
             if middle <= low || middle >= high {
                 break;
             }
-            // Every third turn halves: a secant may creep.
-            let share = if turn % 3 == 2 { 0.5 } else { value.im / (value.im - beyond.im) };
+            // Every third iteration bisects, because a secant may converge slowly.
+            let share = if iteration % 3 == 2 { 0.5 } else { value.im / (value.im - beyond.im) };
             let secant = share.mul_add(high - low, low);
             let omega = if secant > low && secant < high { secant } else { middle };
             let gap = (value - beyond).norm_sqr().sqrt();
@@ -184,36 +184,37 @@ impl Operator<'_> {
                 (high, beyond) = (omega, next);
             }
             if next.im.abs() <= REAL * next.re && gap <= 1e-3 * next.re {
-                return Some(Crossing { factor: next.re.recip(), frequency: omega });
+                return Some(FrictionCrossing { factor: next.re.recip(), frequency: omega });
             }
         }
         let jump = (value - beyond).norm_sqr().sqrt();
         let crossed = value.re > 0.0 && jump <= 1e-8 * value.re;
-        crossed.then(|| Crossing { factor: value.re.recip(), frequency: low })
+        crossed.then(|| FrictionCrossing { factor: value.re.recip(), frequency: low })
     }
 }
 
-/// The eigenvalue nearest to a number.
+/// The eigenvalue nearest to a given number.
 fn nearest(values: &[Complex64], to: Complex64) -> Option<Complex64> {
     values.iter().copied().min_by(|a, b| (a - to).norm_sqr().total_cmp(&(b - to).norm_sqr()))
 }
 
-/// Eigenvalues that are real by symmetry, at the ends of the range of ω.
-fn real_ones(values: &[Complex64], frequency: f64, found: &mut Vec<Crossing>) {
+/// Adds the crossings of eigenvalues that are real by symmetry, at the ends of the range of ω.
+fn push_real(values: &[Complex64], frequency: f64, found: &mut Vec<FrictionCrossing>) {
     let largest = values.iter().map(|value| value.norm_sqr().sqrt()).fold(0.0, f64::max);
     for value in values {
-        // Tiny ones are frictions without bound, whose sign is rounding.
+        // Tiny eigenvalues are unbounded frictions, and their sign is rounding noise.
         if value.re > 1e-9 * largest && value.im.abs() <= 1e-10 * value.re {
-            found.push(Crossing { factor: value.re.recip(), frequency });
+            found.push(FrictionCrossing { factor: value.re.recip(), frequency });
         }
     }
 }
 
-/// Every positive factor on the load's friction at which an exponent is imaginary, in rising order.
+/// Every positive factor on the friction of the load at which an exponent is imaginary, in ascending order.
 ///
 /// # Errors
-/// [`NoPartition`] for other than one load, without dither, for a dither too slow, and where eigenvalues fail throughout.
-pub fn crossings(disc: &Disc) -> Result<Vec<Crossing>, NoPartition> {
+/// [`NoPartition`] for a number of loads other than one, without dither, for dither that is too slow, and where the eigenvalues
+/// cannot be computed at any frequency.
+pub fn crossings(disc: &Disc) -> Result<Vec<FrictionCrossing>, NoPartition> {
     if disc.loads().len() != 1 {
         return Err(NoPartition::Loads(disc.loads().len()));
     }
@@ -236,19 +237,19 @@ pub fn crossings(disc: &Disc) -> Result<Vec<Crossing>, NoPartition> {
     let at = |k: usize| 0.5 * ratio * (k as f64 / points as f64);
     let mut found = Vec::new();
     let mut any = false;
-    let mut known = |k: usize| {
+    let mut eigenvalues_at = |k: usize| {
         let values = operator.inverse_factors(at(k));
         any |= values.is_some();
         values.unwrap_or_default()
     };
-    let mut before = known(0);
-    real_ones(&before, at(0), &mut found);
+    let mut before = eigenvalues_at(0);
+    push_real(&before, at(0), &mut found);
     for k in 0..points {
-        let after = known(k + 1);
+        let after = eigenvalues_at(k + 1);
         for &value in &before {
             let Some(next) = nearest(&after, value) else { continue };
             if (value.im < 0.0) != (next.im < 0.0) && value.re.max(next.re) > 0.0 {
-                found.extend(operator.close_in(at(k), value, at(k + 1), next));
+                found.extend(operator.refine_crossing(at(k), value, at(k + 1), next));
             }
         }
         before = after;
@@ -256,7 +257,7 @@ pub fn crossings(disc: &Disc) -> Result<Vec<Crossing>, NoPartition> {
     if !any {
         return Err(NoPartition::Eigenvalues);
     }
-    real_ones(&before, at(points), &mut found);
+    push_real(&before, at(points), &mut found);
     found.sort_by(|a, b| a.factor.total_cmp(&b.factor));
     found.dedup_by(|a, b| {
         (a.factor - b.factor).abs() <= 1e-9 * b.factor

@@ -1,8 +1,8 @@
 //! Averaging against the stored reference, every row (tolerances in `reference/README.md`).
 
 use quell_linear::averaging::{
-    AveragingOptions, Becomes, Crossing, FastMotion, FastWave, NormalOrder, Side, Verdict,
-    criterion, critical_amplitudes, effective,
+    AveragedVerdict, AveragingOptions, Becomes, CrossingKind, FastMotion, FastWave, NormalOrder,
+    SlopeSide, criterion, critical_amplitudes, effective,
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 use serde_json::Value;
@@ -61,7 +61,7 @@ fn tangential_rows() {
         let s = error(found.slope, number(row, "dmubar"));
         assert!(e < 1e-11, "coefficient {}: {e:e} in {row}", found.coefficient);
         assert!(s < 1e-9, "slope {}: {s:e} in {row}", found.slope);
-        assert_eq!(found.side, if at_corner { Side::Outer } else { Side::Both }, "{row}");
+        assert_eq!(found.side, if at_corner { SlopeSide::Outer } else { SlopeSide::Both }, "{row}");
         worst = worst.max(e);
         worst_slope = worst_slope.max(s);
     }
@@ -119,7 +119,11 @@ fn stability_rows() {
         let options = AveragingOptions::default();
         let undithered = criterion(&belt.undithered(), options).expect("slides").verdict;
         let stable = row["undithered_stable"].as_bool().expect("a flag");
-        assert_eq!(undithered, if stable { Verdict::Stable } else { Verdict::Unstable }, "{row}");
+        assert_eq!(
+            undithered,
+            if stable { AveragedVerdict::Stable } else { AveragedVerdict::Unstable },
+            "{row}"
+        );
         let found = critical_amplitudes(&belt, options).expect("found");
         let expected = row["critical_alpha"].as_array().expect("rows");
         assert_eq!(found.len(), expected.len(), "{found:?} in {row}");
@@ -129,7 +133,11 @@ fn stability_rows() {
             assert!(e < 1e-12, "{found:?}: {e:e} in {row}");
             assert!((found.amplitude / (r * found.amplitude_ratio) - 1.0).abs() < 1e-15);
             let jump = text(expected, "type").starts_with("jump");
-            assert_eq!(found.crossing, if jump { Crossing::Jump } else { Crossing::Root }, "{row}");
+            assert_eq!(
+                found.crossing,
+                if jump { CrossingKind::Jump } else { CrossingKind::Root },
+                "{row}"
+            );
             let stable = text(expected, "change").ends_with("->stable");
             assert_eq!(found.becomes, if stable { Becomes::Stable } else { Becomes::Unstable });
             worst = worst.max(e);

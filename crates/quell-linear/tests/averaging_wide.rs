@@ -1,8 +1,8 @@
 //! Averaging over a wide grid: stored 40-digit values, closed form against quadrature, limits and symmetries.
 
 use quell_linear::averaging::{
-    AveragingError, AveragingOptions, FastMotion, FastWave, PeriodicMotion, Response, Side,
-    SlipTerm, effective, effective_by_quadrature,
+    AveragingError, AveragingOptions, FastMotion, FastResponse, FastWave, PeriodicMotion, SlipTerm,
+    SlopeSide, effective, effective_by_quadrature,
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 
@@ -110,8 +110,8 @@ fn corner() {
                 assert!((outer.coefficient - corner.coefficient).abs() < 1e-11 * scale);
                 let slope_scale = outer.slope.abs() + law.slope(0.0).abs();
                 assert!((outer.slope - corner.slope).abs() <= 1e-11 * slope_scale);
-                assert_eq!(corner.side, Side::Outer);
-                assert_eq!((inner.side, outer.side), (Side::Both, Side::Both));
+                assert_eq!(corner.side, SlopeSide::Outer);
+                assert_eq!((inner.side, outer.side), (SlopeSide::Both, SlopeSide::Both));
                 let jump = 2.0 * law.static_coefficient() / (core::f64::consts::PI * alpha);
                 if waveform == Waveform::Square {
                     let step = inner.slope - outer.slope;
@@ -351,7 +351,7 @@ fn motion_of_a_belt() {
     let slow = FastMotion::of(
         &belt(vec![dither(t, 0.9, 0.5)]),
         0.3,
-        AveragingOptions { response: Response::Oscillator, ..options },
+        AveragingOptions { response: FastResponse::Oscillator, ..options },
     );
     assert_eq!(slow, Err(AveragingError::NotFast { frequency_ratio: 0.9 }));
 }

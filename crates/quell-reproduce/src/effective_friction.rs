@@ -1,15 +1,18 @@
-//! Figures 2.4, 2.5, 3.3, 3.4: effective friction μ̄(v_r) = ⟨μ(v_r − αG)⟩ under tangential dither of growing amplitude.
+//! Figures 2.4, 2.5, 3.3, 3.4: effective friction μ̄(v_r) = ⟨μ(v_r − αG)⟩ under tangential dither of increasing amplitude.
 //!
-//! Inside |v_r| < αG_max the jump of the law is smoothed; outside the curve is lifted (Stribeck) or falls more steeply
-//! (decreasing). Closed forms of `quell_linear::averaging`; for the decreasing law under a triangle the print's (3.38a) is
-//! drawn too.
+//! Inside |v_r| < αG_max the jump of the law is smoothed; outside, the curve is raised (Stribeck law) or decreases more steeply
+//! (decreasing law). The curves are closed forms of `quell_linear::averaging`. For the decreasing law and a triangle, (3.38a) as
+//! printed is drawn too.
 
 use quell_linear::averaging::{FastMotion, FastWave, effective};
 use quell_model::{LawKind, Waveform};
 
-use super::print::{self, LawNumbers};
-use super::product::{Product, Table};
-use super::source::{Source, failed, letter, parameters, short, values, waveform_name};
+use super::axis::values;
+use super::caption::{letter, parameters, short, waveform_name};
+use super::failure::failed;
+use super::printed_formulas::{self, LawNumbers};
+use super::product::{DataTable, Product};
+use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
@@ -23,7 +26,7 @@ const TO: f64 = 2.0;
 const POINTS: u32 = 360;
 
 /// Figures 2.4 and 2.5: a sine.
-pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
     let panel = panel(source, &study, Waveform::Sine, &mut table)?
@@ -31,14 +34,14 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
     let caption = format!(
         "Figure {}. Effective {} friction under sinusoidal tangential dither of five amplitudes. {}.",
         source.name,
-        super::source::law_name(study.belt().friction().kind()),
+        super::caption::law_name(study.belt().friction().kind()),
         parameters(&study),
     );
     Ok(Product::new(Figure::single(panel), caption, &study).by(&[Task::Friction]).table(table))
 }
 
 /// Figures 3.3 and 3.4: three waveforms.
-pub(super) fn three(source: &Source) -> Result<Product, Failure> {
+pub(super) fn three(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
     let mut panels = Vec::new();
@@ -50,15 +53,15 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
     let law = study.belt().friction().kind();
     let note = match law {
         LawKind::Decreasing => {
-            " Dotted in (b): as printed (3.38a), whose error functions carry exp(−γ − |$v_r$|/$v_m$) in place of exp(γ − |$v_r$|/$v_m$); it does \
-             not even meet (3.38b) at |$v_r$| = π$α$/4."
+            " Dotted in (b): (3.38a) as printed, which has the factor exp(−γ − |$v_r$|/$v_m$) instead of exp(γ − \
+             |$v_r$|/$v_m$) before the error functions and is not continuous with (3.38b) at |$v_r$| = π$α$/4."
         }
         _ => "",
     };
     let caption = format!(
         "Figure {}. Effective {} friction under tangential dither of three waveforms and five amplitudes. {}.{note}",
         source.name,
-        super::source::law_name(law),
+        super::caption::law_name(law),
         parameters(&study),
     );
     let figure = Figure::grid(3, panels)
@@ -71,8 +74,8 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
     Ok(product.by(&[Task::Friction]).table(table))
 }
 
-fn empty_table() -> Table {
-    Table::new(
+fn empty_table() -> DataTable {
+    DataTable::new(
         "",
         &[
             ("waveform", "1"),
@@ -86,10 +89,10 @@ fn empty_table() -> Table {
 }
 
 fn panel(
-    source: &Source,
+    source: &EntrySource,
     study: &BeltStudy,
     waveform: Waveform,
-    table: &mut Table,
+    table: &mut DataTable,
 ) -> Result<Panel, Failure> {
     let belt = study.belt();
     let law = belt.friction();
@@ -112,13 +115,14 @@ fn panel(
                 && waveform == Waveform::Triangle
                 && w.abs() < corner;
             inside.then(|| {
-                print::effective_338a(LawNumbers::DISSERTATION, w.abs() * vm, alpha).copysign(w)
+                printed_formulas::effective_338a(LawNumbers::DISSERTATION, w.abs() * vm, alpha)
+                    .copysign(w)
             })
         };
         let mut pieces = vec![Vec::new()];
         for w in grid(corner) {
             if alpha == 0.0 && w == 0.0 {
-                // The law's own jump.
+                // The jump of the law itself.
                 pieces.last_mut().into_iter().for_each(|piece| piece.push((0.0, -static_level)));
                 pieces.push(vec![(0.0, static_level)]);
                 continue;
@@ -157,7 +161,7 @@ fn panel(
     Ok(panel)
 }
 
-/// Even steps, crowded on the inner side of the corners ±`corner`, where the slope is infinite.
+/// Equal steps, with points clustered on the inner side of the corners ±`corner`, where the slope is infinite.
 fn grid(corner: f64) -> Vec<f64> {
     let mut grid: Vec<f64> =
         (0..=POINTS).map(|k| FROM + (TO - FROM) * f64::from(k) / f64::from(POINTS)).collect();

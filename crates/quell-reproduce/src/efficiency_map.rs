@@ -1,16 +1,19 @@
-//! Figures 2.8, 2.9, 3.10, 3.11, 4.9, 4.10: isolines of the residual vibration E in the plane of R and D.
+//! Figures 2.8, 2.9, 3.10, 3.11, 4.9, 4.10: contours of the residual vibration E in the (R, D) plane.
 //!
-//! The study is the first panel. Further panels change the belt velocity and the waveform; the range of D grows with the averaged
-//! boundary D = α*R, of which a panel shows the same share each. Drawn over: that boundary, and the sharper one with the
-//! oscillator's own response at each R in place of αG (for a sine D = v₀(R² − 1)/R).
+//! The study defines the first panel. Further panels change the belt velocity and the waveform, and scale the range of D with the
+//! averaged boundary D = α*R, so that every panel shows the same fraction of it. Two boundaries are overlaid: that of averaging,
+//! and that of finite-R averaging, with the oscillator's own response at each R instead of αG (for a sine D = v₀(R² − 1)/R).
 
 use std::sync::atomic::AtomicBool;
 
-use quell_linear::averaging::{Becomes, Response};
+use quell_linear::averaging::{Becomes, FastResponse};
 use quell_model::{Direction, Waveform};
 
-use super::product::{Cell, Product, Table};
-use super::source::{Source, failed, law_name, letter, parameters, short, values, waveform_name};
+use super::axis::values;
+use super::caption::{law_name, letter, parameters, short, waveform_name};
+use super::failure::failed;
+use super::product::{Cell, DataTable, Product};
+use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::picture::{self, MapAxis, MapKind};
@@ -27,43 +30,43 @@ const FOUR_VELOCITIES: [f64; 4] = [0.05, 0.1, 0.125, 0.15];
 /// Belt velocities of figures 3.10 and 3.11.
 const THREE_VELOCITIES: [f64; 3] = [0.05, 0.1, 0.15];
 
-/// The isoline that the dissertation compares with averaging.
+/// The contour that the dissertation compares with averaging.
 const FIVE_PER_CENT: f64 = 5.0;
 
-/// A panel: what is changed in the study, and its title.
-struct Case {
+/// The parameters of a panel that differ from the study.
+struct MapPanel {
     belt_velocity: f64,
     waveform: Waveform,
 }
 
 /// Figures 2.8 and 2.9: four belt velocities.
-pub(super) fn velocities(source: &Source) -> Result<Product, Failure> {
+pub(super) fn velocities(source: &EntrySource) -> Result<Product, Failure> {
     let waveform = source.study()?.belt().dithers()[0].waveform;
-    let cases = FOUR_VELOCITIES.map(|belt_velocity| Case { belt_velocity, waveform });
+    let cases = FOUR_VELOCITIES.map(|belt_velocity| MapPanel { belt_velocity, waveform });
     figure(source, &cases, 2)
 }
 
 /// Figures 3.10 and 3.11: three waveforms from top to bottom, three belt velocities.
-pub(super) fn waveforms(source: &Source) -> Result<Product, Failure> {
-    let cases: Vec<Case> = Waveform::ALL
+pub(super) fn waveforms(source: &EntrySource) -> Result<Product, Failure> {
+    let cases: Vec<MapPanel> = Waveform::ALL
         .iter()
         .flat_map(|&waveform| {
-            THREE_VELOCITIES.map(|belt_velocity| Case { belt_velocity, waveform })
+            THREE_VELOCITIES.map(|belt_velocity| MapPanel { belt_velocity, waveform })
         })
         .collect();
     figure(source, &cases, THREE_VELOCITIES.len())
 }
 
 /// Figures 4.9 and 4.10: one panel.
-pub(super) fn single(source: &Source) -> Result<Product, Failure> {
+pub(super) fn single(source: &EntrySource) -> Result<Product, Failure> {
     let belt = source.study()?.belt().clone();
     let (belt_velocity, waveform) = (belt.belt_velocity(), belt.dithers()[0].waveform);
-    figure(source, &[Case { belt_velocity, waveform }], 1)
+    figure(source, &[MapPanel { belt_velocity, waveform }], 1)
 }
 
-fn figure(source: &Source, cases: &[Case], columns: usize) -> Result<Product, Failure> {
+fn figure(source: &EntrySource, cases: &[MapPanel], columns: usize) -> Result<Product, Failure> {
     let first = source.study()?;
-    let mut data = Table::new(
+    let mut data = DataTable::new(
         "",
         &[
             ("panel", "1"),
@@ -75,7 +78,7 @@ fn figure(source: &Source, cases: &[Case], columns: usize) -> Result<Product, Fa
             ("status", "1"),
         ],
     );
-    let mut edges = Table::new(
+    let mut edges = DataTable::new(
         "boundary",
         &[
             ("panel", "1"),
@@ -110,7 +113,7 @@ fn figure(source: &Source, cases: &[Case], columns: usize) -> Result<Product, Fa
     let figure = if columns == 1 {
         Figure::grid(1, panels).size(Size::Frame(400.0, 300.0))
     } else {
-        // Each panel has its own range of D, which grows with its boundary.
+        // Each panel has its own range of D, which scales with its boundary.
         Figure::grid(columns, panels)
             .sharing_x(Sharing::Aligned)
             .legend(SharedLegend::Below)
@@ -120,8 +123,8 @@ fn figure(source: &Source, cases: &[Case], columns: usize) -> Result<Product, Fa
     Ok(product.by(&[Task::Response, Task::Stability]).table(data).table(edges))
 }
 
-/// The study of a panel: its sweep of D goes as far beyond the averaged boundary as the first panel's.
-fn study_of(source: &Source, first: &BeltStudy, case: &Case) -> Result<BeltStudy, Failure> {
+/// The study of a panel. Its sweep of D extends beyond the averaged boundary by the same factor as in the first panel.
+fn study_of(source: &EntrySource, first: &BeltStudy, case: &MapPanel) -> Result<BeltStudy, Failure> {
     let dither = first.belt().dithers()[0];
     let furthest = values(first, "dither.amplitude").last().copied().unwrap_or(1.0);
     let reach = case.belt_velocity / first.belt().belt_velocity()
@@ -134,7 +137,7 @@ fn study_of(source: &Source, first: &BeltStudy, case: &Case) -> Result<BeltStudy
         format!("sweep[1].from={}", short(to / points)),
         format!("sweep[1].to={}", short(to)),
     ];
-    // The first panel is the study as it stands, so that `quell map` gives the same.
+    // The first panel is the unchanged study, so that `quell map` gives the same result.
     if reach == 1.0 {
         return Ok(first.clone());
     }
@@ -142,7 +145,7 @@ fn study_of(source: &Source, first: &BeltStudy, case: &Case) -> Result<BeltStudy
 }
 
 /// E over the study's axes.
-fn efficiency(source: &Source, study: &BeltStudy) -> Result<Map, Failure> {
+fn efficiency(source: &EntrySource, study: &BeltStudy) -> Result<Map, Failure> {
     let quantity = Quantity::named("efficiency", "reproduce")?;
     let plan = Plan::new(study, &[quantity])?;
     let axes: Vec<&str> = plan.grid().axes().iter().map(|axis| axis.path.as_str()).collect();
@@ -153,34 +156,34 @@ fn efficiency(source: &Source, study: &BeltStudy) -> Result<Map, Failure> {
     run(plan, None, Running { threads: None, stop: &never, progress: &() })
 }
 
-fn record(table: &mut Table, panel: &str, case: &Case, done: &Map) {
+fn record(table: &mut DataTable, panel: &str, case: &MapPanel, done: &Map) {
     let grid = done.plan().grid();
     let entry = &done.plan().sheet().entries()[0];
     for point in 0..grid.len() {
-        let place = grid.values_at(point);
+        let values = grid.values_at(point);
         table.row([
             panel.into(),
             case.waveform.name().into(),
             case.belt_velocity.into(),
-            place[0].into(),
-            place[1].into(),
+            values[0].into(),
+            values[1].into(),
             done.number(entry, point).into(),
             Cell::from(done.status(entry, point).name()),
         ]);
     }
 }
 
-/// D = α*R of averaging, and the same with the oscillator's own response.
-fn boundary(done: &Map, panel: &str, table: &mut Table) -> Vec<Line> {
+/// The boundary D = α*R by averaging, and that by finite-R averaging.
+fn boundary(done: &Map, panel: &str, table: &mut DataTable) -> Vec<Line> {
     let grid = done.plan().grid();
     let furthest = grid.axes()[1].values.last().copied().unwrap_or(1.0);
     let mut lines = Vec::new();
     for boundary in boundaries(grid) {
         let (name, label, role, style) = match boundary.response {
-            Response::Limit => {
+            FastResponse::Limit => {
                 ("averaging", "averaging, $D$ = $α^*R$", Role::Boundary, LineStyle::Solid)
             }
-            Response::Oscillator => {
+            FastResponse::Oscillator => {
                 ("sharper", "with the exact fast motion", Role::Exact, LineStyle::Dashed)
             }
         };
@@ -198,7 +201,7 @@ fn boundary(done: &Map, panel: &str, table: &mut Table) -> Vec<Line> {
 }
 
 fn panel(
-    source: &Source,
+    source: &EntrySource,
     study: &BeltStudy,
     done: &Map,
     lines: Vec<Line>,
@@ -217,7 +220,7 @@ fn panel(
     unknown.dedup();
     let value = |point: usize| {
         done.number(entry, point)
-            .ok_or_else(|| unknown.iter().position(|it| *it == states[point]).unwrap_or(0))
+            .ok_or_else(|| unknown.iter().position(|state| *state == states[point]).unwrap_or(0))
     };
     let map = picture::Map {
         axes: axes
@@ -237,7 +240,7 @@ fn panel(
     picture::map_panel(&map, false).map_err(|error| failed(source.name, &error))
 }
 
-fn caption(source: &Source, study: &BeltStudy) -> String {
+fn caption(source: &EntrySource, study: &BeltStudy) -> String {
     let belt = study.belt();
     let dither = belt.dithers()[0];
     let direction = match dither.direction {
@@ -247,14 +250,14 @@ fn caption(source: &Source, study: &BeltStudy) -> String {
     let closing = match dither.direction {
         Direction::Tangential => "",
         Direction::Normal => {
-            " $D_N$ < $F$ keeps the contact closed; the print's line is $α_N^*$ with $μ$($v_0$)$α_N$ in place of $α$."
+            " $D_N$ < $F$ keeps the contact closed; the line in the dissertation is $α_N^*$ with $μ$($v_0$)$α_N$ instead of $α$."
         }
     };
     format!(
-        "Figure {}. Residual vibration $E$ (2.27) under {direction} dither with the {} law, from rest: isolines in per cent. Solid: averaged boundary \
-         $D$ = $α^*R$, which the print compares with $E$ = {FIVE_PER_CENT} %; dashed: with the exact fast motion of the oscillator. \
-         $ζ$ = {}, {}. Record: $τ$ < {} discarded, {} slow periods, mean removed, Hann window; the print gives \
-         none, nor the ranges of its axes.{closing}",
+        "Figure {}. Residual vibration $E$ (2.27) under {direction} dither with the {} law, from rest: contours in per cent. \
+         Solid: averaged boundary $D$ = $α^*R$, which the dissertation compares with $E$ = {FIVE_PER_CENT} %; dashed: with the \
+         exact fast motion of the oscillator. $ζ$ = {}, {}. Record: $τ$ < {} discarded, {} slow periods, mean removed, Hann \
+         window; the dissertation specifies neither its record nor the ranges of its axes.{closing}",
         source.name,
         law_name(belt.friction().kind()),
         belt.damping_ratio(),

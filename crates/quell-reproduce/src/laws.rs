@@ -1,11 +1,12 @@
 //! Figures 2.2 and 4.2: the Stribeck law (2.7) and the decreasing law (2.8) over the slip velocity.
 //!
-//! Both are odd; at v_r = 0 friction takes any value between ∓μ_s, drawn as a thin line.
+//! Both are odd. At v_r = 0 friction takes any value between ∓μ_s, drawn as a thin line.
 
 use quell_model::Friction;
 
-use super::product::{Product, Table};
-use super::source::{Source, law_name, parameters};
+use super::caption::{law_name, parameters};
+use super::product::{DataTable, Product};
+use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Legend, Line, LineStyle, Panel, Place, Role, Rule};
@@ -15,9 +16,9 @@ const FROM: f64 = -1.0;
 const TO: f64 = 2.0;
 const POINTS: u32 = 300;
 
-pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let studies = [source.study()?, source.changed(&["friction.law=decreasing"])?];
-    let mut table = Table::new(
+    let mut table = DataTable::new(
         "",
         &[
             ("slip_velocity_over_reference", "1"),
@@ -61,7 +62,7 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
     let number = source.name;
     let caption = format!(
         "Figure {number}. Stribeck law ({eq1}) and decreasing law ({eq2}); at $v_r$ = 0 friction takes any value between \
-         −$μ_s$ and $μ_s$. {parameters}. The print gives $μ_m$ = 0.2587 {place}, a misprint of 0.2857.",
+         −$μ_s$ and $μ_s$. {parameters}. The dissertation gives $μ_m$ = 0.2587 {place}, a misprint of 0.2857.",
         eq1 = if number.starts_with('4') { "4.7" } else { "2.7" },
         eq2 = if number.starts_with('4') { "4.8" } else { "2.8" },
         place = if number.starts_with('4') { "here" } else { "in the text" },
@@ -75,7 +76,7 @@ fn grid() -> impl Iterator<Item = f64> {
     (0..=POINTS).map(|k| FROM + (TO - FROM) * f64::from(k) / f64::from(POINTS))
 }
 
-/// μ at w = v_r/v_m with the sign of w (of a zero too).
+/// μ at w = v_r/v_m with the sign of w, also for signed zeros.
 fn signed(law: &Friction, w: f64) -> f64 {
     law.coefficient(w.abs() * law.velocity_scale()).copysign(w)
 }

@@ -1,18 +1,21 @@
-//! `reproduce`: every figure and table of the dissertation again, with its data, and a table of its claims.
+//! `reproduce`: reproduction of every figure and table of the dissertation with its data, and a table of its claims.
 //!
-//! One entry of [`ENTRIES`] is one figure or table: a name, a study file that holds its parameters, and a function that
-//! makes a [`Product`] of them. A further figure is one more line there.
+//! Each entry of [`ENTRIES`] is one figure or table: a name, a study file with its parameters, and a function that
+//! computes a [`Product`] from them. Another figure needs one more line there.
 //!
-//! | file | what |
+//! | file | content |
 //! |---|---|
-//! | `source` | study files of the entries, their cases |
-//! | `shared` | measurements that several entries need, made once |
-//! | `product`, `write` | pictures, tables of data, and their files |
-//! | `laws`, `waveforms`, `effective_friction`, `stability_map`, `responses`, `sections`, `efficiency_map`, `measured_friction` | the kinds of figures |
+//! | `source`, `axis` | study files of the entries, and the values of their axes |
+//! | `amplitude_columns`, `shared` | measurements needed by several entries, made once |
+//! | `product`, `write` | figures, data tables, and their files |
+//! | `laws`, `waveforms`, `effective_friction`, `stability_map` | figures of friction laws, waveforms and averaging |
+//! | `responses`, `sections`, `efficiency_map`, `measured_friction` | figures of simulated responses |
+//! | `caption` | names and numbers in captions |
 //! | `disc` | tables and figures of chapter 5 |
-//! | `print` | formulas as the dissertation prints them, right or wrong |
-//! | `claims` | claim, printed, measured, tolerance, verdict, expected verdict |
-//! | `report` | the page that holds everything, and a table of it |
+//! | `printed_formulas` | formulas as printed in the dissertation, correct or not |
+//! | `claim` | a claim, its verdict and its expected verdict |
+//! | `claims` | measurement of the claims, and the verdict on record of each of them |
+//! | `report` | the page with all results, and a summary table |
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -23,16 +26,21 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value as Json, json};
 
-use quell::complaint::{Complaint, Complaints, Failure};
+use quell::complaint::{Complaint, Failure};
 use quell::study::suggest;
 
+mod amplitude_columns;
+mod axis;
+mod caption;
+mod claim;
 pub mod claims;
 mod disc;
 mod effective_friction;
 mod efficiency_map;
+mod failure;
 mod laws;
 mod measured_friction;
-mod print;
+mod printed_formulas;
 mod product;
 mod report;
 mod responses;
@@ -43,27 +51,27 @@ mod stability_map;
 mod waveforms;
 mod write;
 
-use shared::Shared;
+use shared::SharedMeasurements;
 
-pub use product::{Cell, Column, Product, Table};
-pub use source::Source;
+pub use product::{Cell, DataColumn, DataTable, Product};
+pub use source::EntrySource;
 
 /// One figure or table of the dissertation.
 #[derive(Clone, Copy)]
-pub struct Entry {
+pub struct CatalogueEntry {
     /// Name on the command line: `2.3`, `claims`.
     pub name: &'static str,
-    /// What it shows, in one line.
+    /// Its content in one line.
     pub about: &'static str,
-    /// Text of its study file; empty for a table that has its own.
+    /// Text of its study file; empty for the table of claims, which has none.
     study: &'static str,
-    make: fn(&Source) -> Result<Product, Failure>,
+    make: fn(&EntrySource) -> Result<Product, Failure>,
 }
 
-/// A figure whose parameters stand in `studies/figure-NAME.toml`.
+/// A figure with its parameters in `studies/figure-NAME.toml`.
 macro_rules! figure {
     ($name:literal, $about:literal, $make:path) => {
-        Entry {
+        CatalogueEntry {
             name: $name,
             about: $about,
             study: include_str!(concat!("../studies/figure-", $name, ".toml")),
@@ -72,10 +80,10 @@ macro_rules! figure {
     };
 }
 
-/// A table whose parameters stand in `studies/NAME.toml`.
+/// A table with its parameters in `studies/NAME.toml`.
 macro_rules! table {
     ($name:literal, $about:literal, $make:path) => {
-        Entry {
+        CatalogueEntry {
             name: $name,
             about: $about,
             study: include_str!(concat!("../studies/", $name, ".toml")),
@@ -84,8 +92,8 @@ macro_rules! table {
     };
 }
 
-/// Everything that can be reproduced, in the order of the dissertation.
-pub const ENTRIES: &[Entry] = &[
+/// All figures and tables that can be reproduced, in the order of the dissertation.
+pub const ENTRIES: &[CatalogueEntry] = &[
     figure!("2.2", "Stribeck and decreasing friction law", laws::figure),
     figure!("2.3", "responses, Stribeck law, sinusoidal tangential dither", responses::figure),
     figure!("2.4", "effective friction, Stribeck law", effective_friction::figure),
@@ -154,7 +162,7 @@ pub const ENTRIES: &[Entry] = &[
     figure!("5.13", "growth of the disc, tangential dither, ξ = 10⁻⁵", disc::maps),
     figure!("5.14", "growth of the disc, tangential dither, ξ = 10⁻⁴", disc::maps),
     figure!("5.15", "growth of the disc, tangential dither, ξ = 10⁻³", disc::maps),
-    Entry {
+    CatalogueEntry {
         name: "claims",
         about: "numerical claims and formulas: printed, measured, verdict",
         study: "",
@@ -162,8 +170,8 @@ pub const ENTRIES: &[Entry] = &[
     },
 ];
 
-impl Entry {
-    /// Makes the figure or table.
+impl CatalogueEntry {
+    /// Computes the figure or table.
     ///
     /// # Errors
     /// [`Failure`] if a run stops or an average has no value.
@@ -171,35 +179,35 @@ impl Entry {
         (self.make)(&self.source())
     }
 
-    /// The same with at most so many points along each axis of its sweeps: a quick look.
+    /// The same with at most `most_points` points along each axis of its sweeps.
     ///
     /// # Errors
-    /// As [`Entry::product`].
+    /// As [`CatalogueEntry::product`].
     pub fn coarse_product(&self, most_points: usize) -> Result<Product, Failure> {
-        (self.make)(&Source { most_points: Some(most_points), ..self.source() })
+        (self.make)(&EntrySource { most_points: Some(most_points), ..self.source() })
     }
 
-    /// The product at this pace, with what the run has measured already.
-    fn at(&self, pace: Pace, shared: &Shared) -> Result<Product, Failure> {
-        let most_points = match pace {
-            Pace::Full => None,
-            Pace::Quick => Some(QUICK_POINTS),
+    /// The product at this resolution, using the shared measurements of the run.
+    fn at(&self, resolution: Resolution, shared: &SharedMeasurements) -> Result<Product, Failure> {
+        let most_points = match resolution {
+            Resolution::Full => None,
+            Resolution::Quick => Some(QUICK_POINTS),
         };
-        (self.make)(&Source { most_points, shared: shared.clone(), ..self.source() })
+        (self.make)(&EntrySource { most_points, shared: shared.clone(), ..self.source() })
     }
 
     /// Its name and study file.
-    pub fn source(&self) -> Source {
-        Source {
+    pub fn source(&self) -> EntrySource {
+        EntrySource {
             name: self.name,
             about: self.about,
             text: self.study,
             most_points: None,
-            shared: Shared::default(),
+            shared: SharedMeasurements::default(),
         }
     }
 
-    /// What its files are called, without extension.
+    /// Name of its files, without extension.
     pub fn stem(&self) -> String {
         match self.name.chars().next() {
             Some(first) if first.is_ascii_digit() => format!("figure-{}", self.name),
@@ -208,20 +216,20 @@ impl Entry {
     }
 }
 
-impl fmt::Debug for Entry {
+impl fmt::Debug for CatalogueEntry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Entry")
+        f.debug_struct("CatalogueEntry")
             .field("name", &self.name)
             .field("about", &self.about)
             .finish_non_exhaustive()
     }
 }
 
-/// The entries of these names, in the order of [`ENTRIES`]; all of them where no name is given.
+/// The entries with these names, in the order of [`ENTRIES`]; all entries where no name is given.
 ///
 /// # Errors
-/// A complaint for each unknown name, with the known ones.
-pub fn find(names: &[String]) -> Result<Vec<Entry>, Complaints> {
+/// A complaint for each unknown name, listing the known names.
+pub fn find(names: &[String]) -> Result<Vec<CatalogueEntry>, Complaints> {
     use quell::complaint::{Fault, Origin};
     let known = || ENTRIES.iter().map(|entry| entry.name);
     let complaints: Vec<Complaint> = names
@@ -240,11 +248,12 @@ pub fn find(names: &[String]) -> Result<Vec<Entry>, Complaints> {
         })
         .collect();
     if !complaints.is_empty() {
-        return Err(complaints.into());
+        return Err(complaints);
     }
-    let wanted =
-        |entry: &&Entry| names.is_empty() || names.iter().any(|name| bare(name) == entry.name);
-    Ok(ENTRIES.iter().filter(wanted).copied().collect())
+    let selected = |entry: &&CatalogueEntry| {
+        names.is_empty() || names.iter().any(|name| bare(name) == entry.name)
+    };
+    Ok(ENTRIES.iter().filter(selected).copied().collect())
 }
 
 /// `figure-2.3` means 2.3.
@@ -252,20 +261,20 @@ fn bare(name: &str) -> &str {
     name.strip_prefix("figure-").unwrap_or(name)
 }
 
-/// One entry that has been written.
+/// An entry that has been written to files.
 #[derive(Clone, Debug)]
-pub struct Written {
-    /// Its entry.
-    pub entry: Entry,
-    /// Its files.
+pub struct WrittenEntry {
+    /// The entry.
+    pub entry: CatalogueEntry,
+    /// The files.
     pub files: Vec<PathBuf>,
-    /// What was made; the rows of its tables of data are in the files.
+    /// The product; the rows of its data tables are in the files.
     pub product: Product,
-    /// How long it took.
+    /// Run time.
     pub elapsed: Duration,
 }
 
-impl Written {
+impl WrittenEntry {
     /// As JSON.
     pub fn json(&self) -> Json {
         let files: Vec<String> = self.files.iter().map(|file| file.display().to_string()).collect();
@@ -283,34 +292,34 @@ impl Written {
     }
 }
 
-/// How fine the grids of the figures are.
+/// Resolution of the grids of the figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Pace {
-    /// As their study files say.
+pub enum Resolution {
+    /// The resolution of the study files.
     #[default]
     Full,
-    /// At most a few points along each axis of a map: a quicker look; claims are measured in full.
+    /// At most a few points along each axis of a map. Claims are still measured in full.
     Quick,
 }
 
-/// Most points along an axis of a map in a quick look.
+/// Largest number of points along an axis of a map at quick resolution.
 const QUICK_POINTS: usize = 12;
 
-/// What is heard while entries are made.
+/// Progress of a reproduction.
 #[derive(Clone, Copy, Debug)]
-pub enum Step<'a> {
-    /// Work on an entry begins.
-    Begun(&'a Entry),
-    /// An entry is written.
-    Done(&'a Written),
+pub enum EntryProgress<'a> {
+    /// Work on an entry has begun.
+    Begun(&'a CatalogueEntry),
+    /// An entry has been written.
+    Done(&'a WrittenEntry),
 }
 
-/// Everything that was made.
+/// Result of a reproduction.
 #[derive(Clone, Debug)]
 pub struct Reproduction {
     /// The entries, in the order of [`ENTRIES`].
-    pub written: Vec<Written>,
-    /// The report: one page that needs no other file.
+    pub written: Vec<WrittenEntry>,
+    /// The report: one self-contained page.
     pub report: PathBuf,
     /// The same as a Markdown table.
     pub table: PathBuf,
@@ -323,59 +332,59 @@ impl Reproduction {
         claims.filter(|claim| !claim.as_expected()).collect()
     }
 
-    /// Claims whose verdict is not the expected one, in words.
+    /// A warning for each claim whose verdict is not the expected one.
     pub fn warnings(&self) -> Vec<String> {
-        let told = |claim: &claims::Claim| {
+        let warning = |claim: &claims::Claim| {
             let expected = claim.expected.map_or("nothing on record", |expected| expected.name());
             format!("{}: {}, expected: {expected}", claim.name, claim.verdict)
         };
-        self.changed().into_iter().map(told).collect()
+        self.changed().into_iter().map(warning).collect()
     }
 
-    /// As JSON, for what was written into `directory`.
-    pub fn json(&self, directory: &Path, pace: Pace) -> Json {
-        let entries: Vec<Json> = self.written.iter().map(Written::json).collect();
+    /// As JSON, for files written to `directory`.
+    pub fn json(&self, directory: &Path, resolution: Resolution) -> Json {
+        let entries: Vec<Json> = self.written.iter().map(WrittenEntry::json).collect();
         json!({
             "ok": true,
             "directory": directory.display().to_string(),
             "report": self.report.display().to_string(),
             "table": self.table.display().to_string(),
-            "quick": pace == Pace::Quick,
+            "quick": resolution == Resolution::Quick,
             "entries": entries,
             "warnings": self.warnings(),
         })
     }
 }
 
-/// Makes `entries` and writes them into `directory`, which is made if it is missing, with a report; two at a time.
-/// `progress` hears of each.
+/// Computes `entries`, two at a time, and writes them with a report to `directory`, which is created if it does not exist.
+/// `progress` is called at the beginning and end of each entry.
 ///
 /// # Errors
-/// A complaint where the directory cannot be written; the first failure otherwise. What was written stays.
+/// A complaint where the directory cannot be written, otherwise the first failure. Files already written are kept.
 pub fn run(
-    entries: &[Entry],
+    entries: &[CatalogueEntry],
     directory: &Path,
-    pace: Pace,
-    progress: impl Fn(Step) + Sync,
+    resolution: Resolution,
+    progress: impl Fn(EntryProgress) + Sync,
 ) -> Result<Reproduction, Failure> {
     write::prepare(directory)?;
-    let shared = Shared::default();
+    let shared = SharedMeasurements::default();
     let next = AtomicUsize::new(0);
-    let done: Mutex<Vec<(usize, Result<Written, Failure>)>> = Mutex::new(Vec::new());
-    // The claims take longest: whoever begins with them ends with the others.
+    let done: Mutex<Vec<(usize, Result<WrittenEntry, Failure>)>> = Mutex::new(Vec::new());
+    // The claims take longest, so they are started first.
     let mut order: Vec<usize> = (0..entries.len()).collect();
-    order.sort_by_key(|place| entries[*place].name != "claims");
+    order.sort_by_key(|index| entries[*index].name != "claims");
     let work = || {
-        while let Some(&place) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let entry = &entries[place];
-            progress(Step::Begun(entry));
-            let outcome = one(entry, directory, pace, &shared);
+        while let Some(&index) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let entry = &entries[index];
+            progress(EntryProgress::Begun(entry));
+            let outcome = one(entry, directory, resolution, &shared);
             match &outcome {
-                Ok(written) => progress(Step::Done(written)),
+                Ok(written) => progress(EntryProgress::Done(written)),
                 Err(_) => next.store(entries.len(), Ordering::Relaxed),
             }
             if let Ok(mut done) = done.lock() {
-                done.push((place, outcome));
+                done.push((index, outcome));
             }
         }
     };
@@ -385,19 +394,24 @@ pub fn run(
         }
     });
     let mut done = done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    done.sort_by_key(|(place, _)| *place);
-    let written: Vec<Written> =
+    done.sort_by_key(|(index, _)| *index);
+    let written: Vec<WrittenEntry> =
         done.into_iter().map(|(_, outcome)| outcome).collect::<Result<_, Failure>>()?;
-    let page = report::html(&written, pace);
-    let table = report::markdown(&written, pace);
+    let page = report::html(&written, resolution);
+    let table = report::markdown(&written, resolution);
     let report = write::file(directory, "report.html", page.as_bytes())?;
     let table = write::file(directory, "report.md", table.as_bytes())?;
     Ok(Reproduction { written, report, table })
 }
 
-fn one(entry: &Entry, directory: &Path, pace: Pace, shared: &Shared) -> Result<Written, Failure> {
+fn one(
+    entry: &CatalogueEntry,
+    directory: &Path,
+    resolution: Resolution,
+    shared: &SharedMeasurements,
+) -> Result<WrittenEntry, Failure> {
     let began = Instant::now();
-    let product = entry.at(pace, shared)?;
+    let product = entry.at(resolution, shared)?;
     let files = write::product(&product, &entry.stem(), directory)?;
-    Ok(Written { entry: *entry, files, product, elapsed: began.elapsed() })
+    Ok(WrittenEntry { entry: *entry, files, product, elapsed: began.elapsed() })
 }

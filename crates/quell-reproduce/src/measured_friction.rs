@@ -1,37 +1,40 @@
 //! Figures 4.5 and 4.6: effective friction measured on trajectories under normal dither (4.30), (4.31).
 //!
-//! The dissertation does not say from which trajectories. Here: free decays from the study's displacements at its belt
-//! velocities, window means over one dither period without stick, and their medians in bins of the slip velocity
-//! against the averaging approximation with both terms of (4.23) and the law itself. Windows across which the slow velocity
-//! changes by more than 0.02 are left out: averaging holds it fixed.
+//! The dissertation does not specify the trajectories. Here they are free decays from the study's displacements at its belt
+//! velocities. Means over windows of one dither period without sticking, and their medians in bins of the slip velocity, are
+//! compared with the averaging approximation with both terms of (4.23) and with the law itself. Windows across which the slow
+//! velocity changes by more than 0.02 are excluded, because averaging assumes that it is constant.
 
 use quell_dynamics::response::{WindowMean, measured_effective_friction};
 use quell_dynamics::simulation::Start;
 use quell_linear::averaging::{AveragingOptions, FastMotion, NormalOrder, effective};
 
-use super::product::{Product, Table};
-use super::source::{Source, failed, law_name, letter, parameters, values};
+use super::axis::values;
+use super::caption::{law_name, letter, parameters};
+use super::failure::failed;
+use super::product::{DataTable, Product};
+use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Line, Panel, Points, Role, SharedLegend, Sharing, Size};
 use quell::study::BeltStudy;
 
-/// Length of a decay.
+/// Duration of a decay.
 const DURATION: f64 = 40.0;
 /// Window edges per dither period.
 const WINDOWS_PER_PERIOD: usize = 8;
 /// Width of a bin of the slip velocity.
 pub(super) const BIN: f64 = 0.004;
-/// Fewest windows in a bin that is shown.
+/// Smallest number of windows in a bin that is shown.
 const FEWEST: usize = 5;
-/// Most that the slow slip velocity may change across a window that counts.
+/// Largest change of the slow slip velocity across a window that counts.
 const DRIFT: f64 = 0.02;
-/// Slip velocities shown.
+/// Largest slip velocity shown.
 const TO: f64 = 0.3;
 const POINTS: u32 = 300;
 
-/// One panel: what was measured, and what averaging says at the same places.
-pub(super) struct Case {
+/// One panel: the measurement, and the averaging approximation.
+pub(super) struct FrictionPanel {
     /// D_N.
     pub(super) amplitude: f64,
     /// Windows with positive slip.
@@ -43,7 +46,7 @@ pub(super) struct Case {
 }
 
 /// Measures the cases of a figure.
-pub(super) fn cases(source: &Source) -> Result<Vec<Case>, Failure> {
+pub(super) fn cases(source: &EntrySource) -> Result<Vec<FrictionPanel>, Failure> {
     let study = source.study()?;
     let ratio = study.belt().dithers()[0].frequency_ratio;
     values(&study, "dither.amplitude")
@@ -73,15 +76,15 @@ pub(super) fn cases(source: &Source) -> Result<Vec<Case>, Failure> {
                 slow && window.slip_velocity > 0.0 && window.slip_velocity < TO
             });
             let averaged = averaged(source, &study.with("dither.amplitude", amplitude)?)?;
-            Ok(Case { amplitude, bins: medians(&windows), windows, averaged })
+            Ok(FrictionPanel { amplitude, bins: medians(&windows), windows, averaged })
         })
         .collect()
 }
 
-pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let law = study.belt().friction();
-    let mut bins = Table::new(
+    let mut bins = DataTable::new(
         "",
         &[
             ("amplitude", "length (force/k)"),
@@ -138,11 +141,11 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
         .size(Size::Frame(340.0, 220.0));
     let displacements = values(&study, "belt.initial.displacement");
     let caption = format!(
-        "Figure {}. Effective friction with the {} law under sinusoidal normal dither: means of $f/N$ and of the slip velocity over one \
-         dither period of free decays from $x_0$ between {} and {} at {} belt velocities (4.30), (4.31); windows with stick, and those across which the \
-         slow velocity changes by more than {DRIFT}, are dropped; dots are \
-         medians in bins of {BIN}. Solid: averaging with both terms of (4.23). $ζ$ = {}, $R_N$ = {}, {}. The print does not say from which \
-         trajectories its points come.",
+        "Figure {}. Effective friction with the {} law under sinusoidal normal dither: means of $f/N$ and of the slip velocity \
+         over one dither period of free decays from $x_0$ between {} and {} at {} belt velocities (4.30), (4.31); windows with \
+         sticking, and those across which the slow velocity changes by more than {DRIFT}, are excluded; dots are medians in \
+         bins of {BIN}. Solid: averaging with both terms of (4.23). $ζ$ = {}, $R_N$ = {}, {}. The dissertation does not \
+         specify the trajectories of its points.",
         source.name,
         law_name(law.kind()),
         displacements.first().copied().unwrap_or_default(),
@@ -157,7 +160,7 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
 }
 
 /// μ̄(v) of (4.28) with φ′ of (4.23).
-fn averaged(source: &Source, study: &BeltStudy) -> Result<Vec<(f64, f64)>, Failure> {
+fn averaged(source: &EntrySource, study: &BeltStudy) -> Result<Vec<(f64, f64)>, Failure> {
     let options =
         AveragingOptions { normal_order: NormalOrder::Second, ..AveragingOptions::default() };
     (1..=POINTS)
@@ -193,7 +196,7 @@ fn medians(windows: &[WindowMean]) -> Vec<(f64, f64, usize)> {
         .collect()
 }
 
-/// Linear between neighbouring points of a curve with ascending x.
+/// Linear interpolation between neighbouring points of a curve with ascending x.
 pub(super) fn interpolated(curve: &[(f64, f64)], x: f64) -> f64 {
     let after = curve.partition_point(|point| point.0 < x).clamp(1, curve.len() - 1);
     let (before, after) = (curve[after - 1], curve[after]);

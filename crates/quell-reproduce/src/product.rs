@@ -1,34 +1,37 @@
-//! What an entry makes: a picture, its caption, tables of data.
+//! The product of an entry: a figure, its caption, and data tables.
 
 use std::fmt::Write as _;
 
-use super::claims::Claim;
+use super::claim::Claim;
 use quell::cite::{self, Sources, Task};
 use quell::plot::Figure;
-use quell::study::{BeltStudy, DiscStudy};
+use quell::study::{DiscStudy, BeltStudy};
 
-/// A figure or table, ready to be written.
+/// A figure or table, ready to be written to files.
 #[derive(Clone, Debug, Default)]
 pub struct Product {
-    /// The picture; a table of claims has none.
+    /// The figure; a table has none.
     pub figure: Option<Figure>,
-    /// Caption with parameters and departures from the print; symbols between dollars.
+    /// Caption with parameters and departures from the dissertation; symbols are between dollar signs.
     pub caption: String,
-    /// The data behind the picture.
-    pub tables: Vec<Table>,
-    /// The claims of the table of claims.
+    /// The data behind the figure.
+    pub tables: Vec<DataTable>,
+    /// The claims; empty except in the table of claims.
     pub claims: Vec<Claim>,
     /// Study text and changes, for the header of the data.
     pub provenance: Vec<String>,
-    /// What it rests on: equations, and where the print was corrected.
+    /// The equations used, and the corrections to the dissertation.
     pub sources: Sources,
 }
 
 impl Product {
-    /// A figure with its data; the caption is put below the picture too.
+    /// A figure of a belt; the caption is also drawn below the figure.
     pub fn new(figure: Figure, caption: impl Into<String>, study: &BeltStudy) -> Self {
-        Self { sources: cite::sources(study), ..Self::told(caption, study.text(), study.changes()) }
-            .drawn(figure)
+        Self {
+            sources: cite::sources(study),
+            ..Self::with_provenance(caption, study.text(), study.changes())
+        }
+        .drawn(figure)
     }
 
     /// A figure of a disc.
@@ -36,11 +39,11 @@ impl Product {
         Self::table_of_disc(caption, study).drawn(figure)
     }
 
-    /// A table of a disc without a picture.
+    /// A table of a disc without a figure.
     pub(super) fn table_of_disc(caption: impl Into<String>, study: &DiscStudy) -> Self {
         Self {
             sources: cite::sources_of_disc(study),
-            ..Self::told(caption, study.text(), study.changes())
+            ..Self::with_provenance(caption, study.text(), study.changes())
         }
     }
 
@@ -48,14 +51,14 @@ impl Product {
         Self { figure: Some(figure.caption(self.caption.clone())), ..self }
     }
 
-    /// It rests on what these computations need, not on all that its study could be asked.
+    /// Restricts the sources to those of these computations, instead of all computations that the study allows.
     #[must_use]
     pub fn by(mut self, tasks: &[Task]) -> Self {
         self.sources = self.sources.of_tasks(tasks);
         self
     }
 
-    /// It was made of these studies too.
+    /// Adds the sources of further studies.
     #[must_use]
     pub fn also<'a>(mut self, studies: impl IntoIterator<Item = &'a BeltStudy>) -> Self {
         for study in studies {
@@ -64,9 +67,9 @@ impl Product {
         self
     }
 
-    /// Caption, text and changes.
-    fn told(caption: impl Into<String>, text: &str, changes: &[String]) -> Self {
-        // A symbol, its sign and its number stay on one line.
+    /// A product with caption, study text and changes.
+    fn with_provenance(caption: impl Into<String>, text: &str, changes: &[String]) -> Self {
+        // Keep a symbol, its equals sign and its number on one line.
         let caption = caption.into().replace(" = ", "\u{a0}=\u{a0}");
         let mut provenance: Vec<String> =
             changes.iter().map(|change| format!("changed: {change}")).collect();
@@ -75,14 +78,14 @@ impl Product {
         Self { caption, provenance, ..Self::default() }
     }
 
-    /// Adds a table of data.
+    /// Adds a data table.
     #[must_use]
-    pub fn table(mut self, table: Table) -> Self {
+    pub fn table(mut self, table: DataTable) -> Self {
         self.tables.push(table);
         self
     }
 
-    /// The caption without the marks of typesetting.
+    /// The caption without typesetting marks.
     pub fn plain_caption(&self) -> String {
         self.caption
             .replace("\\bar{μ}", "μ̄")
@@ -90,8 +93,8 @@ impl Product {
             .replace('\u{a0}', " ")
     }
 
-    /// A table as CSV: comment lines (`#`) with caption, units and study, names, rows.
-    pub fn csv(&self, table: &Table) -> String {
+    /// A table as CSV: comment lines (`#`) with caption, units and study, then column names and rows.
+    pub fn csv(&self, table: &DataTable) -> String {
         let mut text = String::new();
         let mut lines = vec![format!("quell {} reproduce", env!("CARGO_PKG_VERSION"))];
         lines.extend((!self.caption.is_empty()).then(|| self.plain_caption()));
@@ -119,10 +122,10 @@ impl Product {
 
 /// Name and unit of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Column {
+pub struct DataColumn {
     /// Name.
     pub name: String,
-    /// Unit; `1` for a pure number.
+    /// Unit; `1` for a dimensionless number.
     pub unit: &'static str,
 }
 
@@ -133,14 +136,14 @@ pub enum Cell {
     Number(f64),
     /// A word or sentence.
     Text(String),
-    /// There is none.
+    /// No value.
     Empty,
 }
 
 impl Cell {
     fn csv(&self) -> String {
         match self {
-            // Shortest digits that read back as the same number.
+            // The shortest digits that parse as the same number.
             Self::Number(value) if value.is_finite() => format!("{value:?}"),
             Self::Text(text) if text.contains([',', '"', '\n']) => {
                 format!("\"{}\"", text.replace('"', "\"\""))
@@ -171,20 +174,22 @@ impl From<Option<f64>> for Cell {
 
 /// Rows of cells under named columns.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
-    /// What follows the figure's name in the file's: empty for the main table.
+pub struct DataTable {
+    /// Suffix of the file name after the name of the figure; empty for the main table.
     pub part: &'static str,
     /// The columns.
-    pub columns: Vec<Column>,
-    /// The rows, each as long as the columns.
+    pub columns: Vec<DataColumn>,
+    /// The rows, each with one cell per column.
     pub rows: Vec<Vec<Cell>>,
 }
 
-impl Table {
+impl DataTable {
     /// An empty table with these (name, unit) columns.
     pub fn new(part: &'static str, columns: &[(&str, &'static str)]) -> Self {
-        let columns =
-            columns.iter().map(|&(name, unit)| Column { name: name.to_owned(), unit }).collect();
+        let columns = columns
+            .iter()
+            .map(|&(name, unit)| DataColumn { name: name.to_owned(), unit })
+            .collect();
         Self { part, columns, rows: Vec::new() }
     }
 
@@ -193,7 +198,7 @@ impl Table {
         self.rows.push(cells.into_iter().collect());
     }
 
-    /// A table of whole columns of one length.
+    /// A table of whole columns of equal length.
     pub fn of_columns(part: &'static str, columns: Vec<(String, &'static str, Vec<f64>)>) -> Self {
         let length = columns.iter().map(|(_, _, values)| values.len()).max().unwrap_or(0);
         let rows = (0..length)
@@ -201,7 +206,8 @@ impl Table {
                 columns.iter().map(|(_, _, values)| values.get(row).copied().into()).collect()
             })
             .collect();
-        let columns = columns.into_iter().map(|(name, unit, _)| Column { name, unit }).collect();
+        let columns =
+            columns.into_iter().map(|(name, unit, _)| DataColumn { name, unit }).collect();
         Self { part, columns, rows }
     }
 }

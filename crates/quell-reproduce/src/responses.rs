@@ -1,21 +1,24 @@
 //! Figures 2.3, 3.7–3.9, 4.3, 4.4: displacement, velocity and spectrum, with and without dither.
 //!
-//! Rows: x(τ), x′(τ) from rest, and the spectral amplitudes of the steady record (settling time discarded, mean removed,
-//! Hann). One column for each amplitude of the study's sweep.
+//! Rows: x(τ) and x′(τ) from rest, and the spectral amplitudes of the steady record (settling time discarded, mean removed,
+//! Hann window). One column for each amplitude of the study's sweep.
 
 use quell_dynamics::response::{BAND_END, Response, Spectrum, respond};
 use quell_dynamics::simulation::{Sample, Sampler, simulate};
 use quell_model::{Belt, Direction, LawKind};
 
-use super::product::{Product, Table};
-use super::source::{Source, failed, law_name, letter, parameters, values, waveform_name};
+use super::axis::values;
+use super::caption::{law_name, letter, parameters, waveform_name};
+use super::failure::failed;
+use super::product::{DataTable, Product};
+use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Legend, Line, Panel, Role, Rule, SharedLegend, Sharing, Size};
 use quell::run;
 use quell::study::BeltStudy;
 
-/// Time shown.
+/// End of the time axis.
 const UNTIL: f64 = 80.0;
 /// Samples per dither period.
 const SAMPLES_PER_PERIOD: f64 = 40.0;
@@ -23,7 +26,7 @@ const SAMPLES_PER_PERIOD: f64 = 40.0;
 const FLOOR: f64 = 1e-5;
 
 /// One column of the figure.
-pub(super) struct Case {
+pub(super) struct ResponseColumn {
     /// Its study.
     pub(super) study: BeltStudy,
     /// D.
@@ -33,7 +36,7 @@ pub(super) struct Case {
 }
 
 /// The steady responses of the study's amplitudes.
-pub(super) fn cases(source: &Source) -> Result<Vec<Case>, Failure> {
+pub(super) fn cases(source: &EntrySource) -> Result<Vec<ResponseColumn>, Failure> {
     let study = source.study()?;
     values(&study, "dither.amplitude")
         .into_iter()
@@ -42,12 +45,12 @@ pub(super) fn cases(source: &Source) -> Result<Vec<Case>, Failure> {
             let start = run::start(&study)?;
             let response = respond(study.belt(), start, study.solver())
                 .map_err(|error| failed(source.name, &error))?;
-            Ok(Case { study, amplitude, response })
+            Ok(ResponseColumn { study, amplitude, response })
         })
         .collect()
 }
 
-pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let dither = study.belt().dithers()[0];
     let cases = cases(source)?;
@@ -94,11 +97,11 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
     let caption = caption(source, &study, &cases[0].response);
     Ok(Product::new(figure, caption, &study)
         .by(&[Task::Simulate, Task::Response])
-        .table(Table::of_columns("", histories))
-        .table(Table::of_columns("spectrum", spectra)))
+        .table(DataTable::of_columns("", histories))
+        .table(DataTable::of_columns("spectrum", spectra)))
 }
 
-/// Frequency of the largest peak in the band of E.
+/// Frequency of the largest peak in the frequency band in which E is measured.
 pub(super) fn fundamental(spectrum: &Spectrum) -> Option<f64> {
     let peaks = spectrum.peaks(1e-3).into_iter().filter(|peak| peak.frequency <= BAND_END);
     peaks.max_by(|a, b| a.amplitude.total_cmp(&b.amplitude)).map(|peak| peak.frequency)
@@ -113,8 +116,13 @@ pub(super) fn columns_of(name: &str, samples: &[Sample]) -> [(String, &'static s
     ]
 }
 
-/// Displacement and velocity of a case beside those without dither.
-fn histories_of(case: &Case, name: char, samples: &[Sample], undithered: &[Sample]) -> [Panel; 2] {
+/// Displacement and velocity of a case, together with those without dither.
+fn histories_of(
+    case: &ResponseColumn,
+    name: char,
+    samples: &[Sample],
+    undithered: &[Sample],
+) -> [Panel; 2] {
     let belt = case.study.belt();
     let symbol = if belt.dithers()[0].direction == Direction::Normal { "D_N" } else { "D_T" };
     let efficiency = match &case.response.efficiency {
@@ -146,7 +154,7 @@ fn time_axis() -> Axis {
     Axis::new("time").symbol("τ").between(0.0, UNTIL)
 }
 
-fn spectrum_panel(case: &Case, top: f64) -> Panel {
+fn spectrum_panel(case: &ResponseColumn, top: f64) -> Panel {
     let Response { record, undithered_record, .. } = &case.response;
     let curve = |role, spectrum: &Spectrum| {
         let amplitudes = spectrum.amplitudes().iter().map(|amplitude| amplitude.max(0.1 * FLOOR));
@@ -165,7 +173,7 @@ fn spectrum_panel(case: &Case, top: f64) -> Panel {
 
 /// Samples of the first [`UNTIL`] of a run.
 fn history(
-    source: &Source,
+    source: &EntrySource,
     study: &BeltStudy,
     belt: &Belt,
     step: f64,
@@ -183,7 +191,7 @@ fn history(
     Ok(sampler.samples)
 }
 
-fn caption(source: &Source, study: &BeltStudy, response: &Response) -> String {
+fn caption(source: &EntrySource, study: &BeltStudy, response: &Response) -> String {
     let belt = study.belt();
     let dither = belt.dithers()[0];
     let (direction, symbol) = match dither.direction {
@@ -196,16 +204,17 @@ fn caption(source: &Source, study: &BeltStudy, response: &Response) -> String {
     ) {
         (LawKind::Stribeck, Some(frequency)) => {
             format!(
-                " The fundamental without dither, printed as 0.666 $ω_0$, is {frequency:.3} $ω_0$."
+                " The fundamental frequency without dither, printed as 0.666 $ω_0$, is {frequency:.3} $ω_0$."
             )
         }
         _ => String::new(),
     };
     format!(
-        "Figure {}. Responses from rest with the {} law and {} {direction} dither (solid) and without dither (dashed): displacement, \
-         velocity, and spectral amplitude of the steady displacement. $ζ$ = {}, $v_0$ = {}, ${symbol}$ = {}, {}. $E$ is the largest \
-         amplitude below {BAND_END} $ω_0$ over that without dither (2.27). Spectra: $τ$ < {} discarded, {} slow periods kept, mean \
-         removed, Hann window; the print gives no record.{fundamental}",
+        "Figure {}. Responses from rest with the {} law and {} {direction} dither (solid) and without dither (dashed): \
+         displacement, velocity, and spectral amplitude of the steady displacement. $ζ$ = {}, $v_0$ = {}, ${symbol}$ = {}, {}. \
+         $E$ is the largest amplitude below {BAND_END} $ω_0$ divided by that without dither (2.27). Spectra: $τ$ < {} \
+         discarded, {} slow periods kept, mean removed, Hann window; the dissertation does not specify its \
+         record.{fundamental}",
         source.name,
         law_name(belt.friction().kind()),
         waveform_name(dither.waveform),

@@ -1,166 +1,48 @@
 //! Figures 2.10, 2.11, 3.12, 3.13, 4.11: displacement, velocity and Poincaré section from rest, one column for each amplitude.
 //!
-//! What the prints judge by eye is measured: where the run from rest ends, whether the response of sliding is stable at that
-//! amplitude, and between which amplitudes either of them changes, bisected to `CLOSENESS`.
+//! The dissertation judges these responses by eye. Here the attractor of the run from rest, the stability of the base response,
+//! and the amplitudes at which either of them changes are measured (see `amplitude_columns`).
 
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use quell_dynamics::attractor::{Attractor, Outcome, Patience, Scene, Settled, measure, settle};
-use quell_dynamics::orbit::Verdict;
+use quell_dynamics::attractor::Attractor;
 use quell_dynamics::simulation::{Sample, Sampler, simulate};
 use quell_model::{Direction, Waveform};
 
-use super::product::{Cell, Product, Table};
+use super::amplitude_columns::{AmplitudeColumn, AmplitudeColumns, AmplitudeThreshold};
+use super::caption::{law_name, letter, parameters, short, waveform_name};
+use super::failure::failed;
+use super::product::{Cell, DataTable, Product};
 use super::responses::columns_of;
-use super::source::{Source, failed, law_name, letter, parameters, short, values, waveform_name};
+use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
     Axis, Figure, Legend, Line, Marker, Panel, Points, Role, Rule, SharedLegend, Sharing, Size,
 };
 use quell::run;
-use quell::study::BeltStudy;
 
-/// Time shown, in decay times 1/ζ of the free oscillator, and its bounds.
+/// Length of the time axis in decay times 1/ζ of the free oscillator, and its bounds.
 const DECAY_TIMES: f64 = 2.0;
 const SHOWN: [f64; 2] = [80.0, 300.0];
 
 /// Samples per dither period.
 const SAMPLES_PER_PERIOD: f64 = 12.0;
 
-/// Periods of the section from the start of the run, as far as a grey trail shows where it goes.
+/// Periods of the transient section from the start of the run, drawn as a grey trail.
 const TRANSIENT: usize = 900;
 
-/// States of a settled section that are drawn.
+/// Largest number of states of a settled section that are drawn.
 const SETTLED: usize = 400;
 
-/// Most periods of a run. With fewer a run that is still settling counts as
-/// vibrating and shows no settled section; with more, one at a threshold only takes longer to say so.
-const MOST_PERIODS: u64 = 40_000;
-
-/// Closeness of a threshold, relative.
-const CLOSENESS: f64 = 1e-5;
-
-/// One column of a figure.
-#[derive(Debug)]
-pub(super) struct Case {
-    /// D.
-    pub(super) amplitude: f64,
-    /// Its study.
-    pub(super) study: BeltStudy,
-    /// Whether the response of sliding is stable.
-    pub(super) local: Verdict,
-    /// Whether the run from the start of the study ends on it.
-    pub(super) quiet: bool,
-    /// What it ends on.
-    pub(super) attractor: Option<Attractor>,
-    /// Period of the section.
-    pub(super) period: f64,
-}
-
-impl Case {
-    fn new(name: &str, study: &BeltStudy, amplitude: f64) -> Result<Self, Failure> {
-        let study = study.with("dither.amplitude", amplitude)?;
-        let belt = study.belt().clone();
-        let scene = Scene::new(&belt).map_err(|why| failed(name, &why))?;
-        let local = local(name, &scene)?;
-        let settled = ends(name, &study, &scene)?;
-        let attractor = measure(&scene, &settled).map_err(|why| failed(name, &why))?;
-        let quiet = attractor.as_ref().is_some_and(|it| it.quiet);
-        Ok(Self { amplitude, study, local, quiet, attractor, period: scene.strobe.period })
-    }
-
-    /// Slow frequency (ω₀), where the response turns.
-    pub(super) fn frequency(&self) -> Option<f64> {
-        self.attractor.as_ref()?.frequency(self.period)
-    }
-}
-
-/// Whether the response of sliding is stable.
-fn local(name: &str, scene: &Scene<'_>) -> Result<Verdict, Failure> {
-    scene.quiet.as_ref().map(|quiet| quiet.verdict).map_err(|why| failed(name, why))
-}
-
-/// Where the run from the start of the study ends.
-fn ends(name: &str, study: &BeltStudy, scene: &Scene<'_>) -> Result<Settled, Failure> {
-    let start = run::start(study)?;
-    let patience = Patience { periods: MOST_PERIODS, ..Patience::SWEEP };
-    settle(scene, start, patience).map_err(|why| failed(name, &why))
-}
-
-/// Amplitudes between neighbouring columns at which something changes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Change {
-    /// The amplitude.
-    pub(super) amplitude: f64,
-    /// Whether it holds above.
-    pub(super) to: bool,
-}
-
-/// The columns of a figure with one waveform, and what changes between them.
-#[derive(Debug)]
-pub(super) struct Columns {
-    pub(super) study: BeltStudy,
-    pub(super) cases: Vec<Case>,
-    /// Where the response of sliding gains or loses stability.
-    pub(super) local: Vec<Change>,
-    /// Where the run from rest begins or ceases to end on it.
-    pub(super) from_rest: Vec<Change>,
-}
-
-impl Columns {
-    /// Measures every column of a study.
-    pub(super) fn of(name: &str, study: BeltStudy) -> Result<Self, Failure> {
-        let cases: Vec<Case> = values(&study, "dither.amplitude")
-            .into_iter()
-            .map(|amplitude| Case::new(name, &study, amplitude))
-            .collect::<Result<_, Failure>>()?;
-        let of = |holds: fn(&Case) -> bool| {
-            cases.iter().map(|case| (case.amplitude, holds(case))).collect::<Vec<_>>()
-        };
-        let stable = of(|case| case.local == Verdict::Stable);
-        let local =
-            changes(&study, &stable, |_, scene| Ok(local(name, scene)? == Verdict::Stable))?;
-        let quiet = of(|case| case.quiet);
-        let from_rest = changes(&study, &quiet, |study, scene| {
-            Ok(ends(name, study, scene)?.outcome == Outcome::Quiet)
-        })?;
-        Ok(Self { study, cases, local, from_rest })
-    }
-}
-
-/// Bisects each change between neighbours; a pair of changes between two columns is missed.
-fn changes(
-    study: &BeltStudy,
-    known: &[(f64, bool)],
-    holds: impl Fn(&BeltStudy, &Scene<'_>) -> Result<bool, Failure>,
-) -> Result<Vec<Change>, Failure> {
-    let mut found = Vec::new();
-    for pair in known.windows(2) {
-        let [(mut low, before), (mut high, after)] = [pair[0], pair[1]];
-        if before == after {
-            continue;
-        }
-        while high - low > CLOSENESS * high {
-            let middle = 0.5 * (low + high);
-            let study = study.with("dither.amplitude", middle)?;
-            let belt = study.belt().clone();
-            let scene = Scene::new(&belt).map_err(|why| failed("reproduce", &why))?;
-            if holds(&study, &scene)? == before { low = middle } else { high = middle }
-        }
-        found.push(Change { amplitude: 0.5 * (low + high), to: after });
-    }
-    Ok(found)
-}
-
 /// One waveform: that of the study.
-pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     of_waveforms(source, &[source.shared.columns(source.name, &source.study()?)?])
 }
 
 /// Figure 4.11: square as its caption says, and sine, which its text describes.
-pub(super) fn square_and_sine(source: &Source) -> Result<Product, Failure> {
+pub(super) fn square_and_sine(source: &EntrySource) -> Result<Product, Failure> {
     let of = |waveform: Waveform| {
         let study = source.changed(&[&format!("dither.waveform={}", waveform.name())])?;
         source.shared.columns(source.name, &study)
@@ -169,12 +51,15 @@ pub(super) fn square_and_sine(source: &Source) -> Result<Product, Failure> {
     of_waveforms(source, &[square, sine])
 }
 
-fn of_waveforms(source: &Source, blocks: &[Arc<Columns>]) -> Result<Product, Failure> {
+fn of_waveforms(
+    source: &EntrySource,
+    blocks: &[Arc<AmplitudeColumns>],
+) -> Result<Product, Failure> {
     let several = blocks.len() > 1;
     let mut panels = Vec::new();
     let mut histories: Vec<(String, &'static str, Vec<f64>)> = Vec::new();
-    let mut sections = Table::new("section", SECTION);
-    let mut summary = Table::new("", SUMMARY);
+    let mut sections = DataTable::new("section", SECTION);
+    let mut summary = DataTable::new("", SUMMARY);
     let columns = blocks.first().map_or(1, |block| block.cases.len());
     for block in blocks {
         let waveform = waveform_name(block.study.belt().dithers()[0].waveform);
@@ -189,7 +74,8 @@ fn of_waveforms(source: &Source, blocks: &[Arc<Columns>]) -> Result<Product, Fai
                 histories.push(("time".to_owned(), "1/ω0", time));
             }
             histories.extend(columns_of(&prefix, &samples));
-            let settled = case.attractor.as_ref().map_or(&[][..], |it| it.section.as_slice());
+            let settled =
+                case.attractor.as_ref().map_or(&[][..], |attractor| attractor.section.as_slice());
             for (part, states) in [("from rest", transient.as_slice()), ("settled", settled)] {
                 for &(x, v) in states {
                     sections.row([
@@ -202,7 +88,7 @@ fn of_waveforms(source: &Source, blocks: &[Arc<Columns>]) -> Result<Product, Fai
                     ]);
                 }
             }
-            summary.row(told(waveform, name, case));
+            summary.row(summary_row(waveform, name, case));
             let [x, v, section] =
                 drawn(case, &title(block, several, name, case), &samples, &transient);
             rows[0].push(x);
@@ -220,10 +106,10 @@ fn of_waveforms(source: &Source, blocks: &[Arc<Columns>]) -> Result<Product, Fai
         .by(&[Task::Simulate, Task::Stability])
         .table(summary)
         .table(sections)
-        .table(Table::of_columns("history", histories)))
+        .table(DataTable::of_columns("history", histories)))
 }
 
-/// Columns of the table of sections.
+/// AmplitudeColumns of the table of sections.
 const SECTION: &[(&str, &str)] = &[
     ("waveform", "word"),
     ("case", "word"),
@@ -247,10 +133,11 @@ const SUMMARY: &[(&str, &str)] = &[
 ];
 
 /// A row of the summary.
-fn told(waveform: &str, name: char, case: &Case) -> Vec<Cell> {
+fn summary_row(waveform: &str, name: char, case: &AmplitudeColumn) -> Vec<Cell> {
     let attractor = case.attractor.as_ref();
     let of = |value: fn(&Attractor) -> f64| Cell::from(attractor.map(value));
-    let kind = attractor.map_or_else(|| "not settled".to_owned(), |it| it.kind.words());
+    let kind =
+        attractor.map_or_else(|| "not settled".to_owned(), |attractor| attractor.kind.words());
     vec![
         waveform.into(),
         name.to_string().as_str().into(),
@@ -259,13 +146,16 @@ fn told(waveform: &str, name: char, case: &Case) -> Vec<Cell> {
         case.local.name().into(),
         kind.as_str().into(),
         of(Attractor::size),
-        of(|it| it.stick_fraction),
-        attractor.and_then(|it| it.rotation).map(|it| it.turns_per_period).into(),
+        of(|attractor| attractor.stick_fraction),
+        attractor
+            .and_then(|attractor| attractor.rotation)
+            .map(|rotation| rotation.turns_per_period)
+            .into(),
         case.frequency().into(),
     ]
 }
 
-fn title(block: &Columns, several: bool, name: char, case: &Case) -> String {
+fn title(block: &AmplitudeColumns, several: bool, name: char, case: &AmplitudeColumn) -> String {
     let dither = block.study.belt().dithers()[0];
     let symbol = if dither.direction == Direction::Normal { "D_N" } else { "D_T" };
     let waveform =
@@ -274,7 +164,12 @@ fn title(block: &Columns, several: bool, name: char, case: &Case) -> String {
 }
 
 /// The three panels of a column.
-fn drawn(case: &Case, title: &str, samples: &[Sample], transient: &[(f64, f64)]) -> [Panel; 3] {
+fn drawn(
+    case: &AmplitudeColumn,
+    title: &str,
+    samples: &[Sample],
+    transient: &[(f64, f64)],
+) -> [Panel; 3] {
     let belt_velocity = case.study.belt().belt_velocity();
     let role = if case.quiet { Role::Dithered } else { Role::Unstable };
     let until = samples.last().map_or(1.0, |sample| sample.time);
@@ -288,7 +183,7 @@ fn drawn(case: &Case, title: &str, samples: &[Sample], transient: &[(f64, f64)])
     let velocity = Panel::new(time(), Axis::new("velocity").symbol("x′"))
         .with(curve(|s| s.velocity))
         .with(Rule::horizontal(belt_velocity));
-    let settled = case.attractor.as_ref().map_or(&[][..], |it| it.section.as_slice());
+    let settled = case.attractor.as_ref().map_or(&[][..], |attractor| attractor.section.as_slice());
     let step = settled.len().div_ceil(SETTLED).max(1);
     let states: Vec<(f64, f64)> = settled.iter().step_by(step).copied().collect();
     let (marker, size) = if states.len() == 1 { (Marker::Disc, 5.0) } else { (Marker::Disc, 1.8) };
@@ -304,21 +199,26 @@ fn drawn(case: &Case, title: &str, samples: &[Sample], transient: &[(f64, f64)])
     [displacement, velocity, section]
 }
 
-/// Samples of the time shown.
-fn history(source: &Source, case: &Case) -> Result<Vec<Sample>, Failure> {
+/// Samples over the time axis.
+fn history(source: &EntrySource, case: &AmplitudeColumn) -> Result<Vec<Sample>, Failure> {
     let decay = DECAY_TIMES / case.study.belt().damping_ratio();
     let until = decay.clamp(SHOWN[0], SHOWN[1]);
     let step = case.period / SAMPLES_PER_PERIOD;
     sampled(source, case, step, count(until / step))
 }
 
-/// States of the first periods.
-fn strobe(source: &Source, case: &Case) -> Result<Vec<(f64, f64)>, Failure> {
+/// Stroboscopic states of the first periods.
+fn strobe(source: &EntrySource, case: &AmplitudeColumn) -> Result<Vec<(f64, f64)>, Failure> {
     let samples = sampled(source, case, case.period, TRANSIENT)?;
     Ok(samples.iter().map(|sample| (sample.displacement, sample.velocity)).collect())
 }
 
-fn sampled(source: &Source, case: &Case, step: f64, count: usize) -> Result<Vec<Sample>, Failure> {
+fn sampled(
+    source: &EntrySource,
+    case: &AmplitudeColumn,
+    step: f64,
+    count: usize,
+) -> Result<Vec<Sample>, Failure> {
     let start = run::start(&case.study)?;
     let mut sampler = Sampler::new(0.0, step, count);
     let until = count as f64 * step;
@@ -332,7 +232,7 @@ fn count(steps: f64) -> usize {
     steps.floor().max(1.0) as usize + 1
 }
 
-fn caption(source: &Source, blocks: &[Arc<Columns>]) -> String {
+fn caption(source: &EntrySource, blocks: &[Arc<AmplitudeColumns>]) -> String {
     let study = &blocks[0].study;
     let belt = study.belt();
     let dither = belt.dithers()[0];
@@ -341,9 +241,9 @@ fn caption(source: &Source, blocks: &[Arc<Columns>]) -> String {
         Direction::Normal => ("normal", "D_N", "R_N"),
     };
     let mut text = format!(
-        "Figure {}. Responses from rest with the {} law and {direction} dither: displacement, velocity, and Poincaré section at \
-         ${r}τ$ = 2πn (grey: the first {TRANSIENT} periods; blue: settled on the period of the dither; red: vibrates for ever). \
-         $ζ$ = {}, $v_0$ = {}, ${r}$ = {}, {}.",
+        "Figure {}. Responses from rest with the {} law and {direction} dither: displacement, velocity, and Poincaré section \
+         at ${r}τ$ = 2πn (grey: the first {TRANSIENT} periods; blue: settled to the period of the dither; red: vibrates \
+         indefinitely). $ζ$ = {}, $v_0$ = {}, ${r}$ = {}, {}.",
         source.name,
         law_name(belt.friction().kind()),
         belt.damping_ratio(),
@@ -355,7 +255,7 @@ fn caption(source: &Source, blocks: &[Arc<Columns>]) -> String {
         let waveform = waveform_name(block.study.belt().dithers()[0].waveform);
         let _ = write!(
             text,
-            " Measured, {waveform}: from rest it {}; the quiet response itself {}.",
+            " Measured, {waveform}: from rest the response {}; the base response itself {}.",
             list(&block.from_rest, d, ["vibrates", "settles"]),
             list(&block.local, d, ["is unstable", "is stable"]),
         );
@@ -363,24 +263,26 @@ fn caption(source: &Source, blocks: &[Arc<Columns>]) -> String {
     text + &departure(source.name)
 }
 
-/// What a figure departs in from the print.
+/// Departure of a figure from the dissertation.
 fn departure(name: &str) -> String {
     match name {
-        "2.11" => " The caption prints $v_0$ = 1.0; text and responses are those of 1.5.".to_owned(),
-        "4.11" => " The caption says square; the pattern of the text appears with a sine.".to_owned(),
-        _ => " Below the local threshold the quiet response and a stick-slip vibration coexist: what simulation from rest finds \
-               lower than averaging is the border between them."
+        "2.11" => " The printed caption has $v_0$ = 1.0; its text and responses are for 1.5.".to_owned(),
+        "4.11" => {
+            " The printed caption says square; the pattern described in the text occurs with a sine.".to_owned()
+        }
+        _ => " Below the local threshold the base response and a stick-slip vibration coexist. The threshold from rest, which \
+               is lower than that of averaging, is where rest crosses the boundary between their basins."
             .to_owned(),
     }
 }
 
-fn list(changes: &[Change], symbol: &str, words: [&str; 2]) -> String {
+fn list(changes: &[AmplitudeThreshold], symbol: &str, words: [&str; 2]) -> String {
     let parts: Vec<String> = changes
         .iter()
         .map(|change| {
             format!(
                 "{} above ${symbol}$ = {}",
-                words[usize::from(change.to)],
+                words[usize::from(change.holds_above)],
                 short4(change.amplitude)
             )
         })

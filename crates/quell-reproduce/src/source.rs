@@ -1,33 +1,31 @@
-//! Study files of the entries and the cases of a figure.
+//! Study files of the entries.
 
-use std::fmt::Display;
+use quell_model::Waveform;
 
-use quell_model::{LawKind, Waveform};
-
-use super::shared::Shared;
+use super::shared::SharedMeasurements;
 use quell::complaint::Failure;
-use quell::study::{Axis, BeltStudy, Change, Sweep};
+use quell::study::{Axis, Change, BeltStudy, Sweep};
 
 /// An entry's name and study file.
 #[derive(Clone, Debug)]
-pub struct Source {
+pub struct EntrySource {
     /// Name: `2.3`.
     pub name: &'static str,
-    /// What it shows, in one line.
+    /// Its content in one line.
     pub about: &'static str,
     /// Text of the study file.
     pub text: &'static str,
-    /// Most points along an axis of its sweeps, where they shall be fewer than the file says.
+    /// Largest number of points along an axis of its sweeps, if fewer than in the file.
     pub most_points: Option<usize>,
-    /// What other entries of the run have measured.
-    pub(super) shared: Shared,
+    /// Measurements shared by the entries of the run.
+    pub(super) shared: SharedMeasurements,
 }
 
-impl Source {
+impl EntrySource {
     /// The study.
     ///
     /// # Errors
-    /// Complaints about the study file, which a test excludes.
+    /// Complaints about the study file; a test checks that there are none.
     pub fn study(&self) -> Result<BeltStudy, Failure> {
         self.changed(&[])
     }
@@ -47,7 +45,7 @@ impl Source {
         Ok(BeltStudy::parse(self.text, &changes)?)
     }
 
-    /// The changes that leave the axes of a study no more points than allowed; listed values stay.
+    /// Changes that limit the number of points on the axes of a study; listed values are kept.
     pub(super) fn coarser(&self, sweeps: &[Sweep]) -> Result<Vec<Change>, Failure> {
         let Some(most) = self.most_points else { return Ok(Vec::new()) };
         let mut changes = Vec::new();
@@ -73,63 +71,4 @@ impl Source {
             })
             .collect()
     }
-}
-
-/// Values of the axis that varies `path`; empty where the study has none.
-pub(super) fn values(study: &BeltStudy, path: &str) -> Vec<f64> {
-    study
-        .sweeps()
-        .iter()
-        .find(|sweep| sweep.path == path)
-        .map(|sweep| (0..sweep.axis.len()).map(|index| sweep.axis.value(index)).collect())
-        .unwrap_or_default()
-}
-
-/// A number without the rounding of its last digits.
-pub(super) fn short(value: f64) -> String {
-    let text = format!("{value:.6}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-/// (a), (b), … of a panel.
-pub(super) fn letter(index: usize) -> char {
-    char::from(b'a' + u8::try_from(index % 26).unwrap_or(0))
-}
-
-/// How a law is called in a sentence.
-pub(super) fn law_name(kind: LawKind) -> &'static str {
-    match kind {
-        LawKind::Stribeck => "Stribeck",
-        LawKind::Decreasing => "decreasing",
-        // No figure has another; its name says enough.
-        kind => kind.name(),
-    }
-}
-
-/// How a waveform is called in a title.
-pub(super) fn waveform_name(waveform: Waveform) -> &'static str {
-    match waveform {
-        Waveform::Sine => "sinusoidal",
-        Waveform::Triangle => "triangular",
-        Waveform::Square => "square",
-    }
-}
-
-/// A piece of work that gave no value.
-pub(super) fn failed(name: &str, why: &impl Display) -> Failure {
-    Failure::Failed { key: format!("reproduce {name}"), why: why.to_string() }
-}
-
-/// ζ, F, v_m, μ_s, μ_m of a caption.
-pub(super) fn parameters(study: &BeltStudy) -> String {
-    let belt = study.belt();
-    let law = belt.friction();
-    let values = law.values();
-    let [static_level, minimum] =
-        [values.first().copied(), values.get(1).copied()].map(|v| v.unwrap_or(0.0));
-    format!(
-        "$F$ = {}, $v_m$ = {}, $μ_s$ = {static_level}, $μ_m$ = {minimum}",
-        belt.normal_load(),
-        law.velocity_scale()
-    )
 }

@@ -1,19 +1,22 @@
-//! Figures 2.6, 2.7, 3.5, 3.6, 4.7, 4.8: where averaged steady sliding is unstable, in the plane of α and v₀.
+//! Figures 2.6, 2.7, 3.5, 3.6, 4.7, 4.8: the region of the (α, v₀) plane in which averaged steady sliding is unstable.
 //!
-//! At each α the unstable band is αG_max ≤ v₀ ≤ the upper edge of (3.43)–(3.59), in closed form. Normal dither is the same
-//! map with (α_T, v₀) → (α_T/μ(v₀), v₀), the substitution of (4.33)–(4.42). Drawn too: the boundary with the oscillator's
-//! own response at the study's R in place of αG (for a sine α = DR/(R² − 1)), and the print's upper edge for
-//! the triangle, (3.47), (4.35), where it is wrong.
+//! At each α the unstable band extends from v₀ = αG_max to the upper edge of (3.43)–(3.59), in closed form. The map for normal
+//! dither is the same with (α_T, v₀) → (α_T/μ(v₀), v₀), the substitution of (4.33)–(4.42). Also drawn are the boundary by
+//! finite-R averaging, with the oscillator's own response at the study's R instead of αG (for a sine α = DR/(R² − 1)), and the
+//! upper edge as printed for the triangle, (3.47), (4.35), where it is wrong.
 
 use quell_linear::averaging::{
-    AveragingOptions, EverywhereStable, FastWave, NoBand, Response, closed_band,
+    AveragingOptions, EverywhereStable, FastResponse, FastWave, NoBand, closed_band,
     everywhere_stable_amplitude, unstable_bands,
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 
-use super::print::{self, LawNumbers};
-use super::product::{Product, Table};
-use super::source::{Source, failed, law_name, letter, parameters, values, waveform_name};
+use super::axis::values;
+use super::caption::{law_name, letter, parameters, waveform_name};
+use super::failure::failed;
+use super::printed_formulas::{self, LawNumbers};
+use super::product::{DataTable, Product};
+use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
@@ -24,15 +27,15 @@ use quell::study::BeltStudy;
 
 /// Points on an edge.
 const POINTS: u32 = 240;
-/// Points on an edge that needs quadrature.
+/// Points on an edge that requires quadrature.
 const FEWER_POINTS: u32 = 48;
 
 /// A curve of (α, v₀).
-type Curve = Vec<(f64, f64)>;
+type EdgeCurve = Vec<(f64, f64)>;
 
 /// The plane of one panel.
-struct Plane<'a> {
-    source: &'a Source,
+struct StabilityPlane<'a> {
+    source: &'a EntrySource,
     belt: &'a Belt,
     waveform: Waveform,
     direction: Direction,
@@ -40,17 +43,17 @@ struct Plane<'a> {
     reach: (f64, f64),
 }
 
-/// An unstable region: its edges from α = 0 on, and the α beyond which there is none.
+/// An unstable region: its edges from α = 0, and its tip.
 struct Unstable {
     damping_ratio: f64,
-    lower: Curve,
-    upper: Curve,
-    /// (α^L, α^L G_max) where it exists.
+    lower: EdgeCurve,
+    upper: EdgeCurve,
+    /// (α^L, α^L G_max), if it exists.
     tip: Option<(f64, f64)>,
 }
 
 /// Figures 2.6 and 2.7: one waveform, one damping ratio.
-pub(super) fn single(source: &Source) -> Result<Product, Failure> {
+pub(super) fn single(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
     let panel = panel(source, &study, study.belt().dithers()[0].waveform, &mut table)?;
@@ -65,7 +68,7 @@ pub(super) fn single(source: &Source) -> Result<Product, Failure> {
 }
 
 /// Figures 3.5, 3.6, 4.7, 4.8: three waveforms, three damping ratios.
-pub(super) fn three(source: &Source) -> Result<Product, Failure> {
+pub(super) fn three(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
     let mut panels = Vec::new();
@@ -93,7 +96,7 @@ pub(super) fn three(source: &Source) -> Result<Product, Failure> {
     Ok(product.by(&[Task::Stability]).table(table))
 }
 
-fn opening(source: &Source, study: &BeltStudy) -> String {
+fn opening(source: &EntrySource, study: &BeltStudy) -> String {
     let dither = study.belt().dithers()[0];
     format!(
         "Figure {}. Stability map with the {} law and {} dither: in the shaded region averaged steady sliding is unstable, \
@@ -104,7 +107,7 @@ fn opening(source: &Source, study: &BeltStudy) -> String {
     )
 }
 
-/// What the picture shows beyond the print, and where it departs from it.
+/// Additions to the figure of the dissertation, and departures from it.
 fn closing(study: &BeltStudy, three: bool) -> String {
     let belt = study.belt();
     let dither = belt.dithers()[0];
@@ -113,13 +116,13 @@ fn closing(study: &BeltStudy, three: bool) -> String {
     let ratio = dither.frequency_ratio;
     let damping = if three { format!(", $ζ$ = {}", belt.damping_ratio()) } else { String::new() };
     let mut sentences = vec![format!(
-        "Dash-dotted: the boundary at $R$ = {ratio} with the exact fast motion of the oscillator in place of \
-         $αG$, for a sine $α$ = $DR$/($R^2$ − 1){damping}."
+        "Dash-dotted: the boundary at $R$ = {ratio} with the exact fast motion of the oscillator instead of \
+         $αG$ (for a sine, $α$ = $DR$/($R^2$ − 1)){damping}."
     )];
     if three && stribeck {
         let equation = if normal { "(4.35)" } else { "(3.47)" };
         sentences.push(format!(
-            "Dotted in (b): the upper edge as printed {equation}, with π²/48 in place of π²/30."
+            "Dotted in (b): the upper edge as printed {equation}, with π²/48 instead of π²/30."
         ));
     }
     if normal {
@@ -130,7 +133,8 @@ fn closing(study: &BeltStudy, three: bool) -> String {
     }
     if normal && stribeck {
         sentences.push(
-            "The square's $α^L$ is half of (4.38), which repeats the triangle's (4.36).".to_owned(),
+            "For the square, $α^L$ is half of (4.38), which repeats (4.36) of the triangle."
+                .to_owned(),
         );
     }
     if !stribeck && !normal && !three {
@@ -150,8 +154,8 @@ fn closing(study: &BeltStudy, three: bool) -> String {
     sentences.join(" ")
 }
 
-fn empty_table() -> Table {
-    Table::new(
+fn empty_table() -> DataTable {
+    DataTable::new(
         "",
         &[
             ("waveform", "1"),
@@ -164,10 +168,10 @@ fn empty_table() -> Table {
 }
 
 fn panel(
-    source: &Source,
+    source: &EntrySource,
     study: &BeltStudy,
     waveform: Waveform,
-    table: &mut Table,
+    table: &mut DataTable,
 ) -> Result<Panel, Failure> {
     let belt = study.belt();
     let dither = belt.dithers()[0];
@@ -176,12 +180,17 @@ fn panel(
     let normal = dither.direction == Direction::Normal;
     let alpha = match (normal, belt.friction().kind()) {
         (false, _) => last("dither.amplitude").unwrap_or(1.0) / dither.frequency_ratio,
-        // The print goes beyond what a closed contact allows.
+        // The printed axis extends beyond the limit of a closed contact.
         (true, LawKind::Stribeck) => 0.8,
         (true, _) => 6.0,
     };
-    let plane =
-        Plane { source, belt, waveform, direction: dither.direction, reach: (alpha, velocity) };
+    let plane = StabilityPlane {
+        source,
+        belt,
+        waveform,
+        direction: dither.direction,
+        reach: (alpha, velocity),
+    };
     let mut damping = values(study, "belt.damping_ratio");
     if damping.is_empty() {
         damping.push(belt.damping_ratio());
@@ -214,7 +223,7 @@ fn panel(
     Ok(plane.words(panel, &regions))
 }
 
-impl Plane<'_> {
+impl StabilityPlane<'_> {
     fn law(&self) -> &Friction {
         self.belt.friction()
     }
@@ -251,7 +260,7 @@ impl Plane<'_> {
             match closed_band(self.law(), damping_ratio, load, self.waveform, alpha) {
                 Ok(band) => {
                     region.lower.push(self.along(alpha, band.lower));
-                    // Without an upper edge the band leaves the plane.
+                    // Without an upper edge the band extends beyond the plane.
                     region.upper.push(self.along(alpha, band.upper.unwrap_or(10.0 * self.reach.1)));
                 }
                 Err(NoBand::Stable) => {}
@@ -265,20 +274,20 @@ impl Plane<'_> {
         Ok(region)
     }
 
-    /// The boundary with the oscillator's own response in place of αG.
+    /// The boundary by finite-R averaging: with the oscillator's own response instead of αG.
     fn sharper(
         &self,
         panel: Panel,
         damping_ratio: f64,
-        table: &mut Table,
+        table: &mut DataTable,
     ) -> Result<Panel, Failure> {
         let ratio = self.belt.dithers()[0].frequency_ratio;
         let edges = if self.waveform == Waveform::Sine {
-            // The same curves over a shorter α.
+            // The same curves with α scaled down.
             let region = self.unstable(damping_ratio)?;
             let shorter = (ratio * ratio - 1.0) / (ratio * ratio);
             [region.lower, region.upper].map(|curve| {
-                curve.into_iter().map(|(alpha, v)| (alpha * shorter, v)).collect::<Curve>()
+                curve.into_iter().map(|(alpha, v)| (alpha * shorter, v)).collect::<EdgeCurve>()
             })
         } else {
             self.oscillator_edges(damping_ratio, ratio)?
@@ -289,15 +298,15 @@ impl Plane<'_> {
         Ok(panel.with(line.label(format!("exact fast motion, $R$ = {ratio}"))))
     }
 
-    /// Edges of the bands under the oscillator's response to a triangle or square, by quadrature.
-    fn oscillator_edges(&self, damping_ratio: f64, ratio: f64) -> Result<[Curve; 2], Failure> {
+    /// Edges of the bands for the response of the oscillator to a triangle or square, by quadrature.
+    fn oscillator_edges(&self, damping_ratio: f64, ratio: f64) -> Result<[EdgeCurve; 2], Failure> {
         let load = self.belt.normal_load();
         let wave = FastWave::Oscillator { waveform: self.waveform, frequency_ratio: ratio };
         let tip = self.tip(damping_ratio, wave)?;
         let end = tip.unwrap_or(f64::INFINITY).min(self.largest());
         let options =
-            AveragingOptions { response: Response::Oscillator, ..AveragingOptions::default() };
-        let mut edges: [Curve; 2] = Default::default();
+            AveragingOptions { response: FastResponse::Oscillator, ..AveragingOptions::default() };
+        let mut edges: [EdgeCurve; 2] = Default::default();
         for k in 0..=FEWER_POINTS {
             let alpha = end * f64::from(k) / f64::from(FEWER_POINTS);
             let dither = Dither {
@@ -324,7 +333,7 @@ impl Plane<'_> {
         Ok(edges)
     }
 
-    /// α^L of tangential dither, none where it does not exist.
+    /// α^L of tangential dither; `None` where it does not exist.
     fn tip(&self, damping_ratio: f64, wave: FastWave) -> Result<Option<f64>, Failure> {
         let load = self.belt.normal_load();
         let everywhere = everywhere_stable_amplitude(
@@ -341,18 +350,20 @@ impl Plane<'_> {
         })
     }
 
-    /// The print's upper edge for Stribeck and triangle, up to its own α^L.
-    fn printed(&self, panel: Panel, damping: &[f64], table: &mut Table) -> Panel {
+    /// The upper edge as printed for the Stribeck law and a triangle, up to the printed α^L.
+    fn printed(&self, panel: Panel, damping: &[f64], table: &mut DataTable) -> Panel {
         if self.waveform != Waveform::Triangle || self.law().kind() != LawKind::Stribeck {
             return panel;
         }
         let numbers = LawNumbers::DISSERTATION;
         let mut pieces = Vec::new();
         for &zeta in damping {
-            let end = print::everywhere_348(numbers, zeta);
-            let edge: Curve = (0..=POINTS)
+            let end = printed_formulas::everywhere_348(numbers, zeta);
+            let edge: EdgeCurve = (0..=POINTS)
                 .map(|k| end * f64::from(k) / f64::from(POINTS))
-                .map(|alpha| self.along(alpha, print::upper_edge_347(numbers, zeta, alpha)))
+                .map(|alpha| {
+                    self.along(alpha, printed_formulas::upper_edge_347(numbers, zeta, alpha))
+                })
                 .collect();
             self.record(table, zeta, "upper_printed", &edge);
             pieces.push(edge);
@@ -362,10 +373,11 @@ impl Plane<'_> {
         panel.with(line.label(format!("as printed {equation}")))
     }
 
-    /// Marks α^L where the plane shows it.
+    /// Marks α^L where it is inside the plane.
     fn tips(&self, mut panel: Panel, regions: &[Unstable], lone: bool) -> Panel {
         let shown = |tip: &(f64, f64)| tip.0 <= self.reach.0 && tip.1 <= self.reach.1;
-        let tips: Curve = regions.iter().filter_map(|region| region.tip).filter(shown).collect();
+        let tips: EdgeCurve =
+            regions.iter().filter_map(|region| region.tip).filter(shown).collect();
         if tips.is_empty() {
             return panel;
         }
@@ -376,10 +388,10 @@ impl Plane<'_> {
         panel.with(Points::new(Role::Boundary, tips).label("$α^L$"))
     }
 
-    /// "stable", "unstable", and where (4.29) ends.
+    /// Labels "stable" and "unstable", and the limit (4.29).
     fn words(&self, mut panel: Panel, regions: &[Unstable]) -> Panel {
         let stribeck = self.law().kind() == LawKind::Stribeck;
-        // In the region of the lightest damping, where it is wide.
+        // In the wide part of the region of lightest damping.
         if let Some(region) = regions.last().filter(|region| !region.lower.is_empty()) {
             let v = if stribeck { 0.75 } else { 0.85 } * region.upper[0].1;
             let edge = region.lower.iter().take_while(|point| point.1 < v).last();
@@ -396,7 +408,7 @@ impl Plane<'_> {
         panel
     }
 
-    fn record(&self, table: &mut Table, damping_ratio: f64, curve: &str, points: &Curve) {
+    fn record(&self, table: &mut DataTable, damping_ratio: f64, curve: &str, points: &EdgeCurve) {
         for &(alpha, v) in points {
             table.row([
                 self.waveform.name().into(),

@@ -1,11 +1,12 @@
-//! Figure 3.2: two cycles of the waveforms g and of their zero-mean integrals G.
+//! Figure 3.2: two cycles of the waveforms g and their zero-mean integrals G.
 
 use std::f64::consts::TAU;
 
 use quell_model::Waveform;
 
-use super::product::{Product, Table};
-use super::source::{Source, letter, waveform_name};
+use super::caption::{letter, waveform_name};
+use super::product::{DataTable, Product};
+use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Legend, Line, Panel, Role, Rule, Sharing};
@@ -13,7 +14,7 @@ use quell::plot::{Axis, Figure, Legend, Line, Panel, Role, Rule, Sharing};
 const CYCLES: u32 = 2;
 const POINTS_PER_CYCLE: u32 = 240;
 
-pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut columns = vec![("cycles".to_owned(), "1", cycles().collect::<Vec<f64>>())];
     let mut rows: [Vec<Panel>; 2] = [Vec::new(), Vec::new()];
@@ -54,7 +55,7 @@ pub(super) fn figure(source: &Source) -> Result<Product, Failure> {
     let product = Product::new(figure, caption, &study)
         .also(studies.iter().map(|(_, study)| study))
         .by(&[Task::Friction]);
-    Ok(product.table(Table::of_columns("", columns)))
+    Ok(product.table(DataTable::of_columns("", columns)))
 }
 
 fn axes(name: &str, symbol: &str, below: &str) -> Panel {
@@ -72,7 +73,7 @@ fn cycles() -> impl Iterator<Item = f64> {
     (0..=CYCLES * POINTS_PER_CYCLE).map(|k| f64::from(k) / f64::from(POINTS_PER_CYCLE))
 }
 
-/// g, with upright strokes where it jumps.
+/// g, with vertical segments where it jumps.
 fn force(waveform: Waveform) -> Vec<Vec<(f64, f64)>> {
     if waveform == Waveform::Square {
         let corners = (0..2 * CYCLES).flat_map(|half| {

@@ -1,4 +1,4 @@
-//! Files of a product: picture as SVG and PNG, data as CSV, claims as Markdown, JSON and CSV.
+//! Files of a product: figure as SVG and PNG, data as CSV, claims as Markdown, JSON and CSV.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,26 +11,26 @@ use quell::output::Output;
 
 const OPTION: &str = "--out";
 
-/// Makes the directory and proves that it can be written.
+/// Creates the directory and checks that it can be written.
 pub(super) fn prepare(directory: &Path) -> Result<(), Failure> {
-    let refuse = |why: String| {
+    let reject = |why: String| {
         let given = directory.display().to_string();
         Failure::from(Complaint::new(Fault::Path, OPTION, Origin::Argument(OPTION), given, why))
     };
-    fs::create_dir_all(directory).map_err(|error| refuse(format!("cannot be made: {error}")))?;
+    fs::create_dir_all(directory).map_err(|error| reject(format!("cannot be created: {error}")))?;
     Output::prepare_plain(&directory.join("claims.csv"), OPTION, &["csv"], &Inputs::NONE)
         .map(drop)
-        .map_err(|complaint| refuse(complaint.allowed))
+        .map_err(|complaint| reject(complaint.allowed))
 }
 
-/// Writes one file, whole or not at all.
+/// Writes one file, completely or not at all.
 pub(super) fn file(directory: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, Failure> {
     let extension = name.rsplit('.').next().unwrap_or_default();
     let output = Output::prepare_plain(&directory.join(name), OPTION, &[extension], &Inputs::NONE)?;
     output.write(bytes)
 }
 
-/// Writes a product; its files are whole or not there.
+/// Writes a product; each of its files is written completely or not at all.
 pub(super) fn product(
     product: &Product,
     stem: &str,
@@ -43,7 +43,7 @@ pub(super) fn product(
     };
     if let Some(figure) = &product.figure {
         put(format!("{stem}.svg"), figure.to_svg().as_bytes())?;
-        let png = figure.to_png().map_err(|error| super::source::failed(stem, &error))?;
+        let png = figure.to_png().map_err(|error| super::failure::failed(stem, &error))?;
         put(format!("{stem}.png"), &png)?;
     }
     for table in &product.tables {

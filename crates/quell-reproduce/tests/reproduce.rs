@@ -1,12 +1,12 @@
-//! Every entry of `reproduce` is made, its data have their columns, its claims their verdicts.
+//! Every entry of `reproduce` is computed, its data have the documented columns, and its claims the verdicts on record.
 
 use std::path::Path;
 
 use quell::{Failure, Study};
-use quell_reproduce::claims::{self, LEDGER, Verdict};
-use quell_reproduce::{Cell, ENTRIES, Entry, Pace, find, run};
+use quell_reproduce::claims::{self, ClaimVerdict, LEDGER};
+use quell_reproduce::{CatalogueEntry, Cell, ENTRIES, Resolution, find, run};
 
-fn entry(name: &str) -> &'static Entry {
+fn entry(name: &str) -> &'static CatalogueEntry {
     ENTRIES.iter().find(|entry| entry.name == name).expect(name)
 }
 
@@ -60,7 +60,7 @@ fn every_entry_is_made() {
 }
 
 #[test]
-fn data_have_their_columns() {
+fn data_have_the_documented_columns() {
     let names = |list: &str| -> Vec<String> { list.split(' ').map(str::to_owned).collect() };
     let curves = "waveform amplitude_ratio_over_reference slip_velocity_over_reference effective_coefficient \
          effective_slope printed_coefficient";
@@ -92,12 +92,12 @@ fn study_files_are_valid_and_belong_to_their_figures() {
     let mut count = 0;
     for file in std::fs::read_dir(&directory).expect("studies") {
         let path = file.expect("a file").path();
-        // Data that studies name lie beside them.
+        // The directory also contains data files to which studies refer.
         if path.extension().is_none_or(|extension| extension != "toml") {
             continue;
         }
         let text = std::fs::read_to_string(&path).expect("text");
-        let study = Study::parse_in(&text, &[], &directory)
+        let study = Study::parse(&text, &[], &directory)
             .unwrap_or_else(|complaints| panic!("{}: {complaints:?}", path.display()));
         let title = study.title().expect("a title").to_owned();
         let stem = path.file_stem().and_then(|stem| stem.to_str()).expect("a name").to_owned();
@@ -113,7 +113,7 @@ fn study_files_are_valid_and_belong_to_their_figures() {
     assert!(count > ENTRIES.len());
 }
 
-/// A curve of figure 2.3 at one place, known from other integrators: the undithered amplitude M₀ and E at D_T = 0.3, 0.4.
+/// Values of figure 2.3 known from other integrators: the undithered amplitude M₀, and E at D_T = 0.3, 0.4.
 #[test]
 fn spectra_of_figure_2_3_have_the_known_peaks() {
     let product = entry("2.3").product().expect("made");
@@ -136,7 +136,7 @@ fn spectra_of_figure_2_3_have_the_known_peaks() {
     assert!(largest(4) < 1e-6);
 }
 
-/// Every claim has the verdict on record, and every verdict on record its claim: one that changes fails here.
+/// Every claim has the verdict on record, and every verdict on record has its claim.
 #[test]
 fn verdicts_are_those_on_record() {
     let claims = claims::measure().expect("measured");
@@ -150,12 +150,14 @@ fn verdicts_are_those_on_record() {
     let on_record: Vec<&str> = LEDGER.iter().map(|(name, _)| *name).collect();
     assert_eq!(measured, on_record, "one line of claims::LEDGER for each claim, in their order");
     for claim in &claims {
-        let holds = claim.verdict.holds() || matches!(claim.verdict, Verdict::FormulaWrong { .. });
+        let holds =
+            claim.verdict.holds() || matches!(claim.verdict, ClaimVerdict::FormulaWrong { .. });
         assert_eq!(holds, claim.why().is_empty(), "{} says why it does not hold", claim.name);
         assert_eq!(claim.tolerance.is_some(), !claim.printed.is_empty(), "{}", claim.name);
     }
-    // Formulas that are wrong, by name: the errata tell of each.
-    let wrong = claims.iter().filter(|claim| matches!(claim.verdict, Verdict::FormulaWrong { .. }));
+    // Wrong formulas, each of which is in the errata.
+    let wrong =
+        claims.iter().filter(|claim| matches!(claim.verdict, ClaimVerdict::FormulaWrong { .. }));
     assert_eq!(wrong.count(), 18);
     let value = |name: &str| claims.iter().find(|claim| claim.name == name).expect(name).values[0];
     for (name, known, tolerance) in [
@@ -191,11 +193,11 @@ fn names_are_known_or_listed() {
 }
 
 #[test]
-fn files_are_written_whole_into_a_new_directory() {
+fn files_are_written_to_a_new_directory() {
     let folder = tempfile::tempdir().expect("a folder");
     let directory = folder.path().join("new/deeper");
     let entries = find(&["2.2".to_owned(), "2.6".to_owned(), "3.2".to_owned()]).expect("known");
-    let written = run(&entries, &directory, Pace::Full, |_| ()).expect("written").written;
+    let written = run(&entries, &directory, Resolution::Full, |_| ()).expect("written").written;
     assert_eq!(
         written.iter().map(|done| done.entry.name).collect::<Vec<_>>(),
         ["2.2", "2.6", "3.2"]
@@ -213,7 +215,7 @@ fn files_are_written_whole_into_a_new_directory() {
         .chain(["report.html".to_owned(), "report.md".to_owned()])
         .collect();
     assert_eq!(names, expected);
-    // The report needs nothing but itself: pictures are inside, and nothing is fetched.
+    // The report is self-contained: figures are embedded, and nothing is fetched.
     let page = std::fs::read_to_string(directory.join("report.html")).expect("a report");
     assert_eq!(page.matches("<img ").count(), 3);
     assert_eq!(page.matches("src=\"data:image/svg+xml;base64,").count(), 3);
@@ -231,19 +233,20 @@ fn files_are_written_whole_into_a_new_directory() {
     }
     let table = std::fs::read_to_string(directory.join("report.md")).expect("a table");
     assert!(table.contains("[figure-2.6.csv](figure-2.6.csv)"), "{table}");
-    // Once more, over what stands there: the same bytes.
+    // Overwriting the files gives the same bytes.
     let first = std::fs::read(directory.join("figure-2.6.png")).expect("read");
-    run(&entries, &directory, Pace::Full, |_| ()).expect("written again");
+    run(&entries, &directory, Resolution::Full, |_| ()).expect("written again");
     assert_eq!(std::fs::read(directory.join("figure-2.6.png")).expect("read"), first);
 }
 
 #[test]
-fn a_directory_that_cannot_be_made_is_refused_before_any_work() {
+fn a_directory_that_cannot_be_created_is_rejected_before_any_work() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("occupied");
     std::fs::write(&file, "a file").expect("written");
-    let failure = run(&find(&[]).expect("all"), &file, Pace::Full, |_| panic!("nothing is made"))
-        .expect_err("refused");
+    let failure =
+        run(&find(&[]).expect("all"), &file, Resolution::Full, |_| panic!("nothing is made"))
+            .expect_err("refused");
     let Failure::Wrong(complaints) = failure else { panic!("{failure}") };
     assert_eq!(complaints[0].key, "--out");
     assert!(complaints[0].to_string().contains("occupied"), "{}", complaints[0]);

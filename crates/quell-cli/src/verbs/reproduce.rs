@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use quell::Failure;
-use quell_reproduce::{ENTRIES, Pace, Reproduction, find, run as reproduce};
+use quell_reproduce::{ENTRIES, Reproduction, Resolution, find, run as reproduce};
 
 use crate::answer::Answer;
 use crate::progress::Entries;
@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
 /// Answers.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let entries = find(&arguments.names)?;
-    let pace = if arguments.quick { Pace::Quick } else { Pace::Full };
+    let pace = if arguments.quick { Resolution::Quick } else { Resolution::Full };
     let bar = Entries::new(entries.len());
     let done = reproduce(&entries, &arguments.out, pace, |step| bar.hear(step));
     bar.end();

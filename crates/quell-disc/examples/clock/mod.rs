@@ -1,11 +1,11 @@
-//! Time that this thread was on a processor, so that other work on the machine does not count.
+//! Processor time of the current thread, so that other work on the machine does not count.
 
 use std::fs;
 use std::sync::OnceLock;
 use std::thread;
 use std::time::Instant;
 
-/// Seconds since some moment: on a processor where the system tells, else of the wall clock.
+/// Seconds since an arbitrary origin: processor time where the system reports it, otherwise wall-clock time.
 pub(crate) fn seconds() -> f64 {
     static BEGAN: OnceLock<Instant> = OnceLock::new();
     let wall = || BEGAN.get_or_init(Instant::now).elapsed().as_secs_f64();
@@ -13,9 +13,9 @@ pub(crate) fn seconds() -> f64 {
 }
 
 fn processor() -> Option<f64> {
-    // The system brings its account up to date where a thread gives way.
+    // The system updates its statistics when a thread yields.
     thread::yield_now();
-    let told = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    let nanoseconds: f64 = told.split_whitespace().next()?.parse().ok()?;
+    let statistics = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: f64 = statistics.split_whitespace().next()?.parse().ok()?;
     Some(1e-9 * nanoseconds)
 }

@@ -8,14 +8,14 @@
 //!           (∇²w)' − (1 − ν) n² (w' − w) = 0                 (Kirchhoff's shear force)
 //! ```
 //!
-//! ∇² multiplies J, Y by −k² and I, K by k²: no second or third derivative is needed. The determinant in that form has
-//! entries between 10⁻²⁴ and 10²⁴ at n = 20, b/a = 0.05. Here I and K are those of `quell_numerics::bessel` with the exponents
-//! moved to e^{k(r−1)} and e^{−k(r−b)}, the i-th condition is divided by k^(order), and every column by its largest entry:
-//! wave numbers then agree with 40-digit arithmetic to a few units of rounding. Elimination with complete pivoting gives
-//! the determinant and, at a root, the null direction.
+//! ∇² multiplies J, Y by −k² and I, K by k², so no second or third derivative is needed. The determinant in that form has entries
+//! between 10⁻²⁴ and 10²⁴ at n = 20, b/a = 0.05. Here I and K are the scaled functions of `quell_numerics::bessel` with the
+//! exponents shifted to e^{k(r−1)} and e^{−k(r−b)}, each condition is divided by k^(its order), and every column by its largest
+//! entry. Wave numbers then agree with 40-digit arithmetic to a few units of rounding. Elimination with complete pivoting gives
+//! the determinant and, at a root, the null vector.
 //!
-//! Limits: for b/a → 0 columns of Y and K become parallel at the clamp (both ∝ r⁻ⁿ). That costs up to four digits of
-//! c₂ and c₄ there, where they do not bear on the frequency.
+//! Limitation: for b/a → 0 the columns of Y and K become parallel at the clamp (both ∝ r⁻ⁿ). This costs up to four digits of
+//! c₂ and c₄, but does not affect the frequency.
 
 use quell_numerics::bessel::{Neighbours, bessel_i_scaled, bessel_j, bessel_k_scaled, bessel_y};
 
@@ -26,7 +26,7 @@ pub(super) struct Basis {
 }
 
 impl Basis {
-    /// At radius r for n nodal diameters; `None` where a function leaves the range of `f64`.
+    /// Values at radius r for n nodal diameters; `None` where a function is out of the range of `f64`.
     pub(super) fn new(
         diameters: u32,
         wave_number: f64,
@@ -49,15 +49,15 @@ impl Basis {
     }
 }
 
-/// What elimination leaves of the four conditions at one wave number.
+/// Result of eliminating the four conditions at one wave number.
 pub(super) struct Elimination {
     /// The determinant with every column scaled to a largest entry of 1.
     pub(super) determinant: f64,
-    /// Coefficients of J, Y, scaled I, scaled K that satisfy three conditions exactly, and at a root the fourth.
+    /// Coefficients of J, Y, scaled I, scaled K that satisfy three conditions exactly and, at a root, the fourth as well.
     pub(super) coefficients: [f64; 4],
 }
 
-/// Sets up the four conditions at the wave number k and eliminates; `None` where a Bessel function leaves the range of `f64`.
+/// Sets up the four conditions at the wave number k and eliminates; `None` where a Bessel function is out of the range of `f64`.
 pub(super) fn eliminate(
     diameters: u32,
     inner_radius: f64,
@@ -99,7 +99,7 @@ pub(super) fn eliminate(
     clippy::needless_range_loop,
     reason = "elimination reads and writes two rows of one matrix"
 )]
-/// Determinant, and the vector that the first three pivots' equations map to zero.
+/// Determinant, and the vector that satisfies the equations of the first three pivots.
 fn complete_pivoting(mut matrix: [[f64; 4]; 4]) -> (f64, [f64; 4]) {
     let mut order = [0, 1, 2, 3];
     let mut determinant = 1.0;
@@ -141,8 +141,8 @@ fn complete_pivoting(mut matrix: [[f64; 4]; 4]) -> (f64, [f64; 4]) {
         solution[i] = if matrix[i][i] == 0.0 { 0.0 } else { -sum / matrix[i][i] };
     }
     let mut ordered = [0.0; 4];
-    for (place, value) in order.into_iter().zip(solution) {
-        ordered[place] = value;
+    for (index, value) in order.into_iter().zip(solution) {
+        ordered[index] = value;
     }
     (determinant, ordered)
 }

@@ -1,10 +1,11 @@
-//! From frequency parameters to hertz and revolutions per minute.
+//! Conversion of frequency parameters to hertz and revolutions per minute.
 //!
-//! D = E h³/(12(1 − ν²)),  ω = (k²/a²) √(D/(ρh)); Kirchhoff's plate: h/a and the wavelength in h are not checked beyond h < a.
+//! D = E h³/(12(1 − ν²)),  ω = (k²/a²) √(D/(ρh)) for a Kirchhoff plate. Apart from h < a, neither the ratio h/a nor the ratio of
+//! the wavelength to h is checked.
 
 use super::Plate;
 
-/// What turns a plate in units of its radius into one of metal.
+/// Material and dimensions of a plate, which relate its dimensionless quantities to SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlateMaterial {
     youngs_modulus: f64,
@@ -13,10 +14,10 @@ pub struct PlateMaterial {
     outer_radius: f64,
 }
 
-/// A value of the material or of the size that is not possible.
+/// An invalid material property or dimension.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlateMaterialError {
-    /// Which value, in words.
+    /// Name of the quantity.
     pub quantity: &'static str,
     /// The value given.
     pub value: f64,
@@ -24,7 +25,7 @@ pub struct PlateMaterialError {
 
 impl core::fmt::Display for PlateMaterialError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "the {} is {}, it must be a positive number", self.quantity, self.value)?;
+        write!(f, "the {} is {}, but must be a positive number", self.quantity, self.value)?;
         if self.quantity == "thickness" { f.write_str(" below the outer radius") } else { Ok(()) }
     }
 }
@@ -49,10 +50,10 @@ impl PlateMaterial {
             ("thickness", thickness),
         ];
         for (quantity, value) in values {
-            let possible = value > 0.0
+            let valid = value > 0.0
                 && value.is_finite()
                 && (quantity != "thickness" || value < outer_radius);
-            if !possible {
+            if !valid {
                 return Err(PlateMaterialError { quantity, value });
             }
         }
@@ -65,7 +66,7 @@ impl PlateMaterial {
         self.outer_radius
     }
 
-    /// Angular frequency (rad/s) that belongs to a frequency parameter k² of 1 on the given plate.
+    /// Angular frequency (rad/s) that corresponds to the frequency parameter k² = 1 on the given plate.
     #[must_use]
     pub fn angular_frequency_unit(&self, plate: &Plate) -> f64 {
         let nu = plate.poisson_ratio();

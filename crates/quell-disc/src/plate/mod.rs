@@ -1,13 +1,14 @@
-//! Natural frequencies and shapes of an annular brake disc: a thin plate clamped at r = b, free at r = a.
+//! Natural frequencies and mode shapes of an annular brake disc: a thin plate clamped at r = b and free at r = a.
 //!
-//! Exact solution in Bessel functions, eqs (5.1)–(5.7). Where the print errs: (5.2) is the operator
-//! (∂ᵣᵣ + ∂ᵣ/r + ∂_θθ/r²)², without w inside and not a square of terms in w; (5.5) has ∂²/∂θ², not ∂/∂θ².
+//! Exact solution in Bessel functions, eqs (5.1)–(5.7). Errors in the dissertation: (5.2) should be the operator
+//! (∂ᵣᵣ + ∂ᵣ/r + ∂_θθ/r²)², without w inside it and not a square of terms in w; (5.5) should have ∂²/∂θ², not ∂/∂θ².
 //!
-//! Every mode is found twice. A Ritz discretisation (`ritz`) gives all wave numbers in order, each from above, so that
-//! none is missed and none doubled; the sign change of the exact characteristic determinant (`characteristic`) just below each
-//! of them gives the digits. A Ritz value without its sign change is an error, never a guess.
+//! Every mode is computed in two steps. A Ritz discretisation (`ritz`) gives all wave numbers in order, each from above, so that
+//! no mode is missed or duplicated. The sign change of the exact characteristic determinant (`characteristic`) just below each
+//! Ritz value then gives the accurate value. A Ritz value without a sign change is an error; it is never returned as a guess.
 //!
-//! Accuracy: frequency parameters k² to 10⁻¹³ relative against 40-digit arithmetic, shapes to 10⁻¹¹ of φ(a); see the tests.
+//! Accuracy: relative error of the frequency parameters k² 10⁻¹³ against 40-digit arithmetic, error of the shapes 10⁻¹¹ of φ(a);
+//! see the tests.
 
 mod characteristic;
 mod dimension;
@@ -28,11 +29,12 @@ use quell_numerics::roots::{Closeness, find_root};
 use characteristic::eliminate;
 use ritz::{ACCURACY, TrialSpace};
 
-/// Bounds of the ratio of radii b/a: below, the plate is a full disc with a pinhole, above, a ring that no plate theory serves.
+/// Bounds of the ratio of radii b/a. Below them the plate is a full disc with a pinhole; above them it is a ring to which plate
+/// theory does not apply.
 pub const INNER_RADIUS_RATIO: [f64; 2] =
     [parameter::INNER_RADIUS_RATIO.bounds.lower, parameter::INNER_RADIUS_RATIO.bounds.upper];
 
-/// Largest number of nodal diameters: beyond, Y and K at a small inner radius come near the end of the range of `f64`.
+/// Largest number of nodal diameters. Beyond it, Y and K at a small inner radius approach the limits of `f64`.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
 pub const MOST_DIAMETERS: u32 = parameter::NODAL_DIAMETERS.bounds.upper as u32;
 
@@ -40,7 +42,7 @@ pub const MOST_DIAMETERS: u32 = parameter::NODAL_DIAMETERS.bounds.upper as u32;
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
 pub const MOST_RADIAL: usize = parameter::RADIAL_MODES.bounds.upper as usize;
 
-/// A thin annular plate, clamped inside and free outside, in units of its outer radius.
+/// A thin annular plate, clamped at its inner and free at its outer edge, in units of its outer radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plate {
     inner_radius_ratio: f64,
@@ -60,7 +62,7 @@ pub struct PlateMode {
     pub shape: RadialShape,
 }
 
-/// Why there are no modes.
+/// Why modes could not be computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PlateError {
     /// b/a is outside [`INNER_RADIUS_RATIO`].
@@ -75,16 +77,16 @@ pub enum PlateError {
     },
     /// More nodal diameters than [`MOST_DIAMETERS`].
     TooManyDiameters {
-        /// The number asked for.
+        /// The number requested.
         diameters: u32,
     },
     /// No radial mode, or more than [`MOST_RADIAL`].
     RadialModes {
-        /// The number asked for.
+        /// The number requested.
         radial: usize,
     },
-    /// The Ritz value of this mode has no root of the characteristic equation beside it, or its matrices or functions
-    /// left the range of the arithmetic.
+    /// No root of the characteristic equation was found near the Ritz value of this mode, or its matrices or functions
+    /// are out of the range of `f64`.
     NotFound {
         /// Nodal diameters of the mode.
         diameters: u32,
@@ -98,20 +100,23 @@ impl core::fmt::Display for PlateError {
         match self {
             Self::InnerRadiusRatio { value } => write!(
                 f,
-                "the ratio of radii b/a is {value}, allowed is {} to {}",
+                "the ratio of radii b/a is {value}, but must be from {} to {}",
                 INNER_RADIUS_RATIO[0], INNER_RADIUS_RATIO[1]
             ),
             Self::PoissonRatio { value } => {
-                write!(f, "Poisson's ratio is {value}, allowed is 0 to below 0.5")
+                write!(f, "Poisson's ratio is {value}, but must be at least 0 and below 0.5")
             }
             Self::TooManyDiameters { diameters } => {
                 write!(
                     f,
-                    "{diameters} nodal diameters asked for, at most {MOST_DIAMETERS} are possible"
+                    "{diameters} nodal diameters were requested, but at most {MOST_DIAMETERS} are supported"
                 )
             }
             Self::RadialModes { radial } => {
-                write!(f, "{radial} radial modes asked for, 1 to {MOST_RADIAL} are possible")
+                write!(
+                    f,
+                    "{radial} radial modes were requested, but 1 to {MOST_RADIAL} are supported"
+                )
             }
             Self::NotFound { diameters, radial } => write!(
                 f,
@@ -127,7 +132,7 @@ impl Plate {
     /// A plate with the ratio of radii b/a and Poisson's ratio ν.
     ///
     /// # Errors
-    /// [`PlateError::InnerRadiusRatio`], [`PlateError::PoissonRatio`] where a value is out of its range or not a number.
+    /// [`PlateError::InnerRadiusRatio`] or [`PlateError::PoissonRatio`] where a value is out of range or not a number.
     pub fn new(inner_radius_ratio: f64, poisson_ratio: f64) -> Result<Self, PlateError> {
         let [least, most] = INNER_RADIUS_RATIO;
         if !(least..=most).contains(&inner_radius_ratio) {
@@ -151,10 +156,11 @@ impl Plate {
         self.poisson_ratio
     }
 
-    /// The lowest `radial` modes of every number of nodal diameters 0, 1, … `diameters`, ordered by diameters, then radial number.
+    /// The lowest `radial` modes for every number of nodal diameters 0, 1, … `diameters`, ordered by diameters, then radial
+    /// number.
     ///
     /// # Errors
-    /// [`PlateError`] where more modes are asked for than can be told, or one could not be confirmed.
+    /// [`PlateError`] where more modes are requested than supported, or one could not be confirmed.
     pub fn modes(&self, radial: usize, diameters: u32) -> Result<Vec<PlateMode>, PlateError> {
         if diameters > MOST_DIAMETERS {
             return Err(PlateError::TooManyDiameters { diameters });
@@ -162,7 +168,7 @@ impl Plate {
         if !(1..=MOST_RADIAL).contains(&radial) {
             return Err(PlateError::RadialModes { radial });
         }
-        // One more than asked for, so that the last root too has a neighbour above it.
+        // One more than requested, so that the last root has a neighbour above it too.
         let wanted = radial + 1;
         let space = TrialSpace::new(self.inner_radius_ratio, self.poisson_ratio, wanted, diameters);
         let mut modes = Vec::with_capacity(radial * (diameters as usize + 1));
@@ -183,11 +189,11 @@ impl Plate {
         let guess = ritz[radial - 1];
         let below = if radial == 1 { 0.0 } else { ritz[radial - 2] };
         let above = ritz[radial];
-        // Midpoints between neighbours: brackets of different modes cannot overlap.
+        // Limited to the midpoints between neighbours: brackets of different modes cannot overlap.
         let (floor, ceiling) = (0.5 * (below + guess), 0.5 * (guess + above));
         let determinant =
             |k: f64| eliminate(diameters, inner, poisson, k).map_or(f64::NAN, |e| e.determinant);
-        // Ritz values lie above the roots; rounding may put the computed root a little above them.
+        // Ritz values are above the roots, but with rounding the computed root may be slightly above its Ritz value.
         let mut reach = 1e-9;
         while reach <= ACCURACY {
             let from = (guess * (1.0 - reach)).max(floor);

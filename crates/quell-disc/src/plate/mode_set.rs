@@ -1,14 +1,14 @@
-//! A chosen set of modes and the frequency they are measured in; eq. (5.17).
+//! A set of modes and its reference frequency; eq. (5.17).
 //!
-//! ω_ref = ω_cr = min ω_pq/q over the modes of the set with q > 0 nodal diameters: the lowest critical speed, so that Ω = 1
-//! is the speed at which a forward wave first stands still under the load. It belongs to the set: at b/a = 0.5 it is
-//! 1.188 times smaller with q ≤ 5 than with q ≤ 2, and speeds, damping, stiffness and friction rescale with it. A user who
-//! compares truncations fixes one reference for the disc instead.
+//! ω_ref = ω_cr = min ω_pq/q over the modes of the set with q > 0 nodal diameters. This is the lowest critical speed: Ω = 1
+//! is the speed at which a forward wave is first stationary relative to the load. It depends on the set: at b/a = 0.5 it is
+//! smaller by a factor of 1.188 with q ≤ 5 than with q ≤ 2, and speeds, damping, stiffness and friction are scaled by it. To
+//! compare truncations, use a fixed reference frequency instead.
 
 use super::{Plate, PlateError, PlateMode};
 use quell_model::disc::Mode;
 
-/// The frequency that everything is measured in.
+/// The reference frequency of a mode set.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reference {
     /// ω_cr = min ω_pq/q of the mode set, as in the dissertation.
@@ -17,7 +17,7 @@ pub enum Reference {
     FrequencyParameter(f64),
 }
 
-/// Modes of a plate with the frequency they are measured in.
+/// Modes of a plate with their reference frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModeSet {
     modes: Vec<PlateMode>,
@@ -25,12 +25,12 @@ pub struct ModeSet {
     critical: Option<usize>,
 }
 
-/// Why there is no mode set.
+/// Why a mode set could not be formed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ModeSetError {
-    /// The modes themselves could not be told.
+    /// The modes could not be computed.
     Plate(PlateError),
-    /// No mode of the set has a nodal diameter, hence none has a critical speed: a reference must be given.
+    /// No mode of the set has a nodal diameter, so there is no critical speed: a reference must be given.
     NoCriticalSpeed,
     /// The given reference frequency is not a positive number.
     Reference {
@@ -44,10 +44,10 @@ impl core::fmt::Display for ModeSetError {
         match self {
             Self::Plate(error) => error.fmt(f),
             Self::NoCriticalSpeed => {
-                f.write_str("no mode has a nodal diameter, so none has a critical speed: give a reference frequency")
+                f.write_str("no mode has a nodal diameter, so there is no critical speed: specify a reference frequency")
             }
             Self::Reference { value } => {
-                write!(f, "the reference frequency parameter is {value}, it must be a positive number")
+                write!(f, "the reference frequency parameter is {value}, but must be a positive number")
             }
         }
     }
@@ -65,7 +65,7 @@ impl ModeSet {
     /// The lowest `radial_modes` modes of 0 … `nodal_diameters` nodal diameters of a plate (N_r, N_θ of the dissertation).
     ///
     /// # Errors
-    /// [`ModeSetError`] where the modes or the reference frequency cannot be told.
+    /// [`ModeSetError`] where the modes or the reference frequency could not be determined.
     pub fn new(
         plate: &Plate,
         radial_modes: usize,
@@ -74,9 +74,9 @@ impl ModeSet {
     ) -> Result<Self, ModeSetError> {
         let modes = plate.modes(radial_modes, nodal_diameters)?;
         let speed = |mode: &PlateMode| mode.frequency_parameter / f64::from(mode.diameters);
-        let turning = modes.iter().enumerate().filter(|(_, mode)| mode.diameters > 0);
+        let with_diameters = modes.iter().enumerate().filter(|(_, mode)| mode.diameters > 0);
         let critical =
-            turning.min_by(|a, b| speed(a.1).total_cmp(&speed(b.1))).map(|(index, _)| index);
+            with_diameters.min_by(|a, b| speed(a.1).total_cmp(&speed(b.1))).map(|(index, _)| index);
         let reference = match reference {
             Reference::FrequencyParameter(value) if value > 0.0 && value.is_finite() => value,
             Reference::FrequencyParameter(value) => return Err(ModeSetError::Reference { value }),
@@ -109,8 +109,8 @@ impl ModeSet {
         mode.frequency_parameter / self.reference
     }
 
-    /// The modes as a load at the radius r₀ (in the outer radius) meets them, all with the damping ratio ξ; `None`
-    /// where there is no plate at that radius.
+    /// The modes for a load at the radius r₀ (in units of the outer radius), all with the damping ratio ξ; `None`
+    /// where r₀ is not on the plate.
     #[must_use]
     pub fn at_radius(&self, radius: f64, damping: f64) -> Option<Vec<Mode>> {
         self.modes

@@ -1,4 +1,4 @@
-//! Approximate wave numbers of a clamped–free annular plate, all of them and in order: the count that no root search can give.
+//! Approximate wave numbers of a clamped–free annular plate, complete and in order, which a root search cannot guarantee.
 //!
 //! For w(r) cos nθ the energies of a thin plate (Kirchhoff; lengths in the outer radius, D = ρh = 1) are, up to π,
 //!
@@ -7,21 +7,22 @@
 //! 2T = ω² ∫ w² r dr
 //! ```
 //!
-//! Rayleigh's principle on a space of trial functions with w = w' = 0 at r = b gives values from above, the p-th Ritz
-//! value above the p-th exact one: no frequency can be missing from the list, and none can be in it twice.
-//! The space is that of hierarchical C¹ elements: cubic Hermite functions and bubbles whose second derivatives are the
-//! Legendre polynomials P₂, P₃ …; elements grow geometrically, at most by a factor of 2, so that ln r, r^{±n} and the Bessel
-//! functions near a small inner radius converge as fast in every element. The values then serve as places to look for the
-//! roots of the exact characteristic equation (`characteristic`); measured over the whole domain,
-//! they are above these by less than 10⁻¹² relative in k.
+//! Rayleigh's principle on a space of trial functions with w = w' = 0 at r = b gives upper bounds: the p-th Ritz
+//! value is above the p-th exact one, so no frequency can be missing from the list or appear twice.
+//! The space consists of hierarchical C¹ elements: cubic Hermite functions and bubbles whose second derivatives are the
+//! Legendre polynomials P₂, P₃ …. The elements grow geometrically, at most by a factor of 2, so that ln r, r^{±n} and the Bessel
+//! functions near a small inner radius converge equally fast in every element. The Ritz values are then starting points for the
+//! roots of the exact characteristic equation (`characteristic`). Measured over the whole domain,
+//! they are above the roots by less than 10⁻¹² relative in k.
 
 use quell_numerics::gauss_legendre::{GaussLegendre, legendre};
 use quell_numerics::symmetric::{SymmetricMatrix, pencil_eigenvalues};
 
-/// How far below a Ritz value its exact wave number is looked for, relative; far more than the distance measured.
+/// Relative distance below a Ritz value within which its exact wave number is searched; far more than the distance measured.
 pub(super) const ACCURACY: f64 = 1e-5;
 
-/// Polynomial degree beyond what the waves within an element need: ten more than half the phase give seven digits and more.
+/// Polynomial degree in excess of what the waves within an element require: ten more than half the phase give at least seven
+/// digits.
 const SPARE_DEGREE: usize = 10;
 
 /// Trial functions of one element at the nodes of its quadrature.
@@ -30,11 +31,11 @@ struct Element {
     radii: Vec<f64>,
     /// Weights times r.
     weights: Vec<f64>,
-    /// Per function: its number among the unknowns, and value, slope, second derivative at every node.
+    /// Per function: its index among the unknowns, and its value, slope and second derivative at every node.
     functions: Vec<(usize, Vec<[f64; 3]>)>,
 }
 
-/// The trial space on one plate; serves every number of nodal diameters up to the one it was made for.
+/// The trial space on one plate, for every number of nodal diameters up to the one that it was constructed for.
 pub(super) struct TrialSpace {
     elements: Vec<Element>,
     unknowns: usize,
@@ -96,7 +97,7 @@ impl Element {
         first_bubble: usize,
         right: (usize, usize),
     ) -> Self {
-        // The integrands are polynomials of degree 2·degree times r⁻³: a ratio of radii below 2 costs nine nodes at most.
+        // The integrands are polynomials of degree 2·degree times r⁻³: a ratio of radii below 2 costs at most nine more nodes.
         let rule = GaussLegendre::new(degree + 10);
         let half = 0.5 * (to - from);
         let radii: Vec<f64> = rule.nodes.iter().map(|x| from + half * (1.0 + x)).collect();
@@ -136,9 +137,9 @@ impl Element {
             .iter()
             .map(|(_, values)| {
                 let strain = |(&[w, slope, bend], &r): (&[f64; 3], &f64)| {
-                    let turn = slope / r;
+                    let rotation = slope / r;
                     let lift = w / (r * r);
-                    [w, bend, turn - n * n * lift, n * (turn - lift)]
+                    [w, bend, rotation - n * n * lift, n * (rotation - lift)]
                 };
                 values.iter().zip(&self.radii).map(strain).collect()
             })
@@ -163,7 +164,7 @@ impl Element {
     }
 }
 
-/// A small whole number as a count.
+/// Converts a small whole number to a count.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -173,12 +174,12 @@ fn whole(value: f64) -> usize {
     value as usize
 }
 
-/// Value and derivatives in x turned into derivatives in r = … + half·x.
+/// Converts value and derivatives in x to derivatives in r = … + half·x.
 fn scaled([value, slope, bend]: [f64; 3], half: f64) -> [f64; 3] {
     [value, slope / half, bend / (half * half)]
 }
 
-/// Cubic Hermite functions on [−1, 1]: value left, slope left, value right, slope right (slopes with respect to r).
+/// Cubic Hermite functions on [−1, 1]: left value, left slope, right value, right slope (slopes with respect to r).
 fn hermite_cubic(kind: usize, x: f64, half: f64) -> [f64; 3] {
     let side = if kind < 2 { -1.0 } else { 1.0 };
     let y = side * x;
@@ -196,7 +197,7 @@ fn hermite_cubic(kind: usize, x: f64, half: f64) -> [f64; 3] {
     }
 }
 
-/// The function whose second derivative is √(j + ½) Pⱼ and which vanishes with its slope at both ends; j ≥ 2.
+/// The function with second derivative √(j + ½) Pⱼ that vanishes with its slope at both ends; j ≥ 2.
 fn bubble(j: usize, legendre: &[f64]) -> [f64; 3] {
     let order = j as f64;
     let norm = libm::sqrt(order + 0.5);

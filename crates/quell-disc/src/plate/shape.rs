@@ -1,18 +1,19 @@
-//! Shape of a mode along the radius: φ(r), with φ cos jθ of unit mean square over the plate and φ(a) > 0.
+//! Radial shape φ(r) of a mode, normalised so that φ cos jθ has unit mean square over the plate and φ(a) > 0.
 //!
-//! w = u + v, u of J and Y, v of I and K: ∇²u = −k²u, ∇²v = k²v. Green's formula gives the norm in closed form,
+//! w = u + v, where u consists of J and Y, and v of I and K: ∇²u = −k²u, ∇²v = k²v. Green's formula gives the norm in closed
+//! form,
 //!
 //! ```text
 //! 2k² ∫ w² r dr = [ r²u'² + (k²r² − n²)u² − r²v'² + (k²r² + n²)v² − 2r(u'v − uv') ]      between b and 1
 //! ```
 //!
-//! whose value at the clamp, where v = −u and v' = −u', is 2k²b²u². Unit mean square: ∫ φ² r dr = (1 − b²) for
-//! n > 0, half of that for n = 0; it is (5.7) with the mass of the plate, M_p = ρhπ(a² − b²), taken out: φ = R √M_p.
-//! (5.7b) as printed cannot hold for n = 0: there is no sin 0.
+//! whose value at the clamp, where v = −u and v' = −u', is 2k²b²u². Unit mean square means ∫ φ² r dr = (1 − b²) for
+//! n > 0 and half of that for n = 0. This is (5.7) without the mass of the plate, M_p = ρhπ(a² − b²): φ = R √M_p.
+//! (5.7b) as printed cannot hold for n = 0, because sin 0 vanishes.
 
 use super::characteristic::Basis;
 
-/// Shape of a mode along the radius, φ(r).
+/// Radial shape φ(r) of a mode.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RadialShape {
     diameters: u32,
@@ -22,7 +23,7 @@ pub struct RadialShape {
 }
 
 impl RadialShape {
-    /// Normalises the null direction at a root; `None` where it is not that of a mode.
+    /// Normalises the null vector at a root; `None` where it does not belong to a mode.
     pub(super) fn new(
         diameters: u32,
         wave_number: f64,
@@ -60,13 +61,13 @@ impl RadialShape {
         Some([u, self.wave_number * u_slope, v, self.wave_number * v_slope])
     }
 
-    /// φ at the radius r (in the outer radius), 0 at the clamp; `None` outside b/a ≤ r ≤ 1.
+    /// φ at the radius r (in units of the outer radius), 0 at the clamp; `None` outside b/a ≤ r ≤ 1.
     #[must_use]
     pub fn value(&self, radius: f64) -> Option<f64> {
         self.value_and_slope(radius).map(|[value, _]| value)
     }
 
-    /// φ and dφ/dr at the radius r (in the outer radius), both 0 at the clamp; `None` outside b/a ≤ r ≤ 1.
+    /// φ and dφ/dr at the radius r (in units of the outer radius), both 0 at the clamp; `None` outside b/a ≤ r ≤ 1.
     #[must_use]
     pub fn value_and_slope(&self, radius: f64) -> Option<[f64; 2]> {
         if radius == self.inner_radius {
@@ -79,7 +80,7 @@ impl RadialShape {
         Some([u + v, u_slope + v_slope])
     }
 
-    /// φ(r) cos jθ, the deflection of the plate for pictures; `None` outside b/a ≤ r ≤ 1.
+    /// φ(r) cos jθ, the deflection of the plate, for plots; `None` outside b/a ≤ r ≤ 1.
     #[must_use]
     pub fn deflection(&self, radius: f64, angle: f64) -> Option<f64> {
         self.value(radius).map(|value| value * libm::cos(f64::from(self.diameters) * angle))

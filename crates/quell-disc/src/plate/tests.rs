@@ -1,4 +1,4 @@
-//! Against 40-digit arithmetic, against counts by a fine scan, against limits.
+//! Comparison with 40-digit arithmetic, with mode counts by a fine scan, and with limits.
 
 use super::*;
 
@@ -6,7 +6,7 @@ fn number(value: &serde_json::Value) -> f64 {
     value.as_str().expect("a printed number").parse().expect("a number")
 }
 
-/// Frequency parameters within 1e-12 relative (asked for: 1e-10), shapes within 1e-11 of φ(a), for every stored mode.
+/// Frequency parameters within 1e-12 relative (required: 1e-10), shapes within 1e-11 of φ(a), for every stored mode.
 #[test]
 fn stored_modes() {
     let text = include_str!("../../../../reference/disc_modes.json");
@@ -43,9 +43,9 @@ fn stored_modes() {
     assert!(worst_norm < 1e-11, "norm: {worst_norm:e}");
 }
 
-/// A scan of the exact determinant, 60 steps to the smallest distance of roots, counts the same modes at the same places.
+/// A scan of the exact determinant, with 60 steps per smallest distance of roots, finds the same modes at the same wave numbers.
 #[test]
-fn no_root_missed_and_none_doubled() {
+fn no_root_is_missed_or_duplicated() {
     for (ratio, poisson) in
         [(0.01, 0.3), (0.05, 0.0), (0.2, 0.499), (0.5, 0.3), (0.7, 0.3), (0.95, 0.1)]
     {
@@ -77,17 +77,17 @@ fn no_root_missed_and_none_doubled() {
                 last = now;
             }
             assert_eq!(changes.len(), 10, "b/a {ratio}, n {n}: {changes:?} {found:?}");
-            for (place, k) in changes.iter().zip(&found) {
+            for (scanned, k) in changes.iter().zip(&found) {
                 assert!(
-                    *k <= place + 1e-9 && *k >= place - step,
-                    "b/a {ratio}, n {n}: {k} {place}"
+                    *k <= scanned + 1e-9 && *k >= scanned - step,
+                    "b/a {ratio}, n {n}: {k} {scanned}"
                 );
             }
         }
     }
 }
 
-/// Ritz values are above the exact ones, and by less than the bound, over the whole domain.
+/// Over the whole domain, Ritz values are above the exact ones by less than the bound.
 #[test]
 fn ritz_values_are_upper_bounds() {
     let mut worst = 0.0_f64;
@@ -100,7 +100,7 @@ fn ritz_values_are_upper_bounds() {
                 let ritz = space.wave_numbers(n, 10).expect("factored");
                 for (mode, k) in modes.iter().filter(|mode| mode.diameters == n).zip(ritz) {
                     let excess = k / mode.frequency_parameter.sqrt() - 1.0;
-                    // Rounding of the Ritz problem: 1/k⁴ is good to 1e-15 of its largest value.
+                    // Rounding of the Ritz problem: 1/k⁴ is accurate to 1e-15 of its largest value.
                     assert!(
                         excess > -1e-9,
                         "b/a {ratio}, n {n}, radial {}: {excess:e}",
@@ -115,7 +115,7 @@ fn ritz_values_are_upper_bounds() {
     assert!(worst < 0.01 * ACCURACY, "{worst:e}");
 }
 
-/// Thin ring: the lowest axisymmetric mode is the clamped–free beam's, k(1 − b) = 1.8751 (with ν = 0 and b/a → 1).
+/// Thin ring: the lowest axisymmetric mode is that of a clamped–free beam, k(1 − b) = 1.8751 (with ν = 0 and b/a → 1).
 #[test]
 fn thin_ring_is_a_cantilever() {
     let beam = [1.875104068711961, 4.694091132974174, 7.854757438237612];
@@ -128,7 +128,7 @@ fn thin_ring_is_a_cantilever() {
     }
 }
 
-/// The norm in closed form is that of a quadrature of the shape; slope is the derivative; R(a) > 0.
+/// The closed-form norm agrees with a quadrature of the shape, the slope is its derivative, and R(a) > 0.
 #[test]
 fn normalised_shapes() {
     let rule = quell_numerics::gauss_legendre::GaussLegendre::new(80);
@@ -163,7 +163,7 @@ fn normalised_shapes() {
     }
 }
 
-/// b/a = 0.5: the reference moves by 1.18822 between N_θ = 2 and 5; a fixed one does not move.
+/// b/a = 0.5: the reference frequency changes by a factor of 1.18822 between N_θ = 2 and 5; a fixed one does not change.
 #[test]
 fn reference_frequency() {
     let plate = Plate::new(0.5, 0.3).expect("valid");
@@ -183,7 +183,7 @@ fn reference_frequency() {
     assert_eq!(bad, Err(ModeSetError::Reference { value: -1.0 }));
 }
 
-/// Steel, a = 0.15 m, h = 0.01 m: hertz by hand; doubling h doubles, doubling a quarters.
+/// Steel, a = 0.15 m, h = 0.01 m: frequencies in hertz against a direct evaluation of the formula.
 #[test]
 fn hertz_and_revolutions() {
     let plate = Plate::new(0.5, 0.3).expect("valid");
@@ -203,7 +203,7 @@ fn hertz_and_revolutions() {
 }
 
 #[test]
-fn what_cannot_be_is_refused() {
+fn invalid_values_are_rejected() {
     assert_eq!(Plate::new(1.0, 0.3), Err(PlateError::InnerRadiusRatio { value: 1.0 }));
     assert_eq!(Plate::new(0.5, 0.5), Err(PlateError::PoissonRatio { value: 0.5 }));
     assert!(Plate::new(f64::NAN, 0.3).is_err() && Plate::new(0.5, f64::NAN).is_err());

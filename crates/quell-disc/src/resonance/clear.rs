@@ -1,33 +1,34 @@
-//! Which dither frequency keeps a range of speeds free of the tongues that dither itself makes?
+//! Dither frequencies that keep a range of speeds free of the tongues induced by the dither itself.
 //!
-//! At one speed Ω a pair of waves of equal direction grows for the frequencies R between
-//! (w₁ − w₂ − δ)/h at the two edges δ of its slow system (`pair`), if p > η₁η₂ there. Damping is linear in Ω, so the
-//! speeds with p > η₁η₂ are bounded by the roots of a quadratic; over each such interval of speeds the band of R is swept out by
-//! two smooth curves, and its union is the interval between the least and the largest of them. What is left of the wanted
-//! frequencies is an exact list of intervals, to the accuracy of first-order theory: no grid of frequencies.
-//! With tangential dither friction has no mean, and the undithered tongues vanish at this order: they stay suppressed.
-//! [`within`] tells for one frequency what lies in the range, tongues revived at second order included.
-//! The dissertation closes with this question.
+//! At one speed Ω, a pair of waves of equal direction grows for the frequencies R between (w₁ − w₂ − δ)/h at the two edges δ of
+//! its slow system (`pair`), if p > η₁η₂ there. Damping is linear in Ω, so the speeds with p > η₁η₂ are bounded by the roots of a
+//! quadratic. Over each such interval of speeds the band of R is bounded by two smooth curves, and the union of the bands is the
+//! interval from the minimum of the lower curve to the maximum of the upper one. The remaining frequencies of the requested range
+//! are therefore an exact list of intervals, to the accuracy of first-order theory, without a grid of frequencies.
+//!
+//! Under tangential dither friction has zero mean, and the undithered tongues vanish at this order: they remain suppressed.
+//! [`within`] lists the resonances in the range for a single frequency, including tongues revived at second order.
+//! The dissertation ends with this question.
 
 use core::ops::RangeInclusive;
 
 use quell_numerics::roots::{Closeness, minimise, quadratic};
 
-use super::pair::Band;
-use super::places::Family;
+use super::meetings::MeetingFamily;
+use super::pair::DetuningBand;
 use super::tongue::{Resonance, Tongue};
 use super::wave::Wave;
 use super::waves::{Order, Waves};
 use quell_model::disc::DiscDither;
 
-/// Dither frequencies that keep a range of speeds clear, and what blocks the others.
+/// Dither frequencies that keep a range of speeds clear, and the pairs of waves that block the others.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clearance {
-    /// Intervals [from, to] of R without an induced tongue in the range of speeds, ascending.
+    /// Intervals [from, to] of R without an induced tongue in the range of speeds, in ascending order.
     pub clear: Vec<[f64; 2]>,
-    /// What blocks the rest, ascending; they may overlap.
+    /// The blocked intervals, in ascending order; they may overlap.
     pub blocked: Vec<Blocked>,
-    /// Whether the dither takes away the undithered tongues (at first order): tangential does, normal does not.
+    /// Whether the dither suppresses the undithered tongues at first order: tangential dither does, normal dither does not.
     pub original_suppressed: bool,
 }
 
@@ -38,20 +39,20 @@ pub struct Blocked {
     pub from: f64,
     /// Highest frequency R.
     pub to: f64,
-    /// The pair.
+    /// The two waves.
     pub waves: [Wave; 2],
-    /// Whether the second wave takes part with its conjugate.
+    /// Whether the second wave couples through its conjugate.
     pub sum: bool,
 }
 
-/// Why there is no answer.
+/// Why clear frequencies could not be determined.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ClearanceError {
     /// There is no dither whose frequency could be chosen.
     NoDither,
-    /// A range is empty, not finite, or the frequencies are not positive.
+    /// A range is empty or not finite, or the frequencies are not positive.
     Range,
-    /// This wave grows by itself in the range of speeds: no frequency clears it.
+    /// This wave grows by itself in the range of speeds, so no dither frequency clears the range.
     WaveUnstable {
         /// The wave.
         wave: Wave,
@@ -65,12 +66,12 @@ impl core::fmt::Display for ClearanceError {
         match self {
             Self::NoDither => f.write_str("there is no dither whose frequency could be chosen"),
             Self::Range => f.write_str(
-                "a range must go from a smaller to a larger number, frequencies from above 0",
+                "a range must be from a smaller to a larger number, and frequencies must be above 0",
             ),
             Self::WaveUnstable { wave, speed } => {
                 write!(
                     f,
-                    "the {wave} wave is not damped by itself at speed {speed}: no dither frequency clears it"
+                    "the {wave} wave is undamped or unstable by itself at speed {speed}: no dither frequency clears the range"
                 )
             }
         }
@@ -79,7 +80,7 @@ impl core::fmt::Display for ClearanceError {
 
 impl core::error::Error for ClearanceError {}
 
-/// A resonance in or beside a range of speeds.
+/// A resonance in or near a range of speeds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearby {
     /// The resonance.
@@ -88,16 +89,16 @@ pub struct Nearby {
     pub reaches_in: bool,
 }
 
-/// Samples of the band's edges over an interval of speeds before an extreme is refined: the edges are smooth, and
-/// have at most a few turns over all speeds.
+/// Samples of an edge of the band over an interval of speeds, before an extremum is refined: the edges are smooth and
+/// have at most a few extrema over all speeds.
 const SAMPLES: usize = 64;
 
 /// Frequencies R in `frequencies` for which no tongue induced by the dither of `waves` reaches into `speeds`.
 ///
-/// The frequency in `waves` itself does not matter.
+/// The dither frequency of `waves` itself is ignored.
 ///
 /// # Errors
-/// [`ClearanceError`] where no frequency can be chosen, a range is none, or a wave grows by itself.
+/// [`ClearanceError`] where no frequency can be chosen, a range is invalid, or a wave grows by itself.
 pub fn clear_frequencies(
     waves: &Waves,
     speeds: RangeInclusive<f64>,
@@ -115,7 +116,7 @@ pub fn clear_frequencies(
     if !(proper(&speeds) && proper(&frequencies) && *frequencies.start() > 0.0) {
         return Err(ClearanceError::Range);
     }
-    // Damping is linear in the speed: the ends decide.
+    // Damping is linear in the speed, so checking both ends is sufficient.
     for wave in waves.waves().iter().filter(|wave| waves.coupling_squared(wave.mode) > 0.0) {
         for speed in [*speeds.start(), *speeds.end()] {
             if waves.growth_rate(wave, speed) >= 0.0 {
@@ -141,7 +142,7 @@ pub fn clear_frequencies(
         }
         reached = reached.max(block.to);
     }
-    // One frequency alone is an interval, too.
+    // A single frequency is an interval too.
     let alone = frequencies.start() == frequencies.end() && blocked.is_empty();
     if reached < *frequencies.end() || alone {
         clear.push([reached, *frequencies.end()]);
@@ -149,8 +150,8 @@ pub fn clear_frequencies(
     Ok(Clearance { clear, blocked, original_suppressed })
 }
 
-/// What lies in a range of speeds at the dither frequency of `waves`: every induced resonance whose place or tongue is in it, and,
-/// under tangential dither, the undithered ones as revived at second order.
+/// Resonances in a range of speeds at the dither frequency of `waves`: every induced resonance whose meeting or tongue is in the
+/// range, and the undithered ones; under tangential dither, these as revived at second order.
 #[must_use]
 pub fn within(waves: &Waves, speeds: RangeInclusive<f64>) -> Vec<Nearby> {
     let (start, end) = (*speeds.start(), *speeds.end());
@@ -162,8 +163,8 @@ pub fn within(waves: &Waves, speeds: RangeInclusive<f64>) -> Vec<Nearby> {
             let inside = speeds.contains(&speed);
             let mut reaches_in = reaches(&first, family, &speeds, frequency);
             if reaches_in || inside {
-                let resonance = first.resonance(&Waves::place_of(family, speed));
-                // A wave that grows alone has no band: it grows wherever it is.
+                let resonance = first.resonance(&Waves::meeting_of(family, speed));
+                // A wave that grows by itself has no band of detunings.
                 if matches!(resonance.tongue, Tongue::WaveUnstable { .. }) {
                     reaches_in = inside;
                 }
@@ -175,7 +176,7 @@ pub fn within(waves: &Waves, speeds: RangeInclusive<f64>) -> Vec<Nearby> {
         DiscDither::Tangential { .. } => waves.clone().with_order(Order::Second),
         DiscDither::None | DiscDither::Normal { .. } => first,
     };
-    // Undithered tongues are narrow beside their distance from Ω = 0 … 1; half a unit of speed reaches every one.
+    // Undithered tongues are much narrower than half a unit of speed, so this margin includes every one that can reach in.
     let wide = start - 0.5..=end + 0.5;
     found.extend(still.undithered(wide).into_iter().filter_map(|resonance| {
         let inside = speeds.contains(&resonance.speed);
@@ -190,11 +191,15 @@ pub fn within(waves: &Waves, speeds: RangeInclusive<f64>) -> Vec<Nearby> {
     found
 }
 
-/// Parts of the range of speeds at which the pair grows for some frequency: p > η₁η₂.
-fn grown_speeds(waves: &Waves, family: &Family, speeds: &RangeInclusive<f64>) -> Vec<[f64; 2]> {
+/// Parts of the range of speeds in which the pair grows for some frequency: p > η₁η₂.
+fn grown_speeds(
+    waves: &Waves,
+    family: &MeetingFamily,
+    speeds: &RangeInclusive<f64>,
+) -> Vec<[f64; 2]> {
     let (start, end) = (*speeds.start(), *speeds.end());
     let excess = |speed: f64| {
-        let pair = waves.pair(&Waves::place_of(family, speed));
+        let pair = waves.pair(&Waves::meeting_of(family, speed));
         pair.product.re - pair.first.re * pair.second.re
     };
     let middle = 0.5 * (start + end);
@@ -202,7 +207,7 @@ fn grown_speeds(waves: &Waves, family: &Family, speeds: &RangeInclusive<f64>) ->
     if half == 0.0 {
         return if excess(middle) > 0.0 { vec![[start, end]] } else { Vec::new() };
     }
-    // The quadratic e₀ + e₁x + e₂x², x = (Ω − middle)/half, through three of its values.
+    // The quadratic e₀ + e₁x + e₂x², x = (Ω − middle)/half, from three of its values.
     let (low, centre, high) = (excess(start), excess(middle), excess(end));
     let (slope, bend) = (0.5 * (high - low), 0.5 * (high + low) - centre);
     let mut cuts = vec![-1.0];
@@ -218,22 +223,22 @@ fn grown_speeds(waves: &Waves, family: &Family, speeds: &RangeInclusive<f64>) ->
 }
 
 /// Lowest and highest frequency at which the pair grows at one speed.
-fn band(waves: &Waves, family: &Family, speed: f64) -> [f64; 2] {
-    let pair = waves.pair(&Waves::place_of(family, speed));
+fn band(waves: &Waves, family: &MeetingFamily, speed: f64) -> [f64; 2] {
+    let pair = waves.pair(&Waves::meeting_of(family, speed));
     let [first, second] = family.signed();
     let apart = waves.signed_frequency(&first, speed) - waves.signed_frequency(&second, speed);
     let centre = pair.second.im - pair.first.im;
     let (from, to) = match pair.band() {
-        Band::Between(from, to) => (from, to),
-        // An end of the interval of speeds, where the band closes to a point.
-        Band::Nowhere | Band::Outside => (centre, centre),
+        DetuningBand::Between(from, to) => (from, to),
+        // At an end of the interval of speeds the band closes to a point.
+        DetuningBand::Nowhere | DetuningBand::Outside => (centre, centre),
     };
     let h = f64::from(family.h);
     let (one, other) = ((apart - from) / h, (apart - to) / h);
     [one.min(other), one.max(other)]
 }
 
-/// Least value of a smooth function over an interval of speeds.
+/// Smallest value of a smooth function over an interval of speeds.
 fn least([start, end]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
     let speed = |i: usize| start + (end - start) * (i as f64 / SAMPLES as f64);
     let best = (0..=SAMPLES).min_by(|a, b| f(speed(*a)).total_cmp(&f(speed(*b)))).unwrap_or(0);
@@ -243,13 +248,18 @@ fn least([start, end]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
 }
 
 /// Lowest and highest frequency at which the pair grows at some speed of the interval.
-fn swept(waves: &Waves, family: &Family, part: [f64; 2]) -> [f64; 2] {
+fn swept(waves: &Waves, family: &MeetingFamily, part: [f64; 2]) -> [f64; 2] {
     let lowest = least(part, |speed| band(waves, family, speed)[0]);
     [lowest, -least(part, |speed| -band(waves, family, speed)[1])]
 }
 
 /// Whether the pair grows at this frequency somewhere in the range of speeds.
-fn reaches(waves: &Waves, family: &Family, speeds: &RangeInclusive<f64>, frequency: f64) -> bool {
+fn reaches(
+    waves: &Waves,
+    family: &MeetingFamily,
+    speeds: &RangeInclusive<f64>,
+    frequency: f64,
+) -> bool {
     grown_speeds(waves, family, speeds).into_iter().any(|part| {
         let outside = |speed: f64| {
             let [from, to] = band(waves, family, speed);

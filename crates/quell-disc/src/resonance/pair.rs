@@ -1,13 +1,13 @@
-//! Two slow amplitudes: where they grow, how fast, between which detunings; in closed form.
+//! The slow system of two wave amplitudes: its growth rate and the detunings between which it grows, in closed form.
 //!
 //! ```text
 //! [ D₁     c₁₂    ]
 //! [ c₂₁    D₂ − iδ ]      D = −η + is,   C = c₁₂c₂₁,   δ: detuning
 //! ```
 //!
-//! The characteristic polynomial λ² + (a + ib)λ + (c + id) has both roots in the left half plane iff a > 0 and
-//! a²c + abd − d² > 0 (Hurwitz for complex coefficients). a does not depend on δ; b, c, d are linear in it: the second condition is
-//! a quadratic in δ with the leading coefficient η₁η₂. So, with both waves damped, instability lies between two roots.
+//! The characteristic polynomial λ² + (a + ib)λ + (c + id) has both roots in the left half-plane iff a > 0 and a²c + abd − d² > 0
+//! (Hurwitz criterion for complex coefficients). a does not depend on δ, and b, c, d are linear in it, so the second condition is
+//! a quadratic in δ with the leading coefficient η₁η₂. Hence, with both waves damped, the system is unstable between two roots.
 //!
 //! λ = (D₁ + D₂ − iδ)/2 ± √(y² + C), y = (D₁ − D₂ + iδ)/2: Re √ is stationary where y² is a real multiple of C, a quadratic
 //! in Im y.
@@ -15,29 +15,29 @@
 use num_complex::Complex64;
 use quell_numerics::roots::quadratic;
 
-/// The slow system of a pair.
+/// The slow system of a pair of waves.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Pair {
+pub(super) struct WavePair {
     pub(super) first: Complex64,
     pub(super) second: Complex64,
     pub(super) product: Complex64,
 }
 
-/// For which detunings a pair grows.
+/// Detunings at which a pair grows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Band {
-    /// For none.
+pub(super) enum DetuningBand {
+    /// No detuning.
     Nowhere,
-    /// Between the two.
+    /// The detunings between these two.
     Between(f64, f64),
-    /// Far from the resonance too: a wave by itself is unstable or undamped.
+    /// Detunings far from the resonance too: one of the waves is unstable or undamped by itself.
     Outside,
 }
 
-/// Relative size of a discriminant that is rounding: the tongues of an undamped disc end in a point there.
+/// Relative size below which a discriminant is rounding noise: there the tongues of an undamped disc end in a point.
 const ROUNDING: f64 = 1e-13;
 
-impl Pair {
+impl WavePair {
     /// Larger real part of the two exponents at the detuning δ.
     pub(super) fn growth(&self, detuning: f64) -> f64 {
         let shift = Complex64::new(0.0, detuning);
@@ -61,24 +61,24 @@ impl Pair {
         ]
     }
 
-    /// Detunings of growth.
-    pub(super) fn band(&self) -> Band {
+    /// Detunings at which the pair grows.
+    pub(super) fn band(&self) -> DetuningBand {
         if !(self.first.re < 0.0 && self.second.re < 0.0) {
-            return Band::Outside;
+            return DetuningBand::Outside;
         }
         let [q0, q1, q2] = self.hurwitz();
         let discriminant = q1 * q1 - 4.0 * q2 * q0;
         if discriminant <= ROUNDING * (q1 * q1 + (4.0 * q2 * q0).abs()) {
-            return Band::Nowhere;
+            return DetuningBand::Nowhere;
         }
-        let Some([x, y]) = quadratic(q0, q1, q2) else { return Band::Nowhere };
-        if x <= y { Band::Between(x, y) } else { Band::Between(y, x) }
+        let Some([x, y]) = quadratic(q0, q1, q2) else { return DetuningBand::Nowhere };
+        if x <= y { DetuningBand::Between(x, y) } else { DetuningBand::Between(y, x) }
     }
 
     /// Detuning of the largest growth, and that growth.
     pub(super) fn peak(&self) -> (f64, f64) {
         let real = 0.5 * (self.first.re - self.second.re);
-        let turn = self.first.im - self.second.im;
+        let offset = self.first.im - self.second.im;
         let (re, im) = (self.product.re, self.product.im);
         let size = libm::hypot(re, im);
         let candidates = if im == 0.0 {
@@ -89,7 +89,7 @@ impl Pair {
             [large, if large == 0.0 { 0.0 } else { -real * real / large }]
         };
         candidates
-            .map(|t| 2.0 * t - turn)
+            .map(|t| 2.0 * t - offset)
             .map(|detuning| (detuning, self.growth(detuning)))
             .into_iter()
             .fold((0.0, f64::NEG_INFINITY), |best, next| if next.1 > best.1 { next } else { best })

@@ -1,6 +1,6 @@
-//! Tables of the dissertation, exact eigenvalues and exponents, limits.
+//! Comparison with the tables of the dissertation, exact eigenvalues and exponents, and limits.
 
-use super::places::Place;
+use super::meetings::WaveMeeting;
 use super::*;
 use crate::dithered::growth;
 use crate::plate::{ModeSet, Plate, Reference};
@@ -29,7 +29,7 @@ fn tangential(frequency_ratio: f64) -> DiscDither {
     DiscDither::Tangential { amplitude: 1.0, frequency_ratio }
 }
 
-/// Tables 5.1 and 5.2, every printed digit, and which of the second can be unstable.
+/// Tables 5.1 and 5.2 to every printed digit, and which meetings of the second can be unstable.
 #[test]
 fn tables_of_the_dissertation() {
     let waves = waves_of(&modes(0.0), &load(0.1, 0.1), tangential(2.7));
@@ -48,12 +48,12 @@ fn tables_of_the_dissertation() {
     assert_eq!(dithered[0].label(), "forward (1,2) with its own conjugate");
     assert_eq!(dithered[1].label(), "forward (1,1) with forward (1,2)");
     assert_eq!(dithered[2].label(), "forward (1,1) with its own conjugate");
-    // Tips under tangential dither, in units of c: 1.350, 1.905, 2.700.
+    // Frictions at the tips under tangential dither, in units of c: 1.350, 1.905, 2.700.
     for (resonance, tip) in dithered.iter().zip([1.350, 1.905, 2.700]) {
         let threshold = resonance.threshold.expect("has a tip");
         assert!((threshold / 0.1 - tip).abs() < 6e-4, "{threshold}");
     }
-    // Without mean friction the undithered pairs are not driven; without dither they are.
+    // Without mean friction the undithered pairs are not excited; without dither they are.
     assert!(undithered.iter().all(|resonance| !resonance.can_be_unstable()));
     let plain = waves_of(&modes(0.0), &load(0.1, 0.1), DiscDither::None);
     let found = plain.undithered(0.01..=0.99);
@@ -78,7 +78,7 @@ fn largest(f: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
         .value
 }
 
-/// Undithered tongues, m = c = k = ε, f = 0.4ε, ξ = 0: errors of largest growth and far edge fall with ε.
+/// Undithered tongues, m = c = k = ε, f = 0.4ε, ξ = 0: the errors of the largest growth rate and the far edge decrease with ε.
 #[test]
 fn undithered_tongues_converge() {
     let modes = modes(0.0);
@@ -93,7 +93,7 @@ fn undithered_tongues_converge() {
             };
             assert!(
                 (lower - resonance.speed).abs() < 1e-12,
-                "K < 0: the tongue is above its place"
+                "K < 0: the tongue is above its meeting"
             );
             let width = upper - lower;
             let growth = |speed: f64| exact(&modes, &load, DiscDither::None, speed);
@@ -109,7 +109,7 @@ fn undithered_tongues_converge() {
             errors.push([growth_error.abs(), width_error.abs()]);
         }
         for pair in errors.windows(2) {
-            // Proportional to ε: a factor of 4; the next order in ε bends it.
+            // Proportional to ε would be a factor of 4; the next order in ε modifies it.
             for (coarse, fine) in pair[0].iter().zip(&pair[1]) {
                 assert!((2.3..7.0).contains(&(coarse / fine)), "{index}: {errors:?}");
             }
@@ -117,7 +117,7 @@ fn undithered_tongues_converge() {
     }
 }
 
-/// Tongues induced by tangential dither at 1.5 times their tip.
+/// Tongues induced by tangential dither at 1.5 times the friction of their tip.
 #[test]
 fn dithered_tongues_converge() {
     let modes = modes(0.0);
@@ -143,7 +143,7 @@ fn dithered_tongues_converge() {
     }
 }
 
-/// Second order: tongues revived under tangential dither, f = √ε·0.5; growth within a part that falls with ε, on the side found.
+/// Second order: tongues revived under tangential dither, f = √ε·0.5. The error of the growth rate decreases with ε.
 #[test]
 fn revived_tongues_converge() {
     let modes = modes(0.0);
@@ -160,7 +160,7 @@ fn revived_tongues_converge() {
             let growth = |speed: f64| exact(&modes, &load, tangential(2.7), speed);
             let exact = largest(growth, lower - 0.3 * width, upper + 0.3 * width);
             println!(
-                "revived Ω_{}: ε {size}, place {:.5}, {lower:.6} to {upper:.6}, growth {peak_growth:.3e}, exact {exact:.3e}",
+                "revived Ω_{}: ε {size}, at {:.5}, {lower:.6} to {upper:.6}, growth {peak_growth:.3e}, exact {exact:.3e}",
                 index + 1,
                 resonance.speed
             );
@@ -170,19 +170,19 @@ fn revived_tongues_converge() {
     }
 }
 
-/// Larger growth rate of the pair of waves of a resonance at a speed near it, from the slow 2 × 2 system.
+/// Larger growth rate of the wave pair of a resonance at a speed near it, from the slow 2 × 2 system.
 fn pair_growth(waves: &Waves, resonance: &Resonance, speed: f64) -> f64 {
-    let place = Place {
+    let meeting = WaveMeeting {
         waves: resonance.waves,
         conjugate: resonance.sum,
         h: resonance.harmonic,
         speed: resonance.speed,
     };
-    let [first, second] = place.signed();
-    waves.pair(&place).growth((first.l - second.l) * (speed - resonance.speed))
+    let [first, second] = meeting.signed();
+    waves.pair(&meeting).growth((first.l - second.l) * (speed - resonance.speed))
 }
 
-/// Edges are where the slow system is marginal, the peak is its largest growth, the threshold is where the tongue begins.
+/// The slow system is marginal at the edges, its largest growth is at the peak, and the tongue begins at the threshold.
 #[test]
 fn tongue_agrees_with_its_own_pair() {
     let (modes, size) = (modes(1e-4), 0.05);
@@ -221,7 +221,7 @@ fn tongue_agrees_with_its_own_pair() {
                                 && r.sum == resonance.sum
                                 && r.harmonic == resonance.harmonic
                         };
-                        list.iter().find(same).expect("same place").tongue
+                        list.iter().find(same).expect("the same meeting").tongue
                     };
                     assert_eq!(tongue_at(0.999 * threshold), Tongue::Absent, "{resonance:?}");
                     assert_ne!(tongue_at(1.001 * threshold), Tongue::Absent, "{resonance:?}");
@@ -234,14 +234,14 @@ fn tongue_agrees_with_its_own_pair() {
     assert!(tongues >= 8, "{tongues}");
 }
 
-/// A backward wave by itself: f = c(β/l + Ω) + 2ξβ²/(l g²); forward ones never.
+/// A backward wave by itself becomes unstable at f = c(β/l + Ω) + 2ξβ²/(l g²); a forward wave never does.
 #[test]
 fn single_waves() {
     let (waves, speed) = (waves_of(&modes(1e-3), &load(0.1, 0.0), DiscDither::None), 0.4);
     let mut backward = 0;
     for wave in waves.waves() {
         let growth = |friction: f64| waves.with_friction(friction).growth_rate(wave, speed);
-        if wave.direction == Direction::Backward {
+        if wave.direction == WaveDirection::Backward {
             backward += 1;
             let (mode, l) = (&waves.modes[wave.mode], wave.signed_diameters());
             let own = 2.0 * mode.damping * mode.ratio * mode.ratio;
@@ -255,15 +255,17 @@ fn single_waves() {
     assert_eq!(backward, 2);
 }
 
-/// Normal dither whose friction makes a backward wave grow alone: its meetings inside the range reach in, those outside do not.
+/// Normal dither with so much friction that a backward wave grows by itself: its meetings inside the range reach in, those
+/// outside do not.
 #[test]
-fn a_wave_that_grows_alone_reaches_into_the_range() {
+fn unstable_wave_reaches_into_the_range() {
     // Backward waves meet backward ones at a sum of frequencies: 2·2 + 4Ω = 6.
     let dither = DiscDither::Normal { amplitude: 0.5, frequency_ratio: 6.0 };
     let waves = waves_of(&modes(1e-3), &load(0.1, 3.0), dither);
     let found = within(&waves, 0.2..=0.9);
-    let alone = |it: &&Nearby| {
-        it.resonance.harmonic != 0 && matches!(it.resonance.tongue, Tongue::WaveUnstable { .. })
+    let alone = |nearby: &&Nearby| {
+        nearby.resonance.harmonic != 0
+            && matches!(nearby.resonance.tongue, Tongue::WaveUnstable { .. })
     };
     assert!(found.iter().filter(alone).count() > 0, "{found:?}");
     for nearby in found.iter().filter(alone) {
@@ -271,7 +273,7 @@ fn a_wave_that_grows_alone_reaches_into_the_range() {
     }
 }
 
-/// Frequencies called clear have no tongue in the range, blocked ones have; edges of the intervals are where one enters.
+/// Clear frequencies have no tongue in the range and blocked ones do; a tongue enters the range at the edges of the intervals.
 #[test]
 fn clear_intervals() {
     let waves = waves_of(&modes(0.0), &load(0.1, 0.3), tangential(2.7));
@@ -279,7 +281,7 @@ fn clear_intervals() {
     let found = clear_frequencies(&waves, speeds.clone(), 2.0..=6.0).expect("answer");
     assert!(found.original_suppressed);
     assert!(!found.clear.is_empty() && !found.blocked.is_empty(), "{found:?}");
-    // One frequency alone is clear where an interval has it.
+    // A single frequency is clear if it is in a clear interval.
     for frequency in [2.3, 2.7, 3.4, 4.1, 5.2, 5.9] {
         let one = clear_frequencies(&waves, speeds.clone(), frequency..=frequency).expect("answer");
         let inside = found.clear.iter().any(|[from, to]| (*from..=*to).contains(&frequency));
@@ -287,11 +289,11 @@ fn clear_intervals() {
         assert_eq!(one.clear, expected);
     }
     let grows = |frequency: f64| {
-        // The slow system with damping taken at the speed itself, over the range.
+        // The slow system over the range, with damping at the speed itself.
         (0..=4000).any(|i| {
             let speed = 0.2 + 0.4 * f64::from(i) / 4000.0;
             waves.families(1).iter().any(|family| {
-                let pair = waves.pair(&Waves::place_of(family, speed));
+                let pair = waves.pair(&Waves::meeting_of(family, speed));
                 let [one, two] = family.signed();
                 let apart =
                     waves.signed_frequency(&one, speed) - waves.signed_frequency(&two, speed);
@@ -326,7 +328,7 @@ fn clear_intervals() {
 }
 
 #[test]
-fn what_the_theory_leaves_out_is_refused() {
+fn inapplicable_discs_are_rejected() {
     let refused = |loads: Vec<Load>| {
         let disc = Disc::new(modes(0.0), loads, DiscDither::None, 0.0).expect("valid");
         Waves::new(&disc).expect_err("refused")

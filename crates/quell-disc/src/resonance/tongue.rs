@@ -1,29 +1,29 @@
-//! The tongue at a meeting of two waves: edges, width, growth.
+//! The instability tongue at a meeting of two waves: edges, width, growth rate.
 
 use core::ops::RangeInclusive;
 
-use super::pair::{Band, Pair};
-use super::places::{Family, Place};
+use super::meetings::{MeetingFamily, WaveMeeting};
+use super::pair::{DetuningBand, WavePair};
 use super::wave::Wave;
 use super::waves::{Order, Waves};
 
-/// What the meeting of two waves does to their stability, at the order of the expansion.
+/// Effect of the meeting of two waves on their stability, at the order of the expansion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coupling {
-    /// It can make them grow.
+    /// The waves can grow.
     Destabilising,
-    /// Forward with backward under dither: they share their damping, and a tongue cannot arise.
+    /// A forward and a backward wave under dither share their damping: no tongue can occur.
     SharesDamping,
-    /// None: a node at the load, a wave without diameters under dither, no mean friction, or a load without effect.
+    /// No effect: a node at the load, a wave without nodal diameters under dither, no mean friction, or a load without effect.
     None,
 }
 
 /// Speeds at which a pair of waves grows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tongue {
-    /// None.
+    /// No speed.
     Absent,
-    /// Between two speeds.
+    /// The speeds between two edges.
     Between {
         /// Lower edge.
         lower: f64,
@@ -34,15 +34,15 @@ pub enum Tongue {
         /// Largest growth rate per unit τ.
         peak_growth: f64,
     },
-    /// A wave of the pair is unstable, or undamped, by itself: there are no edges.
+    /// One wave of the pair is unstable or undamped by itself: there are no edges.
     WaveUnstable {
-        /// Larger growth rate at the meeting.
+        /// The larger of the two growth rates at the meeting.
         growth: f64,
     },
 }
 
 impl Tongue {
-    /// Lower and upper edge, where there are edges.
+    /// Lower and upper edge, if there are edges.
     #[must_use]
     pub fn edges(&self) -> Option<[f64; 2]> {
         match self {
@@ -51,7 +51,7 @@ impl Tongue {
         }
     }
 
-    /// Distance of the edges; 0 without a tongue, `None` where there are no edges.
+    /// Distance between the edges; 0 without a tongue, `None` where there are no edges.
     #[must_use]
     pub fn width(&self) -> Option<f64> {
         match self {
@@ -79,13 +79,13 @@ pub struct Resonance {
     pub speed: f64,
     /// The two waves.
     pub waves: [Wave; 2],
-    /// Whether the second wave takes part with its conjugate: a sum of frequencies, not a difference.
+    /// Whether the second wave couples through its conjugate: a sum of frequencies, not a difference.
     pub sum: bool,
-    /// Harmonic h of the dither, w₁ = w₂ + hR; 0 undithered.
+    /// Harmonic h of the dither, w₁ = w₂ + hR; 0 without dither.
     pub harmonic: i32,
-    /// What the meeting does.
+    /// Effect of the meeting.
     pub coupling: Coupling,
-    /// Smallest friction f with a tongue, the other values as given; `None` where there is none.
+    /// Smallest friction f with a tongue, for the given other values; `None` where no friction has one.
     pub threshold: Option<f64>,
     /// The tongue at the given friction.
     pub tongue: Tongue,
@@ -98,7 +98,7 @@ impl Resonance {
         self.coupling == Coupling::Destabilising
     }
 
-    /// "forward (1,1) with forward (1,2)".
+    /// The two waves in words: "forward (1,1) with forward (1,2)".
     #[must_use]
     pub fn label(&self) -> String {
         let [first, second] = &self.waves;
@@ -111,60 +111,60 @@ impl Resonance {
 }
 
 impl Waves {
-    /// Meetings of waves with a speed in the range that need no dither, (5.55), ascending.
+    /// Meetings of waves without dither (5.55) with a speed in the range, in ascending order.
     #[must_use]
     pub fn undithered(&self, speeds: RangeInclusive<f64>) -> Vec<Resonance> {
-        self.places(0, &speeds).iter().map(|place| self.resonance(place)).collect()
+        self.meetings(0, &speeds).iter().map(|meeting| self.resonance(meeting)).collect()
     }
 
-    /// Meetings of waves with a speed in the range that the dither makes, (5.56), ascending; in the second order those of
-    /// twice its frequency too. Empty without dither.
+    /// Meetings of waves induced by dither (5.56) with a speed in the range, in ascending order; at second order also those at
+    /// twice the dither frequency. Empty without dither.
     #[must_use]
     pub fn dithered(&self, speeds: RangeInclusive<f64>) -> Vec<Resonance> {
-        let mut places = self.places(1, &speeds);
+        let mut meetings = self.meetings(1, &speeds);
         if self.order == Order::Second {
-            places.extend(self.places(2, &speeds));
-            places.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+            meetings.extend(self.meetings(2, &speeds));
+            meetings.sort_by(|a, b| a.speed.total_cmp(&b.speed));
         }
-        places.iter().map(|place| self.resonance(place)).collect()
+        meetings.iter().map(|meeting| self.resonance(meeting)).collect()
     }
 
-    /// Everything about one meeting.
-    pub(super) fn resonance(&self, place: &Place) -> Resonance {
-        let coupling = self.coupling(place);
+    /// The resonance at one meeting.
+    pub(super) fn resonance(&self, meeting: &WaveMeeting) -> Resonance {
+        let coupling = self.coupling(meeting);
         let tongue =
-            if coupling == Coupling::Destabilising { self.tongue(place) } else { Tongue::Absent };
+            if coupling == Coupling::Destabilising { self.tongue(meeting) } else { Tongue::Absent };
         Resonance {
-            speed: place.speed,
-            waves: place.waves,
-            sum: place.conjugate,
-            harmonic: place.h,
+            speed: meeting.speed,
+            waves: meeting.waves,
+            sum: meeting.conjugate,
+            harmonic: meeting.h,
             coupling,
-            threshold: self.threshold(place, coupling),
+            threshold: self.threshold(meeting, coupling),
             tongue,
         }
     }
 
-    /// The slow system of a pair at a speed.
-    pub(super) fn pair(&self, place: &Place) -> Pair {
-        let [first, second] = place.signed();
+    /// The slow system of the pair at a meeting.
+    pub(super) fn pair(&self, meeting: &WaveMeeting) -> WavePair {
+        let [first, second] = meeting.signed();
         let resonant = [first, second];
-        Pair {
-            first: self.self_term(&first, place.speed, &resonant),
-            second: self.self_term(&second, place.speed, &resonant),
-            product: self.coupling_product(&first, &second, place.h, place.speed),
+        WavePair {
+            first: self.self_term(&first, meeting.speed, &resonant),
+            second: self.self_term(&second, meeting.speed, &resonant),
+            product: self.coupling_product(&first, &second, meeting.h, meeting.speed),
         }
     }
 
-    pub(super) fn coupling(&self, place: &Place) -> Coupling {
-        let [first, second] = place.signed();
-        let touched = self.coupling_squared(first.mode) * self.coupling_squared(second.mode) > 0.0;
+    pub(super) fn coupling(&self, meeting: &WaveMeeting) -> Coupling {
+        let [first, second] = meeting.signed();
+        let excited = self.coupling_squared(first.mode) * self.coupling_squared(second.mode) > 0.0;
         let (mean, half) = self.friction_parts(1.0);
-        if !touched || first.l == second.l {
+        if !excited || first.l == second.l {
             return Coupling::None;
         }
-        if place.h == 0 {
-            let w = self.signed_frequency(&first, place.speed);
+        if meeting.h == 0 {
+            let w = self.signed_frequency(&first, meeting.speed);
             let elastic = self.impedance(w).re != 0.0;
             let driven = mean > 0.0 || (self.order == Order::Second && half > 0.0);
             return if elastic && driven { Coupling::Destabilising } else { Coupling::None };
@@ -180,15 +180,15 @@ impl Waves {
         }
     }
 
-    pub(super) fn tongue(&self, place: &Place) -> Tongue {
-        let [first, second] = place.signed();
+    pub(super) fn tongue(&self, meeting: &WaveMeeting) -> Tongue {
+        let [first, second] = meeting.signed();
         let slope = first.l - second.l;
-        let pair = self.pair(place);
-        let speed = |detuning: f64| place.speed + detuning / slope;
+        let pair = self.pair(meeting);
+        let speed = |detuning: f64| meeting.speed + detuning / slope;
         match pair.band() {
-            Band::Nowhere => Tongue::Absent,
-            Band::Outside => Tongue::WaveUnstable { growth: pair.growth(0.0) },
-            Band::Between(from, to) => {
+            DetuningBand::Nowhere => Tongue::Absent,
+            DetuningBand::Outside => Tongue::WaveUnstable { growth: pair.growth(0.0) },
+            DetuningBand::Between(from, to) => {
                 let (peak, peak_growth) = pair.peak();
                 let (one, other) = (speed(from), speed(to));
                 Tongue::Between {
@@ -201,8 +201,8 @@ impl Waves {
         }
     }
 
-    /// A place of a family at a speed, whatever the dither's frequency would have to be.
-    pub(super) fn place_of(family: &Family, speed: f64) -> Place {
-        Place { waves: family.waves, conjugate: family.conjugate, h: family.h, speed }
+    /// The meeting of a family at a speed, for whichever dither frequency that speed requires.
+    pub(super) fn meeting_of(family: &MeetingFamily, speed: f64) -> WaveMeeting {
+        WaveMeeting { waves: family.waves, conjugate: family.conjugate, h: family.h, speed }
     }
 }

@@ -1,11 +1,12 @@
-//! Is a dither frequency that first-order theory calls clear really clear? The exact exponents over the range of speeds.
+//! Verification of clear dither frequencies by exact Floquet exponents over the range of speeds.
 //!
-//! Theory of first order leaves out what friction does twice: undithered tongues that are revived, meetings of twice the
-//! dither's frequency, and waves that are no more damped under strong friction. So frequencies of the clear intervals are
-//! tried by their Floquet exponents, on a grid of speeds with a point in every tongue of second order. Of those without
-//! growth the middle of the widest stretch is looked at closely: a finer grid, several points a tongue, and the
-//! largest growth refined. If it grows there after all, the next one is.
-//! Limits: a stretch of growth between neighbouring speeds that second order does not know is missed.
+//! First-order theory neglects the terms quadratic in friction: revived undithered tongues, meetings at twice the dither
+//! frequency, and waves that lose their damping under strong friction. Frequencies of the clear intervals are therefore tested by
+//! their Floquet exponents, on a grid of speeds with a point in every second-order tongue. Among those without growth, the middle
+//! of the widest interval is examined closely: with a finer grid, several points per tongue, and a refinement of the largest
+//! growth rate. If the closer examination finds growth, the next widest interval follows.
+//!
+//! Limitation: an interval of growth between neighbouring speeds that second-order theory does not predict is missed.
 
 use core::ops::RangeInclusive;
 
@@ -20,18 +21,20 @@ use crate::dithered;
 use quell_linear::growth::{Growth, Verdict};
 use quell_model::Disc;
 
-/// Frequencies that are tried, over all clear intervals together: each takes some thirty exponents of 0.1 (three modes) to 2 ms
-/// (ten modes), so that an answer takes 0.1 to 3 s.
+/// Number of frequencies tested, over all clear intervals together. Each takes about thirty exponents of 0.1 (three modes) to 2
+/// ms (ten modes), so that a result takes 0.1 to 3 s.
 const FREQUENCIES: f64 = 32.0;
 
-/// Equal steps of speed: when many frequencies are tried, and when one is looked at closely. They are for growth that no tongue
-/// of second order tells of; with fewer, a narrower stretch of it is missed, with more an answer takes as much longer.
+/// Equal steps of speed when many frequencies are tested, and when one is examined closely. They detect growth that no
+/// second-order tongue predicts. Fewer steps would miss wider intervals of growth; the run time is proportional to their number.
 const STEPS: (u32, u32) = (16, 240);
 
-/// Points in a tongue when one frequency is looked at closely: growth is a hump over a tongue, and minimising needs a bracket.
-const IN_A_TONGUE: u32 = 5;
+/// Intervals into which a tongue is divided when one frequency is examined closely: the growth rate has one maximum over a
+/// tongue, and the minimiser needs a bracket.
+const PER_TONGUE: u32 = 5;
 
-/// Most frequencies that are looked at closely, some hundreds of exponents each; if all of these grow, the least growth is told.
+/// Most frequencies that are examined closely, with some hundreds of exponents each. If there is growth at all of these, the
+/// smallest growth is reported.
 const CLOSELY: usize = 8;
 
 /// A dither frequency with the largest growth rate of the exact equations over a range of speeds.
@@ -39,23 +42,23 @@ const CLOSELY: usize = 8;
 pub struct Verified {
     /// Dither frequency R.
     pub frequency_ratio: f64,
-    /// The largest growth rate that was met.
+    /// The largest growth rate found.
     pub growth: Growth,
-    /// The speed there.
+    /// The speed at which it occurs.
     pub speed: f64,
 }
 
 impl Verified {
-    /// Whether nothing grows.
+    /// Whether no motion grows.
     #[must_use]
     pub fn is_clear(&self) -> bool {
         self.growth.verdict() != Verdict::Unstable
     }
 }
 
-/// The frequency of the clear intervals that keeps the range of speeds clear by the exact equations, away from those that do
-/// not; where none does, the one under which least grows. `None` where there is no interval, and where exponents cannot be
-/// computed.
+/// The frequency in the clear intervals that keeps the range of speeds clear by the exact equations, far from those that do
+/// not; where no tested frequency does, the one with the smallest growth rate. `None` where there is no interval, and where
+/// exponents cannot be computed.
 #[must_use]
 pub fn verified_frequency(
     disc: &Disc,
@@ -64,30 +67,40 @@ pub fn verified_frequency(
 ) -> Option<Verified> {
     let waves = Waves::new(disc).ok()?.with_order(Order::Second);
     let exact = Exact { disc, waves, speeds };
-    let mut tried = exact.coarsely(&clearance.clear);
+    let mut tested = exact.coarsely(&clearance.clear);
     for _ in 0..CLOSELY {
-        let Some(middle) = middle_of_widest(&tried) else { break };
-        let found = exact.closely(tried[middle].2.frequency_ratio)?;
+        let Some(middle) = middle_of_widest(&tested) else { break };
+        let found = exact.closely(tested[middle].result.frequency_ratio)?;
         if found.is_clear() {
             return Some(found);
         }
-        tried[middle].2 = found;
+        tested[middle].result = found;
     }
-    let least = tried.iter().min_by(|a, b| a.2.growth.rate.total_cmp(&b.2.growth.rate))?;
-    exact.closely(least.2.frequency_ratio)
+    let least =
+        tested.iter().min_by(|a, b| a.result.growth.rate.total_cmp(&b.result.growth.rate))?;
+    exact.closely(least.result.frequency_ratio)
 }
 
-/// A frequency that was tried: the number of its interval, the width it stands for, what was found.
-type Tried = (usize, f64, Verified);
+/// A frequency that was tested.
+struct TestedFrequency {
+    /// Index of its clear interval.
+    interval: usize,
+    /// Width of the frequencies that it represents.
+    width: f64,
+    /// Largest growth found.
+    result: Verified,
+}
 
-/// The middle of the widest stretch of neighbours without growth.
-fn middle_of_widest(tried: &[Tried]) -> Option<usize> {
+/// The middle of the widest run of neighbours without growth.
+fn middle_of_widest(tested: &[TestedFrequency]) -> Option<usize> {
     let mut widest: Option<(f64, usize)> = None;
     let mut first = 0;
-    while first < tried.len() {
-        let same = |it: &&Tried| it.0 == tried[first].0 && it.2.is_clear();
-        let count = tried[first..].iter().take_while(same).count();
-        let width = tried[first].1 * count as f64;
+    while first < tested.len() {
+        let same = |other: &&TestedFrequency| {
+            other.interval == tested[first].interval && other.result.is_clear()
+        };
+        let count = tested[first..].iter().take_while(same).count();
+        let width = tested[first].width * count as f64;
         if count > 0 && widest.is_none_or(|(known, _)| width > known) {
             widest = Some((width, first + count / 2));
         }
@@ -110,27 +123,28 @@ impl Exact<'_> {
     }
 
     /// Frequencies spread over the clear intervals.
-    fn coarsely(&self, clear: &[[f64; 2]]) -> Vec<Tried> {
+    fn coarsely(&self, clear: &[[f64; 2]]) -> Vec<TestedFrequency> {
         let total: f64 = clear.iter().map(|[from, to]| to - from).sum();
-        let mut tried = Vec::new();
+        let mut tested = Vec::new();
         for (interval, [from, to]) in clear.iter().enumerate() {
-            // An interval may be one frequency.
+            // An interval may be a single frequency.
             let share = if total > 0.0 { (to - from) / total } else { 0.0 };
             let share = (FREQUENCIES * share).ceil().clamp(1.0, FREQUENCIES);
             let width = (to - from) / share;
             let mut number = 0.5;
             while number < share {
                 let ratio = width.mul_add(number, *from);
-                tried.extend(self.worst(ratio, STEPS.0, 1).map(|found| (interval, width, found.0)));
+                let worst = self.worst(ratio, STEPS.0, 1);
+                tested.extend(worst.map(|(result, _)| TestedFrequency { interval, width, result }));
                 number += 1.0;
             }
         }
-        tried
+        tested
     }
 
     /// The largest growth at one frequency, refined.
     fn closely(&self, ratio: f64) -> Option<Verified> {
-        let (mut worst, between) = self.worst(ratio, STEPS.1, IN_A_TONGUE)?;
+        let (mut worst, between) = self.worst(ratio, STEPS.1, PER_TONGUE)?;
         let growth = |speed: f64| self.growth(ratio, speed);
         let closeness = Closeness { absolute: 0.0, relative: 1e-6 };
         let rate = |speed: f64| growth(speed).map_or(f64::INFINITY, |found| -found.rate);
@@ -144,8 +158,8 @@ impl Exact<'_> {
     }
 
     /// The largest growth at one frequency over the grid, and the neighbours of its speed.
-    fn worst(&self, ratio: f64, steps: u32, in_a_tongue: u32) -> Option<(Verified, [f64; 2])> {
-        let speeds = self.grid(ratio, steps, in_a_tongue)?;
+    fn worst(&self, ratio: f64, steps: u32, per_tongue: u32) -> Option<(Verified, [f64; 2])> {
+        let speeds = self.grid(ratio, steps, per_tongue)?;
         let mut worst: Option<(usize, Growth)> = None;
         for (index, speed) in speeds.iter().enumerate() {
             let growth = self.growth(ratio, *speed)?;
@@ -158,21 +172,21 @@ impl Exact<'_> {
         Some((Verified { frequency_ratio: ratio, growth, speed: speeds[index] }, between))
     }
 
-    /// Speeds at equal steps, and in every tongue of second order.
-    fn grid(&self, ratio: f64, steps: u32, in_a_tongue: u32) -> Option<Vec<f64>> {
+    /// Speeds at equal steps, and in every second-order tongue.
+    fn grid(&self, ratio: f64, steps: u32, per_tongue: u32) -> Option<Vec<f64>> {
         let (from, to) = (*self.speeds.start(), *self.speeds.end());
         let equal = |k: u32| (to - from).mul_add(f64::from(k) / f64::from(steps), from);
         let mut grid: Vec<f64> = (0..=steps).map(equal).collect();
         let waves = self.waves.with_dither_frequency(ratio).ok()?;
-        for place in (0..=2).flat_map(|h| waves.places(h, &self.speeds)) {
-            if waves.coupling(&place) != Coupling::Destabilising {
+        for meeting in (0..=2).flat_map(|h| waves.meetings(h, &self.speeds)) {
+            if waves.coupling(&meeting) != Coupling::Destabilising {
                 continue;
             }
-            grid.push(place.speed);
-            if let Tongue::Between { lower, upper, peak_speed, .. } = waves.tongue(&place) {
+            grid.push(meeting.speed);
+            if let Tongue::Between { lower, upper, peak_speed, .. } = waves.tongue(&meeting) {
                 grid.push(peak_speed);
-                let share = |k: u32| f64::from(k) / f64::from(in_a_tongue);
-                grid.extend((1..in_a_tongue).map(|k| (upper - lower).mul_add(share(k), lower)));
+                let share = |k: u32| f64::from(k) / f64::from(per_tongue);
+                grid.extend((1..per_tongue).map(|k| (upper - lower).mul_add(share(k), lower)));
             }
         }
         grid.retain(|speed| (from..=to).contains(speed));

@@ -1,36 +1,36 @@
-//! Waves of a mode, as the load meets them.
+//! Waves of a mode in the frame of the load.
 
-/// Where a wave runs, seen from the disc.
+/// Direction of travel of a wave in the frame of the disc.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Direction {
+pub enum WaveDirection {
     /// With the load: frequency β − qΩ in the load's frame.
     Forward,
     /// Against the load: frequency β + qΩ.
     Backward,
-    /// No nodal diameter: it does not run; frequency β.
+    /// No nodal diameters: the wave does not travel; frequency β.
     Axisymmetric,
 }
 
 /// One wave of a mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Wave {
-    /// Index of the mode in the list given.
+    /// Index of the mode in the list of modes.
     pub mode: usize,
-    /// Radial number of the mode among those with the same nodal diameters, by frequency, from 1.
+    /// Radial number of the mode among those with the same number of nodal diameters, in order of frequency, from 1.
     pub radial: usize,
     /// Nodal diameters.
     pub diameters: usize,
-    /// Direction.
-    pub direction: Direction,
+    /// WaveDirection.
+    pub direction: WaveDirection,
 }
 
 impl core::fmt::Display for Wave {
     /// "forward (1,2)": direction, radial number, nodal diameters.
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let direction = match self.direction {
-            Direction::Forward => "forward",
-            Direction::Backward => "backward",
-            Direction::Axisymmetric => "axisymmetric",
+            WaveDirection::Forward => "forward",
+            WaveDirection::Backward => "backward",
+            WaveDirection::Axisymmetric => "axisymmetric",
         };
         write!(f, "{direction} ({},{})", self.radial, self.diameters)
     }
@@ -41,9 +41,9 @@ impl Wave {
     #[must_use]
     pub fn signed_diameters(&self) -> f64 {
         match self.direction {
-            Direction::Forward => -(self.diameters as f64),
-            Direction::Backward => self.diameters as f64,
-            Direction::Axisymmetric => 0.0,
+            WaveDirection::Forward => -(self.diameters as f64),
+            WaveDirection::Backward => self.diameters as f64,
+            WaveDirection::Axisymmetric => 0.0,
         }
     }
 }
@@ -52,7 +52,7 @@ impl Wave {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SignedWave {
     pub(super) mode: usize,
-    /// l, with σl < 0 forward.
+    /// l; σl < 0 for a forward wave.
     pub(super) l: f64,
     /// σ = ±1.
     pub(super) sigma: f64,

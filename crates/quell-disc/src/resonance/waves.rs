@@ -1,4 +1,4 @@
-//! The slow equations of the waves' amplitudes: self terms and couplings.
+//! The slow equations of the wave amplitudes: self terms and couplings.
 //!
 //! g² = φ(r₀)²/2 (l ≠ 0) or φ(r₀)² (l = 0), ρ = σg²/(2β), friction f(τ) = f₀ + f₁(e^{iRτ} + e^{−iRτ}):
 //!
@@ -8,28 +8,28 @@
 //! c₁₂ = i ρ₁ (g₂/g₁) [ (k − m w₂² + i c w₂) δ_h0 − i l₂ F_h ]
 //! F_h = f_h                                           first order (5.43)–(5.54)
 //! F_h = f_h + Σ_{a+b=h} f_a f_b H(w₂ + bR)            high friction (5.57)–(5.66)
-//! H(y) = −i Σ l ρ/(y − w)     over all waves but those in resonance with y
+//! H(y) = −i Σ l ρ/(y − w)     over all waves except those in resonance with y
 //! ```
 //!
-//! No dither: f₀ = f. Normal, f(1 + α cos Rτ): f₀ = f, f₁ = αf/2. Tangential, fα cos Rτ: f₀ = 0, f₁ = αf/2.
-//! ξ is the damping of a disc at rest: every wave decays with ξβ.
+//! Without dither: f₀ = f. Normal dither, f(1 + α cos Rτ): f₀ = f, f₁ = αf/2. Tangential dither, fα cos Rτ: f₀ = 0, f₁ = αf/2.
+//! ξ is the damping ratio of a disc at rest: every wave decays at the rate ξβ.
 
 use num_complex::Complex64;
 
-use super::wave::{Direction, SignedWave, Wave};
+use super::wave::{SignedWave, Wave, WaveDirection};
 use quell_model::disc::{Disc, DiscDither};
 use quell_model::disc::{Load, Mode};
 
-/// How far the expansion goes.
+/// Order of the expansion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Order {
     /// m, c, k, f, ξ of order ε.
     First,
-    /// High friction: f of order √ε, friction counted twice.
+    /// High friction: f of order √ε, with the terms quadratic in friction.
     Second,
 }
 
-/// Waves of a disc's modes under its load.
+/// Waves of the modes of a disc under its load.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Waves {
     pub(super) modes: Vec<Mode>,
@@ -39,17 +39,17 @@ pub struct Waves {
     pub(super) order: Order,
 }
 
-/// Why there is no resonance theory of a disc.
+/// Why resonance theory does not apply to a disc.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum WaveError {
-    /// More or fewer loads than one: the couplings of several interfere, which the expansion leaves out.
+    /// The number of loads is not one: the couplings of several loads interfere, which the expansion neglects.
     Loads(usize),
-    /// Friction is negative: look at the disc from the other side (−Ω, −f).
+    /// Friction is negative: describe the disc from the other side instead (−Ω, −f).
     NegativeFriction {
         /// The friction given.
         friction: f64,
     },
-    /// The dither's frequency is not a positive number.
+    /// The dither frequency is not a positive number.
     Frequency {
         /// The frequency given.
         frequency_ratio: f64,
@@ -60,16 +60,16 @@ impl core::fmt::Display for WaveError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Loads(count) => {
-                write!(f, "resonance theory is about one load, and this disc has {count}")
+                write!(f, "resonance theory applies to one load only, but the disc has {count}")
             }
             Self::NegativeFriction { friction } => write!(
                 f,
-                "the friction is {friction}; resonance theory takes it as positive: change the signs of speed and friction"
+                "the friction is {friction}, but resonance theory requires a positive one: change the signs of speed and friction"
             ),
             Self::Frequency { frequency_ratio } => {
                 write!(
                     f,
-                    "the dither's frequency is {frequency_ratio}, it must be a positive number"
+                    "the dither frequency is {frequency_ratio}, but must be a positive number"
                 )
             }
         }
@@ -78,11 +78,11 @@ impl core::fmt::Display for WaveError {
 
 impl core::error::Error for WaveError {}
 
-/// Two frequencies nearer than this are one resonance: rounding of β + sΩ is a thousand times smaller.
+/// Two frequencies closer than this are one resonance. The rounding of β + sΩ is a thousand times smaller.
 pub(super) const COINCIDENCE: f64 = 1e-9;
 
 impl Waves {
-    /// Waves of a disc under its one load, first order. The disc's speed plays no part.
+    /// Waves of a disc under its single load, to first order. The speed of the disc is ignored.
     ///
     /// # Errors
     /// [`WaveError::Loads`], [`WaveError::NegativeFriction`].
@@ -101,13 +101,13 @@ impl Waves {
         Ok(Self { modes, list, load: load.clone(), dither: disc.dither(), order: Order::First })
     }
 
-    /// The same with another order of the expansion.
+    /// These waves with another order of the expansion.
     #[must_use]
     pub fn with_order(self, order: Order) -> Self {
         Self { order, ..self }
     }
 
-    /// The same with another friction f, which must not be negative.
+    /// These waves with another friction f, which must not be negative.
     #[must_use]
     pub fn with_friction(&self, friction: f64) -> Self {
         debug_assert!(friction >= 0.0, "friction {friction} < 0");
@@ -115,7 +115,7 @@ impl Waves {
         Self { load, ..self.clone() }
     }
 
-    /// The same with another frequency of the dither, if there is a dither.
+    /// These waves with another dither frequency, if there is dither.
     ///
     /// # Errors
     /// [`WaveError::Frequency`] where the frequency is not a positive number.
@@ -135,19 +135,19 @@ impl Waves {
         Ok(Self { dither, ..self.clone() })
     }
 
-    /// All waves, conjugates not counted.
+    /// All waves, without conjugates.
     #[must_use]
     pub fn waves(&self) -> &[Wave] {
         &self.list
     }
 
-    /// Growth rate of one wave away from every resonance, −(g²/2β)[c(β + sΩ) − s f₀] − ξβ at first order.
+    /// Growth rate of one wave away from every resonance: −(g²/2β)[c(β + sΩ) − s f₀] − ξβ at first order.
     #[must_use]
     pub fn growth_rate(&self, wave: &Wave, speed: f64) -> f64 {
         self.self_term(&SignedWave::new(wave, false), speed, &[]).re
     }
 
-    /// Frequency R of the dither, where there is one.
+    /// Frequency R of the dither, if there is dither.
     pub(super) fn dither_frequency(&self) -> Option<f64> {
         self.dither.frequency_ratio()
     }
@@ -181,7 +181,7 @@ impl Waves {
         Complex64::new(load.stiffness - load.mass * frequency * frequency, load.damping * frequency)
     }
 
-    /// F_h for a slope of frequency w; `resonant` waves take no part in the second order.
+    /// F_h for a slope of frequency w; `resonant` waves are excluded from the second order.
     fn effective_friction(
         &self,
         h: i32,
@@ -201,15 +201,15 @@ impl Waves {
             for b in -1..=1 {
                 let product = part(h - b) * part(b);
                 if product != 0.0 {
-                    let place = frequency + f64::from(b) * dither;
-                    sum += product * self.slope_response(place, speed, resonant);
+                    let shifted = frequency + f64::from(b) * dither;
+                    sum += product * self.slope_response(shifted, speed, resonant);
                 }
             }
         }
         sum
     }
 
-    /// H(y) = −i Σ l ρ/(y − w): slope at the load for a unit friction moment of frequency y.
+    /// H(y) = −i Σ l ρ/(y − w): slope at the load due to a unit friction moment of frequency y.
     fn slope_response(&self, y: f64, speed: f64, resonant: &[SignedWave]) -> Complex64 {
         let mut sum = 0.0;
         for wave in &self.list {
@@ -261,7 +261,7 @@ impl Waves {
     }
 }
 
-/// Waves of the modes, in the order of the list.
+/// Waves of the modes, in the order of the modes.
 fn list(modes: &[Mode]) -> Vec<Wave> {
     let mut waves = Vec::with_capacity(2 * modes.len());
     for (index, mode) in modes.iter().enumerate() {
@@ -270,10 +270,10 @@ fn list(modes: &[Mode]) -> Vec<Wave> {
                 && (other.1.ratio < mode.ratio || (other.1.ratio == mode.ratio && other.0 < index))
         };
         let radial = 1 + modes.iter().enumerate().filter(lower).count();
-        let directions: &[Direction] = if mode.diameters == 0 {
-            &[Direction::Axisymmetric]
+        let directions: &[WaveDirection] = if mode.diameters == 0 {
+            &[WaveDirection::Axisymmetric]
         } else {
-            &[Direction::Forward, Direction::Backward]
+            &[WaveDirection::Forward, WaveDirection::Backward]
         };
         for direction in directions {
             let diameters = mode.diameters;

@@ -1,23 +1,26 @@
-//! Critical dither amplitudes: every α = D/R > 0 at which averaged stability changes, as the first dither's amplitude varies.
+//! Critical dither amplitudes: every α = D/R > 0 at which averaged stability changes as the amplitude of the first dither varies.
 //!
-//! For one dither the amplitude at which the fast velocity reaches the belt's, α = v₀/G_max (v₀/(μ(v₀)G_max) for normal
-//! dither), splits the line: below it (outer region) the criterion is smooth; there it jumps, to +∞ for sine and triangle, by a finite
-//! step for a square; above it (inner region) it falls and may dip once more. A jump is a critical amplitude too, and
-//! a root finder alone misses it. Both regions are scanned, with extra points that crowd at the jump from above, and dips are
-//! followed to their bottom. With several dithers the others are held and the place of the jump is where the sum reaches v₀.
+//! For one dither, the amplitude at which the fast velocity reaches the belt velocity, α = v₀/G_max (v₀/(μ(v₀)G_max) for normal
+//! dither), divides the axis. Below it (outer region) the criterion is smooth. At it the criterion jumps: to +∞ for a sine and a
+//! triangle, by a finite step for a square. Above it (inner region) the criterion falls and may dip once more. A jump is a
+//! critical amplitude too, and a root finder alone misses it. Both regions are scanned, with extra points clustered just above
+//! the jump, and dips are followed to their minimum. With several dithers the other ones are held fixed, and the jump is where
+//! the sum of the fast velocities reaches v₀.
 //!
-//! The closed forms behind it for one tangential dither (3.43)–(3.60): Stribeck, outer root
-//! α = v_m √((1 − κ − w²)/⟨G²⟩), κ = 4v_mζ/(3F(μ_s − μ_m)), w = v₀/v_m; decreasing, the root of m(α/v_m) = 2v_mζe^{w}/(F(μ_s − μ_m)).
-//! Normal dither: the same with α_T → μ(v₀)α_N.
+//! The corresponding closed forms for one tangential dither are (3.43)–(3.60). Stribeck law: the outer root is
+//! α = v_m √((1 − κ − w²)/⟨G²⟩) with κ = 4v_mζ/(3F(μ_s − μ_m)), w = v₀/v_m. Decreasing law: the root of
+//! m(α/v_m) = 2v_mζe^{w}/(F(μ_s − μ_m)). Normal dither: the same with α_T → μ(v₀)α_N.
 
 use quell_model::{Belt, Direction, Dither};
 
 use super::criterion::Criterion;
-use super::effective::{AveragingError, effective};
-use super::fast_motion::{AveragingOptions, FastMotion, fast_wave};
-use super::sign_changes::{Crossing, grown, sign_changes};
+use super::dithers::{AveragingOptions, fast_wave};
+use super::error::AveragingError;
+use super::fast_motion::FastMotion;
+use super::mean_friction::effective;
+use super::sign_changes::{CrossingKind, grown, sign_changes};
 
-/// Steady sliding after a change of sign.
+/// Stability of steady sliding after a change of sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Becomes {
     /// The criterion becomes positive.
@@ -41,19 +44,19 @@ pub struct CriticalAmplitude {
     pub amplitude: f64,
     /// Bound on the numerical error of `amplitude_ratio`.
     pub error: f64,
-    /// Through zero or by a jump.
-    pub crossing: Crossing,
-    /// Steady sliding for slightly larger amplitudes.
+    /// Whether the criterion passes through zero or jumps.
+    pub crossing: CrossingKind,
+    /// Stability of steady sliding at slightly larger amplitudes.
     pub becomes: Becomes,
     /// Whether the contact would stay closed: ΣD_N ≤ F. Always true for tangential dither.
     pub contact_stays_closed: bool,
 }
 
-/// Every amplitude ratio α > 0 of the first dither at which averaged stability of steady sliding changes; the
-/// amplitude it has in `belt` does not matter, the other dithers are held. Empty without dither.
+/// Every amplitude ratio α > 0 of the first dither at which the averaged stability of steady sliding changes. The
+/// amplitude of the first dither in `belt` is ignored; the other dithers are held fixed. Empty without dither.
 ///
 /// # Errors
-/// [`AveragingError`], for instance a belt at rest with normal dither only.
+/// [`AveragingError`], for instance for a belt at rest with normal dither only.
 pub fn critical_amplitudes(
     belt: &Belt,
     options: AveragingOptions,
@@ -76,10 +79,10 @@ pub fn critical_amplitudes(
     Ok(changes
         .into_iter()
         .map(|change| {
-            let amplitude = change.place * first.frequency_ratio;
+            let amplitude = change.location * first.frequency_ratio;
             let own = if first.direction == Direction::Normal { amplitude } else { 0.0 };
             CriticalAmplitude {
-                amplitude_ratio: change.place,
+                amplitude_ratio: change.location,
                 amplitude,
                 error: change.error,
                 crossing: change.crossing,
@@ -90,7 +93,7 @@ pub fn critical_amplitudes(
         .collect())
 }
 
-/// Amplitudes to look at: evenly up to the first corner, crowded above each corner, then geometrically far out.
+/// Amplitudes to scan: equally spaced up to the first corner, clustered above each corner, then a geometric sequence far out.
 fn scan_points(corners: &[f64], scale: f64, at_rest: bool) -> Vec<f64> {
     let mut points = Vec::new();
     let first = corners.iter().copied().fold(scale, f64::min);
@@ -115,7 +118,7 @@ fn scan_points(corners: &[f64], scale: f64, at_rest: bool) -> Vec<f64> {
     points
 }
 
-/// The belt with another amplitude of its first dither (whether or not the contact would stay closed).
+/// The belt with another amplitude of its first dither, whether or not the contact would stay closed.
 struct Probe<'a> {
     belt: &'a Belt,
     options: AveragingOptions,
@@ -148,7 +151,7 @@ impl Probe<'_> {
         if v == 0.0 {
             return Ok(Vec::new());
         }
-        // Exact where a single first-order wave is all there is.
+        // Exact where the fast motion is a single first-order wave.
         let unit = self.motion(1.0)?;
         if let [group] = unit.groups()
             && let Some((_, amplitude)) = group.single_term()
@@ -163,6 +166,6 @@ impl Probe<'_> {
             Ok(self.motion(alpha)?.largest_slip()? - v)
         };
         let changes = sign_changes(&mut excess, &points, &[])?;
-        Ok(changes.into_iter().map(|change| change.place).collect())
+        Ok(changes.into_iter().map(|change| change.location).collect())
     }
 }

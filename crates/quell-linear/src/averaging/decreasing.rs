@@ -1,20 +1,20 @@
 //! Decreasing law under one dither: closed forms of the effective friction and its slope.
 //!
-//! Law (2.8) as sgn v (b₀ + b₁e^{−|v|}), b₀ = μ_m, b₁ = μ_s − μ_m, velocities here in v_m: w = v/v_m, a = α/v_m,
+//! Law (2.8) is sgn v (b₀ + b₁e^{−|v|}) with b₀ = μ_m, b₁ = μ_s − μ_m and velocities in units of v_m: w = v/v_m, a = α/v_m,
 //! c = aG_max. Outside (w ≥ c): b₀ + b₁e^{−w}m(a), m = ⟨e^{aG}⟩, evaluated as e^{−(w−c)} [e^{−c}m]:
 //!
 //! * sine (3.37): e^{−a} I₀(a);
 //! * triangle (3.38b), γ = πa/4: (1/(2√a)) [erf √γ + (2/√π) e^{−γ} F(√γ)], F Dawson's integral;
 //! * square (3.39b): (1 − e^{−2c})/(2c).
 //!
-//! Inside (w < c) the jump is split off, μ = (b₀+b₁) sgn − b₁ sgn (1 − e^{−|·|}), so that every part is positive:
+//! Inside (w < c) the jump is separated, μ = (b₀+b₁) sgn − b₁ sgn (1 − e^{−|·|}), so that every part is positive:
 //! μ̄ = (b₀+b₁)⟨sgn⟩ − b₁K, μ̄′ = 2(b₀+b₁)ρ − (b₁/v_m)J with J(w) = ⟨e^{−|w−s|}⟩ and K = ∫₀ʷ J.
 //!
-//! * sine: no closed form; both means over one quarter wave by adaptive quadrature, cut where s = w;
-//! * triangle, t₀ = √(γ−w): J = (1/(2√γ)) {e^{−w}F(√γ) + F(t₀) + (√π/2)[erfcx t₀ − e^{−w}erfcx √γ]}; ⟨sgn⟩ − K is the same
-//!   with −F(t₀). For w ≤ 1 that difference cancels and K is integrated, as ∫ 2tJ dt over t from t₀ to √γ, whose
-//!   integrand is entire: 16 Gauss points reach rounding. The printed (3.38a) = (B.10a) carries e^{−w−γ} instead of
-//!   e^{γ−w} with the error functions and is up to 21 % off; (3.53a) inherits it;
+//! * sine: no closed form; both means are integrated over one quarter wave by adaptive quadrature, split where s = w;
+//! * triangle, t₀ = √(γ−w): J = (1/(2√γ)) {e^{−w}F(√γ) + F(t₀) + (√π/2)[erfcx t₀ − e^{−w}erfcx √γ]}; ⟨sgn⟩ − K is the same with
+//!   −F(t₀). For w ≤ 1 that difference suffers cancellation and K is integrated instead, as ∫ 2tJ dt over t from t₀ to √γ. Its
+//!   integrand is entire: 16 Gauss points reach rounding error. The printed (3.38a) = (B.10a) has the factor e^{−w−γ} instead of
+//!   e^{γ−w} before the error functions and is wrong by up to 21 %; (3.53a) inherits the error;
 //! * square (3.39a), (3.57a): sums of positive terms as printed, e^{−c} sinh w and e^{−c} cosh w in scaled form.
 
 use core::f64::consts::{FRAC_2_PI, FRAC_2_SQRT_PI, FRAC_PI_2, PI};
@@ -26,7 +26,8 @@ use quell_numerics::gauss_legendre::GaussLegendre;
 use quell_numerics::quadrature::{Integral, QuadratureOptions, integrate};
 use quell_numerics::special::{bessel_i0_scaled, dawson, erf, erfcx, exp, expm1, expm1_over};
 
-use super::effective::{AveragingError, Effective, Side, settled};
+use super::effective::{Effective, SlopeSide};
+use super::error::{AveragingError, settled};
 use super::wave::FastWave;
 
 /// Nodes and weights on [0, 1].
@@ -48,7 +49,7 @@ pub(super) fn effective(
     let corner = alpha * waveform.peak_integral();
     let a = alpha / vm;
     if v >= corner {
-        let side = if v == corner { Side::Outer } else { Side::Both };
+        let side = if v == corner { SlopeSide::Outer } else { SlopeSide::Both };
         let tail = b1 * exp(-((v - corner) / vm)) * scaled_mean_exponential(waveform, a);
         return Ok(Effective::closed([b0, tail], [-tail / vm, 0.0], tail / vm, side));
     }
@@ -59,7 +60,7 @@ pub(super) fn effective(
     let density = FRAC_2_PI / steepness;
     match waveform {
         Waveform::Square => {
-            // Positive terms: b₁ v_m/α · (2/π) e^{−c} sinh w and its derivative.
+            // Terms are positive: b₁ v_m/α · (2/π) e^{−c} sinh w and its derivative.
             let near = exp(-below);
             let sinh = 0.5 * near * -expm1(-2.0 * w);
             let cosh = 0.5 * near * (1.0 + exp(-2.0 * w));
@@ -68,7 +69,7 @@ pub(super) fn effective(
                 [b0 * sign, b1 * FRAC_2_PI / a * sinh],
                 [b0 * density, slope],
                 slope,
-                Side::Both,
+                SlopeSide::Both,
             ))
         }
         Waveform::Triangle => {
@@ -77,7 +78,7 @@ pub(super) fn effective(
                 [b0 * sign, b1 * value],
                 [(b0 + b1) * density, -b1 / vm * mean],
                 b1 / vm * mean,
-                Side::Both,
+                SlopeSide::Both,
             ))
         }
         Waveform::Sine => {
@@ -87,7 +88,7 @@ pub(super) fn effective(
                 [jump * sign, -b1 * k.value],
                 [jump * density, -b1 / vm * j.value],
                 b1 / vm * j.value,
-                Side::Both,
+                SlopeSide::Both,
             );
             effective.coefficient_error += b1 * k.error;
             effective.slope_error += b1 / vm * j.error;
@@ -113,7 +114,7 @@ pub(super) fn scaled_mean_exponential(waveform: Waveform, a: f64) -> f64 {
     }
 }
 
-/// ⟨sgn·e^{−|·|}⟩ and J for the triangle inside, `gamma` = πa/4, `below` = γ − w, `sign` = ⟨sgn⟩.
+/// ⟨sgn·e^{−|·|}⟩ and J for the triangle inside; `gamma` = πa/4, `below` = γ − w, `sign` = ⟨sgn⟩.
 fn triangle(gamma: f64, w: f64, below: f64, sign: f64) -> (f64, f64) {
     let (root, t0) = (gamma.sqrt(), below.sqrt());
     let (far, edge) = (dawson(root), HALF_SQRT_PI * erfcx(root));
@@ -143,10 +144,10 @@ fn triangle(gamma: f64, w: f64, below: f64, sign: f64) -> (f64, f64) {
     (value, mean(t0, decay))
 }
 
-/// K and J for the sine inside, by quadrature over a quarter wave; `delta` is where s = w.
+/// K and J for the sine inside, by quadrature over a quarter wave; s = w at `delta`.
 fn sine(a: f64, w: f64, delta: f64) -> Result<(Integral, Integral), AveragingError> {
     let options = QuadratureOptions { relative: 1e-13, ..QuadratureOptions::default() };
-    // The exponentials live within a few units of s = w: cut there, so that large a is no narrow peak.
+    // The exponentials are concentrated within a few units of s = w. Splitting there avoids a narrow peak at large a.
     let mut cuts = vec![delta];
     for offset in [-36.0, -6.0, 6.0, 36.0] {
         let s = (w + offset) / a;

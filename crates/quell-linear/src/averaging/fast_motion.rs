@@ -1,161 +1,9 @@
-//! The fast motion under one or several dithers: slip velocity s and normal load ν, grouped by frequency.
-//!
-//! Tangential dither D g(Rτ + φ) moves the mass with the velocity αG (α = D/R), or with the oscillator's exact response
-//! ([`Response`]). Normal dither moves it through friction, (4.23): φ′ = α_N μ G − (α_N²/2) μμ′ (G² − ⟨G²⟩) + …, α_N = D_N/R_N;
-//! [`NormalOrder`] says how many terms are kept. μ and μ′ there are taken at the slow slip velocity and then *frozen*.
-//!
-//! Dithers whose frequencies are in a ratio of small whole numbers form one periodic group and keep their phases; groups
-//! of incommensurate frequencies are averaged over independent phases. Several normal dithers of one group
-//! enter through their sum H = Σ α_N G, the second term is −(1/2)μμ′(H² − ⟨H²⟩).
-//!
-//! Closure where both directions act: the level μ that drives the normal dithers' motion is the effective friction under
-//! the tangential dithers alone; the sum and difference frequencies of the two directions are dropped. Exact to first
-//! order in α_N when α_T ≪ v.
-//!
-//! Limits: leading order in 1/R (with [`Response::Oscillator`] all orders of the forced part); differences of the
-//! dither frequencies must be fast too, a slow beat is not averaged away.
+//! Fast motion of a mass: groups of incommensurate frequencies, each of them periodic.
 
-use core::f64::consts::TAU;
-use quell_model::{Belt, Direction, Dither, Friction, Waveform};
-use quell_numerics::quadrature::{QuadratureOptions, integrate};
-
-use super::effective::{AveragingError, effective, settled};
+use super::error::AveragingError;
 use super::periodic::Signal;
+use super::periodic_motion::{PeriodicMotion, SlipTerm};
 use super::wave::FastWave;
-
-/// Which velocity a tangential force of high frequency is taken to produce.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Response {
-    /// αG: the limit of high frequency, the dissertation's averaging.
-    #[default]
-    Limit,
-    /// The exact response of the undamped oscillator: sharper thresholds at no cost; needs R > 1.
-    Oscillator,
-}
-
-/// How many terms of (4.23) are kept for normal dither.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum NormalOrder {
-    /// φ′ = α_N μ G: the substitution α_T → μ(v₀)α_N of (4.33)–(4.42).
-    #[default]
-    First,
-    /// With −(α_N²/2) μμ′ (G² − ⟨G²⟩), the cos 2R_Nτ term of (4.22) for a sine.
-    Second,
-}
-
-/// How the fast motion is modelled.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct AveragingOptions {
-    /// Velocity response to the dither force.
-    pub response: Response,
-    /// Terms kept for normal dither.
-    pub normal_order: NormalOrder,
-}
-
-/// One dither's part of the fast slip velocity: amplitude·wave(harmonic·θ + phase).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SlipTerm {
-    /// Shape for unit amplitude.
-    pub wave: FastWave,
-    /// Amplitude: α for tangential dither, α_N μ for normal dither (a velocity, either sign).
-    pub amplitude: f64,
-    /// Frequency as a multiple of the group's.
-    pub harmonic: u32,
-    /// Phase, radians.
-    pub phase: f64,
-}
-
-/// One normal dither's part of the load: amplitude·waveform(harmonic·θ + phase).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LoadTerm {
-    /// Waveform g.
-    pub waveform: Waveform,
-    /// D_N/F.
-    pub amplitude: f64,
-    /// Frequency as a multiple of the group's.
-    pub harmonic: u32,
-    /// Phase, radians.
-    pub phase: f64,
-}
-
-/// Fast motion with one period: dithers of commensurate frequencies.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PeriodicMotion {
-    /// Slip due to tangential dithers.
-    pub tangential: Vec<SlipTerm>,
-    /// Slip due to normal dithers, first order.
-    pub normal: Vec<SlipTerm>,
-    /// Factor of S² − ⟨S²⟩ that is added, S the sum of `normal` (−μ′/(2μ) for the second order of normal dither, else 0).
-    pub distortion: f64,
-    /// Fast part of the normal load divided by F.
-    pub load: Vec<LoadTerm>,
-}
-
-impl PeriodicMotion {
-    /// The wave and amplitude where one undistorted wave is all that matters.
-    pub(super) fn single_term(&self) -> Option<(FastWave, f64)> {
-        match (self.tangential.as_slice(), self.normal.as_slice()) {
-            ([term], []) if self.load.is_empty() => Some((term.wave, term.amplitude)),
-            // The load of a single normal dither is odd where its slip is even: they are uncorrelated.
-            ([], [term]) if self.distortion == 0.0 => Some((term.wave, term.amplitude)),
-            _ => None,
-        }
-    }
-
-    /// Whether load and slip of the group can be correlated.
-    ///
-    /// Without tangential dither they are not: the load is dS/dθ up to a factor, and ⟨f(S) dS/dθ⟩ = 0.
-    pub(super) fn has_correlated_load(&self) -> bool {
-        !self.load.is_empty() && !self.tangential.is_empty()
-    }
-
-    /// ν(θ).
-    pub(super) fn load_at(&self, theta: f64) -> f64 {
-        self.load
-            .iter()
-            .map(|t| t.amplitude * t.waveform.value(f64::from(t.harmonic) * theta + t.phase))
-            .sum()
-    }
-
-    /// Sum of `terms` and its derivative at θ.
-    pub(super) fn sum(terms: &[SlipTerm], theta: f64) -> (f64, f64) {
-        terms.iter().fold((0.0, 0.0), |(value, slope), t| {
-            let harmonic = f64::from(t.harmonic);
-            let (s, d) = t.wave.value_and_slope(harmonic * theta + t.phase);
-            (value + t.amplitude * s, slope + t.amplitude * harmonic * d)
-        })
-    }
-
-    /// Phases in (0, 2π) where a term changes its formula.
-    pub(super) fn breaks(&self) -> Vec<f64> {
-        let terms = self.tangential.iter().chain(&self.normal).map(|t| (t.harmonic, t.phase));
-        let loads = self.load.iter().map(|t| (t.harmonic, t.phase));
-        let mut breaks = Vec::new();
-        for (harmonic, phase) in terms.chain(loads) {
-            for quarter in 0..4 * harmonic {
-                let place = (0.25 * TAU * f64::from(quarter) - phase) / f64::from(harmonic);
-                breaks.push(place.rem_euclid(TAU));
-            }
-        }
-        breaks.sort_unstable_by(f64::total_cmp);
-        breaks.dedup_by(|a, b| (*a - *b).abs() < 1e-13);
-        breaks
-    }
-
-    /// ⟨S²⟩ of the normal dithers' slip.
-    pub(super) fn normal_mean_square(&self) -> Result<f64, AveragingError> {
-        let square = |theta: f64| {
-            let (s, _) = Self::sum(&self.normal, theta);
-            s * s
-        };
-        let options = QuadratureOptions::default();
-        Ok(settled(integrate(square, 0.0, TAU, &self.breaks(), &options))?.value / TAU)
-    }
-
-    fn is_still(&self) -> bool {
-        self.tangential.iter().chain(&self.normal).all(|t| t.amplitude == 0.0)
-    }
-}
 
 /// Fast motion: groups of incommensurate frequencies, each periodic.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -164,8 +12,8 @@ pub struct FastMotion {
 }
 
 impl FastMotion {
-    /// From groups of mutually incommensurate frequencies; groups that do not move the mass are left out
-    /// (a load that is uncorrelated with the slip has no mean effect).
+    /// Motion of groups of mutually incommensurate frequencies. Groups that do not move the mass are dropped:
+    /// a load that is uncorrelated with the slip has no mean effect.
     #[must_use]
     pub fn new(groups: Vec<PeriodicMotion>) -> Self {
         let mut groups = groups;
@@ -178,45 +26,17 @@ impl FastMotion {
         Self { groups }
     }
 
-    /// One fast slip velocity amplitude·wave.
+    /// A single fast slip velocity amplitude·wave.
     #[must_use]
     pub fn single(wave: FastWave, amplitude: f64) -> Self {
         let term = SlipTerm { wave, amplitude, harmonic: 1, phase: 0.0 };
         Self::new(vec![PeriodicMotion { tangential: vec![term], ..PeriodicMotion::default() }])
     }
 
-    /// The groups, each of them moving.
+    /// The groups, all of which move the mass.
     #[must_use]
     pub fn groups(&self) -> &[PeriodicMotion] {
         &self.groups
-    }
-
-    /// Fast motion of a belt's dithers at slow slip velocity `v`.
-    ///
-    /// # Errors
-    /// [`AveragingError`] where the oscillator's response is asked for at R ≤ 1, or where both directions act and
-    /// the friction level that drives the normal dither cannot be computed.
-    pub fn of(belt: &Belt, v: f64, options: AveragingOptions) -> Result<Self, AveragingError> {
-        Self::of_dithers(belt.friction(), belt.normal_load(), belt.dithers(), v, options)
-    }
-
-    /// The same from its parts, whether or not the contact would stay closed.
-    pub(super) fn of_dithers(
-        law: &Friction,
-        normal_load: f64,
-        dithers: &[Dither],
-        v: f64,
-        options: AveragingOptions,
-    ) -> Result<Self, AveragingError> {
-        let acting: Vec<&Dither> = dithers.iter().filter(|d| d.amplitude > 0.0).collect();
-        let (level, slope) = friction_level(law, &acting, v, options)?;
-        let mut groups = grouped(&acting, (level, normal_load), options.response)?;
-        if options.normal_order == NormalOrder::Second && level != 0.0 {
-            for group in groups.iter_mut().filter(|group| !group.normal.is_empty()) {
-                group.distortion = -0.5 * slope / level;
-            }
-        }
-        Ok(Self::new(groups))
     }
 
     /// Largest fast slip velocity, max s summed over the groups.
@@ -228,150 +48,5 @@ impl FastMotion {
                     None => Signal::new(group)?.range()[1],
                 })
         })
-    }
-}
-
-/// Shape of the fast slip velocity of a dither.
-///
-/// # Errors
-/// [`AveragingError::NotFast`] where the oscillator's response is asked for at R ≤ 1.
-pub fn fast_wave(dither: &Dither, response: Response) -> Result<FastWave, AveragingError> {
-    let (waveform, frequency_ratio) = (dither.waveform, dither.frequency_ratio);
-    match response {
-        Response::Limit => Ok(FastWave::Integral(waveform)),
-        Response::Oscillator if frequency_ratio > 1.0 => {
-            Ok(FastWave::Oscillator { waveform, frequency_ratio })
-        }
-        Response::Oscillator => Err(AveragingError::NotFast { frequency_ratio }),
-    }
-}
-
-/// Groups of dithers of commensurate frequencies, normal ones moved by the friction coefficient `level` under the load.
-fn grouped(
-    dithers: &[&Dither],
-    (level, normal_load): (f64, f64),
-    response: Response,
-) -> Result<Vec<PeriodicMotion>, AveragingError> {
-    let mut groups = Vec::new();
-    for members in commensurate_groups(dithers) {
-        let mut group = PeriodicMotion::default();
-        for (dither, harmonic) in members {
-            let wave = fast_wave(dither, response)?;
-            let (alpha, phase) = (dither.amplitude_ratio(), dither.phase);
-            match dither.direction {
-                Direction::Tangential => {
-                    group.tangential.push(SlipTerm { wave, amplitude: alpha, harmonic, phase });
-                }
-                Direction::Normal => {
-                    let amplitude = alpha * level;
-                    group.normal.push(SlipTerm { wave, amplitude, harmonic, phase });
-                    group.load.push(LoadTerm {
-                        waveform: dither.waveform,
-                        amplitude: dither.amplitude / normal_load,
-                        harmonic,
-                        phase,
-                    });
-                }
-            }
-        }
-        groups.push(group);
-    }
-    Ok(groups)
-}
-
-/// Friction coefficient and slope that drive the motion of the normal dithers at slow slip velocity v.
-fn friction_level(
-    law: &Friction,
-    dithers: &[&Dither],
-    v: f64,
-    options: AveragingOptions,
-) -> Result<(f64, f64), AveragingError> {
-    if dithers.iter().all(|d| d.direction == Direction::Tangential) {
-        return Ok((0.0, 0.0));
-    }
-    let tangential: Vec<&Dither> =
-        dithers.iter().copied().filter(|d| d.direction == Direction::Tangential).collect();
-    if tangential.is_empty() {
-        if v == 0.0 {
-            return Ok((0.0, 0.0));
-        }
-        return Ok((law.coefficient(v.abs()).copysign(v), law.slope(v.abs())));
-    }
-    // No normal dither is among them: level and load play no part.
-    let groups = grouped(&tangential, (0.0, 1.0), options.response)?;
-    let mean = effective(law, &FastMotion::new(groups), v)?;
-    Ok((mean.coefficient, mean.slope))
-}
-
-/// Largest multiple of a group's base frequency that still counts as commensurate.
-pub const MAX_HARMONIC: u32 = 64;
-
-/// Groups of dithers with frequencies in small whole-number ratios, each member with its multiple of the base.
-fn commensurate_groups<'a>(dithers: &[&'a Dither]) -> Vec<Vec<(&'a Dither, u32)>> {
-    let mut groups: Vec<Vec<(&Dither, u32)>> = Vec::new();
-    'dithers: for dither in dithers {
-        for group in &mut groups {
-            let (first, multiple) = group[0];
-            let ratio = dither.frequency_ratio / first.frequency_ratio * f64::from(multiple);
-            let Some((p, q)) = small_ratio(ratio) else {
-                continue;
-            };
-            // In units of base/q the members are q times what they were.
-            if group.iter().all(|(_, m)| m * q <= MAX_HARMONIC) && p <= MAX_HARMONIC {
-                for member in group.iter_mut() {
-                    member.1 *= q;
-                }
-                group.push((dither, p));
-                continue 'dithers;
-            }
-        }
-        groups.push(vec![(dither, 1)]);
-    }
-    groups
-}
-
-/// p/q = ratio within 10⁻¹² with p, q ≤ [`MAX_HARMONIC`], in lowest terms.
-fn small_ratio(ratio: f64) -> Option<(u32, u32)> {
-    (1..=MAX_HARMONIC).find_map(|q| {
-        let p = (ratio * f64::from(q)).round();
-        let near = (ratio * f64::from(q) - p).abs() <= 1e-12 * p;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "p is a whole number between 1 and MAX_HARMONIC"
-        )]
-        (near && p >= 1.0 && p <= f64::from(MAX_HARMONIC)).then_some((p as u32, q))
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn dither(frequency_ratio: f64) -> Dither {
-        Dither {
-            direction: Direction::Tangential,
-            waveform: Waveform::Sine,
-            amplitude: 1.0,
-            frequency_ratio,
-            phase: 0.0,
-        }
-    }
-
-    #[test]
-    fn groups_by_frequency() {
-        let ratios = [10.0, 15.0, 10.0 * core::f64::consts::SQRT_2, 5.0, 20.0, 7.5];
-        let dithers: Vec<Dither> = ratios.iter().map(|r| dither(*r)).collect();
-        let acting: Vec<&Dither> = dithers.iter().collect();
-        let groups = commensurate_groups(&acting);
-        let found: Vec<Vec<(f64, u32)>> = groups
-            .iter()
-            .map(|g| g.iter().map(|(d, m)| (d.frequency_ratio, *m)).collect())
-            .collect();
-        // Base 2.5.
-        let first = vec![(10.0, 4), (15.0, 6), (5.0, 2), (20.0, 8), (7.5, 3)];
-        assert_eq!(found, vec![first, vec![(ratios[2], 1)]]);
-        assert_eq!(small_ratio(1.0 + 1e-9), None);
-        assert_eq!(small_ratio(64.5), None);
     }
 }

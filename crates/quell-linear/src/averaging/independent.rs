@@ -1,42 +1,46 @@
-//! Dithers of incommensurate frequencies: the mean over independent phases, nested.
+//! Dithers of incommensurate frequencies: nested means over independent phases.
 //!
-//! μ̄(v) = ⟨…⟨μ(v − s₁ − s₂ − s₃)(1 + ν₁ + ν₂ + ν₃)⟩₁…⟩₃. The innermost group is one with a closed form where there is one;
-//! each outer mean is a quadrature over that group's phase, cut where s is extremal and where the argument of the inner mean
-//! meets one of its corners. Inside a corner the inner slope grows like an inverse square root: each stretch is therefore
-//! mapped by θ = a + (b − a)t²(3 − 2t), under which such ends are smooth.
+//! μ̄(v) = ⟨…⟨μ(v − s₁ − s₂ − s₃)(1 + ν₁ + ν₂ + ν₃)⟩₁…⟩₃. The innermost group is one with a closed form, if there is any. Each
+//! outer mean is a quadrature over the phase of its group, split where s is extremal and where the argument of the inner mean is
+//! at one of its corners. Inside a corner the inner slope grows like an inverse square root; each interval is therefore mapped by
+//! θ = a + (b − a)t²(3 − 2t), which makes such endpoints smooth.
 //!
-//! Cost: about 10² evaluations per level, so at most [`MAX_GROUPS`] groups. Accuracy: 10⁻¹¹ (two groups) and 10⁻⁸ (three) in units of
-//! μ_s and μ_s/v_m; where |v| is a sum or difference of the groups' peaks the slope itself has a logarithmic peak.
+//! Cost: about 10² evaluations per level, hence the limit of [`MAX_GROUPS`] groups. Accuracy: 10⁻¹¹ (two groups) and 10⁻⁸ (three
+//! groups) in units of μ_s and μ_s/v_m. Where |v| is a sum or difference of the groups' peaks the slope itself has a logarithmic
+//! peak.
 
 use core::f64::consts::TAU;
 use quell_model::Friction;
 use quell_numerics::quadrature::{QuadratureError, QuadratureOptions, integrate};
 
-use super::effective::{AveragingError, Effective, Side, single};
-use super::fast_motion::PeriodicMotion;
+use super::effective::{Effective, SlopeSide};
+use super::error::AveragingError;
 use super::periodic::{Signal, mean};
+use super::periodic_motion::PeriodicMotion;
+use super::single_wave;
 use super::wave::FastWave;
 
 /// Largest number of incommensurate groups.
 pub const MAX_GROUPS: usize = 3;
 
 /// Relative noise of a slope that was integrated across corners of the inner mean, where rounding of the argument
-/// is magnified: measured 5·10⁻¹² over the grid of the tests.
+/// is amplified. Measured over the grid of the tests: 5·10⁻¹².
 const CORNER_NOISE: f64 = 1e-11;
 
-/// Accuracy asked of a mean over a closed form, in units of the law.
+/// Accuracy required of a mean over a closed form, in units of the law.
 const INNER_CLOSENESS: f64 = 1e-12;
 
-/// Evaluations per stretch; ordinary places take 21 to 400, only a corner within rounding of a cut takes more.
+/// Largest number of evaluations per interval. An ordinary interval takes 21 to 400; only one with a corner within rounding of
+/// its end takes more.
 const EVALUATIONS: usize = 1500;
 
-/// One level: a closed form or a signal to integrate over.
-enum Level<'a> {
+/// One level of the nested mean: a closed form, or a signal to integrate over.
+enum NestedLevel<'a> {
     Closed { wave: FastWave, amplitude: f64 },
     Sampled(Signal<'a>),
 }
 
-impl Level<'_> {
+impl NestedLevel<'_> {
     fn extrema(&self) -> Vec<f64> {
         match self {
             Self::Closed { wave, amplitude } => {
@@ -59,7 +63,8 @@ pub(super) fn effective(
         return Err(AveragingError::TooManyGroups { groups, largest });
     }
     let mut order: Vec<&PeriodicMotion> = groups.iter().collect();
-    // Closed form innermost, that is last; of several the largest, so that the quadrature sees the gentler motion.
+    // The closed form is innermost, that is, last. Of several, the largest one, so that the quadrature handles the smaller
+    // motion.
     let reach = |group: &PeriodicMotion| {
         group.single_term().map_or(-1.0, |(wave, amplitude)| amplitude.abs() * wave.peak())
     };
@@ -68,28 +73,28 @@ pub(super) fn effective(
     for (depth, group) in order.iter().enumerate() {
         levels.push(match group.single_term() {
             Some((wave, amplitude)) if depth + 1 == order.len() => {
-                Level::Closed { wave, amplitude }
+                NestedLevel::Closed { wave, amplitude }
             }
-            _ => Level::Sampled(Signal::new(group)?),
+            _ => NestedLevel::Sampled(Signal::new(group)?),
         });
     }
     let corners = corner_sums(&levels);
-    let context = Context { law, levels: &levels, corners: &corners };
-    let value = context.integral(0, 1.0, v, Quantity::Coefficient)?;
-    let slope = context.integral(0, 1.0, v, Quantity::Slope)?;
+    let context = NestedMean { law, levels: &levels, corners: &corners };
+    let value = context.integral(0, 1.0, v, AveragedQuantity::Coefficient)?;
+    let slope = context.integral(0, 1.0, v, AveragedQuantity::Slope)?;
     let outermost = corners[0].iter().fold(0.0_f64, |m, c| m.max(c.abs()));
     Ok(Effective {
         coefficient: value.0,
         coefficient_error: value.1 + INNER_CLOSENESS * law.static_coefficient(),
         slope: slope.0,
         slope_error: slope.1 + CORNER_NOISE * slope.0.abs(),
-        // Convolution with a second wave smooths the corner, but its outer edge stays a one-sided place.
-        side: if v.abs() == outermost { Side::Outer } else { Side::Both },
+        // Convolution with a second wave smooths the corner, but the slope stays one-sided at its outer edge.
+        side: if v.abs() == outermost { SlopeSide::Outer } else { SlopeSide::Both },
     })
 }
 
-/// For each level the corners of the mean over it and all levels inside: sums of extrema.
-fn corner_sums(levels: &[Level<'_>]) -> Vec<Vec<f64>> {
+/// For each level, the corners of the mean over that level and all inner levels: sums of extrema.
+fn corner_sums(levels: &[NestedLevel<'_>]) -> Vec<Vec<f64>> {
     let mut corners = vec![Vec::new(); levels.len()];
     let mut inner = vec![0.0];
     for (depth, level) in levels.iter().enumerate().rev() {
@@ -106,31 +111,31 @@ fn corner_sums(levels: &[Level<'_>]) -> Vec<Vec<f64>> {
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Quantity {
+enum AveragedQuantity {
     Coefficient,
     Slope,
 }
 
-struct Context<'a> {
+struct NestedMean<'a> {
     law: &'a Friction,
-    levels: &'a [Level<'a>],
+    levels: &'a [NestedLevel<'a>],
     corners: &'a [Vec<f64>],
 }
 
-impl Context<'_> {
-    /// Mean over the levels from `depth` on with the weight base + Σν, and its error bound.
+impl NestedMean<'_> {
+    /// Mean over the levels from `depth` inwards with the weight base + Σν, and its error bound.
     fn integral(
         &self,
         depth: usize,
         base: f64,
         v: f64,
-        quantity: Quantity,
+        quantity: AveragedQuantity,
     ) -> Result<(f64, f64), AveragingError> {
         if depth + 1 == self.levels.len() {
             return self.innermost(base, v, quantity);
         }
-        let Level::Sampled(signal) = &self.levels[depth] else {
-            // Only the innermost level has a closed form; were it otherwise its mean would still be right.
+        let NestedLevel::Sampled(signal) = &self.levels[depth] else {
+            // Only the innermost level has a closed form. If another had one, its mean would still be correct.
             return self.innermost(base, v, quantity);
         };
         let mut cuts: Vec<f64> = signal.edges().collect();
@@ -140,15 +145,15 @@ impl Context<'_> {
         cuts.sort_unstable_by(f64::total_cmp);
         cuts.dedup_by(|a, b| (*a - *b).abs() < 1e-14);
         let scale = match quantity {
-            Quantity::Coefficient => self.law.static_coefficient(),
-            Quantity::Slope => self.law.static_coefficient() / self.law.velocity_scale(),
+            AveragedQuantity::Coefficient => self.law.static_coefficient(),
+            AveragedQuantity::Slope => self.law.static_coefficient() / self.law.velocity_scale(),
         };
         let inside = self.levels.len() - depth - 1;
         let closeness = if inside == 1 { INNER_CLOSENESS } else { 1e-9 };
-        let stretches = (cuts.len() - 1) as f64;
+        let intervals = (cuts.len() - 1) as f64;
         let options = QuadratureOptions {
             relative: closeness,
-            absolute: closeness * scale * TAU / stretches,
+            absolute: closeness * scale * TAU / intervals,
             evaluations: EVALUATIONS,
             ..QuadratureOptions::default()
         };
@@ -173,7 +178,7 @@ impl Context<'_> {
             };
             let part = match integrate(integrand, 0.0, 1.0, &[], &options) {
                 Ok(part) => part,
-                // Noise of the inner mean near a corner: keep the value with the error it has.
+                // Noise of the inner mean near a corner: keep the value with its error.
                 Err(QuadratureError::Rounding { best } | QuadratureError::Evaluations { best }) => {
                     best
                 }
@@ -192,22 +197,22 @@ impl Context<'_> {
         &self,
         base: f64,
         v: f64,
-        quantity: Quantity,
+        quantity: AveragedQuantity,
     ) -> Result<(f64, f64), AveragingError> {
         let effective = match &self.levels[self.levels.len() - 1] {
-            Level::Closed { wave, amplitude } => {
-                let mut e = single(self.law, *wave, *amplitude, v)?;
+            NestedLevel::Closed { wave, amplitude } => {
+                let mut e = single_wave::effective(self.law, *wave, *amplitude, v)?;
                 e.coefficient *= base;
                 e.slope *= base;
                 e.coefficient_error *= base.abs();
                 e.slope_error *= base.abs();
                 e
             }
-            Level::Sampled(signal) => mean(self.law, signal, base, v)?,
+            NestedLevel::Sampled(signal) => mean(self.law, signal, base, v)?,
         };
         Ok(match quantity {
-            Quantity::Coefficient => (effective.coefficient, effective.coefficient_error),
-            Quantity::Slope => (effective.slope, effective.slope_error),
+            AveragedQuantity::Coefficient => (effective.coefficient, effective.coefficient_error),
+            AveragedQuantity::Slope => (effective.slope, effective.slope_error),
         })
     }
 }

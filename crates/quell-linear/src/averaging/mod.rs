@@ -1,10 +1,10 @@
-//! Averaging: what a fast dither makes of a friction law.
+//! Averaging: the effect of fast dither on a friction law and on the stability of steady sliding.
 //!
-//! The slow motion obeys Z″ + 2ζZ′ + Z = μ̄(v₀ − Z′)F with the effective friction μ̄ (2.21, 3.19, 4.27); steady sliding is
+//! The slow motion satisfies Z″ + 2ζZ′ + Z = μ̄(v₀ − Z′)F with the effective friction μ̄ (2.21, 3.19, 4.27). Steady sliding is
 //! unstable iff 2ζ + Fμ̄′(v₀) < 0 (2.26).
 //!
 //! ```
-//! use quell_linear::averaging::{AveragingOptions, Crossing, Response, critical_amplitudes};
+//! use quell_linear::averaging::{AveragingOptions, CrossingKind, FastResponse, critical_amplitudes};
 //! use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 //!
 //! let law = LawKind::Decreasing.build(&[0.4, 0.2857, 0.2])?;
@@ -16,50 +16,60 @@
 //!     phase: 0.0,
 //! };
 //! let belt = Belt::new(0.005, 1.0, 1.0, law, vec![dither])?;
-//! // Dither destabilises between a root and the jump where the fast velocity reaches the belt's.
-//! let options = AveragingOptions { response: Response::Oscillator, ..Default::default() };
+//! // Dither destabilises between a root of the criterion and its jump, where the fast velocity reaches the belt velocity.
+//! let options = AveragingOptions { response: FastResponse::Oscillator, ..Default::default() };
 //! let critical = critical_amplitudes(&belt, options).expect("one dither");
 //! assert!((critical[0].amplitude - 4.322392).abs() < 1e-6); // exact: 4.322393
-//! assert!((critical[1].amplitude - 9.9).abs() < 1e-12 && critical[1].crossing == Crossing::Jump);
+//! assert!((critical[1].amplitude - 9.9).abs() < 1e-12 && critical[1].crossing == CrossingKind::Jump);
 //! # Ok::<(), Vec<quell_model::Invalid>>(())
 //! ```
 //!
-//! | file | what |
+//! | file | content |
 //! |---|---|
 //! | `wave` | shape of the fast velocity of one dither: G, or the oscillator's own response |
-//! | `fast_motion` | fast slip and load of a belt's dithers, grouped by frequency |
-//! | `effective` | μ̄ and its frozen slope; which method serves which motion |
-//! | `stribeck`, `decreasing` | closed forms of one law |
-//! | `single_wave`, `periodic`, `independent` | quadrature: any law under one shape, a periodic sum, several frequencies |
+//! | `periodic_motion`, `fast_motion` | fast slip and load of one period, and of groups of incommensurate frequencies |
+//! | `dithers` | the fast motion of a belt's dithers, grouped by frequency |
+//! | `effective`, `error` | μ̄ and its frozen slope with their error bounds, or why they have no value |
+//! | `stribeck`, `decreasing` | closed forms for one law |
+//! | `single_wave`, `periodic`, `independent` | any law under one shape, a periodic sum, several frequencies |
+//! | `mean_friction` | the method for each fast motion |
 //! | `criterion` | 2ζ + Fμ̄′(v₀) and its verdict |
-//! | `critical_amplitudes`, `edges`, `everywhere_stable` | where the verdict changes: with α, with v₀, and α^L |
+//! | `critical_amplitudes`, `edges`, `everywhere_stable` | points at which the verdict changes: along α, along v₀, and α^L |
+//! | `sign_changes` | every change of sign of a function on a grid |
 
 mod criterion;
 mod critical_amplitudes;
 mod decreasing;
+mod dithers;
 mod edges;
 mod effective;
+mod error;
 mod everywhere_stable;
 mod fast_motion;
 mod finite_r;
 mod independent;
+mod mean_friction;
 mod periodic;
+mod periodic_motion;
 mod sign_changes;
 mod single_wave;
 mod stribeck;
 mod wave;
 
-pub use criterion::{Criterion, UndecidedBecause, Verdict, criterion};
+pub use criterion::{AveragedVerdict, Criterion, UndecidedBecause, criterion};
 pub use critical_amplitudes::{Becomes, CriticalAmplitude, critical_amplitudes};
+pub use dithers::{AveragingOptions, FastResponse, MAX_HARMONIC, NormalOrder, fast_wave};
 pub use edges::{
-    Band, CriticalVelocity, NoBand, closed_band, undithered_critical_velocity, unstable_bands,
+    CriticalVelocity, NoBand, UnstableBand, closed_band, undithered_critical_velocity,
+    unstable_bands,
 };
-pub use effective::{AveragingError, Effective, Side, effective, effective_by_quadrature};
+pub use effective::{Effective, SlopeSide};
+pub use error::AveragingError;
 pub use everywhere_stable::{EverywhereStable, NeverStable, everywhere_stable_amplitude};
-pub use fast_motion::{
-    AveragingOptions, FastMotion, LoadTerm, MAX_HARMONIC, NormalOrder, PeriodicMotion, Response,
-    SlipTerm, fast_wave,
-};
+pub use fast_motion::FastMotion;
 pub use independent::MAX_GROUPS;
-pub use sign_changes::Crossing;
+pub use mean_friction::effective;
+pub use periodic_motion::{LoadTerm, PeriodicMotion, SlipTerm};
+pub use sign_changes::CrossingKind;
+pub use single_wave::effective_by_quadrature;
 pub use wave::FastWave;

@@ -1,33 +1,34 @@
 //! Any law under a periodic sum of dithers: quadrature over one period.
 //!
-//! μ̄(v) = (1/2π) ∫₀^{2π} μ(v − s)(1 + ν) dθ, cut where a term changes its formula, at the extrema of s, and where
+//! μ̄(v) = (1/2π) ∫₀^{2π} μ(v − s)(1 + ν) dθ, split where the formula of a term changes, at the extrema of s, and where
 //! s = v; μ̄′ = (1/2π) ∫ μ′(v − s)(1 + ν) dθ + 2μ(0⁺) Σ (1 + ν)/(2π|s′|) over the crossings s = v.
 //!
-//! Between two extrema s is monotone, so no crossing is lost. Extrema are found from the sign of ds/dθ on
-//! [`SAMPLES`] points between breaks; a pair of extrema closer than that is missed, which leaves a kink
-//! to the adaptive quadrature and costs accuracy only while v lies between their two values.
+//! Between two extrema s is monotone, so no crossing is lost. Extrema are found from the sign of ds/dθ at
+//! [`SAMPLES`] points between breaks. A pair of extrema closer than that is missed; it leaves a kink
+//! to the adaptive quadrature and costs accuracy only while v is between their two values.
 //!
-//! Accuracy: 10⁻¹² absolute in units of μ_s (and of μ_s/v_m for the slope, away from extrema); no relative accuracy as
-//! μ̄ → 0: a sum need not have a symmetry.
+//! Accuracy: 10⁻¹², absolute, in units of μ_s (and of μ_s/v_m for the slope, away from extrema). There is no relative accuracy
+//! for μ̄ → 0, because a sum need not have a symmetry.
 
 use core::f64::consts::TAU;
 use quell_model::Friction;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_numerics::roots::{Closeness, find_root};
 
-use super::effective::{AveragingError, Effective, Side, settled};
-use super::fast_motion::PeriodicMotion;
+use super::effective::{Effective, SlopeSide};
+use super::error::{AveragingError, settled};
+use super::periodic_motion::PeriodicMotion;
 
-/// Points per smooth stretch at which the sign of ds/dθ is looked at.
+/// Points per smooth interval at which the sign of ds/dθ is evaluated.
 const SAMPLES: usize = 8;
 
-/// Slip velocity of a group, with its monotone stretches.
+/// Slip velocity of a group, with its monotone intervals.
 #[derive(Debug)]
 pub(super) struct Signal<'a> {
     group: &'a PeriodicMotion,
     mean_square: f64,
     correlated: bool,
-    /// Ends of the stretches in [0, 2π] with the value of s there, ascending in θ.
+    /// Ends of the intervals in [0, 2π] with the value of s there, ascending in θ.
     ends: Vec<(f64, f64)>,
 }
 
@@ -73,17 +74,17 @@ impl<'a> Signal<'a> {
         )
     }
 
-    /// ν(θ), 0 where it cannot correlate with s.
+    /// ν(θ), or 0 where it cannot correlate with s.
     pub(super) fn load(&self, theta: f64) -> f64 {
         if self.correlated { self.group.load_at(theta) } else { 0.0 }
     }
 
-    /// Phases at which s is monotone on each side.
+    /// Ends of the intervals in which s is monotone.
     pub(super) fn edges(&self) -> impl Iterator<Item = f64> + '_ {
         self.ends.iter().map(|end| end.0)
     }
 
-    /// Values of s at its extrema: where the effective friction of this group has corners.
+    /// Values of s at its extrema, which are the corners of the effective friction of this group.
     pub(super) fn extrema(&self) -> Vec<f64> {
         let mut values: Vec<f64> = self.ends.iter().map(|end| end.1).collect();
         values.sort_unstable_by(f64::total_cmp);
@@ -100,17 +101,17 @@ impl<'a> Signal<'a> {
 
     /// Phases where s = value.
     pub(super) fn crossings(&self, value: f64) -> Vec<f64> {
-        let mut places = Vec::new();
+        let mut locations = Vec::new();
         for pair in self.ends.windows(2) {
             let ((from, a), (to, b)) = (pair[0], pair[1]);
             if (a < value) != (b < value) {
                 let excess = |x: f64| self.value_and_slope(x).0 - value;
                 if let Ok(root) = find_root(excess, from, to, Closeness::default()) {
-                    places.push(root.location);
+                    locations.push(root.location);
                 }
             }
         }
-        places
+        locations
     }
 }
 
@@ -135,7 +136,7 @@ pub(super) fn mean(
     let [low, high] = signal.range();
     let rounding = 8.0 * f64::EPSILON * (low.abs() + high.abs());
     let at_corner = (v - high).abs() <= rounding || (v - low).abs() <= rounding;
-    // At the corner the outer slope: the touch is no crossing.
+    // The outer slope at the corner: a tangential contact is not a crossing.
     let crossings = if at_corner { Vec::new() } else { signal.crossings(v) };
     let jump: f64 = crossings
         .iter()
@@ -144,7 +145,7 @@ pub(super) fn mean(
         * 2.0
         * start;
     let mut cuts: Vec<f64> = signal.edges().chain(crossings.iter().copied()).collect();
-    // Laws that fall over a small part of the fast velocity: cut around the crossings.
+    // Laws that decrease over a small fraction of the fast velocity: split around the crossings.
     for offset in [-6.0, 6.0] {
         cuts.extend(signal.crossings(v + offset * law.velocity_scale()));
     }
@@ -165,7 +166,7 @@ pub(super) fn mean(
     };
     let value = settled(integrate(value, 0.0, TAU, &cuts, &options(scale)))?;
     let smooth = settled(integrate(slope, 0.0, TAU, &cuts, &options(slope_scale)))?;
-    let side = if at_corner { Side::Outer } else { Side::Both };
+    let side = if at_corner { SlopeSide::Outer } else { SlopeSide::Both };
     let mut effective =
         Effective::closed([value.value / TAU, 0.0], [jump, smooth.value / TAU], slope_scale, side);
     effective.coefficient_error += value.error / TAU + 1e-14 * scale;

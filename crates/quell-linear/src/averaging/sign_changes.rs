@@ -1,17 +1,17 @@
 //! Every change of sign of a function of one parameter on a grid: roots, jumps, and pairs of roots in a dip.
 //!
-//! The function is sampled at given points. Between neighbours of opposite sign the place is found by a bracketed root
-//! finder; where three neighbours of equal sign show a dip towards zero, the dip's bottom is sought first, so that a double
-//! crossing between two points is not lost. Declared `corners` (places where the function may jump) are approached
-//! from both sides and never stepped over.
+//! The function is sampled at given points. Between neighbours of opposite sign the change is located by a bracketing root
+//! finder. Where three neighbours of equal sign show a dip towards zero, the minimum of the dip is located first, so that a
+//! double crossing between two points is not lost. Declared `corners` (points at which the function may jump) are approached from
+//! both sides and never crossed.
 //!
-//! A change is a jump when the function does not become small on both sides of it.
+//! A change is a jump if the function does not become small on both sides of it.
 
 use quell_numerics::roots::{Closeness, try_find_root, try_minimise};
 
-/// How a function changes its sign.
+/// How a function changes sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Crossing {
+pub enum CrossingKind {
     /// Continuously, through zero.
     Root,
     /// By a jump, without passing zero.
@@ -21,14 +21,14 @@ pub enum Crossing {
 /// One change of sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SignChange {
-    pub(super) place: f64,
+    pub(super) location: f64,
     pub(super) error: f64,
-    pub(super) crossing: Crossing,
-    /// Positive after the place (for growing parameter).
+    pub(super) crossing: CrossingKind,
+    /// Whether the function is positive beyond the location (for increasing parameter).
     pub(super) becomes_positive: bool,
 }
 
-/// Relative distance at which the two sides of a corner are looked at.
+/// Relative distance from a corner at which its two sides are evaluated.
 const BESIDE: f64 = 8.0 * f64::EPSILON;
 
 /// Sign changes of `f` over the ascending `points`, with `corners` among them.
@@ -52,18 +52,18 @@ pub(super) fn sign_changes<E>(
     for (i, corner) in inside.iter().copied().chain([last]).enumerate() {
         let is_corner = i < inside.len();
         let to = if is_corner { corner * (1.0 - BESIDE) } else { corner };
-        let mut stretch = vec![from];
-        stretch.extend(points.iter().copied().filter(|p| *p > from && *p < to));
-        stretch.push(to);
-        smooth_stretch(&mut f, &stretch, &mut changes)?;
+        let mut interval = vec![from];
+        interval.extend(points.iter().copied().filter(|p| *p > from && *p < to));
+        interval.push(to);
+        smooth_interval(&mut f, &interval, &mut changes)?;
         if is_corner {
             from = corner * (1.0 + BESIDE);
             let (before, after) = (f(to)?, f(from)?);
             if (before > 0.0) != (after > 0.0) {
                 changes.push(SignChange {
-                    place: corner,
+                    location: corner,
                     error: 4.0 * f64::EPSILON * corner,
-                    crossing: Crossing::Jump,
+                    crossing: CrossingKind::Jump,
                     becomes_positive: after > 0.0,
                 });
             }
@@ -72,7 +72,8 @@ pub(super) fn sign_changes<E>(
     Ok(changes)
 }
 
-fn smooth_stretch<E>(
+/// Appends the sign changes of `f` over the ascending `points`, between which it is continuous.
+fn smooth_interval<E>(
     f: &mut impl FnMut(f64) -> Result<f64, E>,
     points: &[f64],
     changes: &mut Vec<SignChange>,
@@ -86,7 +87,7 @@ fn smooth_stretch<E>(
             changes.push(locate(f, points[i - 1], points[i], values[i] > 0.0)?);
             continue;
         }
-        // A dip towards zero with its lowest sample at i, equal signs all around.
+        // A dip towards zero with its lowest sample at i, between neighbours of the same sign.
         let Some(&next) = values.get(i + 1) else {
             continue;
         };
@@ -108,7 +109,7 @@ fn smooth_stretch<E>(
     Ok(())
 }
 
-/// The place between `a` and `b`, where the signs differ.
+/// The sign change between `a` and `b`, where the signs differ.
 fn locate<E>(
     f: &mut impl FnMut(f64) -> Result<f64, E>,
     a: f64,
@@ -116,19 +117,20 @@ fn locate<E>(
     becomes_positive: bool,
 ) -> Result<SignChange, E> {
     let root = try_find_root(&mut *f, a, b, Closeness::default())?;
-    let place = root.map_or(a.midpoint(b), |root| root.location);
-    let error = root.map_or(b - a, |root| root.width.max(4.0 * f64::EPSILON * place.abs()));
-    // Across a root the values nearby shrink with the distance; across a jump they do not.
-    let near = 1e-9 * place.abs();
+    let location = root.map_or(a.midpoint(b), |root| root.location);
+    let error = root.map_or(b - a, |root| root.width.max(4.0 * f64::EPSILON * location.abs()));
+    // Near a root the difference of the values decreases with the distance; across a jump it does not.
+    let near = 1e-9 * location.abs();
     let mut value = |x: f64| f(x.clamp(a, b));
-    let wide = value(place + 8.0 * near)? - value(place - 8.0 * near)?;
-    let narrow = value(place + near)? - value(place - near)?;
-    let crossing = if narrow.abs() > 0.5 * wide.abs() { Crossing::Jump } else { Crossing::Root };
-    Ok(SignChange { place, error, crossing, becomes_positive })
+    let wide = value(location + 8.0 * near)? - value(location - 8.0 * near)?;
+    let narrow = value(location + near)? - value(location - near)?;
+    let crossing =
+        if narrow.abs() > 0.5 * wide.abs() { CrossingKind::Jump } else { CrossingKind::Root };
+    Ok(SignChange { location, error, crossing, becomes_positive })
 }
 
-/// The next of points that grow by a factor. The smallest numbers are their own multiples: after them comes the next
-/// number.
+/// The next of a sequence of points that grow by a factor. The smallest numbers are unchanged by the factor; for them, the next
+/// representable number.
 pub(super) fn grown(point: f64, factor: f64) -> f64 {
     (point * factor).max(point.next_up())
 }
@@ -151,14 +153,17 @@ mod tests {
             _ => 2.0,
         };
         let found = changes(f, &grid, &[1.0]);
-        let places: Vec<f64> = found.iter().map(|c| c.place).collect();
+        let locations: Vec<f64> = found.iter().map(|c| c.location).collect();
         let expected = [0.53, 0.55, 1.0, 1.55];
-        assert_eq!(places.len(), 4, "{found:?}");
-        for (place, exact) in places.iter().zip(expected) {
-            assert!((place - exact).abs() < 1e-12, "{found:?}");
+        assert_eq!(locations.len(), 4, "{found:?}");
+        for (location, exact) in locations.iter().zip(expected) {
+            assert!((location - exact).abs() < 1e-12, "{found:?}");
         }
-        let kinds: Vec<Crossing> = found.iter().map(|c| c.crossing).collect();
-        assert_eq!(kinds, [Crossing::Root, Crossing::Root, Crossing::Jump, Crossing::Jump]);
+        let kinds: Vec<CrossingKind> = found.iter().map(|c| c.crossing).collect();
+        assert_eq!(
+            kinds,
+            [CrossingKind::Root, CrossingKind::Root, CrossingKind::Jump, CrossingKind::Jump]
+        );
         let signs: Vec<bool> = found.iter().map(|c| c.becomes_positive).collect();
         assert_eq!(signs, [false, true, false, true]);
     }

@@ -1,19 +1,19 @@
 //! Stribeck law under one dither: closed forms of the effective friction and its slope.
 //!
-//! Law (2.7) as a₀ sgn v + a₁v + a₃v³ with a₀ = μ_s, a₁ = −3(μ_s − μ_m)/(2v_m), a₃ = (μ_s − μ_m)/(2v_m³).
+//! Law (2.7) is a₀ sgn v + a₁v + a₃v³ with a₀ = μ_s, a₁ = −3(μ_s − μ_m)/(2v_m), a₃ = (μ_s − μ_m)/(2v_m³).
 //! Averaging over s = αG, whose odd moments vanish, gives (3.29)–(3.31):
 //!
 //! * |v| < αG_max: a₀⟨sgn⟩ + (a₁ + 3a₃α²⟨G²⟩)v + a₃v³ with ⟨sgn⟩ = (2/π) arcsin(v/α) for a sine,
 //!   1 − √(1 − 4v/(πα)) for a triangle, 2v/(πα) for a square;
 //! * |v| ≥ αG_max: μ(v) + 3a₃α²⟨G²⟩v.
 //!
-//! 3⟨G²⟩ is 3/2, π²/10 and π²/4; the dissertation prints π²/16 for the triangle in (3.45a), (3.45b), from which
-//! its (3.46)–(3.48) inherit a wrong constant. ⟨sgn⟩ is evaluated without cancellation for v ≪ α.
+//! 3⟨G²⟩ is 3/2, π²/10 and π²/4. The dissertation prints π²/16 for the triangle in (3.45a) and (3.45b), and
+//! (3.46)–(3.48) inherit the wrong constant. ⟨sgn⟩ is evaluated without cancellation for v ≪ α.
 
 use quell_model::Waveform;
 use quell_model::friction::{SlidingLaw, Stribeck};
 
-use super::effective::{Effective, Side};
+use super::effective::{Effective, SlopeSide};
 use super::wave::FastWave;
 
 /// Effective friction at slip velocity `v` ≥ 0 under s = αG, α > 0.
@@ -28,7 +28,7 @@ pub(super) fn effective(law: &Stribeck, waveform: Waveform, alpha: f64, v: f64) 
     let slope_size = 1.5 * difference / vm * (1.0 + w * w + moment);
     let corner = alpha * waveform.peak_integral();
     if v >= corner {
-        let side = if v == corner { Side::Outer } else { Side::Both };
+        let side = if v == corner { SlopeSide::Outer } else { SlopeSide::Both };
         return Effective::closed(
             [law.static_coefficient(), linear],
             [smooth_slope, 0.0],
@@ -45,6 +45,6 @@ pub(super) fn effective(law: &Stribeck, waveform: Waveform, alpha: f64, v: f64) 
         [law.static_coefficient() * sign, linear],
         [law.static_coefficient() * density, smooth_slope],
         slope_size,
-        Side::Both,
+        SlopeSide::Both,
     )
 }

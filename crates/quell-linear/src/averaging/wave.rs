@@ -1,15 +1,15 @@
-//! Shape of a fast slip velocity s(θ): what one dither makes the mass do within one of its periods.
+//! Shape of a fast slip velocity s(θ): the velocity of the mass over one period of one dither.
 //!
-//! Two producers, both scaled so that the amplitude in front of the shape is α = D/R:
+//! There are two models, both scaled so that the amplitude in front of the shape is α = D/R:
 //! * [`FastWave::Integral`]: s = αG(θ), the leading order of averaging (2.21), (3.19);
 //! * [`FastWave::Oscillator`]: the exact periodic velocity of the undamped oscillator x″ + x = D g(Rτ), which contains
-//!   every order in 1/R of the fast motion at no cost. With β = π/(2R) it is
-//!   sine R²/(R² − 1) G; triangle (2R²/(π cos β)) (cos β − cos(θ/R)) on |θ| ≤ π/2, mirrored;
-//!   square (R/cos β) sin((θ − π/2)/R) on 0 ≤ θ ≤ π, mirrored. The damping is left out on purpose: at a stability boundary the
-//!   damper and the averaged friction slope cancel. It needs R > 1.
+//!   every order in 1/R of the fast motion at no extra cost. With β = π/(2R) it is, for a
+//!   sine, R²/(R² − 1) G; triangle, (2R²/(π cos β)) (cos β − cos(θ/R)) on |θ| ≤ π/2, continued antiperiodically;
+//!   square, (R/cos β) sin((θ − π/2)/R) on 0 ≤ θ ≤ π, continued evenly. Damping is omitted deliberately: at a stability boundary
+//!   the damper and the averaged friction slope cancel. Requires R > 1.
 //!
-//! All are even and antiperiodic, hence given by a quarter wave σ(δ): s = σ(θ − π/2) on [0, π], σ odd and
-//! increasing from 0 at δ = 0 (in relative accuracy, also for tiny δ) to its peak at δ = π/2.
+//! All shapes are even and antiperiodic, and hence determined by a quarter wave σ(δ): s = σ(θ − π/2) on [0, π]. σ is odd and
+//! increases from 0 at δ = 0 (to relative accuracy, also for tiny δ) to its peak at δ = π/2.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use quell_model::Waveform;
@@ -29,7 +29,7 @@ pub enum FastWave {
 }
 
 impl FastWave {
-    /// Same shape with a factor in front: a sine keeps its shape in an oscillator, so its closed forms serve.
+    /// The same shape with a separate factor. An oscillator preserves the shape of a sine, so the closed forms for G apply.
     pub(crate) fn canonical(self) -> (Self, f64) {
         match self {
             Self::Oscillator { waveform: Waveform::Sine, frequency_ratio: r } => {
@@ -91,7 +91,7 @@ impl FastWave {
         }
     }
 
-    /// The δ in [0, π/2] where ασ(δ) = value, and α dσ/dδ there, for 0 ≤ value < α·peak; both without cancellation near
+    /// The δ in [0, π/2] at which ασ(δ) = value, and α dσ/dδ there, for 0 ≤ value < α·peak. Both are free of cancellation near
     /// either end.
     pub(crate) fn crossing(self, amplitude: f64, value: f64) -> (f64, f64) {
         let peak = amplitude * self.peak();
@@ -116,7 +116,7 @@ impl FastWave {
                 let from_peak = 2.0 * r * libm::asin((below / scale).sqrt().min(1.0));
                 let steepness = 0.5 * scale / r * libm::sin(from_peak / r);
                 let mut delta = (FRAC_PI_2 - from_peak).max(0.0);
-                // δ near 0 has lost digits to the subtraction: two Newton steps bring them back.
+                // Near 0, δ has lost digits in the subtraction. Two Newton steps restore them.
                 for _ in 0..2 {
                     if delta < 1.0 {
                         delta -= (amplitude * self.quarter(delta) - value)
@@ -133,7 +133,7 @@ impl FastWave {
         }
     }
 
-    /// s(θ) and ds/dθ for unit amplitude, any θ. At a corner of s the slope after it.
+    /// s(θ) and ds/dθ for unit amplitude at any θ. At a corner of s, the slope beyond it.
     pub(crate) fn value_and_slope(self, phase: f64) -> (f64, f64) {
         let phase = phase.rem_euclid(TAU);
         let (folded, direction) = if phase < PI { (phase, 1.0) } else { (TAU - phase, -1.0) };
@@ -143,7 +143,7 @@ impl FastWave {
     }
 }
 
-/// R²/(R² − 1): gain of the oscillator's velocity over D/R at the frequency of the force.
+/// R²/(R² − 1): the velocity of the oscillator divided by D/R at the frequency of the force.
 fn sine_gain(r: f64) -> f64 {
     r * r / ((r - 1.0) * (r + 1.0))
 }
@@ -163,7 +163,7 @@ mod tests {
         waves
     }
 
-    /// The shapes are G itself, and the oscillator's tend to it.
+    /// The integral shapes are G itself, and the shapes of the oscillator converge to it.
     #[test]
     fn integral_of_the_waveform() {
         for &waveform in Waveform::ALL {
@@ -178,8 +178,8 @@ mod tests {
         }
     }
 
-    /// s″ + s/R² = g′/… : the oscillator's velocity obeys v″ + v = D R g′ (away from breaks), by differences, and
-    /// jumps like the force.
+    /// s″ + s/R² = g′ by finite differences, away from breaks: the velocity of the oscillator satisfies v″ + v = D R g′, and
+    /// its slope jumps where the force does.
     #[test]
     fn oscillator_equation() {
         for &waveform in Waveform::ALL {
@@ -201,7 +201,7 @@ mod tests {
         }
     }
 
-    /// Quarter waves rise from 0 to the peak, and `crossing` inverts them in relative accuracy.
+    /// Quarter waves rise from 0 to the peak, and `crossing` inverts them to relative accuracy.
     #[test]
     fn crossings() {
         for wave in all() {
@@ -212,7 +212,7 @@ mod tests {
                 let delta = FRAC_PI_2 * libm::exp(-0.15 * f64::from(k) - 0.001);
                 let value = alpha * wave.quarter(delta);
                 let (found, steepness) = wave.crossing(alpha, value);
-                // Near a rounded peak δ is as ill-defined as √.
+                // Near a smooth peak δ is as ill-conditioned as a square root.
                 let slack = 1e-13 + 1e-15 / (FRAC_PI_2 - delta);
                 assert!((found / delta - 1.0).abs() < slack, "{wave:?} {delta}: {found}");
                 let exact = alpha * wave.quarter_slope(delta);

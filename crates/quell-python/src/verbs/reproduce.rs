@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use quell_reproduce::{ENTRIES, Pace, find, run};
+use quell_reproduce::{ENTRIES, Resolution, find, run};
 
 use crate::{call, convert};
 
@@ -17,7 +17,7 @@ pub(crate) fn reproduce(
 ) -> PyResult<Py<PyAny>> {
     let object = call::run(py, move || {
         let entries = find(&names)?;
-        let pace = if quick { Pace::Quick } else { Pace::Full };
+        let pace = if quick { Resolution::Quick } else { Resolution::Full };
         let done = run(&entries, &out, pace, |_| ())?;
         Ok(done.json(&out, pace))
     })?;

@@ -1,25 +1,25 @@
-//! Claims about single responses from rest, figures 2.10, 2.11, 3.12, 3.13, 4.11, and about other starts.
+//! Claims about single responses from rest, figures 2.10, 2.11, 3.12, 3.13, 4.11, and from other initial conditions.
 
 use quell_dynamics::attractor::{Patience, Scene, gather, settle_many};
 use quell_dynamics::simulation::Start;
 use quell_model::{Direction, LawKind, Waveform};
 
-use super::super::sections::{Case, Change, Columns};
-use super::super::source::failed;
+use super::super::amplitude_columns::{AmplitudeColumn, AmplitudeColumns, AmplitudeThreshold};
+use super::super::failure::failed;
 use super::chapter2::{LIGHT, belt, source};
-use super::sheet::{Sheet, digits, list};
+use super::sheet::{ClaimSheet, digits, list};
 use quell::complaint::Failure;
 
-/// What a figure claims: amplitudes that are stable and not, and between which of them that changes.
+/// Claims of a figure: stable and unstable amplitudes, and the amplitudes between which stability changes.
 struct Printed {
     figure: &'static str,
-    /// The columns called stable.
+    /// The amplitudes of the columns called stable.
     stable: &'static [f64],
     /// "Becomes unstable for D ≥": the first unstable column.
     unstable_from: f64,
     /// "Stabilised for D ≥".
     stable_from: f64,
-    /// What averaging predicts for both, as printed.
+    /// The predictions of averaging for both, as printed.
     averaged: [&'static str; 2],
 }
 
@@ -54,8 +54,8 @@ const TANGENTIAL: [Printed; 4] = [
     },
 ];
 
-/// Figures 2.10, 2.11, 3.12, 3.13: the claims of one.
-pub(super) fn tangential(sheet: &mut Sheet, figure: &str) -> Result<(), Failure> {
+/// The claims of one of figures 2.10, 2.11, 3.12, 3.13.
+pub(super) fn tangential(sheet: &mut ClaimSheet, figure: &str) -> Result<(), Failure> {
     let printed = TANGENTIAL
         .iter()
         .find(|printed| printed.figure == figure)
@@ -72,23 +72,29 @@ pub(super) fn tangential(sheet: &mut Sheet, figure: &str) -> Result<(), Failure>
     {
         let name = format!("{figure}-local-{claim}");
         let statement = format!(
-            "the response is {word} from D_T = (averaging as printed, exact Floquet threshold as measured)"
+            "the response is {word} from D_T = (printed: averaging; measured: exact Floquet threshold)"
         );
         sheet.number(&name, &place, &statement, averaged, &[change.amplitude]);
     }
     let vibrating = columns.cases.iter().filter(|case| !case.quiet);
-    let frequencies: Vec<f64> = vibrating.filter_map(Case::frequency).collect();
+    let frequencies: Vec<f64> = vibrating.filter_map(AmplitudeColumn::frequency).collect();
     let name = format!("{figure}-period-10");
     let statement =
         "the unstable response is close to period-10: its low frequency is at or near ω₀";
     sheet
         .number(&name, &place, statement, "1.0", &frequencies)
-        .note("turns of the section a period, times R");
+        .note("revolutions of the section per period, times R");
     Ok(())
 }
 
-/// Which columns settle from rest.
-fn columns_claim(sheet: &mut Sheet, stem: &str, figure: &str, columns: &Columns, stable: &[f64]) {
+/// The columns that settle from rest.
+fn columns_claim(
+    sheet: &mut ClaimSheet,
+    stem: &str,
+    figure: &str,
+    columns: &AmplitudeColumns,
+    stable: &[f64],
+) {
     let of = |quiet: bool| -> Vec<f64> {
         columns.cases.iter().filter(|case| case.quiet == quiet).map(|case| case.amplitude).collect()
     };
@@ -96,9 +102,12 @@ fn columns_claim(sheet: &mut Sheet, stem: &str, figure: &str, columns: &Columns,
     let others: Vec<f64> =
         columns.cases.iter().map(|case| case.amplitude).filter(|d| !stable.contains(d)).collect();
     let plain = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
-    let statement =
-        format!("from rest D = {} settle, D = {} do not", plain(stable), plain(&others));
-    let measured = format!("settle: {}; do not: {}", plain(&settles), plain(&vibrates));
+    let statement = format!(
+        "responses from rest settle at D = {} and vibrate at D = {}",
+        plain(stable),
+        plain(&others)
+    );
+    let measured = format!("settle: {}; vibrate: {}", plain(&settles), plain(&vibrates));
     let holds = settles == stable;
     sheet.statement(
         [&format!("{stem}-columns"), &format!("Figure {figure}"), &statement],
@@ -109,9 +118,9 @@ fn columns_claim(sheet: &mut Sheet, stem: &str, figure: &str, columns: &Columns,
 }
 
 /// "Becomes unstable for D ≥ 3": the threshold from rest lies between the last stable and the first unstable column.
-fn borders(sheet: &mut Sheet, printed: &Printed, columns: &Columns) {
+fn borders(sheet: &mut ClaimSheet, printed: &Printed, columns: &AmplitudeColumns) {
     let name = printed.figure;
-    for (word, claim, to, first) in [
+    for (word, claim, holds_above, first) in [
         ("unstable", "lower", false, printed.unstable_from),
         ("stable again", "upper", true, printed.stable_from),
     ] {
@@ -124,29 +133,29 @@ fn borders(sheet: &mut Sheet, printed: &Printed, columns: &Columns) {
         let found: Vec<f64> = columns
             .from_rest
             .iter()
-            .filter(|change| change.to == to)
+            .filter(|change| change.holds_above == holds_above)
             .map(|change| change.amplitude)
             .collect();
-        let holds = found.iter().any(|it| before < *it && *it <= first);
-        let statement = format!("from rest it is {word} for D ≥ {first}, not yet at {before}");
+        let holds = found.iter().any(|amplitude| before < *amplitude && *amplitude <= first);
+        let statement = format!("from rest it is {word} for D ≥ {first}, but not yet at {before}");
         let claim = sheet.statement(
             [&format!("{name}-from-rest-{claim}"), &format!("Figure {name}"), &statement],
             format!("threshold {}", list(&found)),
             &found,
             holds,
         );
-        if !to && let Some(Change { amplitude, .. }) = columns.local.first() {
+        if !holds_above && let Some(AmplitudeThreshold { amplitude, .. }) = columns.local.first() {
             claim.note(format!(
-                "the quiet response is stable up to {}: between both a stick-slip vibration coexists with it, and rest lies in the \
-                 basin of that",
+                "the base response is stable up to {}: between the two amplitudes a stick-slip vibration coexists with it, and \
+                 rest is in the basin of that vibration",
                 digits(*amplitude, 6)
             ));
         }
     }
 }
 
-/// Figure 4.11 with a waveform: that of its caption, or a sine.
-pub(super) fn normal(sheet: &mut Sheet, waveform: Waveform) -> Result<(), Failure> {
+/// Figure 4.11 with one waveform: that of its caption, or a sine.
+pub(super) fn normal(sheet: &mut ClaimSheet, waveform: Waveform) -> Result<(), Failure> {
     let waveform = waveform.name();
     let study = source("4.11")?.changed(&[&format!("dither.waveform={waveform}")])?;
     let columns = sheet.shared.columns("4.11", &study)?;
@@ -156,7 +165,7 @@ pub(super) fn normal(sheet: &mut Sheet, waveform: Waveform) -> Result<(), Failur
     let thresholds: Vec<f64> = columns.local.iter().map(|change| change.amplitude).collect();
     let statement =
         "from rest it is stable at D_N = 0.6, unstable from 0.7, and nearly stable at 0.9 to 0.95";
-    // Peak of the section where the text calls it unstable, against what is left at its end.
+    // Size of the section where the text calls the response unstable, compared with its size at the end.
     let pattern = spreads.len() == 6
         && spreads[1] < 1e-6
         && spreads[2] > 0.01
@@ -169,20 +178,20 @@ pub(super) fn normal(sheet: &mut Sheet, waveform: Waveform) -> Result<(), Failur
             &spreads,
             pattern,
         )
-        .note(format!("the quiet response changes stability at D_N = {}", list(&thresholds)));
+        .note(format!("the stability of the base response changes at D_N = {}", list(&thresholds)));
     Ok(())
 }
 
-/// Extent along x of the section of a response, where the run ended on one.
-fn spread(case: &Case) -> Option<f64> {
+/// Extent along x of the section of a response, if the run converged to one.
+fn spread(case: &AmplitudeColumn) -> Option<f64> {
     let displacements = case.attractor.as_ref()?.section.iter().map(|(x, _)| *x);
     let (low, high) = displacements
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
     (low <= high).then_some(high - low)
 }
 
-/// "Multiple solutions have not been encountered", normal dither: 11 × 9 starts, x from −1 to 1.5, x′ from −1 to 1.
-pub(super) fn other_starts(sheet: &mut Sheet) -> Result<(), Failure> {
+/// "Multiple solutions have not been encountered", normal dither: 11 × 9 initial conditions, x from −1 to 1.5, x′ from −1 to 1.
+pub(super) fn other_starts(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let cases = [
         (LawKind::Stribeck, LIGHT, 0.05, Waveform::Sine, 0.9, 10.0),
         (LawKind::Decreasing, LIGHT, 0.05, Waveform::Sine, 0.6, 7.0),
@@ -216,7 +225,7 @@ pub(super) fn other_starts(sheet: &mut Sheet) -> Result<(), Failure> {
                 "normal dither: multiple solutions have not been encountered on a grid of initial conditions",
             ],
             format!(
-                "responses that 11 × 9 starts end on, five cases: {}; starts still on their way at the end: {unknown}",
+                "number of responses reached from 11 × 9 initial conditions, five cases: {}; runs that did not settle: {unknown}",
                 list(&found)
             ),
             &found,

@@ -3,24 +3,24 @@
 use quell_dynamics::response::{Solver, respond};
 use quell_dynamics::simulation::{EventKind, EventRecorder, Sampler, Start, simulate};
 use quell_linear::averaging::{
-    AveragingOptions, Becomes, CriticalAmplitude, EverywhereStable, FastWave,
-    Response as FastResponse, closed_band, critical_amplitudes, everywhere_stable_amplitude,
+    AveragingOptions, Becomes, CriticalAmplitude, EverywhereStable, FastResponse, FastWave,
+    closed_band, critical_amplitudes, everywhere_stable_amplitude,
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 
-use super::super::responses::{Case, cases, fundamental};
-use super::super::source::failed;
-use super::super::{ENTRIES, Source};
-use super::sheet::{Sheet, digits, list, shares};
+use super::super::failure::failed;
+use super::super::responses::{ResponseColumn, cases, fundamental};
+use super::super::{ENTRIES, EntrySource};
+use super::sheet::{ClaimSheet, digits, list, shares};
 use quell::complaint::Failure;
 
-/// Below this share of the undithered vibration the dissertation calls it suppressed (figure 2.8 takes 5 %).
+/// Fraction of the undithered vibration below which the dissertation calls it suppressed (5 % in figure 2.8).
 pub(super) const SUPPRESSED: f64 = 0.05;
 
 /// Damping ratio of most figures.
 pub(super) const LIGHT: f64 = 0.005;
 
-/// The dissertation's law of a kind.
+/// A friction law with the parameters of the dissertation.
 pub(super) fn law(kind: LawKind) -> Result<Friction, Failure> {
     kind.build(&[0.4, 0.2857, 0.2]).map_err(|_| failed("claims", &"the law is not valid"))
 }
@@ -44,25 +44,25 @@ pub(super) fn belt(
 }
 
 /// The study of a figure.
-pub(super) fn source(name: &str) -> Result<Source, Failure> {
+pub(super) fn source(name: &str) -> Result<EntrySource, Failure> {
     ENTRIES
         .iter()
         .find(|entry| entry.name == name)
-        .map(super::super::Entry::source)
+        .map(super::super::CatalogueEntry::source)
         .ok_or_else(|| failed("claims", &format!("there is no figure {name}")))
 }
 
-/// E of each case, where it is defined.
-pub(super) fn efficiencies(cases: &[Case]) -> Vec<f64> {
+/// E of each column, where it is defined.
+pub(super) fn efficiencies(cases: &[ResponseColumn]) -> Vec<f64> {
     cases.iter().filter_map(|case| case.response.efficiency.ok()).collect()
 }
 
-/// Whether E lies between suppression and no effect.
+/// Whether E is between suppression and no effect.
 pub(super) fn partial(efficiency: f64) -> bool {
     (SUPPRESSED..1.0).contains(&efficiency)
 }
 
-/// Critical amplitudes of averaging, where the exact fast motion may take the place of αG.
+/// Critical amplitudes by averaging, with αG or the exact fast motion.
 pub(super) fn critical(
     belt: &Belt,
     response: FastResponse,
@@ -71,7 +71,7 @@ pub(super) fn critical(
     critical_amplitudes(belt, options).map_err(|error| failed("claims", &error))
 }
 
-/// Fundamental of the undithered stick-slip, from the exact times at which the mass sticks.
+/// Fundamental frequency of the undithered stick-slip vibration, from the exact times at which the mass sticks.
 fn stick_slip_frequency(belt: &Belt) -> Result<f64, Failure> {
     let mut recorder = EventRecorder::default();
     let tolerance = Solver::default().tolerance;
@@ -89,19 +89,19 @@ fn stick_slip_frequency(belt: &Belt) -> Result<f64, Failure> {
     }
 }
 
-/// Figures 2.2, 2.3: laws and the undithered cycle.
-pub(super) fn friction_laws(sheet: &mut Sheet) -> Result<(), Failure> {
+/// Figures 2.2, 2.3: friction laws and the undithered limit cycle.
+pub(super) fn friction_laws(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let undithered = belt(LawKind::Stribeck, LIGHT, 0.05, None)?;
     let frequency = stick_slip_frequency(&undithered)?;
     sheet
         .number(
             "2.3-undithered-fundamental",
             "Figures 2.3, 3.7",
-            "fundamental of the undithered stick-slip, Stribeck law (ω₀)",
+            "fundamental frequency of the undithered stick-slip vibration, Stribeck law (ω₀)",
             "0.666",
             &[frequency],
         )
-        .note("a record of 66 or 94.25 has a spectral line at 0.666");
+        .note("a record of length 66 or 94.25 has a spectral line at 0.666");
     let misprinted = undithered
         .with("friction.minimum_coefficient", 0.2587)
         .map_err(|_| failed("claims", &"the misprinted law is not valid"))?;
@@ -109,11 +109,11 @@ pub(super) fn friction_laws(sheet: &mut Sheet) -> Result<(), Failure> {
         .number(
             "2.2-minimum-coefficient",
             "before Figure 2.2, Figure 4.2",
-            "the same fundamental with μ_m = 0.2587",
+            "the same fundamental frequency with μ_m = 0.2587",
             "0.666",
             &[stick_slip_frequency(&misprinted)?],
         )
-        .note("so 0.2587 is a misprint of 0.2857");
+        .note("hence 0.2587 is a misprint of 0.2857");
     let decreasing = law(LawKind::Decreasing)?;
     let share = (decreasing.coefficient(decreasing.velocity_scale()) - 0.2857) / (0.4 - 0.2857);
     sheet.number(
@@ -127,7 +127,7 @@ pub(super) fn friction_laws(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// Figure 2.3.
-pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let cases = cases(&source("2.3")?)?;
     let found = efficiencies(&cases);
     let dithered = fundamental(&cases[0].response.record.spectrum);
@@ -135,12 +135,12 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
         .number(
             "2.3-dithered-fundamental",
             "Figure 2.3(a)",
-            "fundamental at D_T = 0.3 (ω₀)",
+            "fundamental frequency at D_T = 0.3 (ω₀)",
             "0.746",
             dithered.as_slice(),
         )
         .note("locked to the dither at 10·5/68");
-    let stuck = |case: &Case| {
+    let stuck = |case: &ResponseColumn| {
         let samples = &case.response.undithered_record.samples;
         samples.iter().filter(|sample| sample.sticking).count() as f64 / samples.len() as f64
     };
@@ -175,7 +175,7 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
     sheet.number(
         "2.3-forced-frequency",
         "Figure 2.3(c)",
-        "frequency of what remains at D_T = 0.5 (ω₀)",
+        "frequency of the remaining vibration at D_T = 0.5 (ω₀)",
         "10",
         &strongest.map(|peak| peak.frequency).into_iter().collect::<Vec<_>>(),
     );
@@ -183,7 +183,7 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// "The amplitude of the steady-state response can be reduced further by decreasing the dither frequency ratio."
-pub(super) fn forced_response(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn forced_response(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let amplitude = |ratio: f64| -> Result<f64, Failure> {
         let dither = Some((Direction::Tangential, Waveform::Sine, 0.5, ratio));
         let belt = belt(LawKind::Stribeck, LIGHT, 0.05, dither)?;
@@ -207,7 +207,10 @@ pub(super) fn forced_response(sheet: &mut Sheet) -> Result<(), Failure> {
             &amplitudes,
             holds,
         )
-        .note(format!("the linear oscillator's is D/(R² − 1) = {}: it grows", list(&linear)));
+        .note(format!(
+            "for the linear oscillator it is D/(R² − 1) = {}: it increases",
+            list(&linear)
+        ));
     Ok(())
 }
 
@@ -217,7 +220,7 @@ fn upper(law: &Friction, alpha: f64) -> Option<f64> {
 }
 
 /// Figure 2.6.
-pub(super) fn stribeck_map(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn stribeck_map(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let law = law(LawKind::Stribeck)?;
     let words = "Stribeck: undithered sliding is stable above v₀";
     sheet.number("2.6-undithered", "Figure 2.6", words, "0.2", upper(&law, 0.0).as_slice());
@@ -238,13 +241,14 @@ pub(super) fn stribeck_map(sheet: &mut Sheet) -> Result<(), Failure> {
         worst = worst.max((star / v - 1.0).abs());
     }
     let measured = format!("largest deviation {}", digits(worst, 2));
-    let words = ["2.6-linear", "Figure 2.6", "there α* = v₀, on a straight line"];
+    let words = ["2.6-linear", "Figure 2.6", "up to there α* = v₀, a straight line"];
     sheet.statement(words, measured, &[worst], worst < 1e-9);
     let grid = (0..=40).map(|k| tip * f64::from(k) / 41.0);
     let edges: Vec<f64> = grid.filter_map(|alpha| upper(&law, alpha)).collect();
     let falls = edges.len() == 41 && edges.windows(2).all(|pair| pair[1] < pair[0]);
     let measured = format!("from {} to {}", digits(edges[0], 4), digits(edges[edges.len() - 1], 4));
-    let words = ["2.6-upper-edge", "Figure 2.6", "Stribeck: the upper edge falls as α grows"];
+    let words =
+        ["2.6-upper-edge", "Figure 2.6", "Stribeck: the upper edge decreases as α increases"];
     sheet.statement(words, measured, &edges, falls);
     let mut destabilised = 0;
     for k in 1..=50 {
@@ -252,20 +256,20 @@ pub(super) fn stribeck_map(sheet: &mut Sheet) -> Result<(), Failure> {
         let found = critical(&belt, FastResponse::Limit)?;
         destabilised += u8::from(found.iter().any(|change| change.becomes == Becomes::Unstable));
     }
-    let measured = format!("{destabilised} of 50 belt velocities up to 0.3 are destabilised");
+    let measured = format!("dither destabilises at {destabilised} of 50 belt velocities up to 0.3");
     let words =
-        ["2.6-never-destabilised", "Figure 2.6", "Stribeck: a larger dither never destabilises"];
+        ["2.6-never-destabilised", "Figure 2.6", "Stribeck: larger dither never destabilises"];
     sheet.statement(words, measured, &[f64::from(destabilised)], destabilised == 0);
     Ok(())
 }
 
 /// Figure 2.7.
-pub(super) fn decreasing_map(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn decreasing_map(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let law = law(LawKind::Decreasing)?;
     let words = "decreasing: undithered sliding is stable above v₀";
     sheet
         .number("2.7-undithered", "Figure 2.7", words, "0.8", upper(&law, 0.0).as_slice())
-        .note("only locally: see 2.7-undithered-from-afar");
+        .note("only locally, see 2.7-undithered-from-afar");
     let mut widths = Vec::new();
     for v in [1.0, 1.5, 2.0] {
         let found = critical(&belt_at(LawKind::Decreasing, v)?, FastResponse::Limit)?;
@@ -278,7 +282,7 @@ pub(super) fn decreasing_map(sheet: &mut Sheet) -> Result<(), Failure> {
     let words = [
         "2.7-narrower",
         "Figure 2.7",
-        "decreasing: the band becomes narrower as the belt velocity grows",
+        "decreasing: the band becomes narrower as the belt velocity increases",
     ];
     sheet.statement(words, measured, &widths, narrows);
     Ok(())
@@ -289,8 +293,8 @@ fn belt_at(kind: LawKind, belt_velocity: f64) -> Result<Belt, Failure> {
     belt(kind, LIGHT, belt_velocity, Some((Direction::Tangential, Waveform::Sine, 1.0, 10.0)))
 }
 
-/// Decreasing law above its critical velocity: stable without dither, and not with.
-pub(super) fn destabilisation(sheet: &mut Sheet) -> Result<(), Failure> {
+/// Decreasing law above its critical velocity: stable without dither, unstable with dither.
+pub(super) fn destabilisation(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let undithered = belt(LawKind::Decreasing, LIGHT, 1.0, None)?;
     let late = |displacement: f64| -> Result<f64, Failure> {
         let start = Start { displacement, ..Start::REST };
@@ -326,13 +330,13 @@ pub(super) fn destabilisation(sheet: &mut Sheet) -> Result<(), Failure> {
             afar < 0.05,
         )
         .note(
-            "a stick-slip cycle coexists with stable sliding; averaging judges small motions only",
+            "a stick-slip cycle coexists with stable sliding; averaging applies to small motions only",
         );
     averaged_thresholds(sheet)
 }
 
 /// "Unstable for α_T = 0.43", "stable for α_T > 0.98" at v₀ = 1; 10 ≤ D_T ≤ 15 at v₀ = 1.5.
-fn averaged_thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
+fn averaged_thresholds(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let rows = [
         (1.0, 0, "2.10", Some("0.43"), "4.3"),
         (1.0, 1, "2.10", Some("0.98"), "9.8"),
@@ -352,7 +356,7 @@ fn averaged_thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
             let (name, statement) = (format!("{stem}-ratio"), format!("{statement} α ="));
             let claim = sheet.number(&name, &place, &statement, printed, value.as_slice());
             if which == 1 {
-                claim.note("averaging gives α = v₀ exactly; 0.98 is a value of a plotting grid");
+                claim.note("averaging gives α = v₀ exactly; 0.98 is a point of a plotting grid");
             }
         }
         let value = found.map(|change| change.amplitude);

@@ -3,25 +3,25 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use quell_linear::averaging::{
-    EverywhereStable, FastMotion, FastWave, Response as FastResponse, effective,
-    everywhere_stable_amplitude,
+    EverywhereStable, FastMotion, FastResponse, FastWave, effective, everywhere_stable_amplitude,
 };
 use quell_model::{Direction, LawKind, Waveform};
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
-use super::super::print::{self, LawNumbers};
+use super::super::caption::waveform_name;
+use super::super::failure::failed;
+use super::super::printed_formulas::{self, LawNumbers};
 use super::super::responses::{cases, fundamental};
-use super::super::source::{failed, waveform_name};
 use super::chapter2::{LIGHT, SUPPRESSED, belt, critical, efficiencies, law, partial, source};
-use super::sheet::{Sheet, digits, list, shares};
+use super::sheet::{ClaimSheet, digits, list, shares};
 use quell::complaint::Failure;
 
 const NUMBERS: LawNumbers = LawNumbers::DISSERTATION;
 
 /// Section 3.2: integrals of the waveforms.
-pub(super) fn waveforms(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn waveforms(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let [sine, triangle, square] = [Waveform::Sine, Waveform::Triangle, Waveform::Square];
-    // From the waveforms themselves: half the integral of g over its positive half cycle.
+    // Computed from the waveforms themselves: half the integral of g over its positive half cycle.
     let peak = |waveform: Waveform| {
         integrate(|x| waveform.value(x), 0.0, PI, waveform.breaks(), &QuadratureOptions::default())
             .map(|integral| 0.5 * integral.value)
@@ -44,11 +44,11 @@ pub(super) fn waveforms(sheet: &mut Sheet) -> Result<(), Failure> {
             &[left, right].concat(),
             odd,
         )
-        .note("G is even, g is odd; the formulas use it rightly");
+        .note("G is even and g is odd; the formulas use this correctly");
     Ok(())
 }
 
-/// α^L of one case, NaN where there is none.
+/// α^L of one case; NaN where it does not exist.
 fn everywhere(
     kind: LawKind,
     damping_ratio: f64,
@@ -65,7 +65,7 @@ fn everywhere(
 }
 
 /// α^L: formulas, order of the waveforms, the inner region.
-pub(super) fn everywhere_stable(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn everywhere_stable(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let tangential = |kind, zeta, waveform| everywhere(kind, zeta, waveform, Direction::Tangential);
     let stribeck = Waveform::ALL
         .iter()
@@ -75,19 +75,23 @@ pub(super) fn everywhere_stable(sheet: &mut Sheet) -> Result<(), Failure> {
         let statement = format!("α^L, Stribeck law, sine, ζ = {zeta}");
         let value = tangential(LawKind::Stribeck, zeta, Waveform::Sine)?;
         sheet
-            .formula([name, "(3.44)", &statement], print::everywhere_344(NUMBERS, zeta), value)
-            .note("the inner root does not belong there: v_m√(2(1 − κ)/3)");
+            .formula(
+                [name, "(3.44)", &statement],
+                printed_formulas::everywhere_344(NUMBERS, zeta),
+                value,
+            )
+            .note("the inner root is wrong; correct is v_m√(2(1 − κ)/3)");
     }
     sheet
         .formula(
             ["3.48", "(3.48)", "α^L, Stribeck law, triangle, ζ = 0.005"],
-            print::everywhere_348(NUMBERS, LIGHT),
+            printed_formulas::everywhere_348(NUMBERS, LIGHT),
             stribeck[1],
         )
-        .note("follows from (3.47); right is (v_m/π)√(240(1 − κ)/23)");
+        .note("follows from (3.47); correct is (v_m/π)√(240(1 − κ)/23)");
     sheet.formula(
         ["3.52", "(3.52)", "α^L, Stribeck law, square, ζ = 0.005"],
-        print::everywhere_352(NUMBERS, LIGHT),
+        printed_formulas::everywhere_352(NUMBERS, LIGHT),
         stribeck[2],
     );
     sheet.statement(
@@ -101,7 +105,7 @@ pub(super) fn everywhere_stable(sheet: &mut Sheet) -> Result<(), Failure> {
         .map(|&waveform| tangential(LawKind::Decreasing, 0.05, waveform))
         .collect::<Result<Vec<f64>, Failure>>()?;
     sheet.statement(
-        ["3.6-order", "Figure 3.6", "the same with the decreasing law, ζ = 0.05"],
+        ["3.6-order", "Figure 3.6", "the same order with the decreasing law, ζ = 0.05"],
         format!("α^L: {}", list(&[decreasing[2], decreasing[0], decreasing[1]])),
         &decreasing,
         decreasing[2] < decreasing[0] && decreasing[0] < decreasing[1],
@@ -121,7 +125,7 @@ pub(super) fn everywhere_stable(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// "It can be shown that μ̄′(v₀) ≥ 0 for |v₀| ≤ αG_max", for the dissertation's laws.
-fn inner_slope(sheet: &mut Sheet) -> Result<(), Failure> {
+fn inner_slope(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let mut smallest = [f64::INFINITY; 2];
     for (kind, smallest) in [LawKind::Stribeck, LawKind::Decreasing].into_iter().zip(&mut smallest)
     {
@@ -139,17 +143,21 @@ fn inner_slope(sheet: &mut Sheet) -> Result<(), Failure> {
     }
     sheet
         .statement(
-            ["3.41-inner-slope", "after (3.41), (3.45), (3.49), (3.53), (3.57)", "μ̄′ ≥ 0 for |v₀| ≤ αG_max with the values chosen"],
+            [
+                "3.41-inner-slope",
+                "after (3.41), (3.45), (3.49), (3.53), (3.57)",
+                "μ̄′ ≥ 0 for |v₀| ≤ αG_max with the chosen values",
+            ],
             format!("smallest slope, α from 0.01 to 12: {}", list(&smallest)),
             &smallest,
             smallest.iter().all(|slope| *slope >= 0.0),
         )
-        .note("for Stribeck in general only if (μ_s − μ_m)/μ_s ≤ √6/π (sine), √0.4 (triangle), 1 (square)");
+        .note("for the Stribeck law in general only if (μ_s − μ_m)/μ_s ≤ √6/π (sine), √0.4 (triangle), 1 (square)");
     Ok(())
 }
 
 /// Thresholds predicted by averaging at v₀ = 1, R = 10, decreasing law.
-pub(super) fn thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn thresholds(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     type Row = (Waveform, usize, &'static str, bool, &'static str);
     let rows: [Row; 6] = [
         (Waveform::Triangle, 0, "0.54", true, "3.61"),
@@ -188,7 +196,7 @@ pub(super) fn thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// Figures 3.7–3.9.
-pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let figures = ["3.7", "3.8", "3.9"]
         .map(|name| Ok((name, cases(&source(name)?)?)))
         .into_iter()
@@ -221,11 +229,11 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
     sheet.number(
         "3.7-fundamental",
         "Figures 3.7–3.9 (a), (b)",
-        "fundamental of the partly controlled responses (ω₀)",
+        "fundamental frequency of the partially controlled responses (ω₀)",
         "0.746",
         &frequencies,
     );
-    // At the amplitude that the three figures share.
+    // At the amplitude common to the three figures.
     let at = |figure: usize| {
         let case = figures[figure].1.iter().find(|case| case.amplitude == 0.4);
         case.and_then(|case| case.response.efficiency.ok())
@@ -235,7 +243,7 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
         [
             "3.7-order",
             "Figures 3.7–3.9",
-            "for one amplitude square controls better than sine, sine better than triangle",
+            "at equal amplitude square controls better than sine, sine better than triangle",
         ],
         format!("E at D_T = 0.4: {}", shares(&found)),
         &found,

@@ -1,23 +1,23 @@
 //! Claims of chapter 4: normal dither.
 
 use quell_linear::averaging::{
-    AveragingOptions, EverywhereStable, FastWave, Response as FastResponse, criterion,
+    AveragingOptions, EverywhereStable, FastResponse, FastWave, criterion,
     everywhere_stable_amplitude, unstable_bands,
 };
 use quell_model::{Direction, LawKind, Waveform};
 
-use super::super::measured_friction::{self, BIN, Case, interpolated};
-use super::super::print::{self, LawNumbers};
+use super::super::failure::failed;
+use super::super::measured_friction::{self, BIN, FrictionPanel, interpolated};
+use super::super::printed_formulas::{self, LawNumbers};
 use super::super::responses::cases;
-use super::super::source::failed;
 use super::chapter2::{LIGHT, SUPPRESSED, belt, critical, efficiencies, law, partial, source};
-use super::sheet::{Sheet, digits, list, shares};
+use super::sheet::{ClaimSheet, digits, list, shares};
 use quell::complaint::Failure;
 
 const NUMBERS: LawNumbers = LawNumbers::DISSERTATION;
 
 /// Figures 4.3 and 4.4.
-pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let found = efficiencies(&cases(&source("4.3")?)?);
     sheet.statement(
         [
@@ -35,7 +35,7 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
             [
                 "4.3-cancelled",
                 "Figure 4.3(c)",
-                "share of the vibration cancelled at D_N = 0.9, approximately",
+                "fraction of the vibration cancelled at D_N = 0.9, approximately",
             ],
             "0.5",
             &[1.0 - found[2]],
@@ -64,7 +64,7 @@ pub(super) fn responses(sheet: &mut Sheet) -> Result<(), Failure> {
 }
 
 /// Figures 4.5 and 4.6.
-pub(super) fn effective_friction(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn effective_friction(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     for figure in ["4.5", "4.6"] {
         let cases = measured_friction::cases(&source(figure)?)?;
         let place = format!("Figure {figure}");
@@ -79,9 +79,9 @@ pub(super) fn effective_friction(sheet: &mut Sheet) -> Result<(), Failure> {
                 [
                     &format!("{figure}-slope-change"),
                     &place,
-                    "simulation and averaging agree in where the slope of the friction changes sign",
+                    "simulation and averaging agree on the slip velocity at which the slope of the friction changes sign",
                 ],
-                format!("v_r = {} against {}", list(&measured), list(&averaged)),
+                format!("v_r = {} and {}", list(&measured), list(&averaged)),
                 &measured,
                 worst <= 2.0 * BIN,
             )
@@ -91,7 +91,7 @@ pub(super) fn effective_friction(sheet: &mut Sheet) -> Result<(), Failure> {
             [
                 &format!("{figure}-falling-region"),
                 &place,
-                "they agree strongly in the region of negative slope",
+                "they agree well in the region of negative slope",
             ],
             format!("largest difference of μ̄ {}", digits(worst, 2)),
             &[worst],
@@ -101,12 +101,12 @@ pub(super) fn effective_friction(sheet: &mut Sheet) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Slip velocity of the largest friction: measured, averaged.
-fn tops(case: &Case) -> (f64, f64) {
+/// Slip velocity of the largest friction: measured and averaged.
+fn tops(case: &FrictionPanel) -> (f64, f64) {
     let top = |points: &[(f64, f64)]| {
         points.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(f64::NAN, |point| point.0)
     };
-    // The Stribeck law rises again beyond v_m.
+    // The Stribeck law increases again beyond v_m.
     let below = |v: f64| v < 0.15;
     let measured: Vec<(f64, f64)> =
         case.bins.iter().map(|&(v, mu, _)| (v, mu)).filter(|point| below(point.0)).collect();
@@ -115,8 +115,8 @@ fn tops(case: &Case) -> (f64, f64) {
     (top(&measured), top(&averaged))
 }
 
-/// Largest difference between measured and averaged friction from a bin beyond the top up to v_m.
-fn outer_deviation(case: &Case) -> f64 {
+/// Largest difference between measured and averaged friction, from one bin beyond the maximum up to v_m.
+fn outer_deviation(case: &FrictionPanel) -> f64 {
     let (measured, averaged) = tops(case);
     let from = measured.max(averaged) + BIN;
     let outer = case.bins.iter().filter(|(v, _, _)| *v > from && *v < NUMBERS.vm);
@@ -124,16 +124,16 @@ fn outer_deviation(case: &Case) -> f64 {
 }
 
 /// Figures 4.7, 4.8, and the predictions for figure 4.11.
-pub(super) fn stability_maps(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn stability_maps(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let everywhere = |direction| everywhere(Waveform::Sine, direction);
     let (normal, tangential) = (everywhere(Direction::Normal)?, everywhere(Direction::Tangential)?);
     sheet.statement(
         [
             "4.7-larger",
             "Figures 4.7, 3.5",
-            "normal dither needs a much larger amplitude than tangential, Stribeck law",
+            "normal dither needs a much larger amplitude than tangential dither, Stribeck law",
         ],
-        format!("α_N^L = {} against α_T^L = {}", digits(normal, 4), digits(tangential, 4)),
+        format!("α_N^L = {}, α_T^L = {}", digits(normal, 4), digits(tangential, 4)),
         &[normal, tangential],
         normal > 2.0 * tangential,
     );
@@ -157,7 +157,7 @@ pub(super) fn stability_maps(sheet: &mut Sheet) -> Result<(), Failure> {
             &[undithered],
             undithered > 0.0,
         )
-        .note("by a small margin: ζ = 0.19 or μ_m = 0.2587 would be unstable");
+        .note("by a small margin: it would be unstable with ζ = 0.19 or μ_m = 0.2587");
     let found = critical(&belt, FastResponse::Limit)?;
     let rows = [(0, "0.115", true), (0, "0.575", false), (1, "0.13", true), (1, "0.65", false)];
     for (which, printed, is_ratio) in rows {
@@ -189,14 +189,24 @@ fn everywhere(waveform: Waveform, direction: Direction) -> Result<f64, Failure> 
     }
 }
 
-/// (4.34)–(4.38), with μ(v₀) at the tip v₀ = α^L G_max, which the print leaves open.
-pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
-    /// Equation, waveform, α^L as printed for ζ, what is wrong.
+/// (4.34)–(4.38), with μ(v₀) at the tip v₀ = α^L G_max, which the dissertation leaves open.
+pub(super) fn formulas(sheet: &mut ClaimSheet) -> Result<(), Failure> {
+    /// Equation, waveform, α^L as printed for ζ, the error.
     type Row = (&'static str, Waveform, fn(LawNumbers, f64) -> f64, &'static str);
     let rows: [Row; 3] = [
-        ("4.34", Waveform::Sine, print::everywhere_344, "the nested root of (3.44)"),
-        ("4.36", Waveform::Triangle, print::everywhere_348, "as (3.48)"),
-        ("4.38", Waveform::Square, print::everywhere_348, "2/π should be 1/π; it repeats (4.36)"),
+        ("4.34", Waveform::Sine, printed_formulas::everywhere_344, "the nested root of (3.44)"),
+        (
+            "4.36",
+            Waveform::Triangle,
+            printed_formulas::everywhere_348,
+            "the same error as in (3.48)",
+        ),
+        (
+            "4.38",
+            Waveform::Square,
+            printed_formulas::everywhere_348,
+            "2/π should be 1/π; it repeats (4.36)",
+        ),
     ];
     let law = law(LawKind::Stribeck)?;
     for (equation, waveform, printed, note) in rows {
@@ -221,9 +231,10 @@ pub(super) fn formulas(sheet: &mut Sheet) -> Result<(), Failure> {
     let bands = unstable_bands(&belt, AveragingOptions::default())
         .map_err(|error| failed("claims", &error))?;
     let right = bands.last().and_then(|band| band.upper).unwrap_or(f64::NAN);
-    // The print gives v₀ by itself: v₀ = edge(μ(v₀)α_N), a contraction.
-    let printed = (0..200)
-        .fold(right, |v, _| print::upper_edge_347(NUMBERS, LIGHT, law.coefficient(v) * alpha));
+    // The printed equation is implicit in v₀: v₀ = edge(μ(v₀)α_N), a contraction.
+    let printed = (0..200).fold(right, |v, _| {
+        printed_formulas::upper_edge_347(NUMBERS, LIGHT, law.coefficient(v) * alpha)
+    });
     sheet
         .formula(
             ["4.35", "(4.35)", "upper edge, Stribeck law, triangle, ζ = 0.005, α_N = 0.5"],

@@ -1,4 +1,4 @@
-//! Claims of chapter 5: the disc. Printed f is in units of 10⁻⁴ of the consistent one; see `reproduce::disc`.
+//! Claims of chapter 5: the disc. The printed f is in units of 10⁻⁴ of the consistent one; see `reproduce::disc`.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -14,12 +14,12 @@ use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use super::super::disc::{
     FRICTION_PER_PRINTED, PRINTED_INDUCED, PRINTED_UNDITHERED, STRENGTH_PER_PRINTED, study,
 };
-use super::super::source::failed;
+use super::super::failure::failed;
 use super::chapter2::source;
-use super::sheet::{Sheet, digits, list};
+use super::sheet::{ClaimSheet, digits, list};
 use quell::complaint::Failure;
 
-/// The print's unit of f.
+/// The unit of f in the dissertation.
 const UNIT: f64 = 1e-4 * FRICTION_PER_PRINTED;
 
 /// A disc of the dissertation: N_r, N_θ, printed m = c = k, ξ, dither.
@@ -43,7 +43,7 @@ fn at(disc: &Disc, speed: f64) -> Result<Disc, Failure> {
     disc.at_speed(speed).map_err(|_| failed("claims", &"a speed of chapter 5 is not valid"))
 }
 
-/// Growth at a speed and a printed friction (in 10⁻⁴).
+/// Growth rate at a speed and a printed friction (in 10⁻⁴).
 fn growth(disc: &Disc, speed: f64, printed: f64) -> Result<f64, Failure> {
     let disc = at(disc, speed)?
         .with("disc.load.friction", printed * UNIT)
@@ -52,7 +52,7 @@ fn growth(disc: &Disc, speed: f64, printed: f64) -> Result<f64, Failure> {
     Ok(found.rate)
 }
 
-/// Printed friction (in 10⁻⁴) from which an undithered, undamped disc is unstable at a speed.
+/// Printed friction (in 10⁻⁴) above which an undithered, undamped disc is unstable at a speed.
 fn threshold(disc: &Disc, speed: f64) -> Result<f64, Failure> {
     let found = boundaries(&at(disc, speed)?)
         .map_err(|_| failed("claims", &"a boundary of chapter 5 is not known"))?;
@@ -63,7 +63,7 @@ fn threshold(disc: &Disc, speed: f64) -> Result<f64, Failure> {
     Ok(positive.fold(f64::INFINITY, f64::min))
 }
 
-/// Speeds over (0, 1), closer where they are small.
+/// Equally spaced speeds in (0, 1).
 fn speeds() -> impl Iterator<Item = f64> {
     (1..400).map(|k| f64::from(k) / 400.0)
 }
@@ -75,7 +75,7 @@ fn meetings(disc: &Disc, dithered: bool) -> Result<Vec<Resonance>, Failure> {
 }
 
 /// Tables 5.1 and 5.2.
-pub(super) fn tables(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn tables(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let disc = disc([1, 2], 0.1, 0.0, TANGENTIAL)?;
     for (table, printed, dithered, star) in
         [("5.1", &PRINTED_UNDITHERED[..], false, ""), ("5.2", &PRINTED_INDUCED[..], true, "*")]
@@ -92,28 +92,33 @@ pub(super) fn tables(sheet: &mut Sheet) -> Result<(), Failure> {
                     printed,
                     &[resonance.speed],
                 )
-                .note("b/a = 0.5; with the printed 0.05 no digit comes out");
+                .note("with b/a = 0.5; with the printed 0.05 no digit agrees");
         }
     }
     let found = meetings(&disc, true)?;
-    let can: Vec<f64> = found.iter().filter(|it| it.can_be_unstable()).map(|it| it.speed).collect();
+    let can: Vec<f64> = found
+        .iter()
+        .filter(|resonance| resonance.can_be_unstable())
+        .map(|resonance| resonance.speed)
+        .collect();
     sheet
         .statement(
             [
                 "5.9-first-three",
                 "Figures 5.9–5.15",
-                "of the eight induced speeds only Ω_1*, Ω_2*, Ω_3* show as tongues",
+                "of the eight induced speeds only Ω_1*, Ω_2*, Ω_3* appear as tongues",
             ],
             list(&can),
             &can,
             can.len() == 3 && found[..3].iter().all(Resonance::can_be_unstable),
         )
-        .note("forward with backward waves share damping, waves without diameters do not couple: (5.55b) and (5.56b) tell places only");
+        .note("a forward and a backward wave share damping, and waves without nodal diameters do not couple: (5.55b) and \
+               (5.56b) give speeds only");
     Ok(())
 }
 
 /// Thresholds without dither.
-pub(super) fn thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn thresholds(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     for (size, printed) in [(0.1, "2"), (0.2, "3.5"), (0.3, "5")] {
         let disc = disc([1, 2], size, 0.0, DiscDither::None)?;
         let mut highest = 0.0f64;
@@ -124,13 +129,11 @@ pub(super) fn thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
             .number(
                 &format!("5.9-all-unstable-{size}"),
                 "Text of figures 5.9–5.11",
-                &format!("f in 10⁻⁵ from which all speeds are unstable, m = c = k = {size}"),
+                &format!("f in 10⁻⁵ above which all speeds are unstable, m = c = k = {size}"),
                 printed,
                 &[10.0 * highest],
             )
-            .note(
-                "with the unit of f, r₀ and ρha² chosen to fit such statements: see the captions",
-            );
+            .note("with the unit of f, r₀ and ρha² fitted to such statements, see the captions");
     }
     for (name, size, printed) in [("a", 0.1, 0.1), ("b", 0.01, 0.01)] {
         let disc = disc([1, 2], size, 0.0, DiscDither::None)?;
@@ -168,16 +171,16 @@ pub(super) fn thresholds(sheet: &mut Sheet) -> Result<(), Failure> {
             &counts,
             counts.windows(2).all(|pair| pair[1] > pair[0]),
         )
-        .note("the old bands are found again at 1.188 times the speed: the unit of speed is that of the set of modes");
+        .note("the former bands are at 1.188 times the speed, because the unit of speed depends on the set of modes");
     Ok(())
 }
 
 /// Normal dither.
-pub(super) fn normal(sheet: &mut Sheet) -> Result<(), Failure> {
-    let still = disc([1, 2], 0.3, 0.0, DiscDither::None)?;
-    let shaken = disc([1, 2], 0.3, 0.0, NORMAL)?;
+pub(super) fn normal(sheet: &mut ClaimSheet) -> Result<(), Failure> {
+    let undithered = disc([1, 2], 0.3, 0.0, DiscDither::None)?;
+    let dithered = disc([1, 2], 0.3, 0.0, NORMAL)?;
     let first = |speed: f64| -> Result<f64, Failure> {
-        let found = crossings(&at(&shaken, speed)?)
+        let found = crossings(&at(&dithered, speed)?)
             .map_err(|_| failed("claims", &"a boundary of chapter 5 is not known"))?;
         Ok(found.first().map_or(f64::INFINITY, |crossing| crossing.factor / UNIT))
     };
@@ -185,7 +188,7 @@ pub(super) fn normal(sheet: &mut Sheet) -> Result<(), Failure> {
         let mut best = (0.0, 0.0, 0.0);
         for k in 0..=90 {
             let speed = from + (to - from) * f64::from(k) / 90.0;
-            let (without, with) = (threshold(&still, speed)?, first(speed)?);
+            let (without, with) = (threshold(&undithered, speed)?, first(speed)?);
             if with.is_finite() && with - without > best.1 {
                 best = (speed, with - without, with);
             }
@@ -194,12 +197,12 @@ pub(super) fn normal(sheet: &mut Sheet) -> Result<(), Failure> {
             .number(
                 &format!("5.7-peak-{printed}"),
                 "Text of figure 5.7",
-                "speed near which normal dither stabilises over a small range of friction",
+                "speed near which normal dither stabilises the disc over a small range of friction",
                 printed,
                 &[best.0],
             )
             .note(format!(
-                "the threshold there rises by {} to {} (10⁻⁴)",
+                "the threshold there increases by {} to {} (10⁻⁴)",
                 digits(best.1, 2),
                 digits(best.2, 2)
             ));
@@ -208,7 +211,7 @@ pub(super) fn normal(sheet: &mut Sheet) -> Result<(), Failure> {
     for k in 1..40 {
         for l in 1..40 {
             let (speed, friction) = (f64::from(k) / 40.0, f64::from(l) / 20.0);
-            for (share, disc) in unstable.iter_mut().zip([&still, &shaken]) {
+            for (share, disc) in unstable.iter_mut().zip([&undithered, &dithered]) {
                 *share += f64::from(u8::from(growth(disc, speed, friction)? > 1e-10)) / 1521.0;
             }
         }
@@ -220,7 +223,7 @@ pub(super) fn normal(sheet: &mut Sheet) -> Result<(), Failure> {
             "normal dither does not suppress the unstable region",
         ],
         format!(
-            "unstable share {} without, {} with",
+            "unstable fraction {} without dither, {} with",
             digits(unstable[0], 3),
             digits(unstable[1], 3)
         ),
@@ -230,7 +233,7 @@ pub(super) fn normal(sheet: &mut Sheet) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Largest growth over a range of speeds and printed frictions (10⁻⁴).
+/// Largest growth rate over a range of speeds and printed frictions (10⁻⁴).
 fn largest(disc: &Disc, speeds: [f64; 2], frictions: &[f64]) -> Result<f64, Failure> {
     let mut most = f64::NEG_INFINITY;
     for k in 0..=120 {
@@ -243,7 +246,7 @@ fn largest(disc: &Disc, speeds: [f64; 2], frictions: &[f64]) -> Result<f64, Fail
 }
 
 /// Tangential dither.
-pub(super) fn tangential(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn tangential(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let reversed = |theta: f64| theta.cos().signum() * theta.cos() / PI;
     let breaks = [FRAC_PI_2, 3.0 * FRAC_PI_2];
     let fundamental = integrate(reversed, 0.0, TAU, &breaks, &QuadratureOptions::default())
@@ -255,7 +258,7 @@ pub(super) fn tangential(sheet: &mut Sheet) -> Result<(), Failure> {
         "fundamental of a friction that alternates between ±F_θ, in F_θ",
     ];
     sheet.formula(words, 1.0, fundamental).note(
-        "it is 4/π: thresholds under tangential dither are printed 27 % too high; α = 4/π mends them",
+        "it is 4/π: the printed thresholds under tangential dither are 27 % too high; α = 4/π corrects them",
     );
     for (size, present) in [(0.1, true), (0.3, false)] {
         let disc = disc([1, 2], size, 0.0, TANGENTIAL)?;
@@ -263,7 +266,7 @@ pub(super) fn tangential(sheet: &mut Sheet) -> Result<(), Failure> {
         for k in 0..=120 {
             rates.push(growth(&disc, 0.5 + 0.12 * f64::from(k) / 120.0, 1.7)?);
         }
-        // Beyond a stable gap: not the tongue of Ω_3*, which has grown wide.
+        // Beyond a stable gap, to exclude the tongue of Ω_3*, which is wide.
         let gap = rates.iter().position(|rate| *rate < 0.0).unwrap_or(rates.len());
         let found = rates[gap..].iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let word = if present { "present" } else { "absent" };
@@ -273,7 +276,10 @@ pub(super) fn tangential(sheet: &mut Sheet) -> Result<(), Failure> {
                 "Text of figures 5.9–5.11",
                 &format!("the tongue of Ω_4* is {word} for m = c = k = {size}"),
             ],
-            format!("largest growth {} beyond the tongue of Ω_3*, f = 1.7·10⁻⁴", digits(found, 2)),
+            format!(
+                "largest growth rate {} beyond the tongue of Ω_3*, f = 1.7·10⁻⁴",
+                digits(found, 2)
+            ),
             &[found],
             (found > 0.0) == present,
         );
@@ -288,58 +294,58 @@ pub(super) fn tangential(sheet: &mut Sheet) -> Result<(), Failure> {
             [
                 &format!("5.14-vanish-{damping:?}"),
                 "Text of figures 5.14, 5.15",
-                &format!("with ξ = {damping:?} the original tongues are gone for f up to 2·10⁻⁴"),
+                &format!("with ξ = {damping:?} the original tongues are absent for f up to 2·10⁻⁴"),
             ],
-            format!("largest growth {}", digits(found, 2)),
+            format!("largest growth rate {}", digits(found, 2)),
             &[found],
             found < 0.0,
         );
     }
     let disc = disc([1, 2], 0.3, 0.0, TANGENTIAL)?;
-    let places = meetings(&disc, false)?;
+    let resonances = meetings(&disc, false)?;
     for (index, printed) in [(0, 1.0), (3, 0.3)] {
-        let place = places[index].speed;
-        // Revived tongues lie below their places, and are narrow: look close.
+        let speed = resonances[index].speed;
+        // Revived tongues are narrow and below the meeting speed, so the speeds are clustered there.
         let low = 0.5 * printed;
         let mut found = f64::NEG_INFINITY;
         for k in 0..=400 {
             let part = 10f64.powf(-6.0 + 5.0 * f64::from(k) / 400.0);
-            found = found.max(growth(&disc, place * (1.0 - part), low)?);
+            found = found.max(growth(&disc, speed * (1.0 - part), low)?);
         }
         sheet
             .statement(
                 [
                     &format!("5.12-revived-{}", index + 1),
                     "Text of figures 5.9–5.12",
-                    &format!("the tongue of Ω_{} occurs only from f = {printed}·10⁻⁴ on", index + 1),
+                    &format!("the tongue of Ω_{} occurs only above f = {printed}·10⁻⁴", index + 1),
                 ],
-                format!("growth {} at half of that", digits(found, 2)),
+                format!("growth rate {} at half of that", digits(found, 2)),
                 &[found],
                 found < 1e-12,
             )
-            .note("there is no threshold at ξ = 0: the tongue is there for every f, its growth goes with f⁴, and a grid or an \
-                   integrator with damping of its own loses it");
+            .note("there is no threshold at ξ = 0: the tongue exists for every f, but its growth rate scales with f⁴, and a \
+                   grid or an integrator with numerical damping misses it");
     }
     Ok(())
 }
 
-/// Places beside a meeting, in parts of its speed: the first before it, the others within its tongue.
-const BESIDE: [f64; 12] =
+/// Relative distances from a meeting speed: the first below the meeting, the others within its tongue.
+const OFFSETS: [f64; 12] =
     [-0.02, 0.001, 0.005, 0.01, 0.02, 0.03, 0.05, 0.08, 0.12, 0.16, 0.2, 0.25];
 
-/// Modal damping without dither: which tongues are left.
-pub(super) fn damping(sheet: &mut Sheet) -> Result<(), Failure> {
+/// Modal damping without dither: the remaining tongues.
+pub(super) fn damping(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     for (damping, printed) in
         [(0.0, &[1, 2, 3, 4][..]), (1e-5, &[1, 2, 3, 4]), (1e-4, &[2, 3]), (1e-3, &[2])]
     {
         let disc = disc([1, 2], 0.3, damping, DiscDither::None)?;
         let (mut left, mut depths) = (Vec::new(), Vec::new());
-        for (index, place) in meetings(&disc, false)?.iter().take(4).enumerate() {
+        for (index, resonance) in meetings(&disc, false)?.iter().take(4).enumerate() {
             let mut thresholds = Vec::new();
-            for part in BESIDE {
-                thresholds.push(first_unstable(&disc, place.speed * (1.0 + part))?);
+            for offset in OFFSETS {
+                thresholds.push(first_unstable(&disc, resonance.speed * (1.0 + offset))?);
             }
-            // A tongue is a notch: the threshold falls behind the meeting, by more than a step of the search.
+            // A tongue is a notch: beyond the meeting the threshold decreases by more than a step of the search.
             let lowest = thresholds[1..].iter().copied().fold(f64::INFINITY, f64::min);
             let depth = lowest / thresholds[0];
             depths.push(depth);
@@ -355,11 +361,15 @@ pub(super) fn damping(sheet: &mut Sheet) -> Result<(), Failure> {
                 &format!("5.12-left-{damping:?}"),
                 "Figures 5.12–5.15, left",
                 &format!(
-                    "without dither and with ξ = {damping:?} the tongues of {} are there",
+                    "without dither and with ξ = {damping:?} the tongues of {} are present",
                     words(printed)
                 ),
             ],
-            format!("{}; threshold over that before the meeting: {}", words(&left), list(&depths)),
+            format!(
+                "{}; threshold divided by that before the meeting: {}",
+                words(&left),
+                list(&depths)
+            ),
             &depths,
             left == printed,
         );
@@ -367,10 +377,10 @@ pub(super) fn damping(sheet: &mut Sheet) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Steps of a search for a threshold.
+/// Number of steps in the search for a threshold.
 const STEPS: u32 = 75;
 
-/// Lowest printed friction (10⁻⁴) at which an undithered disc is unstable, to a step of 5 %.
+/// Lowest printed friction (10⁻⁴) at which an undithered disc is unstable, in steps of 5 %.
 fn first_unstable(disc: &Disc, speed: f64) -> Result<f64, Failure> {
     for step in 0..STEPS {
         let friction = 0.01 * 1.05f64.powi(i32::try_from(step).unwrap_or(0));
@@ -381,16 +391,16 @@ fn first_unstable(disc: &Disc, speed: f64) -> Result<f64, Failure> {
     Ok(f64::INFINITY)
 }
 
-/// Tangential dither and light modal damping: where the last two of the original tongues begin.
-pub(super) fn revived(sheet: &mut Sheet) -> Result<(), Failure> {
+/// Tangential dither and light modal damping: the frictions at which the last two of the original tongues begin.
+pub(super) fn revived(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let disc = disc([1, 2], 0.3, 1e-5, TANGENTIAL)?;
-    let places = meetings(&disc, false)?;
-    // Revived tongues lie below their places.
-    let begins = |place: f64| -> Result<Option<f64>, Failure> {
+    let resonances = meetings(&disc, false)?;
+    // Revived tongues are below the meeting speed.
+    let begins = |speed: f64| -> Result<Option<f64>, Failure> {
         for step in 20..=100 {
             let friction = 0.02 * f64::from(step);
             for k in 0..=60 {
-                if growth(&disc, place * (1.0 - 0.05 * f64::from(k) / 60.0), friction)? > 0.0 {
+                if growth(&disc, speed * (1.0 - 0.05 * f64::from(k) / 60.0), friction)? > 0.0 {
                     return Ok(Some(friction));
                 }
             }
@@ -398,15 +408,15 @@ pub(super) fn revived(sheet: &mut Sheet) -> Result<(), Failure> {
         Ok(None)
     };
     let mut found = Vec::new();
-    for place in places.iter().take(4) {
-        found.push(begins(place.speed)?);
+    for resonance in resonances.iter().take(4) {
+        found.push(begins(resonance.speed)?);
     }
     let values: Vec<f64> = found.iter().flatten().copied().collect();
     sheet.statement(
         [
             "5.13-left",
             "Text of figure 5.13",
-            "with ξ = 10⁻⁵ only the tongues of Ω_3 and Ω_4 are left for f up to 2·10⁻⁴",
+            "with ξ = 10⁻⁵ only the tongues of Ω_3 and Ω_4 remain for f up to 2·10⁻⁴",
         ],
         format!("{} of the four begin below that", values.len()),
         &values,
@@ -423,7 +433,8 @@ pub(super) fn revived(sheet: &mut Sheet) -> Result<(), Failure> {
                 printed,
                 &measured,
             )
-            .note("the two numbers fit with Ω_3 and Ω_4 interchanged in the text, within what the open parameters leave");
+            .note("the two numbers agree if Ω_3 and Ω_4 are interchanged in the text, as far as the unspecified parameters \
+                   allow");
     }
     Ok(())
 }

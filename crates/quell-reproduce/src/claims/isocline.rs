@@ -1,35 +1,35 @@
-//! Claims on the isoline E = 5 % of figures 2.8, 2.9, 3.10, 3.11, 4.9 and 4.10 against D = α*R.
+//! Claims about the contour E = 5 % of figures 2.8, 2.9, 3.10, 3.11, 4.9 and 4.10 compared with D = α*R.
 //!
-//! E falls continuously to 0 at the threshold of averaging, so that 5 % is met before it, also for
-//! R → ∞: the ratio D(5 %)/(α*R) says by how much.
+//! E decreases continuously to 0 at the threshold of averaging, so that 5 % is reached below it, also for
+//! R → ∞; the ratio D(5 %)/(α*R) measures by how much.
 
 use quell_dynamics::response::{Solver, amplitude_at_efficiency};
 use quell_dynamics::simulation::Start;
-use quell_linear::averaging::{Becomes, Response as FastResponse};
+use quell_linear::averaging::{Becomes, FastResponse};
 use quell_model::{Direction, LawKind, Waveform};
 use rayon::prelude::*;
 
-use super::super::source::failed;
+use super::super::failure::failed;
 use super::chapter2::{LIGHT, SUPPRESSED, belt, critical};
-use super::sheet::Sheet;
+use super::sheet::ClaimSheet;
 use quell::complaint::Failure;
 
-/// Relative closeness of D.
+/// Relative tolerance of D.
 const CLOSENESS: f64 = 1e-4;
 
-/// Settling time; near the threshold the decreasing law takes long.
+/// Settling time; near the threshold the decreasing law settles slowly.
 const SETTLE: f64 = 1200.0;
 
-/// "Coincides almost exactly": within a tenth.
+/// "Coincides almost exactly" is taken as within a tenth.
 const COINCIDES: f64 = 0.1;
 
-/// A point of the isoline: law, waveform, v₀ and R.
-type Point = (LawKind, Waveform, f64, f64);
+/// A point of the contour: law, waveform, v₀ and R.
+type IsolinePoint = (LawKind, Waveform, f64, f64);
 
 const LAWS: [LawKind; 2] = [LawKind::Stribeck, LawKind::Decreasing];
 
-/// Every combination of laws, the waveforms, belt velocities and frequency ratios.
-fn points(waveforms: &[Waveform], velocities: &[f64], ratios: &[f64]) -> Vec<Point> {
+/// Every combination of laws, waveforms, belt velocities and frequency ratios.
+fn points(waveforms: &[Waveform], velocities: &[f64], ratios: &[f64]) -> Vec<IsolinePoint> {
     let mut points = Vec::new();
     for law in LAWS {
         for &waveform in waveforms {
@@ -41,14 +41,14 @@ fn points(waveforms: &[Waveform], velocities: &[f64], ratios: &[f64]) -> Vec<Poi
     points
 }
 
-/// D(5 %)/(α*R) of each point. The crossing is searched in 0.7…1.15 α*R.
-fn ratios(direction: Direction, points: &[Point]) -> Result<Vec<f64>, Failure> {
+/// D(5 %)/(α*R) of each point. The crossing is searched from 0.7 to 1.15 α*R.
+fn ratios(direction: Direction, points: &[IsolinePoint]) -> Result<Vec<f64>, Failure> {
     let solver = Solver { settle: SETTLE, ..Solver::default() };
     points
         .par_iter()
         .map(|&(kind, waveform, velocity, ratio)| {
             let missing = |what: &str| failed("claims", &format!("{what} at R = {ratio}"));
-            // The amplitude itself does not matter: both methods set it.
+            // This amplitude is ignored: both methods set it.
             let dither = (direction, waveform, 0.5, ratio);
             let belt = belt(kind, LIGHT, velocity, Some(dither))?;
             let amplitude = critical(&belt, FastResponse::Limit)?
@@ -56,7 +56,7 @@ fn ratios(direction: Direction, points: &[Point]) -> Result<Vec<f64>, Failure> {
                 .find(|found| found.becomes == Becomes::Stable)
                 .ok_or_else(|| missing("no averaged threshold"))?
                 .amplitude;
-            // Normal dither beyond F would open the contact.
+            // Normal dither above F would open the contact.
             let most = match direction {
                 Direction::Tangential => f64::INFINITY,
                 Direction::Normal => 0.999 * belt.normal_load(),
@@ -76,7 +76,7 @@ fn extent(values: &[f64]) -> [f64; 2] {
 }
 
 /// Tangential dither: R = 5, 10, 20.
-pub(super) fn tangential(sheet: &mut Sheet) -> Result<(), Failure> {
+pub(super) fn tangential(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let four = [0.05, 0.1, 0.125, 0.15];
     let three = [0.05, 0.1, 0.15];
     let others = [Waveform::Triangle, Waveform::Square];
@@ -94,7 +94,8 @@ pub(super) fn tangential(sheet: &mut Sheet) -> Result<(), Failure> {
             sheet
                 .number_within(COINCIDES, [&name, place, &statement], "1.00", &extent)
                 .note(format!(
-                    "least and most of {} cases; always below: E falls continuously to 0 at the threshold, also for R → ∞",
+                    "smallest and largest ratio of {} cases; always below 1, because E decreases continuously to 0 at the \
+                     threshold, also for R → ∞",
                     found.len()
                 ));
         }
@@ -102,8 +103,8 @@ pub(super) fn tangential(sheet: &mut Sheet) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Normal dither, sine, v₀ of figures 4.9 and 4.10: R_N = 3…7.
-pub(super) fn normal(sheet: &mut Sheet) -> Result<(), Failure> {
+/// Normal dither, sine, v₀ of figures 4.9 and 4.10: R_N = 4…7.
+pub(super) fn normal(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     for (law, place, name) in [
         (LawKind::Stribeck, "Figure 4.9", "4.9-isocline"),
         (LawKind::Decreasing, "Figure 4.10", "4.10-isocline"),

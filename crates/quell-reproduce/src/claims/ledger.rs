@@ -1,39 +1,8 @@
-//! The verdict on record of every claim, and why where it does not hold.
+//! The verdict on record of every claim, and the reason where the claim does not hold.
 
-/// The verdict that a claim is known to have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Expected {
-    /// Reproduced.
-    Reproduced,
-    /// Reproduced within the claim's tolerance.
-    Within,
-    /// Not reproduced, and why.
-    NotReproduced(&'static str),
-    /// The printed formula is wrong.
-    FormulaWrong,
-}
+use super::super::claim::Expected;
 
-impl Expected {
-    /// Its kind, with the words of [`super::Verdict::name`].
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Reproduced => "reproduced",
-            Self::Within => "reproduced within",
-            Self::NotReproduced(_) => "not reproduced",
-            Self::FormulaWrong => "printed formula wrong",
-        }
-    }
-
-    /// Why the claim does not hold; empty where it does.
-    pub fn why(self) -> &'static str {
-        match self {
-            Self::NotReproduced(why) => why,
-            Self::Reproduced | Self::Within | Self::FormulaWrong => "",
-        }
-    }
-}
-
-/// The verdict on record of this claim.
+/// The verdict on record of a claim.
 pub(super) fn expected(name: &str) -> Option<Expected> {
     LEDGER.iter().find(|(known, _)| *known == name).map(|(_, expected)| *expected)
 }
@@ -43,7 +12,7 @@ pub const LEDGER: &[(&str, Expected)] = &[
     ("2.3-undithered-fundamental", Expected::Within),
     (
         "2.2-minimum-coefficient",
-        Expected::NotReproduced("a misprint of 0.2857: the figures were made with that"),
+        Expected::NotReproduced("a misprint of 0.2857, with which the figures were made"),
     ),
     ("2.8-share-at-reference", Expected::Reproduced),
     ("2.3-dithered-fundamental", Expected::Within),
@@ -66,7 +35,7 @@ pub const LEDGER: &[(&str, Expected)] = &[
     (
         "2.7-undithered-from-afar",
         Expected::NotReproduced(
-            "a stick-slip cycle coexists with stable sliding; averaging judges small motions only",
+            "a stick-slip cycle coexists with stable sliding; averaging applies to small motions only",
         ),
     ),
     ("2.7-v1-unstable-ratio", Expected::Within),
@@ -80,7 +49,7 @@ pub const LEDGER: &[(&str, Expected)] = &[
     ("3.3-peak-square", Expected::Reproduced),
     (
         "3.25-odd",
-        Expected::NotReproduced("a slip of the pen: G is even, as the derivation needs it"),
+        Expected::NotReproduced("a slip of the pen: G is even, as the derivation requires"),
     ),
     ("3.38a", Expected::FormulaWrong),
     ("3.38a-corner", Expected::FormulaWrong),
@@ -178,7 +147,7 @@ pub const LEDGER: &[(&str, Expected)] = &[
     ),
     (
         "4.11-sine-columns",
-        Expected::NotReproduced("at D_N = 0.95 a small vibration is left, which ends at 0.9654"),
+        Expected::NotReproduced("at D_N = 0.95 a small vibration remains; it disappears at 0.9654"),
     ),
     ("4.11-sine-pattern", Expected::Reproduced),
     ("4-other-starts", Expected::Reproduced),
@@ -217,13 +186,15 @@ pub const LEDGER: &[(&str, Expected)] = &[
     (
         "5.12-revived-1",
         Expected::NotReproduced(
-            "not a threshold: a tongue of second order, whose growth goes with f⁴, is seen from where a grid and a solver resolve it",
+            "not a threshold: a tongue of second order, whose growth goes with f⁴, is seen from where a grid and a solver \
+             resolve it",
         ),
     ),
     (
         "5.12-revived-4",
         Expected::NotReproduced(
-            "not a threshold: a tongue of second order, whose growth goes with f⁴, is seen from where a grid and a solver resolve it",
+            "not a threshold: a tongue of second order, whose growth goes with f⁴, is seen from where a grid and a solver \
+             resolve it",
         ),
     ),
     ("5.12-left-0.0", Expected::Reproduced),

@@ -1,16 +1,16 @@
-//! The table of claims: what the dissertation says, what independent numerics measure, and the verdict.
+//! The table of claims: the statements of the dissertation, independent numerical measurements, and the verdicts.
 //!
-//! A claim is made by a function that measures (`chapter2` to `chapter5`, `attractors`, `isocline`); the verdict follows from printed and
-//! measured values by the rules of [`Verdict`], never from words. The verdict on record stands in [`LEDGER`]; a test holds
-//! every claim to it, so that none changes unseen.
+//! The functions of `chapter2` to `chapter5`, `attractors` and `isocline` measure the claims. The verdict follows only from
+//! printed and measured values by the rules of [`ClaimVerdict`]. The verdicts on record are in [`LEDGER`]; a test compares every
+//! claim with it, so that no verdict changes unnoticed.
 
 use quell_model::Waveform;
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};
 
-use super::product::{Cell, Product, Table};
-use super::shared::Shared;
-use super::source::Source;
+use super::product::{Cell, DataTable, Product};
+use super::shared::SharedMeasurements;
+use super::source::EntrySource;
 use quell::complaint::Failure;
 
 mod attractors;
@@ -23,16 +23,16 @@ mod isocline;
 mod ledger;
 mod sheet;
 
-pub use ledger::{Expected, LEDGER};
-pub use sheet::{Claim, Verdict};
+pub use super::claim::{Claim, ClaimVerdict, Expected};
+pub use ledger::LEDGER;
 
-use sheet::Sheet;
+use sheet::ClaimSheet;
 
-/// Measures a few claims and writes them down.
-type Section = fn(&mut Sheet) -> Result<(), Failure>;
+/// Measures a few claims and records them.
+type ClaimMeasurement = fn(&mut ClaimSheet) -> Result<(), Failure>;
 
-/// In the order of the dissertation.
-const SECTIONS: &[Section] = &[
+/// All measurements, in the order of the dissertation.
+const SECTIONS: &[ClaimMeasurement] = &[
     chapter2::friction_laws,
     chapter2::responses,
     chapter2::forced_response,
@@ -65,20 +65,20 @@ const SECTIONS: &[Section] = &[
     chapter5::revived,
 ];
 
-/// Measures every claim, on all cores; the order is that of the dissertation.
+/// Measures every claim, in parallel on all cores. The claims are in the order of the dissertation.
 ///
 /// # Errors
 /// [`Failure`] if a run stops or an average has no value.
 pub fn measure() -> Result<Vec<Claim>, Failure> {
-    measure_with(&Shared::default())
+    measure_with(&SharedMeasurements::default())
 }
 
-/// The same, with what figures have measured already.
-fn measure_with(shared: &Shared) -> Result<Vec<Claim>, Failure> {
+/// The same, sharing measurements with the figures.
+fn measure_with(shared: &SharedMeasurements) -> Result<Vec<Claim>, Failure> {
     let sections: Result<Vec<Vec<Claim>>, Failure> = SECTIONS
         .par_iter()
         .map(|section| {
-            let mut sheet = Sheet { shared: shared.clone(), ..Sheet::default() };
+            let mut sheet = ClaimSheet { shared: shared.clone(), ..ClaimSheet::default() };
             section(&mut sheet).map(|()| sheet.claims)
         })
         .collect();
@@ -86,11 +86,11 @@ fn measure_with(shared: &Shared) -> Result<Vec<Claim>, Failure> {
 }
 
 /// The table as a product.
-pub(super) fn product(source: &Source) -> Result<Product, Failure> {
+pub(super) fn product(source: &EntrySource) -> Result<Product, Failure> {
     let claims = measure_with(&source.shared)?;
     let columns = ["claim", "where", "statement", "printed", "measured", "verdict", "note"]
         .map(|name| (name, "1"));
-    let mut table = Table::new("", &columns);
+    let mut table = DataTable::new("", &columns);
     for claim in &claims {
         let verdict = claim.verdict.to_string();
         let cells = [
@@ -108,7 +108,7 @@ pub(super) fn product(source: &Source) -> Result<Product, Failure> {
     Ok(Product { caption, tables: vec![table], claims, ..Product::default() })
 }
 
-/// How many have a verdict of this kind.
+/// Number of claims with a verdict of this kind.
 pub(super) fn count<'a>(claims: impl IntoIterator<Item = &'a Claim>, name: &str) -> usize {
     claims.into_iter().filter(|claim| claim.verdict.name() == name).count()
 }

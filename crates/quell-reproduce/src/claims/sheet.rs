@@ -1,124 +1,25 @@
-//! A claim, its verdict, and the sheet on which measurements are written down.
+//! The sheet on which the measurements of claims are recorded, and the rules of their verdicts.
 
-use std::fmt;
+use super::super::claim::{Claim, ClaimVerdict};
+use super::super::shared::SharedMeasurements;
+use super::ledger;
 
-use super::super::shared::Shared;
-use super::ledger::{self, Expected};
-
-/// What becomes of a claim.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Verdict {
-    /// The measured value rounds to the printed one; the statement holds.
-    Reproduced,
-    /// The largest relative deviation from the print is at most the claim's limit.
-    Within {
-        /// |measured − printed|/|printed|, the largest.
-        deviation: f64,
-    },
-    /// Further off than the limit; the statement does not hold.
-    NotReproduced {
-        /// The relative deviation, where numbers are compared.
-        deviation: Option<f64>,
-    },
-    /// The printed formula does not give what its definition gives.
-    FormulaWrong {
-        /// |printed − right|/|right|.
-        deviation: f64,
-    },
-}
-
-impl Verdict {
-    /// Its kind, as counted in the summary.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Reproduced => "reproduced",
-            Self::Within { .. } => "reproduced within",
-            Self::NotReproduced { .. } => "not reproduced",
-            Self::FormulaWrong { .. } => "printed formula wrong",
-        }
-    }
-
-    /// Does the claim hold?
-    pub fn holds(self) -> bool {
-        matches!(self, Self::Reproduced | Self::Within { .. })
-    }
-
-    /// The relative deviation behind it.
-    pub fn deviation(self) -> Option<f64> {
-        match self {
-            Self::Reproduced => None,
-            Self::Within { deviation } | Self::FormulaWrong { deviation } => Some(deviation),
-            Self::NotReproduced { deviation } => deviation,
-        }
-    }
-}
-
-impl fmt::Display for Verdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Within { deviation } => write!(f, "reproduced within {}", percent(*deviation)),
-            Self::NotReproduced { deviation: Some(deviation) } => {
-                write!(f, "not reproduced ({} off)", percent(*deviation))
-            }
-            Self::FormulaWrong { deviation } => {
-                write!(f, "printed formula wrong ({} off)", percent(*deviation))
-            }
-            _ => f.write_str(self.name()),
-        }
-    }
-}
-
-/// A share as a percentage, rounded up so that "within" stays true.
-fn percent(share: f64) -> String {
-    let value = 100.0 * share;
-    if value >= 10.0 {
-        format!("{:.0} %", value.ceil())
-    } else {
-        format!("{:.1} %", (10.0 * value).ceil() / 10.0)
-    }
-}
-
-/// One claim with its verdict.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Claim {
-    /// Name that stays, such as `2.3-undithered-fundamental`.
-    pub name: String,
-    /// Figure, equation or section.
-    pub place: String,
-    /// What is claimed.
-    pub statement: String,
-    /// As printed; empty where the claim is no number.
-    pub printed: String,
-    /// As measured.
-    pub measured: String,
-    /// The numbers behind `measured`.
-    pub values: Vec<f64>,
-    /// What follows.
-    pub verdict: Verdict,
-    /// Largest relative deviation at which a printed number still counts as reproduced; none for a statement.
-    pub tolerance: Option<f64>,
-    /// The verdict on record, none for a claim that is not on record yet.
-    pub expected: Option<Expected>,
-    /// What a reader should know; empty for nothing.
-    pub note: String,
-}
-
-/// Claims under construction.
+/// The claims recorded so far by one measurement.
 #[derive(Debug, Default)]
-pub(super) struct Sheet {
-    /// What figures have measured already.
-    pub(super) shared: Shared,
-    /// Those finished.
+pub(super) struct ClaimSheet {
+    /// Measurements shared with the figures.
+    pub(super) shared: SharedMeasurements,
+    /// The recorded claims.
     pub(super) claims: Vec<Claim>,
 }
 
-/// Most that a number may be off and still be called reproduced.
+/// Largest relative deviation at which a number still counts as reproduced.
 const USUAL_LIMIT: f64 = 0.05;
-/// Relative difference below which a printed formula is right.
+/// Relative difference below which a printed formula counts as correct.
 const FORMULA_AGREES: f64 = 1e-9;
 
-impl Sheet {
-    /// A printed number, such as `0.666`, against measured ones; all of them must agree.
+impl ClaimSheet {
+    /// Compares a printed number, such as `0.666`, with measured ones; all of them must agree.
     pub(super) fn number(
         &mut self,
         name: &str,
@@ -130,7 +31,7 @@ impl Sheet {
         self.number_within(USUAL_LIMIT, [name, place, statement], printed, measured)
     }
 
-    /// The same with another limit, for a number that is printed as rough; `words` are name, place, statement.
+    /// The same with another limit, for a number that is printed as approximate; `words` are name, place, statement.
     pub(super) fn number_within(
         &mut self,
         limit: f64,
@@ -139,23 +40,23 @@ impl Sheet {
         measured: &[f64],
     ) -> &mut Claim {
         let (value, half_digit) = read(printed);
-        let off = measured.iter().map(|m| (m - value).abs()).fold(0.0, f64::max);
-        let deviation = off / value.abs();
+        let error = measured.iter().map(|m| (m - value).abs()).fold(0.0, f64::max);
+        let deviation = error / value.abs();
         let verdict = if measured.is_empty() {
-            Verdict::NotReproduced { deviation: None }
-        } else if off <= half_digit * (1.0 + 1e-9) {
-            Verdict::Reproduced
+            ClaimVerdict::NotReproduced { deviation: None }
+        } else if error <= half_digit * (1.0 + 1e-9) {
+            ClaimVerdict::Reproduced
         } else if deviation <= limit {
-            Verdict::Within { deviation }
+            ClaimVerdict::Within { deviation }
         } else {
-            Verdict::NotReproduced { deviation: Some(deviation) }
+            ClaimVerdict::NotReproduced { deviation: Some(deviation) }
         };
         let claim = self.push(words, printed.to_owned(), list(measured), measured, verdict);
         claim.tolerance = Some(limit);
         claim
     }
 
-    /// A statement that holds or not, with the numbers that say so.
+    /// A statement that holds or not, with the numbers that decide it.
     pub(super) fn statement(
         &mut self,
         words: [&str; 3],
@@ -163,18 +64,21 @@ impl Sheet {
         values: &[f64],
         holds: bool,
     ) -> &mut Claim {
-        let verdict =
-            if holds { Verdict::Reproduced } else { Verdict::NotReproduced { deviation: None } };
+        let verdict = if holds {
+            ClaimVerdict::Reproduced
+        } else {
+            ClaimVerdict::NotReproduced { deviation: None }
+        };
         self.push(words, String::new(), measured.into(), values, verdict)
     }
 
-    /// A printed formula at one point against the value of its definition.
+    /// Compares a printed formula at one point with the value of its definition.
     pub(super) fn formula(&mut self, words: [&str; 3], printed: f64, right: f64) -> &mut Claim {
         let deviation = (printed - right).abs() / right.abs();
         let verdict = if deviation <= FORMULA_AGREES {
-            Verdict::Reproduced
+            ClaimVerdict::Reproduced
         } else {
-            Verdict::FormulaWrong { deviation }
+            ClaimVerdict::FormulaWrong { deviation }
         };
         let claim = self.push(words, digits(printed, 8), digits(right, 8), &[right], verdict);
         claim.tolerance = Some(FORMULA_AGREES);
@@ -187,7 +91,7 @@ impl Sheet {
         printed: String,
         measured: String,
         values: &[f64],
-        verdict: Verdict,
+        verdict: ClaimVerdict,
     ) -> &mut Claim {
         self.claims.push(Claim {
             name: name.to_owned(),
@@ -206,23 +110,6 @@ impl Sheet {
     }
 }
 
-impl Claim {
-    /// Is the verdict the one on record?
-    pub fn as_expected(&self) -> bool {
-        self.expected.is_some_and(|expected| expected.name() == self.verdict.name())
-    }
-
-    /// Why it does not hold, where it does not and the reason is on record; empty otherwise.
-    pub fn why(&self) -> &'static str {
-        self.expected.map_or("", Expected::why)
-    }
-
-    /// Adds what a reader should know.
-    pub(super) fn note(&mut self, note: impl Into<String>) {
-        self.note = note.into();
-    }
-}
-
 /// The value of a printed number and half a unit of its last digit.
 fn read(printed: &str) -> (f64, f64) {
     let value = printed.parse().unwrap_or(f64::INFINITY);
@@ -230,25 +117,25 @@ fn read(printed: &str) -> (f64, f64) {
     (value, 0.5 * 10f64.powi(-i32::try_from(decimals).unwrap_or(0)))
 }
 
-/// Numbers with four significant digits, in a row.
+/// Numbers with four significant digits, separated by commas.
 pub(super) fn list(values: &[f64]) -> String {
     let values: Vec<String> = values.iter().map(|value| digits(*value, 4)).collect();
     values.join(", ")
 }
 
-/// Ratios with three decimals, in a row.
+/// Ratios with three decimals, separated by commas.
 pub(super) fn shares(values: &[f64]) -> String {
     let values: Vec<String> = values.iter().map(|value| format!("{value:.3}")).collect();
     values.join(", ")
 }
 
-/// A number with so many significant digits.
+/// A number with `count` significant digits.
 pub(super) fn digits(value: f64, count: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }
     let scientific = format!("{value:.*e}", count - 1);
-    // The exponent after rounding: 9.9999 counts as 10.
+    // The exponent after rounding, so that 9.9999 counts as 10.
     let exponent =
         scientific.split_once('e').and_then(|(_, exponent)| exponent.parse::<i64>().ok());
     match exponent {
@@ -267,18 +154,18 @@ mod tests {
 
     #[test]
     fn verdicts_follow_from_the_numbers() {
-        let mut sheet = Sheet::default();
+        let mut sheet = ClaimSheet::default();
         let rounds = sheet.number("a", "", "", "0.67", &[0.6651]).verdict;
-        assert_eq!(rounds, Verdict::Reproduced);
+        assert_eq!(rounds, ClaimVerdict::Reproduced);
         let within = sheet.number("b", "", "", "0.666", &[0.6544]).verdict;
         assert_eq!(within.to_string(), "reproduced within 1.8 %");
         let off = sheet.number("c", "", "", "1.0", &[1.0, 1.2]).verdict;
         assert_eq!(off.name(), "not reproduced");
         let nothing = sheet.number("d", "", "", "1.0", &[]).verdict;
-        assert_eq!(nothing, Verdict::NotReproduced { deviation: None });
+        assert_eq!(nothing, ClaimVerdict::NotReproduced { deviation: None });
         let wrong = sheet.formula(["e", "", ""], 2.0, 1.0).verdict;
-        assert_eq!(wrong, Verdict::FormulaWrong { deviation: 1.0 });
-        assert_eq!(sheet.formula(["f", "", ""], 1.0, 1.0).verdict, Verdict::Reproduced);
+        assert_eq!(wrong, ClaimVerdict::FormulaWrong { deviation: 1.0 });
+        assert_eq!(sheet.formula(["f", "", ""], 1.0, 1.0).verdict, ClaimVerdict::Reproduced);
     }
 
     #[test]

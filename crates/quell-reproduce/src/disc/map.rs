@@ -1,19 +1,22 @@
 //! Figures 5.3 to 5.5 and 5.7 to 5.15: growth rate of the disc over speed and friction.
 //!
-//! Where the print has stable and unstable, here is the growth rate, with the line of zero, and hatching where it has no sign within
-//! its error. Speeds are those of the study's axis and further ones beside every meeting of waves.
+//! The dissertation distinguishes only stable and unstable points. Here the growth rate is shown, with its zero contour, and
+//! hatching where its sign is undetermined within its error. The speeds are those of the study's axis and additional ones near
+//! every meeting of waves.
 
-use quell_disc::dithered;
-use quell_disc::equations::linearised;
-use quell_linear::eigenvalues;
+use quell_disc::dithered::DitheredDisc;
+use quell_disc::equations::System;
+use quell_disc::undithered;
 use quell_linear::growth::{Growth, Verdict};
 use quell_model::Disc;
-use quell_model::disc::{Contributions, DiscDither};
+use quell_model::disc::DiscDither;
 use quell_numerics::floquet::Effort;
 use rayon::prelude::*;
 
-use super::super::product::{Product, Table};
-use super::super::source::{Source, failed, letter};
+use super::super::caption::letter;
+use super::super::failure::failed;
+use super::super::product::{DataTable, Product};
+use super::super::source::EntrySource;
 use super::{FRICTION_PER_PRINTED, OPEN, STRENGTH_PER_PRINTED, study};
 use quell::cite::Task;
 use quell::complaint::Failure;
@@ -24,7 +27,7 @@ use quell::sweep::Grid;
 
 /// Growth rates below this are drawn on a linear scale.
 const LINEAR: f64 = 1e-5;
-/// Frictions at which the edges of predicted tongues are told.
+/// Number of frictions at which the edges of predicted tongues are evaluated.
 const EDGES: usize = 80;
 
 /// Growth over the axes of a study.
@@ -33,40 +36,40 @@ pub(crate) struct Growths {
     pub(crate) speeds: Vec<f64>,
     /// Frictions f*.
     pub(crate) frictions: Vec<f64>,
-    /// Speed by speed.
+    /// Growth rates, ordered by speed, then friction.
     pub(crate) values: Vec<Growth>,
 }
 
-/// Growth of a disc over speeds and frictions, speed by speed on all cores.
+/// Growth of a disc over speeds and frictions, in parallel over the speeds.
 pub(crate) fn growths(
-    source: &Source,
+    source: &EntrySource,
     disc: &Disc,
     speeds: Vec<f64>,
     frictions: Vec<f64>,
 ) -> Result<Growths, Failure> {
-    let told = |why: &dyn std::fmt::Display| failed(source.name, &why);
+    let failure = |why: &dyn std::fmt::Display| failed(source.name, &why);
     let rows: Result<Vec<Vec<Growth>>, Failure> = speeds
         .par_iter()
         .map(|&speed| {
             let unit = disc.at_speed(speed).and_then(|disc| disc.with("disc.load.friction", 1.0));
-            let unit = unit.map_err(|_| told(&"a disc of the map is not valid"))?;
-            let dithered = dithered::prepared(&unit).map_err(|why| told(&why))?;
-            let linear = linearised(&unit, Contributions::ALL).map_err(|why| told(&why))?;
+            let unit = unit.map_err(|_| failure(&"a disc of the map is not valid"))?;
+            let dithered = DitheredDisc::new(&unit).map_err(|why| failure(&why))?;
+            let system = System::new(&unit);
             frictions
                 .iter()
                 .map(|&friction| match &dithered {
                     Some(dithered) => dithered.growth(friction, Effort::default()),
-                    None => eigenvalues::growth(&linear, &[friction]),
+                    None => undithered::growth_of(&system, &[friction]),
                 })
-                .map(|growth| growth.map_err(|why| told(&why)))
+                .map(|growth| growth.map_err(|why| failure(&why)))
                 .collect()
         })
         .collect();
     Ok(Growths { values: rows?.concat(), speeds, frictions })
 }
 
-/// The axes of a study: speeds with those beside meetings of waves, and frictions.
-fn axes(source: &Source, study: &DiscStudy) -> Result<[Vec<f64>; 2], Failure> {
+/// The axes of a study: speeds, including those near meetings of waves, and frictions.
+fn axes(source: &EntrySource, study: &DiscStudy) -> Result<[Vec<f64>; 2], Failure> {
     let grid = Grid::of(study)?;
     let values = |path: &str| {
         let axis = grid.axes().iter().find(|axis| axis.path == path);
@@ -77,7 +80,7 @@ fn axes(source: &Source, study: &DiscStudy) -> Result<[Vec<f64>; 2], Failure> {
 }
 
 /// Figures 5.3 to 5.5: two sizes of mass, damper and spring, no dither.
-pub(crate) fn sizes(source: &Source) -> Result<Product, Failure> {
+pub(crate) fn sizes(source: &EntrySource) -> Result<Product, Failure> {
     let small = format!("{}", 0.01 * STRENGTH_PER_PRINTED);
     let first = study(source, &[])?;
     let [_, frictions] = axes(source, &first)?;
@@ -93,16 +96,16 @@ pub(crate) fn sizes(source: &Source) -> Result<Product, Failure> {
     let studies = [(first.clone(), first.disc().clone()), (second.clone(), second.disc().clone())];
     let modes = first.disc().modes().len();
     let caption = format!(
-        "Figure {}. Growth rate of the undithered disc over speed and friction, {modes} modes, (a) $m$ = $c$ = $k$ = 0.1, \
-         (b) 0.01 as printed; red grows, blue decays. Speeds are in the lowest critical speed of this set of modes, which changes by \
-         1.188 from $N_θ$ = 2 to 5. {OPEN}",
+        "Figure {}. Growth rate of the undithered disc over speed and friction, {modes} modes, (a) $m$ = $c$ = $k$ = 0.1, (b) \
+         0.01 as printed; red: growing, blue: decaying. Speeds are in units of the lowest critical speed of this set of modes, \
+         which changes by a factor of 1.188 from $N_θ$ = 2 to 5. {OPEN}",
         source.name
     );
     draw(source, &studies, ["$m$ = $c$ = $k$ = 0.1", "$m$ = $c$ = $k$ = 0.01"], caption)
 }
 
-/// Figures 5.7 to 5.15: without and with dither.
-pub(crate) fn figure(source: &Source) -> Result<Product, Failure> {
+/// Figures 5.7 to 5.15: growth rate without and with dither.
+pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = study(source, &[])?;
     let disc = study.disc();
     let studies = [(study.clone(), disc.undithered()), (study.clone(), disc.clone())];
@@ -112,23 +115,22 @@ pub(crate) fn figure(source: &Source) -> Result<Product, Failure> {
         DiscDither::None => ("no", 0.0),
     };
     let revived = match disc.dither() {
-        DiscDither::Tangential { .. } => {
-            "; in (b) those of table 5.1 as the second order revives them"
-        }
+        DiscDither::Tangential { .. } => "; in (b) those of table 5.1 as revived at second order",
         DiscDither::Normal { .. } | DiscDither::None => "",
     };
     let printed = disc.loads().first().map_or(0.0, |load| load.mass / STRENGTH_PER_PRINTED);
     let damping = disc.get("disc.modal_damping").unwrap_or(0.0);
     let caption = format!(
-        "Figure {}. Growth rate of the disc over speed and friction, (a) without dither, (b) with {kind} dither, $α$ = 1, $R$ = {ratio}; \
-         $m$ = $c$ = $k$ = {printed:.1} as printed, $ξ$ = {damping}; red grows, blue decays. Dashed: tongues by first-order theory{revived}. {OPEN}",
+        "Figure {}. Growth rate of the disc over speed and friction, (a) without dither, (b) with {kind} dither, $α$ = 1, $R$ \
+         = {ratio}; $m$ = $c$ = $k$ = {printed:.1} as printed, $ξ$ = {damping}; red: growing, blue: decaying. Dashed: tongues \
+         by first-order theory{revived}. {OPEN}",
         source.name
     );
     draw(source, &studies, ["without dither", "with dither"], caption)
 }
 
 fn draw(
-    source: &Source,
+    source: &EntrySource,
     studies: &[(DiscStudy, Disc); 2],
     titles: [&str; 2],
     caption: String,
@@ -142,7 +144,7 @@ fn draw(
         ("growth_rate_error", "ω_ref"),
         ("verdict", "1"),
     ];
-    let mut table = Table::new("", &columns);
+    let mut table = DataTable::new("", &columns);
     let mut panels = Vec::new();
     for (index, (study, disc)) in studies.iter().enumerate() {
         let [speeds, frictions] = axes(source, study)?;
@@ -177,7 +179,7 @@ fn panel(done: &Growths, disc: &Disc, bar: bool) -> Result<Panel, quell::plot::P
     let logarithmic = done.frictions.len() > 2
         && (done.frictions[1] / done.frictions[0] - done.frictions[2] / done.frictions[1]).abs()
             < 1e-6;
-    // Printed f, in the unit that suits the range.
+    // Printed f in units of 10⁻⁴.
     let unit = 1e4 / FRICTION_PER_PRINTED;
     let across = Axis::new("speed").symbol("Ω").log();
     let up = Axis::new("friction as printed").symbol("f").unit("10⁻⁴");

@@ -1,8 +1,9 @@
 //! Chapter 5: tables 5.1 and 5.2, figures 5.2 to 5.15.
 //!
-//! The print leaves open the outer radius, the true b/a and r₀/a and the unit of its f axis. b/a = 0.5 gives all thirteen printed
-//! speeds; r₀/a = 0.75 and ρha² = 1 (m*, c*, k* = 0.4244 × printed) with the printed f as 10⁻⁴ of the consistent one
-//! (f* = 4244 × printed) fit the statements of the text. They were chosen to fit, not read; every caption says so.
+//! The dissertation does not specify the outer radius, the true b/a and r₀/a, and the unit of its f axis. b/a = 0.5 gives all
+//! thirteen printed speeds. r₀/a = 0.75 and ρha² = 1 (m*, c*, k* = 0.4244 × printed), with the printed f equal to 10⁻⁴ of the
+//! consistent value (f* = 4244 × printed), fit the statements of the text. These values were fitted, not read; every caption says
+//! so.
 
 pub(super) mod map;
 mod modes;
@@ -16,21 +17,21 @@ pub(super) use tables::{PRINTED_INDUCED, PRINTED_UNDITHERED, induced, undithered
 
 use std::path::Path;
 
-use super::source::Source;
+use super::source::EntrySource;
 use quell::complaint::Failure;
 use quell::study::{Change, DiscStudy};
 
-/// f* of a printed f.
+/// Ratio of f* to the printed f.
 pub(super) const FRICTION_PER_PRINTED: f64 = 1e4 * STRENGTH_PER_PRINTED;
 
-/// m*, c*, k* of printed ones: 1/(π(1 − (b/a)²)) with b/a = 0.5.
+/// Ratio of m*, c*, k* to the printed values: 1/(π(1 − (b/a)²)) with b/a = 0.5.
 pub(super) const STRENGTH_PER_PRINTED: f64 = 1.0 / (0.75 * std::f64::consts::PI);
 
 /// The study of an entry.
 ///
 /// # Errors
-/// Complaints about the study file, which a test excludes.
-pub(super) fn study(source: &Source, changes: &[&str]) -> Result<DiscStudy, Failure> {
+/// Complaints about the study file; a test checks that there are none.
+pub(super) fn study(source: &EntrySource, changes: &[&str]) -> Result<DiscStudy, Failure> {
     let changes: Result<Vec<Change>, _> =
         changes.iter().map(|change| Change::parse(change, "reproduce")).collect();
     let mut changes = changes?;
@@ -42,6 +43,6 @@ pub(super) fn study(source: &Source, changes: &[&str]) -> Result<DiscStudy, Fail
     Ok(DiscStudy::parse_in(source.text, &changes, folder)?)
 }
 
-/// What every caption says of the open parameters.
-pub(super) const OPEN: &str = "Open in the print and chosen to fit its text: $b$/$a$ = 0.5, $r_0$/$a$ = 0.75, $ρha^2$ = 1 \
-     (m*, c*, k* = 0.4244 × printed), and the printed $f$ as 10⁻⁴ of the consistent one.";
+/// Sentence about the unspecified parameters in every caption.
+pub(super) const OPEN: &str = "Not specified in the dissertation and fitted to its text: $b$/$a$ = 0.5, $r_0$/$a$ = 0.75, \
+     $ρha^2$ = 1 (m*, c*, k* = 0.4244 × printed), and the printed $f$ equal to 10⁻⁴ of the consistent value.";

@@ -1,9 +1,11 @@
-//! Figure 5.2: shapes of three modes of the plate, φ(r) cos jθ.
+//! Figure 5.2: shapes φ(r) cos jθ of three modes of the plate.
 
 use quell_disc::plate::{ModeSet, Plate, PlateMode, Reference};
 
-use super::super::product::{Product, Table};
-use super::super::source::{Source, failed, letter};
+use super::super::caption::letter;
+use super::super::failure::failed;
+use super::super::product::{DataTable, Product};
+use super::super::source::EntrySource;
 use super::study;
 use quell::cite::Task;
 use quell::complaint::Failure;
@@ -16,17 +18,17 @@ const SHOWN: [(usize, u32); 3] = [(1, 2), (2, 0), (2, 3)];
 const RADII: usize = 101;
 
 /// Figure 5.2.
-pub(crate) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = study(source, &[])?;
-    let told = |why: &dyn std::fmt::Display| failed(source.name, &why);
-    let plate = Plate::new(0.5, 0.3).map_err(|why| told(&why))?;
-    let set = ModeSet::new(&plate, 2, 3, Reference::Critical).map_err(|why| told(&why))?;
+    let failure = |why: &dyn std::fmt::Display| failed(source.name, &why);
+    let plate = Plate::new(0.5, 0.3).map_err(|why| failure(&why))?;
+    let set = ModeSet::new(&plate, 2, 3, Reference::Critical).map_err(|why| failure(&why))?;
     let columns = [("radial", "1"), ("diameters", "1"), ("radius", "a"), ("shape", "1")];
-    let mut table = Table::new("", &columns);
+    let mut table = DataTable::new("", &columns);
     let mut panels = Vec::new();
     for (index, (radial, diameters)) in SHOWN.into_iter().enumerate() {
-        let wanted = |mode: &&PlateMode| (mode.radial, mode.diameters) == (radial, diameters);
-        let Some(mode) = set.modes().iter().find(wanted) else { continue };
+        let shown = |mode: &&PlateMode| (mode.radial, mode.diameters) == (radial, diameters);
+        let Some(mode) = set.modes().iter().find(shown) else { continue };
         for k in 0..RADII {
             let radius = 0.5 + 0.5 * (k as f64 / (RADII - 1) as f64);
             let value = mode.shape.value(radius);
@@ -40,7 +42,7 @@ pub(crate) fn figure(source: &Source) -> Result<Product, Failure> {
         );
         panels.push(
             picture::disc::shape(mode, plate.inner_radius_ratio())
-                .map_err(|why| told(&why))?
+                .map_err(|why| failure(&why))?
                 .title(title),
         );
     }
@@ -48,8 +50,8 @@ pub(crate) fn figure(source: &Source) -> Result<Product, Failure> {
         .sharing_x(Sharing::All)
         .sharing_y(Sharing::All)
         .size(Size::Frame(230.0, 230.0));
-    let caption = "Figure 5.2. Modes of the annular plate clamped at its inner and free at its outer edge, $b$/$a$ = 0.5, $ν$ = 0.3: \
-                   deflection $φ$($r$) cos $jθ$ with unit mean square over the plate, red up, blue down, black at rest; $k^2$ is the \
-                   frequency parameter.";
+    let caption = "Figure 5.2. Modes of the annular plate clamped at its inner and free at its outer edge, $b$/$a$ = 0.5, $ν$ \
+                   = 0.3: deflection $φ$($r$) cos $jθ$ with unit mean square over the plate (red: up, blue: down, black: \
+                   nodes); $k^2$ is the frequency parameter.";
     Ok(Product::of_disc(figure, caption, &study).by(&[Task::Modes]).table(table))
 }

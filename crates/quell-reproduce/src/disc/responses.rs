@@ -1,9 +1,10 @@
-//! Figure 5.6: what the real part of an exponent says, on one degree of freedom.
+//! Figure 5.6: meaning of the real part of an exponent, for one degree of freedom.
 //!
-//! x = e^{ρτ} cos τ with Re ρ = 0.03, 0, −0.03: the print gives no numbers.
+//! x = e^{ρτ} cos τ with Re ρ = 0.03, 0, −0.03; the dissertation gives no numbers.
 
-use super::super::product::{Product, Table};
-use super::super::source::{Source, letter};
+use super::super::caption::letter;
+use super::super::product::{DataTable, Product};
+use super::super::source::EntrySource;
 use super::study;
 use quell::complaint::Failure;
 use quell::plot::{Axis, Figure, Legend, Line, LineStyle, Panel, Role, Sharing, Size};
@@ -16,10 +17,10 @@ const END: f64 = 60.0;
 const POINTS: u32 = 900;
 
 /// Figure 5.6.
-pub(crate) fn figure(source: &Source) -> Result<Product, Failure> {
+pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = study(source, &[])?;
     let columns = [("panel", "1"), ("growth_rate", "1"), ("time", "1"), ("displacement", "1")];
-    let mut table = Table::new("", &columns);
+    let mut table = DataTable::new("", &columns);
     let mut panels = Vec::new();
     for (index, rate) in RATES.into_iter().enumerate() {
         let times: Vec<f64> =
@@ -41,7 +42,7 @@ pub(crate) fn figure(source: &Source) -> Result<Product, Failure> {
         panels.push(panel.title(format!("({name}) Re $ρ$ {sign}")).legend(Legend::None));
     }
     let figure = Figure::grid(3, panels).sharing_x(Sharing::All).size(Size::Frame(250.0, 180.0));
-    let caption = "Figure 5.6. Responses of one degree of freedom, $x$ = $e^{ρτ}$ cos $τ$ with Re $ρ$ = 0.03, 0, −0.03, and their \
-                   envelopes; the print gives no numbers.";
+    let caption = "Figure 5.6. Responses of one degree of freedom, $x$ = $e^{ρτ}$ cos $τ$ with Re $ρ$ = 0.03, 0, −0.03, and \
+                   their envelopes; the dissertation gives no numbers.";
     Ok(Product::of_disc(figure, caption, &study).by(&[]).table(table))
 }

@@ -1,9 +1,10 @@
-//! Tables 5.1 and 5.2: speeds at which waves meet, and what the print does not say of them.
+//! Tables 5.1 and 5.2: speeds at which waves meet, with properties of the meetings that the dissertation does not give.
 
 use quell_disc::resonance::{Resonance, Waves};
 
-use super::super::product::{Product, Table};
-use super::super::source::{Source, failed};
+use super::super::failure::failed;
+use super::super::product::{DataTable, Product};
+use super::super::source::EntrySource;
 use super::study;
 use quell::cite::Task;
 use quell::complaint::Failure;
@@ -16,17 +17,17 @@ pub(crate) const PRINTED_INDUCED: [&str; 8] =
     ["0.325", "0.369", "0.458", "0.536", "0.675", "0.836", "0.879", "0.964"];
 
 /// Table 5.1.
-pub(crate) fn undithered(source: &Source) -> Result<Product, Failure> {
+pub(crate) fn undithered(source: &EntrySource) -> Result<Product, Failure> {
     table(source, |waves| waves.undithered(0.0..=1.0), "Ω", &PRINTED_UNDITHERED, "5.1")
 }
 
 /// Table 5.2.
-pub(crate) fn induced(source: &Source) -> Result<Product, Failure> {
+pub(crate) fn induced(source: &EntrySource) -> Result<Product, Failure> {
     table(source, |waves| waves.dithered(0.0..=1.0), "Ω*", &PRINTED_INDUCED, "5.2")
 }
 
 fn table(
-    source: &Source,
+    source: &EntrySource,
     found: impl Fn(&Waves) -> Vec<Resonance>,
     symbol: &str,
     printed: &[&str],
@@ -42,11 +43,11 @@ fn table(
         ("can_be_unstable", "1"),
         ("threshold_over_damper", "1"),
     ];
-    let mut table = Table::new("", &columns);
+    let mut table = DataTable::new("", &columns);
     let mut names = printed.iter().enumerate();
     let damper = study.disc().loads().first().map_or(1.0, |load| load.damping);
     for resonance in found(&waves) {
-        // The print leaves Ω = 0 out.
+        // The dissertation omits Ω = 0.
         let (name, value) = match names.next().filter(|_| resonance.speed > 1e-9) {
             Some((index, printed)) => (format!("{symbol}_{}", index + 1), printed.parse().ok()),
             None => ("not printed".to_owned(), None),
@@ -64,9 +65,9 @@ fn table(
         ]);
     }
     let caption = format!(
-        "Table {number}. Speeds Ω at which two waves of the disc meet in the frame of the load, $N_r$ = 1, $N_θ$ = 2{}: every printed \
-         digit comes out with $b$/$a$ = 0.5, printed as 0.05. Added: the pair of waves, whether their meeting can be unstable at first \
-         order, and the friction $f$/$c$ at the tip of its tongue.",
+        "Table {number}. Speeds Ω at which two waves of the disc meet in the frame of the load, $N_r$ = 1, $N_θ$ = 2{}: every \
+         printed digit is reproduced with $b$/$a$ = 0.5, printed as 0.05. Added: the pair of waves, whether their meeting can \
+         be unstable at first order, and the friction $f$/$c$ at the tip of its tongue.",
         if number == "5.2" { ", $R$ = 2.7" } else { "" }
     );
     Ok(Product::table_of_disc(caption, &study).by(&[Task::Resonances]).table(table))

@@ -1,32 +1,32 @@
-//! Every figure and table of the report: picture, caption, claims, equations, corrections, study, data, run time.
+//! The figures and tables of the report, each with caption, claims, equations, corrections, study, data and run time.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write as _;
 
-use super::super::Written;
+use super::super::WrittenEntry;
 use super::super::claims::Claim;
+use super::claims;
 use super::html::{Page, escape, symbols, table};
-use super::{claims, summary};
 use crate::Cell;
 use quell::plot;
 
-/// Rows of data that a table without a picture shows.
+/// Largest number of rows shown of a table without a figure.
 const ROWS: usize = 20;
 
-/// Titles of the chapters by the first digit of their figures.
+/// Titles of the chapters, by the first digit of their figures.
 const CHAPTERS: [(char, &str); 4] = [
-    ('2', "Chapter 2: tangential dither, a sine"),
+    ('2', "Chapter 2: sinusoidal tangential dither"),
     ('3', "Chapter 3: three waveforms"),
     ('4', "Chapter 4: normal dither"),
     ('5', "Chapter 5: the disc"),
 ];
 
-/// Writes them, chapter by chapter.
-pub(super) fn write(page: &mut Page, written: &[Written]) {
-    let all = summary::claims(written);
+/// Writes the figures and tables, chapter by chapter.
+pub(super) fn write(page: &mut Page, written: &[WrittenEntry]) {
+    let all = claims::all(written);
     for (digit, title) in CHAPTERS {
-        let of: Vec<&Written> = written
+        let of: Vec<&WrittenEntry> = written
             .iter()
             .filter(|done| done.entry.name.trim_start_matches("table-").starts_with(digit))
             .collect();
@@ -40,7 +40,7 @@ pub(super) fn write(page: &mut Page, written: &[Written]) {
     }
 }
 
-fn write_one(page: &mut Page, done: &Written, claims: &[&Claim]) {
+fn write_one(page: &mut Page, done: &WrittenEntry, claims: &[&Claim]) {
     let anchor = done.entry.stem();
     let number = done.entry.name.trim_start_matches("table-");
     let kind = if done.entry.name.starts_with("table") { "Table" } else { "Figure" };
@@ -75,7 +75,7 @@ fn write_one(page: &mut Page, done: &Written, claims: &[&Claim]) {
     page.put("</article>");
 }
 
-/// Printed and measured, where both are there.
+/// The printed and the measured value, where they exist.
 fn compared(claim: &Claim) -> String {
     match (claim.printed.as_str(), claim.measured.as_str()) {
         ("", "") => String::new(),
@@ -86,11 +86,11 @@ fn compared(claim: &Claim) -> String {
     }
 }
 
-/// The picture, or the first rows of the data.
-fn shown(done: &Written) -> String {
+/// The figure, or the first rows of the data.
+fn shown(done: &WrittenEntry) -> String {
     match &done.product.figure {
         Some(figure) => {
-            // The caption stands below it as text.
+            // The caption is below the figure as text.
             let svg = figure.clone().caption("").to_svg();
             format!(
                 "<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">",
@@ -102,7 +102,7 @@ fn shown(done: &Written) -> String {
     }
 }
 
-fn rows(data: &super::super::Table) -> String {
+fn rows(data: &super::super::DataTable) -> String {
     let names: Vec<String> =
         data.columns.iter().map(|column| escape(&column.name.replace('_', " "))).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -115,7 +115,7 @@ fn rows(data: &super::super::Table) -> String {
 }
 
 /// Data files, equations, corrections, study, run time.
-fn details(done: &Written) -> String {
+fn details(done: &WrittenEntry) -> String {
     let files: Vec<String> = done
         .files
         .iter()
@@ -141,7 +141,9 @@ fn details(done: &Written) -> String {
     let corrections: Vec<String> = sources
         .corrections
         .iter()
-        .map(|it| format!("<b>{}</b> {}", symbols(it.equations), symbols(it.right)))
+        .map(|correction| {
+            format!("<b>{}</b> {}", symbols(correction.equations), symbols(correction.right))
+        })
         .collect();
     let mut html = format!(
         "<dl><dt>Files</dt><dd>{}</dd><dt>Run time</dt><dd>{:.2} s</dd></dl>",

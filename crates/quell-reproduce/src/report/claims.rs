@@ -1,20 +1,25 @@
-//! The claims in the report: all in one table, and those of one figure beside it.
+//! The claims in the report: all of them in one table, and those about each figure next to it.
 
-use super::super::claims::{Claim, Verdict};
-use super::super::{Entry, Written};
+use super::super::claims::{Claim, ClaimVerdict};
+use super::super::{CatalogueEntry, WrittenEntry};
 use super::html::{Page, escape, symbols, table};
-use super::summary;
+
+/// All claims among the written entries.
+pub(super) fn all(written: &[WrittenEntry]) -> Vec<&Claim> {
+    written.iter().flat_map(|done| &done.product.claims).collect()
+}
 
 /// Writes the table of all claims.
-pub(super) fn write(page: &mut Page, written: &[Written]) {
-    let claims = summary::claims(written);
+pub(super) fn write(page: &mut Page, written: &[WrittenEntry]) {
+    let claims = all(written);
     if claims.is_empty() {
         return;
     }
     page.section("claims", "All claims");
     page.put(
-        "<p>Verdicts follow from printed and measured numbers. A printed number is <em>reproduced</em> where the measured one rounds \
-         to it, and <em>reproduced within</em> a deviation up to its tolerance; a formula is held against quadrature of its definition.</p>",
+        "<p>Verdicts follow from printed and measured numbers. A printed number is <em>reproduced</em> if the measured one \
+         rounds to it, and <em>reproduced within</em> a deviation if that is at most its tolerance. A formula is compared with \
+         a quadrature of its definition.</p>",
     );
     let rows = claims.iter().map(|claim| {
         let tolerance = claim.tolerance.map(tolerance).unwrap_or_default();
@@ -36,7 +41,7 @@ pub(super) fn write(page: &mut Page, written: &[Written]) {
     page.put(&table("claims", &names, rows));
 }
 
-/// A tolerance as a percentage, a small one as a power of ten.
+/// A tolerance as a percentage, or as a power of ten if small.
 fn tolerance(share: f64) -> String {
     if share < 1e-4 {
         symbols(&format!("10^{{−{:.0}}}", -share.log10()))
@@ -45,23 +50,24 @@ fn tolerance(share: f64) -> String {
     }
 }
 
-/// The verdict in colour and words.
+/// The verdict as a coloured label.
 pub(super) fn chip(claim: &Claim) -> String {
     let class = match claim.verdict {
-        Verdict::Reproduced => "holds",
-        Verdict::Within { .. } => "within",
-        Verdict::FormulaWrong { .. } => "wrong",
-        Verdict::NotReproduced { .. } => "fails",
+        ClaimVerdict::Reproduced => "holds",
+        ClaimVerdict::Within { .. } => "within",
+        ClaimVerdict::FormulaWrong { .. } => "wrong",
+        ClaimVerdict::NotReproduced { .. } => "fails",
     };
     format!("<span class=\"chip {class}\">{}</span>", claim.verdict)
 }
 
 /// The claims about a figure or table.
-pub(super) fn of<'a>(entry: &Entry, claims: &[&'a Claim]) -> Vec<&'a Claim> {
+pub(super) fn of<'a>(entry: &CatalogueEntry, claims: &[&'a Claim]) -> Vec<&'a Claim> {
     claims.iter().filter(|claim| about(&claim.place, entry.name)).copied().collect()
 }
 
-/// Does "Figures 2.7, 2.10" speak of `2.10`, "figures 5.9–5.12" of `5.11`? Numbers in parentheses are of equations.
+/// Whether a text such as "Figures 2.7, 2.10" or "figures 5.9–5.12" refers to the figure `name`. Numbers in parentheses are
+/// equations.
 fn about(place: &str, name: &str) -> bool {
     let (kind, number) = match name.strip_prefix("table-") {
         Some(number) => ("able", number),
@@ -71,7 +77,7 @@ fn about(place: &str, name: &str) -> bool {
     for word in place.split([' ', ',', ';']).filter(|word| !word.is_empty()) {
         kind_now = ["able", "igure", "quation"]
             .into_iter()
-            .find(|it| word.contains(it))
+            .find(|known| word.contains(known))
             .unwrap_or(kind_now);
         let bare = word.split('(').next().unwrap_or_default();
         let named = match bare.split_once('–') {
@@ -85,7 +91,7 @@ fn about(place: &str, name: &str) -> bool {
     false
 }
 
-/// Is the number, such as 5.10, from 5.9 to 5.12?
+/// Whether a number such as 5.10 is in a range such as 5.9 to 5.12.
 fn within(from: &str, number: &str, to: &str) -> bool {
     let parts = |text: &str| -> Option<(u32, u32)> {
         let (chapter, figure) = text.split_once('.')?;

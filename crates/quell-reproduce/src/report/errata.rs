@@ -6,16 +6,21 @@ use quell::cite::{CORRECTIONS, Proof};
 /// Writes the table.
 pub(super) fn write(page: &mut Page) {
     page.section("errata", "Errata");
-    page.put("<p>Every place where the print was found wrong. What enters a computation has a test that holds the printed form and \
-              the right one against something independent.</p>");
-    let rows = CORRECTIONS.iter().map(|it| {
-        let proof = match it.proof {
+    page.put("<p>All errors found in the dissertation. Where an erratum affects a computation, a test compares the printed and \
+              the correct form with an independent reference.</p>");
+    let rows = CORRECTIONS.iter().map(|correction| {
+        let proof = match correction.proof {
             Proof::Test { name, .. } => {
                 format!("<code>{}</code>", escape(name).replace('_', "_<wbr>"))
             }
             Proof::Reading => "reading".to_owned(),
         };
-        vec![symbols(it.equations), symbols(it.printed), symbols(it.right), proof]
+        vec![
+            symbols(correction.equations),
+            symbols(correction.printed),
+            symbols(correction.right),
+            proof,
+        ]
     });
-    page.put(&table("errata", &["where", "printed", "right", "shown by the test"], rows));
+    page.put(&table("errata", &["where", "printed", "correct", "shown by the test"], rows));
 }

@@ -1,8 +1,8 @@
-//! A page of HTML under construction: its head, its table of contents, its escapes.
+//! Builder for an HTML page: head, table of contents, escaping.
 
 use std::fmt::Write as _;
 
-/// How everything looks.
+/// The style sheet.
 const STYLE: &str = include_str!("style.css");
 
 /// A page with sections and a table of contents.
@@ -68,7 +68,7 @@ pub(super) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// A sentence with symbols as HTML: `v_m` and `α^L`, `e^{γ−w}` with what is lowered and raised, minus signs before numbers.
+/// A sentence with symbols as HTML: subscripts and superscripts as in `v_m`, `α^L`, `e^{γ−w}`, and minus signs before numbers.
 pub(super) fn symbols(text: &str) -> String {
     let letters: Vec<char> = text.chars().collect();
     let mut html = String::new();
@@ -96,7 +96,7 @@ pub(super) fn symbols(text: &str) -> String {
     html
 }
 
-/// What is lowered or raised: `{…}` or letters and digits of one word; and how many characters that takes.
+/// The text of a subscript or superscript, `{…}` or the letters and digits of one word, and its length in characters.
 fn group(letters: &[char]) -> (String, usize) {
     if letters.first() == Some(&'{') {
         let end = letters.iter().position(|letter| *letter == '}').unwrap_or(letters.len());
@@ -106,7 +106,7 @@ fn group(letters: &[char]) -> (String, usize) {
     (letters[..count].iter().collect(), count)
 }
 
-/// A table: names of columns, rows of cells that are HTML already.
+/// A table with the given column names and rows of HTML cells.
 pub(super) fn table(
     class: &str,
     names: &[&str],
@@ -136,7 +136,7 @@ mod tests {
     use super::symbols;
 
     #[test]
-    fn symbols_are_lowered_and_raised() {
+    fn symbols_become_subscripts_and_superscripts() {
         assert_eq!(symbols("v_mζ < Ω_1"), "v<sub>m</sub>ζ &lt; Ω<sub>1</sub>");
         assert_eq!(symbols("α^L, e^{γ−w}"), "α<sup>L</sup>, e<sup>γ−w</sup>");
         assert_eq!(symbols("-0.5, 5.9-5.12, 2e-7"), "−0.5, 5.9-5.12, 2e−7");

@@ -1,16 +1,16 @@
-//! The report as a Markdown table: one line a figure or table, with its files, claims and run time.
+//! The report as a Markdown table: one line per figure or table, with its files, claims and run time.
 
 use std::fmt::Write as _;
 
-use super::super::{Pace, Written};
-use super::{claims, summary};
+use super::super::{Resolution, WrittenEntry};
+use super::claims;
 
 /// The table.
-pub(crate) fn markdown(written: &[Written], pace: Pace) -> String {
-    let all = summary::claims(written);
+pub(crate) fn markdown(written: &[WrittenEntry], resolution: Resolution) -> String {
+    let all = claims::all(written);
     let mut text = "# The dissertation, reproduced\n\n".to_owned();
-    if pace == Pace::Quick {
-        text += "Quick: maps have coarser grids than their studies say.\n\n";
+    if resolution == Resolution::Quick {
+        text += "Quick: maps have coarser grids than their study files specify.\n\n";
     }
     text += "| name | what | claims that hold | corrections applied | files | seconds |\n|---|---|---|---|---|---|\n";
     for done in written {

@@ -1,7 +1,8 @@
-//! The report of `reproduce`: one page that holds everything, and the same as a Markdown table.
+//! The report of `reproduce`: one page with all results, and a Markdown table.
 //!
-//! [`html`] needs no other file: pictures are inside it. Data files lie beside it and are linked. The page opens with
-//! what holds and what does not and why, and goes on with every figure and table, the claims, the errata and the sources.
+//! The page written by [`html`] is self-contained: figures are embedded, and data files in the same directory are linked. It
+//! begins with the claims that hold and those that do not, with the reasons, followed by all figures and tables, the claims, the
+//! errata and the sources.
 
 mod chapters;
 mod claims;
@@ -10,15 +11,15 @@ mod html;
 mod markdown;
 mod summary;
 
-use super::{Pace, Written};
+use super::{Resolution, WrittenEntry};
 use quell::cite::Sources;
 
 pub(super) use markdown::markdown;
 
 /// The page.
-pub(super) fn html(written: &[Written], pace: Pace) -> String {
+pub(super) fn html(written: &[WrittenEntry], resolution: Resolution) -> String {
     let mut page = html::Page::new("The dissertation, reproduced");
-    summary::write(&mut page, written, pace);
+    summary::write(&mut page, written, resolution);
     chapters::write(&mut page, written);
     claims::write(&mut page, written);
     errata::write(&mut page);
@@ -26,8 +27,8 @@ pub(super) fn html(written: &[Written], pace: Pace) -> String {
     page.finish()
 }
 
-/// The literature behind what was made.
-fn sources(page: &mut html::Page, written: &[Written]) {
+/// The literature on which the results are based.
+fn sources(page: &mut html::Page, written: &[WrittenEntry]) {
     let mut all = Sources::default();
     for done in written {
         all.extend(&done.product.sources);

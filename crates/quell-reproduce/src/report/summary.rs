@@ -1,37 +1,41 @@
-//! The opening of the report: how many claims hold, which do not, and why.
+//! The first section of the report: how many claims hold, which do not, and why.
 
 use std::time::Duration;
 
-use super::super::claims::{Claim, Verdict, count};
-use super::super::{Pace, Written};
-use super::claims::chip;
+use super::super::claims::{Claim, ClaimVerdict, count};
+use super::super::{Resolution, WrittenEntry};
+use super::claims::{all, chip};
 use super::html::{Page, escape, symbols, table};
 use quell::cite::MICHAUX_2005;
 
-/// Kinds of verdict in the order of the summary, with what they mean.
+/// Kinds of verdict in the order of the summary, with their meaning.
 const KINDS: [(&str, &str, &str); 4] = [
-    ("reproduced", "holds", "rounds to the printed number; the statement holds"),
-    ("reproduced within", "within", "off by no more than the claim's tolerance"),
+    ("reproduced", "holds", "rounds to the printed number, or the statement holds"),
+    ("reproduced within", "within", "deviates by no more than the tolerance of the claim"),
     (
         "printed formula wrong",
         "wrong",
-        "the printed formula differs from its own definition; the right one is among the errata",
+        "the printed formula differs from its own definition; the correct formula is among the errata",
     ),
-    ("not reproduced", "fails", "further off than the tolerance, or the statement does not hold"),
+    (
+        "not reproduced",
+        "fails",
+        "deviates by more than the tolerance, or the statement does not hold",
+    ),
 ];
 
-/// Writes it.
-pub(super) fn write(page: &mut Page, written: &[Written], pace: Pace) {
-    let claims: Vec<&Claim> = claims(written);
+/// Writes the section.
+pub(super) fn write(page: &mut Page, written: &[WrittenEntry], resolution: Resolution) {
+    let claims: Vec<&Claim> = all(written);
     page.put(&format!(
-        "<header><p class=\"kicker\">Quell {} · reproduce{}</p><h1>The dissertation, reproduced</h1>\
-         <p class=\"source\">{}</p>\
-         <p class=\"lead\">Does a fast added vibration, dither, silence friction-induced vibration, as this dissertation says? Every \
-         figure and table was computed again from its study file, every number and formula that could be measured was measured. {}</p></header>",
+        "<header><p class=\"kicker\">Quell {} · reproduce{}</p><h1>The dissertation, reproduced</h1><p \
+         class=\"source\">{}</p><p class=\"lead\">Does dither, a fast added vibration, silence friction-induced vibration, as \
+         this dissertation claims? Every figure and table was recomputed from its study file, and every number and formula \
+         that can be measured was measured. {}</p></header>",
         env!("CARGO_PKG_VERSION"),
-        if pace == Pace::Quick { " --quick" } else { "" },
+        if resolution == Resolution::Quick { " --quick" } else { "" },
         escape(MICHAUX_2005.reference),
-        made(written, pace),
+        extent(written, resolution),
     ));
     if claims.is_empty() {
         return;
@@ -42,23 +46,19 @@ pub(super) fn write(page: &mut Page, written: &[Written], pace: Pace) {
     exceptions(page, &claims);
 }
 
-/// The claims among what was made.
-pub(super) fn claims(written: &[Written]) -> Vec<&Claim> {
-    written.iter().flat_map(|done| &done.product.claims).collect()
-}
-
-/// How much was made, in how much time.
-fn made(written: &[Written], pace: Pace) -> String {
-    let pictures = written.iter().filter(|done| done.product.figure.is_some()).count();
+/// Number of figures and tables, and run time.
+fn extent(written: &[WrittenEntry], resolution: Resolution) -> String {
+    let figures = written.iter().filter(|done| done.product.figure.is_some()).count();
     let work: Duration = written.iter().map(|done| done.elapsed).sum();
-    let quick = match pace {
-        Pace::Full => "",
-        Pace::Quick => {
-            " <strong>This is the quick report: maps have coarser grids than their studies say; claims are measured in full.</strong>"
+    let quick = match resolution {
+        Resolution::Full => "",
+        Resolution::Quick => {
+            " <strong>This is the quick report: maps have coarser grids than their study files specify; claims are measured in \
+             full.</strong>"
         }
     };
     format!(
-        "{pictures} pictures and {} tables of data, {:.0} s of work.{quick}",
+        "{figures} figures and {} data tables, {:.0} s of run time.{quick}",
         written.iter().map(|done| done.product.tables.len()).sum::<usize>(),
         work.as_secs_f64()
     )
@@ -92,7 +92,7 @@ fn overview(page: &mut Page, claims: &[&Claim]) {
     ));
 }
 
-/// A verdict that is not the expected one is said first and loudly.
+/// Lists verdicts that are not the expected ones, first and prominently.
 fn changed(page: &mut Page, claims: &[&Claim]) {
     let changed: Vec<&&Claim> = claims.iter().filter(|claim| !claim.as_expected()).collect();
     if changed.is_empty() {
@@ -115,10 +115,10 @@ fn changed(page: &mut Page, claims: &[&Claim]) {
     page.put(&format!("<div class=\"alarm\"><strong>Verdicts that are not the expected ones</strong><ul>{items}</ul></div>"));
 }
 
-/// What does not hold, with the reason.
+/// Lists the claims that do not hold, with the reasons.
 fn exceptions(page: &mut Page, claims: &[&Claim]) {
-    let rows = |wanted: fn(&Verdict) -> bool| {
-        claims.iter().filter(move |claim| wanted(&claim.verdict)).map(|claim| {
+    let rows = |listed: fn(&ClaimVerdict) -> bool| {
+        claims.iter().filter(move |claim| listed(&claim.verdict)).map(|claim| {
             let reason = match claim.why() {
                 "" => symbols(&claim.note),
                 why => symbols(why),
@@ -137,12 +137,12 @@ fn exceptions(page: &mut Page, claims: &[&Claim]) {
     page.put(&table(
         "claims",
         &names,
-        rows(|verdict| matches!(verdict, Verdict::NotReproduced { .. })),
+        rows(|verdict| matches!(verdict, ClaimVerdict::NotReproduced { .. })),
     ));
     page.put("<h3>Printed formulas that are wrong</h3>");
     page.put(&table(
         "claims",
         &names,
-        rows(|verdict| matches!(verdict, Verdict::FormulaWrong { .. })),
+        rows(|verdict| matches!(verdict, ClaimVerdict::FormulaWrong { .. })),
     ));
 }

@@ -4,7 +4,7 @@
 //! The boundaries of averaging are drawn over where the plane has them. Curves are broken and maps
 //! hatched where a number is not known; the legend says why.
 
-use quell_linear::averaging::{Becomes, Response};
+use quell_linear::averaging::{Becomes, FastResponse};
 
 use super::map::{self, Map as Picture, MapAxis, MapKind};
 use super::undrawable;
@@ -121,17 +121,21 @@ fn over(done: &Map) -> Vec<Layer> {
             })
             .collect();
         let (role, style) = match response {
-            Response::Limit => (Role::Boundary, LineStyle::Solid),
-            Response::Oscillator => (Role::Exact, LineStyle::Dashed),
+            FastResponse::Limit => (Role::Boundary, LineStyle::Solid),
+            FastResponse::Oscillator => (Role::Exact, LineStyle::Dashed),
         };
         let any = points.iter().any(|piece: &Vec<_>| piece.len() > 1);
         any.then(|| Layer::from(Line::pieces(role, points).style(style).label(label)))
     };
     [
-        line(Response::Limit, Becomes::Stable, "quenches, by averaging"),
-        line(Response::Oscillator, Becomes::Stable, "quenches, with the exact fast motion"),
-        line(Response::Limit, Becomes::Unstable, "destabilises, by averaging"),
-        line(Response::Oscillator, Becomes::Unstable, "destabilises, with the exact fast motion"),
+        line(FastResponse::Limit, Becomes::Stable, "quenches, by averaging"),
+        line(FastResponse::Oscillator, Becomes::Stable, "quenches, with the exact fast motion"),
+        line(FastResponse::Limit, Becomes::Unstable, "destabilises, by averaging"),
+        line(
+            FastResponse::Oscillator,
+            Becomes::Unstable,
+            "destabilises, with the exact fast motion",
+        ),
     ]
     .into_iter()
     .flatten()

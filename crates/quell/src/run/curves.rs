@@ -4,7 +4,7 @@ pub use quell_dynamics::orbit::curve::{CurvePoint, Ending, ThresholdCurve};
 use quell_dynamics::orbit::curve::{CurvesFound, Open, OpenLine, Plane, curves};
 use quell_dynamics::simulation::within;
 use quell_linear::averaging::{
-    AveragingOptions, CriticalAmplitude, Response as FastResponse, critical_amplitudes,
+    AveragingOptions, CriticalAmplitude, FastResponse, critical_amplitudes,
 };
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};

@@ -1,6 +1,6 @@
 //! `friction`: the law and what the dither makes of it, over the slip velocity.
 
-use quell_linear::averaging::{AveragingOptions, Effective, FastMotion, Side, effective};
+use quell_linear::averaging::{AveragingOptions, Effective, FastMotion, SlopeSide, effective};
 use quell_model::Belt;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -128,10 +128,9 @@ impl FrictionCurve {
             )
             .per_velocity("effective_slope", &self.effective_slopes())
             .per_velocity("effective_slope_error", &self.errors(|found| found.slope_error));
-        let one_sided = self
-            .points
-            .iter()
-            .map(|point| point.effective.as_ref().is_ok_and(|found| found.side == Side::Outer));
+        let one_sided = self.points.iter().map(|point| {
+            point.effective.as_ref().is_ok_and(|found| found.side == SlopeSide::Outer)
+        });
         fields.plain("effective_slope_one_sided", one_sided.collect::<Vec<bool>>());
         for (index, point) in self.points.iter().enumerate() {
             if let Err(why) = &point.coefficient {

@@ -108,7 +108,7 @@ fn shaken(study: &DiscStudy) -> Result<Vec<Change>, String> {
         NoPartition::TooManyHarmonics { .. } => format!("{why}; {MAP}"),
         _ => why.to_string(),
     })?;
-    let change = |crossing: &quell_disc::partition::Crossing| Change {
+    let change = |crossing: &quell_disc::partition::FrictionCrossing| Change {
         friction: sign * crossing.factor,
         frequency: crossing.frequency,
     };

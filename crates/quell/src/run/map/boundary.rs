@@ -4,7 +4,7 @@
 //! axis, exact, not traced on the grid: D = αR with α from [`critical_amplitudes`].
 
 use quell_linear::averaging::{
-    AveragingOptions, Becomes, CriticalAmplitude, Response, critical_amplitudes,
+    AveragingOptions, Becomes, CriticalAmplitude, FastResponse, critical_amplitudes,
 };
 
 use crate::study::BeltStudy;
@@ -17,7 +17,7 @@ const AMPLITUDE: &str = "dither.amplitude";
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundary {
     /// αG, or the oscillator's own response ("sharper").
-    pub response: Response,
+    pub response: FastResponse,
     /// What sliding becomes when the amplitude grows through it.
     pub becomes: Becomes,
     /// (value of the other axis, amplitude), in the order of that axis.
@@ -43,7 +43,7 @@ pub fn boundaries(grid: &Grid) -> Vec<Boundary> {
         .filter_map(|&value| Some((value, study.with(&across.path, value).ok()?)))
         .collect();
     let mut boundaries = Vec::new();
-    for response in [Response::Limit, Response::Oscillator] {
+    for response in [FastResponse::Limit, FastResponse::Oscillator] {
         let options = AveragingOptions { response, ..AveragingOptions::default() };
         let critical: Vec<(f64, f64, Vec<CriticalAmplitude>)> = at
             .iter()

@@ -1,5 +1,5 @@
-//! Formulas as the dissertation prints them, for comparison with the right ones. Where a formula here is wrong, its
-//! doc says how; the right one is in `quell_linear::averaging`.
+//! Formulas as printed in the dissertation, for comparison with the correct ones. Where a formula here is wrong, its
+//! documentation says how; the correct formula is in `quell_linear::averaging`.
 
 use std::f64::consts::{FRAC_2_SQRT_PI, PI};
 
@@ -14,7 +14,7 @@ pub(super) struct LawNumbers {
 }
 
 impl LawNumbers {
-    /// The dissertation's: 0.4, 0.2857, 0.2.
+    /// Those of the dissertation: 0.4, 0.2857, 0.2.
     pub(super) const DISSERTATION: Self = Self { static_level: 0.4, minimum: 0.2857, vm: 0.2 };
 
     /// μ_s − μ_m.
@@ -33,8 +33,8 @@ pub(super) fn erfi(x: f64) -> f64 {
     FRAC_2_SQRT_PI * exp(x * x) * dawson(x)
 }
 
-/// (3.38a): effective friction, decreasing law, triangle, 0 ≤ v_r ≤ πα/4. Wrong: the error functions carry e^{γ−w}, not
-/// e^{−w−γ}.
+/// (3.38a): effective friction, decreasing law, triangle, 0 ≤ v_r ≤ πα/4. Wrong: the factor of the error functions is e^{γ−w},
+/// not e^{−w−γ}.
 pub(super) fn effective_338a(law: LawNumbers, v: f64, alpha: f64) -> f64 {
     let (gamma, w) = (PI * alpha / (4.0 * law.vm), v / law.vm);
     let inner = (gamma - w).max(0.0).sqrt();
@@ -45,14 +45,14 @@ pub(super) fn effective_338a(law: LawNumbers, v: f64, alpha: f64) -> f64 {
         - half * exp(w - gamma) * erfi(inner)
 }
 
-/// (3.39a): effective friction, decreasing law, square, |v_r| ≤ πα/2. Right; odd in v_r by itself.
+/// (3.39a): effective friction, decreasing law, square, |v_r| ≤ πα/2. Correct, and odd in v_r by itself.
 pub(super) fn effective_339a(law: LawNumbers, v: f64, alpha: f64) -> f64 {
     let decay = exp(-PI * alpha / (2.0 * law.vm));
     2.0 * law.minimum / (PI * alpha) * v
         + 2.0 * law.difference() / PI * law.vm / alpha * decay * (v / law.vm).sinh()
 }
 
-/// (3.53a): slope of (3.38a). Wrong: exponent +1/2 for −1/2, a factor 1/(2√(γ−w)) missing, and (3.38a) itself.
+/// (3.53a): slope of (3.38a). Wrong: exponent +1/2 instead of −1/2, a missing factor 1/(2√(γ−w)), and (3.38a) itself.
 pub(super) fn slope_353a(law: LawNumbers, v: f64, alpha: f64) -> f64 {
     let (gamma, w) = (PI * alpha / (4.0 * law.vm), v / law.vm);
     let (root, inner) = (gamma.sqrt(), (gamma - w).sqrt());
@@ -65,7 +65,7 @@ pub(super) fn slope_353a(law: LawNumbers, v: f64, alpha: f64) -> f64 {
         - half * exp(-w - gamma) * (erf(root) + erfi(root))
 }
 
-/// (3.45a): slope of the effective Stribeck friction, triangle, inside. Wrong: π²/16 for π²/10.
+/// (3.45a): slope of the effective Stribeck friction, triangle, inside. Wrong: π²/16 instead of π²/10.
 pub(super) fn slope_345a(law: LawNumbers, v: f64, alpha: f64) -> f64 {
     let [a1, a3] = cubic(law);
     2.0 * law.static_level / ((alpha * PI).sqrt() * (PI * alpha - 4.0 * v).sqrt())
@@ -74,7 +74,7 @@ pub(super) fn slope_345a(law: LawNumbers, v: f64, alpha: f64) -> f64 {
         + 3.0 * a3 * v * v
 }
 
-/// (3.45b): the same outside. Wrong: π²/16 for π²/10.
+/// (3.45b): the same outside. Wrong: π²/16 instead of π²/10.
 pub(super) fn slope_345b(law: LawNumbers, v: f64, alpha: f64) -> f64 {
     let [_, a3] = cubic(law);
     3.0 * a3 * (v * v - law.vm * law.vm) + PI * PI / 16.0 * a3 * alpha * alpha
@@ -85,44 +85,44 @@ fn cubic(law: LawNumbers) -> [f64; 2] {
     [-1.5 * law.difference() / law.vm, 0.5 * law.difference() / law.vm.powi(3)]
 }
 
-/// (3.47), (4.35): upper edge of the unstable belt velocities, Stribeck, triangle. Wrong: π²/48 for π²/30.
+/// (3.47), (4.35): upper edge of the unstable belt velocities, Stribeck law, triangle. Wrong: π²/48 instead of π²/30.
 pub(super) fn upper_edge_347(law: LawNumbers, damping_ratio: f64, alpha: f64) -> f64 {
     let square = 1.0 - PI * PI / 48.0 * (alpha / law.vm).powi(2) - law.kappa(damping_ratio);
     law.vm * square.max(0.0).sqrt()
 }
 
-/// (3.44), (4.34): α^L, Stribeck, sine (times μ(v₀) for normal dither). Wrong: a root inside the root.
+/// (3.44), (4.34): α^L, Stribeck law, sine (times μ(v₀) for normal dither). Wrong: a root inside the root.
 pub(super) fn everywhere_344(law: LawNumbers, damping_ratio: f64) -> f64 {
     law.vm * (2.0 / 3.0 * (1.0 - law.kappa(damping_ratio)).sqrt()).sqrt()
 }
 
-/// (3.48), (4.36), (4.38): α^L, Stribeck, triangle (times μ(v₀) for normal dither). Wrong for a triangle, which needs
-/// (v_m/π)√(240(1 − κ)/23); (4.38) prints it for the square, where it is twice too large.
+/// (3.48), (4.36), (4.38): α^L, Stribeck law, triangle (times μ(v₀) for normal dither). Wrong for a triangle, where α^L is
+/// (v_m/π)√(240(1 − κ)/23). (4.38) prints it for the square, where it is too large by a factor of two.
 pub(super) fn everywhere_348(law: LawNumbers, damping_ratio: f64) -> f64 {
     2.0 / PI * law.vm * (3.0 - 4.0 * law.vm * damping_ratio / law.difference()).sqrt()
 }
 
-/// (3.52): α^L, Stribeck, square. Right.
+/// (3.52): α^L, Stribeck law, square. Correct.
 pub(super) fn everywhere_352(law: LawNumbers, damping_ratio: f64) -> f64 {
     law.vm / PI * (3.0 - 4.0 * law.vm * damping_ratio / law.difference()).sqrt()
 }
 
-/// (B.3), its printed last line. Wrong: prefactor exp((v_r − πα/v_m)/v_m) for exp(v_r/v_m − πα/(4v_m)).
+/// (B.3), the last line as printed. Wrong: prefactor exp((v_r − πα/v_m)/v_m) instead of exp(v_r/v_m − πα/(4v_m)).
 pub(super) fn integral_b3(law: LawNumbers, v: f64, alpha: f64) -> f64 {
     exp((v - alpha * PI / law.vm) / law.vm) * first_integral(law, v, alpha)
 }
 
-/// (B.5), its printed last line. Wrong: prefactor exp(v_r/v_m − πα/4).
+/// (B.5), the last line as printed. Wrong: prefactor exp(v_r/v_m − πα/4).
 pub(super) fn integral_b5(law: LawNumbers, v: f64, alpha: f64) -> f64 {
     exp(v / law.vm - PI * alpha / 4.0) * first_integral(law, v, alpha)
 }
 
-/// What stands behind the prefactors of (B.3) and (B.5).
+/// The factor after the prefactors of (B.3) and (B.5).
 fn first_integral(law: LawNumbers, v: f64, alpha: f64) -> f64 {
     0.5 * PI * (law.vm / alpha).sqrt() * erfi((PI * alpha / (4.0 * law.vm) - v / law.vm).sqrt())
 }
 
-/// (B.4), its printed last line. Wrong in the same way as (3.38a).
+/// (B.4), the last line as printed. Wrong in the same way as (3.38a).
 pub(super) fn integral_b4(law: LawNumbers, v: f64, alpha: f64) -> f64 {
     let (gamma, w) = (PI * alpha / (4.0 * law.vm), v / law.vm);
     PI * (law.vm / alpha).sqrt()

@@ -1,26 +1,26 @@
-//! Where two waves meet: (5.55), (5.56).
+//! Meetings of two waves: (5.55), (5.56).
 //!
-//! β₁ + s₁Ω = σ(β₂ + s₂Ω) + hR with s = ∓q, over all pairs of waves, σ = ±1 (the second wave or its conjugate) and h: one speed
-//! each unless the slopes are equal. Sums and differences of (5.55), (5.56) are σ = ∓1; several sign choices of the print never
-//! give a speed in (0, 1].
+//! β₁ + s₁Ω = σ(β₂ + s₂Ω) + hR with s = ∓q, over all pairs of waves, σ = ±1 (the second wave or its conjugate) and h. Each has
+//! one speed unless the slopes are equal. The sums and differences in (5.55), (5.56) are σ = ∓1; several of the printed sign
+//! choices never give a speed in (0, 1].
 
 use core::ops::RangeInclusive;
 
 use super::wave::{SignedWave, Wave};
 use super::waves::{COINCIDENCE, Waves};
 
-/// A place where two waves meet.
+/// A meeting of two waves at a speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
+pub(super) struct WaveMeeting {
     pub(super) waves: [Wave; 2],
     pub(super) conjugate: bool,
     pub(super) h: i32,
     pub(super) speed: f64,
 }
 
-/// A pair of waves and a harmonic, with its meeting speed as a function of R: Ω = (offset + hR)/slope.
+/// The meetings of a pair of waves at a harmonic of the dither, with the speed as a function of R: Ω = (offset + hR)/slope.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Family {
+pub(super) struct MeetingFamily {
     pub(super) waves: [Wave; 2],
     pub(super) conjugate: bool,
     pub(super) h: i32,
@@ -30,14 +30,14 @@ pub(super) struct Family {
     pub(super) slope: f64,
 }
 
-impl Family {
+impl MeetingFamily {
     /// The two waves in the complex form.
     pub(super) fn signed(&self) -> [SignedWave; 2] {
         signed(&self.waves, self.conjugate)
     }
 }
 
-impl Place {
+impl WaveMeeting {
     /// The two waves in the complex form.
     pub(super) fn signed(&self) -> [SignedWave; 2] {
         signed(&self.waves, self.conjugate)
@@ -49,8 +49,8 @@ fn signed(waves: &[Wave; 2], conjugate: bool) -> [SignedWave; 2] {
 }
 
 impl Waves {
-    /// All pairs of waves for the harmonics ±h.
-    pub(super) fn families(&self, h: i32) -> Vec<Family> {
+    /// All pairs of waves at the harmonics ±h.
+    pub(super) fn families(&self, h: i32) -> Vec<MeetingFamily> {
         let mut families = Vec::new();
         let harmonics: &[i32] = if h == 0 { &[0] } else { &[h, -h] };
         for (i, first) in self.list.iter().enumerate() {
@@ -63,7 +63,7 @@ impl Waves {
                     let offset =
                         two.sigma * self.modes[two.mode].ratio - self.modes[one.mode].ratio;
                     for h in harmonics {
-                        families.push(Family {
+                        families.push(MeetingFamily {
                             waves: [*first, *second],
                             conjugate,
                             h: *h,
@@ -77,28 +77,28 @@ impl Waves {
         families
     }
 
-    /// Places of the harmonics ±h with a speed in the range, ascending.
-    pub(super) fn places(&self, h: i32, speeds: &RangeInclusive<f64>) -> Vec<Place> {
+    /// Meetings at the harmonics ±h with a speed in the range, in ascending order.
+    pub(super) fn meetings(&self, h: i32, speeds: &RangeInclusive<f64>) -> Vec<WaveMeeting> {
         let dither = match (h, self.dither_frequency()) {
             (0, _) => 0.0,
             (_, Some(frequency)) => frequency,
             (_, None) => return Vec::new(),
         };
-        let mut places: Vec<Place> = self
+        let mut meetings: Vec<WaveMeeting> = self
             .families(h)
             .into_iter()
             .filter(|family| family.slope != 0.0)
-            .map(|Family { waves, conjugate, h, offset, slope }| {
+            .map(|MeetingFamily { waves, conjugate, h, offset, slope }| {
                 let speed = (offset + f64::from(h) * dither) / slope;
-                Place { waves, conjugate, h, speed }
+                WaveMeeting { waves, conjugate, h, speed }
             })
-            // A meeting at the very end of the range is in it, whatever the last bit.
-            .filter(|place| {
-                place.speed >= speeds.start() - COINCIDENCE
-                    && place.speed <= speeds.end() + COINCIDENCE
+            // A meeting at the end of the range counts as inside, regardless of rounding.
+            .filter(|meeting| {
+                meeting.speed >= speeds.start() - COINCIDENCE
+                    && meeting.speed <= speeds.end() + COINCIDENCE
             })
             .collect();
-        places.sort_by(|a, b| a.speed.total_cmp(&b.speed));
-        places
+        meetings.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        meetings
     }
 }

@@ -1,0 +1,232 @@
+//! The fast motion under one or several dithers: slip velocity s and normal load ν, grouped by frequency.
+//!
+//! Tangential dither D g(Rτ + φ) moves the mass with the velocity αG (α = D/R), or with the oscillator's exact response
+//! ([`FastResponse`]). Normal dither moves it through friction (4.23): φ′ = α_N μ G − (α_N²/2) μμ′ (G² − ⟨G²⟩) + … with
+//! α_N = D_N/R_N; [`NormalOrder`] selects how many terms are kept. μ and μ′ are evaluated at the slow slip velocity and then
+//! *frozen*.
+//!
+//! Dithers whose frequency ratio is a ratio of small whole numbers form one periodic group and keep their phases; groups
+//! of incommensurate frequencies are averaged over independent phases. Several normal dithers of one group
+//! enter through their sum H = Σ α_N G; the second term is −(1/2)μμ′(H² − ⟨H²⟩).
+//!
+//! Closure for dither in both directions: the level μ that drives the motion due to the normal dithers is the effective friction
+//! under the tangential dithers alone. The sum and difference frequencies of the two directions are neglected. This is exact to
+//! first order in α_N when α_T ≪ v.
+//!
+//! Limitations: leading order in 1/R (with [`FastResponse::Oscillator`] all orders of the forced part). The differences of the
+//! dither frequencies must be fast too: a slow beat is not averaged out.
+
+use quell_model::{Belt, Direction, Dither, Friction};
+
+use super::error::AveragingError;
+use super::fast_motion::FastMotion;
+use super::mean_friction::effective;
+use super::periodic_motion::{LoadTerm, PeriodicMotion, SlipTerm};
+use super::wave::FastWave;
+
+/// Velocity that a tangential force of high frequency is assumed to produce.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FastResponse {
+    /// αG: the limit of high frequency, as averaged in the dissertation.
+    #[default]
+    Limit,
+    /// The exact response of the undamped oscillator (finite-R averaging): more accurate thresholds at no extra cost. Requires
+    /// R > 1.
+    Oscillator,
+}
+
+/// Number of terms of (4.23) that are kept for normal dither.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NormalOrder {
+    /// φ′ = α_N μ G: the substitution α_T → μ(v₀)α_N of (4.33)–(4.42).
+    #[default]
+    First,
+    /// Also −(α_N²/2) μμ′ (G² − ⟨G²⟩): for a sine, the cos 2R_Nτ term of (4.22).
+    Second,
+}
+
+/// Model of the fast motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct AveragingOptions {
+    /// Velocity response to the dither force.
+    pub response: FastResponse,
+    /// Terms kept for normal dither.
+    pub normal_order: NormalOrder,
+}
+
+impl FastMotion {
+    /// Fast motion of a belt's dithers at slow slip velocity `v`.
+    ///
+    /// # Errors
+    /// [`AveragingError`] where the oscillator's response is requested at R ≤ 1, or where dither acts in both directions and
+    /// the friction level that drives the normal dither cannot be computed.
+    pub fn of(belt: &Belt, v: f64, options: AveragingOptions) -> Result<Self, AveragingError> {
+        Self::of_dithers(belt.friction(), belt.normal_load(), belt.dithers(), v, options)
+    }
+
+    /// The same from the parts of a belt, whether or not the contact would stay closed.
+    pub(super) fn of_dithers(
+        law: &Friction,
+        normal_load: f64,
+        dithers: &[Dither],
+        v: f64,
+        options: AveragingOptions,
+    ) -> Result<Self, AveragingError> {
+        let acting: Vec<&Dither> = dithers.iter().filter(|d| d.amplitude > 0.0).collect();
+        let (level, slope) = friction_level(law, &acting, v, options)?;
+        let mut groups = grouped(&acting, (level, normal_load), options.response)?;
+        if options.normal_order == NormalOrder::Second && level != 0.0 {
+            for group in groups.iter_mut().filter(|group| !group.normal.is_empty()) {
+                group.distortion = -0.5 * slope / level;
+            }
+        }
+        Ok(Self::new(groups))
+    }
+}
+
+/// Shape of the fast slip velocity of a dither.
+///
+/// # Errors
+/// [`AveragingError::NotFast`] where the oscillator's response is requested at R ≤ 1.
+pub fn fast_wave(dither: &Dither, response: FastResponse) -> Result<FastWave, AveragingError> {
+    let (waveform, frequency_ratio) = (dither.waveform, dither.frequency_ratio);
+    match response {
+        FastResponse::Limit => Ok(FastWave::Integral(waveform)),
+        FastResponse::Oscillator if frequency_ratio > 1.0 => {
+            Ok(FastWave::Oscillator { waveform, frequency_ratio })
+        }
+        FastResponse::Oscillator => Err(AveragingError::NotFast { frequency_ratio }),
+    }
+}
+
+/// Groups of dithers of commensurate frequencies; the motion due to normal dithers is driven by the friction coefficient `level`
+/// under the load.
+fn grouped(
+    dithers: &[&Dither],
+    (level, normal_load): (f64, f64),
+    response: FastResponse,
+) -> Result<Vec<PeriodicMotion>, AveragingError> {
+    let mut groups = Vec::new();
+    for members in commensurate_groups(dithers) {
+        let mut group = PeriodicMotion::default();
+        for (dither, harmonic) in members {
+            let wave = fast_wave(dither, response)?;
+            let (alpha, phase) = (dither.amplitude_ratio(), dither.phase);
+            match dither.direction {
+                Direction::Tangential => {
+                    group.tangential.push(SlipTerm { wave, amplitude: alpha, harmonic, phase });
+                }
+                Direction::Normal => {
+                    let amplitude = alpha * level;
+                    group.normal.push(SlipTerm { wave, amplitude, harmonic, phase });
+                    group.load.push(LoadTerm {
+                        waveform: dither.waveform,
+                        amplitude: dither.amplitude / normal_load,
+                        harmonic,
+                        phase,
+                    });
+                }
+            }
+        }
+        groups.push(group);
+    }
+    Ok(groups)
+}
+
+/// Friction coefficient and slope that drive the motion due to the normal dithers at slow slip velocity v.
+fn friction_level(
+    law: &Friction,
+    dithers: &[&Dither],
+    v: f64,
+    options: AveragingOptions,
+) -> Result<(f64, f64), AveragingError> {
+    if dithers.iter().all(|d| d.direction == Direction::Tangential) {
+        return Ok((0.0, 0.0));
+    }
+    let tangential: Vec<&Dither> =
+        dithers.iter().copied().filter(|d| d.direction == Direction::Tangential).collect();
+    if tangential.is_empty() {
+        if v == 0.0 {
+            return Ok((0.0, 0.0));
+        }
+        return Ok((law.coefficient(v.abs()).copysign(v), law.slope(v.abs())));
+    }
+    // There is no normal dither among them, so level and load have no effect.
+    let groups = grouped(&tangential, (0.0, 1.0), options.response)?;
+    let mean = effective(law, &FastMotion::new(groups), v)?;
+    Ok((mean.coefficient, mean.slope))
+}
+
+/// Largest multiple of a group's base frequency that still counts as commensurate.
+pub const MAX_HARMONIC: u32 = 64;
+
+/// Groups of dithers with frequencies in small whole-number ratios, each member with its multiple of the base.
+fn commensurate_groups<'a>(dithers: &[&'a Dither]) -> Vec<Vec<(&'a Dither, u32)>> {
+    let mut groups: Vec<Vec<(&Dither, u32)>> = Vec::new();
+    'dithers: for dither in dithers {
+        for group in &mut groups {
+            let (first, multiple) = group[0];
+            let ratio = dither.frequency_ratio / first.frequency_ratio * f64::from(multiple);
+            let Some((p, q)) = small_ratio(ratio) else {
+                continue;
+            };
+            // In units of base/q the harmonics of all members are multiplied by q.
+            if group.iter().all(|(_, m)| m * q <= MAX_HARMONIC) && p <= MAX_HARMONIC {
+                for member in group.iter_mut() {
+                    member.1 *= q;
+                }
+                group.push((dither, p));
+                continue 'dithers;
+            }
+        }
+        groups.push(vec![(dither, 1)]);
+    }
+    groups
+}
+
+/// p/q = ratio within 10⁻¹² with p, q ≤ [`MAX_HARMONIC`], in lowest terms.
+fn small_ratio(ratio: f64) -> Option<(u32, u32)> {
+    (1..=MAX_HARMONIC).find_map(|q| {
+        let p = (ratio * f64::from(q)).round();
+        let near = (ratio * f64::from(q) - p).abs() <= 1e-12 * p;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "p is a whole number between 1 and MAX_HARMONIC"
+        )]
+        (near && p >= 1.0 && p <= f64::from(MAX_HARMONIC)).then_some((p as u32, q))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use quell_model::Waveform;
+
+    fn dither(frequency_ratio: f64) -> Dither {
+        Dither {
+            direction: Direction::Tangential,
+            waveform: Waveform::Sine,
+            amplitude: 1.0,
+            frequency_ratio,
+            phase: 0.0,
+        }
+    }
+
+    #[test]
+    fn groups_by_frequency() {
+        let ratios = [10.0, 15.0, 10.0 * core::f64::consts::SQRT_2, 5.0, 20.0, 7.5];
+        let dithers: Vec<Dither> = ratios.iter().map(|r| dither(*r)).collect();
+        let acting: Vec<&Dither> = dithers.iter().collect();
+        let groups = commensurate_groups(&acting);
+        let found: Vec<Vec<(f64, u32)>> = groups
+            .iter()
+            .map(|g| g.iter().map(|(d, m)| (d.frequency_ratio, *m)).collect())
+            .collect();
+        // Base 2.5.
+        let first = vec![(10.0, 4), (15.0, 6), (5.0, 2), (20.0, 8), (7.5, 3)];
+        assert_eq!(found, vec![first, vec![(ratios[2], 1)]]);
+        assert_eq!(small_ratio(1.0 + 1e-9), None);
+        assert_eq!(small_ratio(64.5), None);
+    }
+}

@@ -1,0 +1,65 @@
+//! Why an average has no value.
+
+use quell_numerics::quadrature::{Integral, QuadratureError};
+
+/// Why an average is not a number.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AveragingError {
+    /// No slip and no fast motion: friction takes any value in [−μ_s, μ_s].
+    SetValued {
+        /// Static coefficient μ_s.
+        static_coefficient: f64,
+    },
+    /// More groups of incommensurate dithers than nested quadrature supports.
+    TooManyGroups {
+        /// Number of groups with mutually incommensurate frequencies.
+        groups: usize,
+        /// Largest number supported.
+        largest: usize,
+    },
+    /// The oscillator's response was requested at a frequency ratio that is not above resonance.
+    NotFast {
+        /// Frequency ratio R ≤ 1.
+        frequency_ratio: f64,
+    },
+    /// A quadrature did not reach its tolerance.
+    Quadrature(QuadratureError),
+}
+
+impl From<QuadratureError> for AveragingError {
+    fn from(error: QuadratureError) -> Self {
+        Self::Quadrature(error)
+    }
+}
+
+impl core::fmt::Display for AveragingError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::SetValued { static_coefficient } => write!(
+                f,
+                "without slip and fast motion, the friction coefficient can take any value up to ±{static_coefficient}"
+            ),
+            Self::TooManyGroups { groups, largest } => write!(
+                f,
+                "the dithers have {groups} mutually incommensurate frequencies, but averaging supports at most {largest}"
+            ),
+            Self::NotFast { frequency_ratio } => write!(
+                f,
+                "the oscillator's own response to the dither requires a frequency ratio above 1, not {frequency_ratio}"
+            ),
+            Self::Quadrature(error) => write!(f, "averaging: {error}"),
+        }
+    }
+}
+
+impl core::error::Error for AveragingError {}
+
+/// Accepts an integral whose tolerance was missed only because of the rounding of its integrand, with the error that it has.
+pub(super) fn settled(
+    integral: Result<Integral, QuadratureError>,
+) -> Result<Integral, AveragingError> {
+    match integral {
+        Ok(integral) | Err(QuadratureError::Rounding { best: integral }) => Ok(integral),
+        Err(error) => Err(error.into()),
+    }
+}

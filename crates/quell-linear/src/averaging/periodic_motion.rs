@@ -1,0 +1,114 @@
+//! Fast motion with one period: the slip and the load of dithers of commensurate frequencies.
+
+use core::f64::consts::TAU;
+use quell_model::Waveform;
+use quell_numerics::quadrature::{QuadratureOptions, integrate};
+
+use super::error::{AveragingError, settled};
+use super::wave::FastWave;
+
+/// One dither's part of the fast slip velocity: amplitude·wave(harmonic·θ + phase).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlipTerm {
+    /// Shape for unit amplitude.
+    pub wave: FastWave,
+    /// Amplitude: α for tangential dither, α_N μ for normal dither (a velocity of either sign).
+    pub amplitude: f64,
+    /// Frequency as a multiple of the group's.
+    pub harmonic: u32,
+    /// Phase, radians.
+    pub phase: f64,
+}
+
+/// One normal dither's part of the load: amplitude·waveform(harmonic·θ + phase).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadTerm {
+    /// Waveform g.
+    pub waveform: Waveform,
+    /// D_N/F.
+    pub amplitude: f64,
+    /// Frequency as a multiple of the group's.
+    pub harmonic: u32,
+    /// Phase, radians.
+    pub phase: f64,
+}
+
+/// Fast motion with one period: dithers of commensurate frequencies.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PeriodicMotion {
+    /// Slip due to tangential dithers.
+    pub tangential: Vec<SlipTerm>,
+    /// Slip due to normal dithers, to first order.
+    pub normal: Vec<SlipTerm>,
+    /// Factor of the added term S² − ⟨S²⟩, where S is the sum of `normal`: −μ′/(2μ) for the second order of normal dither, else
+    /// 0.
+    pub distortion: f64,
+    /// Fast part of the normal load divided by F.
+    pub load: Vec<LoadTerm>,
+}
+
+impl PeriodicMotion {
+    /// The wave and its amplitude where the motion reduces to a single undistorted wave.
+    pub(super) fn single_term(&self) -> Option<(FastWave, f64)> {
+        match (self.tangential.as_slice(), self.normal.as_slice()) {
+            ([term], []) if self.load.is_empty() => Some((term.wave, term.amplitude)),
+            // The load of a single normal dither is odd and its slip is even: they are uncorrelated.
+            ([], [term]) if self.distortion == 0.0 => Some((term.wave, term.amplitude)),
+            _ => None,
+        }
+    }
+
+    /// Whether load and slip of the group can be correlated.
+    ///
+    /// Without tangential dither they cannot: the load is dS/dθ up to a factor, and ⟨f(S) dS/dθ⟩ = 0.
+    pub(super) fn has_correlated_load(&self) -> bool {
+        !self.load.is_empty() && !self.tangential.is_empty()
+    }
+
+    /// ν(θ).
+    pub(super) fn load_at(&self, theta: f64) -> f64 {
+        self.load
+            .iter()
+            .map(|t| t.amplitude * t.waveform.value(f64::from(t.harmonic) * theta + t.phase))
+            .sum()
+    }
+
+    /// Sum of `terms` and its derivative at θ.
+    pub(super) fn sum(terms: &[SlipTerm], theta: f64) -> (f64, f64) {
+        terms.iter().fold((0.0, 0.0), |(value, slope), t| {
+            let harmonic = f64::from(t.harmonic);
+            let (s, d) = t.wave.value_and_slope(harmonic * theta + t.phase);
+            (value + t.amplitude * s, slope + t.amplitude * harmonic * d)
+        })
+    }
+
+    /// Phases in (0, 2π) at which the formula of a term changes.
+    pub(super) fn breaks(&self) -> Vec<f64> {
+        let terms = self.tangential.iter().chain(&self.normal).map(|t| (t.harmonic, t.phase));
+        let loads = self.load.iter().map(|t| (t.harmonic, t.phase));
+        let mut breaks = Vec::new();
+        for (harmonic, phase) in terms.chain(loads) {
+            for quarter in 0..4 * harmonic {
+                let location = (0.25 * TAU * f64::from(quarter) - phase) / f64::from(harmonic);
+                breaks.push(location.rem_euclid(TAU));
+            }
+        }
+        breaks.sort_unstable_by(f64::total_cmp);
+        breaks.dedup_by(|a, b| (*a - *b).abs() < 1e-13);
+        breaks
+    }
+
+    /// ⟨S²⟩ of the normal dithers' slip.
+    pub(super) fn normal_mean_square(&self) -> Result<f64, AveragingError> {
+        let square = |theta: f64| {
+            let (s, _) = Self::sum(&self.normal, theta);
+            s * s
+        };
+        let options = QuadratureOptions::default();
+        Ok(settled(integrate(square, 0.0, TAU, &self.breaks(), &options))?.value / TAU)
+    }
+
+    pub(super) fn is_still(&self) -> bool {
+        self.tangential.iter().chain(&self.normal).all(|t| t.amplitude == 0.0)
+    }
+}

@@ -1,0 +1,49 @@
+//! Names and numbers in captions, titles and statements.
+
+use quell_model::{LawKind, Waveform};
+
+use quell::study::Study;
+
+/// A number without the rounding of its last digits.
+pub(super) fn short(value: f64) -> String {
+    let text = format!("{value:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// (a), (b), … of a panel.
+pub(super) fn letter(index: usize) -> char {
+    char::from(b'a' + u8::try_from(index % 26).unwrap_or(0))
+}
+
+/// Name of a law in a sentence.
+pub(super) fn law_name(kind: LawKind) -> &'static str {
+    match kind {
+        LawKind::Stribeck => "Stribeck",
+        LawKind::Decreasing => "decreasing",
+        // No figure has another law.
+        kind => kind.name(),
+    }
+}
+
+/// Name of a waveform in a title.
+pub(super) fn waveform_name(waveform: Waveform) -> &'static str {
+    match waveform {
+        Waveform::Sine => "sinusoidal",
+        Waveform::Triangle => "triangular",
+        Waveform::Square => "square",
+    }
+}
+
+/// F, v_m, μ_s and μ_m for a caption.
+pub(super) fn parameters(study: &Study) -> String {
+    let belt = study.belt();
+    let law = belt.friction();
+    let values = law.values();
+    let [static_level, minimum] =
+        [values.first().copied(), values.get(1).copied()].map(|v| v.unwrap_or(0.0));
+    format!(
+        "$F$ = {}, $v_m$ = {}, $μ_s$ = {static_level}, $μ_m$ = {minimum}",
+        belt.normal_load(),
+        law.velocity_scale()
+    )
+}
