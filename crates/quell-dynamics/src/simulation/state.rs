@@ -68,7 +68,7 @@ pub struct Stalled {
 
 impl Stalled {
     /// The result of a run that has not been started yet.
-    pub(crate) const NEVER_STARTED: Self = Self { time: 0.0, why: "it was never started" };
+    pub(crate) const NEVER_STARTED: Self = Self { time: 0.0, why: "the run was never started" };
 }
 
 impl fmt::Display for Stalled {

@@ -11,7 +11,7 @@ use super::super::slip_step::Next;
 use super::super::state::RunResult;
 use super::super::step_budget::CHECK_INTERVAL;
 use super::lane_state::LaneState;
-use super::slot::Slot;
+use super::run_slot::RunSlot;
 
 /// Most batches of a loop: enough that the roots of one round fill the lanes of the search.
 pub(super) const MOST_BATCHES: usize = 4;
@@ -20,7 +20,7 @@ pub(super) const MOST_BATCHES: usize = 4;
 pub(super) struct Batch<'a, V: Lane, L: SlidingLaw> {
     set: InstructionSet,
     pub(super) lanes: LaneState<V>,
-    slots: [Option<Slot<'a>>; MOST_LANES],
+    slots: [Option<RunSlot<'a>>; MOST_LANES],
     laws: Vec<L>,
     constants: Option<L::Constants<V>>,
     /// Number of lanes with a run.
@@ -72,7 +72,7 @@ impl<'a, V: Lane, L: SlidingLaw> Batch<'a, V, L> {
                         self.laws[lane] = law;
                         self.lanes.admit(lane, &engine);
                         self.lanes.load(lane, &engine, due);
-                        *slot = Some(Slot { number, engine, due, synced: self.round });
+                        *slot = Some(RunSlot { number, engine, due, synced: self.round });
                         self.occupied += 1;
                     }
                 }

@@ -13,7 +13,7 @@ use super::super::slip_step::{LaneColumn, Next, SlipDue, SlipTaken, StepRoot};
 use super::super::state::RunResult;
 use super::super::taylor::ORDER;
 use super::forcing_rows::ForcingRows;
-use super::slot::Slot;
+use super::run_slot::RunSlot;
 
 /// The state of all lanes, and the step they have just taken.
 ///
@@ -242,10 +242,10 @@ impl<V: Lane> LaneState<V> {
         &mut self,
         set: InstructionSet,
         lane: usize,
-        slot: &mut Slot<'_>,
+        slot: &mut RunSlot<'_>,
         round: u64,
     ) -> Option<RunResult> {
-        let Slot { engine, due, synced, .. } = slot;
+        let RunSlot { engine, due, synced, .. } = slot;
         let pending = round - *synced - 1;
         let clock = Clock::of(self.time_before.0[lane], self.low_before.0[lane]);
         let column = |rows| LaneColumn { rows, lanes: V::LANES, lane };

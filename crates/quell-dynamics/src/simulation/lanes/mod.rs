@@ -10,13 +10,13 @@
 //! grouped by these.
 //!
 //! A batch holds as many runs as there are lanes, each in its slot. A lane whose last step needs no service is not
-//! touched: its state is in `lane_state` alone, and the engine of its slot is brought up to date (synced) at the next service.
+//! serviced: its state is in `lane_state` alone, and the engine of its slot is brought up to date (synced) at the next service.
 
 mod batch;
 mod forcing_rows;
 mod lane_state;
 mod root_search;
-mod slot;
+mod run_slot;
 
 use quell_model::Direction;
 use quell_model::friction::{LawVisitor, SlidingLaw};

@@ -4,7 +4,7 @@ use super::super::engine::Engine;
 use super::super::slip_step::SlipDue;
 
 /// A run in its lane.
-pub(super) struct Slot<'a> {
+pub(super) struct RunSlot<'a> {
     /// Number of the run in the queue.
     pub(super) number: usize,
     pub(super) engine: Engine<'a>,
