@@ -1,8 +1,8 @@
 //! The rate at which areas of nearby states shrink along a run in slip: 2ζ + μ′(v_r)N, the negative divergence of the equation of
 //! motion.
 //!
-//! Its integral over a period gives the product of an orbit's multipliers. Its mean over a long run decides whether a closed curve
-//! attracts. Both use this definition.
+//! Its integral over a period gives the product of an orbit's multipliers. Its mean over a long run decides whether a closed
+//! curve attracts. Both use this definition.
 
 use quell_model::Belt;
 use quell_model::friction::{LawVisitor, SlidingLaw};

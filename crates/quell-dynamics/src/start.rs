@@ -43,10 +43,12 @@ impl fmt::Display for NoSquealingStart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::SettlesToSliding => f.write_str(
-                "the undithered belt has no limit cycle here: released from its static threshold \
+                "the undithered belt has no limit cycle here: released from its static threshold, \
                  it settles to steady sliding",
             ),
-            Self::BeltAtRest => f.write_str("the belt does not move (v₀ = 0), so nothing squeals"),
+            Self::BeltAtRest => {
+                f.write_str("the belt does not move (v₀ = 0), so there is no squeal")
+            }
             Self::Stalled(stalled) => stalled.fmt(f),
         }
     }

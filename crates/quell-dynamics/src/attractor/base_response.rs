@@ -12,8 +12,8 @@ use quell_model::Belt;
 use super::section::StroboscopicSection;
 use crate::orbit::{Matrix2, NoOrbit, Orbit, OrbitVerdict, from_sliding, multipliers_of};
 
-/// Least number of continuation steps of the dither from zero to its amplitude. Steps are shortened where the branch bends; a pair
-/// of folds within one step would be missed, and more steps only take longer.
+/// Least number of continuation steps of the dither from zero to its amplitude. Steps are shortened where the branch bends; a
+/// pair of folds within one step would be missed, and more steps only take longer.
 pub(super) const STEPS: u32 = 8;
 
 /// The base response.

@@ -1,11 +1,11 @@
 //! Classification of a settled run: a closed orbit of some periods, a closed curve, or neither.
 //!
-//! A state that returns after n periods, ever closer, is used as the initial guess of an orbit of n periods. Shooting closes it to
-//! 10⁻¹², and its multipliers decide whether it attracts. A section that is one state to rounding returns after any n; the
-//! shortest attracting period is the orbit's own, and a longer one that was found is reduced to it. Without returns the motion fills
-//! a curve if its rotation number is the same in both halves of the record and the record is long enough for the motion to have
-//! crossed every gap: a motion that creeps along a nearly locked curve may still converge to a locked orbit. Limit: an orbit of more
-//! than `MOST_PERIODS` periods is not distinguished from a curve.
+//! A state that returns after n periods, ever closer, is used as the initial guess of an orbit of n periods. Shooting closes it
+//! to 10⁻¹², and its multipliers decide whether it attracts. A section that is one state to rounding returns after any n; the
+//! shortest attracting period is the orbit's own, and a longer one that was found is reduced to it. Without returns the motion
+//! fills a curve if its rotation number is the same in both halves of the record and the record is long enough for the motion
+//! to have crossed every gap: a motion that creeps along a nearly locked curve may still converge to a locked orbit. Limit: an
+//! orbit of more than `MOST_PERIODS` periods is not distinguished from a curve.
 
 use quell_model::Belt;
 use quell_numerics::roots::{Closeness, find_root};
@@ -32,17 +32,17 @@ const RECORD: usize = 1024;
 /// a steady rotation number.
 const BLOCKS: usize = 5;
 
-/// Distance of a return, relative to the size of the section, below which shooting is tried: Newton's method converges from there.
-/// Larger, shots are wasted on curves; smaller, a slowly attracting orbit is found only in a later record, or not at all.
+/// Distance of a return, relative to the size of the section, below which shooting is tried: Newton's method converges from
+/// there. Larger, shots are wasted on curves; smaller, a slowly attracting orbit is found only in a later record, or not at all.
 const RETURNS: f64 = 1e-3;
 
-/// Distance of the orbit from the guess, relative to the size of the section, within which it is the run's own: that within which two
-/// sections of a basin count as one attractor. Larger, a neighbouring orbit would be accepted; smaller, the orbit of a run that
-/// is still converging would be rejected.
+/// Distance of the orbit from the guess, relative to the size of the section, within which it is the run's own: that within
+/// which two sections of a basin count as one attractor. Larger, a neighbouring orbit would be accepted; smaller, the orbit of
+/// a run that is still converging would be rejected.
 const ITS_OWN: f64 = 2e-2;
 
-/// Factor by which a return must have shrunk over the record: on a curve it keeps its distance. An orbit that attracts more slowly
-/// is examined again in the next record; nearer to 1, the wavering returns on a curve would be shot.
+/// Factor by which a return must have shrunk over the record: on a curve it keeps its distance. An orbit that attracts more
+/// slowly is examined again in the next record; nearer to 1, the wavering returns on a curve would be shot.
 const SHRINKS: f64 = 0.5;
 
 /// Distance of a return, relative to the size, that counts as closed: above the engine's error over a long orbit, which leaves no
@@ -385,8 +385,8 @@ struct DisplacementExtremes {
     highest: f64,
 }
 
-/// Closeness of the moment at which x′ = 0: the error of x is of the order of its square, below rounding. Looser, a small response would
-/// err relative to its size; closer only takes longer.
+/// Closeness of the moment at which x′ = 0: the error of x is of the order of its square, below rounding. Looser, a small
+/// response would err relative to its size; closer only takes longer.
 const TURNING_POINT: Closeness = Closeness { absolute: 0.0, relative: 1e-9 };
 
 impl Observer for DisplacementExtremes {

@@ -14,11 +14,12 @@ use super::average::{Moments, mean, weights};
 /// take longer.
 const SAMPLES: f64 = 10.0;
 
-/// Fewest samples in a period of a closed orbit: the two states of an orbit of two periods are half a revolution apart, which leaves
-/// the direction undetermined. More only take longer.
+/// Fewest samples in a period of a closed orbit: the two states of an orbit of two periods are half a revolution apart, which
+/// leaves the direction undetermined. More only take longer.
 const SAMPLES_OF_AN_ORBIT: usize = 4;
 
-/// Most samples per period, a bound on memory for slow dithers. Whole revolutions may be missed where ten samples in 2π need more.
+/// Most samples per period, a bound on memory for slow dithers. Whole revolutions may be missed where ten samples in 2π need
+/// more.
 const MOST_SAMPLES: usize = 256;
 
 /// Number of samples in a period of the section that resolves the slow revolution.
@@ -33,8 +34,8 @@ pub(super) fn samples_per_orbit_period(period: f64) -> usize {
 }
 
 /// Largest denominator of the fractions that are distinguished from a quasi-periodic motion by the distance covered. Of the 1024
-/// periods of a record an irrational number p/q + 1/(√5q²) needs 2.2 q. A motion that creeps near a fraction of a larger denominator
-/// counts as filling its curve; with a much larger limit no motion would fill its curve within a record.
+/// periods of a record an irrational number p/q + 1/(√5q²) needs 2.2 q. A motion that creeps near a fraction of a larger
+/// denominator counts as filling its curve; with a much larger limit no motion would fill its curve within a record.
 const DENOMINATORS: u32 = 64;
 
 /// A locked motion: `turns` revolutions in `periods` periods.
@@ -146,7 +147,8 @@ fn divisor(mut a: u64, mut b: u64) -> u64 {
 mod tests {
     use super::*;
 
-    /// 1/10 − 2·10⁻⁵ moves by a fiftieth of a revolution in 1024 periods, less than the tenth between its strands; the golden mean fills.
+    /// 1/10 − 2·10⁻⁵ moves by a fiftieth of a revolution in 1024 periods, less than the tenth between its strands; the golden
+    /// mean fills.
     #[test]
     fn a_creep_does_not_fill_its_curve() {
         let of = |turns_per_period| Rotation { turns_per_period, error: 0.0, ratio: None };
@@ -177,8 +179,8 @@ mod tests {
         assert_eq!(found.ratio, Some(Ratio { turns: 1, periods: 13 }));
     }
 
-    /// A motion with 1.3 revolutions per period, and one that closes after two periods with three revolutions: with samples between,
-    /// where the section alone would give 0.3, and half a revolution in either direction.
+    /// A motion with 1.3 revolutions per period, and one that closes after two periods with three revolutions: with samples
+    /// between, where the section alone would give 0.3, and half a revolution in either direction.
     #[test]
     fn whole_revolutions_are_counted() {
         let samples = samples_per_period(9.0);

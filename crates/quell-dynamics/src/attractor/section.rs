@@ -7,8 +7,8 @@ use quell_model::Belt;
 use crate::band::BAND_END;
 use crate::orbit::{NoOrbit, common_period};
 
-/// Samples of an undithered belt per slow period 2π: a revolution is followed in steps of a tenth, so that none is missed. Fewer
-/// than two could not tell the direction; more only take longer.
+/// Samples of an undithered belt per slow period 2π: a revolution is followed in steps of a tenth, so that none is missed. With
+/// two or fewer its direction would be undetermined; more only take longer.
 const SAMPLES_WITHOUT_DITHER: f64 = 10.0;
 
 /// The stroboscopic section: states at the moments τ = nT.

@@ -15,9 +15,9 @@
 //! Without dither none of this is needed: the exact cycle map decides ([`crate::orbit::cycle`]).
 //!
 //! Each run depends on itself alone: its outcome has the same bits whatever other runs are computed with it.
-//! Limits: a run is assigned to the base response on the linear rate although a further attractor could exist in the neighbourhood
-//! where the rate is within `RATE_TOLERANCE` of it; the slow change along a curve with sticks that is about to lock is not a change
-//! of size.
+//! Limits: a run is assigned to the base response on the linear rate although a further attractor could exist in the
+//! neighbourhood where the rate is within `RATE_TOLERANCE` of it; the slow change along a curve with sticks that is about to
+//! lock is not a change of size.
 
 use super::average::{self, Moments};
 use super::base_response::BaseResponse;
@@ -33,8 +33,8 @@ use crate::simulation::{
 /// run would seem to change. More only take longer.
 const CYCLES_PER_BLOCK: f64 = 20.0;
 
-/// Fewest periods of the section in a block: a quarter of it, 16 states, gives the decay rate. With fewer, where the dither is slow, the
-/// moments of the section would scatter from block to block; more only take longer.
+/// Fewest periods of the section in a block: a quarter of it, 16 states, gives the decay rate. With fewer, where the dither is
+/// slow, the moments of the section would scatter from block to block; more only take longer.
 const FEWEST: usize = 64;
 
 /// Distance from the base response, relative to F, that counts as being on it: a thousandth of the smallest vibration
@@ -45,16 +45,16 @@ const NEAR: f64 = 1e-6;
 /// that nonlinear decay no longer matters. Larger, a run that converges elsewhere could pass; smaller only takes longer.
 const RATE_TOLERANCE: f64 = 0.05;
 
-/// Displacement of a start on an unstable base response, relative to F: far above rounding, so that the run leaves in time, and far
-/// below the size of any other response. An attractor nearer than this to the unstable response could be jumped over.
+/// Displacement of a start on an unstable base response, relative to F: far above rounding, so that the run leaves in time, and
+/// far below the size of any other response. An attractor nearer than this to the unstable response could be jumped over.
 const NUDGE: f64 = 1e-4;
 
-/// Size of a section, relative to F, below which it is one state: a tenth of [`NEAR`], far above the engine's error. Larger, a small
-/// slow motion would count as none; smaller, the engine's error would count as a motion that never settles.
+/// Size of a section, relative to F, below which it is one state: a tenth of [`NEAR`], far above the engine's error. Larger, a
+/// small slow motion would count as none; smaller, the engine's error would count as a motion that never settles.
 const POINT: f64 = 1e-7;
 
-/// Distance of states, relative to F, within which they are one state of the attractor: the distance within which a state counts as
-/// the base response, so that both agree. An attractor smaller than this is taken for a single state.
+/// Distance of states, relative to F, within which they are one state of the attractor: the distance within which a state
+/// counts as the base response, so that both agree. An attractor smaller than this is taken for a single state.
 pub(super) const ONE_STATE: f64 = NEAR;
 
 /// Fewest blocks whose quarters are compared, and twice the number between two comparisons. A size that changes by less
@@ -62,12 +62,13 @@ pub(super) const ONE_STATE: f64 = NEAR;
 /// fewest): closer to a threshold than that, a run is taken for settled although it still changes. More blocks only take longer.
 const WINDOWS: usize = 32;
 
-/// Longest run τ, 32 000 slow periods: 1.6 times the length of the 200 000 periods of [`Patience::SWEEP`] at R = 10. With a slower
-/// section a run would otherwise take minutes; if it were shorter, runs close to a threshold would be reported as unsettled.
+/// Longest run τ, 32 000 slow periods: 1.6 times the length of the 200 000 periods of [`Patience::SWEEP`] at R = 10. With a
+/// slower section a run would otherwise take minutes; if it were shorter, runs close to a threshold would be reported as
+/// unsettled.
 const LONGEST: f64 = 2e5;
 
-/// Ratio of two consecutive changes below which the changes shrink geometrically, so that the remaining change is a geometric sum.
-/// Nearer to 1 the sum would be dominated by the error of the ratio; smaller, a slow convergence would be decided later.
+/// Ratio of two consecutive changes below which the changes shrink geometrically, so that the remaining change is a geometric
+/// sum. Nearer to 1 the sum would be dominated by the error of the ratio; smaller, a slow convergence would be decided later.
 const GEOMETRIC: f64 = 0.9;
 
 /// Factor by which the change before may exceed the allowed one in a geometric sum: two changes that differ much more do not yet
@@ -78,8 +79,8 @@ const LARGEST_CHANGE_BEFORE: f64 = 10.0;
 /// slow change of the release could pass; smaller only takes longer.
 const AFTER_STICKS: f64 = 0.1;
 
-/// Fraction of the allowed change within which the end of three wavering changes agrees with their start. Larger, a trend could hide
-/// in the wavering; smaller, a curve that is nearly locked would not settle.
+/// Fraction of the allowed change within which the end of three wavering changes agrees with their start. Larger, a trend could
+/// hide in the wavering; smaller, a curve that is nearly locked would not settle.
 const NET_CHANGE: f64 = 0.5;
 
 /// Divisor of the allowed change for each of three changes that waver, and for the change between two windows: the three
@@ -98,13 +99,13 @@ pub struct Patience {
 }
 
 impl Patience {
-    /// For one response that is to be measured: sizes are known to a thousandth, and 200 000 periods at R = 10 are 20 000 slow ones.
-    /// A run that changes more slowly than the closeness counts as settled too early; one that needs more periods is reported
-    /// as unsettled.
+    /// For one response that is to be measured: sizes are known to a thousandth, and 200 000 periods at R = 10 are 20 000 slow
+    /// ones. A run that changes more slowly than the closeness counts as settled too early; one that needs more periods is
+    /// reported as unsettled.
     pub const SWEEP: Self = Self { tolerance: 1e-12, closeness: 1e-3, periods: 200_000 };
 
-    /// For many starts that are to be assigned to attractors: three times the closeness and half the periods, because sections need
-    /// only agree within the tolerance of a basin. Runs near a basin boundary are reported as unsettled earlier.
+    /// For many starts that are to be assigned to attractors: three times the closeness and half the periods, because sections
+    /// need only agree within the tolerance of a basin. Runs near a basin boundary are reported as unsettled earlier.
     pub const BASIN: Self = Self { tolerance: 1e-12, closeness: 3e-3, periods: 100_000 };
 }
 

@@ -17,13 +17,13 @@ use crate::orbit::threshold::NoThresholds;
 use crate::orbit::{NoOrbit, OrbitVerdict, common_period};
 use crate::simulation::{DEFAULT_TOLERANCE, Stalled, Start, simulate};
 
-/// Half the width of an interval, relative to its value, up to which it is reported as a single value: ten times the closeness that
-/// thresholds request of bisection (10⁻⁵). Wider intervals are those at which bisection stopped, and are reported with their error.
-/// Larger, such an interval would be reported as a value; smaller, an ordinary one with its error.
+/// Half the width of an interval, relative to its value, up to which it is reported as a single value: ten times the closeness
+/// that thresholds request of bisection (10⁻⁵). Wider intervals are those at which bisection stopped, and are reported with
+/// their error. Larger, such an interval would be reported as a value; smaller, an ordinary one with its error.
 const NARROW: f64 = 1e-4;
 
-/// For a run that cannot settle on the base response, because that is unstable. A run that still moves after 2000 slow periods (at
-/// R = 10) counts as vibrating: a response without slow motion that attracts more slowly than that is missed, in a narrow
+/// For a run that cannot settle on the base response, because that is unstable. A run that still moves after 2000 slow periods
+/// (at R = 10) counts as vibrating: a response without slow motion that attracts more slowly than that is missed, in a narrow
 /// interval around a threshold.
 const OFF_AN_UNSTABLE_BASE: Patience = Patience { periods: 20_000, ..Patience::SWEEP };
 
@@ -32,8 +32,8 @@ const OFF_AN_UNSTABLE_BASE: Patience = Patience { periods: 20_000, ..Patience::S
 pub enum Reached {
     /// On the base response.
     Base,
-    /// On another response without slow motion of its own: of the dither's period, or of so few periods that all its spectral lines
-    /// are above the band of slow vibration.
+    /// On another response without slow motion of its own: of the dither's period, or of so few periods that all its spectral
+    /// lines are above the band of slow vibration.
     Forced,
     /// On a response that vibrates slowly.
     Elsewhere,
@@ -71,8 +71,8 @@ impl Reached {
 /// Where the run of a belt from `start` settles. `start.time` is a whole number of common periods of the dithers.
 ///
 /// # Errors
-/// [`NoOrbit`]: no common period, or the engine stopped; also if the run has not settled and the base response, to which it may be
-/// converging, could not be followed to the dither's amplitude.
+/// [`NoOrbit`]: no common period, or the engine stopped; also if the run has not settled and the base response, to which it may
+/// be converging, could not be followed to the dither's amplitude.
 pub fn reached(belt: &Belt, start: Start) -> Result<Reached, NoOrbit> {
     let settings = AttractorSettings::new(belt)?;
     let is_unstable =
@@ -143,8 +143,8 @@ pub struct Switches {
 
 /// Values of `path` between `from` and `to` at which runs from `start` (a state for each belt) begin or cease to
 /// settle on the base response. A belt without a start has nothing to quench and counts as settling on it. `steps` values are
-/// tried, and each change is bisected to the relative `closeness`; if a third result is found between two, both changes next to it
-/// are bisected. A pair of changes between two neighbouring values is missed.
+/// tried, and each change is bisected to the relative `closeness`; if a third result is found between two, both changes next to
+/// it are bisected. A pair of changes between two neighbouring values is missed.
 ///
 /// # Errors
 /// [`NoThresholds::Invalid`] if a value is not allowed.

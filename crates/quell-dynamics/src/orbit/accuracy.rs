@@ -71,7 +71,8 @@ fn weakest(matrix: &Matrix2) -> ([f64; 2], f64) {
     let (p, q, r) = (a * a + c * c, a * b + c * d, b * b + d * d);
     let larger = 0.5 * (p + r) + libm::hypot(0.5 * (p - r), q);
     let smallest = if larger > 0.0 { (a * d - b * c).abs() / libm::sqrt(larger) } else { 0.0 };
-    // The eigenvector of the larger eigenvalue is (q, larger − p) or (larger − r, q); the weakest direction is at right angles to it.
+    // The eigenvector of the larger eigenvalue is (q, larger − p) or (larger − r, q); the weakest direction is at right angles
+    // to it.
     let strongest = if p > r { [larger - r, q] } else { [q, larger - p] };
     let length = libm::hypot(strongest[0], strongest[1]);
     let direction = if length > 0.0 {

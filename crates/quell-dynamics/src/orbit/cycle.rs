@@ -1,8 +1,8 @@
 //! The limit cycles of an undithered belt, stable or not, with their periods, and the limit sets of undithered runs, which
 //! the cycles decide.
 //!
-//! The period is unknown. The phase is fixed by the section x′ = 0 at the lowest displacement, so that a cycle is a fixed point of
-//! a scalar map of the displacement there, the cycle map. Trajectories in the plane do not cross, so every cycle is inside
+//! The period is unknown. The phase is fixed by the section x′ = 0 at the lowest displacement, so that a cycle is a fixed point
+//! of a scalar map of the displacement there, the cycle map. Trajectories in the plane do not cross, so every cycle is inside
 //! the revolution that follows a release, because a release has a unique state, x = μ_sF − 2ζv₀, x′ = v₀. The map is
 //! searched on that whole interval: every change of sign is bracketed and refined, every dip towards zero is searched for a pair
 //! of cycles, and below the smallest size of the grid the sign at size zero, that of −(2ζ + μ′(v₀)F), decides whether one more
@@ -43,8 +43,8 @@ const SMALLEST: f64 = 1e-3;
 /// within this distance everywhere. The map's relative rounding is 10⁻⁸ there, below the growth that the search compares.
 const NEGLIGIBLE: f64 = 1e-6;
 
-/// Relative growth over a revolution below which the size is a fixed point: a root is located to 10⁻¹⁴ of its size, so that only a
-/// growth that jumps over zero leaves more than this.
+/// Relative growth over a revolution below which the size is a fixed point: a root is located to 10⁻¹⁴ of its size, so that
+/// only a growth that jumps over zero leaves more than this.
 const FIXED_POINT: f64 = 1e-6;
 
 /// The next lowest point after a state, its time, and whether the mass stuck before it.
@@ -193,8 +193,8 @@ pub fn linear_damping(belt: &Belt) -> f64 {
     belt.damping_rate(slope, belt.normal_load())
 }
 
-/// Whether steady sliding without dither is stable. e^{−c/2}, c = 2ζ + μ′(v₀)F, is the modulus of both multipliers over unit time of
-/// an underdamped belt, and is on the same side of 1 as the larger multiplier of an overdamped belt.
+/// Whether steady sliding without dither is stable. e^{−c/2}, c = 2ζ + μ′(v₀)F, is the modulus of both multipliers over unit
+/// time of an underdamped belt, and is on the same side of 1 as the larger multiplier of an overdamped belt.
 pub fn sliding_verdict(belt: &Belt) -> OrbitVerdict {
     OrbitVerdict::of(libm::exp(-0.5 * linear_damping(belt)), 0.0)
 }

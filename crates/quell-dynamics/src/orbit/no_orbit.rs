@@ -20,7 +20,7 @@ impl Unsettled {
     pub fn about(self) -> &'static str {
         match self {
             Self::Moving => "it still moved when its periods were over",
-            Self::Dwelling => "it dwells beside an unstable curve between two basins",
+            Self::Dwelling => "it dwells near an unstable curve between two basins",
         }
     }
 }
@@ -97,7 +97,7 @@ impl NoOrbit {
 impl fmt::Display for NoOrbit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoDither => f.write_str("without dither the response has no period given to it"),
+            Self::NoDither => f.write_str("without dither the response has no prescribed period"),
             Self::Incommensurate => {
                 f.write_str("the frequencies of the dithers have no common period")
             }
@@ -114,7 +114,7 @@ impl fmt::Display for NoOrbit {
             ),
             Self::Another { distance, at } => write!(
                 f,
-                "shooting found an orbit at x = {}, x′ = {}, but {distance:.1e} from where it should be: another one",
+                "shooting found an orbit at x = {}, x′ = {}, but {distance:.1e} from the expected state: another one",
                 at.displacement, at.velocity
             ),
             Self::Ends { share } => write!(
@@ -131,7 +131,7 @@ impl fmt::Display for NoOrbit {
             Self::NoPeriod { most } => write!(
                 f,
                 "the run ends on a response that does not repeat within {most} periods of the dither: \
-                 it is quasi-periodic, or locked at a longer period"
+                 it is quasi-periodic or locked at a longer period"
             ),
             Self::AtRest => {
                 f.write_str("without dither the mass comes to rest on a belt that does not move: there is no orbit")
@@ -140,7 +140,7 @@ impl fmt::Display for NoOrbit {
             Self::NoLimit => f.write_str(
                 "the run converges neither to a known limit cycle nor to stable steady sliding",
             ),
-            Self::Invalid { value } => write!(f, "a parameter cannot be {value}"),
+            Self::Invalid { value } => write!(f, "a parameter cannot take the value {value}"),
             Self::Stalled(stalled) => stalled.fmt(f),
         }
     }

@@ -203,7 +203,7 @@ pub enum NoThresholds {
 impl fmt::Display for NoThresholds {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Invalid { value } => write!(f, "the parameter cannot be {value}"),
+            Self::Invalid { value } => write!(f, "the parameter cannot take the value {value}"),
             Self::Start(why) => why.fmt(f),
             Self::Lost { at } => write!(f, "the response was lost beyond {at}"),
         }

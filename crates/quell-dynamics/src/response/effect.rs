@@ -83,12 +83,12 @@ impl fmt::Display for Uncertain {
             Self::NoDither => f.write_str("no dither acts"),
             Self::Undithered(why) => why.fmt(f),
             Self::StillChanging => f.write_str(
-                "the vibration with dither still changes within the record; settle for longer",
+                "the vibration with dither still changes within the record: settle for longer",
             ),
             Self::Unresolved { within } => {
                 write!(
                     f,
-                    "it changes the vibration by less than the record resolves ({within:.1e} of it)"
+                    "the dither changes the vibration by less than the record resolves (a relative change of {within:.1e})"
                 )
             }
         }
@@ -157,7 +157,8 @@ pub fn effect(belt: &Belt, compared: &Compared, ending: RunEnding) -> Effect {
     };
     let nothing = if quiet_without { Effect::Quiet } else { Effect::Quenches };
     if negligible {
-        // A vibration too small to be visible may still grow, unless the record is steady or the run is known to settle without one.
+        // A vibration too small to be visible may still grow, unless the record is steady or the run is known to settle without
+        // one.
         let decided = dithered.is_steady() || ending.is_quiet();
         return if decided { nothing } else { Effect::Unknown(Uncertain::StillChanging) };
     }

@@ -27,8 +27,8 @@ pub const HALVES_NEGLIGIBLE: f64 = 1e-3;
 /// Amplitude, relative to F, that is only the engine's error and rounding: it need not settle.
 const NOTHING: f64 = 1e-9;
 
-/// Relative error of M due to the engine and to rounding, presumed if its halves agree by chance: a thousand times the tolerance of a
-/// step, as [`NOTHING`]. If it were smaller, noise would decide whether a dither increases or reduces.
+/// Relative error of M due to the engine and to rounding, presumed if its halves agree by chance: a thousand times the
+/// tolerance of a step, as [`NOTHING`]. If it were smaller, noise would decide whether a dither increases or reduces.
 const ROUNDING: f64 = NOTHING;
 
 /// Why E is undefined.

@@ -166,12 +166,13 @@ impl SpectralMeter {
     }
 }
 
-/// Least upper end of the band, in ω₀: self-excited vibration is at about the natural frequency, 1. If the band ended lower, a vibration
-/// outside it would be reported as quenched.
+/// Least upper end of the band, in ω₀: self-excited vibration is at about the natural frequency, 1. If the band ended lower, a
+/// vibration outside it would be reported as quenched.
 const LEAST_BAND_END: f64 = 1.5;
 
 /// The upper end of the band of slow vibration, reduced where the window would spread the line of a dither just above it into the
-/// band: by two lines of the unpadded half of a record. A record too short to separate both keeps the whole band, including that line.
+/// band: by two lines of the unpadded half of a record. A record too short to separate both keeps the whole band, including
+/// that line.
 fn band_end(belt: &Belt, sampling: Sampling) -> f64 {
     let reach = 4.0 * sampling.per_slow_period as f64 / sampling.count as f64;
     let above = belt
