@@ -1,13 +1,13 @@
 //! Cost of a period map, of exact thresholds and of curves of them, on one core.
 //!
-//! Before criterion measures, two limits are held, each by the best of five attempts: a local threshold costs under
-//! 50 ms, a curve of 100 points under 5 s.
+//! Before criterion measures, two limits are checked, each with the best of five attempts: a local threshold must take less than
+//! 50 ms, a curve of 100 points less than 5 s.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group};
-use quell_dynamics::orbit::curve::{Plane, curves};
+use quell_dynamics::orbit::curve::{ParameterPlane, curves};
 use quell_dynamics::orbit::threshold::local_thresholds;
 use quell_dynamics::orbit::{from_sliding, near};
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
@@ -30,14 +30,14 @@ fn both_thresholds(belt: &Belt) -> usize {
 
 /// Both thresholds of the amplitude over the belt's velocity, and the number of points.
 fn both_curves(belt: &Belt) -> usize {
-    let plane = Plane {
+    let plane = ParameterPlane {
         path: "dither.amplitude",
         window: (0.1, 16.0),
         along: "belt.belt_velocity",
         between: (0.85, 1.5),
     };
     let found = curves(belt, plane, 3, 100).expect("curves").curves;
-    found.iter().map(|it| it.points.len()).sum()
+    found.iter().map(|curve| curve.points.len()).sum()
 }
 
 fn orbits(criterion: &mut Criterion) {
@@ -82,8 +82,8 @@ fn shortest(mut work: impl FnMut()) -> f64 {
     (0..5).map(attempt).fold(f64::INFINITY, f64::min)
 }
 
-/// Panics when a threshold or a curve costs more than it may.
-fn hold_limits() {
+/// Panics if a threshold or a curve exceeds its time limit.
+fn check_limits() {
     let belt = belt(Waveform::Sine, 1.0);
     let each = shortest(|| assert_eq!(both_thresholds(black_box(&belt)), 2)) / 2.0;
     println!("a local threshold: {:.1} ms, at most 50", 1e3 * each);
@@ -96,7 +96,7 @@ fn hold_limits() {
 }
 
 fn main() {
-    hold_limits();
+    check_limits();
     benches();
     Criterion::default().configure_from_args().final_summary();
 }

@@ -1,8 +1,8 @@
-//! Speed of the event-exact engine on the workloads that the peers run too
+//! Speed of the event-exact engine on the workloads that are also run with the peers
 //! (`benches/peers/`): time per simulated dither period, alone and side by side.
 //!
-//! Before criterion measures, the gains of running side by side are held to the limits below:
-//! ratios of one process, since absolute times say more about the machine than about the code.
+//! Before criterion measures, the gains of running side by side are checked against the limits below:
+//! ratios within one process, because absolute times depend more on the machine than on the code.
 
 #[path = "workloads/mod.rs"]
 mod workloads;
@@ -13,12 +13,12 @@ use criterion::{Criterion, Throughput, criterion_group};
 use quell_dynamics::simulation::InstructionSet;
 use workloads::Workload;
 
-/// How many times faster than alone a workload must be, side by side on an instruction set.
+/// Least speed-up of a workload side by side over alone, for each instruction set.
 const GAINS: [(InstructionSet, [f64; 2]); 2] =
     [(InstructionSet::Avx512, [1.6, 5.0]), (InstructionSet::Avx2, [1.5, 3.2])];
 
-/// Panics when a gain is below its limit in each of five attempts.
-fn hold_gains() {
+/// Panics if a gain is below its limit in each of five attempts.
+fn check_gains() {
     for (set, limits) in GAINS.into_iter().filter(|(set, _)| set.is_available()) {
         for (workload, limit) in
             [Workload::stick_slip(), Workload::event_free()].into_iter().zip(limits)
@@ -55,7 +55,7 @@ fn dither_periods(criterion: &mut Criterion) {
 criterion_group!(benches, dither_periods);
 
 fn main() {
-    hold_gains();
+    check_gains();
     benches();
     Criterion::default().configure_from_args().final_summary();
 }

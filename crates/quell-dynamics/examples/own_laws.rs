@@ -1,8 +1,8 @@
-//! What a friction law of one's own costs: time per simulated dither period over that of a built-in law
-//! on the same workload, both measured in turn.
+//! The cost of a user-defined friction law: time per simulated dither period relative to that of a built-in law
+//! on the same workload, both measured alternately.
 //!
-//! `cargo run --release --package quell-dynamics --example own_laws` prints one line a law and workload: the ratio
-//! of one run alone, and of runs side by side on the widest instruction set.
+//! `cargo run --release --package quell-dynamics --example own_laws` prints one line per law and workload: the ratio
+//! for one run alone, and for runs side by side on the widest instruction set.
 
 #[path = "../benches/workloads/mod.rs"]
 mod workloads;

@@ -1,9 +1,9 @@
-//! Time per simulated dither period on the two workloads that the peers run too.
+//! Time per simulated dither period on the two workloads that are also run with the peers.
 //!
 //! `cargo run --release --package quell-dynamics --example speed` prints one JSON line: each workload
 //! alone (one run after the other) and side by side on every instruction set of the machine.
-//! `benches/peers/compare.py` runs it beside SciPy and heyoka and prints the ratios.
-//! Each measurement is repeated and the fastest pass counts: other work on the machine only slows.
+//! `benches/peers/compare.py` runs it together with SciPy and heyoka and prints the ratios.
+//! Each measurement is repeated and the fastest pass counts, because other work on the machine can only slow it down.
 
 #[path = "../benches/workloads/mod.rs"]
 mod workloads;

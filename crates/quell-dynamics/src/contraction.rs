@@ -1,7 +1,8 @@
-//! How fast areas of nearby states shrink along a run in slip: 2ζ + μ′(v_r)N, the negative divergence of the equation of motion.
+//! The rate at which areas of nearby states shrink along a run in slip: 2ζ + μ′(v_r)N, the negative divergence of the equation of
+//! motion.
 //!
-//! Its integral over a period decides the product of an orbit's multipliers, its mean over a long run whether a closed curve attracts.
-//! Both read it here.
+//! Its integral over a period gives the product of an orbit's multipliers. Its mean over a long run decides whether a closed
+//! curve attracts. Both use this definition.
 
 use quell_model::Belt;
 use quell_model::friction::{LawVisitor, SlidingLaw};
@@ -10,7 +11,7 @@ use quell_numerics::lane::horner;
 
 use crate::simulation::Segment;
 
-/// |v_r| and the rate at N moments of a segment of slip, for observers that are compiled with the machine's best instructions.
+/// |v_r| and the rate at N moments of a segment of slip, for observers that are compiled for the machine's best instruction set.
 #[inline(always)]
 pub(crate) fn rates_along<L: SlidingLaw, const N: usize>(
     belt: &Belt,
@@ -41,34 +42,34 @@ pub(crate) fn mean_rate<const N: usize>(
     segment: &Segment<'_>,
     rule: &[[f64; N]; 2],
 ) -> f64 {
-    belt.friction().visit(Mean { belt, segment, rule })
+    belt.friction().visit(MeanRate { belt, segment, rule })
 }
 
-struct Mean<'a, 's, 'c, const N: usize> {
+struct MeanRate<'a, 's, 'c, const N: usize> {
     belt: &'a Belt,
     segment: &'s Segment<'c>,
     rule: &'a [[f64; N]; 2],
 }
 
-impl<const N: usize> LawVisitor for Mean<'_, '_, '_, N> {
+impl<const N: usize> LawVisitor for MeanRate<'_, '_, '_, N> {
     type Output = f64;
 
     fn visit<L: SlidingLaw>(self, law: &L) -> f64 {
-        with_fused_multiply_add(MeanBy { mean: self, law })
+        with_fused_multiply_add(MeanRateOf { mean: self, law })
     }
 }
 
-struct MeanBy<'a, 's, 'c, 'l, L, const N: usize> {
-    mean: Mean<'a, 's, 'c, N>,
+struct MeanRateOf<'a, 's, 'c, 'l, L, const N: usize> {
+    mean: MeanRate<'a, 's, 'c, N>,
     law: &'l L,
 }
 
-impl<L: SlidingLaw, const N: usize> Work for MeanBy<'_, '_, '_, '_, L, N> {
+impl<L: SlidingLaw, const N: usize> Work for MeanRateOf<'_, '_, '_, '_, L, N> {
     type Output = f64;
 
     #[inline(always)]
     fn run(self) -> f64 {
-        let Mean { belt, segment, rule: [nodes, weights] } = self.mean;
+        let MeanRate { belt, segment, rule: [nodes, weights] } = self.mean;
         let since = nodes.map(|node| node * segment.duration());
         let (_, rates) = rates_along(belt, self.law, segment, &since);
         rates.iter().zip(weights).map(|(rate, weight)| rate * weight).sum()

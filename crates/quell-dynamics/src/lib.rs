@@ -1,11 +1,11 @@
 //! Event-exact motion under friction: pure functions of valid values, without files, threads, clocks or printing.
 //!
-//! The structure is one mass on a moving belt with dither; the general loop over several contacts is not built yet.
+//! The structure is one mass on a moving belt with dither; the general loop over several contacts is not implemented yet.
 //!
 //! * [`simulation`]: event-exact trajectories by adaptive Taylor series;
 //! * [`orbit`]: periodic responses, their Floquet multipliers, exact thresholds;
-//! * [`attractor`]: where runs end, rotation numbers, basins;
-//! * [`start`], [`response`]: where a run starts; its steady response, spectrum, efficiency and costs.
+//! * [`attractor`]: where runs settle, rotation numbers, basins;
+//! * [`start`], [`response`]: initial states; the steady response of a run, its spectrum, efficiency and costs.
 
 pub mod attractor;
 mod band;

@@ -1,4 +1,4 @@
-//! Where a run starts: at rest, sliding, squealing, or at a given state.
+//! Initial states of a run: rest, sliding, squealing, or a given state.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use crate::orbit::NoOrbit;
 use crate::orbit::cycle::squeal;
 use crate::simulation::{Stalled, Start};
 
-/// The state in which a study starts, at τ = 0.
+/// The initial state of a study, at τ = 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum InitialState {
     /// x = 0, x′ = 0.
@@ -16,7 +16,7 @@ pub enum InitialState {
     Rest,
     /// Steady sliding without dither: x = μ(v₀)F, x′ = 0.
     Sliding,
-    /// On the limit cycle of the undithered belt, at the moment of its release (or, where the
+    /// On the limit cycle of the undithered belt, at the moment of its release (or, if the
     /// cycle never sticks, at its smallest displacement).
     Squealing,
     /// A given state.
@@ -28,12 +28,12 @@ pub enum InitialState {
     },
 }
 
-/// Why there is no squealing start.
+/// Why no squealing start exists.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoSquealingStart {
     /// The undithered belt, released from its static threshold, settles to steady sliding.
     SettlesToSliding,
-    /// v₀ = 0: nothing moves the mass.
+    /// v₀ = 0: the mass is not driven.
     BeltAtRest,
     /// The engine stopped.
     Stalled(Stalled),
@@ -43,10 +43,12 @@ impl fmt::Display for NoSquealingStart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::SettlesToSliding => f.write_str(
-                "the undithered belt has no limit cycle here: released from its static threshold \
+                "the undithered belt has no limit cycle here: released from its static threshold, \
                  it settles to steady sliding",
             ),
-            Self::BeltAtRest => f.write_str("the belt does not move (v₀ = 0), so nothing squeals"),
+            Self::BeltAtRest => {
+                f.write_str("the belt does not move (v₀ = 0), so there is no squeal")
+            }
             Self::Stalled(stalled) => stalled.fmt(f),
         }
     }
@@ -55,10 +57,10 @@ impl fmt::Display for NoSquealingStart {
 impl std::error::Error for NoSquealingStart {}
 
 impl InitialState {
-    /// The state in numbers.
+    /// The numerical state.
     ///
     /// # Errors
-    /// [`NoSquealingStart`] where a squealing start is asked for and there is none.
+    /// [`NoSquealingStart`] if a squealing start is requested and none exists.
     pub fn resolve(&self, belt: &Belt) -> Result<Start, NoSquealingStart> {
         let (displacement, velocity) = match *self {
             Self::Rest => (0.0, 0.0),
@@ -77,7 +79,7 @@ fn squealing(belt: &Belt) -> Result<Start, NoSquealingStart> {
     }
     match squeal(belt) {
         Ok(found) => found.ok_or(NoSquealingStart::SettlesToSliding),
-        // Without dither the engine's stop is the only failure.
+        // Without dither a stalled engine is the only failure.
         Err(NoOrbit::Stalled(stalled)) => Err(NoSquealingStart::Stalled(stalled)),
         Err(_) => Err(NoSquealingStart::Stalled(Stalled::NEVER_STARTED)),
     }

@@ -1,11 +1,13 @@
-//! The two workloads that Quell and its peers (`benches/peers/`) are timed on.
+//! The two workloads on which Quell and its peers (`benches/peers/`) are timed.
 
 use std::f64::consts::TAU;
 use std::fs;
 use std::thread;
 use std::time::Instant;
 
-use quell_dynamics::simulation::{InstructionSet, Run, Start, simulate, simulate_many_with};
+use quell_dynamics::simulation::{
+    InstructionSet, SimulationRun, Start, simulate, simulate_many_with,
+};
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 
 /// Tolerance of the published speed figures.
@@ -14,17 +16,17 @@ pub(crate) const TOLERANCE: f64 = 1e-10;
 /// Passes of a measurement, the fastest of which counts.
 const PASSES: u32 = 12;
 
-/// Belts to be simulated from their starts to one end.
+/// Belts to be simulated from their starts to a common end time.
 pub(crate) struct Workload {
     pub(crate) name: &'static str,
     pub(crate) cases: Vec<(Belt, Start)>,
-    /// End, dimensionless time τ.
+    /// End time τ, dimensionless.
     pub(crate) until: f64,
 }
 
 impl Workload {
     /// Stribeck law, v₀ = 0.05, tangential sine dither with D = 0.1, 0.3, 0.5, 0.8 and
-    /// R = 5, 10, from rest: about 1.7 events in a dither period.
+    /// R = 5, 10, from rest: about 1.7 events per dither period.
     pub(crate) fn stick_slip() -> Self {
         let mut cases = Vec::new();
         for amplitude in [0.1, 0.3, 0.5, 0.8] {
@@ -43,7 +45,7 @@ impl Workload {
     }
 
     /// Each case `copies` times, with dither amplitudes that differ by thousandths, so that
-    /// runs side by side have steps and events of their own as points of a map have.
+    /// runs side by side have different steps and events, like the points of a map.
     pub(crate) fn multiplied(&self, copies: u32) -> Self {
         let mut cases = Vec::new();
         for copy in 0..copies {
@@ -67,7 +69,7 @@ impl Workload {
         let until = self.until;
         let mut observers = vec![(); self.cases.len()];
         let runs = (self.cases.iter().zip(&mut observers))
-            .map(|((belt, start), observer)| Run { belt, start: *start, until, observer })
+            .map(|((belt, start), observer)| SimulationRun { belt, start: *start, until, observer })
             .collect();
         let outcomes = simulate_many_with(set, runs, TOLERANCE);
         assert!(outcomes.iter().all(Result::is_ok), "no stall");
@@ -96,7 +98,7 @@ impl Workload {
         seconds * 1e6 / self.periods()
     }
 
-    /// Dither periods that all cases together simulate.
+    /// Total number of dither periods of all cases.
     pub(crate) fn periods(&self) -> f64 {
         self.cases.iter().map(|(belt, _)| belt.dithers()[0].frequency_ratio).sum::<f64>()
             * self.until
@@ -104,12 +106,12 @@ impl Workload {
     }
 }
 
-/// Time that this thread was on a processor, where the system tells: other work does not count.
+/// Time that this thread spent on a processor, if the system reports it: other work does not count.
 fn processor_seconds() -> Option<f64> {
-    // The system brings its account up to date where a thread gives way.
+    // The system updates its accounting when a thread yields.
     thread::yield_now();
-    let told = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    let nanoseconds: f64 = told.split_whitespace().next()?.parse().ok()?;
+    let statistics = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: f64 = statistics.split_whitespace().next()?.parse().ok()?;
     Some(1e-9 * nanoseconds)
 }
 

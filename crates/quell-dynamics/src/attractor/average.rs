@@ -1,9 +1,9 @@
-//! Averages along a section, weighted by a smooth bump.
+//! Averages along a section, weighted by a smooth bump function.
 //!
-//! Σ w(t) f / Σ w(t) with w(t) = exp(−1/(t(1 − t))) over the record: for quasi-periodic motion it converges faster than any
-//! power of the record's length, where the plain mean has an error of one over it (Das, Saiki, Sander, Yorke, 2017).
+//! Σ w(t) f / Σ w(t) with w(t) = exp(−1/(t(1 − t))) over the record of length n. For quasi-periodic motion it converges faster
+//! than any power of 1/n, whereas the error of the plain mean is of order 1/n (Das, Saiki, Sander, Yorke, 2017).
 
-/// The bump, normalised to Σ w = 1, for so many values.
+/// The bump, normalised to Σ w = 1, for `count` values.
 pub(super) fn weights(count: usize) -> Vec<f64> {
     let step = 1.0 / (count as f64 + 1.0);
     let mut weights: Vec<f64> = (1..=count).map(|k| bump(k as f64 * step)).collect();
@@ -35,8 +35,8 @@ pub(super) struct Moments {
 }
 
 impl Moments {
-    /// Of a section, about its first state: a section that is one state has no spread, where rounding of squares would leave 10⁻⁸ of
-    /// its distance from the origin.
+    /// The moments of a section, computed about its first state: a section that is a single state then has exactly no spread;
+    /// about the origin, rounding of the squares would leave 10⁻⁸ of the distance.
     pub(super) fn of(section: &[(f64, f64)]) -> Self {
         let mut sums = Sums::default();
         let (first_x, first_v) = section.first().copied().unwrap_or_default();
@@ -48,12 +48,12 @@ impl Moments {
         Self { centre: [x + first_x, v + first_v], ..moments }
     }
 
-    /// Root of the mean square distance from the centre.
+    /// Root-mean-square distance from the centre.
     pub(super) fn size(&self) -> f64 {
         libm::sqrt((self.spread[0] + self.spread[2]).max(0.0))
     }
 
-    /// The largest difference of centre and of size and shape, a length; `size` is that of the motion which may differ.
+    /// The largest difference of centre and of size and shape, a length; `size` is the size of the motion that may differ.
     pub(super) fn distance(&self, other: &Self, size: f64) -> f64 {
         let centre = |k: usize| (self.centre[k] - other.centre[k]).abs();
         // δ(s²) = 2sδs.
@@ -106,7 +106,7 @@ mod tests {
         let weights = weights(1000);
         let found = mean(&weights, (0..1000).map(value));
         assert!((found - 0.7).abs() < 1e-12, "{found}");
-        // The plain mean of the same record is a thousand times a thousand worse.
+        // The plain mean of the same record is a million times worse.
         let plain = (0..1000).map(value).sum::<f64>() / 1000.0;
         assert!((plain - 0.7).abs() > 1e-5, "{plain}");
     }

@@ -1,26 +1,29 @@
-//! Which starts end on the same attractor.
+//! Basins: which starts lead to the same attractor.
 //!
-//! Runs that end on the response of sliding are one group. Others are told apart by centre, size and shape of their sections:
-//! those that agree within `ALIKE` of the size are one attractor. Locked responses of slightly different period on one curve
-//! count as one.
+//! Runs that settle on the base response form one group. Others are distinguished by centre, size and shape of their sections:
+//! those that agree within `SAME_ATTRACTOR` of the size are one attractor. Locked responses of slightly different period on one
+//! curve count as one.
 
 use super::measure::{Attractor, measure};
-use super::settle::{Outcome, Settled, Summary};
-use super::strobe::Scene;
+use super::settings::AttractorSettings;
+use super::settle::{BlockSummary, SettleOutcome, Settled};
 use crate::orbit::Unsettled;
 use crate::simulation::Stalled;
 
-/// Difference of centre, size and shape, relative to the size, within which two sections are one attractor's: three times
-/// what a run of a basin may still change by, and what the phase of locking makes of it.
-const ALIKE: f64 = 0.02;
+/// Difference of centre, size and shape, relative to the size, within which two sections belong to one attractor: three times
+/// the change that a run of a basin may still make, plus the effect of the phase of locking. Larger, attractors of nearly the
+/// same size would be merged; smaller, one attractor would be split.
+const SAME_ATTRACTOR: f64 = 0.02;
 
-/// The same relative to F: sections smaller than this are one state.
+/// The same difference relative to F, for sections that are nearly a single state: ten times the distance within which a state
+/// counts as the base response. Attractors nearer to each other than this are merged; smaller, the remaining change of a run
+/// would split one.
 const POINT: f64 = 1e-5;
 
-/// Where a start ends.
+/// The attractor to which a start leads.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Label {
-    /// On an attractor: its place in the list.
+pub enum BasinLabel {
+    /// An attractor: its index in the list.
     Attractor(usize),
     /// Unknown.
     Unsettled(Unsettled),
@@ -28,88 +31,98 @@ pub enum Label {
     Stalled(Stalled),
 }
 
-/// An attractor and how many starts end on it.
+/// An attractor and the number of starts that lead to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Basin {
-    /// The attractor, measured from the first start that ends on it.
+    /// The attractor, measured from the first start that leads to it.
     pub attractor: Attractor,
     /// Number of starts.
     pub starts: usize,
 }
 
-/// The attractors that a set of starts ends on.
+/// The attractors of a set of starts.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Basins {
-    /// The response of sliding first where any start ends there, then by falling number of starts.
+pub struct BasinsOfAttraction {
+    /// The base response first if any start leads to it, then by decreasing number of starts.
     pub basins: Vec<Basin>,
-    /// Where each start ends, in the order of the starts.
-    pub labels: Vec<Label>,
+    /// The attractor of each start, in the order of the starts.
+    pub labels: Vec<BasinLabel>,
 }
 
-impl Basins {
-    /// Number of starts of which the end is not known.
+impl BasinsOfAttraction {
+    /// Number of starts whose attractor is unknown.
     pub fn unknown(&self) -> usize {
-        self.labels.iter().filter(|label| !matches!(label, Label::Attractor(_))).count()
+        self.labels.iter().filter(|label| !matches!(label, BasinLabel::Attractor(_))).count()
     }
 }
 
 /// One attractor under construction.
-struct Group {
-    quiet: bool,
-    summary: Summary,
+struct AttractorGroup {
+    base: bool,
+    summary: BlockSummary,
     first: Settled,
     starts: usize,
 }
 
-/// Gathers settled runs into attractors. Depends on the order of the runs, not on who computed them.
+/// Groups settled runs by attractor. The result depends on the order of the runs, not on how they were computed.
 ///
 /// # Errors
 /// [`Stalled`] while an attractor is measured.
-pub fn gather(scene: &Scene<'_>, settled: &[Result<Settled, Stalled>]) -> Result<Basins, Stalled> {
-    let mut groups: Vec<Group> = Vec::new();
-    let mut labels: Vec<Label> = Vec::with_capacity(settled.len());
-    let floor = POINT * scene.belt.normal_load();
+pub fn gather(
+    settings: &AttractorSettings<'_>,
+    settled: &[Result<Settled, Stalled>],
+) -> Result<BasinsOfAttraction, Stalled> {
+    let mut groups: Vec<AttractorGroup> = Vec::new();
+    let mut labels: Vec<BasinLabel> = Vec::with_capacity(settled.len());
+    let floor = POINT * settings.belt.normal_load();
     for run in settled {
         labels.push(match run {
-            Err(stalled) => Label::Stalled(*stalled),
-            Ok(Settled { outcome: Outcome::Unsettled(why), .. }) => Label::Unsettled(*why),
+            Err(stalled) => BasinLabel::Stalled(*stalled),
+            Ok(Settled { outcome: SettleOutcome::Unsettled(why), .. }) => {
+                BasinLabel::Unsettled(*why)
+            }
             Ok(run) => {
-                let place = groups.iter().position(|group| group.holds(run, floor));
-                let place = place.unwrap_or(groups.len());
-                if place == groups.len() {
-                    let quiet = run.outcome == Outcome::Quiet;
-                    groups.push(Group { quiet, summary: run.summary, first: *run, starts: 0 });
+                let index = groups.iter().position(|group| group.contains(run, floor));
+                let index = index.unwrap_or(groups.len());
+                if index == groups.len() {
+                    let base = run.outcome == SettleOutcome::Base;
+                    groups.push(AttractorGroup {
+                        base,
+                        summary: run.summary,
+                        first: *run,
+                        starts: 0,
+                    });
                 }
-                groups[place].starts += 1;
-                Label::Attractor(place)
+                groups[index].starts += 1;
+                BasinLabel::Attractor(index)
             }
         });
     }
     let mut order: Vec<usize> = (0..groups.len()).collect();
-    order.sort_by_key(|place| (!groups[*place].quiet, usize::MAX - groups[*place].starts));
+    order.sort_by_key(|index| (!groups[*index].base, usize::MAX - groups[*index].starts));
     let mut basins = Vec::with_capacity(groups.len());
-    for place in &order {
-        let group = &groups[*place];
-        // What has settled has an attractor.
-        if let Some(attractor) = measure(scene, &group.first)? {
+    for index in &order {
+        let group = &groups[*index];
+        // A settled run has an attractor.
+        if let Some(attractor) = measure(settings, &group.first)? {
             basins.push(Basin { attractor, starts: group.starts });
         }
     }
     for label in &mut labels {
-        if let Label::Attractor(place) = label {
-            *place = order.iter().position(|other| other == place).unwrap_or(*place);
+        if let BasinLabel::Attractor(index) = label {
+            *index = order.iter().position(|other| other == index).unwrap_or(*index);
         }
     }
-    Ok(Basins { basins, labels })
+    Ok(BasinsOfAttraction { basins, labels })
 }
 
-impl Group {
-    fn holds(&self, run: &Settled, floor: f64) -> bool {
-        let quiet = run.outcome == Outcome::Quiet;
-        if quiet || self.quiet {
-            return quiet && self.quiet;
+impl AttractorGroup {
+    fn contains(&self, run: &Settled, floor: f64) -> bool {
+        let base = run.outcome == SettleOutcome::Base;
+        if base || self.base {
+            return base && self.base;
         }
         let size = self.summary.size.max(run.summary.size);
-        self.summary.distance(&run.summary, floor) <= ALIKE * size + floor
+        self.summary.distance(&run.summary, floor) <= SAME_ATTRACTOR * size + floor
     }
 }

@@ -1,74 +1,88 @@
-//! What a settled run is on: a closed orbit of some periods, a closed curve, or neither.
+//! Classification of a settled run: a closed orbit of some periods, a closed curve, or neither.
 //!
-//! A state that returns after n periods, ever closer, is taken as the guess of an orbit of n periods; shooting closes it to 10⁻¹², and its
-//! multipliers say whether it attracts. A section that is one state to rounding returns after any n; the shortest period that attracts
-//! is the orbit's own, and a longer one that was found is reduced to it. Where nothing returns the motion fills a curve, if its rotation
-//! number is the same in both halves of the record and the record is long enough for it to have passed every gap: a motion that creeps
-//! along a nearly locked curve may be on its way to a locked orbit. Limit: an orbit of more than `MOST_PERIODS` periods is not distinguished from a curve.
+//! A state that returns after n periods, ever closer, is used as the initial guess of an orbit of n periods. Shooting closes it
+//! to 10⁻¹², and its multipliers decide whether it attracts. A section that is one state to rounding returns after any n; the
+//! shortest attracting period is the orbit's own, and a longer one that was found is reduced to it. Without returns the motion
+//! fills a curve if its rotation number is the same in both halves of the record and the record is long enough for the motion
+//! to have crossed every gap: a motion that creeps along a nearly locked curve may still converge to a locked orbit. Limit: an
+//! orbit of more than `MOST_PERIODS` periods is not distinguished from a curve.
 
 use quell_model::Belt;
 use quell_numerics::roots::{Closeness, find_root};
 
 use super::average::Moments;
-use super::quiet::STEPS;
-use super::rotation::{Rotation, looks, looks_of_an_orbit};
-use super::settle::{ONE_STATE, Outcome, Patience, Settled, block, settle};
-use super::strobe::Scene;
-use super::watch::Watch;
+use super::base_response::STEPS;
+use super::block_observer::BlockObserver;
+use super::rotation::{Rotation, samples_per_orbit_period, samples_per_period};
+use super::settings::AttractorSettings;
+use super::settle::{ONE_STATE, Patience, SettleOutcome, Settled, block, settle};
 use crate::orbit::cycle::{FreeEnd, free_end};
-use crate::orbit::{NoOrbit, Orbit, Verdict, from_sliding, near};
+use crate::orbit::{NoOrbit, Orbit, OrbitVerdict, from_sliding, near};
 use crate::simulation::{DEFAULT_TOLERANCE, Observer, Segment, Stalled, Start, simulate};
 
-/// Most periods of a closed orbit.
+/// Most periods of a closed orbit: the record holds five returns of an orbit of this length. A longer orbit is classified as a
+/// curve, or not at all.
 const MOST_PERIODS: usize = 200;
 
-/// Fewest periods of the record in which returns are looked for, and blocks of settling in it.
+/// Fewest periods of the record in which returns are searched: five returns of the longest orbit, so that a trend of its returns
+/// is visible. In a shorter record a slowly attracting orbit looks like a curve; a longer one only takes longer.
 const RECORD: usize = 1024;
+
+/// Fewest blocks of settling in a record: 100 slow revolutions, also where the section is slow. Fewer revolutions would not show
+/// a steady rotation number.
 const BLOCKS: usize = 5;
 
-/// Distance of a return, relative to the size of the section, that is worth shooting.
+/// Distance of a return, relative to the size of the section, below which shooting is tried: Newton's method converges from
+/// there. Larger, shots are wasted on curves; smaller, a slowly attracting orbit is found only in a later record, or not at all.
 const RETURNS: f64 = 1e-3;
 
-/// Distance of the orbit from the guess, relative to the size of the section, at which it is the run's own.
+/// Distance of the orbit from the guess, relative to the size of the section, within which it is the run's own: that within
+/// which two sections of a basin count as one attractor. Larger, a neighbouring orbit would be accepted; smaller, the orbit of
+/// a run that is still converging would be rejected.
 const ITS_OWN: f64 = 2e-2;
 
-/// Share to which a return must have shrunk over the record: on a curve it stays what it is.
+/// Factor by which a return must have shrunk over the record: on a curve it keeps its distance. An orbit that attracts more
+/// slowly is examined again in the next record; nearer to 1, the wavering returns on a curve would be shot.
 const SHRINKS: f64 = 0.5;
 
-/// Distance of a return, relative to the size, that is closed already.
+/// Distance of a return, relative to the size, that counts as closed: above the engine's error over a long orbit, which leaves no
+/// trend to be measured. Larger, a creep along a nearly locked curve would count as closed.
 const CLOSED: f64 = 1e-7;
 
-/// Most numbers of periods that are shot for one section: beyond the first few returns a curve is filled.
+/// Most numbers of periods that are shot for one section: a section with more returns than this usually fills a curve. An orbit
+/// behind more than three unsuccessful shots is missed in this record.
 const MOST_SHOTS: usize = 4;
 
-/// Difference of the rotation number of the two halves of a record at which the motion is a curve's.
+/// Difference of the rotation numbers of the two halves of a record below which the motion is on a curve: a hundredth of a
+/// revolution over a record of 1024 periods. Larger, a run that is still locking would count as a curve; smaller, the averages of
+/// a curve with sticks would not reach it, and it would remain unclassified.
 const STEADY: f64 = 1e-5;
 
-/// Times that a record is continued.
+/// Most records of one run: 8192 periods or more. A motion that needs longer to close or to fill its curve is unclassified.
 const RECORDS: u32 = 8;
 
-/// What an attractor is.
+/// The kind of an attractor.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Kind {
+pub enum AttractorKind {
     /// A closed orbit.
     Periodic {
-        /// Its periods of the strobe.
+        /// Its length in periods of the section.
         periods: u32,
-        /// The larger modulus of its multipliers, once round.
+        /// The larger modulus of its multipliers over the whole orbit.
         radius: f64,
     },
-    /// A limit cycle of the belt without dither, which no strobe need return to.
+    /// A limit cycle of the belt without dither, whose period is unrelated to the section.
     Cycle,
-    /// A closed curve, filled.
+    /// A closed curve, filled by the section.
     QuasiPeriodic,
     /// Rest: a belt that does not move holds the mass.
     Rest,
-    /// Settled, but none of these.
+    /// Settled, but not classified.
     Unclassified,
 }
 
-impl Kind {
-    /// In words.
+impl AttractorKind {
+    /// A description.
     pub fn words(self) -> String {
         match self {
             Self::Periodic { periods, .. } => format!("period-{periods}"),
@@ -83,24 +97,24 @@ impl Kind {
 /// An attractor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attractor {
-    /// What it is.
-    pub kind: Kind,
-    /// Whether it is the response that sliding becomes.
+    /// Its kind.
+    pub kind: AttractorKind,
+    /// Whether it is the base response.
     pub base: bool,
-    /// Whether no slow motion of its own is left: it has the dither's own period, or so few that all its lines lie above the band
-    /// of slow vibration; or without dither is steady sliding or rest.
+    /// Whether it is quiescent, without slow motion of its own: it has the dither's own period, or so few periods that all its
+    /// spectral lines are above the band of slow vibration; without dither it is steady sliding or rest.
     pub quiet: bool,
     /// A state on it at τ = 0.
     pub state: Start,
-    /// States (x, x′), one a period: an orbit once round, a curve as far as the record goes.
+    /// States (x, x′), one per period: a complete orbit, or a curve for the length of the record.
     pub section: Vec<(f64, f64)>,
     /// Least x.
     pub lowest: f64,
     /// Largest x.
     pub highest: f64,
-    /// Share of the time in stick.
+    /// Fraction of the time in stick.
     pub stick_fraction: f64,
-    /// Turns of the slow motion a period; `None` for a response of one period, which does not turn.
+    /// Revolutions of the slow motion per period; `None` for a response of one period, which has no slow motion.
     pub rotation: Option<Rotation>,
 }
 
@@ -110,7 +124,7 @@ impl Attractor {
         self.highest - self.lowest
     }
 
-    /// Frequency of the slow motion (ω₀), where it turns.
+    /// Frequency of the slow motion (ω₀), where there is one.
     pub fn frequency(&self, period: f64) -> Option<f64> {
         let rotation = self.rotation.as_ref()?;
         Some(rotation.turns_per_period.abs() * std::f64::consts::TAU / period)
@@ -121,118 +135,133 @@ impl Attractor {
 ///
 /// # Errors
 /// [`Stalled`].
-pub fn measure(scene: &Scene<'_>, settled: &Settled) -> Result<Option<Attractor>, Stalled> {
-    match (settled.outcome, &scene.quiet) {
-        (Outcome::Unsettled(_), _) => Ok(None),
-        (Outcome::Quiet, Ok(quiet)) => {
+pub fn measure(
+    settings: &AttractorSettings<'_>,
+    settled: &Settled,
+) -> Result<Option<Attractor>, Stalled> {
+    match (settled.outcome, &settings.base) {
+        (SettleOutcome::Unsettled(_), _) => Ok(None),
+        (SettleOutcome::Base, Ok(base)) => {
             let state =
-                Start { time: 0.0, displacement: quiet.displacement, velocity: quiet.velocity };
-            let kind = Kind::Periodic { periods: 1, radius: quiet.radius };
-            Ok(Some(Attractor { base: true, ..seen(scene, kind, state, 1)? }))
+                Start { time: 0.0, displacement: base.displacement, velocity: base.velocity };
+            let kind = AttractorKind::Periodic { periods: 1, radius: base.radius };
+            Ok(Some(Attractor { base: true, ..observed(settings, kind, state, 1)? }))
         }
-        (Outcome::Quiet | Outcome::Elsewhere, _) => match settled.cycle {
-            Some(period) => cycle(scene, settled.state, period).map(Some),
-            None if settled.is_at_rest(scene) => {
-                seen(scene, Kind::Rest, settled.state, 1).map(Some)
+        (SettleOutcome::Base | SettleOutcome::Elsewhere, _) => match settled.cycle {
+            Some(period) => cycle(settings, settled.state, period).map(Some),
+            None if settled.is_at_rest(settings) => {
+                observed(settings, AttractorKind::Rest, settled.state, 1).map(Some)
             }
-            None => elsewhere(scene, settled.state).map(Some),
+            None => elsewhere(settings, settled.state).map(Some),
         },
     }
 }
 
-/// The limit cycle without dither through a state, of a known period: nothing has to be read from a section, whose moments have
-/// no relation to it.
-fn cycle(scene: &Scene<'_>, state: Start, period: f64) -> Result<Attractor, Stalled> {
-    let attractor = seen(scene, Kind::Cycle, state, RECORD.max(BLOCKS * block(scene)))?;
-    let rotation = Some(Rotation::of_cycle(scene.strobe.period / period));
+/// The limit cycle without dither through a state, of a known period: nothing is taken from the section, whose moments are
+/// unrelated to the cycle.
+fn cycle(
+    settings: &AttractorSettings<'_>,
+    state: Start,
+    period: f64,
+) -> Result<Attractor, Stalled> {
+    let attractor =
+        observed(settings, AttractorKind::Cycle, state, RECORD.max(BLOCKS * block(settings)))?;
+    let rotation = Some(Rotation::of_cycle(settings.section.period / period));
     Ok(Attractor { rotation, ..attractor })
 }
 
-/// What the records of a settled run show.
-enum Found {
-    /// A closed orbit of so many periods.
+/// The finding from the records of a settled run.
+enum RecordFinding {
+    /// A closed orbit of this number of periods.
     Orbit(u32, Orbit),
-    /// None: the state before the last record, its length, and whether its rotation number is steady.
+    /// No closed orbit: the state before the last record, its length, and whether its rotation number is steady.
     Section { from: Start, periods: usize, steady: bool },
 }
 
 /// Records from a state on an attractor, until one shows an orbit or a steady rotation number.
-fn records(scene: &Scene<'_>, state: Start) -> Result<Found, Stalled> {
+fn records(settings: &AttractorSettings<'_>, state: Start) -> Result<RecordFinding, Stalled> {
     let mut from = state;
-    let mut record = 1;
+    let mut number = 1;
     loop {
-        let (watch, end) = watched(scene, from)?;
-        let section = watch.section();
-        if let Some((periods, orbit)) = orbit(scene, &section, end, MOST_PERIODS) {
-            return Ok(Found::Orbit(periods, orbit));
+        let (observer, end) = record(settings, from)?;
+        let section = observer.section();
+        if let Some((periods, orbit)) = orbit(settings, &section, end, MOST_PERIODS) {
+            return Ok(RecordFinding::Orbit(periods, orbit));
         }
-        let looks = looks(scene.strobe.period);
-        let rotation = Rotation::of_curve(&watch.states().collect::<Vec<_>>(), looks);
-        let steady = rotation.error <= STEADY && rotation.fills(record as usize * section.len());
-        if steady || record == RECORDS {
-            return Ok(Found::Section { from, periods: section.len(), steady });
+        let samples = samples_per_period(settings.section.period);
+        let rotation = Rotation::of_curve(&observer.states().collect::<Vec<_>>(), samples);
+        let steady = rotation.error <= STEADY && rotation.fills(number as usize * section.len());
+        if steady || number == RECORDS {
+            return Ok(RecordFinding::Section { from, periods: section.len(), steady });
         }
-        (from, record) = (end, record + 1);
+        (from, number) = (end, number + 1);
     }
 }
 
-/// The attractor from a state on it.
-fn elsewhere(scene: &Scene<'_>, state: Start) -> Result<Attractor, Stalled> {
-    match records(scene, state)? {
-        Found::Orbit(periods, orbit) => {
-            let kind = Kind::Periodic { periods, radius: orbit.radius() };
-            seen(scene, kind, orbit.start, periods as usize)
+/// The attractor through a state on it, with dither.
+fn elsewhere(settings: &AttractorSettings<'_>, state: Start) -> Result<Attractor, Stalled> {
+    match records(settings, state)? {
+        RecordFinding::Orbit(periods, orbit) => {
+            let kind = AttractorKind::Periodic { periods, radius: orbit.radius() };
+            observed(settings, kind, orbit.start, periods as usize)
         }
-        Found::Section { from, periods, steady } => {
-            let kind = if steady { Kind::QuasiPeriodic } else { Kind::Unclassified };
-            seen(scene, kind, from, periods)
+        RecordFinding::Section { from, periods, steady } => {
+            let kind =
+                if steady { AttractorKind::QuasiPeriodic } else { AttractorKind::Unclassified };
+            observed(settings, kind, from, periods)
         }
     }
 }
 
 /// A record, and the state after it.
-fn watched<'a>(scene: &Scene<'a>, start: Start) -> Result<(Watch<'a>, Start), Stalled> {
-    let period = scene.strobe.period;
-    let periods = RECORD.max(BLOCKS * block(scene));
-    let mut watch = Watch::looking(period, periods, looks(period));
+fn record<'a>(
+    settings: &AttractorSettings<'a>,
+    start: Start,
+) -> Result<(BlockObserver<'a>, Start), Stalled> {
+    let period = settings.section.period;
+    let periods = RECORD.max(BLOCKS * block(settings));
+    let mut observer = BlockObserver::with_samples(period, periods, samples_per_period(period));
     let until = periods as f64 * period;
-    let end = simulate(scene.belt, start, until, DEFAULT_TOLERANCE, &mut watch)?;
-    Ok((watch, Start { time: 0.0, ..end.restart() }))
+    let end = simulate(settings.belt, start, until, DEFAULT_TOLERANCE, &mut observer)?;
+    Ok((observer, Start { time: 0.0, ..end.restart() }))
 }
 
-/// Whether a run that has settled has no slow motion of its own left: it ends on the base response, at rest, or on a response of
-/// the dither's own period or of so few that all its lines lie above the band.
+/// Whether the attractor of a settled run is quiescent, without slow motion of its own: the base response, rest, or a response of
+/// the dither's own period or of so few periods that all its spectral lines are above the band.
 ///
 /// # Errors
 /// [`Stalled`].
-pub(super) fn ends_quietly(scene: &Scene<'_>, settled: &Settled) -> Result<bool, Stalled> {
+pub(super) fn is_quiescent(
+    settings: &AttractorSettings<'_>,
+    settled: &Settled,
+) -> Result<bool, Stalled> {
     match settled.outcome {
-        Outcome::Quiet => Ok(true),
-        Outcome::Unsettled(_) => Ok(false),
-        Outcome::Elsewhere if scene.is_autonomous() => Ok(settled.is_at_rest(scene)),
-        Outcome::Elsewhere => {
-            let (watch, end) = watched(scene, settled.state)?;
-            let most = scene.strobe.periods_above_the_band() as usize;
-            Ok(orbit(scene, &watch.section(), end, most).is_some())
+        SettleOutcome::Base => Ok(true),
+        SettleOutcome::Unsettled(_) => Ok(false),
+        SettleOutcome::Elsewhere if settings.is_autonomous() => Ok(settled.is_at_rest(settings)),
+        SettleOutcome::Elsewhere => {
+            let (observer, end) = record(settings, settled.state)?;
+            let most = settings.section.periods_above_the_band() as usize;
+            Ok(orbit(settings, &observer.section(), end, most).is_some())
         }
     }
 }
 
-/// The closed orbit of at most so many periods to which the last states of a section return.
+/// The closed orbit of at most `most` periods to which the last states of a section return.
 fn orbit(
-    scene: &Scene<'_>,
+    settings: &AttractorSettings<'_>,
     section: &[(f64, f64)],
     end: Start,
     most: usize,
 ) -> Option<(u32, Orbit)> {
-    // A cycle without dither has its own period; at the strobe no state need return.
-    if scene.is_autonomous() {
+    // A cycle without dither has its own period; its section need not return.
+    if settings.is_autonomous() {
         return None;
     }
-    // Below, the size of a section is rounding, and a distance relative to it says nothing.
-    let least = ONE_STATE * scene.belt.normal_load();
+    // Below this the size of a section is rounding, and a distance relative to it is meaningless.
+    let least = ONE_STATE * settings.belt.normal_load();
     let size = Moments::of(section).size();
-    // The largest return after n periods among the n states before a place.
+    // The largest distance of a return after n periods among the n states before `end`.
     let returns = |n: usize, end: usize| {
         (end - n..end).map(|k| gap(section[k], section[k - n])).fold(0.0, f64::max)
     };
@@ -244,21 +273,21 @@ fn orbit(
     let own = (ITS_OWN * size).max(least);
     (1..=most).filter(may_be_closed).take(MOST_SHOTS).find_map(|n| {
         let periods = u32::try_from(n).ok()?;
-        let orbit = near(scene.belt, end, periods).ok()?;
+        let orbit = near(settings.belt, end, periods).ok()?;
         let attracts =
-            orbit.verdict() != Verdict::Unstable && gap(state(orbit.start), state(end)) <= own;
-        attracts.then(|| shortest(scene, periods, orbit))
+            orbit.verdict() != OrbitVerdict::Unstable && gap(state(orbit.start), state(end)) <= own;
+        attracts.then(|| shortest(settings, periods, orbit))
     })
 }
 
-/// The orbit with its own period, where it is a part of the one that was found.
-fn shortest(scene: &Scene<'_>, periods: u32, orbit: Orbit) -> (u32, Orbit) {
+/// The orbit with its shortest period, if the period that was found is a multiple of it.
+fn shortest(settings: &AttractorSettings<'_>, periods: u32, orbit: Orbit) -> (u32, Orbit) {
     let same = |part: &Orbit| {
-        gap(state(part.start), state(orbit.start)) <= ONE_STATE * scene.belt.normal_load()
+        gap(state(part.start), state(orbit.start)) <= ONE_STATE * settings.belt.normal_load()
     };
     let part = (1..periods)
         .filter(|part| periods.is_multiple_of(*part))
-        .find_map(|part| Some((part, near(scene.belt, orbit.start, part).ok().filter(same)?)));
+        .find_map(|part| Some((part, near(settings.belt, orbit.start, part).ok().filter(same)?)));
     part.unwrap_or((periods, orbit))
 }
 
@@ -271,63 +300,75 @@ fn gap(a: (f64, f64), b: (f64, f64)) -> f64 {
     libm::hypot(a.0 - b.0, a.1 - b.1)
 }
 
-/// The periodic orbit on which a run from a state at τ = 0 ends; a limit cycle of its own period where no dither acts.
+/// The periodic orbit to which a run from a state at τ = 0 converges; without dither, a limit cycle.
 ///
 /// # Errors
-/// [`NoOrbit`]; [`NoOrbit::NoPeriod`] where the run does not end on a closed orbit of up to 200 common periods.
+/// [`NoOrbit`]; [`NoOrbit::NoPeriod`] if the run does not converge to a closed orbit of up to 200 common periods.
 pub fn orbit_reached(belt: &Belt, start: Start) -> Result<Orbit, NoOrbit> {
-    let scene = Scene::new(belt)?;
-    if scene.is_autonomous()
+    let settings = AttractorSettings::new(belt)?;
+    if settings.is_autonomous()
         && let FreeEnd::Cycle(cycle) = free_end(belt, start)?
     {
         return Ok(cycle);
     }
-    let settled = settle(&scene, start, Patience::SWEEP).map_err(NoOrbit::Stalled)?;
+    let settled = settle(&settings, start, Patience::SWEEP).map_err(NoOrbit::Stalled)?;
     match settled.outcome {
-        Outcome::Unsettled(why) => Err(NoOrbit::Unsettled(why)),
-        Outcome::Quiet => from_sliding(belt, STEPS),
-        Outcome::Elsewhere if settled.is_at_rest(&scene) => Err(NoOrbit::AtRest),
-        Outcome::Elsewhere => match records(&scene, settled.state).map_err(NoOrbit::Stalled)? {
-            Found::Orbit(_, orbit) => Ok(orbit),
-            Found::Section { .. } => {
-                Err(NoOrbit::NoPeriod { most: u32::try_from(MOST_PERIODS).unwrap_or(u32::MAX) })
+        SettleOutcome::Unsettled(why) => Err(NoOrbit::Unsettled(why)),
+        SettleOutcome::Base => from_sliding(belt, STEPS),
+        SettleOutcome::Elsewhere if settled.is_at_rest(&settings) => Err(NoOrbit::AtRest),
+        SettleOutcome::Elsewhere => {
+            match records(&settings, settled.state).map_err(NoOrbit::Stalled)? {
+                RecordFinding::Orbit(_, orbit) => Ok(orbit),
+                RecordFinding::Section { .. } => {
+                    Err(NoOrbit::NoPeriod { most: u32::try_from(MOST_PERIODS).unwrap_or(u32::MAX) })
+                }
             }
-        },
+        }
     }
 }
 
-/// An attractor as a run over it sees it.
-fn seen(scene: &Scene<'_>, kind: Kind, state: Start, periods: usize) -> Result<Attractor, Stalled> {
-    let period = scene.strobe.period;
+/// An attractor as observed by a run on it.
+fn observed(
+    settings: &AttractorSettings<'_>,
+    kind: AttractorKind,
+    state: Start,
+    periods: usize,
+) -> Result<Attractor, Stalled> {
+    let period = settings.section.period;
     let length = periods as f64 * period;
-    let is_orbit = matches!(kind, Kind::Periodic { .. });
-    let looks = if is_orbit { looks_of_an_orbit(period) } else { looks(period) };
-    let mut watch = (
-        Watch::looking(period, periods, looks),
-        Extremes { lowest: f64::INFINITY, highest: f64::NEG_INFINITY },
+    let is_orbit = matches!(kind, AttractorKind::Periodic { .. });
+    let samples =
+        if is_orbit { samples_per_orbit_period(period) } else { samples_per_period(period) };
+    let mut observers = (
+        BlockObserver::with_samples(period, periods, samples),
+        DisplacementExtremes { lowest: f64::INFINITY, highest: f64::NEG_INFINITY },
     );
-    simulate(scene.belt, state, length, DEFAULT_TOLERANCE, &mut watch)?;
-    let (watch, extremes) = watch;
-    let stick_fraction = watch.stuck / length;
-    // Held by a belt that does not move: nothing of the dither is seen in the motion.
-    let rests = scene.belt.belt_velocity() == 0.0 && extremes.highest == extremes.lowest;
-    let kind = if rests { Kind::Rest } else { kind };
-    let section = watch.section();
-    let states = || watch.states().collect::<Vec<_>>();
+    simulate(settings.belt, state, length, DEFAULT_TOLERANCE, &mut observers)?;
+    let (observer, extremes) = observers;
+    let stick_fraction = observer.stuck / length;
+    // Held by friction on a belt that does not move: the dither does not show in the motion.
+    let rests = settings.belt.belt_velocity() == 0.0 && extremes.highest == extremes.lowest;
+    let kind = if rests { AttractorKind::Rest } else { kind };
+    let section = observer.section();
+    let states = || observer.states().collect::<Vec<_>>();
     let rotation = match kind {
-        Kind::Periodic { periods: 1, .. } | Kind::Rest => None,
-        Kind::Periodic { .. } => Some(Rotation::of_orbit(&states(), looks)),
-        Kind::Cycle | Kind::QuasiPeriodic | Kind::Unclassified => {
-            Some(Rotation::of_curve(&states(), looks))
+        AttractorKind::Periodic { periods: 1, .. } | AttractorKind::Rest => None,
+        AttractorKind::Periodic { .. } => Some(Rotation::of_orbit(&states(), samples)),
+        AttractorKind::Cycle | AttractorKind::QuasiPeriodic | AttractorKind::Unclassified => {
+            Some(Rotation::of_curve(&states(), samples))
         }
     };
     Ok(Attractor {
         kind,
         base: false,
         quiet: match kind {
-            Kind::Periodic { periods, .. } => periods <= scene.strobe.periods_above_the_band(),
-            Kind::Rest => true,
-            Kind::Cycle | Kind::QuasiPeriodic | Kind::Unclassified => false,
+            AttractorKind::Periodic { periods, .. } => {
+                periods <= settings.section.periods_above_the_band()
+            }
+            AttractorKind::Rest => true,
+            AttractorKind::Cycle | AttractorKind::QuasiPeriodic | AttractorKind::Unclassified => {
+                false
+            }
         },
         state,
         section,
@@ -338,16 +379,17 @@ fn seen(scene: &Scene<'_>, kind: Kind, state: Start, periods: usize) -> Result<A
     })
 }
 
-/// Least and largest x of a run, between the ends of steps too: where x′ changes sign inside one.
-struct Extremes {
+/// Least and largest x of a run, including those inside steps, where x′ changes sign.
+struct DisplacementExtremes {
     lowest: f64,
     highest: f64,
 }
 
-/// Closeness of the moment at which x turns: x errs by its square.
-const TURNS: Closeness = Closeness { absolute: 0.0, relative: 1e-9 };
+/// Closeness of the moment at which x′ = 0: the error of x is of the order of its square, below rounding. Looser, a small
+/// response would err relative to its size; closer only takes longer.
+const TURNING_POINT: Closeness = Closeness { absolute: 0.0, relative: 1e-9 };
 
-impl Observer for Extremes {
+impl Observer for DisplacementExtremes {
     fn segment(&mut self, segment: &Segment<'_>) {
         let h = segment.duration();
         let mut take = |x: f64| {
@@ -357,7 +399,7 @@ impl Observer for Extremes {
         take(segment.displacement(0.0));
         take(segment.displacement(h));
         if segment.velocity(0.0) * segment.velocity(h) < 0.0
-            && let Ok(root) = find_root(|since| segment.velocity(since), 0.0, h, TURNS)
+            && let Ok(root) = find_root(|since| segment.velocity(since), 0.0, h, TURNING_POINT)
         {
             take(segment.displacement(root.location));
         }

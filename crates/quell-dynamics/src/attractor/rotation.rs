@@ -1,40 +1,44 @@
-//! Rotation number: how many turns the slow motion makes in a period of the strobe, and the fraction at which it locks.
+//! Rotation number: the number of revolutions of the slow motion per period of the section, and the fraction at which it locks.
 //!
-//! A turn is counted about the mean of the motion at each phase of the period, clockwise in the (x, x′) plane as the mass goes, and
-//! followed with at least ten looks in 2π, so that a turn is not mistaken for none or for two. On a closed orbit of q
-//! periods the turns are an exact integer p, and the response is locked at p/q; the slow frequency is 2πp/(qT). On a
-//! closed curve the turns are averaged with the bump of `average`, and the error is the difference of the
-//! two halves of the record. Limit: beyond `MOST_LOOKS` a period (R < 0.04) whole turns may be missed.
+//! Revolutions are counted about the mean of the motion at each phase of the period, clockwise in the (x, x′) plane like the
+//! motion of the mass, with at least ten samples in 2π, so that none is missed or counted twice. On a closed orbit of q
+//! periods the revolutions are an exact integer p, and the response is locked at p/q; the slow frequency is 2πp/(qT). On a
+//! closed curve the revolutions are averaged with the bump of `average`, and the error is the difference of the
+//! two halves of the record. Limit: with more than `MOST_SAMPLES` per period (R < 0.04) whole revolutions may be missed.
 
 use std::f64::consts::TAU;
 
 use super::average::{Moments, mean, weights};
 
-/// Looks in 2π, the time of a slow turn.
-const LOOKS: f64 = 10.0;
+/// Samples in 2π, the time of a slow revolution. With two or fewer per revolution its direction would be undetermined; more only
+/// take longer.
+const SAMPLES: f64 = 10.0;
 
-/// Fewest looks in a period of a closed orbit: the two states of an orbit of two periods lie half a turn apart, which way is not seen.
-const LOOKS_OF_AN_ORBIT: usize = 4;
+/// Fewest samples in a period of a closed orbit: the two states of an orbit of two periods are half a revolution apart, which
+/// leaves the direction undetermined. More only take longer.
+const SAMPLES_OF_AN_ORBIT: usize = 4;
 
-/// Most looks a period.
-const MOST_LOOKS: usize = 256;
+/// Most samples per period, a bound on memory for slow dithers. Whole revolutions may be missed where ten samples in 2π need
+/// more.
+const MOST_SAMPLES: usize = 256;
 
-/// How often a motion is looked at in a period of the strobe, to see it turn.
+/// Number of samples in a period of the section that resolves the slow revolution.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
-pub(super) fn looks(period: f64) -> usize {
-    ((LOOKS * period / TAU).ceil() as usize).clamp(1, MOST_LOOKS)
+pub(super) fn samples_per_period(period: f64) -> usize {
+    ((SAMPLES * period / TAU).ceil() as usize).clamp(1, MOST_SAMPLES)
 }
 
-/// The same for a closed orbit, which is short.
-pub(super) fn looks_of_an_orbit(period: f64) -> usize {
-    looks(period).max(LOOKS_OF_AN_ORBIT)
+/// [`samples_per_period`] for a closed orbit, which is short.
+pub(super) fn samples_per_orbit_period(period: f64) -> usize {
+    samples_per_period(period).max(SAMPLES_OF_AN_ORBIT)
 }
 
-/// Fractions up to this denominator are distinguished from a quasi-periodic motion by how far it has moved. Of the 1024 periods of a
-/// record an irrational number p/q + 1/(√5q²) needs 2.2 q.
+/// Largest denominator of the fractions that are distinguished from a quasi-periodic motion by the distance covered. Of the 1024
+/// periods of a record an irrational number p/q + 1/(√5q²) needs 2.2 q. A motion that creeps near a fraction of a larger
+/// denominator counts as filling its curve; with a much larger limit no motion would fill its curve within a record.
 const DENOMINATORS: u32 = 64;
 
-/// A locked motion: `turns` in `periods`.
+/// A locked motion: `turns` revolutions in `periods` periods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Ratio {
     /// p.
@@ -43,22 +47,22 @@ pub struct Ratio {
     pub periods: u32,
 }
 
-/// Turns a period.
+/// Revolutions per period.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rotation {
-    /// The number.
+    /// The rotation number.
     pub turns_per_period: f64,
-    /// Its error; zero where the motion is locked.
+    /// Its error; zero for a locked motion.
     pub error: f64,
-    /// The fraction in lowest terms where it is locked.
+    /// The fraction in lowest terms, for a locked motion.
     pub ratio: Option<Ratio>,
 }
 
 impl Rotation {
-    /// Of a closed orbit: its states once round, so many `looks` a period.
-    pub(super) fn of_orbit(states: &[(f64, f64)], looks: usize) -> Self {
-        let count = (states.len() / looks) as f64;
-        let centres = centres(states, looks, |phase| {
+    /// Of a closed orbit: the states of one complete orbit, `samples` per period.
+    pub(super) fn of_orbit(states: &[(f64, f64)], samples: usize) -> Self {
+        let count = (states.len() / samples) as f64;
+        let centres = centres(states, samples, |phase| {
             let sum = phase.iter().fold((0.0, 0.0), |sum, (x, v)| (sum.0 + x, sum.1 + v));
             [sum.0 / count, sum.1 / count]
         });
@@ -67,7 +71,7 @@ impl Rotation {
         let turns = increments(&closed, &centres).iter().sum::<f64>().round();
         #[expect(clippy::cast_possible_truncation, reason = "a whole number below the length")]
         let turns = turns as i64;
-        let periods = u32::try_from(states.len() / looks).unwrap_or(u32::MAX).max(1);
+        let periods = u32::try_from(states.len() / samples).unwrap_or(u32::MAX).max(1);
         let common = divisor(turns.unsigned_abs(), u64::from(periods)).max(1);
         let ratio = Ratio {
             turns: turns / i64::try_from(common).unwrap_or(1),
@@ -76,13 +80,13 @@ impl Rotation {
         Self { turns_per_period: turns as f64 / f64::from(periods), error: 0.0, ratio: Some(ratio) }
     }
 
-    /// Of a limit cycle without dither, which makes so many turns in a period of the strobe: exact, and not modulo 1.
+    /// Of a limit cycle without dither with this number of revolutions in a period of the section: exact, and not modulo 1.
     pub(super) fn of_cycle(turns_per_period: f64) -> Self {
         Self { turns_per_period, error: 0.0, ratio: None }
     }
 
-    /// Whether a motion of so many periods has filled its curve: measured against every fraction p/q of a small denominator it
-    /// has moved by more than 1/q of a turn, the gap between the q states that it nearly repeats.
+    /// Whether a motion has filled its curve in `periods` periods: relative to every fraction p/q of a small denominator it
+    /// has moved by more than 1/q of a revolution, the gap between the q states that it nearly repeats.
     pub(super) fn fills(&self, periods: usize) -> bool {
         (1..=DENOMINATORS).all(|q| {
             let q = f64::from(q);
@@ -91,10 +95,11 @@ impl Rotation {
         })
     }
 
-    /// Of a long record of motion on a closed curve, so many `looks` a period.
-    pub(super) fn of_curve(states: &[(f64, f64)], looks: usize) -> Self {
-        let steps = increments(states, &centres(states, looks, |phase| Moments::of(phase).centre));
-        let each = looks as f64;
+    /// Of a long record of motion on a closed curve, `samples` per period.
+    pub(super) fn of_curve(states: &[(f64, f64)], samples: usize) -> Self {
+        let steps =
+            increments(states, &centres(states, samples, |phase| Moments::of(phase).centre));
+        let each = samples as f64;
         let over = |steps: &[f64]| each * mean(&weights(steps.len()), steps.iter().copied());
         let (first, second) = steps.split_at(steps.len() / 2);
         Self {
@@ -108,14 +113,14 @@ impl Rotation {
 /// The centre of the states at each phase of the period.
 fn centres(
     states: &[(f64, f64)],
-    looks: usize,
+    samples: usize,
     centre: impl Fn(&[(f64, f64)]) -> [f64; 2],
 ) -> Vec<[f64; 2]> {
-    let at = |phase| states.iter().skip(phase).step_by(looks).copied().collect::<Vec<_>>();
-    (0..looks).map(|phase| centre(&at(phase))).collect()
+    let at = |phase| states.iter().skip(phase).step_by(samples).copied().collect::<Vec<_>>();
+    (0..samples).map(|phase| centre(&at(phase))).collect()
 }
 
-/// Turns between neighbours of a record about the centres of their phases, each in (−½, ½].
+/// Revolutions between neighbours of a record about the centres of their phases, each in (−½, ½].
 fn increments(states: &[(f64, f64)], centres: &[[f64; 2]]) -> Vec<f64> {
     let angles: Vec<f64> = states
         .iter()
@@ -142,7 +147,8 @@ fn divisor(mut a: u64, mut b: u64) -> u64 {
 mod tests {
     use super::*;
 
-    /// 1/10 − 2·10⁻⁵ moves by a fiftieth of a turn in 1024 periods, less than the tenth between its strands; the golden mean fills.
+    /// 1/10 − 2·10⁻⁵ moves by a fiftieth of a revolution in 1024 periods, less than the tenth between its strands; the golden
+    /// mean fills.
     #[test]
     fn a_creep_does_not_fill_its_curve() {
         let of = |turns_per_period| Rotation { turns_per_period, error: 0.0, ratio: None };
@@ -152,8 +158,8 @@ mod tests {
     }
 
     #[test]
-    fn a_planted_rotation_is_found() {
-        // A curve that is no circle, walked unevenly: the number of turns does not mind.
+    fn a_known_rotation_number_is_recovered() {
+        // A curve that is not a circle, traversed unevenly: the rotation number is unaffected.
         let point = |turns: f64| {
             let angle = TAU * turns;
             let angle = angle + 0.4 * angle.sin();
@@ -167,29 +173,29 @@ mod tests {
         let section: Vec<(f64, f64)> = (0..68).map(|k| point(f64::from(5 * k) / 68.0)).collect();
         let found = Rotation::of_orbit(&section, 1);
         assert_eq!(found.ratio, Some(Ratio { turns: 5, periods: 68 }));
-        // Twice round: the same fraction in lowest terms.
+        // Two revolutions of the orbit: the same fraction in lowest terms.
         let twice: Vec<(f64, f64)> = (0..26).map(|k| point(f64::from(k) / 13.0)).collect();
         let found = Rotation::of_orbit(&twice, 1);
         assert_eq!(found.ratio, Some(Ratio { turns: 1, periods: 13 }));
     }
 
-    /// A motion that turns 1.3 times a period, and one that closes after two periods with three turns: seen with looks between, where
-    /// the section alone would say 0.3, and half a turn in either direction.
+    /// A motion with 1.3 revolutions per period, and one that closes after two periods with three revolutions: with samples
+    /// between, where the section alone would give 0.3, and half a revolution in either direction.
     #[test]
-    fn whole_turns_are_counted() {
-        let looks = looks(9.0);
-        assert_eq!(looks, 15);
-        // The forced motion turns too, and is no turn of the slow one.
+    fn whole_revolutions_are_counted() {
+        let samples = samples_per_period(9.0);
+        assert_eq!(samples, 15);
+        // The forced motion revolves too, but not as part of the slow one.
         let state = |k: u32, number: f64| {
             let (slow, forced) = (TAU * number * f64::from(k), TAU * f64::from(k));
-            let (slow, forced) = (slow / looks as f64, forced / looks as f64);
+            let (slow, forced) = (slow / samples as f64, forced / samples as f64);
             (slow.cos() + 3.0 * forced.cos(), -slow.sin() - 3.0 * forced.sin())
         };
         let record: Vec<_> = (0..15 * 1024).map(|k| state(k, 0.9 * 2.0_f64.sqrt())).collect();
-        let found = Rotation::of_curve(&record, looks);
+        let found = Rotation::of_curve(&record, samples);
         assert!((found.turns_per_period - 0.9 * 2.0_f64.sqrt()).abs() < 1e-6, "{found:?}");
         let orbit: Vec<_> = (0..30).map(|k| state(k, 1.5)).collect();
-        let found = Rotation::of_orbit(&orbit, looks);
+        let found = Rotation::of_orbit(&orbit, samples);
         assert_eq!(found.ratio, Some(Ratio { turns: 3, periods: 2 }));
     }
 }

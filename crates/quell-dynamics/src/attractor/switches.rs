@@ -1,49 +1,50 @@
 //! Thresholds of an initial-condition protocol: the values of a parameter at which runs from a given start begin or cease to
-//! end on the base response.
+//! settle on the base response.
 //!
-//! An answer for a start, next to the local one of the multipliers: attractors coexist, and from which start on the
-//! dither quenches is another question than whether its response is stable. Where a run ends is decided by
+//! These thresholds depend on the start, unlike the local ones of the multipliers: attractors coexist, so that quenching from a
+//! given start and stability of the response are different questions. Where a run settles is decided by
 //! [`settle()`](super::settle()), as everywhere.
 //!
-//! A ramp grows all amplitudes in equal steps, one a common period: the dither's phase goes on through them.
+//! A ramp increases all amplitudes in equal steps, one per common period; the phase of the dither is continuous across steps.
 
 use quell_model::Belt;
 
-use super::measure::ends_quietly;
-use super::settle::{Outcome, Patience, Settled, settle};
-use super::strobe::Scene;
-use crate::orbit::family::{Forced, Setting};
+use super::measure::is_quiescent;
+use super::settings::AttractorSettings;
+use super::settle::{Patience, SettleOutcome, Settled, settle};
+use crate::orbit::family::{FamilyParameters, Forced};
 use crate::orbit::threshold::NoThresholds;
-use crate::orbit::{NoOrbit, Verdict, common_period};
+use crate::orbit::{NoOrbit, OrbitVerdict, common_period};
 use crate::simulation::{DEFAULT_TOLERANCE, Stalled, Start, simulate};
 
-/// Half the width of an interval, relative to its value, up to which it is reported as a value: ten times what thresholds ask of
-/// bisection (10⁻⁵). Wider intervals are those at which it stopped, and are reported with their error.
+/// Half the width of an interval, relative to its value, up to which it is reported as a single value: ten times the closeness
+/// that thresholds request of bisection (10⁻⁵). Wider intervals are those at which bisection stopped, and are reported with
+/// their error. Larger, such an interval would be reported as a value; smaller, an ordinary one with its error.
 const NARROW: f64 = 1e-4;
 
-/// For a run that cannot end on the base response, because that is unstable. What still moves after 2000 slow periods (at R = 10)
-/// counts as vibrating: a response without slow motion that attracts more slowly than that is missed, which is so in a narrow
-/// interval about a threshold.
+/// For a run that cannot settle on the base response, because that is unstable. A run that still moves after 2000 slow periods
+/// (at R = 10) counts as vibrating: a response without slow motion that attracts more slowly than that is missed, in a narrow
+/// interval around a threshold.
 const OFF_AN_UNSTABLE_BASE: Patience = Patience { periods: 20_000, ..Patience::SWEEP };
 
-/// Where a run ends.
+/// Where a run settles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Reached {
     /// On the base response.
     Base,
-    /// On another response without a slow motion of its own: of the dither's period, or of so few that all its lines lie above
-    /// the band of slow vibration.
+    /// On another response without slow motion of its own: of the dither's period, or of so few periods that all its spectral
+    /// lines are above the band of slow vibration.
     Forced,
     /// On a response that vibrates slowly.
     Elsewhere,
-    /// It had not settled when its time was over.
+    /// It had not settled when its periods were used up.
     Unsettled,
-    /// The start, or the response with which it would be compared, was not found.
+    /// The start, or the base response for the comparison, was not found.
     Unknown,
 }
 
 impl Reached {
-    /// Whether no slow motion of its own is left, and the self-excited vibration is over; `None` where that is not known.
+    /// Whether it is quiescent, without slow motion of its own, so that the self-excited vibration has ended; `None` if unknown.
     pub fn is_quiet(self) -> Option<bool> {
         match self {
             Self::Base | Self::Forced => Some(true),
@@ -52,40 +53,41 @@ impl Reached {
         }
     }
 
-    /// Whether both answer alike what a start is asked for: whether its run ends quietly.
+    /// Whether both give the same answer for a start: whether its run is quiescent in the end.
     fn agrees(self, other: Self) -> bool {
         self == other || (self.is_quiet() == Some(true) && other.is_quiet() == Some(true))
     }
 
-    fn of(scene: &Scene<'_>, settled: &Settled) -> Result<Self, Stalled> {
+    fn of(settings: &AttractorSettings<'_>, settled: &Settled) -> Result<Self, Stalled> {
         Ok(match settled.outcome {
-            Outcome::Quiet => Self::Base,
-            Outcome::Elsewhere if ends_quietly(scene, settled)? => Self::Forced,
-            Outcome::Elsewhere => Self::Elsewhere,
-            Outcome::Unsettled(_) => Self::Unsettled,
+            SettleOutcome::Base => Self::Base,
+            SettleOutcome::Elsewhere if is_quiescent(settings, settled)? => Self::Forced,
+            SettleOutcome::Elsewhere => Self::Elsewhere,
+            SettleOutcome::Unsettled(_) => Self::Unsettled,
         })
     }
 }
 
-/// Where the run of a belt from `start` ends. `start.time` is a whole number of common periods of the dithers.
+/// Where the run of a belt from `start` settles. `start.time` is a whole number of common periods of the dithers.
 ///
 /// # Errors
-/// [`NoOrbit`]: no common period, or the engine stopped; and where the run has not settled and the base response, which it may be
-/// nearing, could not be followed to the dither's amplitude.
+/// [`NoOrbit`]: no common period, or the engine stopped; also if the run has not settled and the base response, to which it may
+/// be converging, could not be followed to the dither's amplitude.
 pub fn reached(belt: &Belt, start: Start) -> Result<Reached, NoOrbit> {
-    let scene = Scene::new(belt)?;
-    let is_unstable = scene.quiet.as_ref().is_ok_and(|quiet| quiet.verdict == Verdict::Unstable);
+    let settings = AttractorSettings::new(belt)?;
+    let is_unstable =
+        settings.base.as_ref().is_ok_and(|base| base.verdict == OrbitVerdict::Unstable);
     let patience = if is_unstable { OFF_AN_UNSTABLE_BASE } else { Patience::SWEEP };
-    let settled = settle(&scene, start, patience).map_err(NoOrbit::Stalled)?;
-    match (Reached::of(&scene, &settled).map_err(NoOrbit::Stalled)?, &scene.quiet) {
+    let settled = settle(&settings, start, patience).map_err(NoOrbit::Stalled)?;
+    match (Reached::of(&settings, &settled).map_err(NoOrbit::Stalled)?, &settings.base) {
         (Reached::Unsettled, Err(why)) if !why.is_absence() => Err(*why),
         (Reached::Unsettled, _) if is_unstable => Ok(Reached::Elsewhere),
         (reached, _) => Ok(reached),
     }
 }
 
-/// Where a run is after its dither has grown from nothing over a time `over`, in equal steps, one a common period (at
-/// least one). `over` = 0 is no ramp.
+/// The state of a run after its dither has grown from zero over a time `over`, in equal steps, one per common period (at
+/// least one). `over` = 0 means no ramp.
 ///
 /// # Errors
 /// [`NoOrbit`]: no common period, or the engine stopped.
@@ -98,8 +100,9 @@ pub fn ramped(belt: &Belt, start: Start, over: f64) -> Result<Start, NoOrbit> {
     let mut state = start;
     let mut number = 0.0;
     while number < count {
-        let share = (number + 0.5) / count;
-        let step = Forced { belt, setting: Setting::Share, periods: 1 }.belt_at(&[share])?;
+        let factor = (number + 0.5) / count;
+        let family = Forced { belt, parameters: FamilyParameters::CommonFactor, periods: 1 };
+        let step = family.belt_at(&[factor])?;
         number += 1.0;
         let until = number.mul_add(period, start.time);
         state = simulate(&step, state, until, DEFAULT_TOLERANCE, &mut ())
@@ -109,42 +112,42 @@ pub fn ramped(belt: &Belt, start: Start, over: f64) -> Result<Start, NoOrbit> {
     Ok(state)
 }
 
-/// A value of the parameter at which the answer of a protocol changes.
+/// A value of the parameter at which the result of a protocol changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Switch {
     /// The parameter.
     pub value: f64,
-    /// Half the width of the interval in which the answer changes.
+    /// Half the width of the interval in which the result changes.
     pub error: f64,
-    /// Where runs end for slightly larger values.
+    /// Where runs settle for slightly larger values.
     pub becomes: Reached,
 }
 
 impl Switch {
-    /// Whether the interval is narrow: bisection was not stopped by a value at which nothing is known.
+    /// Whether the interval is narrow: bisection was not stopped by a value with an unknown result.
     pub fn is_close(&self) -> bool {
         self.error <= NARROW * self.value.abs()
     }
 }
 
-/// Where the runs of a protocol end over a range of values.
+/// Where the runs of a protocol settle over a range of values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Switches {
-    /// At the first value.
+    /// The result at the first value.
     pub first: Reached,
-    /// Where that changes, in the order of the values.
+    /// The values at which it changes, in order.
     pub changes: Vec<Switch>,
-    /// Values that were tried with [`Reached::Unknown`], and why.
+    /// The values with [`Reached::Unknown`], and the reason.
     pub unknown: Vec<(f64, NoOrbit)>,
 }
 
 /// Values of `path` between `from` and `to` at which runs from `start` (a state for each belt) begin or cease to
-/// end on the response of sliding (and where there is no start, because nothing is there to be quenched): `steps` values are
-/// tried, and each change is bisected to `closeness` relative; where a third answer lies between two, no further than to it.
-/// A pair of changes between two neighbouring values is missed.
+/// settle on the base response. A belt without a start has nothing to quench and counts as settling on it. `steps` values are
+/// tried, and each change is bisected to the relative `closeness`; if a third result is found between two, both changes next to
+/// it are bisected. A pair of changes between two neighbouring values is missed.
 ///
 /// # Errors
-/// [`NoThresholds::Invalid`] where a value is not allowed.
+/// [`NoThresholds::Invalid`] if a value is not allowed.
 pub fn switches(
     belt: &Belt,
     path: &str,
@@ -177,8 +180,8 @@ pub fn switches(
     Ok(Switches { first, changes, unknown })
 }
 
-/// The changes of the answer between two values at which it is known, in their order. Where a third answer lies between them
-/// both ways to it are searched, unless it is that nothing is known there: the change then lies somewhere between.
+/// The changes of the result between two values, in order. If a third result is found between them, both sides of it are
+/// searched, unless it is unknown or unsettled: the change is then somewhere between the two values.
 fn bisected(
     tried: &mut impl FnMut(f64) -> Result<Reached, NoThresholds>,
     [(mut low, last), (mut high, next)]: [(f64, Reached); 2],
@@ -191,8 +194,8 @@ fn bisected(
     while (high - low).abs() > closeness * high.abs().max(low.abs()) {
         let middle = 0.5 * (low + high);
         match tried(middle)? {
-            it if it.agrees(last) => low = middle,
-            it if it.agrees(next) => high = middle,
+            reached if reached.agrees(last) => low = middle,
+            reached if reached.agrees(next) => high = middle,
             Reached::Unsettled | Reached::Unknown => break,
             third => {
                 bisected(tried, [(low, last), (middle, third)], closeness, out)?;
@@ -209,10 +212,10 @@ fn bisected(
 mod tests {
     use super::*;
 
-    /// Answers of a parameter by the places where they begin.
+    /// The results over a parameter, each with the value from which it applies.
     fn changes(answers: &[(f64, Reached)], closeness: f64) -> Vec<Switch> {
         let mut tried = |value: f64| {
-            let found = answers.iter().rev().find(|it| it.0 <= value).expect("from 0 on");
+            let found = answers.iter().rev().find(|(from, _)| *from <= value).expect("from 0 on");
             Ok(found.1)
         };
         let ends = [(0.0, answers[0].1), (1.0, answers[answers.len() - 1].1)];
@@ -221,7 +224,7 @@ mod tests {
         found
     }
 
-    /// A third answer between two is searched for on both sides.
+    /// A third result between two is searched on both sides.
     #[test]
     fn every_change_between_two_values_is_found() {
         use Reached::{Base, Elsewhere, Unknown};
@@ -240,7 +243,7 @@ mod tests {
                 assert_eq!(change.becomes, *becomes);
             }
         }
-        // Where the middle is unknown the change lies somewhere between, and the error says so.
+        // If the middle is unknown the change is somewhere between, and the error covers the interval.
         let found = changes(&[(0.0, Base), (0.4, Unknown), (0.6, Elsewhere)], 1e-6);
         assert_eq!((found.len(), found[0].error), (1, 0.5));
         assert!(!found[0].is_close());

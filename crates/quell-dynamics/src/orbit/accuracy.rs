@@ -1,34 +1,34 @@
-//! How accurate an orbit and its multipliers are.
+//! The accuracy of an orbit and of its multipliers.
 //!
-//! Shooting stops where the mismatch r after a period is small, but the state errs by (M − 1)⁻¹r: by r/|1 − λ| along the
-//! eigenvector of a multiplier λ near 1. Near a fold λ itself moves with the state, so that Newton's step underestimates the
-//! distance to the orbit by up to a factor of 2 (Kantorovich), which is included. The multipliers' error is what
-//! they change by over that distance to both sides, in the direction in which it is largest.
-//! Limit: an estimate, first order in the distance; it is no enclosure.
+//! Shooting stops when the mismatch r after a period is small, but the error of the state is (M − 1)⁻¹r: r/|1 − λ| along the
+//! eigenvector of a multiplier λ near 1. Near a fold λ itself varies with the state, so that Newton's step underestimates the
+//! distance to the orbit by up to a factor of 2 (Kantorovich), which is included. The error of the multipliers is their
+//! change over that distance to both sides, in the direction in which the distance is largest.
+//! Limit: an estimate, first order in the distance; it is not an enclosure.
 
 use quell_model::Belt;
 
-use super::variation::Variation;
-use super::{Matrix, TOLERANCE, radius_of, shot};
+use super::period_map::{TOLERANCE, radius_of, shoot};
+use super::variation::{Matrix2, Variation};
 use crate::simulation::Start;
 
 /// Kantorovich's bound on the distance to a root, in Newton steps.
 const NEWTON_STEPS: f64 = 2.0;
 
-/// Distance of the true orbit, relative to F, beyond which nothing is said of its multipliers: a difference over it would say
-/// nothing about the slope.
+/// Distance of the true orbit, relative to F, beyond which its multipliers are left undetermined: a difference over it would not
+/// measure the slope.
 const FAR: f64 = 1e-2;
 
 /// Estimated errors of an orbit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Accuracy {
-    /// Of its state, a length.
+    /// Error of its state, a length.
     pub(super) state: f64,
-    /// Of the modulus of the multiplier that decides.
+    /// Error of the modulus of the deciding multiplier.
     pub(super) multiplier: f64,
 }
 
-/// The accuracy of an orbit with this mismatch; `is_free` of a limit cycle, whose phase is not an error.
+/// The accuracy of an orbit with this mismatch; `is_free` for a limit cycle, whose phase is not an error.
 pub(super) fn accuracy(
     belt: &Belt,
     start: Start,
@@ -38,7 +38,7 @@ pub(super) fn accuracy(
     is_free: bool,
 ) -> Accuracy {
     let scale = belt.normal_load();
-    // What the engine's own error and rounding leave although the mismatch may vanish by chance.
+    // The engine's own error and rounding remain, although the mismatch may vanish by chance.
     let noise = TOLERANCE * scale.max(start.displacement.abs()).max(start.velocity.abs());
     let mismatch = residual + noise;
     let ([x, v], slowness) = if is_free {
@@ -52,26 +52,27 @@ pub(super) fn accuracy(
     }
     let here = radius_of(variation, is_free);
     let change = [state, -state].map(|step| {
-        let aside = Start {
+        let displaced = Start {
             displacement: step.mul_add(x, start.displacement),
             velocity: step.mul_add(v, start.velocity),
             ..start
         };
-        shot(belt, aside, period)
-            .map_or(f64::INFINITY, |(_, aside)| (radius_of(&aside, is_free) - here).abs())
+        shoot(belt, displaced, period)
+            .map_or(f64::INFINITY, |(_, there)| (radius_of(&there, is_free) - here).abs())
     });
     Accuracy { state, multiplier: change[0].max(change[1]) }
 }
 
-/// The direction of a change of state that M − 1 shortens most, and by how much: its smallest singular value.
-fn weakest(matrix: &Matrix) -> ([f64; 2], f64) {
+/// The direction of a change of state that M − 1 shortens most, and the factor: its smallest singular value.
+fn weakest(matrix: &Matrix2) -> ([f64; 2], f64) {
     let [[a, b], [c, d]] = *matrix;
     let (a, d) = (a - 1.0, d - 1.0);
     // AᵀA = [[p, q], [q, r]]; of its smaller eigenvalue det²/larger does not cancel.
     let (p, q, r) = (a * a + c * c, a * b + c * d, b * b + d * d);
     let larger = 0.5 * (p + r) + libm::hypot(0.5 * (p - r), q);
     let smallest = if larger > 0.0 { (a * d - b * c).abs() / libm::sqrt(larger) } else { 0.0 };
-    // The eigenvector of the larger one is (q, larger − p) or (larger − r, q); the weakest is at right angles to it.
+    // The eigenvector of the larger eigenvalue is (q, larger − p) or (larger − r, q); the weakest direction is at right angles
+    // to it.
     let strongest = if p > r { [larger - r, q] } else { [q, larger - p] };
     let length = libm::hypot(strongest[0], strongest[1]);
     let direction = if length > 0.0 {

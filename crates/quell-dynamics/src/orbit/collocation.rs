@@ -43,10 +43,10 @@ impl Collocation {
     }
 }
 
-/// The j-th Lagrange polynomial at a place.
-fn lagrange(nodes: &[f64; NODES], j: usize, place: f64) -> f64 {
+/// The j-th Lagrange polynomial at a point.
+fn lagrange(nodes: &[f64; NODES], j: usize, point: f64) -> f64 {
     let others = nodes.iter().enumerate().filter(|(k, _)| *k != j);
-    others.map(|(_, node)| (place - node) / (nodes[j] - node)).product()
+    others.map(|(_, node)| (point - node) / (nodes[j] - node)).product()
 }
 
 #[expect(
@@ -63,8 +63,8 @@ pub(super) fn weighted(rule: &Collocation, values: &[f64; NODES]) -> f64 {
 }
 
 /// Accelerations η′ at the nodes for two columns of changes: vᵢ = η + hΣaᵢⱼfⱼ, fᵢ = −(ξ + hΣaᵢⱼvⱼ) − rᵢvᵢ, by
-/// elimination of v: (I + r h A + h²A²) f = −ξ − η(h A 1 + r). The matrix is the identity and something small,
-/// so that elimination needs no pivots: h is a step of the engine, at most 8 radians of the fastest oscillation
+/// elimination of v: (I + r h A + h²A²) f = −ξ − η(h A 1 + r). The matrix is the identity plus a small matrix,
+/// so that elimination needs no pivoting: h is a step of the engine, at most 8 radians of the fastest oscillation
 /// and in practice below 1.
 #[expect(
     clippy::needless_range_loop,
@@ -112,8 +112,8 @@ pub(super) fn forces(
     force
 }
 
-/// Least value of Σ cₖtᵏ times `unit` on [0, h] and where: at the lowest of the nodes and ends, or between its neighbours by Newton's method on
-/// the derivative, which a bracket keeps.
+/// Least value of Σ cₖtᵏ times `unit` on [0, h], and its location: the lowest of the nodes and ends, or between its neighbours by
+/// Newton's method on the derivative, safeguarded by a bracket.
 #[inline(always)]
 pub(super) fn least_of(
     rule: &Collocation,
@@ -123,19 +123,19 @@ pub(super) fn least_of(
     speeds: &[f64; NODES],
 ) -> Option<(f64, f64)> {
     let value = |since: f64| unit * horner(slip, since);
-    let mut places = [(0.0, 0.0); NODES + 2];
-    places[0] = (0.0, value(0.0));
-    places[NODES + 1] = (h, value(h));
+    let mut points = [(0.0, 0.0); NODES + 2];
+    points[0] = (0.0, value(0.0));
+    points[NODES + 1] = (h, value(h));
     for k in 0..NODES {
-        places[k + 1] = (rule.nodes[k] * h, speeds[k]);
+        points[k + 1] = (rule.nodes[k] * h, speeds[k]);
     }
-    let lowest = (0..NODES + 2).min_by(|a, b| places[*a].1.total_cmp(&places[*b].1))?;
-    let (mut since, mut least) = places[lowest];
+    let lowest = (0..NODES + 2).min_by(|a, b| points[*a].1.total_cmp(&points[*b].1))?;
+    let (mut since, mut least) = points[lowest];
     if lowest == 0 && slip.get(1).is_none_or(|rate| unit * rate >= 0.0) {
         return Some((least, since));
     }
     let (mut low, mut high) =
-        (places[lowest.saturating_sub(1)].0, places[(lowest + 1).min(NODES + 1)].0);
+        (points[lowest.saturating_sub(1)].0, points[(lowest + 1).min(NODES + 1)].0);
     for _ in 0..12 {
         let (mut slope, mut bend) = (0.0, 0.0);
         for (k, coefficient) in slip.iter().enumerate().skip(1).rev() {
@@ -159,7 +159,7 @@ pub(super) fn least_of(
     if inside < least {
         least = inside;
     } else {
-        since = places[lowest].0;
+        since = points[lowest].0;
     }
     Some((least, since))
 }

@@ -1,7 +1,7 @@
-//! Curves of local thresholds in two parameters, by pseudo-arclength.
+//! Curves of local thresholds in two parameters, by pseudo-arclength continuation.
 //!
-//! Thresholds are found on a few lines across the second parameter and each is followed to the borders of the window; what
-//! lies on a curve that is already there is not followed again. A curve that crosses none of the lines is missed.
+//! Thresholds are found on a few lines across the second parameter and each is followed to the borders of the window. A
+//! threshold on a known curve is not followed again. A curve that crosses none of the lines is missed.
 //! The scheme is that of [`quell_numerics::continuation::curve`].
 
 use std::fmt;
@@ -10,20 +10,21 @@ use quell_model::Belt;
 use quell_numerics::continuation::curve::{Curve as Traced, CurveEnd, Trace, trace};
 use quell_numerics::continuation::spectral_radius;
 
-use super::family::{Forced, Setting, Signature, start_of};
-use super::threshold::{Ending as BranchEnding, Kind, Local, NoThresholds, Threshold, local};
-use super::{Verdict, near};
+use super::family::{FamilyParameters, Forced, Signature};
+use super::shooting::near;
+use super::threshold::{BranchEnding, Local, NoThresholds, Threshold, ThresholdKind, local};
+use super::verdict::OrbitVerdict;
 use crate::simulation::Start;
 
-/// Steps of the walks that find the first points.
+/// Steps of the continuation runs that find the first points.
 const STEPS: u32 = 40;
 
-/// Distance beyond a touch, relative to the parameter, at which the response with contact events is looked at.
+/// Distance beyond a grazing, relative to the parameter, at which the response with contact events is evaluated.
 const BEYOND: f64 = 1e-5;
 
-/// The two parameters and their windows.
+/// The plane of two parameters and their windows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plane<'a> {
+pub struct ParameterPlane<'a> {
     /// Path of the parameter whose thresholds are followed.
     pub path: &'a str,
     /// Its window.
@@ -36,47 +37,47 @@ pub struct Plane<'a> {
 
 /// A threshold on a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CurvePoint {
+pub struct ThresholdCurvePoint {
     /// The first parameter.
     pub value: f64,
     /// The second parameter.
     pub along: f64,
-    /// The response there.
+    /// The state of the response.
     pub state: Start,
-    /// Modulus of the larger multiplier; at a grazing that of the response in pure slip.
+    /// Modulus of the larger multiplier; at a grazing, of the response in pure slip.
     pub radius: f64,
 }
 
 /// A curve of thresholds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThresholdCurve {
-    /// What happens on it.
-    pub kind: Kind,
+    /// The kind of bifurcation.
+    pub kind: ThresholdKind,
     /// Its points, in order.
-    pub points: Vec<CurvePoint>,
-    /// How it ends at its first and its last point.
-    pub ends: [Ending; 2],
+    pub points: Vec<ThresholdCurvePoint>,
+    /// How it ends at its first and at its last point.
+    pub ends: [ThresholdCurveEnd; 2],
 }
 
 /// How a curve of thresholds ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Ending {
+pub enum ThresholdCurveEnd {
     /// At the border of a window.
     Window,
-    /// Where it began.
+    /// At its own start: the curve is closed.
     Closed,
-    /// Its response touches v_r = 0.
+    /// Its response grazes v_r = 0.
     Grazing,
     /// Its pair of multipliers is real.
     Resonance,
-    /// Beyond it the touch changes no verdict.
+    /// Beyond it the grazing changes no verdict.
     SameVerdict,
     /// It was lost.
     Lost,
 }
 
-impl Ending {
-    /// Words in outputs.
+impl ThresholdCurveEnd {
+    /// The word in outputs.
     pub fn name(self) -> &'static str {
         match self {
             Self::Window => "window",
@@ -104,16 +105,16 @@ impl Ending {
 pub struct CurvesFound {
     /// The curves.
     pub curves: Vec<ThresholdCurve>,
-    /// Lines that were not searched to their ends.
+    /// Lines that were not searched completely.
     pub open: Vec<OpenLine>,
 }
 
-/// A line across the second parameter that was not searched to its end, or on which a threshold was not followed.
+/// A line across the second parameter that was not searched completely, or on which a threshold was not followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OpenLine {
     /// The second parameter.
     pub along: f64,
-    /// What happened.
+    /// The reason.
     pub why: Open,
 }
 
@@ -122,14 +123,14 @@ pub struct OpenLine {
 pub enum Open {
     /// The second parameter cannot take the value.
     Invalid,
-    /// There is nothing to begin with.
+    /// There is no response to start from.
     Begin(NoThresholds),
-    /// The response was lost on the way.
+    /// The response was lost before the end of the line.
     Lost {
         /// The last value of the first parameter at which it was found.
         at: f64,
     },
-    /// A threshold is there, but no curve through it was found.
+    /// A threshold was found, but no curve through it.
     NotFollowed {
         /// Its value of the first parameter.
         value: f64,
@@ -137,7 +138,7 @@ pub enum Open {
 }
 
 impl Open {
-    /// In words, with values of the first parameter as `value` tells them.
+    /// A description, with values of the first parameter as formatted by `value`.
     pub fn words(&self, value: impl Fn(f64) -> String) -> String {
         match self {
             Self::Invalid => "the parameter cannot take this value".to_owned(),
@@ -162,10 +163,10 @@ impl std::error::Error for OpenLine {}
 /// either window.
 ///
 /// # Errors
-/// The last line, where none has a response of sliding to begin with.
+/// The last line, if no line has a base response to start from.
 pub fn curves(
     belt: &Belt,
-    plane: Plane<'_>,
+    plane: ParameterPlane<'_>,
     lines: u32,
     points: u32,
 ) -> Result<CurvesFound, OpenLine> {
@@ -173,122 +174,128 @@ pub fn curves(
     let lines = lines.max(1);
     let mut found: Vec<ThresholdCurve> = Vec::new();
     let mut open: Vec<OpenLine> = Vec::new();
-    let mut begun = false;
-    // Lines lie inside the window, so that a curve does not begin on its border.
+    let mut has_started = false;
+    // Lines are inside the window, so that no curve starts on its border.
     for line in 0..lines {
-        let place = first + (last - first) * (f64::from(line) + 0.5) / f64::from(lines);
-        let on_line = belt.with(plane.along, place).map_err(|_| Open::Invalid).and_then(|belt| {
+        let along = first + (last - first) * (f64::from(line) + 0.5) / f64::from(lines);
+        let on_line = belt.with(plane.along, along).map_err(|_| Open::Invalid).and_then(|belt| {
             local(&belt, plane.path, plane.window.0, plane.window.1, STEPS).map_err(Open::Begin)
         });
-        let mut leave = |why: Open| open.push(OpenLine { along: place, why });
+        let mut leave_open = |why: Open| open.push(OpenLine { along, why });
         match on_line {
-            Err(why) => leave(why),
+            Err(why) => leave_open(why),
             Ok(Local { thresholds, ending, .. }) => {
-                begun = true;
+                has_started = true;
                 if let BranchEnding::Lost { at } | BranchEnding::LostTurning { at, .. } = ending {
-                    leave(Open::Lost { at });
+                    leave_open(Open::Lost { at });
                 }
                 for threshold in thresholds {
-                    if found.iter().any(|it| passes(it, &threshold, place, plane)) {
+                    if found.iter().any(|curve| passes(curve, &threshold, along, plane)) {
                         continue;
                     }
-                    match followed(belt, plane, &threshold, place, points) {
+                    match follow_threshold(belt, plane, &threshold, along, points) {
                         Some(curve) => found.push(curve),
-                        None => leave(Open::NotFollowed { value: threshold.value }),
+                        None => leave_open(Open::NotFollowed { value: threshold.value }),
                     }
                 }
             }
         }
     }
     match open.last() {
-        Some(line) if !begun => Err(*line),
+        Some(line) if !has_started => Err(*line),
         _ => Ok(CurvesFound { curves: found, open }),
     }
 }
 
-/// Whether a curve passes a threshold on a line already.
-fn passes(curve: &ThresholdCurve, threshold: &Threshold, place: f64, plane: Plane<'_>) -> bool {
+/// Whether a curve already passes through a threshold on a line.
+fn passes(
+    curve: &ThresholdCurve,
+    threshold: &Threshold,
+    along: f64,
+    plane: ParameterPlane<'_>,
+) -> bool {
     let width = plane.window.1 - plane.window.0;
     curve.kind == threshold.kind
         && curve.points.windows(2).any(|pair| {
             let (a, b) = (pair[0], pair[1]);
-            let share = (place - a.along) / (b.along - a.along);
-            let there = share.mul_add(b.value - a.value, a.value);
-            let bend = (0.1 * (b.value - a.value).abs()).max(1e-3 * width.abs());
-            (0.0..=1.0).contains(&share) && (there - threshold.value).abs() <= bend
+            let share = (along - a.along) / (b.along - a.along);
+            let value = share.mul_add(b.value - a.value, a.value);
+            let tolerance = (0.1 * (b.value - a.value).abs()).max(1e-3 * width.abs());
+            (0.0..=1.0).contains(&share) && (value - threshold.value).abs() <= tolerance
         })
 }
 
 /// The curve through a threshold.
-fn followed(
+fn follow_threshold(
     belt: &Belt,
-    plane: Plane<'_>,
+    plane: ParameterPlane<'_>,
     threshold: &Threshold,
-    place: f64,
+    along: f64,
     points: u32,
 ) -> Option<ThresholdCurve> {
     let paths = [plane.path, plane.along];
-    let forced = Forced { belt, setting: Setting::Paths(&paths), periods: 1 };
-    let at = belt.with(plane.along, place).ok()?.with(plane.path, threshold.value).ok()?;
-    // A threshold that is a root belongs to the response in pure slip, unless it is found among others.
+    let forced = Forced { belt, parameters: FamilyParameters::Paths(&paths), periods: 1 };
+    let at = belt.with(plane.along, along).ok()?.with(plane.path, threshold.value).ok()?;
+    // A threshold located as a root belongs to the response in pure slip, unless shooting finds another signature.
     let orbit = near(&at, threshold.state, 1).ok();
     let pure = Signature::PureSlip(1);
     let signature = match (&orbit, threshold.kind) {
-        (_, Kind::Grazing) | (None, _) => pure,
+        (_, ThresholdKind::Grazing) | (None, _) => pure,
         (Some(orbit), _) => orbit.signature(),
     };
     let kind = threshold.kind.event()?;
     let options = Trace::windows(plane.window, plane.between, points);
     let state = [threshold.state.displacement, threshold.state.velocity];
-    let traced = trace(&forced, kind, &signature, &state, [threshold.value, place], options)?;
-    let curve = told(threshold.kind, &traced);
-    Some(if threshold.kind == Kind::Grazing {
-        while_it_decides(belt, plane, curve, place)
+    let traced = trace(&forced, kind, &signature, &state, [threshold.value, along], options)?;
+    let curve = threshold_curve(threshold.kind, &traced);
+    Some(if threshold.kind == ThresholdKind::Grazing {
+        deciding_part(belt, plane, curve, along)
     } else {
         curve
     })
 }
 
-fn told(kind: Kind, traced: &Traced) -> ThresholdCurve {
+fn threshold_curve(kind: ThresholdKind, traced: &Traced) -> ThresholdCurve {
     let points = traced
         .points
         .iter()
-        .map(|point| CurvePoint {
+        .map(|point| ThresholdCurvePoint {
             value: point.parameters[0],
             along: point.parameters[1],
-            state: start_of(&point.state),
+            state: Start::of_state(&point.state),
             radius: spectral_radius(&point.multipliers),
         })
         .collect();
-    ThresholdCurve { kind, points, ends: traced.ends.map(Ending::of) }
+    ThresholdCurve { kind, points, ends: traced.ends.map(ThresholdCurveEnd::of) }
 }
 
-/// The part of a curve of touches around the line where it was met on which the touch changes the verdict.
-fn while_it_decides(
+/// The part of a grazing curve, around the line on which it was found, where the grazing changes the verdict.
+fn deciding_part(
     belt: &Belt,
-    plane: Plane<'_>,
+    plane: ParameterPlane<'_>,
     mut curve: ThresholdCurve,
-    place: f64,
+    along: f64,
 ) -> ThresholdCurve {
-    let decides = |point: &CurvePoint| {
+    let decides = |point: &ThresholdCurvePoint| {
         let beyond = |side: f64| {
             let value = point.value * (1.0 + side * BEYOND);
             let at = belt.with(plane.along, point.along).ok()?.with(plane.path, value).ok()?;
             let orbit = near(&at, point.state, 1).ok()?;
             (!orbit.is_pure_slip()).then(|| orbit.verdict())
         };
-        beyond(1.0).or_else(|| beyond(-1.0)) != Some(Verdict::of(point.radius, 0.0))
+        beyond(1.0).or_else(|| beyond(-1.0)) != Some(OrbitVerdict::of(point.radius, 0.0))
     };
     let kept: Vec<bool> = curve.points.iter().map(decides).collect();
-    let off = |index: &usize| (curve.points[*index].along - place).abs();
-    let Some(met) = (0..kept.len()).min_by(|a, b| off(a).total_cmp(&off(b))) else { return curve };
-    let first = (0..met).rev().find(|it| !kept[*it]).map_or(0, |it| it + 1);
-    let last = (met + 1..kept.len()).find(|it| !kept[*it]).unwrap_or(kept.len());
+    let distance = |index: &usize| (curve.points[*index].along - along).abs();
+    let nearest = (0..kept.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let Some(nearest) = nearest else { return curve };
+    let first = (0..nearest).rev().find(|index| !kept[*index]).map_or(0, |index| index + 1);
+    let last = (nearest + 1..kept.len()).find(|index| !kept[*index]).unwrap_or(kept.len());
     if first > 0 {
-        curve.ends[0] = Ending::SameVerdict;
+        curve.ends[0] = ThresholdCurveEnd::SameVerdict;
     }
     if last < kept.len() {
-        curve.ends[1] = Ending::SameVerdict;
+        curve.ends[1] = ThresholdCurveEnd::SameVerdict;
     }
     curve.points = curve.points[first..last].to_vec();
     curve

@@ -1,54 +1,60 @@
-//! The limit cycles of an undithered belt, stable or not, with their periods; and where an undithered run ends, decided by them.
+//! The limit cycles of an undithered belt, stable or not, with their periods, and the limit sets of undithered runs, which
+//! the cycles decide.
 //!
-//! The period is unknown; the phase is fixed by the section x′ = 0 at the lowest displacement, so that a cycle is a fixed point of
-//! a map of one number, the displacement there: the cycle map. Trajectories of the plane do not cross, so every cycle lies inside
-//! the cycle of the slow phase that follows a release, because a release has one state, x = μ_sF − 2ζv₀, x′ = v₀. The map is
-//! searched on all of that interval: every change of sign is closed in on, every dip towards zero is searched for a pair of
-//! cycles, and below the smallest size of the grid the sign at size zero, that of −(2ζ + μ′(v₀)F), says whether one more cycle
-//! exists.
+//! The period is unknown. The phase is fixed by the section x′ = 0 at the lowest displacement, so that a cycle is a fixed point
+//! of a scalar map of the displacement there, the cycle map. Trajectories in the plane do not cross, so every cycle is inside
+//! the revolution that follows a release, because a release has a unique state, x = μ_sF − 2ζv₀, x′ = v₀. The map is
+//! searched on that whole interval: every change of sign is bracketed and refined, every dip towards zero is searched for a pair
+//! of cycles, and below the smallest size of the grid the sign at size zero, that of −(2ζ + μ′(v₀)F), decides whether one more
+//! cycle exists.
 //!
 //! One multiplier of a cycle is 1, along it; the other is the derivative of the map, 0 where the cycle sticks.
-//! Limits: two pairs of cycles between neighbouring sizes of the grid are missed; cycles that pass v_r = 0 without sticking
-//! lie outside the interval and are not searched for.
+//! Limits: two pairs of cycles between neighbouring sizes of the grid are missed. Cycles that cross v_r = 0 without sticking
+//! are outside the interval and are not searched for.
 
 use std::f64::consts::TAU;
 
 use quell_model::Belt;
 use quell_numerics::roots::{Closeness, try_find_root, try_minimise};
 
-use super::{NoOrbit, Orbit, TOLERANCE, Verdict, orbit_at};
-use crate::simulation::{EventKind, EventRecorder, Start, VelocitySection, simulate};
+use super::no_orbit::NoOrbit;
+use super::period_map::TOLERANCE;
+use super::periodic_orbit::Orbit;
+use super::shooting::orbit_at;
+use super::verdict::OrbitVerdict;
+use crate::simulation::{Event, EventKind, EventRecorder, Start, VelocitySection, simulate};
 
-/// Sizes at which the map is evaluated.
+/// Number of sizes at which the map is evaluated.
 const SIZES: u32 = 60;
 
-/// Most turns of a run that grows beyond every cycle, until it sticks and follows a release. A run that
-/// grows for longer is refused; more turns only take longer.
-const MOST_TURNS: u32 = 100;
+/// Most revolutions of a run that grows beyond every cycle, until it sticks and follows a release. A run that
+/// grows for longer is rejected; more revolutions only take longer.
+const MOST_REVOLUTIONS: u32 = 100;
 
-/// Sizes this close, relatively, are the same: far above the engine's error of a turn (10⁻¹²), so that a start on an unstable cycle
-/// is on it, and below any distance from a cycle that is meant. Narrower, rounding would say which way such a start goes.
+/// Relative difference within which two sizes are equal: far above the engine's error of a revolution (10⁻¹²), so that a start on
+/// an unstable cycle counts as on it, and below any intended distance from a cycle. If it were smaller, rounding would decide the
+/// fate of such a start.
 const SAME: f64 = 1e-9;
 
 /// Least size on the grid, relative to the largest possible one.
 const SMALLEST: f64 = 1e-3;
 
-/// Least size of a cycle at all, relative to F: smaller ones are steady sliding, as everywhere a state counts as the base response
-/// within this distance. The map's relative rounding is 10⁻⁸ there, below the growth that the search compares.
+/// Least size of a cycle, relative to F: smaller ones count as steady sliding, because a state counts as the base response
+/// within this distance everywhere. The map's relative rounding is 10⁻⁸ there, below the growth that the search compares.
 const NEGLIGIBLE: f64 = 1e-6;
 
-/// Relative growth over a turn at which it returns to itself: a root is located to 10⁻¹⁴ of its size, so that only a growth that jumps
-/// over zero leaves more than this.
-const RETURNS: f64 = 1e-6;
+/// Relative growth over a revolution below which the size is a fixed point: a root is located to 10⁻¹⁴ of its size, so that
+/// only a growth that jumps over zero leaves more than this.
+const FIXED_POINT: f64 = 1e-6;
 
-/// The next lowest point after a state, its time, and whether the mass stuck on the way.
-struct Turn {
+/// The next lowest point after a state, its time, and whether the mass stuck before it.
+struct Revolution {
     displacement: f64,
     time: f64,
     sticks: bool,
 }
 
-/// Where an undithered run ends.
+/// The limit set of an undithered run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FreeEnd {
     /// Steady sliding.
@@ -59,7 +65,7 @@ pub enum FreeEnd {
     Cycle(Orbit),
 }
 
-/// The state in which the mass leaves the undithered belt, whatever came before: x = μ_sF − 2ζv₀, x′ = v₀.
+/// The state at which the contact of the undithered belt releases, independent of the history: x = μ_sF − 2ζv₀, x′ = v₀.
 pub(crate) fn released(belt: &Belt) -> Start {
     let threshold = belt.friction().static_coefficient() * belt.normal_load();
     Start {
@@ -69,9 +75,9 @@ pub(crate) fn released(belt: &Belt) -> Start {
     }
 }
 
-/// The map from the size of one cycle of the slow phase to that of the next, for a belt without dither.
+/// The map from the size of one revolution of the slow phase to that of the next, for a belt without dither.
 ///
-/// A size is the distance of the lowest displacement from steady sliding, a length.
+/// The size is the distance of the lowest displacement from steady sliding, a length.
 struct CycleMap<'a> {
     belt: &'a Belt,
     sliding: f64,
@@ -82,33 +88,34 @@ impl CycleMap<'_> {
         Start { time: 0.0, displacement: self.sliding - size, velocity: 0.0 }
     }
 
-    fn size(&self, turn: &Turn) -> f64 {
-        self.sliding - turn.displacement
+    fn size(&self, revolution: &Revolution) -> f64 {
+        self.sliding - revolution.displacement
     }
 
-    /// Relative growth of the size over one turn.
+    /// Relative growth of the size over one revolution.
     fn growth(&self, size: f64) -> Result<f64, NoOrbit> {
-        let turn = turn(self.belt, self.lowest(size))?;
-        Ok(turn.map_or(-1.0, |turn| self.size(&turn) / size - 1.0))
+        let next = revolution(self.belt, self.lowest(size))?;
+        Ok(next.map_or(-1.0, |next| self.size(&next) / size - 1.0))
     }
 
-    /// Its sign in the limit of size zero, by the linearised equation: c = 2ζ + μ′(v₀)F, the negative of twice the growth rate.
+    /// The sign of the growth in the limit of size zero, from the linearised equation: −c with c = 2ζ + μ′(v₀)F, twice the
+    /// growth rate.
     fn linear_growth(&self) -> f64 {
         -linear_damping(self.belt)
     }
 
-    /// The size of the turn that follows a release, the largest that a cycle can have; `None` where there is no such turn.
+    /// The size of the revolution that follows a release, the largest that a cycle can have; `None` if there is none.
     fn largest(&self) -> Result<Option<f64>, NoOrbit> {
-        let outermost = turn(self.belt, released(self.belt))?;
-        Ok(outermost.map(|turn| self.size(&turn)).filter(|size| *size > 0.0))
+        let outermost = revolution(self.belt, released(self.belt))?;
+        Ok(outermost.map(|outermost| self.size(&outermost)).filter(|size| *size > 0.0))
     }
 
-    /// Whether the turn from the lowest point that follows a release sticks: the release is then on a cycle.
+    /// Whether the revolution from the lowest point after a release sticks: the release is then on a cycle.
     fn sticks(&self, largest: f64) -> Result<bool, NoOrbit> {
-        Ok(turn(self.belt, self.lowest(largest))?.is_some_and(|turn| turn.sticks))
+        Ok(revolution(self.belt, self.lowest(largest))?.is_some_and(|next| next.sticks))
     }
 
-    /// Sizes below `largest` that return to themselves, the largest first.
+    /// Fixed points of the map below `largest`, the largest first.
     fn fixed_sizes(&self, largest: f64) -> Result<Vec<f64>, NoOrbit> {
         let size = |k: u32| {
             let share = f64::from(k) / f64::from(SIZES);
@@ -117,13 +124,13 @@ impl CycleMap<'_> {
         let grid = (0..=SIZES).rev().map(|k| Ok((size(k), self.growth(size(k))?)));
         let grid: Vec<(f64, f64)> = grid.collect::<Result<_, NoOrbit>>()?;
         let mut found = Vec::new();
-        for (at, &(lower, below)) in grid.iter().enumerate().skip(1) {
-            let (upper, above) = grid[at - 1];
-            // Without any damping every turn returns to itself, and signs are rounding.
-            let sure = below.abs().max(above.abs()) > SAME;
-            if sure && below * above < 0.0 {
+        for (index, &(lower, below)) in grid.iter().enumerate().skip(1) {
+            let (upper, above) = grid[index - 1];
+            // Without any damping every size is a fixed point, and the signs are rounding.
+            let is_significant = below.abs().max(above.abs()) > SAME;
+            if is_significant && below * above < 0.0 {
                 found.extend(self.root(lower, upper)?);
-            } else if let Some(&next) = grid.get(at + 1).filter(|_| sure) {
+            } else if let Some(&next) = grid.get(index + 1).filter(|_| is_significant) {
                 found.extend(self.pair([next, (lower, below), (upper, above)])?);
             }
         }
@@ -133,18 +140,18 @@ impl CycleMap<'_> {
         Ok(found)
     }
 
-    /// The size between two at which the growth changes sign. Where it jumps over zero no turn returns to itself: larger ones stick and
-    /// grow, smaller ones only slip and decay.
+    /// The size between two at which the growth changes sign; `None` where it jumps over zero without a fixed point: larger
+    /// revolutions stick and grow, smaller ones only slip and decay.
     fn root(&self, lower: f64, upper: f64) -> Result<Option<f64>, NoOrbit> {
         let closeness = Closeness { absolute: 0.0, relative: 1e-14 };
-        // A change of sign of finite values has a root: the search itself has nothing to complain about.
+        // A change of sign of finite values brackets a root: the search itself cannot fail.
         let root = try_find_root(|size| self.growth(size), lower, upper, closeness)?;
-        let returns = root.ok().filter(|root| root.residual.abs() <= RETURNS);
-        Ok(returns.map(|root| root.location))
+        let fixed = root.ok().filter(|root| root.residual.abs() <= FIXED_POINT);
+        Ok(fixed.map(|root| root.location))
     }
 
-    /// Two sizes about a dip of the growth towards zero between three sizes of the grid, where it changes sign twice: near the
-    /// fold in which a stable and an unstable cycle meet, both lie between neighbours of the grid.
+    /// Two sizes around a dip of the growth towards zero between three sizes of the grid, where it changes sign twice: near the
+    /// fold of a stable and an unstable cycle both are between neighbours of the grid.
     fn pair(&self, [low, middle, high]: [(f64, f64); 3]) -> Result<Vec<f64>, NoOrbit> {
         let sign = middle.1.signum();
         let dips = sign * middle.1 <= sign * low.1 && sign * middle.1 <= sign * high.1;
@@ -160,7 +167,7 @@ impl CycleMap<'_> {
         Ok(both.into_iter().flatten().collect())
     }
 
-    /// The cycle smaller than the grid: it exists where the growth at the smallest size has another sign than at size zero.
+    /// The cycle smaller than the grid: it exists if the growth at the smallest size and at size zero differ in sign.
     fn below(&self, smallest: f64, growth: f64) -> Result<Option<f64>, NoOrbit> {
         let least = NEGLIGIBLE * self.belt.normal_load();
         if growth * self.linear_growth() >= 0.0 || least >= smallest {
@@ -169,30 +176,30 @@ impl CycleMap<'_> {
         if self.growth(least)? * growth >= 0.0 { Ok(None) } else { self.root(least, smallest) }
     }
 
-    /// The cycle of a size; `None` where its size is not determined.
+    /// The cycle of a given size; `None` if the size is not determined.
     fn cycle(&self, size: f64) -> Result<Option<Orbit>, NoOrbit> {
         let start = self.lowest(size);
-        let Some(turn) = turn(self.belt, start)? else { return Ok(None) };
+        let Some(next) = revolution(self.belt, start)? else { return Ok(None) };
         let state = [start.displacement, start.velocity];
-        let cycle = orbit_at(self.belt, &state, turn.time, true)?;
-        // In a continuum of free oscillations the size is what rounding made it.
+        let cycle = orbit_at(self.belt, &state, next.time, true)?;
+        // In a continuum of free oscillations the size is determined by rounding.
         Ok(cycle.multiplier_error.is_finite().then_some(cycle))
     }
 }
 
-/// 2ζ + μ′(v₀)F of steady sliding without dither: below zero small motions grow.
+/// 2ζ + μ′(v₀)F of steady sliding without dither: small motions grow if it is negative.
 pub fn linear_damping(belt: &Belt) -> f64 {
     let slope = belt.friction().slope(belt.belt_velocity());
     belt.damping_rate(slope, belt.normal_load())
 }
 
-/// Whether steady sliding without dither is stable. e^{−c/2}, c = 2ζ + μ′(v₀)F, is the modulus of both multipliers over unit time of
-/// an underdamped belt, and has the same side of 1 as the larger one of an overdamped belt.
-pub fn sliding_verdict(belt: &Belt) -> Verdict {
-    Verdict::of(libm::exp(-0.5 * linear_damping(belt)), 0.0)
+/// Whether steady sliding without dither is stable. e^{−c/2}, c = 2ζ + μ′(v₀)F, is the modulus of both multipliers over unit
+/// time of an underdamped belt, and is on the same side of 1 as the larger multiplier of an overdamped belt.
+pub fn sliding_verdict(belt: &Belt) -> OrbitVerdict {
+    OrbitVerdict::of(libm::exp(-0.5 * linear_damping(belt)), 0.0)
 }
 
-/// Every limit cycle of the belt without its dither, the largest first; none where all motion settles to steady sliding.
+/// Every limit cycle of the belt without its dither, the largest first; empty if all motion settles to steady sliding.
 ///
 /// Each starts at its lowest displacement, at τ = 0.
 ///
@@ -214,8 +221,8 @@ pub fn cycles(belt: &Belt) -> Result<Vec<Orbit>, NoOrbit> {
     found.collect()
 }
 
-/// A state on the largest stable limit cycle without dither: its release where it sticks, else its lowest displacement. `None`
-/// where no stable cycle exists.
+/// A state on the largest stable limit cycle without dither: its release if it sticks, otherwise its lowest displacement. `None`
+/// if no stable cycle exists.
 ///
 /// # Errors
 /// [`NoOrbit::Stalled`].
@@ -229,22 +236,23 @@ pub fn squeal(belt: &Belt) -> Result<Option<Start>, NoOrbit> {
     if map.sticks(largest)? {
         return Ok(Some(released(belt)));
     }
-    // The turn after a release shrinks: the next smaller cycle attracts it.
+    // The revolution after a release shrinks: the next smaller cycle attracts it.
     for size in map.fixed_sizes(largest)? {
-        if map.cycle(size)?.is_some_and(|cycle| cycle.verdict() != Verdict::Unstable) {
+        if map.cycle(size)?.is_some_and(|cycle| cycle.verdict() != OrbitVerdict::Unstable) {
             return Ok(Some(map.lowest(size)));
         }
     }
     Ok(None)
 }
 
-/// Where an undithered run from a state ends.
+/// The limit set of an undithered run from a state.
 ///
-/// Turns do not cross: a run whose turns grow comes to the next larger cycle, one whose turns shrink to the next smaller.
+/// Trajectories do not cross: a run whose revolutions grow converges to the next larger cycle, one whose revolutions shrink to
+/// the next smaller.
 ///
 /// # Errors
-/// [`NoOrbit::Stalled`]; [`NoOrbit::NoLimit`] where turns neither grow nor shrink, grow for long beyond every cycle that is
-/// known, or shrink towards steady sliding that is not stable.
+/// [`NoOrbit::Stalled`]; [`NoOrbit::NoLimit`] if revolutions neither grow nor shrink, grow for long beyond every known cycle,
+/// or shrink towards steady sliding that is not stable.
 pub fn free_end(belt: &Belt, start: Start) -> Result<FreeEnd, NoOrbit> {
     if belt.belt_velocity() == 0.0 {
         return Ok(FreeEnd::Rest);
@@ -253,8 +261,8 @@ pub fn free_end(belt: &Belt, start: Start) -> Result<FreeEnd, NoOrbit> {
     Ok(reached.map_or(FreeEnd::Sliding, FreeEnd::Cycle))
 }
 
-/// Whether an undithered run from a state keeps vibrating: whether [`free_end`] is a cycle, without computing all of them where
-/// the first turns decide.
+/// Whether an undithered run from a state keeps vibrating: whether [`free_end`] is a cycle. All cycles are computed only if
+/// the first revolutions do not decide.
 ///
 /// # Errors
 /// As [`free_end`].
@@ -264,9 +272,9 @@ pub fn keeps_vibrating(belt: &Belt, start: Start) -> Result<bool, NoOrbit> {
         return Ok(false);
     }
     let map = CycleMap { belt, sliding: belt.steady_sliding() };
-    let Some(first) = turn(belt, start)? else { return Ok(false) };
+    let Some(first) = revolution(belt, start)? else { return Ok(false) };
     let Some(largest) = map.largest()? else { return Ok(false) };
-    // Whatever sticks is released, and then follows the release.
+    // A run that sticks is released, and then follows the revolution after a release.
     let size = if first.sticks { largest } else { map.size(&first) };
     if first.sticks && map.sticks(largest)? {
         return Ok(true);
@@ -278,7 +286,7 @@ pub fn keeps_vibrating(belt: &Belt, start: Start) -> Result<bool, NoOrbit> {
     Ok(matches!(free_end(belt, start)?, FreeEnd::Cycle(_)))
 }
 
-/// The cycle, one of `cycles`, on which an undithered run from a state ends; `None` where it settles to steady sliding.
+/// The cycle, one of `cycles`, to which an undithered run from a state converges; `None` if it settles to steady sliding.
 ///
 /// # Errors
 /// As [`free_end`].
@@ -292,14 +300,15 @@ pub fn cycle_reached<'a>(
     let size_of = |cycle: &Orbit| sliding - cycle.start.displacement;
     let settled = || if linear_damping(belt) > 0.0 { Ok(None) } else { Err(NoOrbit::NoLimit) };
     let mut from = start;
-    for _ in 0..MOST_TURNS {
-        let Some(first) = turn(belt, from)? else { return Ok(None) };
+    for _ in 0..MOST_REVOLUTIONS {
+        let Some(first) = revolution(belt, from)? else { return Ok(None) };
         let size = sliding - first.displacement;
-        if let Some(cycle) = cycles.iter().find(|it| (size_of(it) - size).abs() <= SAME * size) {
+        let is_here = |cycle: &&Orbit| (size_of(cycle) - size).abs() <= SAME * size;
+        if let Some(cycle) = cycles.iter().find(is_here) {
             return Ok(Some(cycle));
         }
         from = Start { time: 0.0, displacement: first.displacement, velocity: 0.0 };
-        let Some(second) = turn(belt, from)? else { return Ok(None) };
+        let Some(second) = revolution(belt, from)? else { return Ok(None) };
         let next = sliding - second.displacement;
         if (next - size).abs() <= SAME * size {
             return Err(NoOrbit::NoLimit);
@@ -316,27 +325,28 @@ pub fn cycle_reached<'a>(
     Err(NoOrbit::NoLimit)
 }
 
-/// Time in slip within which a turn comes to its lowest point, two periods of the undamped oscillator; a motion without one is
-/// overdamped and approaches sliding.
+/// Time in slip within which a revolution reaches its lowest point, two periods of the undamped oscillator; a motion without
+/// a lowest point is overdamped and approaches sliding.
 const LONGEST_SLIP: f64 = 2.0 * TAU;
 
-/// From a state to the next lowest point; `None` where none comes within [`LONGEST_SLIP`].
+/// Integrates from a state to the next lowest point; `None` if there is none within [`LONGEST_SLIP`].
 ///
-/// A stick ends at the release, whose state is known: it is jumped over, however slow the belt.
-fn turn(belt: &Belt, start: Start) -> Result<Option<Turn>, NoOrbit> {
+/// A stick ends at the release, whose state is known: it is skipped, however slow the belt.
+fn revolution(belt: &Belt, start: Start) -> Result<Option<Revolution>, NoOrbit> {
     let release = released(belt);
     let mut from = Start { time: 0.0, ..start };
     let (mut elapsed, mut slipped, mut sticks) = (0.0, 0.0, false);
     while slipped < LONGEST_SLIP {
-        let mut watch = (VelocitySection::upward(0.0), EventRecorder::default());
+        let mut observer = (VelocitySection::upward(0.0), EventRecorder::default());
         let end =
-            simulate(belt, from, 0.5 * TAU, TOLERANCE, &mut watch).map_err(NoOrbit::Stalled)?;
-        let lowest = watch.0.crossings.first();
+            simulate(belt, from, 0.5 * TAU, TOLERANCE, &mut observer).map_err(NoOrbit::Stalled)?;
+        let lowest = observer.0.crossings.first();
         let until = lowest.map_or(f64::INFINITY, |lowest| lowest.time);
-        sticks |= watch.1.events.iter().any(|it| it.kind == EventKind::Stick && it.time < until);
+        let is_stick_before = |event: &Event| event.kind == EventKind::Stick && event.time < until;
+        sticks |= observer.1.events.iter().any(is_stick_before);
         if let Some(lowest) = lowest {
             let (displacement, time) = (lowest.displacement, elapsed + lowest.time);
-            return Ok(Some(Turn { displacement, time, sticks }));
+            return Ok(Some(Revolution { displacement, time, sticks }));
         }
         elapsed += end.time;
         slipped += end.time;

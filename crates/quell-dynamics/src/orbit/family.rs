@@ -1,53 +1,54 @@
-//! A belt with dither as a family of period maps: what [`quell_numerics::continuation`] needs to know of it.
+//! A belt with dither as a family of period maps, as [`quell_numerics::continuation`] needs it.
 //!
-//! The state is (x, x′) at τ = 0. An orbit in pure slip is continued beyond a touch of v_r = 0 on its branch of the
-//! law, with its least slip velocity as the distance; what sticks or reverses is integrated as it is.
+//! The state is (x, x′) at τ = 0. An orbit in pure slip is continued beyond a grazing of v_r = 0 on its branch of the
+//! law, with its least slip velocity as the distance. Orbits that stick or reverse are integrated as they are.
 
 use quell_model::Belt;
 use quell_numerics::continuation::{Family, Image};
-use quell_numerics::matrix::Matrix as Dense;
 
+use super::no_orbit::NoOrbit;
+use super::period::common_period;
+use super::period_map::{TOLERANCE, dense};
 use super::variation::Variation;
-use super::{Matrix, NoOrbit, TOLERANCE, common_period};
-use crate::simulation::{EventKind, Start, simulate, slide};
+use crate::simulation::{EventKind, Start, continue_slip, simulate};
 
-/// What happens along a period.
+/// The sequence of events in a period.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Signature {
-    /// Slip without touching v_r = 0, with the sign of v_r.
+    /// Slip without reaching v_r = 0, with the sign of v_r.
     PureSlip(i8),
     /// Stick throughout.
     Stuck,
-    /// These events in their cyclic order, with the sign of v_r afterwards; the order begins where it is least, so
-    /// that it does not depend on where in the period τ = 0 lies.
+    /// These events in their cyclic order, with the sign of v_r afterwards. Of the cyclic permutations the
+    /// lexicographically least one is taken, so that the order does not depend on the phase of τ = 0 in the period.
     Events(Vec<(EventKind, i8)>),
 }
 
 impl Signature {
-    /// Of the events of a period, the time in stick, and the sign of v_r at its end.
+    /// The signature of a period, from its events, the time in stick, and the sign of v_r at its end.
     pub(super) fn of(events: &[(EventKind, i8)], stuck: f64, sign: i8) -> Self {
         if events.is_empty() {
             return if stuck > 0.0 { Self::Stuck } else { Self::PureSlip(sign) };
         }
-        let key = |turn: usize| {
-            let turned = events[turn..].iter().chain(&events[..turn]);
-            turned.map(|(kind, sign)| (*kind as u8, *sign)).collect::<Vec<_>>()
+        let key = |first: usize| {
+            let rotated = events[first..].iter().chain(&events[..first]);
+            rotated.map(|(kind, sign)| (*kind as u8, *sign)).collect::<Vec<_>>()
         };
-        let turn = (0..events.len()).min_by_key(|turn| key(*turn)).unwrap_or(0);
-        Self::Events([&events[turn..], &events[..turn]].concat())
+        let first = (0..events.len()).min_by_key(|first| key(*first)).unwrap_or(0);
+        Self::Events([&events[first..], &events[..first]].concat())
     }
 
-    /// Whether v_r = 0 is never touched.
+    /// Whether v_r = 0 is never reached.
     pub fn is_pure_slip(&self) -> bool {
         matches!(self, Self::PureSlip(_))
     }
 
-    /// In words: how often it sticks and reverses in a period.
+    /// A description: the number of sticks and reversals in a period.
     pub fn words(&self) -> String {
         let Self::Events(events) = self else {
             return if self.is_pure_slip() { "pure slip" } else { "stick throughout" }.to_owned();
         };
-        let count = |kind| events.iter().filter(|(it, _)| *it == kind).count();
+        let count = |kind| events.iter().filter(|(event, _)| *event == kind).count();
         let times = |count: usize, one: &str, many: &str| match count {
             0 => None,
             1 => Some(format!("1 {one}")),
@@ -61,13 +62,13 @@ impl Signature {
     }
 }
 
-/// What the parameters of a family set.
+/// The meaning of the parameters of a family.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Setting<'a> {
-    /// Nothing: the belt as it is.
-    Given,
-    /// The share of all amplitudes.
-    Share,
+pub(crate) enum FamilyParameters<'a> {
+    /// No parameters: the belt as it is.
+    Unchanged,
+    /// The common factor of all amplitudes.
+    CommonFactor,
     /// These paths of the registry, in order.
     Paths(&'a [&'a str]),
 }
@@ -76,7 +77,7 @@ pub(crate) enum Setting<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Forced<'a> {
     pub(crate) belt: &'a Belt,
-    pub(crate) setting: Setting<'a>,
+    pub(crate) parameters: FamilyParameters<'a>,
     pub(crate) periods: u32,
 }
 
@@ -86,29 +87,31 @@ impl Forced<'_> {
         let set = |belt: Belt, path: &str, value: f64| {
             belt.with(path, value).map_err(|_| NoOrbit::Invalid { value })
         };
-        match self.setting {
-            Setting::Given => Ok(self.belt.clone()),
-            Setting::Share => {
+        match self.parameters {
+            FamilyParameters::Unchanged => Ok(self.belt.clone()),
+            FamilyParameters::CommonFactor => {
                 let dithers = self.belt.dithers();
                 (0..dithers.len()).try_fold(self.belt.clone(), |belt, index| {
-                    let share = parameters.first().copied().unwrap_or(1.0);
+                    let factor = parameters.first().copied().unwrap_or(1.0);
                     let path = belt.dither_path(index, "amplitude");
-                    set(belt, &path, share * dithers[index].amplitude)
+                    set(belt, &path, factor * dithers[index].amplitude)
                 })
             }
-            Setting::Paths(paths) => paths
+            FamilyParameters::Paths(paths) => paths
                 .iter()
                 .zip(parameters)
                 .try_fold(self.belt.clone(), |belt, (path, value)| set(belt, path, *value)),
         }
     }
 
-    /// The time over which states are mapped. Without dither, where steady sliding alone is followed, it is 1: far from
-    /// the period 2π of its oscillation, whose multipliers would be 1.
+    /// The time over which states are mapped. Without dither, where only steady sliding is followed, it is 1: far from
+    /// the period 2π of its oscillation, over which the multipliers would be 1.
     pub(crate) fn period_of(&self, belt: &Belt) -> Result<f64, NoOrbit> {
         match common_period(belt) {
             Ok(period) => Ok(f64::from(self.periods) * period),
-            Err(NoOrbit::NoDither) if matches!(self.setting, Setting::Paths(_)) => Ok(1.0),
+            Err(NoOrbit::NoDither) if matches!(self.parameters, FamilyParameters::Paths(_)) => {
+                Ok(1.0)
+            }
             Err(why) => Err(why),
         }
     }
@@ -133,10 +136,10 @@ impl Family for Forced<'_> {
         held: Option<&Signature>,
     ) -> Result<Image<Signature>, NoOrbit> {
         let belt = self.belt_at(parameters)?;
-        let (start, until) = (start_of(state), self.period_of(&belt)?);
+        let (start, until) = (Start::of_state(state), self.period_of(&belt)?);
         let mut variation = Variation::new(&belt);
         let end = if let Some(Signature::PureSlip(sign)) = held {
-            slide(&belt, f64::from(*sign), start, until, TOLERANCE, &mut variation)
+            continue_slip(&belt, f64::from(*sign), start, until, TOLERANCE, &mut variation)
         } else {
             simulate(&belt, start, until, TOLERANCE, &mut variation)
         }
@@ -151,23 +154,9 @@ impl Family for Forced<'_> {
         };
         Ok(Image {
             state: vec![end.displacement, end.velocity],
-            derivative: matrix_of(&variation.matrix),
+            derivative: dense(&variation.matrix),
             distance,
             signature,
         })
     }
-}
-
-/// A state at τ = 0.
-pub(super) fn start_of(state: &[f64]) -> Start {
-    match state {
-        [displacement, velocity] => {
-            Start { time: 0.0, displacement: *displacement, velocity: *velocity }
-        }
-        _ => Start::REST,
-    }
-}
-
-pub(super) fn matrix_of(matrix: &Matrix) -> Dense {
-    Dense::from_fn(2, 2, |i, j| matrix[i][j])
 }

@@ -1,11 +1,11 @@
-//! Values of a parameter at which the response that sliding becomes under dither gains or loses stability.
+//! Values of a parameter at which the base response gains or loses stability.
 //!
-//! The response is followed along the parameter by pseudo-arclength, around folds and through touches of v_r = 0
-//! ([`quell_numerics::continuation::branch`]). Where a multiplier passes the unit circle inside one signature the value is the root of a
-//! smooth test function: a complex pair is a Neimark–Sacker bifurcation, −1 a flip, +1 a fold. Where a pure-slip orbit
-//! comes to touch v_r = 0 the value is the root of its least slip velocity, a grazing: the multipliers jump there, so that a
-//! search for modulus 1, or differences that straddle the touch, are wrong by up to 3·10⁻⁴.
-//! Multipliers at a touch are one-sided: those of pure slip, and those of the orbit with contact events found just beyond.
+//! The response is followed in the parameter by pseudo-arclength continuation, around folds and through grazings of v_r = 0
+//! ([`quell_numerics::continuation::branch`]). Where a multiplier crosses the unit circle within one signature, the value is the
+//! root of a smooth test function: a complex pair is a Neimark–Sacker bifurcation, −1 a flip, +1 a fold. Where a pure-slip
+//! orbit grazes v_r = 0, the value is the root of its least slip velocity: the multipliers jump there, so that a
+//! search for modulus 1, or differences across the grazing, are wrong by up to 3·10⁻⁴.
+//! Multipliers at a grazing are one-sided: those of pure slip, and those of the orbit with contact events just beyond.
 
 use std::fmt;
 
@@ -14,33 +14,35 @@ use quell_numerics::continuation::branch::{Branch, End, Follow, Passage, Side, f
 use quell_numerics::continuation::spectral_radius;
 use quell_numerics::continuation::threshold::Kind as Event;
 
-use super::family::{Forced, Setting, Signature, start_of};
-use super::{NoOrbit, Verdict, quiet};
+use super::family::{FamilyParameters, Forced, Signature};
+use super::no_orbit::NoOrbit;
+use super::shooting::base_response;
+use super::verdict::OrbitVerdict;
 use crate::simulation::Start;
 
-/// Steps in which an orbit is first followed from sliding.
+/// Number of steps in which the base response is first continued from sliding.
 const FIRST_STEPS: u32 = 8;
 
-/// What happens to the orbit at a threshold.
+/// The kind of bifurcation at a threshold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Kind {
-    /// A complex pair of multipliers passes the unit circle.
+pub enum ThresholdKind {
+    /// A complex pair of multipliers crosses the unit circle.
     NeimarkSacker,
-    /// The same of steady sliding without dither: its oscillation begins or ceases to grow.
+    /// The same for steady sliding without dither: its oscillation starts or ceases to grow.
     Hopf,
-    /// A multiplier passes −1.
+    /// A multiplier crosses −1.
     Flip,
-    /// A multiplier passes +1 and the branch of responses turns back.
+    /// A multiplier crosses +1 and the branch of responses turns back.
     Fold,
-    /// A multiplier passes +1 and the branch goes on.
+    /// A multiplier crosses +1 and the branch continues.
     Branching,
-    /// The orbit touches v_r = 0.
+    /// The orbit grazes v_r = 0.
     Grazing,
     /// The order of sticks and reversals changes.
     Signature,
 }
 
-impl Kind {
+impl ThresholdKind {
     /// Every kind, in the order of the codes in files: a new one is added at the end.
     pub const ALL: [Self; 7] = [
         Self::NeimarkSacker,
@@ -52,7 +54,7 @@ impl Kind {
         Self::Signature,
     ];
 
-    /// Word in outputs.
+    /// The word in outputs.
     pub fn name(self) -> &'static str {
         match self {
             Self::NeimarkSacker => "neimark-sacker",
@@ -76,7 +78,7 @@ impl Kind {
         }
     }
 
-    /// What is zero on a curve of this kind; `None` where nothing is.
+    /// The event whose test function is zero on a curve of this kind; `None` if there is none.
     pub(super) fn event(self) -> Option<Event> {
         Some(match self {
             Self::Fold => Event::Fold,
@@ -93,32 +95,32 @@ impl Kind {
 pub struct Threshold {
     /// The parameter.
     pub value: f64,
-    /// Bound on its error.
+    /// Bound on the error of the value.
     pub error: f64,
-    /// What happens.
-    pub kind: Kind,
-    /// Verdict for slightly larger values; `None` where this response ends there.
-    pub becomes: Option<Verdict>,
-    /// Verdict for slightly smaller values; `None` where this response begins there.
-    pub was: Option<Verdict>,
+    /// The kind of bifurcation.
+    pub kind: ThresholdKind,
+    /// Verdict for slightly larger values; `None` if the response ends there.
+    pub becomes: Option<OrbitVerdict>,
+    /// Verdict for slightly smaller values; `None` if the response begins there.
+    pub was: Option<OrbitVerdict>,
     /// State of the response at the threshold.
     pub state: Start,
 }
 
-/// A value at which the events of a period change.
+/// A value at which the signature changes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Change {
+pub struct SignatureChange {
     /// The parameter.
     pub value: f64,
-    /// For slightly smaller values; `None` where there is no response.
+    /// Signature for slightly smaller values; `None` without a response.
     pub below: Option<Signature>,
-    /// For slightly larger values.
+    /// Signature for slightly larger values; `None` without a response.
     pub above: Option<Signature>,
 }
 
 /// A response on the branch.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place {
+pub struct BranchResponse {
     /// The parameter.
     pub value: f64,
     /// The response at τ = 0.
@@ -127,28 +129,28 @@ pub struct Place {
     pub radius: f64,
     /// Least slip velocity in pure slip.
     pub least_slip: Option<f64>,
-    /// What happens along the period.
+    /// The sequence of events in the period.
     pub signature: Signature,
 }
 
-/// Where the branch of responses ends.
+/// How the branch of responses ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ending {
+pub enum BranchEnding {
     /// It covers the interval.
     Covered,
-    /// It turned back, at most at this value, and left the interval where it began.
+    /// It turned back and left the interval at its start.
     TurnedBack {
         /// The furthest value.
         at: f64,
     },
-    /// It turned back and was lost: whether it turns again and goes further is not known.
+    /// It turned back and was lost: whether it turns again and continues further is unknown.
     LostTurning {
         /// The furthest value.
         furthest: f64,
         /// The last value.
         at: f64,
     },
-    /// It touches v_r = 0 with no response beyond.
+    /// It grazes v_r = 0, and no response exists beyond.
     Touch {
         /// The value.
         at: f64,
@@ -160,28 +162,28 @@ pub enum Ending {
     },
 }
 
-/// The thresholds of an interval, and the branch on which they lie.
+/// The thresholds in an interval, and the branch that contains them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Local {
     /// Changes of stability, in the order of the branch.
     pub thresholds: Vec<Threshold>,
-    /// Changes of events, in the order of the branch.
-    pub changes: Vec<Change>,
-    /// The responses that were met, in the order of the branch.
-    pub branch: Vec<Place>,
-    /// How it ends.
-    pub ending: Ending,
+    /// Changes of the signature, in the order of the branch.
+    pub changes: Vec<SignatureChange>,
+    /// The computed responses, in the order of the branch.
+    pub branch: Vec<BranchResponse>,
+    /// How the branch ends.
+    pub ending: BranchEnding,
 }
 
 impl Local {
-    /// No response at the first value: nothing was followed.
+    /// The result without a response at the first value: nothing was followed.
     pub fn nowhere(from: f64) -> Self {
-        let ending = Ending::Lost { at: from };
+        let ending = BranchEnding::Lost { at: from };
         Self { thresholds: Vec::new(), changes: Vec::new(), branch: Vec::new(), ending }
     }
 }
 
-/// Why there are no thresholds.
+/// Why no thresholds were found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoThresholds {
     /// The parameter cannot take this value.
@@ -191,7 +193,7 @@ pub enum NoThresholds {
     },
     /// The orbit at the first value was not found.
     Start(NoOrbit),
-    /// The orbit was lost on the way.
+    /// The orbit was lost before the end of the interval.
     Lost {
         /// The last value at which it was found.
         at: f64,
@@ -201,7 +203,7 @@ pub enum NoThresholds {
 impl fmt::Display for NoThresholds {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Invalid { value } => write!(f, "the parameter cannot be {value}"),
+            Self::Invalid { value } => write!(f, "the parameter cannot take the value {value}"),
             Self::Start(why) => why.fmt(f),
             Self::Lost { at } => write!(f, "the response was lost beyond {at}"),
         }
@@ -210,11 +212,10 @@ impl fmt::Display for NoThresholds {
 
 impl std::error::Error for NoThresholds {}
 
-/// Thresholds of the response that sliding becomes at the value `from`, followed to the value `to` in at least `steps`
-/// steps.
+/// Thresholds of the base response at the value `from`, followed to the value `to` in at least `steps` steps.
 ///
 /// # Errors
-/// [`NoThresholds`] where there is no such response at `from`.
+/// [`NoThresholds`] if there is no base response at `from`.
 pub fn local(
     belt: &Belt,
     path: &str,
@@ -223,7 +224,7 @@ pub fn local(
     steps: u32,
 ) -> Result<Local, NoThresholds> {
     let valid = |value: f64| belt.with(path, value).map_err(|_| NoThresholds::Invalid { value });
-    let first = quiet(&valid(from)?, FIRST_STEPS).map_err(NoThresholds::Start)?;
+    let first = base_response(&valid(from)?, FIRST_STEPS).map_err(NoThresholds::Start)?;
     valid(to)?;
     along(belt, path, (from, first.start), to, steps, 1)
 }
@@ -231,7 +232,7 @@ pub fn local(
 /// Thresholds of the orbit of `periods` common periods near a state at the value `from`, followed to the value `to`.
 ///
 /// # Errors
-/// [`NoThresholds`] where there is no such orbit at `from`.
+/// [`NoThresholds`] if there is no such orbit at `from`.
 pub fn along(
     belt: &Belt,
     path: &str,
@@ -241,74 +242,79 @@ pub fn along(
     periods: u32,
 ) -> Result<Local, NoThresholds> {
     let paths = [path];
-    let forced = Forced { belt, setting: Setting::Paths(&paths), periods };
+    let forced = Forced { belt, parameters: FamilyParameters::Paths(&paths), periods };
     let state = [start.displacement, start.velocity];
     let window = Follow::window(from, to, steps);
     let branch = follow(&forced, &state, from, to > from, window)
         .map_err(|why| NoThresholds::Start(why.into()))?;
-    let mut found = told(&branch, from, to);
+    let mut found = local_thresholds_of(&branch, from, to);
     if belt.dithers().is_empty() {
         for threshold in &mut found.thresholds {
-            if threshold.kind == Kind::NeimarkSacker {
-                threshold.kind = Kind::Hopf;
+            if threshold.kind == ThresholdKind::NeimarkSacker {
+                threshold.kind = ThresholdKind::Hopf;
             }
         }
     }
     Ok(found)
 }
 
-/// A branch in the terms of the belt.
-fn told(branch: &Branch<Signature>, from: f64, to: f64) -> Local {
+/// Translates a branch into the terms of the belt.
+fn local_thresholds_of(branch: &Branch<Signature>, from: f64, to: f64) -> Local {
     let mut thresholds = Vec::new();
     let mut changes = Vec::new();
-    for passage in &branch.passages {
-        let (was, becomes) = (verdict(passage.below.as_ref()), verdict(passage.above.as_ref()));
-        let kind = Kind::of(passage.kind);
+    for point in &branch.passages {
+        let (was, becomes) = (verdict(point.below.as_ref()), verdict(point.above.as_ref()));
+        let kind = ThresholdKind::of(point.kind);
         if was != becomes {
-            let state = start_of(&passage.state);
-            let (value, error) = (passage.parameter, passage.error);
+            let state = Start::of_state(&point.state);
+            let (value, error) = (point.parameter, point.error);
             thresholds.push(Threshold { value, error, kind, becomes, was, state });
         }
-        changes.extend(change(passage));
+        changes.extend(signature_change(point));
     }
-    let places = branch.points.iter().map(|it| Place {
-        value: it.parameter,
-        state: start_of(&it.state),
-        radius: spectral_radius(&it.multipliers),
-        least_slip: it.distance.is_finite().then_some(it.distance),
-        signature: it.signature.clone(),
+    let responses = branch.points.iter().map(|point| BranchResponse {
+        value: point.parameter,
+        state: Start::of_state(&point.state),
+        radius: spectral_radius(&point.multipliers),
+        least_slip: point.distance.is_finite().then_some(point.distance),
+        signature: point.signature.clone(),
     });
     let beyond = |a: f64, b: f64| (b - a) * (to - from) > 0.0;
     let further = |a: f64, b: f64| if beyond(a, b) { b } else { a };
-    let passed = branch.passages.iter().map(|it| it.parameter);
-    let furthest = branch.points.iter().map(|it| it.parameter).chain(passed).fold(from, further);
+    let special = branch.passages.iter().map(|point| point.parameter);
+    let furthest =
+        branch.points.iter().map(|point| point.parameter).chain(special).fold(from, further);
     let ending = match branch.end {
-        End::Window { at } if at == to => Ending::Covered,
-        End::Window { .. } | End::Closed => Ending::TurnedBack { at: furthest },
-        End::Touch { at } => Ending::Touch { at },
+        End::Window { at } if at == to => BranchEnding::Covered,
+        End::Window { .. } | End::Closed => BranchEnding::TurnedBack { at: furthest },
+        End::Touch { at } => BranchEnding::Touch { at },
         End::Lost { at } | End::TooLong { at } if beyond(at, furthest) => {
-            Ending::LostTurning { furthest, at }
+            BranchEnding::LostTurning { furthest, at }
         }
-        End::Lost { at } | End::TooLong { at } => Ending::Lost { at },
+        End::Lost { at } | End::TooLong { at } => BranchEnding::Lost { at },
     };
-    Local { thresholds, changes, branch: places.collect(), ending }
+    Local { thresholds, changes, branch: responses.collect(), ending }
 }
 
-fn verdict(side: Option<&Side<Signature>>) -> Option<Verdict> {
-    side.map(|side| Verdict::of(side.radius, 0.0))
+fn verdict(side: Option<&Side<Signature>>) -> Option<OrbitVerdict> {
+    side.map(|side| OrbitVerdict::of(side.radius, 0.0))
 }
 
-fn change(passage: &Passage<Signature>) -> Option<Change> {
+fn signature_change(point: &Passage<Signature>) -> Option<SignatureChange> {
     let signature = |side: Option<&Side<Signature>>| side.map(|side| side.signature.clone());
-    let (below, above) = (signature(passage.below.as_ref()), signature(passage.above.as_ref()));
-    let contact = matches!(passage.kind, Event::Touch | Event::Border);
-    (contact && below != above).then_some(Change { value: passage.parameter, below, above })
+    let (below, above) = (signature(point.below.as_ref()), signature(point.above.as_ref()));
+    let is_contact = matches!(point.kind, Event::Touch | Event::Border);
+    (is_contact && below != above).then_some(SignatureChange {
+        value: point.parameter,
+        below,
+        above,
+    })
 }
 
-/// Every threshold of the orbit that sliding becomes, for `path` from `from` to `to` in at least `steps` steps.
+/// Every threshold of the base response, for `path` from `from` to `to` in at least `steps` steps.
 ///
 /// # Errors
-/// [`NoThresholds`], also where the branch is lost on the way.
+/// [`NoThresholds`], also if the branch is lost before `to`.
 pub fn local_thresholds(
     belt: &Belt,
     path: &str,
@@ -318,7 +324,9 @@ pub fn local_thresholds(
 ) -> Result<Vec<Threshold>, NoThresholds> {
     let found = local(belt, path, from, to, steps)?;
     match found.ending {
-        Ending::Lost { at } | Ending::LostTurning { at, .. } => Err(NoThresholds::Lost { at }),
+        BranchEnding::Lost { at } | BranchEnding::LostTurning { at, .. } => {
+            Err(NoThresholds::Lost { at })
+        }
         _ => Ok(found.thresholds),
     }
 }

@@ -1,6 +1,6 @@
-//! How a small change of state travels along a run: the variational equation with a jump at every event.
+//! The variational equation of a run, with a jump at every event.
 //!
-//! In slip a change (ξ, η) of (x, x′) obeys
+//! In slip a small change (ξ, η) of (x, x′) obeys
 //!
 //! ```text
 //! ξ′ = η,   η′ = −ξ − (2ζ + μ′(v_r)N) η
@@ -11,10 +11,10 @@
 //!
 //! A release happens on h = σf_s − μ_sN = 0, n = (σ, 0): with f₋ = (v₀, 0) and f₊ = (v₀, a₊), a₊ = −σ(μ_s − μ(0⁺))N, it adds
 //! (a₊σ/ḣ)ξ to η, ḣ = σ(v₀ − Σ D_T g_T′) − μ_sN′ along the stick: where friction starts below its static level a
-//! later release starts as much later. Where it starts at that level, or where a jump of the dither breaks the bond at a
-//! time of its own, a release changes nothing.
+//! later release starts later by the same time. Where friction starts at that level, or where a jump of the dither releases
+//! the contact at a fixed time, a release changes nothing.
 //!
-//! Scheme: Gauss–Legendre collocation with 8 nodes, of order 16 as the Taylor step whose series it reads μ′ from.
+//! Scheme: Gauss–Legendre collocation with 8 nodes, of order 16 like the Taylor step that provides the series for μ′.
 
 use quell_model::friction::{LawVisitor, SlidingLaw};
 use quell_model::{Belt, Direction};
@@ -25,19 +25,19 @@ use crate::contraction::rates_along;
 use crate::simulation::{Event, EventKind, Observer, Segment};
 
 /// A 2 × 2 matrix, row by row.
-pub type Matrix = [[f64; 2]; 2];
+pub type Matrix2 = [[f64; 2]; 2];
 
-/// Carries a matrix of changes along a run.
+/// Integrates the matrix of changes along a run.
 #[derive(Clone, Debug)]
 pub(super) struct Variation<'a> {
     belt: &'a Belt,
-    /// Changes of the state at the end per change at the start.
-    pub(super) matrix: Matrix,
+    /// Derivative of the final state with respect to the initial state.
+    pub(super) matrix: Matrix2,
     /// ∫(2ζ + μ′N) over slip.
     pub(super) damping: f64,
     /// Events in order, with the sign of v_r afterwards.
     pub(super) events: Vec<(EventKind, i8)>,
-    /// Least slip velocity in the direction of slip, and when.
+    /// Least slip velocity in the direction of slip, and its time.
     pub(super) least: Option<(f64, f64)>,
     /// Time spent in stick.
     pub(super) stuck: f64,
@@ -67,7 +67,7 @@ impl<'a> Variation<'a> {
     }
 }
 
-/// A dither jumps at a break where its value just before differs by more than this share of its amplitude.
+/// A dither jumps at a break if its values just before and after differ by more than this fraction of its amplitude.
 const JUMP: f64 = 1e-3;
 
 impl Variation<'_> {
@@ -75,7 +75,7 @@ impl Variation<'_> {
     fn release(&self, event: &Event) -> f64 {
         let belt = self.belt;
         let law = belt.friction();
-        if law.starts_at_static_level() || broken_by_jump(belt, event.time) {
+        if law.starts_at_static_level() || is_at_jump(belt, event.time) {
             return 0.0;
         }
         let sign = f64::from(event.slip_sign);
@@ -89,29 +89,30 @@ impl Variation<'_> {
     }
 }
 
-/// How long before a moment its dithers are looked at, in radians of each.
-const BEFORE: f64 = 1e-6;
+/// Distance from a moment, in radians of each dither, at which a jump is detected.
+const ASIDE: f64 = 1e-6;
 
 /// Whether a dither jumps at a moment.
-fn broken_by_jump(belt: &Belt, time: f64) -> bool {
-    belt.dithers().iter().any(|it| {
-        let phase = f64::mul_add(it.frequency_ratio, time, it.phase);
-        let change = it.waveform.value(phase + BEFORE) - it.waveform.value(phase - BEFORE);
-        it.amplitude > 0.0 && change.abs() > JUMP
+fn is_at_jump(belt: &Belt, time: f64) -> bool {
+    belt.dithers().iter().any(|dither| {
+        let phase = f64::mul_add(dither.frequency_ratio, time, dither.phase);
+        let waveform = dither.waveform;
+        let change = waveform.value(phase + ASIDE) - waveform.value(phase - ASIDE);
+        dither.amplitude > 0.0 && change.abs() > JUMP
     })
 }
 
 /// Σ D R g′ of one direction.
 fn dither_rates(belt: &Belt, direction: Direction, time: f64) -> f64 {
     belt.dithers_along(direction)
-        .map(|it| {
-            let phase = f64::mul_add(it.frequency_ratio, time, it.phase);
-            it.amplitude * it.frequency_ratio * it.waveform.slope(phase)
+        .map(|dither| {
+            let phase = f64::mul_add(dither.frequency_ratio, time, dither.phase);
+            dither.amplitude * dither.frequency_ratio * dither.waveform.slope(phase)
         })
         .sum()
 }
 
-/// A segment of slip with the law that its changes obey.
+/// A segment of slip along which the changes are integrated.
 struct Along<'v, 'b, 's, 'c> {
     variation: &'v mut Variation<'b>,
     segment: &'s Segment<'c>,
@@ -172,7 +173,7 @@ impl Observer for Variation<'_> {
         self.sign = segment.slip_sign();
         if self.sign == 0 {
             self.stuck += segment.duration();
-            // A run that begins in stick begins on v_r = 0: a change of velocity is taken away at once.
+            // A run that begins in stick begins on v_r = 0: a change of velocity is lost at once.
             self.matrix[1] = [0.0; 2];
         } else {
             let law = self.belt.friction();

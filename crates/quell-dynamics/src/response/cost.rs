@@ -1,4 +1,4 @@
-//! What the dither costs, metered while integrating.
+//! The cost of the dither, measured while integrating.
 //!
 //! * Mean friction from the momentum balance, exactly: ∫f dτ = [x′] + 2ζ[x] + ∫x dτ − Σ(D/R)[G].
 //! * Dither power ⟨D_T g_T x′⟩: in stick v₀ times the impulse; in slip Gauss–Legendre on panels
@@ -13,13 +13,13 @@ use quell_numerics::roots::{Closeness, minimise};
 
 use crate::simulation::{FinalState, Segment};
 
-/// Nodes and weights on [0, 1] of the rule for a stretch.
+/// Nodes and weights on [0, 1] of the rule for an interval.
 static RULE: LazyLock<[[f64; 8]; 2]> = LazyLock::new(|| GaussLegendre::new(8).on_unit_interval());
 
 /// Samples per period of the fastest normal dither in the search for the smallest load.
 const LOAD_SAMPLES: f64 = 64.0;
 
-/// Meter of a record.
+/// The meter of a record.
 #[derive(Clone, Debug)]
 pub(super) struct Meter {
     tangential: Vec<Dither>,
@@ -35,7 +35,7 @@ pub(super) struct Meter {
 }
 
 impl Meter {
-    /// Set to the state at the start of the record; the dither's power only if `with_power`.
+    /// Starts at the state at the start of the record; measures the dither's power only if `with_power`.
     pub(super) fn new(belt: &Belt, start: &FinalState, with_power: bool) -> Self {
         let tangential: Vec<_> = belt
             .dithers_along(Direction::Tangential)
@@ -117,7 +117,7 @@ impl Meter {
 }
 
 impl Meter {
-    /// Adds one segment. To be called with the machine's best instructions.
+    /// Adds one segment. To be called on the machine's best instruction set.
     #[inline(always)]
     pub(super) fn add_segment(&mut self, segment: &Segment<'_>) {
         self.displacement_integral += segment.displacement_integral();
@@ -148,7 +148,7 @@ fn force_of(dithers: &[Dither], time: f64) -> f64 {
 
 /// Smallest normal load F + Σ D_N g_N between τ = `from` and `from + length`.
 ///
-/// Exact for a single normal dither (F − D_N, if a period fits); for several the smallest of
+/// Exact for a single normal dither (F − D_N, if a period fits); for several, the smallest of
 /// a dense scan, refined.
 pub(super) fn minimum_normal_load(belt: &Belt, from: f64, length: f64) -> f64 {
     let normal: Vec<Dither> = belt

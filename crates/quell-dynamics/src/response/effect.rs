@@ -1,31 +1,30 @@
-//! What a dither does to a vibration, in one word.
+//! The effect of a dither on a vibration, as one word.
 //!
 //! Two facts decide: whether the undithered run from this start keeps vibrating (the cycle map, exactly), and where the dithered
-//! run ends ([`reached`]: on the base response, elsewhere, or unknown). The residual vibration E of the record says how much is
-//! left where something is left; a record that still changes does not overrule where its run ends.
+//! run settles ([`reached`]: on the base response, elsewhere, or unknown). The residual vibration E of the record quantifies any
+//! remaining vibration; a record that still changes does not overrule where its run settles.
 
 use std::fmt;
 
 use quell_model::Belt;
 
-use super::Undefined;
-use super::measure::Compared;
-use crate::attractor::{Reached, Strobe, reached};
+use super::measure::{Compared, Undefined};
+use crate::attractor::{Reached, StroboscopicSection, reached};
 use crate::orbit::NoOrbit;
 use crate::simulation::Start;
 
-/// Below this share of the undithered vibration nothing is left of it: a response is quenched.
+/// A response with less than this fraction of the undithered vibration is quenched.
 pub const QUENCHED: f64 = 0.01;
 
-/// Slow vibration below this share of F is none: the distance within which a state counts as the base response.
-const NONE: f64 = 1e-6;
+/// Slow vibration below this fraction of F is negligible: the distance within which a state counts as the base response.
+const NEGLIGIBLE: f64 = 1e-6;
 
-/// What a dither does to the vibration below 1.9 ω₀, from one start.
+/// The effect of a dither on the vibration below 1.9 ω₀, from one start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Effect {
-    /// It vibrates without dither; less than a hundredth is left with it.
+    /// It vibrates without dither; less than a hundredth of the vibration remains with it.
     Quenches,
-    /// It vibrates without dither; less is left with it.
+    /// It vibrates without dither, and less with it.
     Reduces,
     /// It vibrates without dither, and as much or more with it.
     Increases,
@@ -33,7 +32,7 @@ pub enum Effect {
     Causes,
     /// It is quiet without dither and with it.
     Quiet,
-    /// Nothing is sure.
+    /// Undetermined.
     Unknown(Uncertain),
 }
 
@@ -41,7 +40,7 @@ impl Effect {
     /// Words in outputs, in the order of the codes in stores.
     pub const NAMES: [&'static str; 5] = ["quenches", "reduces", "increases", "causes", "quiet"];
 
-    /// Place of its word in [`Effect::NAMES`], or why there is none.
+    /// Index of its word in [`Effect::NAMES`], or why the effect is unknown.
     ///
     /// # Errors
     /// [`Uncertain`].
@@ -56,7 +55,7 @@ impl Effect {
         })
     }
 
-    /// Its word.
+    /// The word in outputs.
     pub fn name(self) -> &'static str {
         self.place().map_or("unknown", |place| Self::NAMES[place])
     }
@@ -67,13 +66,13 @@ impl Effect {
 pub enum Uncertain {
     /// No dither acts.
     NoDither,
-    /// Where the undithered run ends.
+    /// The limit set of the undithered run is unknown.
     Undithered(Undefined),
-    /// The record still changes, and where the dithered run ends does not decide.
+    /// The record still changes, and where the dithered run settles does not decide.
     StillChanging,
-    /// The record does not resolve what the dither changes: E is 1 within this.
+    /// The record does not resolve the change by the dither: E is 1 within this.
     Unresolved {
-        /// How far the halves of the records differ, relatively.
+        /// Relative difference of the halves of the records.
         within: f64,
     },
 }
@@ -84,12 +83,12 @@ impl fmt::Display for Uncertain {
             Self::NoDither => f.write_str("no dither acts"),
             Self::Undithered(why) => why.fmt(f),
             Self::StillChanging => f.write_str(
-                "the vibration with dither still changes within the record; settle for longer",
+                "the vibration with dither still changes within the record: settle for longer",
             ),
             Self::Unresolved { within } => {
                 write!(
                     f,
-                    "it changes the vibration by less than the record resolves ({within:.1e} of it)"
+                    "the dither changes the vibration by less than the record resolves (a relative change of {within:.1e})"
                 )
             }
         }
@@ -98,17 +97,17 @@ impl fmt::Display for Uncertain {
 
 impl std::error::Error for Uncertain {}
 
-/// Where the dithered run of a case ends.
+/// Where the dithered run of a case settles.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ending {
+pub enum RunEnding {
     /// On the base response, elsewhere, or not settled.
     Reached(Reached),
-    /// It was not found, and why.
+    /// It was not found, for this reason.
     Unknown(NoOrbit),
 }
 
-impl Ending {
-    /// Of the run of a belt from a start.
+impl RunEnding {
+    /// For the run of a belt from a start.
     pub fn of(belt: &Belt, start: Start) -> Self {
         match reached(belt, start) {
             Ok(reached) => Self::Reached(reached),
@@ -116,7 +115,7 @@ impl Ending {
         }
     }
 
-    /// Word in outputs.
+    /// The word in outputs.
     pub fn name(self) -> &'static str {
         match self {
             Self::Reached(Reached::Base) => "base response",
@@ -126,14 +125,14 @@ impl Ending {
         }
     }
 
-    /// Whether no slow motion is left but what the dither itself forces.
+    /// Whether no slow motion remains except that forced by the dither itself.
     fn is_quiet(self) -> bool {
         matches!(self, Self::Reached(reached) if reached.is_quiet() == Some(true))
     }
 }
 
-/// The effect of a belt's dither from a start, from what was measured and from where the run ends.
-pub fn effect(belt: &Belt, compared: &Compared, ending: Ending) -> Effect {
+/// The effect of a belt's dither from a start, from the measurements and from where the run settles.
+pub fn effect(belt: &Belt, compared: &Compared, ending: RunEnding) -> Effect {
     if belt.dithers().iter().all(|dither| dither.amplitude == 0.0) {
         return Effect::Unknown(Uncertain::NoDither);
     }
@@ -144,21 +143,24 @@ pub fn effect(belt: &Belt, compared: &Compared, ending: Ending) -> Effect {
         Err(Undefined::UnditheredSettles | Undefined::UnditheredAtRest) => true,
         Ok(_) => false,
     };
-    if ending.is_quiet() && Strobe::of(belt).is_ok_and(|strobe| !strobe.reaches_the_band()) {
+    if ending.is_quiet()
+        && StroboscopicSection::of(belt).is_ok_and(|section| !section.reaches_the_band())
+    {
         return if quiet_without { Effect::Quiet } else { Effect::Quenches };
     }
     let dithered = &compared.dithered;
     let ratio = dithered.lines.whole / compared.undithered.lines.whole;
     let negligible = if quiet_without {
-        dithered.lines.whole < NONE * belt.normal_load()
+        dithered.lines.whole < NEGLIGIBLE * belt.normal_load()
     } else {
         ratio < QUENCHED
     };
     let nothing = if quiet_without { Effect::Quiet } else { Effect::Quenches };
     if negligible {
-        // Nothing is seen of a vibration that may still grow, unless the record is steady or the run is known to end without one.
-        let done = dithered.is_steady() || ending.is_quiet();
-        return if done { nothing } else { Effect::Unknown(Uncertain::StillChanging) };
+        // A vibration too small to be visible may still grow, unless the record is steady or the run is known to settle without
+        // one.
+        let decided = dithered.is_steady() || ending.is_quiet();
+        return if decided { nothing } else { Effect::Unknown(Uncertain::StillChanging) };
     }
     if !compared.settled() && !dithered.is_steady() {
         return Effect::Unknown(Uncertain::StillChanging);
@@ -172,7 +174,7 @@ pub fn effect(belt: &Belt, compared: &Compared, ending: Ending) -> Effect {
     }
 }
 
-/// Whether the record still shows a vibration of which nothing is left in the end.
+/// Whether the record still shows a vibration that decays in the end.
 pub(super) fn still_decays(effect: Effect, compared: &Compared) -> bool {
     let ratio = compared.dithered.lines.whole / compared.undithered.lines.whole;
     effect == Effect::Quenches && ratio >= QUENCHED

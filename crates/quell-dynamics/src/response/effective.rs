@@ -5,8 +5,8 @@
 //! edges. Windows that contain stick (f/N is no function of v_r there) are dropped,
 //! as in the dissertation.
 //!
-//! What it is good for: a curve μ̄(v_r) that owes nothing to averaging. What limits it: within one window the slow
-//! velocity moves; [`WindowMean::drift`] says how far.
+//! Purpose: a curve μ̄(v_r) that is independent of averaging. Limit: the slow velocity changes within one window;
+//! [`WindowMean::drift`] reports by how much.
 
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
@@ -16,7 +16,7 @@ use quell_numerics::gauss_legendre::GaussLegendre;
 
 use crate::simulation::{Observer, Segment, Stalled, Start, simulate};
 
-/// Nodes and weights on [0, 1] of the rule for a stretch.
+/// Nodes and weights on [0, 1] of the rule for an interval.
 static RULE: LazyLock<[[f64; 8]; 2]> = LazyLock::new(|| GaussLegendre::new(8).on_unit_interval());
 
 /// Means over one dither period without stick.
@@ -28,12 +28,12 @@ pub struct WindowMean {
     pub slip_velocity: f64,
     /// ⟨f/N⟩ (4.30), dimensionless.
     pub coefficient: f64,
-    /// Change of the slow slip velocity across the window: ⟨v_r⟩ half a period later less half a period earlier. None at
-    /// the ends of a run. (4.30) takes it for small.
+    /// Change of the slow slip velocity across the window: ⟨v_r⟩ half a period later less half a period earlier. `None` at
+    /// the ends of a run. (4.30) assumes it to be small.
     pub drift: Option<f64>,
 }
 
-/// Integrates `belt` from each start over `duration` and takes the means of all windows without stick, `per_period`
+/// Integrates `belt` from each start over `duration` and computes the means of all windows without stick, `per_period`
 /// window edges (an even number, at least 2, or the next larger one) in each period 2π/`frequency_ratio`.
 ///
 /// # Errors
@@ -56,9 +56,9 @@ pub fn measured_effective_friction(
     Ok(means)
 }
 
-/// What is known at a window edge: everything since the start of the run.
+/// The integrals at a window edge, since the start of the run.
 #[derive(Clone, Copy, Debug)]
-struct Edge {
+struct WindowEdge {
     displacement: f64,
     /// ∫μ(v_r) dτ over slip.
     impulse: f64,
@@ -66,7 +66,7 @@ struct Edge {
     stuck: f64,
 }
 
-/// Observer that keeps the integrals at equally spaced window edges.
+/// Observer that records the integrals at equally spaced window edges.
 #[derive(Clone, Debug)]
 struct EdgeRecorder {
     law: Friction,
@@ -74,8 +74,8 @@ struct EdgeRecorder {
     start: f64,
     per_period: usize,
     period: f64,
-    passed: Vec<Edge>,
-    now: Edge,
+    passed: Vec<WindowEdge>,
+    now: WindowEdge,
 }
 
 impl EdgeRecorder {
@@ -87,7 +87,7 @@ impl EdgeRecorder {
             per_period,
             period: TAU / frequency_ratio,
             passed: Vec::new(),
-            now: Edge { displacement: start.displacement, impulse: 0.0, stuck: 0.0 },
+            now: WindowEdge { displacement: start.displacement, impulse: 0.0, stuck: 0.0 },
         }
     }
 
@@ -95,7 +95,7 @@ impl EdgeRecorder {
         self.start + edge as f64 * self.period / self.per_period as f64
     }
 
-    /// Adds what happens between two moments of a segment.
+    /// Adds the integrals between two moments of a segment.
     fn pass(&mut self, segment: &Segment<'_>, from: f64, to: f64) {
         if segment.slip_sign() == 0 {
             self.now.stuck += to - from;
@@ -103,7 +103,7 @@ impl EdgeRecorder {
         }
         let sign = f64::from(segment.slip_sign());
         let coefficient = |at: f64| {
-            // The sign of v_r is the branch's; a rounding of the other sign next to an event is none.
+            // v_r has the sign of the branch; the opposite sign next to an event is rounding.
             self.law.coefficient((sign * segment.slip_velocity(at)).max(0.0))
         };
         let [nodes, weights] = &*RULE;

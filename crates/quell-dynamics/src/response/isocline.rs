@@ -1,17 +1,18 @@
-//! The dither amplitude at which the efficiency falls through a level, along one frequency ratio.
+//! The dither amplitude at which the efficiency falls below a level, at one frequency ratio.
 //!
 //! A row of amplitudes is measured side by side; the last interval of the row in which E falls through the level is
-//! divided into the next row. E is a measured number: a crossing is found to the accuracy with
-//! which records of the given solver define it, not better.
+//! subdivided by the next row. E is measured: a crossing is found only to the accuracy with
+//! which records of the given solver define it.
 
 use std::ops::RangeInclusive;
 
 use quell_model::Belt;
 
-use super::{Case, Solver, Wanted, compare_many};
+use super::measure::{Observables, ResponseCase, compare_many};
+use super::solver::Solver;
 use crate::simulation::Start;
 
-/// Amplitudes of a row: as many as the widest lanes hold.
+/// Amplitudes of a row: the number of the widest lanes.
 const ROW: u32 = 16;
 
 /// Largest amplitude D in `amplitudes` of the first dither at which E falls through `level` with
@@ -29,14 +30,14 @@ pub fn amplitude_at_efficiency(
     while to - from > closeness * to {
         let row: Vec<f64> =
             (0..ROW).map(|k| from + (to - from) * f64::from(k) / f64::from(ROW - 1)).collect();
-        let cases: Option<Vec<Case>> = row
+        let cases: Option<Vec<ResponseCase>> = row
             .iter()
             .map(|&amplitude| {
                 let belt = belt.with("dither.amplitude", amplitude).ok()?;
-                Some(Case { belt, start })
+                Some(ResponseCase { belt, start })
             })
             .collect();
-        let efficiencies: Option<Vec<f64>> = compare_many(&cases?, solver, Wanted::default())
+        let efficiencies: Option<Vec<f64>> = compare_many(&cases?, solver, Observables::default())
             .into_iter()
             .map(|compared| compared.ok()?.efficiency().ok())
             .collect();

@@ -1,55 +1,97 @@
-//! Settled records measured while integrating, many cases side by side. Nothing of a
-//! trajectory is kept: memory does not grow with the length of a run.
+//! Settled records measured while integrating, many cases side by side. The trajectory is not
+//! stored: memory does not grow with the length of a run.
+
+use std::fmt;
 
 use quell_model::{Belt, Direction};
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::spectrum::low_band::LargestLines;
 
 use super::cost::{self, Meter};
-use super::listener::{Listener, Sampling};
-use super::{HALVES_AGREE, HALVES_NEGLIGIBLE, Solver, Undefined};
+use super::solver::Solver;
+use super::spectral_meter::{Sampling, SpectralMeter};
 use crate::orbit::NoOrbit;
 use crate::orbit::cycle::keeps_vibrating;
 use crate::simulation::{
-    Event, FinalState, InstructionSet, LargestSlip, Observer, Run, Segment, Stalled, Start,
-    simulate_many_with,
+    Event, FinalState, InstructionSet, LargestSlip, Observer, Segment, SimulationRun, Stalled,
+    Start, simulate_many_with,
 };
 
-/// Amplitude, relative to F, of which nothing is left but the engine's error and rounding: it need not settle.
+/// Two halves of a record agree if their M differ by less than this fraction.
+pub const HALVES_AGREE: f64 = 0.01;
+
+/// … or by less than this fraction of the undithered M: E is then known to a thousandth. A
+/// quenched response is a remnant whose halves never agree relatively.
+pub const HALVES_NEGLIGIBLE: f64 = 1e-3;
+
+/// Amplitude, relative to F, that is only the engine's error and rounding: it need not settle.
 const NOTHING: f64 = 1e-9;
 
-/// Relative error of M from the engine and from rounding, where its halves agree by chance: a thousand times the tolerance of a
-/// step, as [`NOTHING`]. Smaller, noise would decide whether a dither increases or reduces.
+/// Relative error of M due to the engine and to rounding, presumed if its halves agree by chance: a thousand times the
+/// tolerance of a step, as [`NOTHING`]. If it were smaller, noise would decide whether a dither increases or reduces.
 const ROUNDING: f64 = NOTHING;
 
-/// A belt and where it starts.
+/// Why E is undefined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Undefined {
+    /// The undithered run from this state settles to steady sliding; a limit cycle may still
+    /// exist elsewhere.
+    UnditheredSettles,
+    /// The belt does not move (v₀ = 0), so that the undithered run comes to rest.
+    UnditheredAtRest,
+    /// The limit set of the undithered run is unknown.
+    UnditheredUnknown,
+}
+
+impl fmt::Display for Undefined {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::UnditheredSettles => {
+                "without dither the belt settles to steady sliding from this start, so there is \
+                 no vibration to compare with (a limit cycle may exist from another start)"
+            }
+            Self::UnditheredAtRest => {
+                "the belt does not move (v₀ = 0), so without dither the mass comes to rest, and \
+                 there is no vibration to compare with"
+            }
+            Self::UnditheredUnknown => {
+                "where the undithered run from this start ends is unknown: it converges neither to \
+                 a known limit cycle nor to stable steady sliding"
+            }
+        })
+    }
+}
+
+impl std::error::Error for Undefined {}
+
+/// A belt and its initial state.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Case {
+pub struct ResponseCase {
     /// The belt.
     pub belt: Belt,
-    /// Where it starts.
+    /// The initial state.
     pub start: Start,
 }
 
-/// Which observables are wanted besides those that cost nothing.
+/// The observables to be measured in addition to those without cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Wanted {
+pub struct Observables {
     /// Power and stroke of the dither.
     pub dither_cost: bool,
 }
 
-/// What was measured on the settled record of one run. Lengths in the study's length.
+/// The measurements on the settled record of one run. Lengths in the study's length.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measured {
+pub struct MeasuredRecord {
     /// M, the largest spectral amplitude of x at 0 < ω ≤ 1.9, of the record and of its halves.
     pub lines: LargestLines,
-    /// Share of the record spent in stick.
+    /// Fraction of the record spent in stick.
     pub stick_fraction: f64,
     /// Mean friction force ⟨f⟩ over k.
     pub mean_friction: f64,
-    /// Mean power ⟨D_T g_T x′⟩ over kω₀; `None` if not wanted, or when all dither is normal.
+    /// Mean power ⟨D_T g_T x′⟩ over kω₀; `None` if not requested, or if all dither is normal.
     pub dither_power: Option<f64>,
-    /// Peak-to-peak displacement at the frequencies of the tangential dithers; `None` as for the power.
+    /// Peak-to-peak displacement at the frequencies of the tangential dithers; `None` under the same conditions as the power.
     pub dither_stroke: Option<f64>,
     /// Smallest normal load.
     pub minimum_normal_load: f64,
@@ -61,7 +103,7 @@ pub struct Measured {
     load: f64,
 }
 
-impl Measured {
+impl MeasuredRecord {
     /// Whether M of the halves agree, relatively or against `reference`.
     pub(super) fn is_settled(&self, reference: f64) -> bool {
         let [first, second] = self.lines.halves;
@@ -71,7 +113,7 @@ impl Measured {
             || first.max(second) <= NOTHING * self.load
     }
 
-    /// By what share M of the halves differ: as closely as the record tells M.
+    /// The relative difference of M between the halves: the accuracy to which the record determines M.
     pub(super) fn unsteadiness(&self) -> f64 {
         let [first, second] = self.lines.halves;
         let largest = first.max(second);
@@ -79,7 +121,7 @@ impl Measured {
         if largest > 0.0 { (difference / largest).max(ROUNDING) } else { 0.0 }
     }
 
-    /// Whether M of the halves agree relatively: nothing grows or falls by more than a hundredth over half a record.
+    /// Whether M of the halves agree relatively: the vibration does not change by more than a hundredth over half a record.
     pub(super) fn is_steady(&self) -> bool {
         self.is_settled(0.0)
     }
@@ -89,9 +131,9 @@ impl Measured {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compared {
     /// With dither.
-    pub dithered: Measured,
-    /// Without, from the same state.
-    pub undithered: Measured,
+    pub dithered: MeasuredRecord,
+    /// Without dither, from the same state.
+    pub undithered: MeasuredRecord,
     /// Whether the undithered run keeps vibrating, by the cycle map; or why E is undefined.
     pub vibrates: Result<(), Undefined>,
 }
@@ -100,7 +142,7 @@ impl Compared {
     /// E = M₁/M₀ (2.27).
     ///
     /// # Errors
-    /// Why it is undefined.
+    /// Why E is undefined.
     pub fn efficiency(&self) -> Result<f64, Undefined> {
         self.vibrates?;
         Ok(self.dithered.lines.whole / self.undithered.lines.whole)
@@ -111,39 +153,39 @@ impl Compared {
         self.dithered.is_settled(self.undithered.lines.whole)
     }
 
-    /// The same for the undithered run.
+    /// Whether M of the halves of the undithered record agree.
     pub fn undithered_settled(&self) -> bool {
         self.undithered.is_settled(self.undithered.lines.whole)
     }
 }
 
 /// Measures the settled response of every case with and without its dither, the cases side by
-/// side in lanes. Cases that differ in their dither alone share one undithered run. A
-/// result has the same bits whatever the other cases are.
+/// side in lanes. Cases that differ only in their dither share one undithered run. The bits of a
+/// result do not depend on the other cases.
 pub fn compare_many(
-    cases: &[Case],
+    cases: &[ResponseCase],
     solver: &Solver,
-    wanted: Wanted,
+    observables: Observables,
 ) -> Vec<Result<Compared, Stalled>> {
-    let mut without: Vec<Case> = Vec::new();
-    let mut places = Vec::with_capacity(cases.len());
+    let mut without: Vec<ResponseCase> = Vec::new();
+    let mut indices = Vec::with_capacity(cases.len());
     for case in cases {
-        let undithered = Case { belt: case.belt.undithered(), start: case.start };
-        // Neighbours of a map are most often alike.
-        let place = without.iter().rposition(|known| *known == undithered);
-        places.push(place.unwrap_or_else(|| {
+        let undithered = ResponseCase { belt: case.belt.undithered(), start: case.start };
+        // Neighbouring points of a map usually share the undithered run.
+        let index = without.iter().rposition(|known| *known == undithered);
+        indices.push(index.unwrap_or_else(|| {
             without.push(undithered);
             without.len() - 1
         }));
     }
-    let undithered = measure_many(&without, solver, Wanted::default());
+    let undithered = measure_many(&without, solver, Observables::default());
     let vibrates: Vec<_> = without.iter().map(keeps_vibrating_without).collect();
-    let dithered = measure_many(cases, solver, wanted);
+    let dithered = measure_many(cases, solver, observables);
     dithered
         .into_iter()
-        .zip(places)
-        .map(|(dithered, place)| {
-            let (undithered, vibrates) = (undithered[place]?, vibrates[place]?);
+        .zip(indices)
+        .map(|(dithered, index)| {
+            let (undithered, vibrates) = (undithered[index]?, vibrates[index]?);
             Ok(Compared { dithered: dithered?, undithered, vibrates })
         })
         .collect()
@@ -153,7 +195,9 @@ pub fn compare_many(
 ///
 /// # Errors
 /// [`Stalled`].
-pub(super) fn keeps_vibrating_without(case: &Case) -> Result<Result<(), Undefined>, Stalled> {
+pub(super) fn keeps_vibrating_without(
+    case: &ResponseCase,
+) -> Result<Result<(), Undefined>, Stalled> {
     if case.belt.belt_velocity() == 0.0 {
         return Ok(Err(Undefined::UnditheredAtRest));
     }
@@ -167,29 +211,29 @@ pub(super) fn keeps_vibrating_without(case: &Case) -> Result<Result<(), Undefine
 
 /// Measures the settled record of every case.
 pub fn measure_many(
-    cases: &[Case],
+    cases: &[ResponseCase],
     solver: &Solver,
-    wanted: Wanted,
-) -> Vec<Result<Measured, Stalled>> {
-    record_many(cases, solver, wanted, |_, _| ())
+    observables: Observables,
+) -> Vec<Result<MeasuredRecord, Stalled>> {
+    record_many(cases, solver, observables, |_, _| ())
         .into_iter()
         .map(|outcome| outcome.map(|(measured, ())| measured))
         .collect()
 }
 
-/// [`measure_many`] with one more observer on each record.
+/// [`measure_many`] with an additional observer on each record.
 pub(super) fn record_many<O: Observer>(
-    cases: &[Case],
+    cases: &[ResponseCase],
     solver: &Solver,
-    wanted: Wanted,
-    observer: impl Fn(&Case, &Sampling) -> O,
-) -> Vec<Result<(Measured, O), Stalled>> {
+    observables: Observables,
+    observer: impl Fn(&ResponseCase, &Sampling) -> O,
+) -> Vec<Result<(MeasuredRecord, O), Stalled>> {
     let set = if cases.len() == 1 { InstructionSet::Fma } else { InstructionSet::widest() };
-    let mut nobody = vec![(); cases.len()];
+    let mut no_observers = vec![(); cases.len()];
     let runs = cases
         .iter()
-        .zip(&mut nobody)
-        .map(|(Case { belt, start }, observer)| Run {
+        .zip(&mut no_observers)
+        .map(|(ResponseCase { belt, start }, observer)| SimulationRun {
             belt,
             start: *start,
             until: start.time + solver.settle,
@@ -197,17 +241,17 @@ pub(super) fn record_many<O: Observer>(
         })
         .collect();
     let settled = simulate_many_with(set, runs, solver.tolerance);
-    let mut watches: Vec<Result<Watch<O>, Stalled>> = cases
+    let mut observers: Vec<Result<RecordObserver<O>, Stalled>> = cases
         .iter()
         .zip(settled)
         .map(|(case, settled)| {
             let settled = settled?;
             let sampling = Sampling::of(&case.belt, case.start.time + solver.settle, solver);
-            Ok(Watch {
+            Ok(RecordObserver {
                 settled,
                 sampling,
-                meter: Meter::new(&case.belt, &settled, wanted.dither_cost),
-                listener: Listener::new(&case.belt, sampling, wanted.dither_cost),
+                meter: Meter::new(&case.belt, &settled, observables.dither_cost),
+                spectral: SpectralMeter::new(&case.belt, sampling, observables.dither_cost),
                 slip: LargestSlip::of(&case.belt),
                 observer: observer(case, &sampling),
             })
@@ -215,50 +259,55 @@ pub(super) fn record_many<O: Observer>(
         .collect();
     let runs = cases
         .iter()
-        .zip(&mut watches)
-        .filter_map(|(case, watch)| {
-            let watch = watch.as_mut().ok()?;
-            let (start, until) = (watch.settled.restart(), watch.sampling.end());
-            Some(Run { belt: &case.belt, start, until, observer: watch })
+        .zip(&mut observers)
+        .filter_map(|(case, observer)| {
+            let observer = observer.as_mut().ok()?;
+            let (start, until) = (observer.settled.restart(), observer.sampling.end());
+            Some(SimulationRun { belt: &case.belt, start, until, observer })
         })
         .collect();
     let mut ends = simulate_many_with(set, runs, solver.tolerance).into_iter();
     cases
         .iter()
-        .zip(watches)
-        .map(|(case, watch)| {
-            let watch = watch?;
+        .zip(observers)
+        .map(|(case, observer)| {
+            let observer = observer?;
             let end = ends.next().unwrap_or(Err(Stalled::NEVER_STARTED))?;
-            Ok(watch.measured(case, wanted, &end))
+            Ok(observer.measured(case, observables, &end))
         })
         .collect()
 }
 
-/// Who watches a record.
-struct Watch<O> {
+/// The observer of a record.
+struct RecordObserver<O> {
     settled: FinalState,
     sampling: Sampling,
     meter: Meter,
-    listener: Listener,
+    spectral: SpectralMeter,
     slip: LargestSlip,
     observer: O,
 }
 
-impl<O> Watch<O> {
-    fn measured(mut self, case: &Case, wanted: Wanted, end: &FinalState) -> (Measured, O) {
+impl<O> RecordObserver<O> {
+    fn measured(
+        mut self,
+        case: &ResponseCase,
+        observables: Observables,
+        end: &FinalState,
+    ) -> (MeasuredRecord, O) {
         let belt = &case.belt;
         self.meter.finish(belt, &self.settled, end);
-        self.listener.finish(end.displacement);
+        self.spectral.finish(end.displacement);
         let only_normal = belt.total_amplitude(Direction::Tangential) == 0.0
             && belt.total_amplitude(Direction::Normal) > 0.0;
-        let has_cost = wanted.dither_cost && !only_normal;
+        let has_cost = observables.dither_cost && !only_normal;
         let length = self.sampling.end() - self.sampling.from;
-        let measured = Measured {
-            lines: self.listener.largest_lines(),
+        let measured = MeasuredRecord {
+            lines: self.spectral.largest_lines(),
             stick_fraction: self.meter.stick_fraction(),
             mean_friction: self.meter.mean_friction(),
             dither_power: has_cost.then(|| self.meter.dither_power()),
-            dither_stroke: has_cost.then(|| self.listener.stroke()),
+            dither_stroke: has_cost.then(|| self.spectral.stroke()),
             minimum_normal_load: cost::minimum_normal_load(belt, self.sampling.from, length),
             largest_slip: self.slip.speed,
             events: end.events,
@@ -268,27 +317,27 @@ impl<O> Watch<O> {
     }
 }
 
-/// One segment, with the machine's best instructions.
-struct Watching<'a, 'b> {
+/// The measurements of one segment, on the machine's best instruction set.
+struct SegmentMeasurement<'a, 'b> {
     meter: &'a mut Meter,
-    listener: &'a mut Listener,
+    spectral: &'a mut SpectralMeter,
     segment: &'a Segment<'b>,
 }
 
-impl Work for Watching<'_, '_> {
+impl Work for SegmentMeasurement<'_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
         self.meter.add_segment(self.segment);
-        self.listener.hear_segment(self.segment);
+        self.spectral.add_segment(self.segment);
     }
 }
 
-impl<O: Observer> Observer for Watch<O> {
+impl<O: Observer> Observer for RecordObserver<O> {
     fn segment(&mut self, segment: &Segment<'_>) {
-        let Self { meter, listener, .. } = self;
-        with_fused_multiply_add(Watching { meter, listener, segment });
+        let Self { meter, spectral, .. } = self;
+        with_fused_multiply_add(SegmentMeasurement { meter, spectral, segment });
         self.slip.segment(segment);
         if self.observer.watches() {
             self.observer.segment(segment);

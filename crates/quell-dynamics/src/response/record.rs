@@ -6,7 +6,7 @@ use crate::simulation::Sample;
 
 /// A settled record of a run.
 #[derive(Clone, Debug)]
-pub struct Record {
+pub struct SettledRecord {
     /// Samples at equal steps; the first at the end of the settling time.
     pub samples: Vec<Sample>,
     /// Step τ between samples.
@@ -15,15 +15,13 @@ pub struct Record {
     pub spectrum: Spectrum,
 }
 
-impl Record {
-    /// How long it is, τ.
+impl SettledRecord {
+    /// Length of the record, τ.
     pub fn length(&self) -> f64 {
         self.samples.len() as f64 * self.step
     }
-}
 
-impl Record {
-    /// Of samples at equal steps.
+    /// The record of samples at equal steps.
     pub(super) fn of(samples: Vec<Sample>, step: f64) -> Self {
         let displacement: Vec<f64> = samples.iter().map(|sample| sample.displacement).collect();
         // UNWRAP: a record has at least two slow periods of 128 samples, the step is positive,

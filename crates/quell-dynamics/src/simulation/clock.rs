@@ -1,6 +1,6 @@
 //! Time as an unevaluated sum of two doubles.
 //!
-//! A long run adds many short steps; the low part keeps what each addition rounds off, so
+//! A long run adds many short steps. The low part keeps the rounding error of each addition, so
 //! that phases and event times do not drift (a plain sum is off by 10⁻¹¹ at τ = 10⁵).
 
 use quell_numerics::lane::Lane;
@@ -19,25 +19,25 @@ impl Clock {
         Self { time, low: 0.0 }
     }
 
-    /// The nearest double.
+    /// τ rounded to the nearest double.
     #[inline(always)]
     pub fn time(self) -> f64 {
         self.time
     }
 
-    /// The moment `time` + `low`, as another clock gave them.
+    /// The moment `time` + `low`, both taken from another clock.
     #[inline(always)]
     pub(super) fn of(time: f64, low: f64) -> Self {
         Self { time, low }
     }
 
-    /// What the nearest double leaves out.
+    /// The rest that the nearest double leaves out.
     #[inline(always)]
     pub fn low(self) -> f64 {
         self.low
     }
 
-    /// `step` later.
+    /// The moment `step` later.
     #[inline(always)]
     #[must_use]
     pub fn after(self, step: f64) -> Self {
@@ -45,14 +45,14 @@ impl Clock {
         Self { time, low }
     }
 
-    /// How long until `target`; negative if it has passed.
+    /// The time until `target`; negative if `target` has passed.
     #[inline(always)]
     pub fn until(self, target: f64) -> f64 {
         until(self.time, self.low, target)
     }
 }
 
-/// [`Clock::after`] in every lane: the sum is rounded once, what it rounds off goes to the low part.
+/// [`Clock::after`] in every lane: the sum is rounded once, and its rounding error is added to the low part.
 #[inline(always)]
 pub(super) fn after<V: Lane>(time: V, low: V, step: V) -> (V, V) {
     let sum = time + step;

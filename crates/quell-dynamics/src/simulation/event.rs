@@ -1,18 +1,18 @@
-//! What happens at the contact.
+//! Events of the contact.
 
 /// Kind of an event at v_r = 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum EventKind {
     /// Slip ends, the mass moves with the belt.
     Stick,
-    /// The bond breaks, slip begins.
+    /// Stiction ends, slip begins.
     Release,
     /// v_r changes sign without sticking.
     Reversal,
 }
 
 impl EventKind {
-    /// Name in output.
+    /// Name in the output.
     pub fn name(self) -> &'static str {
         match self {
             Self::Stick => "stick",
@@ -25,11 +25,11 @@ impl EventKind {
 /// One event. The velocity at every event is that of the belt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
-    /// When, τ.
+    /// Time τ.
     pub time: f64,
-    /// Which contact; a belt has one, number 0.
+    /// Number of the contact; a belt has one, number 0.
     pub contact: usize,
-    /// What.
+    /// Kind of the event.
     pub kind: EventKind,
     /// Sign of v_r afterwards; 0 in stick.
     pub slip_sign: i8,

@@ -1,13 +1,13 @@
 //! Least and largest displacement and velocity of a run.
 //!
-//! Extremes lie at the ends of segments, or inside of them where the derivative vanishes: x′ = v₀ − v_r for the
-//! displacement, x″ = −v_r′ for the velocity. Roots of both are those of the segment's own Taylor polynomial, isolated as
-//! events are, so that none is missed and the values are those of the trajectory, not of a grid of samples.
+//! Extremes are at the ends of segments, or inside them where the derivative vanishes: x′ = v₀ − v_r for the
+//! displacement, x″ = −v_r′ for the velocity. The roots of both are those of the segment's own Taylor polynomial, isolated in the
+//! same way as events. None is missed, and the values are those of the trajectory, not of a grid of samples.
 
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 
-use super::ORDER;
 use super::observer::{Observer, Segment, each_crossing};
+use super::taylor::ORDER;
 
 /// Least and largest displacement x and velocity x′ of a run, each as (least, largest).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,17 +39,17 @@ impl Observer for Extremes {
     fn segment(&mut self, segment: &Segment<'_>) {
         self.take(segment, 0.0);
         self.take(segment, segment.duration());
-        with_fused_multiply_add(Search { extremes: self, segment });
+        with_fused_multiply_add(ExtremeSearch { extremes: self, segment });
     }
 }
 
-/// The search of one segment.
-struct Search<'a, 'b> {
+/// The search for extremes inside one segment.
+struct ExtremeSearch<'a, 'b> {
     extremes: &'a mut Extremes,
     segment: &'a Segment<'b>,
 }
 
-impl Work for Search<'_, '_> {
+impl Work for ExtremeSearch<'_, '_> {
     type Output = ();
 
     #[inline(always)]
@@ -86,7 +86,7 @@ mod tests {
         for (low, high) in [extremes.displacement, extremes.velocity] {
             assert!((low + 1.0).abs() < 1e-11 && (high - 1.0).abs() < 1e-11, "{low} {high}");
         }
-        // Over a part of the period the ends count, and what lies between them.
+        // Over a part of the period the ends count, and the extremes between them.
         let mut extremes = Extremes::default();
         simulate(&belt, start, 2.0, DEFAULT_TOLERANCE, &mut extremes).expect("runs");
         assert!((extremes.displacement.0 - 2.0_f64.cos()).abs() < 1e-11);

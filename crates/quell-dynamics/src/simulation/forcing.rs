@@ -1,8 +1,8 @@
 //! Dither forces along a run: local Taylor coefficients, exact values, breaks as time events.
 //!
 //! A harmonic piece D sin(Rτ + φ) has the coefficients D Rᵏ/k! · {s, c, −s, −c}: a table
-//! times one sine and cosine a step. Triangle and square are straight between their breaks.
-//! Break number n lies at (θᵢ + 2πc − φ)/R with n = c·(breaks per period) + i, computed
+//! times one sine and cosine per step. Triangle and square are straight between their breaks.
+//! Break number n is at (θᵢ + 2πc − φ)/R with n = c·(breaks per period) + i, computed
 //! from the integer each time, so that breaks do not drift.
 
 use std::f64::consts::TAU;
@@ -12,18 +12,15 @@ use quell_model::{Direction, Dither, Waveform};
 use quell_numerics::elementary::sin_cos_of_phase;
 use quell_numerics::lane::Lane;
 
-use super::ORDER;
 use super::clock::{Clock, until};
+use super::taylor::{ORDER, Series};
 
-/// Coefficients of a Taylor series of the engine's order.
-pub(super) type Series = [f64; ORDER + 1];
-
-/// What the series of a forcing is made of, which lanes side by side must share.
+/// The structure of a forcing's series, which lanes side by side must share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Shape {
+pub(super) enum ForcingShape {
     /// No dither.
     Constant,
-    /// One dither, a sine throughout.
+    /// One dither, a pure sine.
     Harmonic,
     /// One dither, straight between its breaks.
     Straight,
@@ -31,7 +28,10 @@ pub(super) enum Shape {
     Several,
 }
 
-impl Shape {
+/// Shapes of the tangential and of the normal forcing.
+pub(super) type ForcingShapes = (ForcingShape, ForcingShape);
+
+impl ForcingShape {
     /// Shape of the dithers of one direction.
     pub(super) fn of(dithers: &[Dither], direction: Direction) -> Self {
         let mut acting = dithers.iter().filter(|dither| acts(dither, direction));
@@ -49,7 +49,7 @@ impl Shape {
     }
 }
 
-/// Whether a dither does anything in a direction.
+/// Whether a dither acts in a direction.
 fn acts(dither: &Dither, direction: Direction) -> bool {
     dither.direction == direction && dither.amplitude > 0.0
 }
@@ -67,16 +67,16 @@ pub(super) struct Forcing {
 
 /// A straight piece of a dither, in one lane or in many.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Line<V = f64> {
-    /// When it began.
+pub(super) struct StraightPiece<V = f64> {
+    /// Its start.
     pub(super) began: V,
-    /// Value there.
+    /// Value at its start.
     pub(super) value: V,
     /// Change per unit of time.
     pub(super) slope: V,
 }
 
-impl<V: Lane> Line<V> {
+impl<V: Lane> StraightPiece<V> {
     /// Value at the moment `time` + `low`.
     #[inline(always)]
     pub(super) fn at(&self, time: V, low: V) -> V {
@@ -93,7 +93,7 @@ struct Component {
     table: Series,
     /// Number of the break that ends the current piece; meaningless without breaks.
     ending: i64,
-    /// When the current piece began and ends.
+    /// Start and end of the current piece.
     began: f64,
     ends: f64,
 }
@@ -130,11 +130,10 @@ impl Forcing {
         }
     }
 
-    /// The first dither's straight piece: when it began, its value there and its slope, without the
-    /// constant part.
+    /// The straight piece of the first dither, without the constant part.
     #[inline(always)]
-    pub(super) fn line(&self) -> Line {
-        self.components.first().and_then(Component::line).unwrap_or_default()
+    pub(super) fn straight_piece(&self) -> StraightPiece {
+        self.components.first().and_then(Component::straight_piece).unwrap_or_default()
     }
 
     /// Whether there is no dither in this direction.
@@ -166,7 +165,7 @@ impl Forcing {
         self.next_break
     }
 
-    /// Moves past every break that is not after `clock`.
+    /// Advances past every break that is not after `clock`.
     #[inline(always)]
     pub(super) fn pass_breaks(&mut self, clock: Clock) {
         let mut next = f64::INFINITY;
@@ -198,7 +197,7 @@ impl Forcing {
         out
     }
 
-    /// Value at `clock`, the same bits as the first of [`Forcing::series`].
+    /// Value at `clock`, with the same bits as the first coefficient of [`Forcing::series`].
     #[inline(always)]
     pub(super) fn value(&self, clock: Clock) -> f64 {
         let Some((first, rest)) = self.components.split_first() else {
@@ -233,16 +232,16 @@ impl Component {
         component
     }
 
-    /// Finds the piece that holds `clock`.
+    /// Finds the piece that contains `clock`.
     fn seek(&mut self, clock: Clock) {
         let count = self.waveform.breaks().len() as f64;
-        let turns = (self.rate * clock.time() + self.phase) / TAU;
+        let cycles = (self.rate * clock.time() + self.phase) / TAU;
         #[expect(
             clippy::cast_possible_truncation,
-            reason = "the turns of any run are far below 2⁶³"
+            reason = "the number of dither cycles of a run is far below 2⁶³"
         )]
         {
-            self.ending = ((turns - 1.0) * count).floor() as i64;
+            self.ending = ((cycles - 1.0) * count).floor() as i64;
         }
         self.set_piece();
         self.pass_breaks(clock);
@@ -283,7 +282,7 @@ impl Component {
         reason = "a remainder by the number of pieces, which are few"
     )]
     #[inline(always)]
-    fn line(&self) -> Option<Line> {
+    fn straight_piece(&self) -> Option<StraightPiece> {
         if self.ends == f64::INFINITY {
             return None;
         }
@@ -291,7 +290,7 @@ impl Component {
         let index = (self.ending - 1).rem_euclid(pieces.len() as i64) as usize;
         match pieces[index] {
             Piece::Harmonic => None,
-            Piece::Affine { value, slope } => Some(Line {
+            Piece::Affine { value, slope } => Some(StraightPiece {
                 began: self.began,
                 value: self.table[0] * value,
                 slope: self.table[0] * slope * self.rate,
@@ -302,8 +301,8 @@ impl Component {
     /// Value and slope (per unit time) of a straight piece at `clock`, or `None` if harmonic.
     #[inline(always)]
     fn straight(&self, clock: Clock) -> Option<(f64, f64)> {
-        let line = self.line()?;
-        Some((line.at(clock.time(), clock.low()), line.slope))
+        let piece = self.straight_piece()?;
+        Some((piece.at(clock.time(), clock.low()), piece.slope))
     }
 
     #[inline(always)]
@@ -328,9 +327,9 @@ impl Component {
             return out;
         }
         let (sine, cosine) = self.sin_cos(clock);
-        let turn = [sine, cosine, -sine, -cosine];
+        let phasor = [sine, cosine, -sine, -cosine];
         for k in 0..=ORDER {
-            out[k] = self.table[k] * turn[k % 4];
+            out[k] = self.table[k] * phasor[k % 4];
         }
         out
     }

@@ -1,37 +1,37 @@
-//! The largest slip speed that a run meets.
+//! The largest slip speed of a run.
 
 use quell_model::Belt;
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 
 use super::observer::{Observer, Segment};
 
-/// Moments of a step at which slip is looked at: a step is at most a few radians of the fastest oscillation, so that the
-/// largest slip is missed by less than a hundredth of the oscillation.
+/// Moments of a step at which slip is evaluated: a step is at most a few radians of the fastest oscillation, so that the
+/// largest slip is underestimated by less than a hundredth of the oscillation.
 const MOMENTS: usize = 8;
 
-/// Keeps the largest |v_r| of a run, where the friction law has a range that slip could leave.
+/// Records the largest |v_r| of a run if the friction law has a range of validity that slip could leave.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LargestSlip {
-    /// The largest |v_r| so far: a length per τ; 0 where the law has no range.
+    /// The largest |v_r| so far, a length per τ; 0 if the law has no range.
     pub speed: f64,
     /// Whether the law has a range.
-    asked: bool,
+    has_range: bool,
 }
 
 impl LargestSlip {
     /// For runs of a belt.
     pub fn of(belt: &Belt) -> Self {
-        Self { speed: 0.0, asked: belt.friction().range().is_some() }
+        Self { speed: 0.0, has_range: belt.friction().range().is_some() }
     }
 }
 
 impl Observer for LargestSlip {
     fn watches(&self) -> bool {
-        self.asked
+        self.has_range
     }
 
     fn segment(&mut self, segment: &Segment<'_>) {
-        if self.asked && segment.slip_sign() != 0 {
+        if self.has_range && segment.slip_sign() != 0 {
             self.speed = self.speed.max(with_fused_multiply_add(Largest(segment)));
         }
     }
@@ -46,8 +46,8 @@ impl Work for Largest<'_, '_> {
     #[inline(always)]
     fn run(self) -> f64 {
         let mut since = [0.0; MOMENTS];
-        for (place, since) in since.iter_mut().enumerate() {
-            *since = self.0.duration() * (place as f64 / (MOMENTS - 1) as f64);
+        for (index, since) in since.iter_mut().enumerate() {
+            *since = self.0.duration() * (index as f64 / (MOMENTS - 1) as f64);
         }
         self.0.slips_at(&since).into_iter().fold(0.0, |most, slip| slip.abs().max(most))
     }

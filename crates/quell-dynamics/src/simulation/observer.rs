@@ -1,4 +1,4 @@
-//! Passive observers of a run: they see every smooth segment and every event, and change no bit.
+//! Passive observers of a run: they receive every smooth segment and every event, and change no bit of the result.
 
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::lane::horner;
@@ -6,9 +6,9 @@ use quell_numerics::polynomial::first_crossing_after;
 
 use super::clock::Clock;
 use super::event::Event;
-use super::slip::INVERSE;
+use super::taylor::{ORDER, RECIPROCALS};
 
-/// One smooth piece of a trajectory: a Taylor step of slip, or a stretch of stick.
+/// One smooth piece of a trajectory: a Taylor step of slip, or an interval of stick.
 #[derive(Clone, Copy, Debug)]
 pub struct Segment<'a> {
     pub(super) clock: Clock,
@@ -23,37 +23,37 @@ pub struct Segment<'a> {
 }
 
 impl Segment<'_> {
-    /// When it starts, τ.
+    /// Its start, τ.
     #[inline(always)]
     pub fn clock(&self) -> Clock {
         self.clock
     }
 
-    /// How long it lasts, τ.
+    /// Its length, τ.
     #[inline(always)]
     pub fn duration(&self) -> f64 {
         self.duration
     }
 
-    /// Sign of v_r on it; 0 in stick.
+    /// Sign of v_r; 0 in stick.
     #[inline(always)]
     pub fn slip_sign(&self) -> i8 {
         self.slip_sign
     }
 
-    /// Coefficients of v_r, and the unit they count in.
+    /// Coefficients of v_r, and their unit.
     #[inline(always)]
     pub(crate) fn slip_series(&self) -> (&[f64], f64) {
         (self.slip, self.unit)
     }
 
-    /// Displacement x at `since` after its start, 0 ≤ `since` ≤ its duration: the series is not good outside.
+    /// Displacement x at time `since` after its start, 0 ≤ `since` ≤ its duration: the series is inaccurate outside.
     pub fn displacement(&self, since: f64) -> f64 {
         self.unit * value_of(self.displacement, since)
     }
 
-    /// [`Segment::displacement`] at N moments, side by side: for observers that are compiled with
-    /// the machine's best instructions themselves.
+    /// [`Segment::displacement`] at N moments at once, for observers that are themselves compiled for
+    /// the machine's best instruction set.
     #[inline(always)]
     pub(crate) fn displacements_at<const N: usize>(&self, since: &[f64; N]) -> [f64; N] {
         let mut values = horner_at(self.displacement, since);
@@ -63,7 +63,7 @@ impl Segment<'_> {
         values
     }
 
-    /// Velocity x′ at N moments, as [`Segment::displacements_at`].
+    /// Velocity x′ at N moments, like [`Segment::displacements_at`].
     #[inline(always)]
     pub(crate) fn velocities_at<const N: usize>(&self, since: &[f64; N]) -> [f64; N] {
         let mut values = horner_at(self.slip, since);
@@ -73,17 +73,17 @@ impl Segment<'_> {
         values
     }
 
-    /// Slip velocity v_r = v₀ − x′ at `since` after its start, within it; 0 in stick.
+    /// Slip velocity v_r = v₀ − x′ at time `since` after its start, within the segment; 0 in stick.
     pub fn slip_velocity(&self, since: f64) -> f64 {
         self.unit * value_of(self.slip, since)
     }
 
-    /// Velocity x′ at `since` after its start, within it; exactly the belt's in stick.
+    /// Velocity x′ at time `since` after its start, within the segment; exactly that of the belt in stick.
     pub fn velocity(&self, since: f64) -> f64 {
         self.belt_velocity - self.slip_velocity(since)
     }
 
-    /// Slip velocity v_r at N moments, as [`Segment::displacements_at`].
+    /// Slip velocity v_r at N moments, like [`Segment::displacements_at`].
     #[inline(always)]
     pub(crate) fn slips_at<const N: usize>(&self, since: &[f64; N]) -> [f64; N] {
         let mut values = horner_at(self.slip, since);
@@ -93,18 +93,18 @@ impl Segment<'_> {
         values
     }
 
-    /// ∫x dτ over the whole segment, for observers as in [`Segment::displacements_at`].
+    /// ∫x dτ over the whole segment, for the same observers as [`Segment::displacements_at`].
     #[inline(always)]
     pub(crate) fn displacement_integral(&self) -> f64 {
         let mut sum = 0.0;
-        for (&coefficient, inverse) in self.displacement.iter().zip(&INVERSE[1..]).rev() {
+        for (&coefficient, inverse) in self.displacement.iter().zip(&RECIPROCALS[1..]).rev() {
             sum = f64::mul_add(sum, self.duration, coefficient * inverse);
         }
         self.unit * sum * self.duration
     }
 }
 
-/// A Taylor polynomial at N moments, side by side.
+/// A Taylor polynomial at N moments at once.
 #[inline(always)]
 fn horner_at<const N: usize>(coefficients: &[f64], since: &[f64; N]) -> [f64; N] {
     let mut values = [0.0_f64; N];
@@ -116,14 +116,14 @@ fn horner_at<const N: usize>(coefficients: &[f64], since: &[f64; N]) -> [f64; N]
     values
 }
 
-/// A Taylor polynomial at a moment, with the machine's best instructions: observers are called
-/// from the engine, not compiled into it.
-struct Value<'a> {
+/// A Taylor polynomial at a moment, on the machine's best instruction set: observers are called
+/// by the engine, not compiled into it.
+struct SeriesValue<'a> {
     coefficients: &'a [f64],
     since: f64,
 }
 
-impl Work for Value<'_> {
+impl Work for SeriesValue<'_> {
     type Output = f64;
 
     #[inline(always)]
@@ -133,22 +133,22 @@ impl Work for Value<'_> {
 }
 
 fn value_of(coefficients: &[f64], since: f64) -> f64 {
-    with_fused_multiply_add(Value { coefficients, since })
+    with_fused_multiply_add(SeriesValue { coefficients, since })
 }
 
-/// Watches a run.
+/// Observes a run.
 pub trait Observer {
-    /// A segment has been integrated.
+    /// Called after a segment has been integrated.
     fn segment(&mut self, segment: &Segment<'_>) {
         let _ = segment;
     }
 
-    /// An event has happened, at the end of the last segment.
+    /// Called after an event, which is at the end of the last segment.
     fn event(&mut self, event: &Event) {
         let _ = event;
     }
 
-    /// Whether [`Observer::segment`] wants to be called. Asked once, when a run begins.
+    /// Whether [`Observer::segment`] is to be called. Asked once, at the start of a run.
     fn watches(&self) -> bool {
         true
     }
@@ -190,7 +190,7 @@ impl<A: Observer> Observer for &mut A {
     }
 }
 
-/// Keeps every event.
+/// Records every event.
 #[derive(Clone, Debug, Default)]
 pub struct EventRecorder {
     /// The events, in order.
@@ -207,7 +207,7 @@ impl Observer for EventRecorder {
     }
 }
 
-/// A state at a moment.
+/// The state at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// τ.
@@ -220,7 +220,7 @@ pub struct Sample {
     pub sticking: bool,
 }
 
-/// Takes the state at τ₀ + nΔ for n = 0, 1, …: dense output, or a stroboscopic Poincaré
+/// Samples the state at τ₀ + nΔ for n = 0, 1, …: dense output, or a stroboscopic Poincaré
 /// section with Δ = 2π/R.
 #[derive(Clone, Debug)]
 pub struct Sampler {
@@ -263,7 +263,7 @@ impl Observer for Sampler {
     }
 }
 
-/// Poincaré section of state: the moments when x′ passes a level upwards, exact as events are.
+/// Poincaré section in state space: the moments at which x′ crosses a level upwards, located as accurately as events.
 #[derive(Clone, Debug)]
 pub struct VelocitySection {
     level: f64,
@@ -280,25 +280,25 @@ impl VelocitySection {
 
 impl Observer for VelocitySection {
     fn segment(&mut self, segment: &Segment<'_>) {
-        with_fused_multiply_add(Scan { section: self, segment });
+        with_fused_multiply_add(CrossingSearch { section: self, segment });
     }
 }
 
-/// The search of one segment.
-struct Scan<'a, 'b> {
+/// The search for crossings on one segment.
+struct CrossingSearch<'a, 'b> {
     section: &'a mut VelocitySection,
     segment: &'a Segment<'b>,
 }
 
-impl Work for Scan<'_, '_> {
+impl Work for CrossingSearch<'_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
         let Self { section, segment } = self;
         // level − x′ falls through zero at an upward crossing. Each crossing is divided out
-        // by shifting the expansion to it, so that the next one on the segment is found too.
-        let mut shifted = [0.0; super::ORDER + 1];
+        // by shifting the expansion to it, so that later ones on the segment are found too.
+        let mut shifted = [0.0; ORDER + 1];
         shifted[..segment.slip.len()].copy_from_slice(segment.slip);
         shifted[0] += (section.level - segment.belt_velocity) / segment.unit;
         if shifted[0] == 0.0 {
@@ -317,11 +317,11 @@ impl Work for Scan<'_, '_> {
     }
 }
 
-/// Every moment up to `duration` at which a Taylor polynomial changes its sign, in order, and whether it falls there.
-/// Zeros at the start are divided out. The polynomial is used up.
+/// Every moment up to `duration` at which a Taylor polynomial changes sign, in order, and whether it falls there.
+/// Zeros at the start are divided out. The polynomial is overwritten.
 #[inline(always)]
 pub(super) fn each_crossing(
-    series: &mut [f64; super::ORDER + 1],
+    series: &mut [f64; ORDER + 1],
     duration: f64,
     mut found: impl FnMut(f64, bool),
 ) {
@@ -337,7 +337,7 @@ pub(super) fn each_crossing(
         rest -= root;
         found(since, falls);
         shift(series, root);
-        // On the far side now, however the value at the root rounds.
+        // The value is on the far side now, however it rounds at the root.
         series[0] = series[0].abs().max(f64::MIN_POSITIVE) * if falls { -1.0 } else { 1.0 };
         zeros = 0;
     }

@@ -15,21 +15,10 @@ use quell_numerics::lane::{Lane, horner, partial_product};
 use quell_numerics::polynomial::side_by_side::margin_of_no_root;
 use quell_numerics::polynomial::step_length;
 
-use super::ORDER;
-use super::lanes::Row;
+use super::lane_row::LaneRow;
+use super::taylor::{ORDER, RECIPROCALS};
 
 const _: () = assert!(ORDER == 16, "the kernel is unrolled for order 16");
-
-/// 1/k for k = 1…ORDER + 1 (entry 0 unused).
-pub(super) const INVERSE: [f64; ORDER + 2] = {
-    let mut table = [0.0; ORDER + 2];
-    let mut k = 1;
-    while k < ORDER + 2 {
-        table[k] = 1.0 / k as f64;
-        k += 1;
-    }
-    table
-};
 
 /// Constants of the slip equation, in units of the velocity scale.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +29,7 @@ pub(super) struct SlipEquation<V> {
     pub(super) belt_velocity: V,
 }
 
-/// How far a step may go.
+/// Limits on the length of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StepLimits<V> {
     /// Tolerance in units of the velocity scale.
@@ -53,14 +42,14 @@ pub(super) struct StepLimits<V> {
 
 /// The normal load along a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Load<'a, V> {
+pub(super) enum StepLoad<'a, V> {
     /// Constant.
     Steady(V),
     /// With normal dither.
     Series(&'a [V; ORDER + 1]),
 }
 
-/// Where a step of slip starts.
+/// The start of a slip step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SlipStart<V> {
     /// Sign of the branch.
@@ -80,14 +69,14 @@ pub(super) struct SlipSeries<V> {
     pub(super) slip: [V; ORDER + 1],
 }
 
-/// Taylor coefficients of a dither at the start of a step: a table times a phasor, and a line.
+/// Taylor coefficients of a dither at the start of a step: a table times a phasor, plus a straight line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DitherSeries<'a, V> {
-    /// D Rᵏ/k! of a harmonic dither, or what replaces it; the lanes side by side.
-    pub(super) table: &'a [Row; ORDER + 1],
+    /// D Rᵏ/k! of a harmonic dither, or the complete series of several dithers; the lanes side by side.
+    pub(super) table: &'a [LaneRow; ORDER + 1],
     /// sin, cos, −sin, −cos of the phase.
-    pub(super) turn: [V; 4],
-    /// Value and slope of what is straight.
+    pub(super) phasor: [V; 4],
+    /// Value and slope of the straight part.
     pub(super) line: [V; 2],
 }
 
@@ -95,25 +84,25 @@ impl<V: Lane> DitherSeries<'_, V> {
     /// Coefficient k.
     #[inline(always)]
     pub(super) fn coefficient(&self, k: usize) -> V {
-        let (table, turn) = (self.table[k].load::<V>(), self.turn[k % 4]);
-        if k < 2 { table.mul_add(turn, self.line[k]) } else { table * turn }
+        let (table, phasor) = (self.table[k].load::<V>(), self.phasor[k % 4]);
+        if k < 2 { table.mul_add(phasor, self.line[k]) } else { table * phasor }
     }
 
     /// `from` minus coefficient k.
     #[inline(always)]
     fn subtracted(&self, k: usize, from: V) -> V {
-        let (table, turn) = (self.table[k].load::<V>(), self.turn[k % 4]);
+        let (table, phasor) = (self.table[k].load::<V>(), self.phasor[k % 4]);
         let rest = if k < 2 { from - self.line[k] } else { from };
-        (-table).mul_add(turn, rest)
+        (-table).mul_add(phasor, rest)
     }
 }
 
 impl<V: Lane> SlipEquation<V> {
-    /// Series of y and w to order [`ORDER`] from `start`, under the tangential dither and the load;
-    /// the length of the step along it.
+    /// Writes the series of y and w to order [`ORDER`] from `start`, under the tangential dither and the load.
+    /// Returns the length of the step.
     #[expect(
         clippy::out_of_bounds_indexing,
-        reason = "the last turn of the unrolled loop is empty, K < ORDER is false there"
+        reason = "the last pass of the unrolled loop is empty, K < ORDER is false there"
     )]
     #[inline(always)]
     pub(super) fn series<L: SlidingLaw>(
@@ -121,7 +110,7 @@ impl<V: Lane> SlipEquation<V> {
         law: &mut L::Constants<V>,
         start: SlipStart<V>,
         dither: &DitherSeries<'_, V>,
-        load: Load<'_, V>,
+        load: StepLoad<'_, V>,
         limits: StepLimits<V>,
         out: &mut SlipSeries<V>,
     ) -> V {
@@ -132,8 +121,8 @@ impl<V: Lane> SlipEquation<V> {
         let mut branch = L::series::<V, { ORDER + 1 }>(law, start.sign, start.slip);
         let slope = branch.slope();
         let load_now = match load {
-            Load::Steady(load) => load,
-            Load::Series(load) => load[0],
+            StepLoad::Steady(load) => load,
+            StepLoad::Series(load) => load[0],
         };
         // w′ to first order in the newest coefficient of w: −(2ζ + n μ′)wₖ.
         let newest = -load_now.mul_add(slope, self.damping);
@@ -145,17 +134,17 @@ impl<V: Lane> SlipEquation<V> {
         quell_numerics::for_each_order_below_16!(J, {
             const K: usize = J + 1;
             if K < ORDER {
-                let inverse = V::splat(INVERSE[K + 1]);
+                let inverse = V::splat(RECIPROCALS[K + 1]);
                 let lower = branch.lower(K, w);
                 let known = (-load_now).mul_add(lower, dither.subtracted(K, y[K]));
                 let known = match load {
-                    Load::Steady(_) => known,
-                    Load::Series(load) => {
+                    StepLoad::Steady(_) => known,
+                    StepLoad::Series(load) => {
                         mu[K] = slope.mul_add(w[K], lower);
                         known - partial_product(load, &mu, K, 1, K)
                     }
                 };
-                // Two products apart, so that the newest coefficient waits for one operation only.
+                // Two separate products, so that the newest coefficient waits for one operation only.
                 w[K + 1] = (newest * inverse).mul_add(w[K], known * inverse);
                 y[K + 1] = -(w[K] * inverse);
             }
@@ -165,8 +154,8 @@ impl<V: Lane> SlipEquation<V> {
 }
 
 impl<V: Lane> StepLimits<V> {
-    /// Length of a step along w: the last two retained terms within the tolerance, and no rate of
-    /// the problem so far that they could be small by chance.
+    /// Length of a step along w: the last two retained terms are within the tolerance, and no oscillation of
+    /// the problem is covered so far that the terms could be small by chance.
     #[inline(always)]
     fn step(&self, w: &[V; ORDER + 1]) -> V {
         step_length(self.tolerance, w[ORDER], w[ORDER - 1], ORDER).min(self.longest).min(self.room)
@@ -174,14 +163,14 @@ impl<V: Lane> StepLimits<V> {
 }
 
 impl<V: Lane> SlipSeries<V> {
-    /// Positive where it is proven that v_r has the branch's sign on the whole of a step of this
+    /// Positive where v_r provably keeps the branch's sign on the whole of a step of this
     /// length, after a zero of multiplicity `zeros` at its start.
     #[inline(always)]
     pub(super) fn margin(&self, zeros: V, length: V) -> V {
         margin_of_no_root(&self.slip, zeros, length)
     }
 
-    /// Positive where v_r goes to the branch's side from a zero of multiplicity `zeros`.
+    /// Positive where v_r leaves a zero of multiplicity `zeros` towards the branch's side.
     #[inline(always)]
     pub(super) fn leaves(&self, sign: V, zeros: V) -> V {
         let twice = zeros.map(|n| if n == 2.0 { 1.0 } else { 0.0 });

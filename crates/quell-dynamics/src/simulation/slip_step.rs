@@ -1,9 +1,9 @@
-//! What passes between the engine and the kernels of slip: a step that is due, and the step as it was taken.
+//! The interface between the engine and the kernels of slip: a step that is due, and the step as it was taken.
 
-use super::forcing::Series;
-use super::{FinalState, ORDER, Stalled};
+use super::state::RunResult;
+use super::taylor::{ORDER, Series};
 
-/// A slip step that is to be taken.
+/// A slip step that is due.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SlipDue {
     /// Branch of the law.
@@ -14,58 +14,58 @@ pub(super) struct SlipDue {
     pub(super) stop: f64,
 }
 
-/// What a run does next.
+/// The next action of a run.
 pub(super) enum Next {
     /// A slip step.
     Slip(SlipDue),
-    /// Nothing: it is over.
-    Over(Result<FinalState, Stalled>),
+    /// None: the run is over.
+    Over(RunResult),
 }
 
 /// A slip step as the kernel took it.
 pub(super) struct SlipTaken<'s> {
     /// Length of the step if v_r has no root inside.
     pub(super) length: f64,
-    /// First root of v_r inside, divided by the known ones at the start.
-    pub(super) root: Root,
+    /// First root of v_r inside the step, after division by the known ones at its start.
+    pub(super) root: StepRoot,
     /// y and w at the end of the step, y at the root where one was found.
     pub(super) end: (f64, f64),
     /// Coefficients of y.
-    pub(super) displacement: Column<'s>,
+    pub(super) displacement: LaneColumn<'s>,
     /// Coefficients of w.
-    pub(super) slip: Column<'s>,
+    pub(super) slip: LaneColumn<'s>,
 }
 
 /// The first root of v_r on a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Root {
+pub(super) enum StepRoot {
     /// Proven absent.
     None,
-    /// After this long.
+    /// At this time after the start of the step.
     At(f64),
     /// Left to the scalar search.
-    Unsure,
+    Unknown,
 }
 
-/// Coefficients of one lane among those of its neighbours.
+/// Coefficients of one lane, interleaved with those of its neighbours.
 #[derive(Clone, Copy)]
-pub(super) struct Column<'s> {
+pub(super) struct LaneColumn<'s> {
     /// Coefficient by coefficient, the lanes side by side.
     pub(super) rows: &'s [f64],
     /// Number of lanes.
     pub(super) lanes: usize,
-    /// Which.
+    /// The index of the lane.
     pub(super) lane: usize,
 }
 
-impl Column<'_> {
+impl LaneColumn<'_> {
     /// Coefficient k.
     #[inline(always)]
     pub(super) fn coefficient(&self, k: usize) -> f64 {
         self.rows[k * self.lanes + self.lane]
     }
 
-    /// The coefficients alone.
+    /// The coefficients of this lane alone.
     #[inline(always)]
     pub(super) fn gathered(&self) -> Series {
         let mut series = [0.0; ORDER + 1];

@@ -1,20 +1,20 @@
-//! Stick: x = x₀ + v₀(τ − τ₀), and the first moment at which the bond breaks.
+//! Stick: x = x₀ + v₀(τ − τ₀), and the first moment at which stiction is lost.
 //!
-//! The bond force needed is f_s = 2ζv₀ + x − Σ D_T g_T; it holds while |f_s| ≤ μ_s N(τ).
+//! The friction force required is f_s = 2ζv₀ + x − Σ D_T g_T; the contact sticks while |f_s| ≤ μ_s N(τ).
 //! The two margins ±f_s − μ_s N are analytic between breaks of the dither.
 
 use quell_numerics::polynomial::{
     derivative, first_crossing, first_crossing_after, step_length, value,
 };
 
-use super::ORDER;
 use super::clock::Clock;
-use super::forcing::{Forcing, Series};
+use super::forcing::Forcing;
+use super::taylor::{ORDER, Series};
 
-/// The bond, in units of the law's velocity scale.
+/// Constants of the sticking contact, in units of the law's velocity scale.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bond {
-    /// 2ζν, the damper's share of f_s.
+pub(super) struct Stiction {
+    /// 2ζν, the damper's part of f_s.
     pub(super) damper: f64,
     /// ν = v₀/v_m.
     pub(super) belt_velocity: f64,
@@ -22,37 +22,37 @@ pub(super) struct Bond {
     pub(super) static_coefficient: f64,
 }
 
-/// What a search over a stretch of stick found.
+/// The result of a search over an interval of stick.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Search {
-    /// The bond holds for this long at least.
+pub(super) enum StickSearch {
+    /// The contact sticks for at least this long.
     Holds(f64),
-    /// The bond breaks.
-    Breaks {
-        /// After this long.
+    /// The contact releases.
+    Releases {
+        /// Time until the release.
         after: f64,
         /// Slip direction, the sign of f_s.
         sign: f64,
-        /// Rate of |f_s| − μ_s N there.
+        /// Rate of |f_s| − μ_s N at the release.
         rate: f64,
-        /// Whether the threshold was already passed at the start of the stretch.
+        /// Whether the threshold was already exceeded at the start of the interval.
         at_once: bool,
     },
 }
 
-impl Bond {
+impl Stiction {
     /// f_s at displacement `y`.
     #[inline(always)]
     pub(super) fn force(&self, y: f64, tangential: f64) -> f64 {
         self.damper + y - tangential
     }
 
-    /// How long no dither can break the bond, whatever its phase; not positive if unknown.
+    /// Time for which no dither can release the contact, whatever its phase; not positive if unknown.
     ///
-    /// |f_s| ≤ |2ζv₀ + x| + ΣD_T and N ≥ F − ΣD_N. f_s rises with x, so that once the lower
-    /// side is safe it stays safe.
+    /// |f_s| ≤ |2ζv₀ + x| + ΣD_T and N ≥ F − ΣD_N. f_s rises with x, so that a lower
+    /// side that is safe stays safe.
     #[inline(always)]
-    pub(super) fn surely_holds(&self, y: f64, tangential: &Forcing, normal: &Forcing) -> f64 {
+    pub(super) fn guaranteed_stick(&self, y: f64, tangential: &Forcing, normal: &Forcing) -> f64 {
         let capacity = self.static_coefficient * (normal.mean() - normal.amplitude());
         let reserve = capacity - tangential.amplitude();
         let force = self.damper + y;
@@ -62,11 +62,11 @@ impl Bond {
         if force >= reserve {
             return 0.0;
         }
-        // A few units in the last place on the safe side.
+        // Shortened by some units in the last place, to be safe.
         (reserve - force) * (1.0 - 1e-12) / self.belt_velocity
     }
 
-    /// The first break of the bond within `room`, on one Taylor stretch.
+    /// The first release within `room`, on one Taylor series.
     #[inline(always)]
     pub(super) fn search(
         &self,
@@ -76,7 +76,7 @@ impl Bond {
         tolerance: f64,
         tangential: &Forcing,
         normal: &Forcing,
-    ) -> Search {
+    ) -> StickSearch {
         let dither = tangential.series(clock);
         let mut force = [0.0; ORDER + 1];
         force[0] = self.force(y, dither[0]);
@@ -95,10 +95,10 @@ impl Bond {
         let last = force[ORDER].abs() + limit[ORDER].abs();
         let previous = force[ORDER - 1].abs() + limit[ORDER - 1].abs();
         let length = step_length(tolerance, last, previous, ORDER).min(room);
-        // |f_s| < μ_s N on all of the stretch, or at least −f_s, by the sizes of the coefficients.
+        // |f_s| < μ_s N on the whole interval, or at least −f_s < μ_s N, by the sizes of the coefficients.
         let change = largest_change(&force, &limit, length);
         if force[0].abs() + change < limit[0] {
-            return Search::Holds(length);
+            return StickSearch::Holds(length);
         }
         let falls = -force[0] + change >= limit[0];
         let margin = |sign: f64| {
@@ -109,18 +109,18 @@ impl Bond {
             margin
         };
         let (rise, fall) = (margin(1.0), margin(-1.0));
-        let down = if falls { break_on(&fall, length) } else { None };
-        let (sign, margin, after) = match (break_on(&rise, length), down) {
-            (None, None) => return Search::Holds(length),
+        let down = if falls { release_on(&fall, length) } else { None };
+        let (sign, margin, after) = match (release_on(&rise, length), down) {
+            (None, None) => return StickSearch::Holds(length),
             (Some(up), None) => (1.0, &rise, up),
             (Some(up), Some(down)) if up <= down => (1.0, &rise, up),
             (_, Some(down)) => (-1.0, &fall, down),
         };
         let (after, rate) = self.polish(sign, margin, after, length, clock, y, tangential, normal);
-        Search::Breaks { after, sign, rate, at_once: margin[0] > 0.0 }
+        StickSearch::Releases { after, sign, rate, at_once: margin[0] > 0.0 }
     }
 
-    /// One Newton step on the closed form, which the series only approximates to the tolerance.
+    /// One Newton step on the closed form, which the series approximates to the tolerance only.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "one caller; the closed form needs them all")]
     fn polish(
@@ -144,7 +144,7 @@ impl Bond {
             - self.static_coefficient * normal.value(moment);
         let correction = -exact / rate;
         let polished = after + correction;
-        // A correction beyond the series' own error means a nearly tangential touch: keep the root.
+        // A correction beyond the series' own error means nearly tangential grazing: keep the root.
         if correction.abs() < 1e-4 * length && polished > 0.0 && polished <= length {
             (polished, slope(margin, polished))
         } else {
@@ -153,14 +153,14 @@ impl Bond {
     }
 }
 
-/// First moment at which a margin (negative while the bond holds) turns positive.
+/// First moment at which a margin (negative during stick) becomes positive.
 #[inline(always)]
-fn break_on(margin: &Series, length: f64) -> Option<f64> {
+fn release_on(margin: &Series, length: f64) -> Option<f64> {
     if margin[0] > 0.0 {
         return Some(0.0);
     }
     if margin[0] == 0.0 {
-        // On the threshold: it breaks now if the margin grows, else the root is divided out.
+        // On the threshold: released now if the margin grows, otherwise the root is divided out.
         let mut next = 1;
         while next <= ORDER && margin[next] == 0.0 {
             next += 1;
@@ -174,7 +174,7 @@ fn break_on(margin: &Series, length: f64) -> Option<f64> {
     first_crossing(margin, length)
 }
 
-/// Most by which μ_s N ∓ f_s can fall on [0, h], by the sizes of the coefficients alone.
+/// Upper bound on the decrease of μ_s N ∓ f_s on [0, h], by the sizes of the coefficients alone.
 #[inline(always)]
 fn largest_change(force: &Series, limit: &Series, h: f64) -> f64 {
     let mut sizes = [0.0; ORDER + 1];

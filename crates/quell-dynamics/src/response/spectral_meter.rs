@@ -1,5 +1,5 @@
-//! What is heard on a record while integrating: its largest low line, and its tones at the dither's
-//! frequencies. Samples of x at equal steps are summed as they come; none is kept.
+//! The spectral measurements of a record while integrating: its largest low line, and its lines at the
+//! frequencies of the dither. Samples of x at equal steps are summed as they arrive; none is stored.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,8 @@ use quell_model::{Belt, Direction};
 use quell_numerics::elementary::sin_cos_of_phase;
 use quell_numerics::spectrum::low_band::{LargestLines, LowBand};
 
-use super::{BAND_END, Solver};
+use super::solver::Solver;
+use crate::band::BAND_END;
 use crate::simulation::Segment;
 
 /// Samples per period of the fastest dither, at least: its seventh harmonic stays below
@@ -17,27 +18,27 @@ const SAMPLES_PER_DITHER_PERIOD: f64 = 16.0;
 /// Samples per slow period, at least.
 const SAMPLES_PER_SLOW_PERIOD: f64 = 128.0;
 
-/// Cells per slow period in which the low band is heard: the band ends below a quarter of
+/// Cells per slow period in which the low band is sampled: the band ends below a quarter of
 /// their Nyquist frequency, 4.
 const CELLS_PER_SLOW_PERIOD: usize = 8;
 
-/// Samples whose displacements are evaluated side by side.
+/// Number of samples whose displacements are evaluated at once.
 const ABREAST: usize = 4;
 
-/// Where the samples of a record lie.
+/// The samples of a record.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sampling {
-    /// The first.
+    /// Time of the first sample.
     pub(super) from: f64,
     /// Step between them.
     pub(super) step: f64,
-    /// How many in a slow period; a multiple of 32 keeps the factors of a transform small.
+    /// Number per slow period; a multiple of 32 keeps the factors of a transform small.
     pub(super) per_slow_period: usize,
-    /// How many in all.
+    /// Total number.
     pub(super) count: usize,
 }
 
-/// How often the displacement of a belt is sampled in 2π, a whole number.
+/// Number of samples of the displacement of a belt per 2π, a whole number.
 pub fn samples_per_slow_period(belt: &Belt) -> f64 {
     let fastest = belt
         .dithers()
@@ -65,18 +66,18 @@ impl Sampling {
         }
     }
 
-    /// When the record ends.
+    /// End of the record.
     pub(super) fn end(&self) -> f64 {
         self.from + self.count as f64 * self.step
     }
 }
 
-/// Hears a record.
+/// Measures the spectral lines of a record.
 #[derive(Clone, Debug)]
-pub(super) struct Listener {
+pub(super) struct SpectralMeter {
     sampling: Sampling,
     band: LowBand,
-    /// Where lines are no longer looked for.
+    /// Upper end of the band that is searched for lines.
     band_end: f64,
     tones: Vec<Tone>,
 }
@@ -92,8 +93,8 @@ struct Tone {
     window: [f64; 2],
 }
 
-impl Listener {
-    /// For a record of `belt`; its tones only if `with_tones`.
+impl SpectralMeter {
+    /// For a record of `belt`; with the lines of the dither only if `with_tones`.
     pub(super) fn new(belt: &Belt, sampling: Sampling, with_tones: bool) -> Self {
         let mut frequencies: Vec<f64> = belt
             .dithers_along(Direction::Tangential)
@@ -123,31 +124,31 @@ impl Listener {
         self.tones.iter().map(|tone| 2.0 * tone.amplitude()).sum()
     }
 
-    /// Hears what is missing at the end: the last sample may round to just after it.
+    /// Adds the missing samples at the end: the last sample may round to just after it.
     pub(super) fn finish(&mut self, displacement: f64) {
         while self.band.missing() > 0 {
-            self.hear(displacement);
+            self.add_sample(displacement);
         }
     }
 
-    /// Hears the samples of one segment. To be called with the machine's best instructions.
+    /// Adds the samples of one segment. To be called on the machine's best instruction set.
     #[inline(always)]
-    pub(super) fn hear_segment(&mut self, segment: &Segment<'_>) {
+    pub(super) fn add_segment(&mut self, segment: &Segment<'_>) {
         let Sampling { from, step, count, .. } = self.sampling;
         loop {
             let next = count - self.band.missing();
             let mut since = [0.0; ABREAST];
             let mut inside = 0;
-            for (place, since) in since.iter_mut().enumerate() {
+            for (offset, since) in since.iter_mut().enumerate() {
                 // A sample at the very start of a run may round to just before it.
                 *since =
-                    segment.clock().until(((next + place) as f64).mul_add(step, from)).max(0.0);
-                if next + place < count && *since <= segment.duration() {
-                    inside = place + 1;
+                    segment.clock().until(((next + offset) as f64).mul_add(step, from)).max(0.0);
+                if next + offset < count && *since <= segment.duration() {
+                    inside = offset + 1;
                 }
             }
             for &displacement in &segment.displacements_at(&since)[..inside] {
-                self.hear(displacement);
+                self.add_sample(displacement);
             }
             if inside < ABREAST {
                 return;
@@ -156,21 +157,22 @@ impl Listener {
     }
 
     #[inline(always)]
-    fn hear(&mut self, displacement: f64) {
+    fn add_sample(&mut self, displacement: f64) {
         let number = (self.sampling.count - self.band.missing()) as f64;
         self.band.push(displacement);
         for tone in &mut self.tones {
-            tone.hear(displacement, number, &self.sampling);
+            tone.add_sample(displacement, number, &self.sampling);
         }
     }
 }
 
-/// Least end of the band, in ω₀: self-excited vibration lies at about the natural frequency, 1, and a band that ended below it would
-/// call a vibration quenched because it is not looked for.
+/// Least upper end of the band, in ω₀: self-excited vibration is at about the natural frequency, 1. If the band ended lower, a
+/// vibration outside it would be reported as quenched.
 const LEAST_BAND_END: f64 = 1.5;
 
-/// The end of the band of slow vibration, or less where the window would spread the line of a dither just above it into the band:
-/// two lines of the unpadded half of a record. A record too short to tell both apart keeps the whole band, and that line with it.
+/// The upper end of the band of slow vibration, reduced where the window would spread the line of a dither just above it into the
+/// band: by two lines of the unpadded half of a record. A record too short to separate both keeps the whole band, including
+/// that line.
 fn band_end(belt: &Belt, sampling: Sampling) -> f64 {
     let reach = 4.0 * sampling.per_slow_period as f64 / sampling.count as f64;
     let above = belt
@@ -183,7 +185,7 @@ fn band_end(belt: &Belt, sampling: Sampling) -> f64 {
 
 impl Tone {
     #[inline(always)]
-    fn hear(&mut self, displacement: f64, number: f64, sampling: &Sampling) {
+    fn add_sample(&mut self, displacement: f64, number: f64, sampling: &Sampling) {
         let (sine, _) = sin_cos_of_phase(0.5 * TAU / sampling.count as f64, number, 0.0, 0.0);
         let weight = sine * sine;
         let (sine, cosine) = sin_cos_of_phase(self.frequency * sampling.step, number, 0.0, 0.0);

@@ -1,47 +1,48 @@
-//! The response that sliding becomes under dither, and the distance from it in which it decays evenly.
+//! The base response (the period-1 response continued from steady sliding), and a distance from it that decays geometrically.
 //!
 //! For a complex pair of multipliers λ = ρe^{±iθ} of M = [[a, b], [c, d]] the form c x² + (d − a) x v − b v² is multiplied
-//! by det M = ρ² in each period, whatever the phase of the slow motion. Its root is the distance used here: it falls by exactly ρ a
-//! period while the motion is small, so that a measured rate can be held against ln ρ. For real multipliers
-//! the distance is √(x² + v²).
+//! by det M = ρ² in each period, independent of the phase of the slow motion. Its square root is the distance used here: it
+//! decreases by exactly the factor ρ per period while the motion is small, so that a measured rate can be compared with ln ρ. For
+//! real multipliers the distance is √(x² + v²).
 //!
-//! Without dither the response is steady sliding, x = μ(v₀)F, and M that of x″ + (2ζ + μ′(v₀)F)x′ + x = 0 in closed form.
+//! Without dither the response is steady sliding, x = μ(v₀)F, and M is that of x″ + (2ζ + μ′(v₀)F)x′ + x = 0 in closed form.
 
 use quell_model::Belt;
 
-use super::strobe::Strobe;
-use crate::orbit::{Matrix, NoOrbit, Orbit, Verdict, from_sliding, multipliers_of};
+use super::section::StroboscopicSection;
+use crate::orbit::{Matrix2, NoOrbit, Orbit, OrbitVerdict, from_sliding, multipliers_of};
 
-/// Steps of the dither from nothing to its amplitude.
+/// Least number of continuation steps of the dither from zero to its amplitude. Steps are shortened where the branch bends; a
+/// pair of folds within one step would be missed, and more steps only take longer.
 pub(super) const STEPS: u32 = 8;
 
-/// The response that sliding becomes.
+/// The base response.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Quiet {
+pub struct BaseResponse {
     /// x at τ = 0.
     pub displacement: f64,
     /// x′ at τ = 0.
     pub velocity: f64,
-    /// The larger modulus of its multipliers over one period of the strobe.
+    /// The larger modulus of its multipliers over one period of the section.
     pub radius: f64,
     /// Whether it is stable.
-    pub verdict: Verdict,
+    pub verdict: OrbitVerdict,
     /// Coefficients of x², xv, v² of the form above; `None` for real multipliers.
     form: Option<[f64; 3]>,
 }
 
-impl Quiet {
-    /// The response of a belt.
+impl BaseResponse {
+    /// The base response of a belt.
     ///
     /// # Errors
-    /// [`NoOrbit`] where shooting does not find it.
-    pub(super) fn of(belt: &Belt, strobe: Strobe) -> Result<Self, NoOrbit> {
-        if strobe.dithered {
+    /// [`NoOrbit`] if shooting does not find it.
+    pub(super) fn of(belt: &Belt, section: StroboscopicSection) -> Result<Self, NoOrbit> {
+        if section.dithered {
             return Ok(Self::of_orbit(&from_sliding(belt, STEPS)?));
         }
         let slope = belt.friction().slope(belt.belt_velocity());
         let damping = belt.damping_rate(slope, belt.normal_load());
-        let matrix = flow(0.5 * damping, strobe.period);
+        let matrix = flow(0.5 * damping, section.period);
         let radius = radius(&matrix);
         Ok(Self::new((belt.steady_sliding(), 0.0), &matrix, radius))
     }
@@ -51,7 +52,7 @@ impl Quiet {
         Self { verdict: orbit.verdict(), ..Self::new(state, &orbit.monodromy, orbit.radius()) }
     }
 
-    fn new((displacement, velocity): (f64, f64), matrix: &Matrix, radius: f64) -> Self {
+    fn new((displacement, velocity): (f64, f64), matrix: &Matrix2, radius: f64) -> Self {
         let [[a, b], [c, d]] = *matrix;
         // −(discriminant)/4 = Im²λ, the determinant of the form.
         let squared = -(0.25 * (a - d) * (a - d) + b * c);
@@ -59,10 +60,10 @@ impl Quiet {
             let unit = libm::copysign(libm::sqrt(squared), c);
             [c / unit, (d - a) / unit, -b / unit]
         });
-        Self { displacement, velocity, radius, verdict: Verdict::of(radius, 0.0), form }
+        Self { displacement, velocity, radius, verdict: OrbitVerdict::of(radius, 0.0), form }
     }
 
-    /// Distance of a state of the section.
+    /// Distance of a state of the section from the base response.
     pub fn distance(&self, displacement: f64, velocity: f64) -> f64 {
         let (x, v) = (displacement - self.displacement, velocity - self.velocity);
         match self.form {
@@ -71,18 +72,18 @@ impl Quiet {
         }
     }
 
-    /// ln ρ, at which small motions decay or grow each period, where they all do so alike.
+    /// ln ρ, the rate per period at which all small motions decay or grow; `None` for real multipliers, where the rates differ.
     pub fn rate(&self) -> Option<f64> {
         self.form.map(|_| libm::log(self.radius))
     }
 }
 
 /// e^{At} of x″ + 2δx′ + x = 0.
-fn flow(delta: f64, t: f64) -> Matrix {
+fn flow(delta: f64, t: f64) -> Matrix2 {
     let square = 1.0 - delta * delta;
     let omega = libm::sqrt(square.abs());
     let fall = libm::exp(-delta * t);
-    // cos ωt and sin(ωt)/ω, or their hyperbolic twins.
+    // cos ωt and sin(ωt)/ω, or their hyperbolic counterparts.
     let (even, odd) = if square > 0.0 {
         (libm::cos(omega * t), libm::sin(omega * t) / omega)
     } else if square < 0.0 {
@@ -94,7 +95,7 @@ fn flow(delta: f64, t: f64) -> Matrix {
 }
 
 /// Spectral radius of a period map.
-fn radius(matrix: &Matrix) -> f64 {
+fn radius(matrix: &Matrix2) -> f64 {
     let [(re, im), _] = multipliers_of(matrix);
     libm::hypot(re, im)
 }
@@ -104,22 +105,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_form_falls_by_the_radius_each_period() {
+    fn the_distance_decreases_by_the_radius_each_period() {
         for delta in [0.003, 0.4, -0.02] {
             let matrix = flow(delta, 0.7);
-            let quiet = Quiet::new((0.3, 0.0), &matrix, radius(&matrix));
-            assert!((quiet.radius - (-delta * 0.7_f64).exp()).abs() < 1e-15);
+            let base = BaseResponse::new((0.3, 0.0), &matrix, radius(&matrix));
+            assert!((base.radius - (-delta * 0.7_f64).exp()).abs() < 1e-15);
             let [[a, b], [c, d]] = matrix;
             let (mut x, mut v) = (0.2, -0.1);
             for _ in 0..5 {
-                let before = quiet.distance(0.3 + x, v);
+                let before = base.distance(0.3 + x, v);
                 (x, v) = (a * x + b * v, c * x + d * v);
-                let after = quiet.distance(0.3 + x, v);
-                assert!((after / before - quiet.radius).abs() < 1e-12, "{delta}");
+                let after = base.distance(0.3 + x, v);
+                assert!((after / before - base.radius).abs() < 1e-12, "{delta}");
             }
         }
         // An overdamped belt has no such form.
         let matrix = flow(1.5, 0.7);
-        assert!(Quiet::new((0.0, 0.0), &matrix, radius(&matrix)).rate().is_none());
+        assert!(BaseResponse::new((0.0, 0.0), &matrix, radius(&matrix)).rate().is_none());
     }
 }

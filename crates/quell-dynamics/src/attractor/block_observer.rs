@@ -1,9 +1,9 @@
-//! What is seen of a block of periods: the section, sticks, and how fast areas shrink.
+//! Observation of a block of periods: the section, the sticks, and the contraction of areas.
 //!
-//! In slip an area of nearby states shrinks with the rate 2ζ + μ′(v_r)N; a reversal multiplies it by a₊/a₋, a stick by zero. On
-//! a closed curve that is filled quasi-periodically one exponent is zero along the curve, so that the other one, across
-//! it, is minus the mean rate: a curve attracts if and only if that mean is positive. A run that dwells beside an unstable
-//! curve between two basins looks settled, and this mean tells it apart.
+//! In slip an area of nearby states shrinks at the rate 2ζ + μ′(v_r)N; a reversal multiplies it by a₊/a₋, a stick by zero. On
+//! a closed curve that is filled quasi-periodically the exponent along the curve is zero, so that the transverse exponent
+//! is minus the mean rate: a curve attracts if and only if that mean is positive. A run that dwells near an unstable
+//! curve between two basins appears settled, and this mean identifies it.
 
 use std::sync::LazyLock;
 
@@ -15,27 +15,30 @@ use super::average::{Moments, Sums, bump};
 use crate::contraction::mean_rate;
 use crate::simulation::{Event, EventKind, Observer, Sampler, Segment};
 
-/// Nodes of a segment: 10⁻⁶ of the rate on steps of the engine, where only its sign and size are asked for.
+/// Quadrature nodes of a segment for the rate: accurate to 10⁻⁶ of the rate on steps of the engine, where only its sign and size
+/// matter. With fewer nodes the sign of a mean near zero would depend on the quadrature; more only take longer.
 const NODES: usize = 5;
 
 static RULE: LazyLock<[[f64; NODES]; 2]> =
     LazyLock::new(|| GaussLegendre::new(NODES).on_unit_interval());
 
-/// Share of a segment over which an acceleration at its end is measured.
-const BESIDE: f64 = 1e-5;
+/// Fraction of a segment over which an acceleration at its end is measured. Larger, its curvature would enter the ratio of a
+/// reversal; smaller, the difference of slip velocities would be rounding.
+const AT_END: f64 = 1e-5;
 
-/// Nodes of a segment over which states are averaged: 10⁻⁷ of the forced motion's squares on steps that cover four radians
-/// of them, for a slow motion may be a hundred times smaller than the forced one and is what is asked for.
+/// Quadrature nodes of a segment for averages of the state: accurate to 10⁻⁷ of the squares of the forced motion on steps that
+/// cover four radians of it, because the slow motion of interest may be a hundred times smaller than the forced one. With fewer
+/// nodes the error of the forced motion would be taken for a change of the slow one; more only take longer.
 const STATES: usize = 6;
 
 static STATES_RULE: LazyLock<[[f64; STATES]; 2]> =
     LazyLock::new(|| GaussLegendre::new(STATES).on_unit_interval());
 
-/// Watches a block that starts at τ = 0.
-pub(super) struct Watch<'a> {
+/// Observes a block that starts at τ = 0.
+pub(super) struct BlockObserver<'a> {
     sampler: Sampler,
-    /// Samples a period.
-    looks: usize,
+    /// Samples per period.
+    samples_per_period: usize,
     length: f64,
     sums: Sums,
     /// Time spent in stick.
@@ -45,17 +48,21 @@ pub(super) struct Watch<'a> {
     contraction: Option<Contraction<'a>>,
 }
 
-impl<'a> Watch<'a> {
-    /// A watch over `periods` of the strobe.
+impl<'a> BlockObserver<'a> {
+    /// For `periods` of the section, one sample each.
     pub(super) fn new(period: f64, periods: usize) -> Self {
-        Self::looking(period, periods, 1)
+        Self::with_samples(period, periods, 1)
     }
 
-    /// The same with so many looks a period.
-    pub(super) fn looking(period: f64, periods: usize, looks: usize) -> Self {
+    /// For `periods` of the section, with several samples per period.
+    pub(super) fn with_samples(period: f64, periods: usize, samples_per_period: usize) -> Self {
         Self {
-            sampler: Sampler::new(0.0, period / looks as f64, periods * looks),
-            looks,
+            sampler: Sampler::new(
+                0.0,
+                period / samples_per_period as f64,
+                periods * samples_per_period,
+            ),
+            samples_per_period,
             length: periods as f64 * period,
             sums: Sums::default(),
             stuck: 0.0,
@@ -64,35 +71,35 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// The same with the contraction of area.
+    /// Also observes the contraction of areas.
     pub(super) fn with_contraction(mut self, belt: &'a Belt) -> Self {
         self.contraction = Some(Contraction::new(belt, self.length));
         self
     }
 
     /// Centre, size and shape of the motion, averaged over time: where the slow motion is nearly locked the section creeps
-    /// along its curve, and its own averages with it; these do not mind.
+    /// along its curve, and so do the section's averages; the time averages are unaffected.
     pub(super) fn moments(&self) -> Moments {
         self.sums.moments()
     }
 
     /// The section, one state a period.
     pub(super) fn section(&self) -> Vec<(f64, f64)> {
-        self.states().step_by(self.looks).collect()
+        self.states().step_by(self.samples_per_period).collect()
     }
 
-    /// The states of all looks.
+    /// The states of all samples.
     pub(super) fn states(&self) -> impl Iterator<Item = (f64, f64)> {
         self.sampler.samples.iter().map(|sample| (sample.displacement, sample.velocity))
     }
 
-    /// Mean rate at which areas shrink, and its error, where it was watched.
+    /// Mean rate at which areas shrink, and its error, if it was observed.
     pub(super) fn contraction(&self) -> Option<(f64, f64)> {
         self.contraction.as_ref().map(Contraction::mean)
     }
 }
 
-impl Observer for Watch<'_> {
+impl Observer for BlockObserver<'_> {
     fn segment(&mut self, segment: &Segment<'_>) {
         self.sampler.segment(segment);
         let middle = segment.clock().time() + 0.5 * segment.duration();
@@ -119,7 +126,7 @@ impl Observer for Watch<'_> {
     }
 }
 
-/// The states of one segment, with the machine's best instructions.
+/// The states of one segment, on the machine's best instruction set.
 struct Average<'a, 'b> {
     sums: &'a mut Sums,
     segment: &'a Segment<'b>,
@@ -160,9 +167,9 @@ impl<'a> Contraction<'a> {
 
     fn segment(&mut self, segment: &Segment<'_>) {
         let h = segment.duration();
-        let beside = BESIDE * h;
-        if self.reversed && beside > 0.0 {
-            let after = segment.slip_velocity(beside) / beside;
+        let aside = AT_END * h;
+        if self.reversed && aside > 0.0 {
+            let after = segment.slip_velocity(aside) / aside;
             self.add(segment.clock().time(), -libm::log((after / self.before).abs()), 0.0);
         }
         self.reversed = false;
@@ -173,14 +180,15 @@ impl<'a> Contraction<'a> {
         }
         let mean = mean_rate(self.belt, segment, &RULE);
         self.add(middle, h * mean, h);
-        if beside > 0.0 {
-            self.before = segment.slip_velocity(h - beside) / -beside;
+        if aside > 0.0 {
+            self.before = segment.slip_velocity(h - aside) / -aside;
         }
     }
 
     fn add(&mut self, time: f64, amount: f64, duration: f64) {
-        let place = time / self.length;
-        for (sum, t) in self.sums.iter_mut().zip([place, 2.0 * place, 2.0 * place - 1.0]) {
+        let fraction = time / self.length;
+        let times = [fraction, 2.0 * fraction, 2.0 * fraction - 1.0];
+        for (sum, t) in self.sums.iter_mut().zip(times) {
             let weight = bump(t);
             sum.0 += weight * amount;
             sum.1 += weight * duration;

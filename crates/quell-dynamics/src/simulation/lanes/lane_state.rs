@@ -1,85 +1,90 @@
-//! The state of the lanes of one bench, and the slip step that all of them take at once.
+//! The state of the lanes of one batch, and the slip step that all of them take at once.
 
 use quell_model::friction::SlidingLaw;
 use quell_numerics::dispatch::InstructionSet;
 use quell_numerics::lane::{Lane, MOST_LANES, horner};
 
-use super::super::ORDER;
 use super::super::clock::{Clock, after, until};
 use super::super::engine::Engine;
-use super::super::forcing::Shape;
-use super::super::slip::{Load, SlipEquation, SlipSeries, SlipStart, StepLimits};
-use super::super::slip_step::{Column, Next, Root, SlipDue, SlipTaken};
-use super::bench::Seat;
-use super::rows::{ForcingRows, Row};
-use super::{Outcome, Shapes};
+use super::super::forcing::{ForcingShape, ForcingShapes};
+use super::super::lane_row::LaneRow;
+use super::super::slip::{SlipEquation, SlipSeries, SlipStart, StepLimits, StepLoad};
+use super::super::slip_step::{LaneColumn, Next, SlipDue, SlipTaken, StepRoot};
+use super::super::state::RunResult;
+use super::super::taylor::ORDER;
+use super::forcing_rows::ForcingRows;
+use super::run_slot::RunSlot;
 
 /// The state of all lanes, and the step they have just taken.
-pub(super) struct Board<V> {
+///
+/// Clock, displacement and slip of a lane are the working copy of those in the engine's state: a lane
+/// takes slip steps without events on them alone, and [`LaneState::service`] brings the engine up to date.
+pub(super) struct LaneState<V> {
     // Constants of a run.
-    damping: Row,
-    belt_velocity: Row,
-    tolerance: Row,
-    longest: Row,
+    damping: LaneRow,
+    belt_velocity: LaneRow,
+    tolerance: LaneRow,
+    longest: LaneRow,
     tangential: ForcingRows,
     normal: ForcingRows,
-    /// 1 where slip steps without event need nobody's look, −1 where each one does.
-    unwatched: Row,
-    // Of a stretch between two looks.
-    sign: Row,
-    stop: Row,
+    /// 1 where slip steps without an event need no service, −1 where each step does.
+    unwatched: LaneRow,
+    // Constant between two services.
+    sign: LaneRow,
+    stop: LaneRow,
     /// Multiplicity of the zero of v_r at the start of the coming step.
-    zeros: Row,
-    first_slope: Row,
-    // Of a step.
-    displacement: Row,
-    slip: Row,
-    time: Row,
-    low: Row,
-    // Of the step just taken.
-    time_before: Row,
-    low_before: Row,
-    pub(super) length: Row,
-    pub(super) zeros_before: Row,
-    /// Positive where it is proven that v_r has no root.
-    no_root: Row,
-    /// What is known of the first root of v_r, as in `Crossings`, and where it is.
-    pub(super) found: Row,
-    pub(super) duration: Row,
-    clear: Row,
+    zeros: LaneRow,
+    first_slope: LaneRow,
+    // Start of the next step.
+    displacement: LaneRow,
+    slip: LaneRow,
+    time: LaneRow,
+    low: LaneRow,
+    // The step just taken.
+    time_before: LaneRow,
+    low_before: LaneRow,
+    pub(super) length: LaneRow,
+    pub(super) zeros_before: LaneRow,
+    /// Positive where v_r provably has no root.
+    no_root: LaneRow,
+    /// Whether the first root of v_r was found, coded as in `Crossings`, and its time.
+    pub(super) found: LaneRow,
+    pub(super) duration: LaneRow,
+    /// Positive where the step needs no service.
+    clear: LaneRow,
     /// Coefficient by coefficient, [`Lane::LANES`] side by side.
     displacement_series: [f64; (ORDER + 1) * MOST_LANES],
     pub(super) slip_series: [f64; (ORDER + 1) * MOST_LANES],
     series: SlipSeries<V>,
 }
 
-impl<V: Lane> Board<V> {
+impl<V: Lane> LaneState<V> {
     #[inline(always)]
-    pub(super) fn new((tangential, normal): Shapes) -> Self {
+    pub(super) fn new((tangential, normal): ForcingShapes) -> Self {
         Self {
-            damping: Row::ZERO,
-            belt_velocity: Row::ZERO,
-            tolerance: Row::ZERO,
-            longest: Row::ZERO,
+            damping: LaneRow::ZERO,
+            belt_velocity: LaneRow::ZERO,
+            tolerance: LaneRow::ZERO,
+            longest: LaneRow::ZERO,
             tangential: ForcingRows::new(tangential),
             normal: ForcingRows::new(normal),
-            unwatched: Row::ZERO,
-            sign: Row::ZERO,
-            stop: Row::ZERO,
-            zeros: Row::ZERO,
-            first_slope: Row::ZERO,
-            displacement: Row::ZERO,
-            slip: Row::ZERO,
-            time: Row::ZERO,
-            low: Row::ZERO,
-            time_before: Row::ZERO,
-            low_before: Row::ZERO,
-            length: Row::ZERO,
-            zeros_before: Row::ZERO,
-            no_root: Row::ZERO,
-            found: Row::ZERO,
-            duration: Row::ZERO,
-            clear: Row::ZERO,
+            unwatched: LaneRow::ZERO,
+            sign: LaneRow::ZERO,
+            stop: LaneRow::ZERO,
+            zeros: LaneRow::ZERO,
+            first_slope: LaneRow::ZERO,
+            displacement: LaneRow::ZERO,
+            slip: LaneRow::ZERO,
+            time: LaneRow::ZERO,
+            low: LaneRow::ZERO,
+            time_before: LaneRow::ZERO,
+            low_before: LaneRow::ZERO,
+            length: LaneRow::ZERO,
+            zeros_before: LaneRow::ZERO,
+            no_root: LaneRow::ZERO,
+            found: LaneRow::ZERO,
+            duration: LaneRow::ZERO,
+            clear: LaneRow::ZERO,
             displacement_series: [0.0; (ORDER + 1) * MOST_LANES],
             slip_series: [0.0; (ORDER + 1) * MOST_LANES],
             series: SlipSeries {
@@ -89,21 +94,23 @@ impl<V: Lane> Board<V> {
         }
     }
 
-    /// Writes what stays the same along a run.
-    pub(super) fn seat(&mut self, lane: usize, engine: &Engine<'_>) {
+    /// Writes the constants of a run.
+    pub(super) fn admit(&mut self, lane: usize, engine: &Engine<'_>) {
         self.damping.0[lane] = engine.damping;
-        self.belt_velocity.0[lane] = engine.bond.belt_velocity;
+        self.belt_velocity.0[lane] = engine.stiction.belt_velocity;
         self.tolerance.0[lane] = engine.tolerance;
         self.longest.0[lane] = engine.longest_step;
-        // A series of several dithers is written anew for each step.
-        let several = [&self.tangential, &self.normal].iter().any(|it| it.shape == Shape::Several);
+        // The series of several dithers is rewritten for each step.
+        let several = [&self.tangential, &self.normal]
+            .iter()
+            .any(|forcing| forcing.shape == ForcingShape::Several);
         self.unwatched.0[lane] = if engine.watched || several { -1.0 } else { 1.0 };
-        self.tangential.seat(lane, &engine.tangential);
-        self.normal.seat(lane, &engine.normal);
+        self.tangential.admit(lane, &engine.tangential);
+        self.normal.admit(lane, &engine.normal);
     }
 
-    /// An empty lane slips on without load for ever, so that nobody needs to look at it.
-    pub(super) fn leave(&mut self, lane: usize) {
+    /// Empties a lane: it slips indefinitely without load and never needs service.
+    pub(super) fn evict(&mut self, lane: usize) {
         for (row, number) in [
             (&mut self.damping, 0.0),
             (&mut self.belt_velocity, 1.0),
@@ -119,26 +126,26 @@ impl<V: Lane> Board<V> {
         ] {
             row.0[lane] = number;
         }
-        self.tangential.leave(lane);
-        self.normal.leave(lane);
+        self.tangential.evict(lane);
+        self.normal.evict(lane);
     }
 
-    /// Writes what a step starts from.
+    /// Writes the start of the next step.
     #[inline(always)]
-    pub(super) fn announce(&mut self, lane: usize, engine: &Engine<'_>, due: SlipDue) {
+    pub(super) fn load(&mut self, lane: usize, engine: &Engine<'_>, due: SlipDue) {
         self.sign.0[lane] = due.sign;
         self.stop.0[lane] = due.stop;
         self.zeros.0[lane] = due.zeros as f64;
         self.first_slope.0[lane] = if due.zeros == 2 { 0.0 } else { 1.0 };
-        self.displacement.0[lane] = engine.displacement;
-        self.slip.0[lane] = engine.slip;
-        self.time.0[lane] = engine.clock.time();
-        self.low.0[lane] = engine.clock.low();
-        self.tangential.announce(lane, engine, &engine.tangential);
-        self.normal.announce(lane, engine, &engine.normal);
+        self.displacement.0[lane] = engine.state.displacement;
+        self.slip.0[lane] = engine.state.slip;
+        self.time.0[lane] = engine.state.clock.time();
+        self.low.0[lane] = engine.state.clock.low();
+        self.tangential.load(lane, engine.state.clock, &engine.tangential);
+        self.normal.load(lane, engine.state.clock, &engine.normal);
     }
 
-    /// One slip step in every lane; whether all of them are clear.
+    /// Takes one slip step in every lane. Returns whether no lane needs service.
     #[inline(always)]
     pub(super) fn step<L: SlidingLaw>(&mut self, law: &mut L::Constants<V>) -> bool {
         let equation =
@@ -152,15 +159,15 @@ impl<V: Lane> Board<V> {
         let (time, low): (V, V) = (self.time.load(), self.low.load());
         let dither = self.tangential.series::<V>(time, low);
         let mut load_series;
-        let load = if self.normal.shape == Shape::Constant {
-            Load::Steady(self.normal.mean.load())
+        let load = if self.normal.shape == ForcingShape::Constant {
+            StepLoad::Steady(self.normal.mean.load())
         } else {
             let normal = self.normal.series::<V>(time, low);
             load_series = [V::splat(0.0); ORDER + 1];
             for (k, coefficient) in load_series.iter_mut().enumerate() {
                 *coefficient = normal.coefficient(k);
             }
-            Load::Series(&load_series)
+            StepLoad::Series(&load_series)
         };
         let series = &mut self.series;
         let stop: V = self.stop.load();
@@ -173,8 +180,8 @@ impl<V: Lane> Board<V> {
         let zeros: V = self.zeros.load();
         let no_root = series.margin(zeros, length);
         let leaves = series.leaves(start.sign, zeros);
-        // Each of these is positive where the engine has nothing to do after the step; the proof
-        // last, because it is not a number where any coefficient is none.
+        // Each of these is positive where the engine has nothing to do after the step. The proof
+        // comes last, because it is NaN where any coefficient is not a number.
         let short_of_stop = (room - length).min((stop - later).abs());
         let advances = (later - time).abs() + (later_low - low).abs();
         let clear =
@@ -188,7 +195,7 @@ impl<V: Lane> Board<V> {
         self.slip.store(slip);
         self.zeros.store(V::splat(0.0));
         self.first_slope.store(V::splat(1.0));
-        let all_clear = self.clear.0[..V::LANES].iter().all(|&it| it > 0.0);
+        let all_clear = self.clear.0[..V::LANES].iter().all(|&margin| margin > 0.0);
         if !all_clear {
             self.no_root.store(no_root);
             self.found.store(V::splat(-1.0));
@@ -202,21 +209,22 @@ impl<V: Lane> Board<V> {
         all_clear
     }
 
-    /// Ends the steps with a root there.
+    /// Ends the steps with a root at the root.
     #[inline(always)]
-    pub(super) fn go_back_to_roots(&mut self) {
+    pub(super) fn cut_at_roots(&mut self) {
         let at_root = horner(&self.series.displacement, self.duration.load());
         let found: V = self.found.load();
         self.displacement.store(found.where_positive(at_root, self.displacement.load()));
     }
 
-    /// Whether the step of a lane needs nobody's look.
+    /// Whether the step of a lane needs service by its engine.
     #[inline(always)]
-    pub(super) fn is_clear(&self, lane: usize) -> bool {
-        self.clear.0[lane] > 0.0
+    pub(super) fn needs_service(&self, lane: usize) -> bool {
+        let clear = self.clear.0[lane] > 0.0;
+        !clear
     }
 
-    /// The moment a lane has come to.
+    /// The current time of a lane.
     pub(super) fn time(&self, lane: usize) -> f64 {
         self.time.0[lane]
     }
@@ -228,22 +236,22 @@ impl<V: Lane> Board<V> {
         !proven
     }
 
-    /// Lets the engine of a lane take the step and go on to its next one; how it ends if it is over.
+    /// Lets the engine of a lane accept the step and continue to its next one. Returns the result of a run that is over.
     #[inline(always)]
-    pub(super) fn look_after(
+    pub(super) fn service(
         &mut self,
         set: InstructionSet,
         lane: usize,
-        seat: &mut Seat<'_>,
-        turn: u64,
-    ) -> Option<Outcome> {
-        let Seat { engine, due, known, .. } = seat;
-        let unseen = turn - *known - 1;
+        slot: &mut RunSlot<'_>,
+        round: u64,
+    ) -> Option<RunResult> {
+        let RunSlot { engine, due, synced, .. } = slot;
+        let pending = round - *synced - 1;
         let clock = Clock::of(self.time_before.0[lane], self.low_before.0[lane]);
-        let column = |rows| Column { rows, lanes: V::LANES, lane };
+        let column = |rows| LaneColumn { rows, lanes: V::LANES, lane };
         let (displacement, slip) = (column(&self.displacement_series), column(&self.slip_series));
-        engine.catch_up(
-            unseen,
+        engine.state.catch_up(
+            pending,
             clock,
             (displacement.coefficient(0), slip.coefficient(0)),
             due.sign,
@@ -252,23 +260,23 @@ impl<V: Lane> Board<V> {
         let taken = SlipTaken {
             length: self.length.0[lane],
             root: match found {
-                0.0 => Root::Unsure,
-                it if it > 0.0 => Root::At(self.duration.0[lane]),
-                _ => Root::None,
+                0.0 => StepRoot::Unknown,
+                code if code > 0.0 => StepRoot::At(self.duration.0[lane]),
+                _ => StepRoot::None,
             },
             end: (self.displacement.0[lane], self.slip.0[lane]),
             displacement,
             slip,
         };
-        let zeros = if unseen > 0 { 0 } else { due.zeros };
-        match engine.take(set, SlipDue { zeros, ..*due }, &taken) {
+        let zeros = if pending > 0 { 0 } else { due.zeros };
+        match engine.accept(set, SlipDue { zeros, ..*due }, &taken) {
             Next::Slip(next) => {
-                self.announce(lane, engine, next);
+                self.load(lane, engine, next);
                 *due = next;
-                *known = turn;
+                *synced = round;
                 None
             }
-            Next::Over(outcome) => Some(outcome),
+            Next::Over(result) => Some(result),
         }
     }
 }

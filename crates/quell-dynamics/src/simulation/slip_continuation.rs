@@ -1,26 +1,28 @@
-//! Slip that goes on through v_r = 0: one branch of the law, continued analytically to slip of the other sign.
+//! Continuation on the sliding branch: slip through v_r = 0 on one branch of the law, continued analytically to slip of the
+//! other sign.
 //!
-//! No motion of the belt, but the smooth continuation of one. An orbit in pure slip that depends on a parameter
-//! exists on both sides of the touch of v_r = 0 in this sense, so that the touch is a simple root of its least slip
-//! velocity. In slip of the branch's own sign it is the motion, by the same series as the engine's.
+//! This is not a motion of the belt but the smooth continuation of one. In this sense an orbit in pure slip that depends on a
+//! parameter exists on both sides of the grazing of v_r = 0, so that the grazing is a simple root of its least slip
+//! velocity. In slip of the branch's own sign it is the actual motion, computed with the engine's series.
 
 use quell_model::Belt;
 use quell_model::friction::{LawVisitor, SlidingLaw};
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 
-use super::super::clock::Clock;
-use super::super::engine::{forcings, longest_step, step_tolerance};
-use super::super::observer::{Observer, Segment};
-use super::super::pace::Pace;
-use super::super::slip::{DitherSeries, Load, SlipEquation, SlipSeries, SlipStart, StepLimits};
-use super::super::{FinalState, ORDER, Stalled, Start};
-use super::rows::Row;
+use super::clock::Clock;
+use super::engine::{forcings, longest_step, step_tolerance};
+use super::lane_row::LaneRow;
+use super::observer::{Observer, Segment};
+use super::slip::{DitherSeries, SlipEquation, SlipSeries, SlipStart, StepLimits, StepLoad};
+use super::state::{FinalState, RunResult, Stalled, Start};
+use super::step_budget::StepBudget;
+use super::taylor::ORDER;
 
-/// Slip on the branch of `sign` from `start` to τ = `until`, whatever the sign of v_r.
+/// Integrates slip on the branch of `sign` from `start` to τ = `until`, regardless of the sign of v_r.
 ///
 /// # Errors
 /// [`Stalled`] if a state leaves the finite numbers or no step advances time.
-pub(crate) fn slide(
+pub(crate) fn continue_slip(
     belt: &Belt,
     sign: f64,
     start: Start,
@@ -31,10 +33,10 @@ pub(crate) fn slide(
     if let Some(why) = belt.friction().unsimulated() {
         return Err(Stalled { time: start.time, why });
     }
-    belt.friction().visit(Sliding { belt, sign, start, until, tolerance, observer })
+    belt.friction().visit(SlipContinuation { belt, sign, start, until, tolerance, observer })
 }
 
-struct Sliding<'a> {
+struct SlipContinuation<'a> {
     belt: &'a Belt,
     sign: f64,
     start: Start,
@@ -43,26 +45,26 @@ struct Sliding<'a> {
     observer: &'a mut dyn Observer,
 }
 
-impl LawVisitor for Sliding<'_> {
-    type Output = Result<FinalState, Stalled>;
+impl LawVisitor for SlipContinuation<'_> {
+    type Output = RunResult;
 
     fn visit<L: SlidingLaw>(self, law: &L) -> Self::Output {
-        with_fused_multiply_add(SlidingBy { run: self, law })
+        with_fused_multiply_add(SlipContinuationOf { run: self, law })
     }
 }
 
-struct SlidingBy<'a, 'l, L> {
-    run: Sliding<'a>,
+struct SlipContinuationOf<'a, 'l, L> {
+    run: SlipContinuation<'a>,
     law: &'l L,
 }
 
-impl<L: SlidingLaw> Work for SlidingBy<'_, '_, L> {
-    type Output = Result<FinalState, Stalled>;
+impl<L: SlidingLaw> Work for SlipContinuationOf<'_, '_, L> {
+    type Output = RunResult;
 
     #[inline(always)]
     fn run(self) -> Self::Output {
         let Self { run, law } = self;
-        let Sliding { belt, sign, start, until, tolerance, observer } = run;
+        let SlipContinuation { belt, sign, start, until, tolerance, observer } = run;
         let unit = law.velocity_scale();
         let mut clock = Clock::at(start.time);
         let (mut tangential, mut normal) = forcings(belt, unit, clock);
@@ -73,9 +75,9 @@ impl<L: SlidingLaw> Work for SlidingBy<'_, '_, L> {
         let mut displacement = start.displacement / unit;
         let mut slip = (belt.belt_velocity() - start.velocity) / unit;
         let mut series = SlipSeries { displacement: [0.0; ORDER + 1], slip: [0.0; ORDER + 1] };
-        let mut table = [Row::ZERO; ORDER + 1];
+        let mut table = [LaneRow::ZERO; ORDER + 1];
         let fastest = tangential.highest_rate().max(normal.highest_rate());
-        let mut pace = Pace::new(start.time, until, fastest);
+        let mut budget = StepBudget::new(start.time, until, fastest);
         let tolerance = step_tolerance(tolerance, (&tangential, &normal), displacement, slip);
         let mut steps = 0;
         while clock.until(until) > 0.0 {
@@ -83,13 +85,13 @@ impl<L: SlidingLaw> Work for SlidingBy<'_, '_, L> {
             for (row, entry) in table.iter_mut().zip(tangential.series(clock)) {
                 row.0[0] = entry;
             }
-            let dither = DitherSeries { table: &table, turn: [1.0; 4], line: [0.0; 2] };
+            let dither = DitherSeries { table: &table, phasor: [1.0; 4], line: [0.0; 2] };
             let load_series;
             let load = if normal.is_constant() {
-                Load::Steady(normal.mean())
+                StepLoad::Steady(normal.mean())
             } else {
                 load_series = normal.series(clock);
-                Load::Series(&load_series)
+                StepLoad::Series(&load_series)
             };
             let from = SlipStart { sign, displacement, slip, first_slope: 1.0 };
             let limits = StepLimits { tolerance, longest, room: clock.until(stop) };
@@ -120,8 +122,8 @@ impl<L: SlidingLaw> Work for SlidingBy<'_, '_, L> {
             if clock == before {
                 return Err(stalled("no step advanced time"));
             }
-            if pace.is_due(steps) {
-                pace.look(steps, clock.time()).map_err(stalled)?;
+            if budget.is_due(steps) {
+                budget.check(steps, clock.time()).map_err(stalled)?;
             }
         }
         Ok(FinalState {

@@ -1,0 +1,39 @@
+//! The settings in which runs of a belt are judged: the belt, its stroboscopic section, and its base response.
+
+use quell_model::Belt;
+
+use super::base_response::BaseResponse;
+use super::section::StroboscopicSection;
+use crate::orbit::NoOrbit;
+
+/// A belt, its stroboscopic section, and the base response under its dither, where it was found.
+#[derive(Clone, Debug)]
+pub struct AttractorSettings<'a> {
+    /// The belt.
+    pub belt: &'a Belt,
+    /// When states are compared.
+    pub section: StroboscopicSection,
+    /// The base response, or why there is none.
+    pub base: Result<BaseResponse, NoOrbit>,
+}
+
+impl<'a> AttractorSettings<'a> {
+    /// The settings of a belt.
+    ///
+    /// # Errors
+    /// [`NoOrbit::Incommensurate`].
+    pub fn new(belt: &'a Belt) -> Result<Self, NoOrbit> {
+        let section = StroboscopicSection::of(belt)?;
+        Ok(Self { belt, section, base: BaseResponse::of(belt, section) })
+    }
+
+    /// Whether a dither acts whose own responses may vibrate in the band of slow vibration.
+    pub fn reaches_the_band(&self) -> bool {
+        !self.is_autonomous() && self.section.reaches_the_band()
+    }
+
+    /// Whether no dither acts.
+    pub fn is_autonomous(&self) -> bool {
+        self.belt.dithers().iter().all(|dither| dither.amplitude == 0.0)
+    }
+}

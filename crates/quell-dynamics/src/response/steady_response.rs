@@ -1,0 +1,100 @@
+//! The steady response of one run, with its record and spectrum, compared with the undithered run.
+
+use quell_model::Belt;
+use quell_numerics::spectrum::Peak;
+
+use super::effect::{Effect, RunEnding, effect, still_decays};
+use super::measure::{
+    Compared, Observables, ResponseCase, Undefined, keeps_vibrating_without, record_many,
+};
+use super::record::SettledRecord;
+use super::solver::Solver;
+use super::spectral_meter::Sampling;
+use crate::simulation::{Sampler, Stalled, Start};
+
+/// Peaks below this fraction of the largest are not listed.
+pub const PEAK_FLOOR: f64 = 1e-3;
+
+/// A steady response. Lengths in the study's length, frequencies in ω₀.
+#[derive(Clone, Debug)]
+pub struct Response {
+    /// M, the largest spectral amplitude of x at 0 < ω ≤ 1.9.
+    pub amplitude: f64,
+    /// Peaks of the spectrum of x, in order of frequency.
+    pub peaks: Vec<Peak>,
+    /// Fraction of the record spent in stick.
+    pub stick_fraction: f64,
+    /// The effect of the dither.
+    pub effect: Effect,
+    /// Where the dithered run settles.
+    pub ending: RunEnding,
+    /// E = M₁/M₀ (2.27), the residual vibration.
+    pub efficiency: Result<f64, Undefined>,
+    /// M of the undithered run from the same state.
+    pub undithered_amplitude: f64,
+    /// Whether M of the two halves of the record agree, and no decaying vibration remains in it.
+    pub settled: bool,
+    /// The same for the undithered run.
+    pub undithered_settled: bool,
+    /// Mean friction force ⟨f⟩ (over k) in the record.
+    pub mean_friction: f64,
+    /// Friction force of undithered steady sliding, μ(v₀)F.
+    pub mean_friction_undithered: f64,
+    /// Mean power ⟨D_T g_T x′⟩ (over kω₀) that tangential dither feeds in; `None` if all dither
+    /// is normal, because the model has no normal motion on which it could do work.
+    pub dither_power: Option<f64>,
+    /// Peak-to-peak displacement at the frequencies of the tangential dithers, which their
+    /// actuators must follow; `None` under the same condition as the power.
+    pub dither_stroke: Option<f64>,
+    /// Smallest normal load N in the record.
+    pub minimum_normal_load: f64,
+    /// The record with dither.
+    pub record: SettledRecord,
+    /// The record without dither.
+    pub undithered_record: SettledRecord,
+}
+
+/// Integrates `belt` from `start` with and without its dither and measures the steady response.
+///
+/// # Errors
+/// [`Stalled`] if a run stops.
+pub fn respond(belt: &Belt, start: Start, solver: &Solver) -> Result<Response, Stalled> {
+    let one = |belt: &Belt, wanted, like: Option<&SettledRecord>| {
+        let case = ResponseCase { belt: belt.clone(), start };
+        // The undithered run is sampled like the dithered one, so that both can be shown together.
+        let sampler = |_: &ResponseCase, sampling: &Sampling| match like {
+            Some(like) => Sampler::new(sampling.from, like.step, like.samples.len()),
+            None => Sampler::new(sampling.from, sampling.step, sampling.count),
+        };
+        let outcome = record_many(&[case], solver, wanted, sampler).pop();
+        let (measured, sampler) = outcome.unwrap_or(Err(Stalled::NEVER_STARTED))?;
+        let step = sampler.step();
+        Ok((measured, SettledRecord::of(sampler.samples, step)))
+    };
+    let (dithered, record) = one(belt, Observables { dither_cost: true }, None)?;
+    let (undithered, undithered_record) =
+        one(&belt.undithered(), Observables::default(), Some(&record))?;
+    let case = ResponseCase { belt: belt.undithered(), start };
+    let vibrates = keeps_vibrating_without(&case)?;
+    let compared = Compared { dithered, undithered, vibrates };
+    let ending = RunEnding::of(belt, start);
+    let effect = effect(belt, &compared, ending);
+    Ok(Response {
+        effect,
+        ending,
+        amplitude: dithered.lines.whole,
+        peaks: record.spectrum.peaks(PEAK_FLOOR),
+        stick_fraction: dithered.stick_fraction,
+        efficiency: compared.efficiency(),
+        undithered_amplitude: undithered.lines.whole,
+        settled: compared.settled() && !still_decays(effect, &compared),
+        undithered_settled: compared.undithered_settled(),
+        mean_friction: dithered.mean_friction,
+        mean_friction_undithered: belt.steady_sliding(),
+        dither_power: dithered.dither_power,
+        dither_stroke: dithered.dither_stroke,
+        minimum_normal_load: dithered.minimum_normal_load,
+        record,
+        undithered_record,
+    })
+}
