@@ -152,7 +152,7 @@ pub fn all_belts() -> Vec<Named<Belt>> {
             add(format!("{} + normal {}", base.name, waveform.name()), vec![dither]);
         }
         let both = vec![
-            tangential(Waveform::Sine, 10.0 * reach, 10.0),
+            tangential(Waveform::Sine, 10.0 * 0.8 * reach, 10.0),
             normal(Waveform::Square, 0.4, 5.0),
         ];
         add(format!("{} + both", base.name), both);
