@@ -6,29 +6,8 @@ use quell_dynamics::attractor::{
 };
 use quell_dynamics::orbit::Verdict;
 use quell_dynamics::simulation::Start;
-use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
-
-fn belt(
-    law: LawKind,
-    zeta: f64,
-    velocity: f64,
-    direction: Direction,
-    waveform: Waveform,
-    amplitude: f64,
-    frequency_ratio: f64,
-) -> Belt {
-    let friction = law.build(&[0.4, 0.2857, 0.2]).expect("a valid law");
-    let dither = Dither { direction, waveform, amplitude, frequency_ratio, phase: 0.0 };
-    Belt::new(zeta, 1.0, velocity, friction, vec![dither]).expect("a valid belt")
-}
-
-fn stribeck(waveform: Waveform, amplitude: f64) -> Belt {
-    belt(LawKind::Stribeck, 0.005, 0.05, Direction::Tangential, waveform, amplitude, 10.0)
-}
-
-fn decreasing(amplitude: f64) -> Belt {
-    belt(LawKind::Decreasing, 0.005, 1.0, Direction::Tangential, Waveform::Sine, amplitude, 10.0)
-}
+use quell_model::{Belt, Waveform};
+use quell_zoo::belt::{self, decreasing_under, stribeck_under};
 
 fn reached(belt: &Belt, displacement: f64, velocity: f64) -> (Settled, Option<Attractor>) {
     let scene = Scene::new(belt).expect("a strobe");
@@ -44,7 +23,7 @@ fn responses_below_the_threshold_lock_at_known_fractions() {
     for (waveform, turns, periods, frequency) in
         [(Waveform::Sine, 5, 68, 0.735_29), (Waveform::Square, 1, 13, 0.769_23)]
     {
-        let belt = stribeck(waveform, 0.3);
+        let belt = stribeck_under(waveform, 0.3);
         let (settled, attractor) = reached(&belt, 0.0, 0.0);
         let attractor = attractor.expect("settled");
         assert_eq!(settled.outcome, Outcome::Elsewhere);
@@ -75,7 +54,7 @@ fn rest_and_squeal_coexist_below_the_local_threshold() {
         (9.89, false, false),
         (9.91, true, true),
     ] {
-        let belt = decreasing(amplitude);
+        let belt = decreasing_under(Waveform::Sine, amplitude);
         let scene = Scene::new(&belt).expect("a strobe");
         let quiet = scene.quiet.clone().expect("an orbit");
         assert_eq!(quiet.verdict == Verdict::Stable, quiet_from_orbit, "{amplitude}");
@@ -94,17 +73,17 @@ fn rest_and_squeal_coexist_below_the_local_threshold() {
 /// From x = 1.5 the undithered cycle has a peak-to-peak of 2.09, and the Stribeck law's of v₀ = 0.05 a frequency of 0.654435.
 #[test]
 fn cycles_without_dither_have_their_size_and_frequency() {
-    let (settled, attractor) = reached(&decreasing(0.0).undithered(), 1.5, 0.0);
+    let (settled, attractor) = reached(&belt::decreasing(), 1.5, 0.0);
     assert_eq!(settled.outcome, Outcome::Elsewhere);
     let size = attractor.expect("settled").size();
     assert!((size - 2.09).abs() < 0.005, "{size}");
-    let (_, attractor) = reached(&stribeck(Waveform::Sine, 0.0).undithered(), 0.0, 0.0);
+    let (_, attractor) = reached(&belt::stribeck(), 0.0, 0.0);
     let attractor = attractor.expect("settled");
     assert!((attractor.size() - 2.0 * 0.146_395).abs() < 1e-5, "{}", attractor.size());
     let found = attractor.frequency(0.1 * std::f64::consts::TAU).expect("it turns");
     assert!((found - 0.654_435).abs() < 1e-5, "{found}");
     // Steady sliding above the critical velocity.
-    let (settled, attractor) = reached(&decreasing(0.0).undithered(), 0.3, 0.0);
+    let (settled, attractor) = reached(&belt::decreasing(), 0.3, 0.0);
     assert_eq!(settled.outcome, Outcome::Quiet);
     assert_eq!(attractor.expect("settled").size(), 0.0);
 }
@@ -113,7 +92,7 @@ fn cycles_without_dither_have_their_size_and_frequency() {
 /// has the same bits in another.
 #[test]
 fn a_line_of_starts_has_two_attractors() {
-    let belt = decreasing(2.5);
+    let belt = decreasing_under(Waveform::Sine, 2.5);
     let scene = Scene::new(&belt).expect("a strobe");
     let starts: Vec<Start> = (0..40)
         .map(|k| Start { time: 0.0, displacement: -1.4 + 0.09 * f64::from(k), velocity: 0.0 })
@@ -134,22 +113,4 @@ fn a_line_of_starts_has_two_attractors() {
         let settled = settle(&scene, *start, Patience::SWEEP).expect("no stall");
         assert_eq!(settled.outcome == Outcome::Quiet, *quiet, "{start:?}");
     }
-}
-
-/// Lengths scale out: all of them twice as large give the same section, twice as large, to the last bit.
-#[test]
-fn lengths_scale_out() {
-    let belt = decreasing(4.6);
-    let friction = LawKind::Decreasing.build(&[0.4, 0.2857, 0.4]).expect("valid");
-    let dither = Dither { amplitude: 9.2, ..belt.dithers()[0] };
-    let twice = Belt::new(0.005, 2.0, 2.0, friction, vec![dither]).expect("valid");
-    let start = |scale: f64| Start { time: 0.0, displacement: 0.7 * scale, velocity: 0.1 * scale };
-    let ends = |belt: &Belt, scale: f64| {
-        let scene = Scene::new(belt).expect("a strobe");
-        settle(&scene, start(scale), Patience::BASIN).expect("no stall")
-    };
-    let (one, two) = (ends(&belt, 1.0), ends(&twice, 2.0));
-    assert_eq!(one.outcome, two.outcome);
-    assert_eq!(one.periods, two.periods);
-    assert_eq!(2.0 * one.state.displacement, two.state.displacement);
 }

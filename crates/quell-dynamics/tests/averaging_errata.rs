@@ -10,18 +10,15 @@ use quell_linear::averaging::{
     AveragingOptions, Becomes, EverywhereStable, FastMotion, FastWave, NormalOrder, closed_band,
     critical_amplitudes, effective, effective_by_quadrature, everywhere_stable_amplitude,
 };
-use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
+use quell_model::{Direction, LawKind, Waveform};
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_numerics::special::{dawson, erf, exp, ln};
+use quell_zoo::belt::{belt, decreasing_under};
+use quell_zoo::dither::{normal, sine};
+use quell_zoo::law::{MINIMUM, REFERENCE_VELOCITY, STATIC, build, dissertation};
 
-const STATIC: f64 = 0.4;
-const MINIMUM: f64 = 0.2857;
-const VM: f64 = 0.2;
+const VM: f64 = REFERENCE_VELOCITY;
 const DIFFERENCE: f64 = STATIC - MINIMUM;
-
-fn law(kind: LawKind) -> Friction {
-    kind.build(&[STATIC, MINIMUM, VM]).expect("valid")
-}
 
 fn close(value: f64, exact: f64, tolerance: f64) {
     assert!(((value - exact) / exact).abs() < tolerance, "{value} should be {exact}");
@@ -33,7 +30,7 @@ fn erfi(x: f64) -> f64 {
 
 /// (μ̄, slope), by closed form and checked by quadrature.
 fn right(kind: LawKind, waveform: Waveform, v: f64, alpha: f64) -> (f64, f64) {
-    let (law, wave) = (law(kind), FastWave::Integral(waveform));
+    let (law, wave) = (dissertation(kind), FastWave::Integral(waveform));
     let closed = effective(&law, &FastMotion::single(wave, alpha), v).expect("a value");
     let numeric = effective_by_quadrature(&law, wave, alpha, v).expect("a value");
     close(closed.coefficient, numeric.coefficient, 1e-12);
@@ -111,7 +108,7 @@ fn upper_edge_stribeck_triangle() {
     let kappa = 4.0 * VM * 0.005 / (3.0 * DIFFERENCE);
     let edge = |constant: f64| VM * (1.0 - constant * 0.5625 - kappa).sqrt();
     close(edge(PI * PI / 48.0), 0.18683419, 1e-7);
-    let stribeck = law(LawKind::Stribeck);
+    let stribeck = dissertation(LawKind::Stribeck);
     let band = closed_band(&stribeck, 0.005, 1.0, Waveform::Triangle, 0.15).expect("a band");
     let upper = band.upper.expect("it ends");
     close(upper, 0.17925174576154, 1e-13);
@@ -124,7 +121,7 @@ fn upper_edge_stribeck_triangle() {
 /// (3.44) a nested root, (3.48) a wrong constant, (4.38) twice too large: the amplitude that stabilises every velocity.
 #[test]
 fn everywhere_stable_amplitudes() {
-    let stribeck = law(LawKind::Stribeck);
+    let stribeck = dissertation(LawKind::Stribeck);
     let found = |zeta: f64, waveform: Waveform, direction: Direction| {
         let wave = FastWave::Integral(waveform);
         match everywhere_stable_amplitude(&stribeck, zeta, 1.0, wave, direction) {
@@ -155,7 +152,7 @@ fn everywhere_stable_amplitudes() {
 /// v₀ = α_N μ G_max every one is stable.
 #[test]
 fn stable_everywhere_needs_the_tip() {
-    let (stribeck, wave) = (law(LawKind::Stribeck), FastWave::Integral(Waveform::Sine));
+    let (stribeck, wave) = (dissertation(LawKind::Stribeck), FastWave::Integral(Waveform::Sine));
     let found = match everywhere_stable_amplitude(&stribeck, 0.005, 1.0, wave, Direction::Normal) {
         Ok(EverywhereStable::From { amplitude_ratio, .. }) => amplitude_ratio,
         other => panic!("{other:?}"),
@@ -197,16 +194,9 @@ fn sign_for_negative_slip() {
 /// 2R are none.
 #[test]
 fn sign_of_the_fast_motion() {
-    let sine = |amplitude: f64, frequency_ratio: f64| Dither {
-        direction: Direction::Tangential,
-        waveform: Waveform::Sine,
-        amplitude,
-        frequency_ratio,
-        phase: 0.0,
-    };
-    let law = law(LawKind::Decreasing);
+    let law = dissertation(LawKind::Decreasing);
     let dithers = vec![sine(1.0, 10.0), sine(1.0, 20.0)];
-    let belt = Belt::new(0.005, 1.0, 0.3, law.clone(), dithers).expect("valid");
+    let belt = belt(0.005, 0.3, &law, dithers);
     let fast = |theta: f64| -0.1 * theta.cos() - 0.05 * (2.0 * theta).cos();
     let average = |sign: f64| {
         let mean = |theta: f64| law.coefficient(0.3 + sign * fast(theta)) / TAU;
@@ -268,7 +258,7 @@ fn integrals_of_appendix_b() {
 fn slope_inside_can_be_negative() {
     // The slope inside is least at v_r = 0.
     let least = |share: f64, waveform: Waveform| {
-        let law = LawKind::Stribeck.build(&[STATIC, STATIC * (1.0 - share), VM]).expect("valid");
+        let law = build(LawKind::Stribeck, &[STATIC, STATIC * (1.0 - share), VM]);
         let wave = FastWave::Integral(waveform);
         (1..400)
             .map(|k| {
@@ -290,7 +280,7 @@ fn slope_inside_can_be_negative() {
 /// H(u) = (v_m/μ_m) ln(μ_m e^{u/v_m} + Δμ) has H′ = 1/μ, so that H(V − w) + α_N G is constant.
 #[test]
 fn fast_motion_under_normal_dither_separates() {
-    let (law, slow, alpha) = (law(LawKind::Decreasing), 0.3, 0.05);
+    let (law, slow, alpha) = (dissertation(LawKind::Decreasing), 0.3, 0.05);
     let primitive = |u: f64| VM / MINIMUM * ln(MINIMUM * exp(u / VM) + DIFFERENCE);
     let rate = |theta: f64, w: f64| alpha * law.coefficient(slow - w) * theta.sin();
     let (mut w, step) = (0.01_f64, TAU / 2000.0);
@@ -348,7 +338,7 @@ impl FastSliding {
 /// Floquet multipliers that were computed without Quell, of friction μN that turns round with N.
 #[test]
 fn limit_of_high_frequency_under_normal_dither() {
-    let (law, v, damping) = (law(LawKind::Decreasing), 0.075, 0.2);
+    let (law, v, damping) = (dissertation(LawKind::Decreasing), 0.075, 0.2);
     let slope = |u: f64| -DIFFERENCE / VM * exp(-u / VM);
     for (waveform, limit, frozen, orbits) in [
         (Waveform::Square, 0.115_322_218_4, 0.115_282_211_8, [0.115_038, 0.115_251]),
@@ -374,14 +364,7 @@ fn limit_of_high_frequency_under_normal_dither() {
         close(root(&|fast| 2.0 * damping + fast.mean(|w| slope(v - w))), frozen, 1e-8);
         // Where 1/R² takes two orbits, the second at twice the R of the first; what is left goes with 1/R⁴.
         let orbit = |ratio: f64| {
-            let dither = Dither {
-                direction: Direction::Normal,
-                waveform,
-                amplitude: 0.1 * ratio,
-                frequency_ratio: ratio,
-                phase: 0.0,
-            };
-            let belt = Belt::new(damping, 1.0, v, law.clone(), vec![dither]).expect("valid");
+            let belt = belt(damping, v, &law, vec![normal(waveform, 0.1 * ratio, ratio)]);
             let range = (0.85 * limit * ratio, limit * ratio);
             let found = local_thresholds(&belt, "dither.amplitude", range.0, range.1, 10);
             let found = found.unwrap_or_else(|why| panic!("{ratio} {waveform:?}: {why}"));
@@ -400,15 +383,8 @@ fn limit_of_high_frequency_under_normal_dither() {
 /// frozen criterion with the exact φ′ gives 0.115282, the total derivative 0.097.
 #[test]
 fn fast_motion_stays_frozen_in_the_slope() {
-    let (law, v, exact) = (law(LawKind::Decreasing), 0.075, 0.115_322);
-    let dither = Dither {
-        direction: Direction::Normal,
-        waveform: Waveform::Square,
-        amplitude: 0.1,
-        frequency_ratio: 40.0,
-        phase: 0.0,
-    };
-    let belt = Belt::new(0.2, 1.0, v, law.clone(), vec![dither]).expect("valid");
+    let (law, v, exact) = (dissertation(LawKind::Decreasing), 0.075, 0.115_322);
+    let belt = belt(0.2, v, &law, vec![normal(Waveform::Square, 0.1, 40.0)]);
     for (normal_order, known) in [(NormalOrder::First, 0.115_719), (NormalOrder::Second, 0.115_518)]
     {
         let options = AveragingOptions { normal_order, ..AveragingOptions::default() };
@@ -442,16 +418,8 @@ fn fast_motion_stays_frozen_in_the_slope() {
 /// Text of figure 2.10: "0.98" for v₀ = 1 is a plotting-grid value; the averaged quench amplitude is α = v₀ exactly, by a jump.
 #[test]
 fn quench_amplitude_is_a_jump() {
-    let dither = Dither {
-        direction: Direction::Tangential,
-        waveform: Waveform::Sine,
-        amplitude: 1.0,
-        frequency_ratio: 10.0,
-        phase: 0.0,
-    };
-    let belt = Belt::new(0.005, 1.0, 1.0, law(LawKind::Decreasing), vec![dither]);
-    let found =
-        critical_amplitudes(&belt.expect("valid"), AveragingOptions::default()).expect("found");
+    let belt = decreasing_under(Waveform::Sine, 1.0);
+    let found = critical_amplitudes(&belt, AveragingOptions::default()).expect("found");
     assert_eq!((found[1].amplitude_ratio, found[1].becomes), (1.0, Becomes::Stable));
     let (_, slope) = right(LawKind::Decreasing, Waveform::Sine, 1.0, 0.98);
     close(0.01 + slope, -0.0859403, 1e-5);

@@ -2,19 +2,9 @@
 
 use quell_dynamics::orbit::curve::{Ending, Plane, curves};
 use quell_dynamics::orbit::threshold::{Kind, local_thresholds};
-use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
-
-fn belt() -> Belt {
-    let friction = LawKind::Decreasing.build(&[0.4, 0.2857, 0.2]).expect("a valid law");
-    let dither = Dither {
-        direction: Direction::Tangential,
-        waveform: Waveform::Sine,
-        amplitude: 1.0,
-        frequency_ratio: 10.0,
-        phase: 0.0,
-    };
-    Belt::new(0.005, 1.0, 1.0, friction, vec![dither]).expect("a valid belt")
-}
+use quell_model::Waveform;
+use quell_zoo::BeltExt;
+use quell_zoo::belt::decreasing_under;
 
 /// Both thresholds of the amplitude over the belt's velocity; each point is the threshold of its own line.
 #[test]
@@ -25,7 +15,8 @@ fn amplitude_over_belt_velocity() {
         along: "belt.belt_velocity",
         between: (0.85, 1.5),
     };
-    let found = curves(&belt(), plane, 3, 60).expect("curves").curves;
+    let belt = decreasing_under(Waveform::Sine, 1.0);
+    let found = curves(&belt, plane, 3, 60).expect("curves").curves;
     for it in &found {
         println!("{:?} {:?} {} points", it.kind, it.ends, it.points.len());
     }
@@ -44,7 +35,7 @@ fn amplitude_over_belt_velocity() {
         let nearest = nearest.expect("points");
         assert!((nearest.value - at_one).abs() < 30.0 * (nearest.along - 1.0).abs() + 1e-6);
         for point in curve.points.iter().step_by(9) {
-            let belt = belt().with("belt.belt_velocity", point.along).expect("valid");
+            let belt = belt.at_speed(point.along);
             let (from, to) = (0.8 * point.value, (1.1 * point.value).min(16.0));
             let line = local_thresholds(&belt, "dither.amplitude", from, to, 20).expect("followed");
             let off =

@@ -4,18 +4,13 @@ use std::f64::consts::TAU;
 
 use quell_dynamics::response::measured_effective_friction;
 use quell_dynamics::simulation::Start;
-use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_model::{Belt, Waveform};
+use quell_zoo as zoo;
+use quell_zoo::dither::normal;
 
 fn belt(belt_velocity: f64, damping_ratio: f64, amplitude: f64) -> Belt {
-    let law = LawKind::Decreasing.build(&[0.4, 0.2857, 0.2]).expect("valid");
-    let dither = Dither {
-        direction: Direction::Normal,
-        waveform: Waveform::Sine,
-        amplitude,
-        frequency_ratio: 5.0,
-        phase: 0.0,
-    };
-    Belt::new(damping_ratio, 1.0, belt_velocity, law, vec![dither]).expect("valid")
+    let dithers = vec![normal(Waveform::Sine, amplitude, 5.0)];
+    zoo::belt::belt(damping_ratio, belt_velocity, zoo::law::decreasing(), dithers)
 }
 
 fn at(displacement: f64) -> Start {

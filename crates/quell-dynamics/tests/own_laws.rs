@@ -8,33 +8,26 @@ use quell_linear::averaging::{
     AveragingOptions, CriticalVelocity, FastMotion, FastWave, closed_band, criterion, effective,
     effective_by_quadrature, everywhere_stable_amplitude, undithered_critical_velocity,
 };
-use quell_model::friction::NumericLaw;
 use quell_model::{Belt, Direction, Dither, Expression, Friction, LawKind, Samples, Waveform};
+use quell_zoo as zoo;
+use quell_zoo::belt::DAMPING_RATIO;
+use quell_zoo::dither::{at_phase, tangential};
+use quell_zoo::law::{self, measured};
 
 const TOLERANCE: f64 = 1e-13;
 
-/// (2.7) and (2.8) as formulas, with the values of the dissertation as constants.
+/// (2.7) and (2.8) built in and as formulas.
 fn pairs() -> Vec<(Friction, Friction)> {
-    let constants =
-        [("mu_s".to_owned(), 0.4), ("mu_m".to_owned(), 0.2857), ("v_m".to_owned(), 0.2)];
-    [
-        (LawKind::Stribeck, "mu_s - 3/2*(mu_s - mu_m)*(abs(v)/v_m - (abs(v)/v_m)^3/3)"),
-        (LawKind::Decreasing, "mu_m + (mu_s - mu_m)*exp(-abs(v)/v_m)"),
-    ]
-    .into_iter()
-    .map(|(kind, text)| {
-        let own = Expression::new(text, &constants, None, 1.0).expect(text);
-        (kind.build(&[0.4, 0.2857, 0.2]).expect("valid"), Friction::Expression(own))
-    })
-    .collect()
+    let pair = |kind| (law::dissertation(kind), law::dissertation_as_formula(kind));
+    [LawKind::Stribeck, LawKind::Decreasing].map(pair).to_vec()
 }
 
 fn dither(direction: Direction, waveform: Waveform, amplitude: f64) -> Dither {
-    Dither { direction, waveform, amplitude, frequency_ratio: 7.3, phase: 0.4 }
+    at_phase(zoo::dither::dither(direction, waveform, amplitude, 7.3), 0.4)
 }
 
 fn belt(law: &Friction, velocity: f64, dithers: Vec<Dither>) -> Belt {
-    Belt::new(0.005, 1.0, velocity, law.clone(), dithers).expect("valid")
+    zoo::belt::belt(DAMPING_RATIO, velocity, law, dithers)
 }
 
 fn events(belt: &Belt, until: f64) -> Vec<Event> {
@@ -120,15 +113,6 @@ fn a_formula_has_the_averages_and_thresholds_of_the_law_that_it_is() {
     }
 }
 
-fn measured(law: &Friction, last: f64, count: u32) -> Vec<(f64, f64)> {
-    (0..count)
-        .map(|k| {
-            let u = last * f64::from(k) / f64::from(count - 1);
-            (u, law.coefficient(u))
-        })
-        .collect()
-}
-
 /// An exponential is found again exactly; a cubic within the error that the fit states.
 #[test]
 fn samples_of_a_law_give_that_law_within_the_error_of_the_fit() {
@@ -197,21 +181,14 @@ fn lanes_have_the_bits_of_a_run_alone() {
 /// μ_s > μ(0⁺): at the release friction falls, and a later release starts as much later.
 #[test]
 fn multipliers_pass_a_release_with_a_jump() {
-    let law = Expression::new("0.3 + 0.06*exp(-abs(v)/0.2)", &[], Some(0.4), 1.0).expect("valid");
-    let law = Friction::Expression(law);
+    let law = law::jumping_formula();
     assert!(!law.starts_at_static_level());
     let mut judged = 0;
     for (waveform, amplitude) in
         [(Waveform::Sine, 0.7), (Waveform::Triangle, 0.8), (Waveform::Square, 0.5)]
     {
-        let wave = Dither {
-            direction: Direction::Tangential,
-            waveform,
-            amplitude,
-            frequency_ratio: 1.7,
-            phase: 0.2,
-        };
-        let belt = Belt::new(0.25, 1.0, 0.3, law.clone(), vec![wave]).expect("valid");
+        let wave = at_phase(tangential(waveform, amplitude, 1.7), 0.2);
+        let belt = zoo::belt::belt(0.25, 0.3, &law, vec![wave]);
         let period = std::f64::consts::TAU / 1.7;
         let settled =
             simulate(&belt, Start::REST, 40.0 * period, 1e-14, &mut ()).expect("no stall");
@@ -250,8 +227,7 @@ fn numbers_of_a_formula_are_numbers_of_the_belt() {
     let belt = belt(own, 0.05, vec![]);
     assert_eq!(belt.get("friction.constants.v_m"), Some(0.2));
     let changed = belt.with("friction.constants.v_m", 0.3).expect("valid");
-    let known = quell_model::friction::Decreasing::from_values(&[0.4, 0.2857, 0.3]).expect("valid");
-    let known = Friction::Decreasing(known);
+    let known = law::build(LawKind::Decreasing, &[0.4, 0.2857, 0.3]);
     assert!((changed.friction().coefficient(0.17) - known.coefficient(0.17)).abs() < 1e-15);
     assert!(belt.with("friction.constants.v_m", 0.0).is_err(), "a division by zero");
     assert!(belt.with("friction.constants.mu_m", -1.0).is_err(), "a negative coefficient");

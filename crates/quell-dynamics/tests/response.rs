@@ -4,20 +4,11 @@
 use quell_dynamics::response::{Response, Solver, Undefined, respond};
 use quell_dynamics::simulation::Start;
 use quell_dynamics::start::{InitialState, NoSquealingStart};
-use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
-
-fn belt(law: LawKind, belt_velocity: f64, dithers: Vec<Dither>) -> Belt {
-    let friction = law.build(&[0.4, 0.2857, 0.2]).expect("valid law");
-    Belt::new(0.005, 1.0, belt_velocity, friction, dithers).expect("valid belt")
-}
-
-fn dither(direction: Direction, waveform: Waveform, amplitude: f64, ratio: f64) -> Dither {
-    Dither { direction, waveform, amplitude, frequency_ratio: ratio, phase: 0.0 }
-}
-
-fn tangential(amplitude: f64, ratio: f64) -> Vec<Dither> {
-    vec![dither(Direction::Tangential, Waveform::Sine, amplitude, ratio)]
-}
+use quell_model::{Belt, LawKind, Waveform};
+use quell_zoo::BeltExt;
+use quell_zoo::belt::{self, dissertation, stribeck_under};
+use quell_zoo::dither::{normal, sine, tangential};
+use quell_zoo::law;
 
 fn response(belt: &Belt) -> Response {
     respond(belt, Start::REST, &Solver::default()).expect("no stall")
@@ -29,13 +20,13 @@ fn figure_2_3_is_cancelled_in_steps() {
     // 0.654435. The claims were measured on a longer record with
     // finer zero padding; the lines of the declared record lie up to 1 % below a peak.
     for (amplitude, efficiency) in [(0.3, 0.4999), (0.4, 0.2589), (0.5, 0.0)] {
-        let response = response(&belt(LawKind::Stribeck, 0.05, tangential(amplitude, 10.0)));
+        let response = response(&stribeck_under(Waveform::Sine, amplitude));
         let measured = response.efficiency.expect("defined");
         assert!((measured - efficiency).abs() < 5e-3, "D = {amplitude}: {measured}");
         assert!((response.undithered_amplitude - 0.128_794).abs() < 1e-4);
         assert!(response.undithered_settled);
     }
-    let plain = response(&belt(LawKind::Stribeck, 0.05, Vec::new()));
+    let plain = response(&belt::stribeck());
     let fundamental = plain.peaks.iter().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude));
     let fundamental = fundamental.expect("a peak").frequency;
     assert!((fundamental - 0.654_435).abs() < 1e-4, "{fundamental}");
@@ -59,9 +50,8 @@ fn efficiency_is_five_per_cent_where_the_reference_says() {
         let law = LawKind::from_name(name("law")).expect("law");
         let waveform = Waveform::from_name(name("waveform")).expect("waveform");
         let efficiency = |amplitude: f64| {
-            let dithers =
-                vec![dither(Direction::Tangential, waveform, amplitude, number("frequency_ratio"))];
-            let belt = belt(law, number("belt_velocity"), dithers);
+            let dither = tangential(waveform, amplitude, number("frequency_ratio"));
+            let belt = dissertation(law).at_speed(number("belt_velocity")).with_dither(dither);
             response(&belt).efficiency.expect("defined")
         };
         // E falls through 5 % within 1 % of the reference amplitude.
@@ -72,9 +62,9 @@ fn efficiency_is_five_per_cent_where_the_reference_says() {
 
 #[test]
 fn efficiency_is_undefined_where_the_undithered_belt_settles() {
-    let fast = belt(LawKind::Decreasing, 1.0, tangential(4.0, 10.0));
+    let fast = belt::decreasing().with_dither(sine(4.0, 10.0));
     assert_eq!(response(&fast).efficiency, Err(Undefined::UnditheredSettles));
-    let stopped = belt(LawKind::Decreasing, 0.0, Vec::new());
+    let stopped = belt::decreasing().at_speed(0.0);
     assert_eq!(response(&stopped).efficiency, Err(Undefined::UnditheredAtRest));
 }
 
@@ -82,7 +72,7 @@ fn efficiency_is_undefined_where_the_undithered_belt_settles() {
 fn a_squealing_start_is_on_the_cycle() {
     let solver = Solver::default();
     // Claims: at v₀ = 1 the decreasing law has a cycle of peak-to-peak 2.09 beside stable sliding.
-    let fast = belt(LawKind::Decreasing, 1.0, Vec::new());
+    let fast = belt::decreasing();
     let start = InitialState::Squealing.resolve(&fast).expect("a cycle");
     let squeal = respond(&fast, start, &solver).expect("no stall");
     let displacements = squeal.record.samples.iter().map(|sample| sample.displacement);
@@ -90,11 +80,11 @@ fn a_squealing_start_is_on_the_cycle() {
     let peak_to_peak = displacements.fold(f64::NEG_INFINITY, f64::max) - low;
     assert!((peak_to_peak - 2.09).abs() < 0.01, "{peak_to_peak}");
     // It survives to v₀ ≈ 2.5 at ζ = 0.005; the Stribeck law's ends at 0.1988.
-    let faster = belt(LawKind::Decreasing, 2.7, Vec::new());
+    let faster = belt::decreasing().at_speed(2.7);
     let none = InitialState::Squealing.resolve(&faster);
     assert_eq!(none, Err(NoSquealingStart::SettlesToSliding));
     for (velocity, squeals) in [(0.15, true), (0.197, true), (0.201, false)] {
-        let stribeck = belt(LawKind::Stribeck, velocity, Vec::new());
+        let stribeck = belt::stribeck().at_speed(velocity);
         let start = InitialState::Squealing.resolve(&stribeck);
         assert_eq!(start.is_ok(), squeals, "v₀ = {velocity}: {start:?}");
     }
@@ -102,7 +92,7 @@ fn a_squealing_start_is_on_the_cycle() {
 
 #[test]
 fn costs_obey_their_balances() {
-    let quenched = belt(LawKind::Stribeck, 0.05, tangential(0.6, 10.0));
+    let quenched = stribeck_under(Waveform::Sine, 0.6);
     let costs = response(&quenched);
     // Steady state: ⟨f⟩ = ⟨x⟩, the spring carries it.
     let samples = &costs.record.samples;
@@ -115,7 +105,7 @@ fn costs_obey_their_balances() {
     assert_eq!(costs.minimum_normal_load, 1.0);
     // In pure slip far from reversals x follows the dither as the linear oscillator does,
     // 2D/(R²−1), to the order of the slope of friction over R.
-    let sliding = response(&belt(LawKind::Stribeck, 0.2, tangential(0.5, 20.0)));
+    let sliding = response(&belt::stribeck().at_speed(0.2).with_dither(sine(0.5, 20.0)));
     let stroke = sliding.dither_stroke.expect("tangential");
     assert!((stroke * 399.0 - 1.0).abs() < 2e-3, "{stroke}");
 }
@@ -125,8 +115,8 @@ fn dither_power_closes_the_energy_balance() {
     // Over a settled record the stored energy returns: ⟨Dg x′⟩ + ⟨f x′⟩ = 2ζ⟨x′²⟩. With friction
     // f = x″ + 2ζx′ + x − Dg this is an identity of the trajectory, so that f x′ is summed from
     // the law itself, sample by sample.
-    let law = LawKind::Stribeck.build(&[0.4, 0.2857, 0.2]).expect("valid law");
-    let belt = belt(LawKind::Stribeck, 0.3, tangential(2.0, 7.0));
+    let law = law::stribeck();
+    let belt = belt::stribeck().at_speed(0.3).with_dither(sine(2.0, 7.0));
     let costs = response(&belt);
     let samples = &costs.record.samples;
     let n = samples.len() as f64;
@@ -146,11 +136,8 @@ fn dither_power_closes_the_energy_balance() {
 
 #[test]
 fn normal_dither_has_no_power_and_a_smallest_load() {
-    let normal = vec![
-        dither(Direction::Normal, Waveform::Sine, 0.3, 7.0),
-        dither(Direction::Normal, Waveform::Sine, 0.2, 21.0),
-    ];
-    let costs = response(&belt(LawKind::Decreasing, 0.05, normal));
+    let dithers = vec![normal(Waveform::Sine, 0.3, 7.0), normal(Waveform::Sine, 0.2, 21.0)];
+    let costs = response(&dissertation(LawKind::Decreasing).with_dithers(dithers));
     assert_eq!(costs.dither_power, None);
     assert_eq!(costs.dither_stroke, None);
     // 1 + 0.3 sin θ + 0.2 sin 3θ is smallest at θ = −π/6 … found here by a fine scan.

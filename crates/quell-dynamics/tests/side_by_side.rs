@@ -5,7 +5,10 @@ use quell_dynamics::simulation::{
     Event, EventRecorder, FinalState, InstructionSet, Run, Sample, Sampler, Start, simulate,
     simulate_many_with,
 };
-use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_model::{Belt, Direction, LawKind, Waveform};
+use quell_zoo::belt::belt;
+use quell_zoo::dither::{at_phase, dither};
+use quell_zoo::law::build;
 
 const TOLERANCE: f64 = 1e-11;
 
@@ -17,12 +20,8 @@ fn cases() -> Vec<(Belt, Start, f64)> {
         for (j, &waveform) in Waveform::ALL.iter().enumerate() {
             for k in 0..7_u32 {
                 let x = f64::from(k) + 0.37 * i as f64 + 0.11 * j as f64;
-                let wave = |direction, amplitude, frequency_ratio| Dither {
-                    direction,
-                    waveform,
-                    amplitude,
-                    frequency_ratio,
-                    phase: 0.4 * x,
+                let wave = |direction, amplitude, frequency_ratio| {
+                    at_phase(dither(direction, waveform, amplitude, frequency_ratio), 0.4 * x)
                 };
                 let tangential = wave(Direction::Tangential, 0.1 + 0.13 * x, 5.0 + 1.3 * x);
                 let normal = wave(Direction::Normal, 0.1 + 0.1 * x, 7.0 - 0.5 * x);
@@ -42,10 +41,9 @@ fn cases() -> Vec<(Belt, Start, f64)> {
                     }
                     _ => vec![level, 0.28, velocity],
                 };
-                let friction = law.build(&values).expect("a valid law");
-                let belt = Belt::new(0.005 * x, 1.0, 0.05 + 0.02 * x, friction, dithers);
+                let belt = belt(0.005 * x, 0.05 + 0.02 * x, build(law, &values), dithers);
                 let start = Start { time: 0.3 * x, displacement: 0.1 * x, velocity: 0.02 * x };
-                cases.push((belt.expect("a valid belt"), start, 40.0 + 9.0 * x));
+                cases.push((belt, start, 40.0 + 9.0 * x));
             }
         }
     }

@@ -7,16 +7,10 @@ use quell_dynamics::simulation::{
     DEFAULT_TOLERANCE, Event, EventKind, EventRecorder, FinalState, Observer, Sampler, Start,
     VelocitySection, simulate,
 };
-use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
-
-fn belt(law: LawKind, belt_velocity: f64, dithers: Vec<Dither>) -> Belt {
-    let friction = law.build(&[0.4, 0.2857, 0.2]).expect("valid law");
-    Belt::new(0.005, 1.0, belt_velocity, friction, dithers).expect("valid belt")
-}
-
-fn tangential(waveform: Waveform, amplitude: f64, ratio: f64, phase: f64) -> Dither {
-    Dither { direction: Direction::Tangential, waveform, amplitude, frequency_ratio: ratio, phase }
-}
+use quell_model::{Belt, Waveform};
+use quell_zoo::BeltExt;
+use quell_zoo::belt::{self, decreasing_under, stribeck_under};
+use quell_zoo::dither::{at_phase, tangential};
 
 fn start(displacement: f64, velocity: f64) -> Start {
     Start { time: 0.0, displacement, velocity }
@@ -32,10 +26,9 @@ fn run(belt: &Belt, from: Start, until: f64) -> (FinalState, Vec<Event>) {
 /// divided out, the slip would end where it began.
 #[test]
 fn a_release_is_not_taken_for_the_next_stick() {
-    let smooth = belt(LawKind::Stribeck, 0.05, vec![tangential(Waveform::Sine, 0.3, 10.0, 0.0)]);
-    let jumping = belt(LawKind::Stribeck, 0.05, vec![tangential(Waveform::Square, 0.3, 10.0, 0.0)]);
-    let reversing =
-        belt(LawKind::Decreasing, 1.0, vec![tangential(Waveform::Sine, 12.0, 10.0, 0.0)]);
+    let smooth = stribeck_under(Waveform::Sine, 0.3);
+    let jumping = stribeck_under(Waveform::Square, 0.3);
+    let reversing = decreasing_under(Waveform::Sine, 12.0);
     for (belt, from) in
         [(smooth, Start::REST), (jumping, Start::REST), (reversing, start(0.2, 0.0))]
     {
@@ -57,7 +50,9 @@ fn a_touch_of_the_threshold_does_not_loop() {
     for waveform in [Waveform::Sine, Waveform::Triangle] {
         for offset in [0.0, 1e-17, 5e-17, 1e-16, -1e-16, 1e-15, 1e-14, 1e-12, 1e-10, 1e-8] {
             // f_s = x₀ − D g touches μ_s = 0.4 once a period.
-            let belt = belt(LawKind::Stribeck, 0.0, vec![tangential(waveform, 0.15, 10.0, 0.3)]);
+            let belt = belt::stribeck()
+                .at_speed(0.0)
+                .with_dither(at_phase(tangential(waveform, 0.15, 10.0), 0.3));
             let (end, events) = run(&belt, start(0.25 + offset, 0.0), 100.0);
             let touches = 100.0 * 10.0 / TAU;
             assert!(
@@ -73,7 +68,7 @@ fn a_touch_of_the_threshold_does_not_loop() {
 /// Trap 3 and 5: a jump of the dither breaks the bond at the jump, as one release, at its very time.
 #[test]
 fn a_jump_breaks_the_bond_at_the_jump() {
-    let belt = belt(LawKind::Stribeck, 0.05, vec![tangential(Waveform::Square, 0.2, 10.0, 0.0)]);
+    let belt = stribeck_under(Waveform::Square, 0.2);
     // Sticking with f_s = 0.3505 − 0.2; at τ = π/R it jumps to about 0.57 > 0.4.
     let (_, events) = run(&belt, start(0.35, 0.05), 0.5);
     let jump = PI / 10.0;
@@ -89,8 +84,7 @@ fn a_jump_breaks_the_bond_at_the_jump() {
 #[test]
 fn a_dip_inside_a_step_is_found() {
     let events_and_low = |amplitude: f64| {
-        let dither = tangential(Waveform::Sine, amplitude, 10.0, 0.0);
-        let belt = belt(LawKind::Decreasing, 1.0, vec![dither]);
+        let belt = decreasing_under(Waveform::Sine, amplitude);
         let fast = amplitude * 10.0 / 99.0;
         let mut watch = (EventRecorder::default(), Sampler::new(0.0, 1e-5, 60_000));
         simulate(&belt, start(0.2857, -fast), 0.6, DEFAULT_TOLERANCE, &mut watch)
@@ -120,13 +114,13 @@ fn a_dip_inside_a_step_is_found() {
 #[test]
 fn a_start_on_a_jump_takes_the_value_after_it() {
     for (phase, sign) in [(0.0, -1), (PI, 1)] {
-        let dither = tangential(Waveform::Square, 0.5, 10.0, phase);
-        let belt = belt(LawKind::Stribeck, 0.05, vec![dither]);
+        let dither = at_phase(tangential(Waveform::Square, 0.5, 10.0), phase);
+        let belt = belt::stribeck().with_dither(dither);
         let (end, events) = run(&belt, start(0.0, 0.05), 1e-3);
         assert!(events.is_empty());
         assert_eq!(end.slip_sign, sign, "phase {phase}");
     }
-    let weak = belt(LawKind::Stribeck, 0.05, vec![tangential(Waveform::Square, 0.3, 10.0, 0.0)]);
+    let weak = stribeck_under(Waveform::Square, 0.3);
     assert!(run(&weak, start(0.0, 0.05), 1e-3).0.sticking);
 }
 
@@ -137,10 +131,10 @@ fn watching_changes_no_bit() {
         simulate(belt, Start::REST, 300.0, DEFAULT_TOLERANCE, observer).expect("no stall")
     }
     let dithers = vec![
-        tangential(Waveform::Sine, 0.3, 10.0, 0.0),
-        tangential(Waveform::Triangle, 0.1, 3.7, 1.0),
+        tangential(Waveform::Sine, 0.3, 10.0),
+        at_phase(tangential(Waveform::Triangle, 0.1, 3.7), 1.0),
     ];
-    let belt = belt(LawKind::Stribeck, 0.05, dithers);
+    let belt = belt::stribeck().with_dithers(dithers);
     let bits = |observer: &mut dyn FnMut() -> FinalState| {
         let end = observer();
         [end.time, end.displacement, end.velocity].map(f64::to_bits)
@@ -168,45 +162,10 @@ fn watching_changes_no_bit() {
 /// Trap 7: a slow transient is not a steady response, and is not called one.
 #[test]
 fn an_unfinished_decay_is_reported() {
-    let dither = tangential(Waveform::Sine, 2.84, 10.0, 0.0);
-    let belt = belt(LawKind::Decreasing, 1.0, vec![dither]);
+    let belt = decreasing_under(Waveform::Sine, 2.84);
     let short = Solver { settle: 200.0, ..Solver::default() };
     assert!(!respond(&belt, Start::REST, &short).expect("no stall").settled);
     let long = Solver { settle: 20_000.0, ..Solver::default() };
     let quiet = respond(&belt, Start::REST, &long).expect("no stall");
     assert!(quiet.settled && quiet.amplitude < 1e-6, "{}", quiet.amplitude);
-}
-
-/// Lengths scale out: every event time is equal in the last bit, every state scales exactly.
-#[test]
-fn lengths_scale_out_to_the_last_bit() {
-    let scale = 2f64.powi(-20);
-    let normal =
-        Dither { direction: Direction::Normal, ..tangential(Waveform::Square, 0.4, 4.3, 0.2) };
-    for law in LawKind::NUMERIC.iter().copied() {
-        let dithers = [tangential(Waveform::Sine, 0.3, 10.0, 0.0), normal];
-        let make = |factor: f64| {
-            let values = match law {
-                LawKind::Coulomb => vec![0.2857, 0.4, 0.05 / factor],
-                LawKind::StribeckExponential => {
-                    vec![0.2857, 0.4, 0.2 * factor, 3.0, 0.05 / factor]
-                }
-                _ => vec![0.4, 0.2857, 0.2 * factor],
-            };
-            let friction = law.build(&values).expect("valid law");
-            let scaled =
-                dithers.map(|dither| Dither { amplitude: factor * dither.amplitude, ..dither });
-            Belt::new(0.005, factor, 0.05 * factor, friction, scaled.to_vec()).expect("valid")
-        };
-        let (end, events) = run(&make(1.0), start(0.1, -0.2), 200.0);
-        let (small, small_events) = run(&make(scale), start(0.1 * scale, -0.2 * scale), 200.0);
-        assert!(events.len() > 100);
-        assert_eq!(events.len(), small_events.len());
-        for (a, b) in events.iter().zip(&small_events) {
-            assert_eq!(a.time.to_bits(), b.time.to_bits());
-            assert_eq!(a.displacement * scale, b.displacement);
-        }
-        assert_eq!(end.displacement * scale, small.displacement);
-        assert_eq!(end.velocity * scale, small.velocity);
-    }
 }

@@ -1,5 +1,7 @@
 //! Belts.
 
+use std::borrow::Borrow;
+
 use quell_model::{Belt, Dither, Friction, LawKind, Waveform};
 
 use crate::dither::{normal, tangential};
@@ -72,12 +74,25 @@ fn valid(belt: Result<Belt, Vec<quell_model::Invalid>>) -> Belt {
     belt.unwrap_or_else(|why| panic!("an invalid belt: {why:?}"))
 }
 
-/// An undithered belt with F = 1.
+/// A belt with F = 1.
 ///
 /// # Panics
 /// On values out of bounds.
-pub fn undithered_belt(damping_ratio: f64, belt_velocity: f64, law: Friction) -> Belt {
-    valid(Belt::new(damping_ratio, 1.0, belt_velocity, law, Vec::new()))
+pub fn belt(
+    damping_ratio: f64,
+    belt_velocity: f64,
+    law: impl Borrow<Friction>,
+    dithers: Vec<Dither>,
+) -> Belt {
+    valid(Belt::new(damping_ratio, 1.0, belt_velocity, law.borrow().clone(), dithers))
+}
+
+/// A belt with F = 1 without dither.
+///
+/// # Panics
+/// On values out of bounds.
+pub fn undithered_belt(damping_ratio: f64, belt_velocity: f64, law: impl Borrow<Friction>) -> Belt {
+    belt(damping_ratio, belt_velocity, law, Vec::new())
 }
 
 /// The dissertation's belt with one of its laws: ζ = 0.005, F = 1, v₀ = 0.05.
@@ -92,7 +107,7 @@ pub fn dissertation(kind: LawKind) -> Belt {
 ///
 /// # Panics
 /// On a law that is invalid on this belt.
-pub fn with_law(law: Friction) -> Belt {
+pub fn with_law(law: impl Borrow<Friction>) -> Belt {
     undithered_belt(DAMPING_RATIO, VELOCITY, law)
 }
 
@@ -104,6 +119,22 @@ pub fn stribeck() -> Belt {
 /// Figure 2.10: as [`stribeck`], with (2.8) at v₀ = 1, where stable sliding coexists with a stick-slip cycle.
 pub fn decreasing() -> Belt {
     dissertation(LawKind::Decreasing).at_speed(1.0)
+}
+
+/// Figure 2.3 or 3.9: [`stribeck`] under tangential dither with R = 10.
+///
+/// # Panics
+/// On an amplitude out of bounds.
+pub fn stribeck_under(waveform: Waveform, amplitude: f64) -> Belt {
+    stribeck().with_dither(tangential(waveform, amplitude, 10.0))
+}
+
+/// Figure 2.10: [`decreasing`] under tangential dither with R = 10.
+///
+/// # Panics
+/// On an amplitude out of bounds.
+pub fn decreasing_under(waveform: Waveform, amplitude: f64) -> Belt {
+    decreasing().with_dither(tangential(waveform, amplitude, 10.0))
 }
 
 /// Figure 4.11: (2.8), ζ = 0.2, v₀ = 0.075, meant for normal dither with R = 5.

@@ -70,7 +70,6 @@ fn work_closes_the_energy_balance() {
     for named in all_belts() {
         for start in [Start::REST, START] {
             let balanced = balanced(&named.model, start, UNTIL, RESIDUAL);
-            assert_eq!(balanced.end.time, UNTIL, "{}", named.name);
             steps += balanced.steps;
             worst = worst.max(balanced.worst);
         }

@@ -3,7 +3,7 @@
 //! Δ(x′² + x²)/2 = ∫ (f − 2ζx′ + p) x′ dτ with the friction force f from the law itself (slip) or from the sticking contact
 //! and the dither p from its waveform: values, not the series that the engine integrates, so that the two are independent.
 
-use quell_dynamics::simulation::{FinalState, Observer, Segment, Start, simulate};
+use quell_dynamics::simulation::{Observer, Segment, Start, simulate};
 use quell_model::{Belt, Direction};
 
 /// Tolerance of the runs.
@@ -21,8 +21,6 @@ const GAUSS: [(f64, f64); 5] = [
 /// What a run leaves open of the balance of work.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Balanced {
-    /// Where the run ends.
-    pub(crate) end: FinalState,
     /// Segments of the run.
     pub(crate) steps: u64,
     /// Largest residual of a segment, in units of TOLERANCE · F · (largest speed or length).
@@ -42,7 +40,7 @@ pub(crate) fn balanced(belt: &Belt, start: Start, until: f64, allowed: f64) -> B
     assert!(end.displacement.is_finite() && end.velocity.is_finite());
     let (steps, worst) = (balance.steps, balance.worst);
     assert!(worst < allowed, "residual {worst:.1} tolerances\n{belt:?}\n{start:?}");
-    Balanced { end, steps, worst }
+    Balanced { steps, worst }
 }
 
 /// Checks every segment.
