@@ -1,7 +1,5 @@
 //! Averaged stability: closed forms, limits, sharper thresholds, numbers of the corrected dissertation.
 
-use std::borrow::Borrow;
-
 use core::f64::consts::PI;
 
 use quell_linear::averaging::{
@@ -10,27 +8,14 @@ use quell_linear::averaging::{
     criterion, critical_amplitudes, everywhere_stable_amplitude, undithered_critical_velocity,
     unstable_bands,
 };
-use quell_model::{Belt, Direction, Dither, Expression, Friction, LawKind, Waveform};
+use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
+use quell_zoo::BeltExt;
+use quell_zoo::belt::{belt, decreasing_under};
+use quell_zoo::dither::dither;
+use quell_zoo::law::{self, build, dissertation, formula_with_level};
 
 /// The laws with closed forms.
 const CLOSED: [LawKind; 2] = [LawKind::Stribeck, LawKind::Decreasing];
-
-fn law(kind: LawKind) -> Friction {
-    kind.build(&[0.4, 0.2857, 0.2]).expect("valid")
-}
-
-fn dither(
-    direction: Direction,
-    waveform: Waveform,
-    amplitude: f64,
-    frequency_ratio: f64,
-) -> Dither {
-    Dither { direction, waveform, amplitude, frequency_ratio, phase: 0.0 }
-}
-
-fn belt(zeta: f64, v0: f64, law: impl Borrow<Friction>, dithers: Vec<Dither>) -> Belt {
-    Belt::new(zeta, 1.0, v0, law.borrow().clone(), dithers).expect("valid")
-}
 
 fn close(value: f64, exact: f64, tolerance: f64) {
     assert!(((value - exact) / exact).abs() < tolerance, "{value} should be {exact}");
@@ -47,13 +32,14 @@ fn undithered_thresholds() {
         (LawKind::Decreasing, 0.05, 0.348618859449),
         (LawKind::Decreasing, 0.1, 0.209989423337),
     ] {
-        let Ok(CriticalVelocity::Above(v)) = undithered_critical_velocity(&law(kind), zeta, 1.0)
+        let Ok(CriticalVelocity::Above(v)) =
+            undithered_critical_velocity(&dissertation(kind), zeta, 1.0)
         else {
             panic!("{kind:?} {zeta} has a threshold")
         };
         close(v, exact, 3e-12);
         let verdict = |v0: f64| {
-            criterion(&belt(zeta, v0, law(kind), vec![]), AveragingOptions::default())
+            criterion(&belt(zeta, v0, dissertation(kind), vec![]), AveragingOptions::default())
                 .expect("slides")
                 .verdict
         };
@@ -62,7 +48,7 @@ fn undithered_thresholds() {
         let at = verdict(v);
         assert!(at != Verdict::Unstable || kind == LawKind::Decreasing, "{at:?}");
     }
-    let decreasing = law(LawKind::Decreasing);
+    let decreasing = dissertation(LawKind::Decreasing);
     let undamped = undithered_critical_velocity(&decreasing, 0.0, 1.0);
     assert_eq!(undamped, Ok(CriticalVelocity::UnstableEverywhere));
     let damped = undithered_critical_velocity(&decreasing, 0.3, 1.0);
@@ -79,7 +65,7 @@ fn roots_against_closed_forms() {
                 for k in 1..40 {
                     let v0 = 0.05 * f64::from(k);
                     let dithers = vec![dither(Direction::Tangential, waveform, 0.0, 10.0)];
-                    let belt = belt(zeta, v0, law(*kind), dithers);
+                    let belt = belt(zeta, v0, dissertation(*kind), dithers);
                     let found = critical_amplitudes(&belt, AveragingOptions::default());
                     for critical in found.expect("found") {
                         let alpha = critical.amplitude_ratio;
@@ -89,7 +75,7 @@ fn roots_against_closed_forms() {
                             continue;
                         }
                         met += 1;
-                        let band = closed_band(&law(*kind), zeta, 1.0, waveform, alpha);
+                        let band = closed_band(&dissertation(*kind), zeta, 1.0, waveform, alpha);
                         let upper = band.expect("a band").upper.expect("it ends");
                         close(upper, v0, 1e-12);
                         let becomes = if *kind == LawKind::Stribeck {
@@ -110,10 +96,8 @@ fn roots_against_closed_forms() {
 /// are zero within their error. A law without a slope has no unstable velocity.
 #[test]
 fn only_what_is_neutral_throughout_is_no_band() {
-    let formula = |text: &str| {
-        Friction::Expression(Expression::new(text, &[], Some(0.4), 1.0).expect("valid"))
-    };
-    let named = LawKind::Decreasing.build(&[0.4, 0.2857, 0.2]).expect("valid");
+    let formula = |text: &str| formula_with_level(text, law::STATIC);
+    let named = law::decreasing();
     let falling = formula("0.2857 + 0.1143*exp(-abs(v)/0.2)");
     for (law, bands) in [(named, 1), (falling, 1), (formula("0.3"), 0)] {
         let sine = dither(Direction::Tangential, Waveform::Sine, 6.0, 10.0);
@@ -131,13 +115,13 @@ fn only_what_is_neutral_throughout_is_no_band() {
 fn bands() {
     let (mut tangential, mut normal) = (0, 0);
     for kind in &CLOSED {
-        let law = law(*kind);
+        let law = dissertation(*kind);
         for &waveform in Waveform::ALL {
             for zeta in [0.005, 0.05, 0.1] {
                 for alpha in [0.0, 0.02, 0.07, 0.15, 0.3] {
                     let dithers = vec![dither(Direction::Tangential, waveform, 10.0 * alpha, 10.0)];
-                    let belt = belt(zeta, 1.0, &law, dithers);
-                    let found = unstable_bands(&belt, AveragingOptions::default()).expect("ok");
+                    let dithered = belt(zeta, 1.0, &law, dithers);
+                    let found = unstable_bands(&dithered, AveragingOptions::default()).expect("ok");
                     let closed = closed_band(&law, zeta, 1.0, waveform, alpha);
                     assert_eq!(found.len(), usize::from(closed.is_ok()), "{found:?} {closed:?}");
                     if let (Some(found), Ok(closed)) = (found.first(), closed) {
@@ -147,8 +131,9 @@ fn bands() {
                         assert_eq!(found.lower_crossing, closed.lower_crossing);
                     }
                     let dithers = vec![dither(Direction::Normal, waveform, 2.0 * alpha, 2.0)];
-                    let belt = Belt::new(zeta, 1.0, 1.0, law.clone(), dithers).expect("valid");
-                    for band in unstable_bands(&belt, AveragingOptions::default()).expect("ok") {
+                    let dithered = belt(zeta, 1.0, &law, dithers);
+                    for band in unstable_bands(&dithered, AveragingOptions::default()).expect("ok")
+                    {
                         normal += 1;
                         let level = |v: f64| law.coefficient(v) * alpha;
                         let reach = level(band.lower) * waveform.peak_integral();
@@ -163,7 +148,7 @@ fn bands() {
     }
     assert!(tangential > 30 && normal > 50, "{tangential} {normal}");
     // The corrected (3.47): upper edge of the triangle at α = 0.15 (the print's π²/48 gives 0.18683).
-    let band = closed_band(&law(LawKind::Stribeck), 0.005, 1.0, Waveform::Triangle, 0.15);
+    let band = closed_band(&dissertation(LawKind::Stribeck), 0.005, 1.0, Waveform::Triangle, 0.15);
     close(band.expect("a band").upper.expect("ends"), 0.17925174576154, 1e-13);
 }
 
@@ -181,7 +166,8 @@ fn amplitude(found: Result<EverywhereStable, AveragingError>) -> f64 {
 #[test]
 fn everywhere_stable() {
     let [sine, triangle, square] = [Waveform::Sine, Waveform::Triangle, Waveform::Square];
-    let (stribeck, decreasing) = (law(LawKind::Stribeck), law(LawKind::Decreasing));
+    let (stribeck, decreasing) =
+        (dissertation(LawKind::Stribeck), dissertation(LawKind::Decreasing));
     let (t, n) = (Direction::Tangential, Direction::Normal);
     let found = |law: &Friction, zeta: f64, waveform: Waveform, direction: Direction| {
         let wave = FastWave::Integral(waveform);
@@ -227,7 +213,7 @@ fn everywhere_stable() {
 /// response finds, for fast dither, what the closed form says; at the tip alone it would be smaller.
 #[test]
 fn steep_laws_are_searched_beyond_the_tip() {
-    let steep = LawKind::Stribeck.build(&[0.4, 0.008, 0.2]).expect("valid");
+    let steep = build(LawKind::Stribeck, &[0.4, 0.008, 0.2]);
     let (waveform, frequency_ratio) = (Waveform::Square, 1e4);
     let limit = FastWave::Integral(waveform);
     let own = FastWave::Oscillator { waveform, frequency_ratio };
@@ -259,7 +245,7 @@ fn everywhere_stable_closes_the_band() {
                             FastWave::Oscillator { waveform, frequency_ratio: r }
                         }
                     };
-                    let law = law(*kind);
+                    let law = dissertation(*kind);
                     let alpha =
                         amplitude(everywhere_stable_amplitude(&law, zeta, 1.0, wave, direction));
                     let bands = |alpha: f64| {
@@ -292,7 +278,7 @@ fn inner_region_may_be_unstable() {
         [(Waveform::Sine, 6.0_f64.sqrt() / PI), (Waveform::Triangle, 0.4_f64.sqrt())]
     {
         for (fall, dips) in [(limit - 0.01, false), (limit + 0.01, true)] {
-            let law = LawKind::Stribeck.build(&[1.0, 1.0 - fall, 0.2]).expect("valid");
+            let law = build(LawKind::Stribeck, &[1.0, 1.0 - fall, 0.2]);
             let dithers = vec![dither(Direction::Tangential, waveform, 1.0, 10.0)];
             let belt = belt(0.0, 1e-7, &law, dithers);
             let found = critical_amplitudes(&belt, AveragingOptions::default()).expect("ok");
@@ -309,7 +295,7 @@ fn inner_region_may_be_unstable() {
             }
         }
     }
-    let deep = LawKind::Stribeck.build(&[1.0, 0.0, 0.2]).expect("valid");
+    let deep = build(LawKind::Stribeck, &[1.0, 0.0, 0.2]);
     let dithers = vec![dither(Direction::Tangential, Waveform::Square, 1.0, 10.0)];
     let found = critical_amplitudes(&belt(0.0, 1e-4, deep, dithers), AveragingOptions::default());
     assert_eq!(found.expect("ok").len(), 1);
@@ -318,8 +304,7 @@ fn inner_region_may_be_unstable() {
 /// Averaging with the oscillator's own velocity: decreasing law, v₀ = 1, R = 10, sine.
 #[test]
 fn sharper_thresholds() {
-    let dithers = vec![dither(Direction::Tangential, Waveform::Sine, 1.0, 10.0)];
-    let belt = belt(0.005, 1.0, law(LawKind::Decreasing), dithers);
+    let belt = decreasing_under(Waveform::Sine, 1.0);
     let sharper = AveragingOptions { response: Response::Oscillator, ..Default::default() };
     let found = critical_amplitudes(&belt, sharper).expect("ok");
     assert_eq!(found.len(), 2);
@@ -331,8 +316,7 @@ fn sharper_thresholds() {
     close(plain[0].amplitude, 4.36605249129233293, 1e-13);
     close(plain[1].amplitude, 10.0, 1e-15);
     // Square: exact 3.295664190 and 6.313857946.
-    let dithers = vec![dither(Direction::Tangential, Waveform::Square, 1.0, 10.0)];
-    let belt = Belt::new(0.005, 1.0, 1.0, law(LawKind::Decreasing), dithers).expect("valid");
+    let belt = decreasing_under(Waveform::Square, 1.0);
     let found = critical_amplitudes(&belt, sharper).expect("ok");
     close(found[0].amplitude, 3.295664190, 1e-6);
     close(found[1].amplitude, 6.313857946, 1e-3);
@@ -344,7 +328,7 @@ fn sharper_thresholds() {
 /// (derived in `averaging_errata.rs`, where exact orbits are extrapolated to it).
 #[test]
 fn normal_dither() {
-    let law = law(LawKind::Decreasing);
+    let law = dissertation(LawKind::Decreasing);
     for (waveform, first, second, exact) in [
         (Waveform::Square, 0.115719, 0.115518, 0.115322),
         (Waveform::Sine, 0.148482, 0.148321, 0.147977),
@@ -376,7 +360,7 @@ fn normal_dither() {
     // The substitution α_T → μ(v₀)α_N, on every row of a grid.
     for kind in &CLOSED {
         for v0 in [0.03, 0.12, 0.18, 0.6] {
-            let law = self::law(*kind);
+            let law = dissertation(*kind);
             let of = |direction| {
                 let belt =
                     belt(0.05, v0, &law, vec![dither(direction, Waveform::Triangle, 0.1, 3.0)]);
@@ -399,13 +383,12 @@ fn lengths_scale_out() {
     for kind in &CLOSED {
         for &waveform in Waveform::ALL {
             for v0 in [0.1, 0.5, 1.0] {
-                let found = |s: f64| {
-                    let law = kind.build(&[0.4, 0.2857, 0.2 * s]).expect("valid");
-                    let dithers = vec![dither(Direction::Tangential, waveform, 0.1 * s, 10.0)];
-                    let belt = Belt::new(0.005, s, v0 * s, law, dithers).expect("valid");
-                    critical_amplitudes(&belt, AveragingOptions::default()).expect("ok")
+                let dithers = vec![dither(Direction::Tangential, waveform, 0.1, 10.0)];
+                let belt = belt(0.005, v0, dissertation(*kind), dithers);
+                let found = |belt: &Belt| {
+                    critical_amplitudes(belt, AveragingOptions::default()).expect("ok")
                 };
-                let (one, small) = (found(1.0), found(scale));
+                let (one, small) = (found(&belt), found(&belt.scaled(scale)));
                 assert_eq!(one.len(), small.len());
                 for (one, small) in one.iter().zip(&small) {
                     assert_eq!(one.amplitude_ratio * scale, small.amplitude_ratio);
@@ -420,7 +403,7 @@ fn lengths_scale_out() {
 #[test]
 fn limits() {
     for kind in &CLOSED {
-        let coulomb = kind.build(&[0.4, 0.4, 0.2]).expect("valid");
+        let coulomb = build(*kind, &[0.4, 0.4, 0.2]);
         for &waveform in Waveform::ALL {
             for v0 in [0.01, 0.3, 2.0] {
                 let dithers = vec![dither(Direction::Tangential, waveform, 1.0, 10.0)];
@@ -443,7 +426,7 @@ fn limits() {
     // At rest with tangential dither there is no outer region; the default laws are stable for any amplitude.
     for kind in &CLOSED {
         let dithers = vec![dither(Direction::Tangential, Waveform::Sine, 1.0, 10.0)];
-        let belt = belt(0.005, 0.0, law(*kind), dithers);
+        let belt = belt(0.005, 0.0, dissertation(*kind), dithers);
         assert_eq!(
             criterion(&belt, AveragingOptions::default()).expect("dithered").verdict,
             Verdict::Stable
@@ -457,7 +440,8 @@ fn limits() {
 fn verdict_at_the_corner() {
     let verdict = |kind: LawKind, v0: f64| {
         let dithers = vec![dither(Direction::Tangential, Waveform::Sine, 10.0 * v0, 10.0)];
-        criterion(&belt(0.005, v0, law(kind), dithers), AveragingOptions::default()).expect("ok")
+        criterion(&belt(0.005, v0, dissertation(kind), dithers), AveragingOptions::default())
+            .expect("ok")
     };
     let disagree = verdict(LawKind::Decreasing, 0.5);
     assert_eq!(disagree.verdict, Verdict::Undecided { why: UndecidedBecause::AtCorner });
@@ -472,7 +456,7 @@ fn several_dithers() {
     let options = AveragingOptions::default();
     // The same wave twice: criticals of the first are lower by the second's α.
     let second = Dither { amplitude: 0.3, ..first };
-    let law = law(LawKind::Decreasing);
+    let law = dissertation(LawKind::Decreasing);
     let alone = critical_amplitudes(&belt(0.05, 0.5, &law, vec![first]), options).expect("ok");
     let both =
         critical_amplitudes(&belt(0.05, 0.5, &law, vec![first, second]), options).expect("ok");

@@ -4,12 +4,15 @@ use quell_linear::averaging::{
     AveragingError, AveragingOptions, FastMotion, FastWave, PeriodicMotion, Response, Side,
     SlipTerm, effective, effective_by_quadrature,
 };
-use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
+use quell_model::{Direction, Friction, LawKind, Waveform};
+use quell_zoo::belt::belt;
+use quell_zoo::dither::{self, at_phase};
+use quell_zoo::law::{REFERENCE_VELOCITY, build, dissertation};
 
-const VM: f64 = 0.2;
+const VM: f64 = REFERENCE_VELOCITY;
 
 fn laws() -> [Friction; 2] {
-    [LawKind::Stribeck, LawKind::Decreasing].map(|k| k.build(&[0.4, 0.2857, VM]).expect("valid"))
+    [LawKind::Stribeck, LawKind::Decreasing].map(dissertation)
 }
 
 fn plain(waveform: Waveform, alpha: f64) -> FastMotion {
@@ -27,8 +30,7 @@ fn stored_wide_grid() {
     let (mut rows, mut worst, mut worst_slope) = (0, (0.0, ""), (0.0, ""));
     for line in table.lines().filter(|line| !line.starts_with('#')) {
         let field: Vec<&str> = line.split(',').collect();
-        let law = LawKind::from_name(field[0]).expect("a law");
-        let law = law.build(&[0.4, 0.2857, VM]).expect("valid");
+        let law = dissertation(LawKind::from_name(field[0]).expect("a law"));
         let waveform = Waveform::from_name(field[1]).expect("a waveform");
         let number = |i: usize| -> f64 { field[i].parse().expect("a number") };
         let found = effective(&law, &plain(waveform, number(2)), number(3)).expect("a value");
@@ -53,7 +55,7 @@ fn more_laws() -> Vec<Friction> {
     let mut laws = laws().to_vec();
     for kind in [LawKind::Stribeck, LawKind::Decreasing] {
         for values in [[0.8, 0.05, 0.03], [0.5, 0.5, 1.0], [0.3, 0.0, 2.0]] {
-            laws.push(kind.build(&values).expect("valid"));
+            laws.push(build(kind, &values));
         }
     }
     laws
@@ -327,14 +329,10 @@ fn correlated_load() {
 /// From a belt: commensurate and incommensurate dithers are grouped, zero amplitudes vanish, R ≤ 1 is refused.
 #[test]
 fn motion_of_a_belt() {
-    let dither = |direction, frequency_ratio: f64, amplitude| Dither {
-        direction,
-        waveform: Waveform::Triangle,
-        amplitude,
-        frequency_ratio,
-        phase: 0.3,
+    let dither = |direction, frequency_ratio: f64, amplitude| {
+        at_phase(dither::dither(direction, Waveform::Triangle, amplitude, frequency_ratio), 0.3)
     };
-    let belt = |dithers| Belt::new(0.01, 1.0, 0.3, laws()[0].clone(), dithers).expect("valid");
+    let belt = |dithers| belt(0.01, 0.3, &laws()[0], dithers);
     let (t, n) = (Direction::Tangential, Direction::Normal);
     let options = AveragingOptions::default();
     let motion = |dithers| FastMotion::of(&belt(dithers), 0.3, options).expect("ok");
