@@ -11,13 +11,12 @@ use quell_disc::undithered;
 use quell_linear::growth::Verdict;
 use quell_model::Disc;
 use quell_model::disc::{Contribution, Contributions};
-use quell_model::disc::{DiscDither, Load, Mode};
+use quell_model::disc::{DiscDither, Mode};
 use quell_numerics::eigen::eigenvalues;
 use quell_numerics::floquet::Effort;
 use quell_numerics::matrix::Matrix;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
-
-const TANGENTIAL: DiscDither = DiscDither::Tangential { amplitude: 1.0, frequency_ratio: 2.7 };
+use quell_zoo::disc::{self as zoo, TANGENTIAL, equal_load};
 
 fn set(inner: f64, diameters: u32) -> ModeSet {
     let plate = Plate::new(inner, 0.3).expect("a plate");
@@ -31,8 +30,7 @@ fn modes(damping: f64) -> Vec<Mode> {
 
 /// m = c = k = `strength`, friction in units of it.
 fn disc(strength: f64, friction: f64, damping: f64, dither: DiscDither, speed: f64) -> Disc {
-    let load = Load::new(strength, strength, strength, friction * strength);
-    Disc::new(modes(damping), vec![load], dither, speed).expect("valid")
+    zoo::disc(modes(damping), vec![equal_load(strength, friction * strength)], dither, speed)
 }
 
 fn growth(disc: &Disc) -> f64 {
@@ -102,8 +100,8 @@ fn normalisation_of_real_and_complex_modes() {
     // Only the two-diameter mode, far from any meeting: the backward wave under a weak load.
     let (strength, friction, speed) = (1e-4, 4.0, 0.6);
     let mode = modes(0.0)[2];
-    let load = Load::new(strength, strength, strength, friction * strength);
-    let disc = Disc::new(vec![mode], vec![load], DiscDither::None, speed).expect("valid");
+    let load = equal_load(strength, friction * strength);
+    let disc = zoo::disc(vec![mode], vec![load], DiscDither::None, speed);
     let rate = |square: f64| {
         -square / (2.0 * mode.ratio) * strength * (mode.ratio + 2.0 * speed - 2.0 * friction)
     };
@@ -117,8 +115,8 @@ fn normalisation_of_real_and_complex_modes() {
 fn geometry_of_the_tables() {
     let speeds = |inner: f64| -> Vec<f64> {
         let modes = set(inner, 2).at_radius(0.75, 0.0).expect("a radius");
-        let disc = Disc::new(modes, vec![Load::new(0.1, 0.1, 0.1, 0.1)], TANGENTIAL, 0.3);
-        let waves = Waves::new(&disc.expect("valid")).expect("waves");
+        let disc = zoo::disc(modes, vec![equal_load(0.1, 0.1)], TANGENTIAL, 0.3);
+        let waves = Waves::new(&disc).expect("waves");
         let both = waves.undithered(0.0..=1.0).into_iter().chain(waves.dithered(0.0..=1.0));
         both.map(|resonance| resonance.speed).collect()
     };
@@ -137,8 +135,7 @@ fn geometry_of_the_tables() {
 /// Modal damping rests in the disc. Without the circulatory pair, the free disc would be unstable beyond Ω = β/q.
 #[test]
 fn damping_turns_with_the_disc() {
-    let disc = Disc::new(modes(1e-3), vec![Load::new(0.0, 0.0, 0.0, 0.0)], DiscDither::None, 1.3)
-        .expect("valid");
+    let disc = zoo::disc(modes(1e-3), vec![equal_load(0.0, 0.0)], DiscDither::None, 1.3);
     let rate = |parts: Contributions| undithered::growth_with(&disc, parts).expect("finite").rate;
     close(rate(Contributions::ALL), -1.771_548e-3, 1e-5);
     close(rate(Contributions::ALL.without(Contribution::CirculatoryDamping)), 6.0e-4, 0.01);

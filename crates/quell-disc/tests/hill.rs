@@ -9,6 +9,7 @@ use quell_disc::dithered::DitheredDisc;
 use quell_model::Disc;
 use quell_model::disc::{DiscDither, Load, Mode};
 use quell_numerics::floquet::Effort;
+use quell_zoo::disc::{self as zoo, ModeSet};
 
 const HARMONICS: i32 = 24;
 
@@ -75,11 +76,7 @@ fn the_hill_determinant_vanishes_at_the_exponents_of_the_splitting() {
     let mut checked = 0;
     for large in [false, true] {
         for damping in [0.0, 1e-3] {
-            let mut modes = vec![
-                mode(0, 1.7715482549454453, 0.65875445677796, damping),
-                mode(1, 1.8076647041409195, 0.933051069689499, damping),
-                mode(2, 2.0, 0.934699921735261, damping),
-            ];
+            let mut modes = ModeSet::N12.modes(damping);
             if large {
                 modes.push(mode(3, 2.524769, 0.930869, damping));
                 modes.push(mode(5, 4.859967, 0.890682, damping));
@@ -93,7 +90,7 @@ fn the_hill_determinant_vanishes_at_the_exponents_of_the_splitting() {
             ] {
                 for speed in [0.05, 0.2, 0.37, 0.61, 0.88] {
                     let load = Load::new(0.2, 0.15, 0.3, 1.0);
-                    let disc = Disc::new(modes.clone(), vec![load], dither, speed).expect("valid");
+                    let disc = zoo::disc(modes.clone(), vec![load], dither, speed);
                     let prepared = DitheredDisc::new(&disc).expect("finite").expect("dithered");
                     for friction in [0.1, 0.6, 1.5] {
                         let found = prepared.growth(friction, Effort::default()).expect("finite");

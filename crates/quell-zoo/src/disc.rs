@@ -145,8 +145,8 @@ pub fn undithered() -> Vec<Named<Disc>> {
         Named::new("one load", "figure 5.3", one(ModeSet::N12, 0.0, 0.1, 0.1, 0.3)),
         Named::new(
             "one load, tongue",
-            "table 5.1: inside the tongue of Ω = 0.064",
-            one(ModeSet::N12, 0.0, 0.1, 0.04, 0.063),
+            "table 5.1: the middle of the tongue that begins at Ω = 0.064",
+            one(ModeSet::N12, 0.0, 0.1, 0.04, 0.07),
         ),
         Named::new("one load, damped", "chosen: ξ = 10⁻³", one(ModeSet::N12, 1e-3, 0.1, 0.1, 0.3)),
         Named::new("six modes", "figure 5.4", one(ModeSet::N15, 1e-4, 0.3, 0.6, 0.7)),
