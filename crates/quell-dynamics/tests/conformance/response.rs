@@ -28,10 +28,10 @@ fn many_responses_have_the_bits_of_one_alone() {
 
 /// Mean of x over one period of an orbit.
 fn mean_over_a_period(belt: &Belt, start: Start, period: f64) -> f64 {
-    let count = 4000;
-    let mut sampler = Sampler::new(0.0, period / f64::from(count), count as usize);
+    const COUNT: usize = 4000;
+    let mut sampler = Sampler::new(0.0, period / COUNT as f64, COUNT);
     simulate(belt, start, period, 1e-12, &mut sampler).expect("no stall");
-    sampler.samples.iter().map(|sample| sample.displacement).sum::<f64>() / f64::from(count)
+    sampler.samples.iter().map(|sample| sample.displacement).sum::<f64>() / COUNT as f64
 }
 
 /// From a stable base response the record repeats that orbit: each sample is the orbit's state at its phase, no slow line is
