@@ -229,7 +229,14 @@ fn numbers_of_a_formula_are_numbers_of_the_belt() {
     let changed = belt.with("friction.constants.v_m", 0.3).expect("valid");
     let known = law::build(LawKind::Decreasing, &[0.4, 0.2857, 0.3]);
     assert!((changed.friction().coefficient(0.17) - known.coefficient(0.17)).abs() < 1e-15);
-    assert!(belt.with("friction.constants.v_m", 0.0).is_err(), "a division by zero");
-    assert!(belt.with("friction.constants.mu_m", -1.0).is_err(), "a negative coefficient");
+    let refused = |path: &str, value: f64| {
+        let complaints = belt.with(path, value).expect_err(path);
+        assert_eq!(complaints[0].key, "friction.coefficient", "{complaints:?}");
+        complaints[0].allowed.clone()
+    };
+    let division = refused("friction.constants.v_m", 0.0);
+    assert!(division.contains("0⁺"), "{division}");
+    let negative = refused("friction.constants.mu_m", -1.0);
+    assert!(negative.contains("≥ 0"), "{negative}");
     assert_eq!(belt.get("friction.constants.v"), None);
 }

@@ -38,15 +38,15 @@ fn undithered_thresholds() {
             panic!("{kind:?} {zeta} has a threshold")
         };
         close(v, exact, 3e-12);
-        let verdict = |v0: f64| {
+        let criterion = |v0: f64| {
             criterion(&belt(zeta, v0, dissertation(kind), vec![]), AveragingOptions::default())
                 .expect("slides")
-                .verdict
         };
-        assert_eq!(verdict(v * (1.0 - 1e-9)), Verdict::Unstable);
-        assert_eq!(verdict(v * (1.0 + 1e-9)), Verdict::Stable);
-        let at = verdict(v);
-        assert!(at != Verdict::Unstable || kind == LawKind::Decreasing, "{at:?}");
+        assert_eq!(criterion(v * (1.0 - 1e-9)).verdict, Verdict::Unstable);
+        assert_eq!(criterion(v * (1.0 + 1e-9)).verdict, Verdict::Stable);
+        let at = criterion(v);
+        assert!(at.value.abs() < 1e-14, "{at:?}");
+        assert!(at.verdict != Verdict::Unstable || kind == LawKind::Decreasing, "{at:?}");
     }
     let decreasing = dissertation(LawKind::Decreasing);
     let undamped = undithered_critical_velocity(&decreasing, 0.0, 1.0);

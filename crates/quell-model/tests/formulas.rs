@@ -77,8 +77,10 @@ fn formulas_are_proven_over_their_range() {
         }
     }
     // Belts of any speed: what is bounded is proven as far as numbers go.
-    assert!(proven("0.3 + 0.1*exp(-abs(v)/0.2)", f64::INFINITY).is_ok());
-    assert!(proven("0.4 + 0.1*abs(v)", f64::INFINITY).is_err());
+    let bounded = proven("0.3 + 0.1*exp(-abs(v)/0.2)", f64::INFINITY).expect("bounded");
+    assert_eq!(bounded.range().map(|range| range.upper), Some(f64::MAX));
+    let unbounded = proven("0.4 + 0.1*abs(v)", f64::INFINITY).expect_err("unbounded");
+    assert!(unbounded.contains("not finite"), "{unbounded}");
     for (text, up_to) in [
         ("0.4 - 0.1*abs(v)", 3.9),
         ("exp(abs(v))", 100.0),
@@ -121,8 +123,10 @@ fn a_formula_is_proven_for_its_belt() {
     );
     let given = belt(0.41, 0.0, Some(3.0)).expect("meant up to 3");
     assert_eq!(given.get("friction.maximum_velocity"), Some(3.0));
-    assert!(given.with("friction.maximum_velocity", 5.0).is_err());
-    assert!(given.parameter("friction.maximum_velocity").is_some());
+    let wrong = given.with("friction.maximum_velocity", 5.0).expect_err("negative from 4 on");
+    assert!(wrong[0].key == "friction.coefficient" && wrong[0].allowed.contains('5'), "{wrong:?}");
+    let parameter = given.parameter("friction.maximum_velocity").expect("an entry");
+    assert_eq!(parameter.path, "friction.maximum_velocity");
 }
 
 /// √3 v_m, where the cubic is back at its static level; beyond it is above any level.
@@ -211,7 +215,16 @@ proptest! {
 
     #[test]
     fn any_text_has_an_answer(text in ".{0,60}") {
-        let _ = Expression::new(&text, &constants(), None, 1.0);
+        match Expression::new(&text, &constants(), None, 1.0) {
+            Ok(law) => {
+                prop_assert!(law.coefficient(0.0) >= -1e-12 && law.slope(0.0).is_finite());
+                prop_assert_eq!(law.text(), text.as_str());
+            }
+            Err(wrong) => {
+                prop_assert!(!wrong.is_empty());
+                prop_assert!(wrong.iter().all(|complaint| complaint.key.starts_with("friction.")));
+            }
+        }
     }
 
     #[test]

@@ -31,7 +31,7 @@ fn runs_stay_on_base_responses_that_are_stable() {
         assert_eq!(stays, stable, "{}: {quiet:?} {settled:?}", named.name);
         judged[usize::from(stable)] += 1;
     }
-    assert!(judged[0] > 5 && judged[1] > 10, "{judged:?}");
+    assert!(judged[0] > 10 && judged[1] > 30, "{judged:?}");
 }
 
 /// Settling, measuring and shooting describe the same attractor.
@@ -78,7 +78,7 @@ fn attractors_are_the_orbits_that_shooting_finds() {
             _ => {}
         }
     }
-    assert!(orbits > 20, "{orbits}");
+    assert!(orbits > 40, "{orbits}");
 }
 
 /// A run settles with the same bits alone and in company, and doubled lengths double its end exactly.

@@ -1,9 +1,14 @@
 //! What a law accepts and refuses, and how it is named.
 
-use quell_model::LawKind;
 use quell_model::parameter::Parameter;
+use quell_model::{Invalid, LawKind};
 
 use crate::law_samples::{all_samples, samples};
+
+/// The keys of complaints, in order.
+fn keys(complaints: &[Invalid]) -> Vec<&str> {
+    complaints.iter().map(|complaint| complaint.key.as_str()).collect()
+}
 
 #[test]
 fn values_build_the_same_law_again() {
@@ -13,7 +18,8 @@ fn values_build_the_same_law_again() {
         if LawKind::NUMERIC.contains(&law.kind()) {
             assert_eq!(law.kind().build(&values), Ok(law));
         } else {
-            assert!(law.kind().build(&values).is_err(), "{law:?}: its data are missing");
+            let complaints = law.kind().build(&values).expect_err("its data are missing");
+            assert_eq!(keys(&complaints), ["friction.law"], "{law:?}");
         }
     }
 }
@@ -26,10 +32,12 @@ fn numbers_are_set_by_their_paths() {
             assert_eq!(law.get(parameter.path), Some(value), "{law:?}");
             let same = law.with(parameter.path, value).expect("its own value");
             assert_eq!(same.values(), law.values());
-            assert!(law.with(parameter.path, f64::NAN).is_err(), "{law:?}: {}", parameter.path);
+            let complaints = law.with(parameter.path, f64::NAN).expect_err("no number");
+            assert_eq!(keys(&complaints), [parameter.path], "{law:?}");
         }
         assert_eq!(law.get("friction.nothing"), None);
-        assert!(law.with("friction.nothing", 1.0).is_err());
+        let complaints = law.with("friction.nothing", 1.0).expect_err("no such path");
+        assert_eq!(keys(&complaints), ["friction.nothing"], "{law:?}");
     }
 }
 
@@ -98,10 +106,17 @@ fn a_wrong_number_of_values_is_a_complaint() {
     for &kind in LawKind::NUMERIC {
         let mut values = samples(kind)[0].values();
         values.push(0.1);
-        assert!(kind.build(&values).is_err(), "{}: one value too many", kind.name());
+        let count = kind.parameters().len().to_string();
+        let refused = |values: &[f64]| {
+            let complaints = kind.build(values).expect_err("a wrong number of values");
+            assert_eq!(keys(&complaints), ["friction"], "{}", kind.name());
+            assert_eq!(complaints[0].value, values.len().to_string(), "{}", kind.name());
+            assert!(complaints[0].allowed.ends_with(&count), "{}: {complaints:?}", kind.name());
+        };
+        refused(&values);
         values.truncate(values.len() - 2);
-        assert!(kind.build(&values).is_err(), "{}: one value too few", kind.name());
-        assert!(kind.build(&[]).is_err(), "{}: no value", kind.name());
+        refused(&values);
+        refused(&[]);
     }
 }
 
