@@ -1,5 +1,5 @@
-//! Where the print of chapter 5 is wrong: the printed form beside the right one, both against exact modes, exact
-//! eigenvalues, exact exponents.
+//! Errors in print in chapter 5: the printed form and the right one, both against exact modes, exact eigenvalues and exact
+//! exponents.
 
 use std::f64::consts::PI;
 
@@ -82,7 +82,7 @@ fn modes_solve_the_plate_equation() {
     }
 }
 
-/// (5.7): R² cos² qθ has unit mean over the plate, sin 0 has none; |R e^{iqθ}|² has twice that for q ≠ 0, so that a wave
+/// (5.7): R² cos² qθ has unit mean over the plate, sin 0 has zero mean; |R e^{iqθ}|² has twice that for q ≠ 0, so that a wave
 /// needs half of R², and with all of it the growth rate of every wave is doubled.
 #[test]
 fn normalisation_of_real_and_complex_modes() {
@@ -132,7 +132,7 @@ fn geometry_of_the_tables() {
     assert!(set(0.5, 2).modes()[0].shape.value(0.5).expect("the clamp").abs() < 1e-12);
 }
 
-/// Modal damping rests in the disc. Without the circulatory pair, the free disc would be unstable beyond Ω = β/q.
+/// Modal damping is fixed in the disc. Without the circulatory pair, the free disc would be unstable beyond Ω = β/q.
 #[test]
 fn damping_turns_with_the_disc() {
     let disc = zoo::disc(modes(1e-3), vec![equal_load(0.0, 0.0)], DiscDither::None, 1.3);
@@ -155,7 +155,7 @@ fn indices_of_the_double_sum() {
     let disc = disc(0.3, 1.0 / 3.0, 0.0, DiscDither::None, 0.2);
     let right = undithered::growth(&disc).expect("finite");
     let system = System::new(&disc);
-    // As printed: every row of the load's mass and damper acts on its own coordinate, with the sum of all shapes.
+    // As printed: each row of the load's mass and damper acts on its coordinate alone, with the sum of all shapes.
     let (count, load) = (system.coordinates(), &disc.loads()[0]);
     let bare = System::assemble(
         &disc,
@@ -164,7 +164,7 @@ fn indices_of_the_double_sum() {
     let row = |matrix: &Matrix, i: usize, j: usize| matrix.row(i)[j];
     let (mut mass, mut damping) = (bare.mass().clone(), bare.damping().clone());
     for i in 0..count {
-        // The full system's diagonal tells which rows the load acts on: φ_pq² there.
+        // The diagonal of the full system shows on which rows the load acts: φ_pq² there.
         let own = row(system.mass(), i, i) - row(bare.mass(), i, i);
         let sum: f64 = (0..count)
             .map(|j| (row(system.mass(), i, j) - row(bare.mass(), i, j)) / load.mass)
@@ -210,8 +210,8 @@ fn dither_is_halved_in_the_complex_form() {
     assert!(largest(1.30) < 0.0 && largest(1.45) > 0.0, "{} {}", largest(1.30), largest(1.45));
 }
 
-/// Text before (5.30): of a friction that alternates between ±F_θ only the fundamental is kept, as F_θ cos Rτ; it is 4/π of that. The
-/// exact monodromy under the whole square wave has the threshold of α = 4/π, π/4 of the printed one.
+/// Text before (5.30): of a friction that alternates between ±F_θ only the fundamental is kept, as F_θ cos Rτ; it is 4/π of
+/// that. The exact monodromy under the whole square wave has the threshold of α = 4/π, π/4 of the printed one.
 #[test]
 fn first_harmonic_of_a_reversed_friction() {
     let wave = |theta: f64| theta.cos().signum() * theta.cos() / PI;
@@ -272,7 +272,7 @@ fn loads_are_ratios_to_the_mass_of_the_plate() {
     assert!(one > 0.0 && (half / one - 1.0).abs() > 0.1, "{one} {half}");
 }
 
-/// "The tongues of Ω₁ and Ω₄ begin at f = 10⁻⁴ and 3·10⁻⁵": without modal damping they are there for every f, with growth ~ f⁴.
+/// "The tongues of Ω₁ and Ω₄ begin at f = 10⁻⁴ and 3·10⁻⁵": without modal damping they exist for every f, with growth ~ f⁴.
 #[test]
 fn revived_tongues_have_no_threshold() {
     let largest = |friction: f64| {
@@ -288,7 +288,7 @@ fn revived_tongues_have_no_threshold() {
     assert!((12.0..20.0).contains(&(large / small)), "f⁴: {}", large / small);
 }
 
-/// Table 5.1 leaves Ω = 0 out, where the cosine and sine of one mode meet: an exponent stays imaginary whatever the load.
+/// Table 5.1 leaves Ω = 0 out, where the cosine and sine of one mode meet: an exponent stays imaginary under any load.
 #[test]
 fn standstill_is_a_meeting() {
     let slow = |speed: f64, friction: f64| disc(0.1, friction, 0.0, DiscDither::None, speed);
@@ -302,8 +302,8 @@ fn standstill_is_a_meeting() {
     assert!(growth(&slow(0.3, 0.1)) < 0.0);
 }
 
-/// Table 5.2 lists places. Waves that run head-on share their damping, and l = 0 does not couple: five of the eight are
-/// harmless.
+/// Table 5.2 lists meetings of waves. Waves that travel head-on share their damping, and l = 0 does not couple: five of the
+/// eight are harmless.
 #[test]
 fn only_three_of_eight_can_be_unstable() {
     let strength = 0.05;
@@ -322,7 +322,7 @@ fn only_three_of_eight_can_be_unstable() {
     }
 }
 
-/// "Neither dither suppresses the undithered instabilities": tangential dither takes the mean friction that drives them.
+/// "Neither dither suppresses the undithered instabilities": tangential dither removes the mean friction that drives them.
 #[test]
 fn tangential_dither_takes_the_first_tongues_away() {
     let tongue = |dither: DiscDither| {
@@ -334,18 +334,18 @@ fn tangential_dither_takes_the_first_tongues_away() {
     close(without, 6.165e-4, 0.02);
     assert!(with < 1e-3 * without, "{with} {without}");
     let normal = tongue(DiscDither::Normal { amplitude: 1.0, frequency_ratio: 2.7 });
-    assert!(normal > 0.5 * without, "normal dither leaves them: {normal}");
+    assert!(normal > 0.5 * without, "normal dither does not remove them: {normal}");
 }
 
 /// Axes of the figures: away from meetings a disc is stable for f < c(1 + Ω) and unstable at every speed beyond 2c,
-/// whatever r₀ and the modes. Printed thresholds are 10⁻⁴ of that.
+/// for any r₀ and any modes. Printed thresholds are 10⁻⁴ of that.
 #[test]
 fn unit_of_the_friction_axis() {
     for speed in [0.25, 0.5, 0.75] {
         let limit = 1.0 + speed;
         assert!(growth(&disc(0.01, 0.95 * limit, 0.0, DiscDither::None, speed)) < 0.0);
         assert!(growth(&disc(0.01, 1.05 * limit, 0.0, DiscDither::None, speed)) > 0.0);
-        // "Unstable at every speed above 2·10⁻⁵" for c = 0.1: the printed number itself does nothing.
+        // "Unstable at every speed above 2·10⁻⁵" for c = 0.1: the printed number itself has no effect.
         assert!(growth(&disc(0.1, 2e-5 / 0.1, 0.0, DiscDither::None, speed)) < 0.0);
         assert!(growth(&disc(0.1, 1e4 * 2.2e-5 / 0.1, 0.0, DiscDither::None, speed)) > 0.0);
     }

@@ -1,8 +1,8 @@
-//! Floquet exponents against a method that shares nothing with the splitting: the scalar Hill determinant.
+//! Floquet exponents from splitting, against an independent method: the scalar Hill determinant.
 //!
-//! Under one load an exponent ρ makes det(1 − 𝒯F) = 0 over the harmonics h = −H…H, 𝒯 = diag T(ρ + ihR), F tridiagonal with the mean of
-//! f(τ) and half of its amplitude (`quell_disc::partition`). The exponent of the splitting starts a secant iteration, which ends at
-//! the last digits: the distance moved is the error of the splitting.
+//! Under one load an exponent ρ makes det(1 − 𝒯F) = 0 over the harmonics h = −H…H, 𝒯 = diag T(ρ + ihR), F tridiagonal with
+//! the mean of f(τ) and half of its amplitude (`quell_disc::partition`). The exponent from the splitting starts a secant
+//! iteration that converges to the last digits: the distance moved is the error of the splitting.
 
 use num_complex::Complex64;
 use quell_disc::dithered::DitheredDisc;
@@ -100,7 +100,7 @@ fn the_hill_determinant_vanishes_at_the_exponents_of_the_splitting() {
                         let at = format!(
                             "{dither:?}, Ω = {speed}, f = {friction}, ξ = {damping}: {found:?}"
                         );
-                        // Close by, or the secant went to another exponent.
+                        // Close by: otherwise the secant iteration converged to another exponent.
                         assert!((exact - start).norm_sqr().sqrt() < 1e-5, "{at} {exact}");
                         assert!(gap <= found.error && gap < 1e-9, "{at}: {gap:e}");
                         checked += 1;

@@ -1,4 +1,4 @@
-//! Limits and identities that hold whatever the numbers.
+//! Limits and identities that hold for any parameters.
 
 use std::f64::consts::PI;
 
@@ -59,14 +59,15 @@ fn marginal_lines_are_undecided() {
     assert_eq!(speeds.len(), printed.len(), "{speeds:?}");
     for (speed, printed) in speeds.iter().zip(printed) {
         assert!((speed - printed).abs() < 6e-4, "{speed} {printed}");
-        // Little friction: nothing grows, and one exponent stays on the axis.
+        // Under small friction nothing grows, and one exponent stays on the imaginary axis.
         for friction in [0.0, 0.003, 0.01] {
             for dither in [DiscDither::None, NORMAL, TANGENTIAL] {
                 let load = Load::new(0.1, 0.1, 0.1, friction);
                 let found = of(&loaded(ModeSet::N12, 0.0, load, dither, *speed));
                 let at = format!("Ω = {speed}, f = {friction}, {dither:?}: {found:?}");
                 assert_eq!(found.verdict(), Verdict::Undecided, "{at}");
-                // At Ω = 1 a wave meets its own conjugate at ω = 0: a defective double zero, known to the root.
+                // At Ω = 1 a wave meets its own conjugate at ω = 0: a defective double zero, known to the square root of the
+                // rounding.
                 assert!(found.error < if *speed > 0.99 { 1e-6 } else { 1.1e-11 }, "{at}");
             }
         }
@@ -100,12 +101,12 @@ fn a_free_disc_decays_with_the_damping_of_its_modes_at_any_speed() {
 }
 
 #[test]
-fn damping_that_turns_with_the_load_would_shake_a_free_disc() {
+fn damping_that_rotates_with_the_load_would_destabilise_a_free_disc() {
     // Why the circulatory pair is needed: Ω = 1.3, ξ = 10⁻³, no contact.
     let free = free(ModeSet::N12, 1e-3, 1.3);
     let parts = Contributions::ALL.without(Contribution::CirculatoryDamping);
-    let turning = undithered::growth_with(&free, parts).expect("finite").rate;
-    assert!((turning - 6.0e-4).abs() < 1e-5, "{turning}");
+    let rotating = undithered::growth_with(&free, parts).expect("finite").rate;
+    assert!((rotating - 6.0e-4).abs() < 1e-5, "{rotating}");
     let resting = of(&free).rate;
     assert!((resting + 1.77e-3).abs() < 1e-5, "{resting}");
 }
@@ -164,7 +165,7 @@ fn exact_boundaries_are_marginal_and_linear_in_the_damper() {
                     continue;
                 };
                 assert!((g - 2.0 * f).abs() <= 1e-12 * g.abs(), "{one:?} {two:?}");
-                // On the boundary one eigenvalue lies on the axis, at the frequency foretold.
+                // On the boundary one eigenvalue lies on the axis, at the predicted frequency.
                 let axis = Complex64::new(0.0, one.frequency);
                 let gap = values(&at(0.1, f))
                     .iter()
@@ -176,7 +177,7 @@ fn exact_boundaries_are_marginal_and_linear_in_the_damper() {
             assert!(checked >= 4, "{set:?}, Ω = {speed}: {found:?}");
         }
     }
-    // At rest the two waves of each pair coincide: one combination of each is out of reach.
+    // At standstill the two waves of each pair coincide: the load cannot reach one combination of each pair.
     let rest = loaded(ModeSet::N12, 0.0, Load::new(0.1, 0.1, 0.1, 0.1), DiscDither::None, 0.0);
     let found = boundaries(&rest).expect("conservative");
     assert_eq!(found.iter().filter(|b| b.friction == Marginal::Always).count(), 2, "{found:?}");
@@ -187,7 +188,7 @@ fn exact_boundaries_are_marginal_and_linear_in_the_damper() {
 #[test]
 fn crossings_of_the_partition_are_marginal() {
     // On a crossing a Floquet exponent is imaginary. Where nothing else grows, the growth rate vanishes there and the verdict
-    // changes across: the splitting and the scalar Hill determinant agree on where.
+    // changes across it: the splitting and the scalar Hill determinant agree on its location.
     for (dither, strength, speed) in
         [(NORMAL, 0.3, 0.7), (NORMAL, 0.1, 0.3), (TANGENTIAL, 0.1, 0.325), (TANGENTIAL, 0.1, 0.369)]
     {
@@ -220,18 +221,18 @@ fn crossings_of_the_partition_are_marginal() {
     }
     let plain = loaded(ModeSet::N12, 0.0, Load::new(0.1, 0.1, 0.1, 1.0), DiscDither::None, 0.3);
     assert_eq!(crossings(&plain), Err(NoPartition::Undithered));
-    // A dither a hundred times slower than the waves is refused, where it would take hours.
+    // A dither a hundred times slower than the waves is rejected: it would take hours.
     let slow = DiscDither::Normal { amplitude: 0.8, frequency_ratio: 0.01 };
     let slow = loaded(ModeSet::N12, 0.0, Load::new(0.1, 0.1, 0.1, 1.0), slow, 0.3);
     assert!(matches!(crossings(&slow), Err(NoPartition::TooManyHarmonics { harmonics: 200.. })));
-    // A friction whose square overflows leaves no eigenvalues at any frequency: that is not "no boundary".
+    // A friction whose square overflows has no computable eigenvalues at any frequency, which is not "no boundary".
     let vast = loaded(ModeSet::N12, 0.0, Load::new(0.1, 0.1, 0.1, 1e200), NORMAL, 0.3);
     assert_eq!(crossings(&vast), Err(NoPartition::Eigenvalues));
 }
 
-/// Two loads under dither with phases: a phase that all share only shifts the time, half a period turns the sign.
+/// Two loads under dither with phases: a common phase only shifts the time, half a period reverses the sign.
 #[test]
-fn phases_of_dither_are_phases() {
+fn a_common_phase_shifts_time_and_half_a_period_reverses_the_sign() {
     let mode = |diameters, ratio| Mode { diameters, ratio, shape_at_load: 0.9, damping: 1e-3 };
     let loads = |friction: [f64; 2], phases: [f64; 2]| -> Vec<Load> {
         let angles = [0.0, 0.8];
@@ -266,7 +267,7 @@ fn phases_of_dither_are_phases() {
     );
 }
 
-/// Every growing motion is listed, with dither or without, and the fastest is the one that decides.
+/// Every growing motion is listed, and the fastest is the one that decides.
 #[test]
 fn every_growing_motion_is_listed() {
     let mode = |diameters, ratio| Mode { diameters, ratio, shape_at_load: 0.9, damping: 0.0 };

@@ -15,7 +15,7 @@ fn reference(name: &str) -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).expect("there")).expect("valid")
 }
 
-/// Numbers stand as numbers or as strings of more digits.
+/// A number, stored as a number or as a string with more digits.
 fn number(value: &Value) -> f64 {
     match value {
         Value::String(text) => text.parse().expect("a number"),

@@ -1,7 +1,7 @@
 //! Where the dissertation's print is wrong: the printed formula, its value, and the right one.
 //!
-//! Each test computes the formula as printed, checks that it gives the number the print gives, and that Quell gives the
-//! right one, which the definition (quadrature) confirms. Unless said: v_r = 0.08, α = 0.2, the dissertation's parameters.
+//! Each test computes the formula as printed, checks that it gives the printed number, and that Quell gives the right one,
+//! which the definition (quadrature) confirms. Unless noted: v_r = 0.08, α = 0.2, the dissertation's parameters.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -67,7 +67,7 @@ fn slope_decreasing_triangle() {
     close(slope, 1.473609787898326, 1e-13);
     let (gamma, w): (f64, f64) = (PI / 4.0, 0.4);
     let t0 = (gamma - w).sqrt();
-    // As printed, and with the exponent and the second term mended: the error functions of (3.38a) remain.
+    // As printed, and with the exponent and the second term corrected: the error functions of (3.38a) remain.
     let terms = exp(w - gamma) * erfi(t0) - exp(-w - gamma) * erf(t0)
         + exp(-w - gamma) * (erf(gamma.sqrt()) + erfi(gamma.sqrt()));
     let printed = |power: f64, factor: f64| {
@@ -190,8 +190,8 @@ fn sign_for_negative_slip() {
     assert!((printed.abs() / minus.abs() - 1.0).abs() < 1e-9 && printed > 0.0, "{printed}");
 }
 
-/// (2.21), (3.19): x′ = Z′ + αG makes the slip v_r − αG. The printed + is forgiven by antiperiodic G only; two sines at R and
-/// 2R are none.
+/// (2.21), (3.19): x′ = Z′ + αG makes the slip v_r − αG. The printed + is harmless for antiperiodic G only; two sines at R and
+/// 2R are not antiperiodic.
 #[test]
 fn sign_of_the_fast_motion() {
     let law = dissertation(LawKind::Decreasing);
@@ -208,7 +208,7 @@ fn sign_of_the_fast_motion() {
     assert!((average(1.0) / average(-1.0) - 1.0).abs() > 1e-3, "the printed sign is seen");
 }
 
-/// Text after (3.25): G is even, and only for an even G is τ₂ = 2π − τ₁ the second place where αG takes a value.
+/// Text after (3.25): G is even, and only for an even G is τ₂ = 2π − τ₁ the second phase at which αG takes a value.
 #[test]
 fn integral_of_a_waveform_is_even() {
     for waveform in [Waveform::Sine, Waveform::Triangle, Waveform::Square] {
@@ -333,9 +333,9 @@ impl FastSliding {
 }
 
 /// (4.24) drops a term of order one: the load α_N R g on the next order of the velocity. With it the criterion for R → ∞ is
-/// 2ζ + ⟨(μ′/μ)(2ζφ′ + Z)⟩, Z = (F − 2ζ⟨φ′/μ⟩)/⟨1/μ⟩. The exact orbits come to it with 1/R²; the frozen criterion differs beyond
-/// α_N², by 0.03 and 0.08 % here. Orbits of this crate reach to R = 6.7, where D = F would open the contact; those at R = 20 and 40 are
-/// Floquet multipliers that were computed without Quell, of friction μN that turns round with N.
+/// 2ζ + ⟨(μ′/μ)(2ζφ′ + Z)⟩, Z = (F − 2ζ⟨φ′/μ⟩)/⟨1/μ⟩. The exact orbits converge to it as 1/R²; the frozen criterion differs
+/// beyond α_N², by 0.03 and 0.08 % here. Orbits of this crate reach to R = 6.7, where D = F would open the contact; those at
+/// R = 20 and 40 are Floquet multipliers that were computed without Quell, of friction μN that changes sign with N.
 #[test]
 fn limit_of_high_frequency_under_normal_dither() {
     let (law, v, damping) = (dissertation(LawKind::Decreasing), 0.075, 0.2);
@@ -355,20 +355,21 @@ fn limit_of_high_frequency_under_normal_dither() {
         };
         let with_load = |fast: &FastSliding| {
             let inverse = fast.mean(|w| 1.0 / law.coefficient(v - w));
-            let place = (1.0 - 2.0 * damping * fast.mean(|w| w / law.coefficient(v - w))) / inverse;
+            let slow_force =
+                (1.0 - 2.0 * damping * fast.mean(|w| w / law.coefficient(v - w))) / inverse;
             let share =
-                |w: f64| slope(v - w) / law.coefficient(v - w) * (2.0 * damping * w + place);
+                |w: f64| slope(v - w) / law.coefficient(v - w) * (2.0 * damping * w + slow_force);
             2.0 * damping + fast.mean(share)
         };
         close(root(&with_load), limit, 1e-8);
         close(root(&|fast| 2.0 * damping + fast.mean(|w| slope(v - w))), frozen, 1e-8);
-        // Where 1/R² takes two orbits, the second at twice the R of the first; what is left goes with 1/R⁴.
+        // Richardson extrapolation in 1/R² of two orbits, the second at twice the R of the first; the rest is of order 1/R⁴.
         let orbit = |ratio: f64| {
             let belt = belt(damping, v, &law, vec![normal(waveform, 0.1 * ratio, ratio)]);
             let range = (0.85 * limit * ratio, limit * ratio);
             let found = local_thresholds(&belt, "dither.amplitude", range.0, range.1, 10);
             let found = found.unwrap_or_else(|why| panic!("{ratio} {waveform:?}: {why}"));
-            let hopf = found.iter().find(|it| it.kind == Kind::NeimarkSacker);
+            let hopf = found.iter().find(|threshold| threshold.kind == Kind::NeimarkSacker);
             hopf.expect("a threshold in slip").value / ratio
         };
         for (pair, within) in [([orbit(3.3), orbit(6.6)], 1e-5), (orbits, 3e-6)] {

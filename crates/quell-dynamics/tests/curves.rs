@@ -6,7 +6,7 @@ use quell_model::Waveform;
 use quell_zoo::BeltExt;
 use quell_zoo::belt::decreasing_under;
 
-/// Both thresholds of the amplitude over the belt's velocity; each point is the threshold of its own line.
+/// Both thresholds of the amplitude over the belt velocity; each point of a curve is a threshold at its own velocity.
 #[test]
 fn amplitude_over_belt_velocity() {
     let plane = Plane {
@@ -17,12 +17,12 @@ fn amplitude_over_belt_velocity() {
     };
     let belt = decreasing_under(Waveform::Sine, 1.0);
     let found = curves(&belt, plane, 3, 60).expect("curves").curves;
-    for it in &found {
-        println!("{:?} {:?} {} points", it.kind, it.ends, it.points.len());
+    for curve in &found {
+        println!("{:?} {:?} {} points", curve.kind, curve.ends, curve.points.len());
     }
     assert_eq!(found.len(), 2);
     for (kind, at_one) in [(Kind::NeimarkSacker, 4.322_392_624), (Kind::Grazing, 9.900_214_849)] {
-        let curve = found.iter().find(|it| it.kind == kind).expect("a curve");
+        let curve = found.iter().find(|curve| curve.kind == kind).expect("a curve");
         assert!(
             curve.points.len() > 30 && curve.ends.contains(&Ending::Window),
             "{:?}",
@@ -38,8 +38,8 @@ fn amplitude_over_belt_velocity() {
             let belt = belt.at_speed(point.along);
             let (from, to) = (0.8 * point.value, (1.1 * point.value).min(16.0));
             let line = local_thresholds(&belt, "dither.amplitude", from, to, 20).expect("followed");
-            let off =
-                line.iter().filter(|it| it.kind == kind).map(|it| (it.value - point.value).abs());
+            let of_kind = line.iter().filter(|threshold| threshold.kind == kind);
+            let off = of_kind.map(|threshold| (threshold.value - point.value).abs());
             let off = off.fold(f64::INFINITY, f64::min);
             assert!(off < 1e-7, "{kind:?} at {}: {off:e}", point.along);
         }

@@ -24,15 +24,15 @@ fn squeal_is_an_orbit_of_known_period() {
     assert!(cycle.is_free && cycle.residual < 1e-12);
     assert_eq!((cycle.verdict(), cycle.count(EventKind::Stick)), (Verdict::Stable, 1));
     assert!(trivial(cycle) < 1e-9 && cycle.radius() < 1e-9, "{:?}", cycle.multipliers);
-    // It moves with the belt from where it sticks to where it is released, x = μ_sF − 2ζv₀.
+    // The mass moves with the belt from its stick to its release at x = μ_sF − 2ζv₀.
     let mut watch = EventRecorder::default();
     simulate(&belt, cycle.start, cycle.period, 1e-12, &mut watch).expect("no stall");
-    let way = watch.events[1].displacement - watch.events[0].displacement;
+    let travel = watch.events[1].displacement - watch.events[0].displacement;
     assert!((watch.events[1].displacement - 0.3995).abs() < 1e-12);
-    assert!((cycle.stick_fraction - way / 0.05 / cycle.period).abs() < 1e-9);
+    assert!((cycle.stick_fraction - travel / 0.05 / cycle.period).abs() < 1e-9);
 }
 
-/// Beyond v₂ sliding is stable, and an unstable cycle in slip lies between it and the squeal.
+/// Beyond v₂ sliding is stable, and an unstable cycle in slip separates it from the squeal.
 #[test]
 fn an_unstable_cycle_lies_between_sliding_and_squeal() {
     let belt = belt::decreasing();
@@ -43,7 +43,7 @@ fn an_unstable_cycle_lies_between_sliding_and_squeal() {
     assert!(between.is_pure_slip() && trivial(between) < 1e-9);
     // The other multiplier is the determinant, exp(−∮(2ζ + μ′N)).
     assert!((between.radius() - (-between.damping).exp()).abs() < 1e-9);
-    // Runs from either side of it part.
+    // Runs from either side of it diverge.
     for (share, sticks) in [(1.001, true), (0.999, false)] {
         let sliding = belt.steady_sliding();
         let displacement = sliding + share * (between.start.displacement - sliding);
@@ -54,7 +54,7 @@ fn an_unstable_cycle_lies_between_sliding_and_squeal() {
     }
 }
 
-/// Without damping and with constant friction every turn returns to itself: a continuum has no limit cycle.
+/// Without damping and with constant friction every oscillation is periodic: a continuum has no limit cycle.
 #[test]
 fn a_continuum_of_free_oscillations_has_no_limit_cycle() {
     let belt = undithered_belt(0.0, 0.9767, law::coulomb(0.3, 0.3));
@@ -62,10 +62,10 @@ fn a_continuum_of_free_oscillations_has_no_limit_cycle() {
     assert_eq!(free_end(&belt, Start::REST), Err(NoOrbit::NoLimit));
 }
 
-/// With Coulomb friction and a static level, turns that slip throughout decay and those that stick grow: between them the growth
-/// jumps over zero, and no turn returns to itself.
+/// With Coulomb friction and a static level, oscillations that slip throughout decay and those that stick grow: in between, the
+/// growth jumps over zero, and no oscillation is periodic.
 #[test]
-fn a_jump_of_the_cycle_map_is_no_cycle() {
+fn a_jump_of_the_cycle_map_is_not_a_cycle() {
     for velocity in [0.001, 0.01, 0.1] {
         let belt = undithered_belt(0.02, velocity, law::coulomb(0.75, 1.0));
         for cycle in cycles(&belt).expect("no stall") {
@@ -77,7 +77,7 @@ fn a_jump_of_the_cycle_map_is_no_cycle() {
 
 #[test]
 fn cycles_end_at_their_belt_velocity() {
-    // Folds of limit cycles by the notes' independent program; 2.49990 has six digits.
+    // Folds of limit cycles from an independent program; 2.49990 has six digits.
     for (zeta, last) in [(0.005, 2.49990), (0.05, 0.476688), (0.07, 0.355485)] {
         let count = |velocity: f64| {
             cycles(&undithered_belt(zeta, velocity, law::decreasing())).expect("no stall").len()
@@ -98,21 +98,21 @@ fn cycles_end_at_their_belt_velocity() {
     assert_eq!((count(0.198), count(0.1995), count(0.0)), (1, 0, 0));
 }
 
-/// At the natural frequency the response of sliding folds at a small amplitude; nothing of it is beyond.
+/// At the natural frequency the base response folds at a small amplitude and does not exist beyond it.
 #[test]
 fn a_fold_is_not_stepped_over() {
     let belt = belt::decreasing().with_dither(sine(1e-4, 1.0));
     let found = local(&belt, "dither.amplitude", 1e-4, 3e-3, 20).expect("followed");
-    let fold = found.thresholds.iter().find(|it| it.kind == Kind::Fold);
+    let fold = found.thresholds.iter().find(|threshold| threshold.kind == Kind::Fold);
     println!("{:?}\n{:?}", found.thresholds, found.ending);
     let fold = fold.expect("a fold");
     assert!((fold.value - 0.001_572_4).abs() < 2e-7, "{fold:?}");
     assert_eq!((fold.was, fold.becomes), (Some(Verdict::Stable), None));
     assert!(matches!(found.ending, Ending::TurnedBack { at } if at < 0.0016), "{:?}", found.ending);
-    // Shooting from sliding tells it, instead of an orbit of another branch.
+    // Continuation from sliding reports this, rather than an orbit of another branch.
     let beyond = belt.undithered().with_dither(sine(2e-3, 1.0));
-    let told = from_sliding(&beyond, 8).expect_err("none");
-    assert!(matches!(told, NoOrbit::Ends { share } if (share - 0.786).abs() < 1e-3), "{told}");
+    let why = from_sliding(&beyond, 8).expect_err("none");
+    assert!(matches!(why, NoOrbit::Ends { share } if (share - 0.786).abs() < 1e-3), "{why}");
 }
 
 /// The large stick-slip cycle under dither is locked to it: an orbit of ten periods.
@@ -128,9 +128,9 @@ fn squeal_under_dither_is_an_orbit_of_many_periods() {
     assert!(orbit.multipliers[1].0.abs() < 1e-9);
 }
 
-/// A dither that grows slowly leads a run from rest to the quiet response where one that is switched on does not.
+/// A dither that grows slowly leads a run from rest to the base response; one that is switched on at once does not.
 #[test]
-fn a_ramp_ends_at_the_response_of_sliding() {
+fn a_ramp_ends_on_the_base_response() {
     let belt = belt::decreasing().with_dither(sine(3.5, 10.0));
     let rest = Start { time: 0.0, displacement: belt.steady_sliding(), velocity: 0.0 };
     let switched = reached(&belt, rest).expect("no stall");

@@ -11,7 +11,7 @@ use serde_json::Value;
 const REFERENCE: &str = include_str!("../../../reference/quench_thresholds.json");
 
 #[test]
-fn efficiency_falls_through_five_per_cent_where_the_reference_says() {
+fn efficiency_falls_through_five_per_cent_at_the_reference_amplitude() {
     let reference: Value = serde_json::from_str(REFERENCE).expect("reference file");
     let cases = reference["cases"].as_array().expect("cases");
     let number = |case: &Value, key: &str| case[key].as_f64().expect("a number");

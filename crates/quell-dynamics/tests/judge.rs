@@ -1,4 +1,5 @@
-//! One judge of "has it settled, and where does it end?": response, orbit, thresholds, bifurcation, basins and starts agree.
+//! One criterion for whether a run has settled and where it ends: response, orbit, thresholds, bifurcation, basins and starts
+//! agree.
 
 use quell_dynamics::attractor::{
     Kind, Outcome, Patience, Reached, Scene, measure, orbit_reached, reached, settle, switches,
@@ -14,7 +15,7 @@ use quell_zoo::belt::{self, undithered_belt};
 use quell_zoo::dither::sine;
 use quell_zoo::{BeltExt, law};
 
-/// A section that is one state to rounding closes after any number of periods; its period is one.
+/// A section that is a single state up to rounding closes after any number of periods; its period is one.
 #[test]
 fn a_response_of_one_period_is_not_called_locked() {
     let fast = belt::decreasing();
@@ -33,7 +34,7 @@ fn a_response_of_one_period_is_not_called_locked() {
     }
 }
 
-/// At v₀ = 0 a run from rest ends on the response that sticks twice a period, whose section is one state to the last bit.
+/// At v₀ = 0 a run from rest ends on the response that sticks twice per period, whose section is a single state to the last bit.
 #[test]
 fn a_driven_oscillator_settles_from_rest() {
     let still = undithered_belt(0.05, 0.0, law::formula("0.3"));
@@ -45,7 +46,7 @@ fn a_driven_oscillator_settles_from_rest() {
     }
 }
 
-/// The response at D = 7 creeps along a nearly locked curve to an orbit of ten periods, which is what it is.
+/// The response at D = 7 creeps along a nearly locked curve to an orbit of ten periods, and is reported as that orbit.
 #[test]
 fn a_creep_along_a_nearly_locked_curve_ends_on_its_orbit() {
     let belt = belt::dissertation(LawKind::Decreasing).at_speed(1.5).with_dither(sine(7.0, 10.0));
@@ -54,9 +55,10 @@ fn a_creep_along_a_nearly_locked_curve_ends_on_its_orbit() {
     assert_eq!(orbit.verdict(), Verdict::Stable);
 }
 
-/// A dither of no amplitude leaves a limit cycle as it is, whatever its frequency: the section's moments have no relation to it.
+/// A dither of amplitude zero does not change a limit cycle, at any frequency: the times of the section are unrelated to the
+/// cycle.
 #[test]
-fn a_limit_cycle_does_not_depend_on_the_frequency_of_no_dither() {
+fn a_limit_cycle_does_not_depend_on_the_frequency_of_a_silent_dither() {
     let belt = belt::dissertation(LawKind::Decreasing).at_speed(0.05);
     let frequency = std::f64::consts::TAU / cycles(&belt).expect("no stall")[0].period;
     for frequency_ratio in [10.0, 1.45, 1.396, 1.0, 0.6] {
@@ -65,14 +67,14 @@ fn a_limit_cycle_does_not_depend_on_the_frequency_of_no_dither() {
         let settled = settle(&scene, Start::REST, Patience::SWEEP).expect("no stall");
         let attractor = measure(&scene, &settled).expect("no stall").expect("settled");
         assert_eq!(attractor.kind, Kind::Cycle, "{frequency_ratio}");
-        let found = attractor.frequency(scene.strobe.period).expect("it turns");
+        let found = attractor.frequency(scene.strobe.period).expect("a slow phase");
         assert!((found - frequency).abs() < 1e-12, "{frequency_ratio}: {found} {frequency}");
         let orbit = orbit_reached(&belt, Start::REST).expect("a cycle");
         assert!(orbit.is_free && (orbit.period * frequency - std::f64::consts::TAU).abs() < 1e-12);
     }
 }
 
-/// The squeal of the Stribeck law shrinks to nothing at the Hopf point, not before: starts, cycles, thresholds and orbits say so.
+/// The squeal of the Stribeck law shrinks to zero at the Hopf point and not before: starts, cycles, thresholds and orbits agree.
 #[test]
 fn squeal_ends_at_the_hopf_point() {
     let belt = belt::dissertation(LawKind::Stribeck).at_speed(0.15);
@@ -97,7 +99,7 @@ fn squeal_ends_at_the_hopf_point() {
     assert!((changes[0].value / hopf - 1.0).abs() < 2e-6, "{changes:?}");
 }
 
-/// On the fold of two limit cycles both lie between neighbours of any grid.
+/// Near the fold of two limit cycles both lie between neighbouring points of any grid.
 #[test]
 fn a_pair_of_cycles_near_its_fold_is_found() {
     // The fold is at v₀ = 0.4766883.
@@ -109,8 +111,8 @@ fn a_pair_of_cycles_near_its_fold_is_found() {
     assert!(count(0.476_69).is_empty());
 }
 
-/// ζ = 0, R = ½, pure slip through reversals at v₀ = 0: the multiplier is 1, and nothing is decided by its distance from 1 in the
-/// thirteenth digit of a state that is known to six.
+/// ζ = 0, R = ½, pure slip through reversals at v₀ = 0: the multiplier is 1. Its distance from 1 in the thirteenth digit decides
+/// nothing, because the state is known to six digits only.
 #[test]
 fn a_marginal_orbit_is_undecided() {
     let still = undithered_belt(0.0, 0.0, law::formula("0.3"));
@@ -120,16 +122,16 @@ fn a_marginal_orbit_is_undecided() {
     assert!((orbit.radius() - 1.0).abs() < 1e-4, "{orbit:?}");
     assert_eq!(orbit.verdict(), Verdict::Undecided, "{orbit:?}");
     assert!(orbit.state_error > 1e3 * orbit.residual, "{orbit:?}");
-    // A clear case is decided, with a small error.
+    // An ordinary orbit is decided, with a small error.
     let belt = belt::decreasing().with_dither(sine(3.0, 10.0));
     let orbit = near(&belt, Start { displacement: 0.29, ..Start::REST }, 1).expect("an orbit");
     assert_eq!(orbit.verdict(), Verdict::Stable);
     assert!(orbit.state_error < 1e-10 && orbit.multiplier_error < 1e-9, "{orbit:?}");
 }
 
-/// Every effect, each planted: what a dither does is decided by where the runs end.
+/// One example of every effect: the effect of a dither is decided by the attractors on which the runs end.
 #[test]
-fn every_effect_has_its_word() {
+fn every_effect_is_recognised() {
     let solver = Solver::default();
     let slow = belt::stribeck();
     let fast = belt::decreasing();
@@ -138,9 +140,9 @@ fn every_effect_has_its_word() {
         (slow.with_dither(sine(0.6, 10.0)), Start::REST, Effect::Quenches),
         (slow.with_dither(sine(0.3, 10.0)), Start::REST, Effect::Reduces),
         (slow.clone(), Start::REST, Effect::Unknown(Uncertain::NoDither)),
-        // Below resonance the dither's own motion is in the band.
+        // Below resonance the forced motion lies in the band of slow vibration.
         (slow.with_dither(sine(0.6, 0.9)), Start::REST, Effect::Increases),
-        // Sliding is stable at v₀ = 1; the same dither makes it squeal from rest and leaves it quiet from the base response.
+        // Sliding is stable at v₀ = 1; the same dither causes squeal from rest and none from the base response.
         (fast.with_dither(sine(3.5, 10.0)), Start::REST, Effect::Causes),
         (fast.with_dither(sine(3.5, 10.0)), base.start, Effect::Quiet),
     ] {
@@ -154,9 +156,9 @@ fn every_effect_has_its_word() {
     }
 }
 
-/// Outcomes of undithered runs by the cycle map are those of a long simulation from either side of the unstable cycle.
+/// The cycle map predicts the outcomes of long undithered simulations from either side of the unstable cycle.
 #[test]
-fn undithered_runs_end_where_the_cycle_map_says() {
+fn undithered_runs_end_as_the_cycle_map_predicts() {
     let belt = belt::decreasing();
     let between = &cycles(&belt).expect("no stall")[1];
     let scene = Scene::new(&belt).expect("a strobe");

@@ -1,4 +1,4 @@
-//! Effective friction measured on trajectories against what it must be.
+//! Effective friction measured on trajectories, against its exact value.
 
 use std::f64::consts::TAU;
 
@@ -17,8 +17,8 @@ fn at(displacement: f64) -> Start {
     Start { time: 0.0, displacement, velocity: 0.0 }
 }
 
-/// Without dither the mean over a window is the mean of the law over the slip in it: a point of the law while the
-/// velocity hardly moves.
+/// Without dither the mean over a window is the mean of the law over the slip in it: a point of the law as long as
+/// the velocity is nearly constant.
 #[test]
 fn without_dither_the_points_lie_on_the_law() {
     let belt = belt(1.5, 0.05, 0.0);

@@ -1,4 +1,4 @@
-//! Where the dissertation's words and numbers about motions are wrong: each printed statement against exact trajectories
+//! Errors in the dissertation's words and numbers about motions: each printed statement against exact trajectories
 //! and orbits.
 
 use core::f64::consts::TAU;
@@ -43,8 +43,8 @@ fn forced_amplitude_grows_as_the_ratio_falls() {
         let near = response.peaks.iter().filter(|peak| (peak.frequency - ratio).abs() < 0.1);
         near.map(|peak| peak.amplitude).fold(0.0, f64::max)
     };
-    // At R = 10 the mass only just keeps sliding, and its forced motion is the linear one; below, friction turns round
-    // within each period and takes some of it.
+    // At R = 10 the mass only just keeps sliding, and its forced motion is the linear one; at lower R, friction changes
+    // sign within each period and reduces it.
     let linear = |ratio: f64| 0.5 / (ratio * ratio - 1.0);
     assert!((amplitude(10.0) / linear(10.0) - 1.0).abs() < 0.005, "{}", amplitude(10.0));
     for ratio in [9.0, 8.0] {
@@ -73,7 +73,7 @@ fn largest(samples: &[f64], step: f64, mean_removed: bool) -> f64 {
     (1..=1900).map(|k| at(1e-3 * f64::from(k))).fold(0.0, f64::max)
 }
 
-/// E = M₁/M₀ (2.27) exceeds 1 whatever the dither as long as the mean is left in the record.
+/// E = M₁/M₀ (2.27) exceeds 1 for any dither as long as the mean is left in the record.
 #[test]
 fn efficiency_needs_the_mean_removed() {
     let dithered = stribeck_under(Waveform::Sine, 0.45);
@@ -89,7 +89,7 @@ fn efficiency_needs_the_mean_removed() {
     assert!((right - 0.127).abs() < 0.01, "{right}");
 }
 
-/// "Stable without dither above v₂": from x = 1.5 the same belt goes on squealing.
+/// "Stable without dither above v₂": from x = 1.5 the same belt continues to squeal.
 #[test]
 fn a_cycle_coexists_with_stable_sliding() {
     let belt = belt::decreasing();

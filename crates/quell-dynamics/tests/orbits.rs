@@ -43,8 +43,8 @@ fn saltation_at_reversals() {
     assert_eq!(orbit.verdict(), Verdict::Stable);
 }
 
-/// A stick among reversals, over ten periods of the dither: one multiplier is 0, the derivative is that of differences, and so
-/// it is where the mass only reverses. The steps stay inside one order of events.
+/// With a stick among reversals, over ten periods of the dither, one multiplier is 0 and the derivative agrees with
+/// differences, as it does where the mass only reverses. The steps of the differences do not change the order of events.
 #[test]
 fn multipliers_through_stick_and_reversal() {
     let squeal = Start { time: 0.0, displacement: -0.750_838_2, velocity: 0.0 };
@@ -135,7 +135,7 @@ fn quench_thresholds_of_the_reference() {
     println!("{checked} thresholds, worst {worst:.1e}");
 }
 
-/// From rest the threshold depends on the phase of the dither at its start, and lies far below the local one.
+/// From rest the threshold depends on the phase of the dither at its start, and is far below the local one.
 #[test]
 fn thresholds_from_rest() {
     let quarter = std::f64::consts::FRAC_PI_2;
@@ -153,10 +153,10 @@ fn thresholds_from_rest() {
     }
 }
 
-/// The last step of a walk may be corrected over the end of its window: it ends there all the same. At these amplitudes it did
-/// not, and the response counted as lost.
+/// The corrector may move the last point of a continuation run beyond its window: the run ends at the window all the same. At
+/// these amplitudes it once did not, and the response counted as lost.
 #[test]
-fn a_walk_ends_at_the_end_of_its_window() {
+fn a_continuation_run_ends_at_the_end_of_its_window() {
     for amplitude in [9.95, 9.975, 10.0, 10.1, 10.35, 11.6] {
         let belt = decreasing_under(Waveform::Sine, 1.0)
             .with("dither.amplitude", amplitude)
@@ -167,9 +167,9 @@ fn a_walk_ends_at_the_end_of_its_window() {
     }
 }
 
-/// A start that fails leaves the end unknown; where there is none, nothing is there to be quenched.
+/// Where a start cannot be computed the end is unknown; where no squealing start exists, nothing needs to be quenched.
 #[test]
-fn a_start_that_fails_is_not_quenched() {
+fn a_start_that_cannot_be_computed_is_not_quenched() {
     let belt = decreasing_under(Waveform::Sine, 1.0);
     let ends = |start: Result<Option<Start>, NoOrbit>| {
         switches(&belt, "dither.amplitude", (2.0, 3.0), 1, 1e-3, |_| start).expect("valid")

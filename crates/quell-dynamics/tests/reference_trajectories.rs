@@ -1,6 +1,6 @@
 //! Event times, kinds and states against `reference/trajectories.json` (two independent
-//! integrators, good to all digits printed): within 1e-9, same kinds in the same order, none
-//! missed, none added.
+//! integrators, good to all digits printed): within 1e-9, with the same kinds in the same order and
+//! neither missing nor spurious events.
 
 use quell_dynamics::simulation::{DEFAULT_TOLERANCE, EventKind, EventRecorder, Start, simulate};
 use quell_model::{Belt, Direction, LawKind, Waveform};

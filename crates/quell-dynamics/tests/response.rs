@@ -1,4 +1,4 @@
-//! Steady responses: the published statements that independent numerics confirm, limits and
+//! Steady responses: published statements that independent computations confirm, limits and
 //! identities of the costs.
 
 use quell_dynamics::response::{Response, Solver, Undefined, respond};
@@ -15,7 +15,7 @@ fn response(belt: &Belt) -> Response {
 }
 
 #[test]
-fn figure_2_3_is_cancelled_in_steps() {
+fn dither_reduces_the_squeal_of_figure_2_3() {
     // Claims table: E = 0.4999, 0.2589, 0.0000 at D = 0.3, 0.4, 0.5; M₀ = 0.128794, fundamental
     // 0.654435. The claims were measured on a longer record with
     // finer zero padding; the lines of the declared record lie up to 1 % below a peak.
@@ -31,18 +31,18 @@ fn figure_2_3_is_cancelled_in_steps() {
     let fundamental = fundamental.expect("a peak").frequency;
     assert!((fundamental - 0.654_435).abs() < 1e-4, "{fundamental}");
     // The reference trajectory sticks for 4.89632 of its period 9.60093, 51.0 % (the claims
-    // table has 51.3 %); a record that is no multiple of the period is off by at most one stick.
+    // table has 51.3 %); a record that is not a multiple of the period is off by at most one stick phase.
     let cut = 4.9 / plain.record.length();
     assert!((plain.stick_fraction - 0.509_99).abs() < cut, "{}", plain.stick_fraction);
     assert_eq!(plain.efficiency, Ok(1.0));
 }
 
 #[test]
-fn efficiency_is_five_per_cent_where_the_reference_says() {
+fn efficiency_is_five_per_cent_at_the_reference_amplitude() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/quench_thresholds.json");
     let text = std::fs::read_to_string(path).expect("reference/quench_thresholds.json");
     let reference: serde_json::Value = serde_json::from_str(&text).expect("JSON");
-    // Every fifth case; the maps go through all of them.
+    // Every fifth case; `isocline.rs` checks all of them.
     for case in reference["cases"].as_array().expect("cases").iter().step_by(5) {
         let number = |key: &str| case[key].as_f64().expect("number");
         let name = |key: &str| case[key].as_str().expect("name");
@@ -71,7 +71,7 @@ fn efficiency_is_undefined_where_the_undithered_belt_settles() {
 #[test]
 fn a_squealing_start_is_on_the_cycle() {
     let solver = Solver::default();
-    // Claims: at v₀ = 1 the decreasing law has a cycle of peak-to-peak 2.09 beside stable sliding.
+    // Claims: at v₀ = 1 the decreasing law has a cycle of peak-to-peak 2.09, and sliding is stable too.
     let fast = belt::decreasing();
     let start = InitialState::Squealing.resolve(&fast).expect("a cycle");
     let squeal = respond(&fast, start, &solver).expect("no stall");
@@ -79,7 +79,7 @@ fn a_squealing_start_is_on_the_cycle() {
     let low = displacements.clone().fold(f64::INFINITY, f64::min);
     let peak_to_peak = displacements.fold(f64::NEG_INFINITY, f64::max) - low;
     assert!((peak_to_peak - 2.09).abs() < 0.01, "{peak_to_peak}");
-    // It survives to v₀ ≈ 2.5 at ζ = 0.005; the Stribeck law's ends at 0.1988.
+    // It exists up to v₀ ≈ 2.5 at ζ = 0.005; that of the Stribeck law up to 0.1988.
     let faster = belt::decreasing().at_speed(2.7);
     let none = InitialState::Squealing.resolve(&faster);
     assert_eq!(none, Err(NoSquealingStart::SettlesToSliding));
@@ -106,12 +106,12 @@ fn a_squealing_start_is_on_the_cycle() {
 fn costs_obey_their_balances() {
     let quenched = stribeck_under(Waveform::Sine, 0.6);
     let costs = response(&quenched);
-    // Steady state: ⟨f⟩ = ⟨x⟩, the spring carries it.
+    // In the steady state the spring balances friction, ⟨f⟩ = ⟨x⟩.
     let samples = &costs.record.samples;
     let mean: f64 =
         samples.iter().map(|sample| sample.displacement).sum::<f64>() / samples.len() as f64;
     assert!((costs.mean_friction - mean).abs() < 1e-6, "{} {mean}", costs.mean_friction);
-    // Fast vibration smooths friction: less than without dither, and power must be paid.
+    // Fast vibration smooths friction: its mean is smaller than without dither, and the dither feeds in power.
     assert!(costs.mean_friction < costs.mean_friction_undithered);
     assert!(costs.dither_power.expect("tangential") > 0.0);
     assert_eq!(costs.minimum_normal_load, 1.0);
@@ -152,7 +152,7 @@ fn normal_dither_has_no_power_and_a_smallest_load() {
     let costs = response(&dissertation(LawKind::Decreasing).with_dithers(dithers));
     assert_eq!(costs.dither_power, None);
     assert_eq!(costs.dither_stroke, None);
-    // 1 + 0.3 sin θ + 0.2 sin 3θ is smallest at θ = −π/6 … found here by a fine scan.
+    // 1 + 0.3 sin θ + 0.2 sin 3θ has its smallest value found by a fine scan.
     let exact = (0..200_000)
         .map(|k| f64::from(k) * std::f64::consts::TAU / 200_000.0)
         .map(|theta| 1.0 + 0.3 * theta.sin() + 0.2 * (3.0 * theta).sin())

@@ -1,4 +1,4 @@
-//! The traps of stick-slip integration, one test each; every test fails without its cure.
+//! The pitfalls of stick-slip integration, one test each; every test fails without the remedy.
 
 use std::f64::consts::{PI, TAU};
 
@@ -22,8 +22,8 @@ fn run(belt: &Belt, from: Start, until: f64) -> (FinalState, Vec<Event>) {
     (end, record.events)
 }
 
-/// Trap 1: just after a release v_r has a double zero, after a reversal or a jump a simple one. Not
-/// divided out, the slip would end where it began.
+/// Pitfall 1: just after a release v_r has a double zero, after a reversal or a jump a simple one. If it
+/// were not divided out, the slip would end where it began.
 #[test]
 fn a_release_is_not_taken_for_the_next_stick() {
     let smooth = stribeck_under(Waveform::Sine, 0.3);
@@ -43,20 +43,20 @@ fn a_release_is_not_taken_for_the_next_stick() {
     }
 }
 
-/// Trap 2: a threshold that is only touched, or crossed by less than rounding, must neither loop
-/// nor shake the mass.
+/// Pitfall 2: a grazing of the static threshold, or a crossing by less than rounding, must neither loop
+/// nor move the mass.
 #[test]
-fn a_touch_of_the_threshold_does_not_loop() {
+fn grazing_the_threshold_does_not_loop() {
     for waveform in [Waveform::Sine, Waveform::Triangle] {
         for offset in [0.0, 1e-17, 5e-17, 1e-16, -1e-16, 1e-15, 1e-14, 1e-12, 1e-10, 1e-8] {
-            // f_s = x₀ − D g touches μ_s = 0.4 once a period.
+            // f_s = x₀ − D g grazes μ_s = 0.4 once per period.
             let belt = belt::stribeck()
                 .at_speed(0.0)
                 .with_dither(at_phase(tangential(waveform, 0.15, 10.0), 0.3));
             let (end, events) = run(&belt, start(0.25 + offset, 0.0), 100.0);
-            let touches = 100.0 * 10.0 / TAU;
+            let grazings = 100.0 * 10.0 / TAU;
             assert!(
-                (events.len() as f64) < 4.0 * touches,
+                (events.len() as f64) < 4.0 * grazings,
                 "{waveform:?}, offset {offset:e}: {} events",
                 events.len()
             );
@@ -65,9 +65,9 @@ fn a_touch_of_the_threshold_does_not_loop() {
     }
 }
 
-/// Trap 3 and 5: a jump of the dither breaks the bond at the jump, as one release, at its very time.
+/// Pitfalls 3 and 5: a jump of the dither ends a stick exactly at the time of the jump, as one release.
 #[test]
-fn a_jump_breaks_the_bond_at_the_jump() {
+fn a_jump_releases_the_mass_at_the_jump() {
     let belt = stribeck_under(Waveform::Square, 0.2);
     // Sticking with f_s = 0.3505 − 0.2; at τ = π/R it jumps to about 0.57 > 0.4.
     let (_, events) = run(&belt, start(0.35, 0.05), 0.5);
@@ -79,8 +79,8 @@ fn a_jump_breaks_the_bond_at_the_jump() {
     assert!((events[0].displacement - (0.35 + 0.05 * jump)).abs() < 1e-15);
 }
 
-/// Trap 4: two roots of v_r inside one step. The belt grazes at some D; a hair above, v_r dips
-/// below zero for much less than a step, which tests of the step's ends do not see.
+/// Pitfall 4: two roots of v_r inside one step. The orbit grazes v_r = 0 at some D; just above, v_r dips
+/// below zero for much less than a step, which the signs at the ends of the step do not show.
 #[test]
 fn a_dip_inside_a_step_is_found() {
     let events_and_low = |amplitude: f64| {
@@ -92,25 +92,25 @@ fn a_dip_inside_a_step_is_found() {
         let low = watch.1.samples.iter().map(|sample| 1.0 - sample.velocity);
         (watch.0.events.len(), low.fold(f64::INFINITY, f64::min))
     };
-    let (mut quiet, mut loud) = (9.0, 11.0);
-    assert!(events_and_low(quiet).0 == 0 && events_and_low(loud).0 > 0);
-    while loud - quiet > 1e-12 {
-        let middle = 0.5 * (quiet + loud);
+    let (mut sliding, mut crossing) = (9.0, 11.0);
+    assert!(events_and_low(sliding).0 == 0 && events_and_low(crossing).0 > 0);
+    while crossing - sliding > 1e-12 {
+        let middle = 0.5 * (sliding + crossing);
         if events_and_low(middle).0 == 0 {
-            quiet = middle;
+            sliding = middle;
         } else {
-            loud = middle;
+            crossing = middle;
         }
     }
-    // Below, v_r stays positive and comes as near to zero as the sampling can show; a dip found
+    // Below, v_r stays positive and approaches zero as closely as the sampling can resolve; finding a dip
     // by its ends alone would need 10⁻⁴ more amplitude.
-    let (events, low) = events_and_low(quiet);
+    let (events, low) = events_and_low(sliding);
     assert_eq!(events, 0);
     assert!(low > 0.0 && low < 1e-8, "{low:e}");
-    assert!(events_and_low(quiet + 1e-9).0 > 0);
+    assert!(events_and_low(sliding + 1e-9).0 > 0);
 }
 
-/// Trap 5: at v_r = 0 on a jump the value after the jump decides, by f_s alone.
+/// Pitfall 5: at v_r = 0 on a jump the value after the jump decides, by f_s alone.
 #[test]
 fn a_start_on_a_jump_takes_the_value_after_it() {
     for (phase, sign) in [(0.0, -1), (PI, 1)] {
@@ -124,9 +124,9 @@ fn a_start_on_a_jump_takes_the_value_after_it() {
     assert!(run(&weak, start(0.0, 0.05), 1e-3).0.sticking);
 }
 
-/// Trap 6: observers are passive.
+/// Pitfall 6: observers are passive.
 #[test]
-fn watching_changes_no_bit() {
+fn observers_change_no_bit() {
     fn watched(belt: &Belt, observer: &mut impl Observer) -> FinalState {
         simulate(belt, Start::REST, 300.0, DEFAULT_TOLERANCE, observer).expect("no stall")
     }
@@ -148,7 +148,7 @@ fn watching_changes_no_bit() {
     assert_eq!(alone, bits(&mut || watched(&belt, &mut section)));
     assert_eq!(sampler.samples.len(), 300_000);
     assert_eq!(strobe.samples.len(), 478);
-    // The section is where it says: x′ = 0, rising, and the strobe agrees with the dense samples.
+    // The section is at x′ = 0, rising, and agrees with the dense samples.
     assert!(section.crossings.len() > 30);
     for crossing in &section.crossings {
         assert!(crossing.velocity.abs() < 1e-13);
@@ -159,13 +159,13 @@ fn watching_changes_no_bit() {
     }
 }
 
-/// Trap 7: a slow transient is not a steady response, and is not called one.
+/// Pitfall 7: a slow transient is not reported as a steady response.
 #[test]
 fn an_unfinished_decay_is_reported() {
     let belt = decreasing_under(Waveform::Sine, 2.84);
     let short = Solver { settle: 200.0, ..Solver::default() };
     assert!(!respond(&belt, Start::REST, &short).expect("no stall").settled);
     let long = Solver { settle: 20_000.0, ..Solver::default() };
-    let quiet = respond(&belt, Start::REST, &long).expect("no stall");
-    assert!(quiet.settled && quiet.amplitude < 1e-6, "{}", quiet.amplitude);
+    let quenched = respond(&belt, Start::REST, &long).expect("no stall");
+    assert!(quenched.settled && quenched.amplitude < 1e-6, "{}", quenched.amplitude);
 }

@@ -69,7 +69,7 @@ fn random_belt(random: &mut Random) -> (Belt, Start) {
             let direction = random.pick(Direction::ALL);
             let amplitude = match direction {
                 Direction::Tangential => scale * random.decades(1e-3, 10.0),
-                // The full load now and then: N then touches zero.
+                // Sometimes the full load: N then reaches zero.
                 Direction::Normal => left * random.pick(&[0.1, 0.5, 1.0]),
             };
             if direction == Direction::Normal {

@@ -37,7 +37,7 @@ fn rows<'a>(reference: &'a Value, key: &str) -> &'a Vec<Value> {
     reference[key].as_array().expect("rows")
 }
 
-/// Relative error, absolute where the exact value is zero up to the reference's own rounding.
+/// Relative error; absolute where the exact value is zero up to the rounding of the reference.
 fn error(value: f64, exact: f64) -> f64 {
     if exact.abs() < 1e-25 { (value - exact).abs() * 1e3 } else { ((value - exact) / exact).abs() }
 }

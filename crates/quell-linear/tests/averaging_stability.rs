@@ -1,4 +1,4 @@
-//! Averaged stability: closed forms, limits, sharper thresholds, numbers of the corrected dissertation.
+//! Averaged stability: closed forms, limits, finite-R thresholds, numbers of the corrected dissertation.
 
 use core::f64::consts::PI;
 
@@ -92,10 +92,10 @@ fn roots_against_closed_forms() {
     assert!(met > 40, "{met}");
 }
 
-/// Without damping a falling law is unstable from the fast velocity on, however far: named or as a formula, of which slopes far out
-/// are zero within their error. A law without a slope has no unstable velocity.
+/// Without damping a decreasing law, built in or as a formula, is unstable at every velocity above the fast velocity,
+/// although its slopes far out are zero within their error. A law without a slope has no unstable velocity.
 #[test]
-fn only_what_is_neutral_throughout_is_no_band() {
+fn only_laws_without_any_slope_have_no_unstable_band() {
     let formula = |text: &str| formula_with_level(text, law::STATIC);
     let named = law::decreasing();
     let falling = formula("0.2857 + 0.1143*exp(-abs(v)/0.2)");
@@ -210,7 +210,7 @@ fn everywhere_stable() {
 }
 
 /// Normal dither on a Stribeck law so steep that the largest α/μ(v₀) lies beyond the tip: the search under the oscillator's
-/// response finds, for fast dither, what the closed form says; at the tip alone it would be smaller.
+/// response agrees with the closed form for fast dither; taken at the tip alone the amplitude would be smaller.
 #[test]
 fn steep_laws_are_searched_beyond_the_tip() {
     let steep = build(LawKind::Stribeck, &[0.4, 0.008, 0.2]);
@@ -230,7 +230,7 @@ fn steep_laws_are_searched_beyond_the_tip() {
     close(found(own, Direction::Normal), closed, 1e-4);
 }
 
-/// α^L means what it says: just above it no belt velocity is unstable, just below the tip is; also for the
+/// Just above α^L no belt velocity is unstable, and just below it the tip is; also for the
 /// oscillator's response and for normal dither.
 #[test]
 fn everywhere_stable_closes_the_band() {
@@ -303,10 +303,10 @@ fn inner_region_may_be_unstable() {
 
 /// Averaging with the oscillator's own velocity: decreasing law, v₀ = 1, R = 10, sine.
 #[test]
-fn sharper_thresholds() {
+fn finite_r_thresholds() {
     let belt = decreasing_under(Waveform::Sine, 1.0);
-    let sharper = AveragingOptions { response: Response::Oscillator, ..Default::default() };
-    let found = critical_amplitudes(&belt, sharper).expect("ok");
+    let finite_r = AveragingOptions { response: Response::Oscillator, ..Default::default() };
+    let found = critical_amplitudes(&belt, finite_r).expect("ok");
     assert_eq!(found.len(), 2);
     // Exact (Floquet): 4.322392624 and 9.900214849; plain averaging 4.366 and 10.
     close(found[0].amplitude, 4.322392, 1e-7);
@@ -317,7 +317,7 @@ fn sharper_thresholds() {
     close(plain[1].amplitude, 10.0, 1e-15);
     // Square: exact 3.295664190 and 6.313857946.
     let belt = decreasing_under(Waveform::Square, 1.0);
-    let found = critical_amplitudes(&belt, sharper).expect("ok");
+    let found = critical_amplitudes(&belt, finite_r).expect("ok");
     close(found[0].amplitude, 3.295664190, 1e-6);
     close(found[1].amplitude, 6.313857946, 1e-3);
     let plain = critical_amplitudes(&belt, AveragingOptions::default()).expect("ok");
@@ -416,7 +416,7 @@ fn limits() {
         }
         let rest = criterion(&belt(0.01, 0.0, &coulomb, vec![]), AveragingOptions::default());
         assert_eq!(rest, Err(AveragingError::SetValued { static_coefficient: 0.4 }));
-        // No damping and no slope: nothing can be said.
+        // Without damping and slope the criterion is zero, and undecided.
         let neutral = criterion(&belt(0.0, 1.0, &coulomb, vec![]), AveragingOptions::default());
         assert_eq!(
             neutral.expect("slides").verdict,
@@ -449,7 +449,7 @@ fn verdict_at_the_corner() {
     assert_eq!(verdict(LawKind::Stribeck, 0.25).verdict, Verdict::Stable);
 }
 
-/// Two dithers: a second, held one shifts the critical amplitude of the first; equal frequencies add exactly.
+/// Two dithers: a second one of fixed amplitude shifts the critical amplitude of the first; equal frequencies add exactly.
 #[test]
 fn several_dithers() {
     let first = dither(Direction::Tangential, Waveform::Sine, 1.0, 10.0);

@@ -26,8 +26,8 @@ fn trace(matrix: &Matrix) -> f64 {
     (0..matrix.rows()).map(|i| matrix.row(i)[i]).sum()
 }
 
-/// Eigenvalues come in conjugate pairs, are as many as the numbers of the state, and add up to the trace of the state matrix, which is
-/// that of −M⁻¹C: no friction enters it.
+/// Eigenvalues come in conjugate pairs, are as many as the numbers of the state, and add up to the trace of the state matrix,
+/// which is that of −M⁻¹C: no friction enters it.
 #[test]
 fn eigenvalues_are_conjugate_and_add_up_to_the_trace() {
     for named in all_discs() {
@@ -70,8 +70,8 @@ fn the_growth_rate_is_the_largest_real_part() {
     assert!(growing >= 15, "{growing}");
 }
 
-/// Without amplitude, normal dither leaves the mean friction: its Floquet exponents are the eigenvalues. Tangential dither takes the
-/// mean: they are the eigenvalues without friction.
+/// Without amplitude, normal dither leaves the mean friction: its Floquet exponents are the eigenvalues. Tangential dither
+/// takes the mean: they are the eigenvalues without friction.
 #[test]
 fn exponents_under_dither_of_amplitude_zero_are_eigenvalues() {
     for named in all_discs().into_iter().filter(|named| named.model.dither() == DiscDither::None) {

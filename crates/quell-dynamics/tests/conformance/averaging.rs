@@ -96,8 +96,8 @@ fn criterion_and_rate(belt: &Belt) -> (Criterion, f64, Orbit) {
     (averaged, rate, orbit)
 }
 
-/// For fast dither, areas of nearby states shrink at the criterion's value 2ζ + Fμ̄′: −ln|det M|/T of the base response comes to it
-/// with 1/R², and the local verdict of the multipliers is the averaged one.
+/// For fast dither, areas of nearby states shrink at the criterion's value 2ζ + Fμ̄′: −ln|det M|/T of the base response comes
+/// to it with 1/R², and the local verdict of the multipliers is the averaged one.
 #[test]
 fn the_criterion_is_the_limit_of_the_multipliers() {
     let (mut judged, mut worst) = ([0, 0], 0.0_f64);

@@ -1,4 +1,4 @@
-//! What a law accepts and refuses, and how it is named.
+//! Values that a law accepts and rejects, and the names of laws.
 
 use quell_model::parameter::Parameter;
 use quell_model::{Invalid, LawKind};
@@ -24,7 +24,7 @@ fn values_build_the_same_law_again() {
     }
 }
 
-/// Each number is found and set by its path; another path is refused.
+/// Each number can be read and set by its path; any other path is rejected.
 #[test]
 fn numbers_are_set_by_their_paths() {
     for law in all_samples() {
@@ -57,7 +57,7 @@ fn impossible(parameter: &Parameter) -> Vec<f64> {
 }
 
 #[test]
-fn impossible_values_are_refused_by_name() {
+fn impossible_values_are_rejected_by_name() {
     for &kind in LawKind::NUMERIC {
         let valid = samples(kind)[0].values();
         for (index, parameter) in kind.parameters().iter().enumerate() {
@@ -75,9 +75,9 @@ fn impossible_values_are_refused_by_name() {
     }
 }
 
-/// No law of friction has a negative coefficient or velocity scale, whatever its bounds say.
+/// No law of friction has a negative coefficient or velocity scale, even where its bounds would allow one.
 #[test]
-fn negative_values_are_refused() {
+fn negative_values_are_rejected() {
     for &kind in LawKind::NUMERIC {
         let valid = samples(kind)[0].values();
         for (index, parameter) in kind.parameters().iter().enumerate() {
@@ -90,7 +90,7 @@ fn negative_values_are_refused() {
 }
 
 #[test]
-fn all_complaints_come_at_once() {
+fn all_complaints_are_returned_at_once() {
     for &kind in LawKind::NUMERIC {
         let wrong = vec![f64::NAN; kind.parameters().len()];
         let complaints = kind.build(&wrong).expect_err(kind.name());
@@ -121,15 +121,15 @@ fn a_wrong_number_of_values_is_a_complaint() {
 }
 
 #[test]
-fn names_lead_back_and_paths_are_those_of_the_friction_table() {
+fn names_round_trip_and_paths_belong_to_the_friction_table() {
     for (index, &kind) in LawKind::ALL.iter().enumerate() {
         assert_eq!(LawKind::from_name(kind.name()), Some(kind));
         assert!(LawKind::ALL[..index].iter().all(|other| other.name() != kind.name()));
         assert!(kind.name().chars().all(|c| c.is_ascii_lowercase() || "_-".contains(c)));
         assert!(!kind.about().is_empty());
-        for (place, parameter) in kind.parameters().iter().enumerate() {
+        for (index, parameter) in kind.parameters().iter().enumerate() {
             assert_eq!(parameter.table(), "friction", "{}", parameter.path);
-            let earlier = &kind.parameters()[..place];
+            let earlier = &kind.parameters()[..index];
             assert!(earlier.iter().all(|other| other.path != parameter.path));
         }
     }
