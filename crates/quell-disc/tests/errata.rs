@@ -1,23 +1,22 @@
-//! Where the print of chapter 5 is wrong: the printed form beside the right one, both against exact modes, exact
-//! eigenvalues, exact exponents.
+//! Errors in print in chapter 5: the printed form and the right one, both against exact modes, exact eigenvalues and exact
+//! exponents.
 
 use std::f64::consts::PI;
 
 use quell_disc::dithered;
-use quell_disc::equations::linearised;
+use quell_disc::equations::System;
 use quell_disc::plate::{ModeSet, Plate, RadialShape, Reference};
 use quell_disc::resonance::Waves;
 use quell_disc::undithered;
 use quell_linear::growth::Verdict;
 use quell_model::Disc;
 use quell_model::disc::{Contribution, Contributions};
-use quell_model::disc::{DiscDither, Load, Mode};
+use quell_model::disc::{DiscDither, Mode};
 use quell_numerics::eigen::eigenvalues;
 use quell_numerics::floquet::Effort;
 use quell_numerics::matrix::Matrix;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
-
-const TANGENTIAL: DiscDither = DiscDither::Tangential { amplitude: 1.0, frequency_ratio: 2.7 };
+use quell_zoo::disc::{self as zoo, TANGENTIAL, equal_load};
 
 fn set(inner: f64, diameters: u32) -> ModeSet {
     let plate = Plate::new(inner, 0.3).expect("a plate");
@@ -31,8 +30,7 @@ fn modes(damping: f64) -> Vec<Mode> {
 
 /// m = c = k = `strength`, friction in units of it.
 fn disc(strength: f64, friction: f64, damping: f64, dither: DiscDither, speed: f64) -> Disc {
-    let load = Load::new(strength, strength, strength, friction * strength);
-    Disc::new(modes(damping), vec![load], dither, speed).expect("valid")
+    zoo::disc(modes(damping), vec![equal_load(strength, friction * strength)], dither, speed)
 }
 
 fn growth(disc: &Disc) -> f64 {
@@ -84,7 +82,7 @@ fn modes_solve_the_plate_equation() {
     }
 }
 
-/// (5.7): R² cos² qθ has unit mean over the plate, sin 0 has none; |R e^{iqθ}|² has twice that for q ≠ 0, so that a wave
+/// (5.7): R² cos² qθ has unit mean over the plate, sin 0 has zero mean; |R e^{iqθ}|² has twice that for q ≠ 0, so that a wave
 /// needs half of R², and with all of it the growth rate of every wave is doubled.
 #[test]
 fn normalisation_of_real_and_complex_modes() {
@@ -102,8 +100,8 @@ fn normalisation_of_real_and_complex_modes() {
     // Only the two-diameter mode, far from any meeting: the backward wave under a weak load.
     let (strength, friction, speed) = (1e-4, 4.0, 0.6);
     let mode = modes(0.0)[2];
-    let load = Load::new(strength, strength, strength, friction * strength);
-    let disc = Disc::new(vec![mode], vec![load], DiscDither::None, speed).expect("valid");
+    let load = equal_load(strength, friction * strength);
+    let disc = zoo::disc(vec![mode], vec![load], DiscDither::None, speed);
     let rate = |square: f64| {
         -square / (2.0 * mode.ratio) * strength * (mode.ratio + 2.0 * speed - 2.0 * friction)
     };
@@ -117,8 +115,8 @@ fn normalisation_of_real_and_complex_modes() {
 fn geometry_of_the_tables() {
     let speeds = |inner: f64| -> Vec<f64> {
         let modes = set(inner, 2).at_radius(0.75, 0.0).expect("a radius");
-        let disc = Disc::new(modes, vec![Load::new(0.1, 0.1, 0.1, 0.1)], TANGENTIAL, 0.3);
-        let waves = Waves::new(&disc.expect("valid")).expect("waves");
+        let disc = zoo::disc(modes, vec![equal_load(0.1, 0.1)], TANGENTIAL, 0.3);
+        let waves = Waves::new(&disc).expect("waves");
         let both = waves.undithered(0.0..=1.0).into_iter().chain(waves.dithered(0.0..=1.0));
         both.map(|resonance| resonance.speed).collect()
     };
@@ -134,11 +132,10 @@ fn geometry_of_the_tables() {
     assert!(set(0.5, 2).modes()[0].shape.value(0.5).expect("the clamp").abs() < 1e-12);
 }
 
-/// Modal damping rests in the disc. Without the circulatory pair, the free disc would be unstable beyond Ω = β/q.
+/// Modal damping is fixed in the disc. Without the circulatory pair, the free disc would be unstable beyond Ω = β/q.
 #[test]
 fn damping_turns_with_the_disc() {
-    let disc = Disc::new(modes(1e-3), vec![Load::new(0.0, 0.0, 0.0, 0.0)], DiscDither::None, 1.3)
-        .expect("valid");
+    let disc = zoo::disc(modes(1e-3), vec![equal_load(0.0, 0.0)], DiscDither::None, 1.3);
     let rate = |parts: Contributions| undithered::growth_with(&disc, parts).expect("finite").rate;
     close(rate(Contributions::ALL), -1.771_548e-3, 1e-5);
     close(rate(Contributions::ALL.without(Contribution::CirculatoryDamping)), 6.0e-4, 0.01);
@@ -157,29 +154,30 @@ fn reference_frequency_depends_on_the_modes() {
 fn indices_of_the_double_sum() {
     let disc = disc(0.3, 1.0 / 3.0, 0.0, DiscDither::None, 0.2);
     let right = undithered::growth(&disc).expect("finite");
-    let system = linearised(&disc, Contributions::ALL).expect("finite");
-    // As printed: every row of the load's mass and damper acts on its own coordinate, with the sum of all shapes.
+    let system = System::new(&disc);
+    // As printed: each row of the load's mass and damper acts on its coordinate alone, with the sum of all shapes.
     let (count, load) = (system.coordinates(), &disc.loads()[0]);
-    let parts = Contributions::ALL.without(Contribution::LoadMass).without(Contribution::Damper);
-    let bare = linearised(&disc, parts).expect("finite");
-    let whole_mass = disc.system_of(Contributions::ALL).structure.mass().matrix();
-    let bare_mass = disc.system_of(parts).structure.mass().matrix();
+    let bare = System::assemble(
+        &disc,
+        Contributions::ALL.without(Contribution::LoadMass).without(Contribution::Damper),
+    );
     let row = |matrix: &Matrix, i: usize, j: usize| matrix.row(i)[j];
-    let (mut mass, mut damping) = (bare_mass.clone(), bare.damping().clone());
+    let (mut mass, mut damping) = (bare.mass().clone(), bare.damping().clone());
     for i in 0..count {
-        // The full system's diagonal tells which rows the load acts on: φ_pq² there.
-        let own = row(&whole_mass, i, i) - row(&bare_mass, i, i);
-        let sum: f64 =
-            (0..count).map(|j| (row(&whole_mass, i, j) - row(&bare_mass, i, j)) / load.mass).sum();
+        // The diagonal of the full system shows on which rows the load acts: φ_pq² there.
+        let own = row(system.mass(), i, i) - row(bare.mass(), i, i);
+        let sum: f64 = (0..count)
+            .map(|j| (row(system.mass(), i, j) - row(bare.mass(), i, j)) / load.mass)
+            .sum();
         if own != 0.0 {
             mass.row_mut(i)[i] += load.mass * sum;
             damping.row_mut(i)[i] += load.damping * sum;
         }
     }
     // With the follower forces: what the state matrix of the rest has in its lower left is −M⁻¹K.
-    let kept = bare.state_matrix(&bare.mean_friction());
+    let kept = bare.state_matrix(bare.mean_friction());
     let lower = Matrix::from_fn(count, count, |i, j| -kept.row(count + i)[j]);
-    let stiffness = bare_mass.times(&lower);
+    let stiffness = bare.mass().times(&lower);
     let joined = Matrix::from_fn(count, 2 * count, |i, j| {
         if j < count { -stiffness.row(i)[j] } else { -damping.row(i)[j - count] }
     });
@@ -212,8 +210,8 @@ fn dither_is_halved_in_the_complex_form() {
     assert!(largest(1.30) < 0.0 && largest(1.45) > 0.0, "{} {}", largest(1.30), largest(1.45));
 }
 
-/// Text before (5.30): of a friction that alternates between ±F_θ only the fundamental is kept, as F_θ cos Rτ; it is 4/π of that. The
-/// exact monodromy under the whole square wave has the threshold of α = 4/π, π/4 of the printed one.
+/// Text before (5.30): of a friction that alternates between ±F_θ only the fundamental is kept, as F_θ cos Rτ; it is 4/π of
+/// that. The exact monodromy under the whole square wave has the threshold of α = 4/π, π/4 of the printed one.
 #[test]
 fn first_harmonic_of_a_reversed_friction() {
     let wave = |theta: f64| theta.cos().signum() * theta.cos() / PI;
@@ -235,13 +233,12 @@ fn first_harmonic_of_a_reversed_friction() {
 
 /// Growth rate under friction that is +f for a quarter period, −f for a half, +f for a quarter.
 fn reversing(disc: &Disc) -> f64 {
-    let system = linearised(disc, Contributions::ALL).expect("finite");
-    let period = 2.0 * PI / disc.dither().frequency_ratio().expect("dither");
-    let (mean, swing) = disc.dither().mean_and_amplitude();
+    let system = System::new(disc);
+    let period = 2.0 * PI / system.frequency_ratio().expect("dither");
+    let (mean, swing) = system.modulation();
     assert_eq!(mean, 0.0);
-    let friction = |sign: f64| -> Vec<f64> {
-        disc.loads().iter().map(|load| sign * swing * load.friction).collect()
-    };
+    let friction =
+        |sign: f64| -> Vec<f64> { system.friction().iter().map(|f| sign * swing * f).collect() };
     let forward = exponential(&system.state_matrix(&friction(1.0)), 0.25 * period);
     let back = exponential(&system.state_matrix(&friction(-1.0)), 0.5 * period);
     let monodromy = forward.times(&back).times(&forward);
@@ -275,7 +272,7 @@ fn loads_are_ratios_to_the_mass_of_the_plate() {
     assert!(one > 0.0 && (half / one - 1.0).abs() > 0.1, "{one} {half}");
 }
 
-/// "The tongues of Ω₁ and Ω₄ begin at f = 10⁻⁴ and 3·10⁻⁵": without modal damping they are there for every f, with growth ~ f⁴.
+/// "The tongues of Ω₁ and Ω₄ begin at f = 10⁻⁴ and 3·10⁻⁵": without modal damping they exist for every f, with growth ~ f⁴.
 #[test]
 fn revived_tongues_have_no_threshold() {
     let largest = |friction: f64| {
@@ -291,7 +288,7 @@ fn revived_tongues_have_no_threshold() {
     assert!((12.0..20.0).contains(&(large / small)), "f⁴: {}", large / small);
 }
 
-/// Table 5.1 leaves Ω = 0 out, where the cosine and sine of one mode meet: an exponent stays imaginary whatever the load.
+/// Table 5.1 leaves Ω = 0 out, where the cosine and sine of one mode meet: an exponent stays imaginary under any load.
 #[test]
 fn standstill_is_a_meeting() {
     let slow = |speed: f64, friction: f64| disc(0.1, friction, 0.0, DiscDither::None, speed);
@@ -305,8 +302,8 @@ fn standstill_is_a_meeting() {
     assert!(growth(&slow(0.3, 0.1)) < 0.0);
 }
 
-/// Table 5.2 lists places. Waves that run head-on share their damping, and l = 0 does not couple: five of the eight are
-/// harmless.
+/// Table 5.2 lists meetings of waves. Waves that travel head-on share their damping, and l = 0 does not couple: five of the
+/// eight are harmless.
 #[test]
 fn only_three_of_eight_can_be_unstable() {
     let strength = 0.05;
@@ -325,7 +322,7 @@ fn only_three_of_eight_can_be_unstable() {
     }
 }
 
-/// "Neither dither suppresses the undithered instabilities": tangential dither takes the mean friction that drives them.
+/// "Neither dither suppresses the undithered instabilities": tangential dither removes the mean friction that drives them.
 #[test]
 fn tangential_dither_takes_the_first_tongues_away() {
     let tongue = |dither: DiscDither| {
@@ -337,18 +334,18 @@ fn tangential_dither_takes_the_first_tongues_away() {
     close(without, 6.165e-4, 0.02);
     assert!(with < 1e-3 * without, "{with} {without}");
     let normal = tongue(DiscDither::Normal { amplitude: 1.0, frequency_ratio: 2.7 });
-    assert!(normal > 0.5 * without, "normal dither leaves them: {normal}");
+    assert!(normal > 0.5 * without, "normal dither does not remove them: {normal}");
 }
 
 /// Axes of the figures: away from meetings a disc is stable for f < c(1 + Ω) and unstable at every speed beyond 2c,
-/// whatever r₀ and the modes. Printed thresholds are 10⁻⁴ of that.
+/// for any r₀ and any modes. Printed thresholds are 10⁻⁴ of that.
 #[test]
 fn unit_of_the_friction_axis() {
     for speed in [0.25, 0.5, 0.75] {
         let limit = 1.0 + speed;
         assert!(growth(&disc(0.01, 0.95 * limit, 0.0, DiscDither::None, speed)) < 0.0);
         assert!(growth(&disc(0.01, 1.05 * limit, 0.0, DiscDither::None, speed)) > 0.0);
-        // "Unstable at every speed above 2·10⁻⁵" for c = 0.1: the printed number itself does nothing.
+        // "Unstable at every speed above 2·10⁻⁵" for c = 0.1: the printed number itself has no effect.
         assert!(growth(&disc(0.1, 2e-5 / 0.1, 0.0, DiscDither::None, speed)) < 0.0);
         assert!(growth(&disc(0.1, 1e4 * 2.2e-5 / 0.1, 0.0, DiscDither::None, speed)) > 0.0);
     }

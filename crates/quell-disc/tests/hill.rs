@@ -1,14 +1,15 @@
-//! Floquet exponents against a method that shares nothing with the splitting: the scalar Hill determinant.
+//! Floquet exponents from splitting, against an independent method: the scalar Hill determinant.
 //!
-//! Under one load an exponent ρ makes det(1 − 𝒯F) = 0 over the harmonics h = −H…H, 𝒯 = diag T(ρ + ihR), F tridiagonal with the mean of
-//! f(τ) and half of its amplitude (`quell_disc::partition`). The exponent of the splitting starts a secant iteration, which ends at
-//! the last digits: the distance moved is the error of the splitting.
+//! Under one load an exponent ρ makes det(1 − 𝒯F) = 0 over the harmonics h = −H…H, 𝒯 = diag T(ρ + ihR), F tridiagonal with
+//! the mean of f(τ) and half of its amplitude (`quell_disc::partition`). The exponent from the splitting starts a secant
+//! iteration that converges to the last digits: the distance moved is the error of the splitting.
 
 use num_complex::Complex64;
-use quell_disc::dithered;
+use quell_disc::dithered::DitheredDisc;
 use quell_model::Disc;
 use quell_model::disc::{DiscDither, Load, Mode};
 use quell_numerics::floquet::Effort;
+use quell_zoo::disc::{self as zoo, ModeSet};
 
 const HARMONICS: i32 = 24;
 
@@ -75,11 +76,7 @@ fn the_hill_determinant_vanishes_at_the_exponents_of_the_splitting() {
     let mut checked = 0;
     for large in [false, true] {
         for damping in [0.0, 1e-3] {
-            let mut modes = vec![
-                mode(0, 1.7715482549454453, 0.65875445677796, damping),
-                mode(1, 1.8076647041409195, 0.933051069689499, damping),
-                mode(2, 2.0, 0.934699921735261, damping),
-            ];
+            let mut modes = ModeSet::N12.modes(damping);
             if large {
                 modes.push(mode(3, 2.524769, 0.930869, damping));
                 modes.push(mode(5, 4.859967, 0.890682, damping));
@@ -93,8 +90,8 @@ fn the_hill_determinant_vanishes_at_the_exponents_of_the_splitting() {
             ] {
                 for speed in [0.05, 0.2, 0.37, 0.61, 0.88] {
                     let load = Load::new(0.2, 0.15, 0.3, 1.0);
-                    let disc = Disc::new(modes.clone(), vec![load], dither, speed).expect("valid");
-                    let prepared = dithered::prepared(&disc).expect("finite").expect("dithered");
+                    let disc = zoo::disc(modes.clone(), vec![load], dither, speed);
+                    let prepared = DitheredDisc::new(&disc).expect("finite").expect("dithered");
                     for friction in [0.1, 0.6, 1.5] {
                         let found = prepared.growth(friction, Effort::default()).expect("finite");
                         let start = Complex64::new(found.rate, found.frequency);
@@ -103,7 +100,7 @@ fn the_hill_determinant_vanishes_at_the_exponents_of_the_splitting() {
                         let at = format!(
                             "{dither:?}, Ω = {speed}, f = {friction}, ξ = {damping}: {found:?}"
                         );
-                        // Close by, or the secant went to another exponent.
+                        // Close by: otherwise the secant iteration converged to another exponent.
                         assert!((exact - start).norm_sqr().sqrt() < 1e-5, "{at} {exact}");
                         assert!(gap <= found.error && gap < 1e-9, "{at}: {gap:e}");
                         checked += 1;

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use quell_disc::{dithered, undithered};
 use quell_linear::growth::Verdict;
-use quell_model::Disc;
 use quell_model::disc::{Contribution, Contributions};
 use quell_model::disc::{DiscDither, Load, Mode};
 use quell_numerics::floquet::Effort;
+use quell_zoo::disc::{self as zoo, ModeSet, equal_load};
 use serde_json::Value;
 
 fn reference(name: &str) -> Value {
@@ -15,7 +15,7 @@ fn reference(name: &str) -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).expect("there")).expect("valid")
 }
 
-/// Numbers stand as numbers or as strings of more digits.
+/// A number, stored as a number or as a string with more digits.
 fn number(value: &Value) -> f64 {
     match value {
         Value::String(text) => text.parse().expect("a number"),
@@ -37,6 +37,15 @@ fn modes(of: &Value, damping: f64) -> Vec<Mode> {
         .collect()
 }
 
+/// The models that the tests share have the reference's modes.
+#[test]
+fn the_zoo_has_the_modes_of_the_reference() {
+    let reference = reference("disc_eigenvalues.json");
+    for set in ModeSet::ALL {
+        assert_eq!(set.modes(1e-3), modes(&reference["models"][set.name()], 1e-3), "{set:?}");
+    }
+}
+
 #[test]
 fn growth_rates_without_dither() {
     let reference = reference("disc_eigenvalues.json");
@@ -47,13 +56,8 @@ fn growth_rates_without_dither() {
         let model = &reference["models"][point["model"].as_str().expect("a name")];
         let [m, c, k, f] = ["m", "c", "k", "f"].map(|key| number(&point[key]));
         let modes = modes(model, number(&point["xi"]));
-        let disc = Disc::new(
-            modes,
-            vec![Load::new(m, c, k, f)],
-            DiscDither::None,
-            number(&point["Omega"]),
-        )
-        .expect("valid");
+        let loads = vec![Load::new(m, c, k, f)];
+        let disc = zoo::disc(modes, loads, DiscDither::None, number(&point["Omega"]));
         let parts = match point["damp"].as_str() {
             Some("diag") => Contributions::ALL.without(Contribution::CirculatoryDamping),
             _ => Contributions::ALL,
@@ -89,14 +93,9 @@ fn growth_rates_with_dither() {
             Some("normal") => DiscDither::Normal { amplitude, frequency_ratio },
             _ => DiscDither::Tangential { amplitude, frequency_ratio },
         };
-        let load = Load::new(strength, strength, strength, friction);
-        let disc = Disc::new(
-            modes(model, number(&point["xi"])),
-            vec![load],
-            dither,
-            number(&point["Omega"]),
-        )
-        .expect("valid");
+        let modes = modes(model, number(&point["xi"]));
+        let loads = vec![equal_load(strength, friction)];
+        let disc = zoo::disc(modes, loads, dither, number(&point["Omega"]));
         let found = dithered::growth(&disc, Effort::default()).expect("finite");
         let wanted = number(&point["max_re_exponent"]);
         let gap = (found.rate - wanted).abs();

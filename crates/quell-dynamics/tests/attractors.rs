@@ -1,4 +1,4 @@
-//! Attractors against known ones: locking ratios, coexistence, thresholds between which responses are lost.
+//! Attractors against known ones: locking ratios, coexistence, and thresholds at which responses lose stability.
 
 use quell_dynamics::attractor::{
     Attractor, Kind, Label, Outcome, Patience, Ratio, Scene, Settled, gather, measure, settle,
@@ -6,29 +6,8 @@ use quell_dynamics::attractor::{
 };
 use quell_dynamics::orbit::Verdict;
 use quell_dynamics::simulation::Start;
-use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
-
-fn belt(
-    law: LawKind,
-    zeta: f64,
-    velocity: f64,
-    direction: Direction,
-    waveform: Waveform,
-    amplitude: f64,
-    frequency_ratio: f64,
-) -> Belt {
-    let friction = law.build(&[0.4, 0.2857, 0.2]).expect("a valid law");
-    let dither = Dither { direction, waveform, amplitude, frequency_ratio, phase: 0.0 };
-    Belt::new(zeta, 1.0, velocity, friction, vec![dither]).expect("a valid belt")
-}
-
-fn stribeck(waveform: Waveform, amplitude: f64) -> Belt {
-    belt(LawKind::Stribeck, 0.005, 0.05, Direction::Tangential, waveform, amplitude, 10.0)
-}
-
-fn decreasing(amplitude: f64) -> Belt {
-    belt(LawKind::Decreasing, 0.005, 1.0, Direction::Tangential, Waveform::Sine, amplitude, 10.0)
-}
+use quell_model::{Belt, Waveform};
+use quell_zoo::belt::{self, decreasing_under, stribeck_under};
 
 fn reached(belt: &Belt, displacement: f64, velocity: f64) -> (Settled, Option<Attractor>) {
     let scene = Scene::new(belt).expect("a strobe");
@@ -44,30 +23,30 @@ fn responses_below_the_threshold_lock_at_known_fractions() {
     for (waveform, turns, periods, frequency) in
         [(Waveform::Sine, 5, 68, 0.735_29), (Waveform::Square, 1, 13, 0.769_23)]
     {
-        let belt = stribeck(waveform, 0.3);
+        let belt = stribeck_under(waveform, 0.3);
         let (settled, attractor) = reached(&belt, 0.0, 0.0);
         let attractor = attractor.expect("settled");
         assert_eq!(settled.outcome, Outcome::Elsewhere);
-        let rotation = attractor.rotation.expect("it turns");
+        let rotation = attractor.rotation.expect("a slow phase");
         assert_eq!(rotation.ratio, Some(Ratio { turns, periods }), "{attractor:?}");
         let period = std::f64::consts::TAU / 10.0;
-        let found = attractor.frequency(period).expect("it turns");
+        let found = attractor.frequency(period).expect("a slow phase");
         assert!((found - frequency).abs() < 1e-5, "{found}");
         let Kind::Periodic { periods: closed, radius } = attractor.kind else {
             panic!("{:?}", attractor.kind)
         };
         assert_eq!(closed, periods);
         assert_eq!(attractor.section.len(), periods as usize);
-        // A stick takes one dimension, locking makes the rest contract.
+        // Sticking removes one dimension; on a locked response the other contracts.
         assert!(radius < 1.0 && attractor.stick_fraction > 0.01, "{attractor:?}");
     }
 }
 
-/// v₀ = 1, decreasing law: the quiet response and a large stick-slip cycle live side by side below D = 4.32239; between there
-/// and 9.90021 the quiet one is unstable, and so near the threshold it takes growth rates to say so.
+/// v₀ = 1, decreasing law: the base response and a large stick-slip cycle coexist below D = 4.32239; between there and 9.90021
+/// the base response is unstable, which so near the threshold only growth rates can decide.
 #[test]
-fn rest_and_squeal_coexist_below_the_local_threshold() {
-    for (amplitude, quiet_from_orbit, from_afar) in [
+fn the_base_response_and_squeal_coexist_below_the_local_threshold() {
+    for (amplitude, stable, quenched_from_afar) in [
         (0.0, true, false),
         (2.5, true, false),
         (4.3, true, false),
@@ -75,45 +54,50 @@ fn rest_and_squeal_coexist_below_the_local_threshold() {
         (9.89, false, false),
         (9.91, true, true),
     ] {
-        let belt = decreasing(amplitude);
+        let belt = decreasing_under(Waveform::Sine, amplitude);
         let scene = Scene::new(&belt).expect("a strobe");
-        let quiet = scene.quiet.clone().expect("an orbit");
-        assert_eq!(quiet.verdict == Verdict::Stable, quiet_from_orbit, "{amplitude}");
-        // On the orbit itself: an unstable one is left.
-        let (settled, _) = reached(&belt, quiet.displacement, quiet.velocity);
-        assert_eq!(settled.outcome == Outcome::Quiet, quiet_from_orbit, "{amplitude}");
+        let base = scene.quiet.clone().expect("an orbit");
+        assert_eq!(base.verdict == Verdict::Stable, stable, "{amplitude}");
+        // From the orbit itself: a run leaves it if it is unstable.
+        let (settled, _) = reached(&belt, base.displacement, base.velocity);
+        assert_eq!(settled.outcome == Outcome::Quiet, stable, "{amplitude}");
         let (settled, attractor) = reached(&belt, 1.5, 0.0);
-        assert_eq!(settled.outcome == Outcome::Quiet, from_afar, "{amplitude} {settled:?}");
+        assert_eq!(
+            settled.outcome == Outcome::Quiet,
+            quenched_from_afar,
+            "{amplitude} {settled:?}"
+        );
         let size = attractor.expect("settled").size();
-        if !from_afar && amplitude < 9.0 {
+        if !quenched_from_afar && amplitude < 9.0 {
             assert!(size > 1.2, "{amplitude}: {size}");
         }
     }
 }
 
-/// From x = 1.5 the undithered cycle has a peak-to-peak of 2.09, and the Stribeck law's of v₀ = 0.05 a frequency of 0.654435.
+/// From x = 1.5 the undithered cycle of the decreasing law has a peak-to-peak of 2.09; that of the Stribeck law at v₀ = 0.05
+/// has a frequency of 0.654435.
 #[test]
 fn cycles_without_dither_have_their_size_and_frequency() {
-    let (settled, attractor) = reached(&decreasing(0.0).undithered(), 1.5, 0.0);
+    let (settled, attractor) = reached(&belt::decreasing(), 1.5, 0.0);
     assert_eq!(settled.outcome, Outcome::Elsewhere);
     let size = attractor.expect("settled").size();
     assert!((size - 2.09).abs() < 0.005, "{size}");
-    let (_, attractor) = reached(&stribeck(Waveform::Sine, 0.0).undithered(), 0.0, 0.0);
+    let (_, attractor) = reached(&belt::stribeck(), 0.0, 0.0);
     let attractor = attractor.expect("settled");
     assert!((attractor.size() - 2.0 * 0.146_395).abs() < 1e-5, "{}", attractor.size());
-    let found = attractor.frequency(0.1 * std::f64::consts::TAU).expect("it turns");
+    let found = attractor.frequency(0.1 * std::f64::consts::TAU).expect("a slow phase");
     assert!((found - 0.654_435).abs() < 1e-5, "{found}");
     // Steady sliding above the critical velocity.
-    let (settled, attractor) = reached(&decreasing(0.0).undithered(), 0.3, 0.0);
+    let (settled, attractor) = reached(&belt::decreasing(), 0.3, 0.0);
     assert_eq!(settled.outcome, Outcome::Quiet);
     assert_eq!(attractor.expect("settled").size(), 0.0);
 }
 
-/// Along a line of starts at D = 2.5 the basin of the quiet response is one stretch, and what is computed in one company
-/// has the same bits in another.
+/// Along a line of starts at D = 2.5 the basin of the base response is one interval, and the bits of a run do not depend on the
+/// other runs of a batch.
 #[test]
 fn a_line_of_starts_has_two_attractors() {
-    let belt = decreasing(2.5);
+    let belt = decreasing_under(Waveform::Sine, 2.5);
     let scene = Scene::new(&belt).expect("a strobe");
     let starts: Vec<Start> = (0..40)
         .map(|k| Start { time: 0.0, displacement: -1.4 + 0.09 * f64::from(k), velocity: 0.0 })
@@ -125,31 +109,14 @@ fn a_line_of_starts_has_two_attractors() {
     let found = gather(&scene, &all).expect("no stall");
     assert_eq!((found.basins.len(), found.unknown()), (2, 0), "{found:?}");
     assert!(found.basins[0].attractor.quiet && !found.basins[1].attractor.quiet);
-    let quiet: Vec<bool> = found.labels.iter().map(|label| *label == Label::Attractor(0)).collect();
-    let changes = quiet.windows(2).filter(|pair| pair[0] != pair[1]).count();
-    assert_eq!(changes, 2, "{quiet:?}");
-    assert_eq!(quiet.iter().filter(|it| **it).count(), found.basins[0].starts);
-    // Both ends of the stretch by one run alone, slowly.
-    for (start, quiet) in starts.iter().zip(&quiet).step_by(9) {
+    let quenched: Vec<bool> =
+        found.labels.iter().map(|label| *label == Label::Attractor(0)).collect();
+    let changes = quenched.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    assert_eq!(changes, 2, "{quenched:?}");
+    assert_eq!(quenched.iter().filter(|quenched| **quenched).count(), found.basins[0].starts);
+    // A single long run from some of the starts agrees.
+    for (start, quenched) in starts.iter().zip(&quenched).step_by(9) {
         let settled = settle(&scene, *start, Patience::SWEEP).expect("no stall");
-        assert_eq!(settled.outcome == Outcome::Quiet, *quiet, "{start:?}");
+        assert_eq!(settled.outcome == Outcome::Quiet, *quenched, "{start:?}");
     }
-}
-
-/// Lengths scale out: all of them twice as large give the same section, twice as large, to the last bit.
-#[test]
-fn lengths_scale_out() {
-    let belt = decreasing(4.6);
-    let friction = LawKind::Decreasing.build(&[0.4, 0.2857, 0.4]).expect("valid");
-    let dither = Dither { amplitude: 9.2, ..belt.dithers()[0] };
-    let twice = Belt::new(0.005, 2.0, 2.0, friction, vec![dither]).expect("valid");
-    let start = |scale: f64| Start { time: 0.0, displacement: 0.7 * scale, velocity: 0.1 * scale };
-    let ends = |belt: &Belt, scale: f64| {
-        let scene = Scene::new(belt).expect("a strobe");
-        settle(&scene, start(scale), Patience::BASIN).expect("no stall")
-    };
-    let (one, two) = (ends(&belt, 1.0), ends(&twice, 2.0));
-    assert_eq!(one.outcome, two.outcome);
-    assert_eq!(one.periods, two.periods);
-    assert_eq!(2.0 * one.state.displacement, two.state.displacement);
 }

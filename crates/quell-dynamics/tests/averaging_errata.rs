@@ -1,7 +1,7 @@
 //! Where the dissertation's print is wrong: the printed formula, its value, and the right one.
 //!
-//! Each test computes the formula as printed, checks that it gives the number the print gives, and that Quell gives the
-//! right one, which the definition (quadrature) confirms. Unless said: v_r = 0.08, α = 0.2, the dissertation's parameters.
+//! Each test computes the formula as printed, checks that it gives the printed number, and that Quell gives the right one,
+//! which the definition (quadrature) confirms. Unless noted: v_r = 0.08, α = 0.2, the dissertation's parameters.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -10,18 +10,15 @@ use quell_linear::averaging::{
     AveragingOptions, Becomes, EverywhereStable, FastMotion, FastWave, NormalOrder, closed_band,
     critical_amplitudes, effective, effective_by_quadrature, everywhere_stable_amplitude,
 };
-use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
+use quell_model::{Direction, LawKind, Waveform};
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_numerics::special::{dawson, erf, exp, ln};
+use quell_zoo::belt::{belt, decreasing_under};
+use quell_zoo::dither::{normal, sine};
+use quell_zoo::law::{MINIMUM, REFERENCE_VELOCITY, STATIC, build, dissertation};
 
-const STATIC: f64 = 0.4;
-const MINIMUM: f64 = 0.2857;
-const VM: f64 = 0.2;
+const VM: f64 = REFERENCE_VELOCITY;
 const DIFFERENCE: f64 = STATIC - MINIMUM;
-
-fn law(kind: LawKind) -> Friction {
-    kind.build(&[STATIC, MINIMUM, VM]).expect("valid")
-}
 
 fn close(value: f64, exact: f64, tolerance: f64) {
     assert!(((value - exact) / exact).abs() < tolerance, "{value} should be {exact}");
@@ -33,7 +30,7 @@ fn erfi(x: f64) -> f64 {
 
 /// (μ̄, slope), by closed form and checked by quadrature.
 fn right(kind: LawKind, waveform: Waveform, v: f64, alpha: f64) -> (f64, f64) {
-    let (law, wave) = (law(kind), FastWave::Integral(waveform));
+    let (law, wave) = (dissertation(kind), FastWave::Integral(waveform));
     let closed = effective(&law, &FastMotion::single(wave, alpha), v).expect("a value");
     let numeric = effective_by_quadrature(&law, wave, alpha, v).expect("a value");
     close(closed.coefficient, numeric.coefficient, 1e-12);
@@ -70,7 +67,7 @@ fn slope_decreasing_triangle() {
     close(slope, 1.473609787898326, 1e-13);
     let (gamma, w): (f64, f64) = (PI / 4.0, 0.4);
     let t0 = (gamma - w).sqrt();
-    // As printed, and with the exponent and the second term mended: the error functions of (3.38a) remain.
+    // As printed, and with the exponent and the second term corrected: the error functions of (3.38a) remain.
     let terms = exp(w - gamma) * erfi(t0) - exp(-w - gamma) * erf(t0)
         + exp(-w - gamma) * (erf(gamma.sqrt()) + erfi(gamma.sqrt()));
     let printed = |power: f64, factor: f64| {
@@ -111,7 +108,7 @@ fn upper_edge_stribeck_triangle() {
     let kappa = 4.0 * VM * 0.005 / (3.0 * DIFFERENCE);
     let edge = |constant: f64| VM * (1.0 - constant * 0.5625 - kappa).sqrt();
     close(edge(PI * PI / 48.0), 0.18683419, 1e-7);
-    let stribeck = law(LawKind::Stribeck);
+    let stribeck = dissertation(LawKind::Stribeck);
     let band = closed_band(&stribeck, 0.005, 1.0, Waveform::Triangle, 0.15).expect("a band");
     let upper = band.upper.expect("it ends");
     close(upper, 0.17925174576154, 1e-13);
@@ -124,7 +121,7 @@ fn upper_edge_stribeck_triangle() {
 /// (3.44) a nested root, (3.48) a wrong constant, (4.38) twice too large: the amplitude that stabilises every velocity.
 #[test]
 fn everywhere_stable_amplitudes() {
-    let stribeck = law(LawKind::Stribeck);
+    let stribeck = dissertation(LawKind::Stribeck);
     let found = |zeta: f64, waveform: Waveform, direction: Direction| {
         let wave = FastWave::Integral(waveform);
         match everywhere_stable_amplitude(&stribeck, zeta, 1.0, wave, direction) {
@@ -155,7 +152,7 @@ fn everywhere_stable_amplitudes() {
 /// v₀ = α_N μ G_max every one is stable.
 #[test]
 fn stable_everywhere_needs_the_tip() {
-    let (stribeck, wave) = (law(LawKind::Stribeck), FastWave::Integral(Waveform::Sine));
+    let (stribeck, wave) = (dissertation(LawKind::Stribeck), FastWave::Integral(Waveform::Sine));
     let found = match everywhere_stable_amplitude(&stribeck, 0.005, 1.0, wave, Direction::Normal) {
         Ok(EverywhereStable::From { amplitude_ratio, .. }) => amplitude_ratio,
         other => panic!("{other:?}"),
@@ -193,20 +190,13 @@ fn sign_for_negative_slip() {
     assert!((printed.abs() / minus.abs() - 1.0).abs() < 1e-9 && printed > 0.0, "{printed}");
 }
 
-/// (2.21), (3.19): x′ = Z′ + αG makes the slip v_r − αG. The printed + is forgiven by antiperiodic G only; two sines at R and
-/// 2R are none.
+/// (2.21), (3.19): x′ = Z′ + αG makes the slip v_r − αG. The printed + is harmless for antiperiodic G only; two sines at R and
+/// 2R are not antiperiodic.
 #[test]
 fn sign_of_the_fast_motion() {
-    let sine = |amplitude: f64, frequency_ratio: f64| Dither {
-        direction: Direction::Tangential,
-        waveform: Waveform::Sine,
-        amplitude,
-        frequency_ratio,
-        phase: 0.0,
-    };
-    let law = law(LawKind::Decreasing);
+    let law = dissertation(LawKind::Decreasing);
     let dithers = vec![sine(1.0, 10.0), sine(1.0, 20.0)];
-    let belt = Belt::new(0.005, 1.0, 0.3, law.clone(), dithers).expect("valid");
+    let belt = belt(0.005, 0.3, &law, dithers);
     let fast = |theta: f64| -0.1 * theta.cos() - 0.05 * (2.0 * theta).cos();
     let average = |sign: f64| {
         let mean = |theta: f64| law.coefficient(0.3 + sign * fast(theta)) / TAU;
@@ -218,7 +208,7 @@ fn sign_of_the_fast_motion() {
     assert!((average(1.0) / average(-1.0) - 1.0).abs() > 1e-3, "the printed sign is seen");
 }
 
-/// Text after (3.25): G is even, and only for an even G is τ₂ = 2π − τ₁ the second place where αG takes a value.
+/// Text after (3.25): G is even, and only for an even G is τ₂ = 2π − τ₁ the second phase at which αG takes a value.
 #[test]
 fn integral_of_a_waveform_is_even() {
     for waveform in [Waveform::Sine, Waveform::Triangle, Waveform::Square] {
@@ -268,7 +258,7 @@ fn integrals_of_appendix_b() {
 fn slope_inside_can_be_negative() {
     // The slope inside is least at v_r = 0.
     let least = |share: f64, waveform: Waveform| {
-        let law = LawKind::Stribeck.build(&[STATIC, STATIC * (1.0 - share), VM]).expect("valid");
+        let law = build(LawKind::Stribeck, &[STATIC, STATIC * (1.0 - share), VM]);
         let wave = FastWave::Integral(waveform);
         (1..400)
             .map(|k| {
@@ -290,7 +280,7 @@ fn slope_inside_can_be_negative() {
 /// H(u) = (v_m/μ_m) ln(μ_m e^{u/v_m} + Δμ) has H′ = 1/μ, so that H(V − w) + α_N G is constant.
 #[test]
 fn fast_motion_under_normal_dither_separates() {
-    let (law, slow, alpha) = (law(LawKind::Decreasing), 0.3, 0.05);
+    let (law, slow, alpha) = (dissertation(LawKind::Decreasing), 0.3, 0.05);
     let primitive = |u: f64| VM / MINIMUM * ln(MINIMUM * exp(u / VM) + DIFFERENCE);
     let rate = |theta: f64, w: f64| alpha * law.coefficient(slow - w) * theta.sin();
     let (mut w, step) = (0.01_f64, TAU / 2000.0);
@@ -343,12 +333,12 @@ impl FastSliding {
 }
 
 /// (4.24) drops a term of order one: the load α_N R g on the next order of the velocity. With it the criterion for R → ∞ is
-/// 2ζ + ⟨(μ′/μ)(2ζφ′ + Z)⟩, Z = (F − 2ζ⟨φ′/μ⟩)/⟨1/μ⟩. The exact orbits come to it with 1/R²; the frozen criterion differs beyond
-/// α_N², by 0.03 and 0.08 % here. Orbits of this crate reach to R = 6.7, where D = F would open the contact; those at R = 20 and 40 are
-/// Floquet multipliers that were computed without Quell, of friction μN that turns round with N.
+/// 2ζ + ⟨(μ′/μ)(2ζφ′ + Z)⟩, Z = (F − 2ζ⟨φ′/μ⟩)/⟨1/μ⟩. The exact orbits converge to it as 1/R²; the frozen criterion differs
+/// beyond α_N², by 0.03 and 0.08 % here. Orbits of this crate reach to R = 6.7, where D = F would open the contact; those at
+/// R = 20 and 40 are Floquet multipliers that were computed without Quell, of friction μN that changes sign with N.
 #[test]
 fn limit_of_high_frequency_under_normal_dither() {
-    let (law, v, damping) = (law(LawKind::Decreasing), 0.075, 0.2);
+    let (law, v, damping) = (dissertation(LawKind::Decreasing), 0.075, 0.2);
     let slope = |u: f64| -DIFFERENCE / VM * exp(-u / VM);
     for (waveform, limit, frozen, orbits) in [
         (Waveform::Square, 0.115_322_218_4, 0.115_282_211_8, [0.115_038, 0.115_251]),
@@ -365,27 +355,21 @@ fn limit_of_high_frequency_under_normal_dither() {
         };
         let with_load = |fast: &FastSliding| {
             let inverse = fast.mean(|w| 1.0 / law.coefficient(v - w));
-            let place = (1.0 - 2.0 * damping * fast.mean(|w| w / law.coefficient(v - w))) / inverse;
+            let slow_force =
+                (1.0 - 2.0 * damping * fast.mean(|w| w / law.coefficient(v - w))) / inverse;
             let share =
-                |w: f64| slope(v - w) / law.coefficient(v - w) * (2.0 * damping * w + place);
+                |w: f64| slope(v - w) / law.coefficient(v - w) * (2.0 * damping * w + slow_force);
             2.0 * damping + fast.mean(share)
         };
         close(root(&with_load), limit, 1e-8);
         close(root(&|fast| 2.0 * damping + fast.mean(|w| slope(v - w))), frozen, 1e-8);
-        // Where 1/R² takes two orbits, the second at twice the R of the first; what is left goes with 1/R⁴.
+        // Richardson extrapolation in 1/R² of two orbits, the second at twice the R of the first; the rest is of order 1/R⁴.
         let orbit = |ratio: f64| {
-            let dither = Dither {
-                direction: Direction::Normal,
-                waveform,
-                amplitude: 0.1 * ratio,
-                frequency_ratio: ratio,
-                phase: 0.0,
-            };
-            let belt = Belt::new(damping, 1.0, v, law.clone(), vec![dither]).expect("valid");
+            let belt = belt(damping, v, &law, vec![normal(waveform, 0.1 * ratio, ratio)]);
             let range = (0.85 * limit * ratio, limit * ratio);
             let found = local_thresholds(&belt, "dither.amplitude", range.0, range.1, 10);
             let found = found.unwrap_or_else(|why| panic!("{ratio} {waveform:?}: {why}"));
-            let hopf = found.iter().find(|it| it.kind == Kind::NeimarkSacker);
+            let hopf = found.iter().find(|threshold| threshold.kind == Kind::NeimarkSacker);
             hopf.expect("a threshold in slip").value / ratio
         };
         for (pair, within) in [([orbit(3.3), orbit(6.6)], 1e-5), (orbits, 3e-6)] {
@@ -400,15 +384,8 @@ fn limit_of_high_frequency_under_normal_dither() {
 /// frozen criterion with the exact φ′ gives 0.115282, the total derivative 0.097.
 #[test]
 fn fast_motion_stays_frozen_in_the_slope() {
-    let (law, v, exact) = (law(LawKind::Decreasing), 0.075, 0.115_322);
-    let dither = Dither {
-        direction: Direction::Normal,
-        waveform: Waveform::Square,
-        amplitude: 0.1,
-        frequency_ratio: 40.0,
-        phase: 0.0,
-    };
-    let belt = Belt::new(0.2, 1.0, v, law.clone(), vec![dither]).expect("valid");
+    let (law, v, exact) = (dissertation(LawKind::Decreasing), 0.075, 0.115_322);
+    let belt = belt(0.2, v, &law, vec![normal(Waveform::Square, 0.1, 40.0)]);
     for (normal_order, known) in [(NormalOrder::First, 0.115_719), (NormalOrder::Second, 0.115_518)]
     {
         let options = AveragingOptions { normal_order, ..AveragingOptions::default() };
@@ -442,16 +419,8 @@ fn fast_motion_stays_frozen_in_the_slope() {
 /// Text of figure 2.10: "0.98" for v₀ = 1 is a plotting-grid value; the averaged quench amplitude is α = v₀ exactly, by a jump.
 #[test]
 fn quench_amplitude_is_a_jump() {
-    let dither = Dither {
-        direction: Direction::Tangential,
-        waveform: Waveform::Sine,
-        amplitude: 1.0,
-        frequency_ratio: 10.0,
-        phase: 0.0,
-    };
-    let belt = Belt::new(0.005, 1.0, 1.0, law(LawKind::Decreasing), vec![dither]);
-    let found =
-        critical_amplitudes(&belt.expect("valid"), AveragingOptions::default()).expect("found");
+    let belt = decreasing_under(Waveform::Sine, 1.0);
+    let found = critical_amplitudes(&belt, AveragingOptions::default()).expect("found");
     assert_eq!((found[1].amplitude_ratio, found[1].becomes), (1.0, Becomes::Stable));
     let (_, slope) = right(LawKind::Decreasing, Waveform::Sine, 1.0, 0.98);
     close(0.01 + slope, -0.0859403, 1e-5);

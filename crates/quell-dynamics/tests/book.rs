@@ -1,4 +1,4 @@
-//! The book's page on Rust shows the example as it is, and what it answers.
+//! The book's page on Rust shows the example and its output as they are.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::path::Path;
 mod quench;
 
 #[test]
-fn the_page_shows_the_example_and_its_answer() {
+fn the_page_shows_the_example_and_its_output() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let example = fs::read_to_string(root.join("examples/quench.rs")).expect("the example");
     let path = root.join("../../docs/book/src/howto/rust.md");
@@ -16,13 +16,16 @@ fn the_page_shows_the_example_and_its_answer() {
         let begins = text.find(after).expect("the block") + after.len();
         (begins, begins + text[begins..].find("```").expect("its end"))
     };
-    let mut told = page.clone();
+    let mut expected = page.clone();
     for (fence, content) in [("```rust\n", example), ("```text\n", quench::answer().expect("ok"))] {
-        let (begins, ends) = part(&told, fence);
-        told.replace_range(begins..ends, &content);
+        let (begins, ends) = part(&expected, fence);
+        expected.replace_range(begins..ends, &content);
     }
     if std::env::var_os("QUELL_BLESS").is_some() {
-        fs::write(&path, &told).expect("written");
+        fs::write(&path, &expected).expect("written");
     }
-    assert!(told == page || std::env::var_os("QUELL_BLESS").is_some(), "QUELL_BLESS=1 writes it");
+    assert!(
+        expected == page || std::env::var_os("QUELL_BLESS").is_some(),
+        "QUELL_BLESS=1 writes it"
+    );
 }

@@ -2,21 +2,11 @@
 
 use quell_dynamics::orbit::curve::{Ending, Plane, curves};
 use quell_dynamics::orbit::threshold::{Kind, local_thresholds};
-use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_model::Waveform;
+use quell_zoo::BeltExt;
+use quell_zoo::belt::decreasing_under;
 
-fn belt() -> Belt {
-    let friction = LawKind::Decreasing.build(&[0.4, 0.2857, 0.2]).expect("a valid law");
-    let dither = Dither {
-        direction: Direction::Tangential,
-        waveform: Waveform::Sine,
-        amplitude: 1.0,
-        frequency_ratio: 10.0,
-        phase: 0.0,
-    };
-    Belt::new(0.005, 1.0, 1.0, friction, vec![dither]).expect("a valid belt")
-}
-
-/// Both thresholds of the amplitude over the belt's velocity; each point is the threshold of its own line.
+/// Both thresholds of the amplitude over the belt velocity; each point of a curve is a threshold at its own velocity.
 #[test]
 fn amplitude_over_belt_velocity() {
     let plane = Plane {
@@ -25,13 +15,14 @@ fn amplitude_over_belt_velocity() {
         along: "belt.belt_velocity",
         between: (0.85, 1.5),
     };
-    let found = curves(&belt(), plane, 3, 60).expect("curves").curves;
-    for it in &found {
-        println!("{:?} {:?} {} points", it.kind, it.ends, it.points.len());
+    let belt = decreasing_under(Waveform::Sine, 1.0);
+    let found = curves(&belt, plane, 3, 60).expect("curves").curves;
+    for curve in &found {
+        println!("{:?} {:?} {} points", curve.kind, curve.ends, curve.points.len());
     }
     assert_eq!(found.len(), 2);
     for (kind, at_one) in [(Kind::NeimarkSacker, 4.322_392_624), (Kind::Grazing, 9.900_214_849)] {
-        let curve = found.iter().find(|it| it.kind == kind).expect("a curve");
+        let curve = found.iter().find(|curve| curve.kind == kind).expect("a curve");
         assert!(
             curve.points.len() > 30 && curve.ends.contains(&Ending::Window),
             "{:?}",
@@ -44,11 +35,11 @@ fn amplitude_over_belt_velocity() {
         let nearest = nearest.expect("points");
         assert!((nearest.value - at_one).abs() < 30.0 * (nearest.along - 1.0).abs() + 1e-6);
         for point in curve.points.iter().step_by(9) {
-            let belt = belt().with("belt.belt_velocity", point.along).expect("valid");
+            let belt = belt.at_speed(point.along);
             let (from, to) = (0.8 * point.value, (1.1 * point.value).min(16.0));
             let line = local_thresholds(&belt, "dither.amplitude", from, to, 20).expect("followed");
-            let off =
-                line.iter().filter(|it| it.kind == kind).map(|it| (it.value - point.value).abs());
+            let of_kind = line.iter().filter(|threshold| threshold.kind == kind);
+            let off = of_kind.map(|threshold| (threshold.value - point.value).abs());
             let off = off.fold(f64::INFINITY, f64::min);
             assert!(off < 1e-7, "{kind:?} at {}: {off:e}", point.along);
         }

@@ -5,25 +5,10 @@ use quell_dynamics::orbit::cycle::{cycles, free_end};
 use quell_dynamics::orbit::threshold::{Ending, Kind, local};
 use quell_dynamics::orbit::{NoOrbit, Orbit, Verdict, from_sliding};
 use quell_dynamics::simulation::{EventKind, EventRecorder, Start, simulate};
-use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
-
-fn undithered(law: LawKind, zeta: f64, velocity: f64) -> Belt {
-    let friction = law.build(&[0.4, 0.2857, 0.2]).expect("a valid law");
-    Belt::new(zeta, 1.0, velocity, friction, Vec::new()).expect("a valid belt")
-}
-
-fn with_sine(belt: &Belt, amplitude: f64, frequency_ratio: f64) -> Belt {
-    let dither = Dither {
-        direction: Direction::Tangential,
-        waveform: Waveform::Sine,
-        amplitude,
-        frequency_ratio,
-        phase: 0.0,
-    };
-    let friction = belt.friction().clone();
-    Belt::new(belt.damping_ratio(), 1.0, belt.belt_velocity(), friction, vec![dither])
-        .expect("a valid belt")
-}
+use quell_model::LawKind;
+use quell_zoo::belt::{self, undithered_belt};
+use quell_zoo::dither::sine;
+use quell_zoo::{BeltExt, law};
 
 fn trivial(orbit: &Orbit) -> f64 {
     orbit.multipliers.iter().map(|(re, im)| (re - 1.0).hypot(*im)).fold(f64::INFINITY, f64::min)
@@ -31,7 +16,7 @@ fn trivial(orbit: &Orbit) -> f64 {
 
 #[test]
 fn squeal_is_an_orbit_of_known_period() {
-    let belt = undithered(LawKind::Stribeck, 0.005, 0.05);
+    let belt = belt::stribeck();
     let found = cycles(&belt).expect("no stall");
     assert_eq!(found.len(), 1, "{found:?}");
     let cycle = &found[0];
@@ -39,18 +24,18 @@ fn squeal_is_an_orbit_of_known_period() {
     assert!(cycle.is_free && cycle.residual < 1e-12);
     assert_eq!((cycle.verdict(), cycle.count(EventKind::Stick)), (Verdict::Stable, 1));
     assert!(trivial(cycle) < 1e-9 && cycle.radius() < 1e-9, "{:?}", cycle.multipliers);
-    // It moves with the belt from where it sticks to where it is released, x = μ_sF − 2ζv₀.
+    // The mass moves with the belt from its stick to its release at x = μ_sF − 2ζv₀.
     let mut watch = EventRecorder::default();
     simulate(&belt, cycle.start, cycle.period, 1e-12, &mut watch).expect("no stall");
-    let way = watch.events[1].displacement - watch.events[0].displacement;
+    let travel = watch.events[1].displacement - watch.events[0].displacement;
     assert!((watch.events[1].displacement - 0.3995).abs() < 1e-12);
-    assert!((cycle.stick_fraction - way / 0.05 / cycle.period).abs() < 1e-9);
+    assert!((cycle.stick_fraction - travel / 0.05 / cycle.period).abs() < 1e-9);
 }
 
-/// Beyond v₂ sliding is stable, and an unstable cycle in slip lies between it and the squeal.
+/// Beyond v₂ sliding is stable, and an unstable cycle in slip separates it from the squeal.
 #[test]
 fn an_unstable_cycle_lies_between_sliding_and_squeal() {
-    let belt = undithered(LawKind::Decreasing, 0.005, 1.0);
+    let belt = belt::decreasing();
     let found = cycles(&belt).expect("no stall");
     assert_eq!(found.len(), 2, "{found:?}");
     let (squeal, between) = (&found[0], &found[1]);
@@ -58,7 +43,7 @@ fn an_unstable_cycle_lies_between_sliding_and_squeal() {
     assert!(between.is_pure_slip() && trivial(between) < 1e-9);
     // The other multiplier is the determinant, exp(−∮(2ζ + μ′N)).
     assert!((between.radius() - (-between.damping).exp()).abs() < 1e-9);
-    // Runs from either side of it part.
+    // Runs from either side of it diverge.
     for (share, sticks) in [(1.001, true), (0.999, false)] {
         let sliding = belt.steady_sliding();
         let displacement = sliding + share * (between.start.displacement - sliding);
@@ -69,22 +54,20 @@ fn an_unstable_cycle_lies_between_sliding_and_squeal() {
     }
 }
 
-/// Without damping and with constant friction every turn returns to itself: a continuum has no limit cycle.
+/// Without damping and with constant friction every oscillation is periodic: a continuum has no limit cycle.
 #[test]
 fn a_continuum_of_free_oscillations_has_no_limit_cycle() {
-    let friction = LawKind::Coulomb.build(&[0.3, 0.3, 0.0]).expect("a valid law");
-    let belt = Belt::new(0.0, 1.0, 0.9767, friction, Vec::new()).expect("valid");
+    let belt = undithered_belt(0.0, 0.9767, law::coulomb(0.3, 0.3));
     assert_eq!(cycles(&belt), Ok(Vec::new()));
     assert_eq!(free_end(&belt, Start::REST), Err(NoOrbit::NoLimit));
 }
 
-/// With Coulomb friction and a static level, turns that slip throughout decay and those that stick grow: between them the growth
-/// jumps over zero, and no turn returns to itself.
+/// With Coulomb friction and a static level, oscillations that slip throughout decay and those that stick grow: in between, the
+/// growth jumps over zero, and no oscillation is periodic.
 #[test]
-fn a_jump_of_the_cycle_map_is_no_cycle() {
-    let friction = LawKind::Coulomb.build(&[0.75, 1.0, 0.0]).expect("a valid law");
+fn a_jump_of_the_cycle_map_is_not_a_cycle() {
     for velocity in [0.001, 0.01, 0.1] {
-        let belt = Belt::new(0.02, 1.0, velocity, friction.clone(), Vec::new()).expect("valid");
+        let belt = undithered_belt(0.02, velocity, law::coulomb(0.75, 1.0));
         for cycle in cycles(&belt).expect("no stall") {
             assert_eq!(cycle.count(EventKind::Stick), 1, "{velocity}: {cycle:?}");
             assert!(cycle.residual < 1e-9, "{velocity}: {cycle:?}");
@@ -94,10 +77,10 @@ fn a_jump_of_the_cycle_map_is_no_cycle() {
 
 #[test]
 fn cycles_end_at_their_belt_velocity() {
-    // Folds of limit cycles by the notes' independent program; 2.49990 has six digits.
+    // Folds of limit cycles from an independent program; 2.49990 has six digits.
     for (zeta, last) in [(0.005, 2.49990), (0.05, 0.476688), (0.07, 0.355485)] {
         let count = |velocity: f64| {
-            cycles(&undithered(LawKind::Decreasing, zeta, velocity)).expect("no stall").len()
+            cycles(&undithered_belt(zeta, velocity, law::decreasing())).expect("no stall").len()
         };
         let (mut low, mut high) = (0.8 * last, 1.2 * last);
         assert_eq!((count(low), count(high)), (2, 0));
@@ -110,32 +93,32 @@ fn cycles_end_at_their_belt_velocity() {
     }
     // The Stribeck law: no coexistence, the cycle ends where sliding becomes stable, v₂ = 0.1988.
     let count = |velocity: f64| {
-        cycles(&undithered(LawKind::Stribeck, 0.005, velocity)).expect("no stall").len()
+        cycles(&belt::dissertation(LawKind::Stribeck).at_speed(velocity)).expect("no stall").len()
     };
     assert_eq!((count(0.198), count(0.1995), count(0.0)), (1, 0, 0));
 }
 
-/// At the natural frequency the response of sliding folds at a small amplitude; nothing of it is beyond.
+/// At the natural frequency the base response folds at a small amplitude and does not exist beyond it.
 #[test]
 fn a_fold_is_not_stepped_over() {
-    let belt = with_sine(&undithered(LawKind::Decreasing, 0.005, 1.0), 1e-4, 1.0);
+    let belt = belt::decreasing().with_dither(sine(1e-4, 1.0));
     let found = local(&belt, "dither.amplitude", 1e-4, 3e-3, 20).expect("followed");
-    let fold = found.thresholds.iter().find(|it| it.kind == Kind::Fold);
+    let fold = found.thresholds.iter().find(|threshold| threshold.kind == Kind::Fold);
     println!("{:?}\n{:?}", found.thresholds, found.ending);
     let fold = fold.expect("a fold");
     assert!((fold.value - 0.001_572_4).abs() < 2e-7, "{fold:?}");
     assert_eq!((fold.was, fold.becomes), (Some(Verdict::Stable), None));
     assert!(matches!(found.ending, Ending::TurnedBack { at } if at < 0.0016), "{:?}", found.ending);
-    // Shooting from sliding tells it, instead of an orbit of another branch.
-    let beyond = with_sine(&belt.undithered(), 2e-3, 1.0);
-    let told = from_sliding(&beyond, 8).expect_err("none");
-    assert!(matches!(told, NoOrbit::Ends { share } if (share - 0.786).abs() < 1e-3), "{told}");
+    // Continuation from sliding reports this, rather than an orbit of another branch.
+    let beyond = belt.undithered().with_dither(sine(2e-3, 1.0));
+    let why = from_sliding(&beyond, 8).expect_err("none");
+    assert!(matches!(why, NoOrbit::Ends { share } if (share - 0.786).abs() < 1e-3), "{why}");
 }
 
 /// The large stick-slip cycle under dither is locked to it: an orbit of ten periods.
 #[test]
 fn squeal_under_dither_is_an_orbit_of_many_periods() {
-    let belt = with_sine(&undithered(LawKind::Decreasing, 0.005, 1.0), 2.5, 10.0);
+    let belt = belt::decreasing().with_dither(sine(2.5, 10.0));
     let squeal = &cycles(&belt).expect("no stall")[0];
     let orbit = orbit_reached(&belt, squeal.start).expect("an orbit");
     let tenth = orbit.period / (0.2 * std::f64::consts::PI);
@@ -145,10 +128,10 @@ fn squeal_under_dither_is_an_orbit_of_many_periods() {
     assert!(orbit.multipliers[1].0.abs() < 1e-9);
 }
 
-/// A dither that grows slowly leads a run from rest to the quiet response where one that is switched on does not.
+/// A dither that grows slowly leads a run from rest to the base response; one that is switched on at once does not.
 #[test]
-fn a_ramp_ends_at_the_response_of_sliding() {
-    let belt = with_sine(&undithered(LawKind::Decreasing, 0.005, 1.0), 3.5, 10.0);
+fn a_ramp_ends_on_the_base_response() {
+    let belt = belt::decreasing().with_dither(sine(3.5, 10.0));
     let rest = Start { time: 0.0, displacement: belt.steady_sliding(), velocity: 0.0 };
     let switched = reached(&belt, rest).expect("no stall");
     let ramp = ramped(&belt, rest, 200.0).expect("a period");

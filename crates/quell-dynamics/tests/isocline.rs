@@ -2,13 +2,16 @@
 
 use quell_dynamics::response::{Solver, amplitude_at_efficiency};
 use quell_dynamics::simulation::Start;
-use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_model::{LawKind, Waveform};
+use quell_zoo::BeltExt;
+use quell_zoo::belt::dissertation;
+use quell_zoo::dither::tangential;
 use serde_json::Value;
 
 const REFERENCE: &str = include_str!("../../../reference/quench_thresholds.json");
 
 #[test]
-fn efficiency_falls_through_five_per_cent_where_the_reference_says() {
+fn efficiency_falls_through_five_per_cent_at_the_reference_amplitude() {
     let reference: Value = serde_json::from_str(REFERENCE).expect("reference file");
     let cases = reference["cases"].as_array().expect("cases");
     let number = |case: &Value, key: &str| case[key].as_f64().expect("a number");
@@ -23,18 +26,11 @@ fn efficiency_falls_through_five_per_cent_where_the_reference_says() {
         let expected = expected.as_f64().expect("a number");
         let named = |key: &str| case[key].as_str().expect("a name");
         let law = LawKind::from_name(named("law")).expect("a law");
-        let waveform = Waveform::ALL.iter().find(|it| it.name() == named("waveform"));
+        let waveform = Waveform::from_name(named("waveform"));
         let average = number(case, "D_average");
-        let dither = Dither {
-            direction: Direction::Tangential,
-            waveform: *waveform.expect("a waveform"),
-            amplitude: average,
-            frequency_ratio: number(case, "frequency_ratio"),
-            phase: 0.0,
-        };
-        let friction = law.build(&[0.4, 0.2857, 0.2]).expect("a valid law");
-        let velocity = number(case, "belt_velocity");
-        let belt = Belt::new(0.005, 1.0, velocity, friction, vec![dither]).expect("a valid belt");
+        let dither =
+            tangential(waveform.expect("a waveform"), average, number(case, "frequency_ratio"));
+        let belt = dissertation(law).at_speed(number(case, "belt_velocity")).with_dither(dither);
         let range = 0.7 * average..=1.15 * average;
         let found = amplitude_at_efficiency(&belt, Start::REST, &solver, 0.05, range, 1e-3);
         let found = found.unwrap_or_else(|| panic!("no crossing: {case}"));

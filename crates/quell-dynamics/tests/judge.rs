@@ -1,4 +1,5 @@
-//! One judge of "has it settled, and where does it end?": response, orbit, thresholds, bifurcation, basins and starts agree.
+//! One criterion for whether a run has settled and where it ends: response, orbit, thresholds, bifurcation, basins and starts
+//! agree.
 
 use quell_dynamics::attractor::{
     Kind, Outcome, Patience, Reached, Scene, measure, orbit_reached, reached, settle, switches,
@@ -9,32 +10,17 @@ use quell_dynamics::orbit::{Verdict, from_sliding, near};
 use quell_dynamics::response::{Effect, Solver, Uncertain, Undefined, respond};
 use quell_dynamics::simulation::Start;
 use quell_dynamics::start::InitialState;
-use quell_model::{Belt, Direction, Dither, Expression, Friction, LawKind, Waveform};
+use quell_model::{Belt, LawKind};
+use quell_zoo::belt::{self, undithered_belt};
+use quell_zoo::dither::sine;
+use quell_zoo::{BeltExt, law};
 
-fn undithered(law: LawKind, zeta: f64, velocity: f64) -> Belt {
-    let friction = law.build(&[0.4, 0.2857, 0.2]).expect("a valid law");
-    Belt::new(zeta, 1.0, velocity, friction, Vec::new()).expect("a valid belt")
-}
-
-fn with_sine(belt: &Belt, amplitude: f64, frequency_ratio: f64) -> Belt {
-    let dither = Dither {
-        direction: Direction::Tangential,
-        waveform: Waveform::Sine,
-        amplitude,
-        frequency_ratio,
-        phase: 0.0,
-    };
-    let friction = belt.friction().clone();
-    Belt::new(belt.damping_ratio(), 1.0, belt.belt_velocity(), friction, vec![dither])
-        .expect("a valid belt")
-}
-
-/// A section that is one state to rounding closes after any number of periods; its period is one.
+/// A section that is a single state up to rounding closes after any number of periods; its period is one.
 #[test]
 fn a_response_of_one_period_is_not_called_locked() {
-    let fast = undithered(LawKind::Decreasing, 0.005, 1.0);
+    let fast = belt::decreasing();
     for amplitude in [2.0, 2.25, 2.5] {
-        let belt = with_sine(&fast, amplitude, 0.9);
+        let belt = fast.with_dither(sine(amplitude, 0.9));
         let scene = Scene::new(&belt).expect("a strobe");
         let settled = settle(&scene, Start::REST, Patience::SWEEP).expect("no stall");
         let attractor = measure(&scene, &settled).expect("no stall").expect("settled");
@@ -48,56 +34,56 @@ fn a_response_of_one_period_is_not_called_locked() {
     }
 }
 
-/// At v₀ = 0 a run from rest ends on the response that sticks twice a period, whose section is one state to the last bit.
+/// At v₀ = 0 a run from rest ends on the response that sticks twice per period, whose section is a single state to the last bit.
 #[test]
 fn a_driven_oscillator_settles_from_rest() {
-    let friction = Friction::Expression(Expression::new("0.3", &[], None, 1.0).expect("valid"));
-    let still = Belt::new(0.05, 1.0, 0.0, friction, Vec::new()).expect("valid");
+    let still = undithered_belt(0.05, 0.0, law::formula("0.3"));
     for amplitude in [0.4, 0.5, 0.6, 0.8, 1.5] {
-        let belt = with_sine(&still, amplitude, 0.5);
+        let belt = still.with_dither(sine(amplitude, 0.5));
         let orbit = orbit_reached(&belt, Start::REST).unwrap_or_else(|why| panic!("{why}"));
         assert_eq!(orbit.period, std::f64::consts::TAU / 0.5, "{amplitude}");
         assert_eq!(orbit.verdict(), Verdict::Stable, "{amplitude}");
     }
 }
 
-/// The response at D = 7 creeps along a nearly locked curve to an orbit of ten periods, which is what it is.
+/// The response at D = 7 creeps along a nearly locked curve to an orbit of ten periods, and is reported as that orbit.
 #[test]
 fn a_creep_along_a_nearly_locked_curve_ends_on_its_orbit() {
-    let belt = with_sine(&undithered(LawKind::Decreasing, 0.005, 1.5), 7.0, 10.0);
+    let belt = belt::dissertation(LawKind::Decreasing).at_speed(1.5).with_dither(sine(7.0, 10.0));
     let orbit = orbit_reached(&belt, Start::REST).expect("an orbit");
     assert!((orbit.period - std::f64::consts::TAU).abs() < 1e-12, "{}", orbit.period);
     assert_eq!(orbit.verdict(), Verdict::Stable);
 }
 
-/// A dither of no amplitude leaves a limit cycle as it is, whatever its frequency: the section's moments have no relation to it.
+/// A dither of amplitude zero does not change a limit cycle, at any frequency: the times of the section are unrelated to the
+/// cycle.
 #[test]
-fn a_limit_cycle_does_not_depend_on_the_frequency_of_no_dither() {
-    let belt = undithered(LawKind::Decreasing, 0.005, 0.05);
+fn a_limit_cycle_does_not_depend_on_the_frequency_of_a_silent_dither() {
+    let belt = belt::dissertation(LawKind::Decreasing).at_speed(0.05);
     let frequency = std::f64::consts::TAU / cycles(&belt).expect("no stall")[0].period;
     for frequency_ratio in [10.0, 1.45, 1.396, 1.0, 0.6] {
-        let belt = with_sine(&belt, 0.0, frequency_ratio);
+        let belt = belt.with_dither(sine(0.0, frequency_ratio));
         let scene = Scene::new(&belt).expect("a strobe");
         let settled = settle(&scene, Start::REST, Patience::SWEEP).expect("no stall");
         let attractor = measure(&scene, &settled).expect("no stall").expect("settled");
         assert_eq!(attractor.kind, Kind::Cycle, "{frequency_ratio}");
-        let found = attractor.frequency(scene.strobe.period).expect("it turns");
+        let found = attractor.frequency(scene.strobe.period).expect("a slow phase");
         assert!((found - frequency).abs() < 1e-12, "{frequency_ratio}: {found} {frequency}");
         let orbit = orbit_reached(&belt, Start::REST).expect("a cycle");
         assert!(orbit.is_free && (orbit.period * frequency - std::f64::consts::TAU).abs() < 1e-12);
     }
 }
 
-/// The squeal of the Stribeck law shrinks to nothing at the Hopf point, not before: starts, cycles, thresholds and orbits say so.
+/// The squeal of the Stribeck law shrinks to zero at the Hopf point and not before: starts, cycles, thresholds and orbits agree.
 #[test]
 fn squeal_ends_at_the_hopf_point() {
-    let belt = undithered(LawKind::Stribeck, 0.005, 0.15);
+    let belt = belt::dissertation(LawKind::Stribeck).at_speed(0.15);
     let hopf = local_thresholds(&belt, "belt.belt_velocity", 0.15, 0.25, 20).expect("followed");
     assert_eq!((hopf.len(), hopf[0].kind), (1, threshold::Kind::Hopf));
     let hopf = hopf[0].value;
     assert!((hopf - 0.198_830_1).abs() < 1e-7, "{hopf}");
     for (share, squeals) in [(1.0 - 1e-3, true), (1.0 - 1e-6, true), (1.0 + 1e-6, false)] {
-        let at = undithered(LawKind::Stribeck, 0.005, share * hopf);
+        let at = belt::dissertation(LawKind::Stribeck).at_speed(share * hopf);
         assert_eq!(cycles(&at).expect("no stall").len(), usize::from(squeals), "{share}");
         assert_eq!(InitialState::Squealing.resolve(&at).is_ok(), squeals, "{share}");
         let end = free_end(&at, Start::REST).expect("an end");
@@ -113,52 +99,52 @@ fn squeal_ends_at_the_hopf_point() {
     assert!((changes[0].value / hopf - 1.0).abs() < 2e-6, "{changes:?}");
 }
 
-/// On the fold of two limit cycles both lie between neighbours of any grid.
+/// Near the fold of two limit cycles both lie between neighbouring points of any grid.
 #[test]
 fn a_pair_of_cycles_near_its_fold_is_found() {
     // The fold is at v₀ = 0.4766883.
-    let count = |velocity| cycles(&undithered(LawKind::Decreasing, 0.05, velocity)).expect("runs");
+    let count =
+        |velocity| cycles(&undithered_belt(0.05, velocity, law::decreasing())).expect("runs");
     let near_fold = count(0.476_687);
     assert_eq!(near_fold.len(), 2);
     assert!(near_fold[0].radius() < 1.0 && near_fold[1].radius() > 1.0);
     assert!(count(0.476_69).is_empty());
 }
 
-/// ζ = 0, R = ½, pure slip through reversals at v₀ = 0: the multiplier is 1, and nothing is decided by its distance from 1 in the
-/// thirteenth digit of a state that is known to six.
+/// ζ = 0, R = ½, pure slip through reversals at v₀ = 0: the multiplier is 1. Its distance from 1 in the thirteenth digit decides
+/// nothing, because the state is known to six digits only.
 #[test]
 fn a_marginal_orbit_is_undecided() {
-    let friction = Friction::Expression(Expression::new("0.3", &[], None, 1.0).expect("valid"));
-    let still = Belt::new(0.0, 1.0, 0.0, friction, Vec::new()).expect("valid");
-    let belt = with_sine(&still, 3.0, 0.5);
+    let still = undithered_belt(0.0, 0.0, law::formula("0.3"));
+    let belt = still.with_dither(sine(3.0, 0.5));
     let guess = Start { time: 0.0, displacement: -1.300_01, velocity: 2.0 };
     let orbit = near(&belt, guess, 1).expect("an orbit");
     assert!((orbit.radius() - 1.0).abs() < 1e-4, "{orbit:?}");
     assert_eq!(orbit.verdict(), Verdict::Undecided, "{orbit:?}");
     assert!(orbit.state_error > 1e3 * orbit.residual, "{orbit:?}");
-    // A clear case is decided, with a small error.
-    let belt = with_sine(&undithered(LawKind::Decreasing, 0.005, 1.0), 3.0, 10.0);
+    // An ordinary orbit is decided, with a small error.
+    let belt = belt::decreasing().with_dither(sine(3.0, 10.0));
     let orbit = near(&belt, Start { displacement: 0.29, ..Start::REST }, 1).expect("an orbit");
     assert_eq!(orbit.verdict(), Verdict::Stable);
     assert!(orbit.state_error < 1e-10 && orbit.multiplier_error < 1e-9, "{orbit:?}");
 }
 
-/// Every effect, each planted: what a dither does is decided by where the runs end.
+/// One example of every effect: the effect of a dither is decided by the attractors on which the runs end.
 #[test]
-fn every_effect_has_its_word() {
+fn every_effect_is_recognised() {
     let solver = Solver::default();
-    let slow = undithered(LawKind::Stribeck, 0.005, 0.05);
-    let fast = undithered(LawKind::Decreasing, 0.005, 1.0);
-    let base = from_sliding(&with_sine(&fast, 3.5, 10.0), 8).expect("an orbit");
+    let slow = belt::stribeck();
+    let fast = belt::decreasing();
+    let base = from_sliding(&fast.with_dither(sine(3.5, 10.0)), 8).expect("an orbit");
     for (belt, start, effect) in [
-        (with_sine(&slow, 0.6, 10.0), Start::REST, Effect::Quenches),
-        (with_sine(&slow, 0.3, 10.0), Start::REST, Effect::Reduces),
+        (slow.with_dither(sine(0.6, 10.0)), Start::REST, Effect::Quenches),
+        (slow.with_dither(sine(0.3, 10.0)), Start::REST, Effect::Reduces),
         (slow.clone(), Start::REST, Effect::Unknown(Uncertain::NoDither)),
-        // Below resonance the dither's own motion is in the band.
-        (with_sine(&slow, 0.6, 0.9), Start::REST, Effect::Increases),
-        // Sliding is stable at v₀ = 1; the same dither makes it squeal from rest and leaves it quiet from the base response.
-        (with_sine(&fast, 3.5, 10.0), Start::REST, Effect::Causes),
-        (with_sine(&fast, 3.5, 10.0), base.start, Effect::Quiet),
+        // Below resonance the forced motion lies in the band of slow vibration.
+        (slow.with_dither(sine(0.6, 0.9)), Start::REST, Effect::Increases),
+        // Sliding is stable at v₀ = 1; the same dither causes squeal from rest and none from the base response.
+        (fast.with_dither(sine(3.5, 10.0)), Start::REST, Effect::Causes),
+        (fast.with_dither(sine(3.5, 10.0)), base.start, Effect::Quiet),
     ] {
         let found = respond(&belt, start, &solver).expect("no stall");
         assert_eq!(found.effect, effect, "{:?} {:?}", belt.dithers(), found.ending);
@@ -170,10 +156,10 @@ fn every_effect_has_its_word() {
     }
 }
 
-/// Outcomes of undithered runs by the cycle map are those of a long simulation from either side of the unstable cycle.
+/// The cycle map predicts the outcomes of long undithered simulations from either side of the unstable cycle.
 #[test]
-fn undithered_runs_end_where_the_cycle_map_says() {
-    let belt = undithered(LawKind::Decreasing, 0.005, 1.0);
+fn undithered_runs_end_as_the_cycle_map_predicts() {
+    let belt = belt::decreasing();
     let between = &cycles(&belt).expect("no stall")[1];
     let scene = Scene::new(&belt).expect("a strobe");
     for (share, outcome) in [(1.001, Outcome::Elsewhere), (0.999, Outcome::Quiet)] {

@@ -1,29 +1,24 @@
-//! Effective friction measured on trajectories against what it must be.
+//! Effective friction measured on trajectories, against its exact value.
 
 use std::f64::consts::TAU;
 
 use quell_dynamics::response::measured_effective_friction;
 use quell_dynamics::simulation::Start;
-use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_model::{Belt, Waveform};
+use quell_zoo as zoo;
+use quell_zoo::dither::normal;
 
 fn belt(belt_velocity: f64, damping_ratio: f64, amplitude: f64) -> Belt {
-    let law = LawKind::Decreasing.build(&[0.4, 0.2857, 0.2]).expect("valid");
-    let dither = Dither {
-        direction: Direction::Normal,
-        waveform: Waveform::Sine,
-        amplitude,
-        frequency_ratio: 5.0,
-        phase: 0.0,
-    };
-    Belt::new(damping_ratio, 1.0, belt_velocity, law, vec![dither]).expect("valid")
+    let dithers = vec![normal(Waveform::Sine, amplitude, 5.0)];
+    zoo::belt::belt(damping_ratio, belt_velocity, zoo::law::decreasing(), dithers)
 }
 
 fn at(displacement: f64) -> Start {
     Start { time: 0.0, displacement, velocity: 0.0 }
 }
 
-/// Without dither the mean over a window is the mean of the law over the slip in it: a point of the law while the
-/// velocity hardly moves.
+/// Without dither the mean over a window is the mean of the law over the slip in it: a point of the law as long as
+/// the velocity is nearly constant.
 #[test]
 fn without_dither_the_points_lie_on_the_law() {
     let belt = belt(1.5, 0.05, 0.0);

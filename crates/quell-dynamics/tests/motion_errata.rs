@@ -1,4 +1,4 @@
-//! Where the dissertation's words and numbers about motions are wrong: each printed statement against exact trajectories
+//! Errors in the dissertation's words and numbers about motions: each printed statement against exact trajectories
 //! and orbits.
 
 use core::f64::consts::TAU;
@@ -6,31 +6,18 @@ use core::f64::consts::TAU;
 use quell_dynamics::orbit::threshold::local_thresholds;
 use quell_dynamics::response::{Solver, respond};
 use quell_dynamics::simulation::{EventKind, EventRecorder, Sampler, Start, simulate};
-use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_model::{Belt, Waveform};
+use quell_zoo::BeltExt;
+use quell_zoo::belt::{self, chapter_4, stribeck_under};
+use quell_zoo::dither::{normal, sine};
 
 const TOLERANCE: f64 = 1e-12;
-
-/// A belt of the dissertation with one dither, F = 1, v_m = 0.2.
-fn belt(
-    law: LawKind,
-    minimum: f64,
-    damping_ratio: f64,
-    belt_velocity: f64,
-    dither: Option<Dither>,
-) -> Belt {
-    let law = law.build(&[0.4, minimum, 0.2]).expect("valid");
-    Belt::new(damping_ratio, 1.0, belt_velocity, law, dither.into_iter().collect()).expect("valid")
-}
-
-fn dither(direction: Direction, waveform: Waveform, amplitude: f64, ratio: f64) -> Dither {
-    Dither { direction, waveform, amplitude, frequency_ratio: ratio, phase: 0.0 }
-}
 
 /// μ_m = 0.2587 is a misprint of 0.2857: the printed law squeals at 0.5925 ω₀, the text says 0.666 (measured: 0.6544).
 #[test]
 fn minimum_coefficient() {
     let frequency = |minimum: f64| {
-        let belt = belt(LawKind::Stribeck, minimum, 0.005, 0.05, None);
+        let belt = belt::stribeck().with("friction.minimum_coefficient", minimum).expect("valid");
         let mut recorder = EventRecorder::default();
         simulate(&belt, Start::REST, 600.0, TOLERANCE, &mut recorder).expect("no stall");
         let sticks: Vec<f64> = recorder
@@ -51,14 +38,13 @@ fn minimum_coefficient() {
 #[test]
 fn forced_amplitude_grows_as_the_ratio_falls() {
     let amplitude = |ratio: f64| {
-        let sine = dither(Direction::Tangential, Waveform::Sine, 0.5, ratio);
-        let belt = belt(LawKind::Stribeck, 0.2857, 0.005, 0.05, Some(sine));
+        let belt = belt::stribeck().with_dither(sine(0.5, ratio));
         let response = respond(&belt, Start::REST, &Solver::default()).expect("no stall");
         let near = response.peaks.iter().filter(|peak| (peak.frequency - ratio).abs() < 0.1);
         near.map(|peak| peak.amplitude).fold(0.0, f64::max)
     };
-    // At R = 10 the mass only just keeps sliding, and its forced motion is the linear one; below, friction turns round
-    // within each period and takes some of it.
+    // At R = 10 the mass only just keeps sliding, and its forced motion is the linear one; at lower R, friction changes
+    // sign within each period and reduces it.
     let linear = |ratio: f64| 0.5 / (ratio * ratio - 1.0);
     assert!((amplitude(10.0) / linear(10.0) - 1.0).abs() < 0.005, "{}", amplitude(10.0));
     for ratio in [9.0, 8.0] {
@@ -87,11 +73,10 @@ fn largest(samples: &[f64], step: f64, mean_removed: bool) -> f64 {
     (1..=1900).map(|k| at(1e-3 * f64::from(k))).fold(0.0, f64::max)
 }
 
-/// E = M₁/M₀ (2.27) exceeds 1 whatever the dither as long as the mean is left in the record.
+/// E = M₁/M₀ (2.27) exceeds 1 for any dither as long as the mean is left in the record.
 #[test]
 fn efficiency_needs_the_mean_removed() {
-    let sine = dither(Direction::Tangential, Waveform::Sine, 0.45, 10.0);
-    let dithered = belt(LawKind::Stribeck, 0.2857, 0.005, 0.05, Some(sine));
+    let dithered = stribeck_under(Waveform::Sine, 0.45);
     let record = |belt: &Belt| -> Vec<f64> {
         let mut sampler = Sampler::new(600.0, 0.1, 1257);
         simulate(belt, Start::REST, 726.0, TOLERANCE, &mut sampler).expect("no stall");
@@ -104,10 +89,10 @@ fn efficiency_needs_the_mean_removed() {
     assert!((right - 0.127).abs() < 0.01, "{right}");
 }
 
-/// "Stable without dither above v₂": from x = 1.5 the same belt goes on squealing.
+/// "Stable without dither above v₂": from x = 1.5 the same belt continues to squeal.
 #[test]
 fn a_cycle_coexists_with_stable_sliding() {
-    let belt = belt(LawKind::Decreasing, 0.2857, 0.005, 1.0, None);
+    let belt = belt::decreasing();
     let spread = |displacement: f64| {
         let start = Start { displacement, ..Start::REST };
         let mut sampler = Sampler::new(1500.0, 0.05, 500);
@@ -124,8 +109,7 @@ fn a_cycle_coexists_with_stable_sliding() {
 #[test]
 fn figure_4_11_shows_the_sine() {
     let found = |waveform: Waveform| -> Vec<f64> {
-        let normal = dither(Direction::Normal, waveform, 0.1, 5.0);
-        let belt = belt(LawKind::Decreasing, 0.2857, 0.2, 0.075, Some(normal));
+        let belt = chapter_4().with_dither(normal(waveform, 0.1, 5.0));
         let thresholds = local_thresholds(&belt, "dither.amplitude", 0.1, 0.99, 60);
         thresholds.expect("followed").iter().map(|threshold| threshold.value).collect()
     };
@@ -146,8 +130,7 @@ fn figure_4_11_shows_the_sine() {
 #[test]
 fn figure_2_11_is_at_one_and_a_half() {
     let settles = |velocity: f64, amplitude: f64| {
-        let sine = dither(Direction::Tangential, Waveform::Sine, amplitude, 10.0);
-        let belt = belt(LawKind::Decreasing, 0.2857, 0.005, velocity, Some(sine));
+        let belt = belt::decreasing().at_speed(velocity).with_dither(sine(amplitude, 10.0));
         let solver = Solver { settle: 4000.0, ..Solver::default() };
         let response = respond(&belt, Start::REST, &solver).expect("no stall");
         response.amplitude < 1e-3

@@ -4,28 +4,13 @@ use quell_dynamics::attractor::{Reached, Switches, orbit_reached, switches};
 use quell_dynamics::orbit::threshold::{Kind, Threshold, local_thresholds};
 use quell_dynamics::orbit::{NoOrbit, Orbit, Verdict, from_sliding};
 use quell_dynamics::simulation::{EventKind, Start, simulate};
-use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_model::{Belt, LawKind, Waveform};
+use quell_zoo::BeltExt;
+use quell_zoo::belt::{chapter_4, decreasing_under, dissertation};
+use quell_zoo::dither::{normal, tangential};
 use serde_json::Value;
 
 const REFERENCE: &str = include_str!("../../../reference/quench_thresholds.json");
-
-fn belt(
-    law: LawKind,
-    zeta: f64,
-    velocity: f64,
-    direction: Direction,
-    waveform: Waveform,
-    d: f64,
-    r: f64,
-) -> Belt {
-    let friction = law.build(&[0.4, 0.2857, 0.2]).expect("a valid law");
-    let dither = Dither { direction, waveform, amplitude: d, frequency_ratio: r, phase: 0.0 };
-    Belt::new(zeta, 1.0, velocity, friction, vec![dither]).expect("a valid belt")
-}
-
-fn tangential(waveform: Waveform, d: f64) -> Belt {
-    belt(LawKind::Decreasing, 0.005, 1.0, Direction::Tangential, waveform, d, 10.0)
-}
 
 /// Five-point differences of the period map.
 fn differences(belt: &Belt, orbit: &Orbit, h: f64) -> [[f64; 2]; 2] {
@@ -47,26 +32,10 @@ fn differences(belt: &Belt, orbit: &Orbit, h: f64) -> [[f64; 2]; 2] {
     [[first[0], second[0]], [first[1], second[1]]]
 }
 
-#[test]
-fn determinant_in_pure_slip_and_differences() {
-    for (waveform, d) in [(Waveform::Sine, 2.0), (Waveform::Sine, 5.0), (Waveform::Square, 4.0)] {
-        let belt = tangential(waveform, d);
-        let orbit = from_sliding(&belt, 8).expect("an orbit");
-        assert!(orbit.is_pure_slip() && orbit.residual < 1e-12);
-        let [[a, b], [c, e]] = orbit.monodromy;
-        let determinant = a * e - b * c;
-        assert!((determinant - (-orbit.damping).exp()).abs() < 1e-10, "{determinant}");
-        let other = differences(&belt, &orbit, 1e-3);
-        for (own, other) in orbit.monodromy.iter().flatten().zip(other.iter().flatten()) {
-            assert!((own - other).abs() < 1e-8, "{waveform:?} {d}: {own} {other}");
-        }
-    }
-}
-
 /// Reversals: square dither beyond the upper threshold; determinant by differences, 0.8031914534517.
 #[test]
 fn saltation_at_reversals() {
-    let belt = tangential(Waveform::Square, 6.4);
+    let belt = decreasing_under(Waveform::Square, 6.4);
     let orbit = from_sliding(&belt, 16).expect("an orbit");
     assert_eq!(orbit.events.len(), 2, "{:?}", orbit.events);
     let [[a, b], [c, d]] = orbit.monodromy;
@@ -74,19 +43,20 @@ fn saltation_at_reversals() {
     assert_eq!(orbit.verdict(), Verdict::Stable);
 }
 
-/// A stick among reversals, over ten periods of the dither: one multiplier is 0, the derivative is that of differences, and so
-/// it is where the mass only reverses. The steps stay inside one order of events.
+/// With a stick among reversals, over ten periods of the dither, one multiplier is 0 and the derivative agrees with
+/// differences, as it does where the mass only reverses. The steps of the differences do not change the order of events.
 #[test]
 fn multipliers_through_stick_and_reversal() {
     let squeal = Start { time: 0.0, displacement: -0.750_838_2, velocity: 0.0 };
-    let squealing = orbit_reached(&tangential(Waveform::Sine, 2.5), squeal).expect("an orbit");
+    let squealing =
+        orbit_reached(&decreasing_under(Waveform::Sine, 2.5), squeal).expect("an orbit");
     assert!(squealing.count(EventKind::Stick) > 0 && squealing.count(EventKind::Reversal) > 0);
     let (re, im) = squealing.multipliers[1];
     assert!(re.hypot(im) < 1e-9, "{re} {im}");
-    let reversing = from_sliding(&tangential(Waveform::Sine, 12.0), 16).expect("an orbit");
+    let reversing = from_sliding(&decreasing_under(Waveform::Sine, 12.0), 16).expect("an orbit");
     assert_eq!((reversing.count(EventKind::Stick), reversing.events.len()), (0, 2));
     for (d, orbit) in [(2.5, squealing), (12.0, reversing)] {
-        let other = differences(&tangential(Waveform::Sine, d), &orbit, 1e-5);
+        let other = differences(&decreasing_under(Waveform::Sine, d), &orbit, 1e-5);
         for (own, other) in orbit.monodromy.iter().flatten().zip(other.iter().flatten()) {
             assert!((own - other).abs() < 1e-8, "{d}: {own} {other}");
         }
@@ -109,8 +79,9 @@ fn thresholds_of_tangential_dither() {
         (Waveform::Sine, 4.322_392_624, 9.900_214_849),
         (Waveform::Square, 3.295_664_190, 6.313_857_946),
     ] {
-        let found = local_thresholds(&tangential(waveform, 1.0), "dither.amplitude", 0.5, 10.5, 40)
-            .expect("followed");
+        let found =
+            local_thresholds(&decreasing_under(waveform, 1.0), "dither.amplitude", 0.5, 10.5, 40)
+                .expect("followed");
         let expected = [
             (lower, Kind::NeimarkSacker, Verdict::Unstable),
             (upper, Kind::Grazing, Verdict::Stable),
@@ -125,7 +96,7 @@ fn thresholds_of_normal_dither() {
         (Waveform::Square, 0.553_840_4, 0.614_698_468, 2e-7),
         (Waveform::Sine, 0.710_299_1, 0.965_369_470, 2e-7),
     ] {
-        let belt = belt(LawKind::Decreasing, 0.2, 0.075, Direction::Normal, waveform, 0.1, 5.0);
+        let belt = chapter_4().with_dither(normal(waveform, 0.1, 5.0));
         let found = local_thresholds(&belt, "dither.amplitude", 0.1, 0.99, 60).expect("followed");
         assert_eq!(found.len(), 2, "{found:?}");
         for (threshold, value) in found.iter().zip([lower, upper]) {
@@ -148,16 +119,8 @@ fn quench_thresholds_of_the_reference() {
         let name = case["waveform"].as_str().expect("a waveform");
         let waveform = Waveform::from_name(name).expect("a waveform");
         let (average, expected) = (number("D_average"), number("D_period1_stable_from"));
-        let velocity = number("belt_velocity");
-        let belt = belt(
-            law,
-            0.005,
-            velocity,
-            Direction::Tangential,
-            waveform,
-            average,
-            number("frequency_ratio"),
-        );
+        let dither = tangential(waveform, average, number("frequency_ratio"));
+        let belt = dissertation(law).at_speed(number("belt_velocity")).with_dither(dither);
         let (from, to) = (0.8 * average, 1.1 * average);
         let found = local_thresholds(&belt, "dither.amplitude", from, to, 12)
             .unwrap_or_else(|why| panic!("{case}: {why:?}"));
@@ -172,13 +135,14 @@ fn quench_thresholds_of_the_reference() {
     println!("{checked} thresholds, worst {worst:.1e}");
 }
 
-/// From rest the threshold depends on the phase of the dither at its start, and lies far below the local one.
+/// From rest the threshold depends on the phase of the dither at its start, and is far below the local one.
 #[test]
 fn thresholds_from_rest() {
     let quarter = std::f64::consts::FRAC_PI_2;
     for (phase, expected) in [(0.0, 2.868), (1.0, 3.791), (2.0, 2.870), (3.0, 3.431)] {
-        let belt =
-            tangential(Waveform::Sine, 1.0).with("dither.phase", phase * quarter).expect("valid");
+        let belt = decreasing_under(Waveform::Sine, 1.0)
+            .with("dither.phase", phase * quarter)
+            .expect("valid");
         let range = (expected - 0.11, expected + 0.09);
         let found = switches(&belt, "dither.amplitude", range, 2, 2e-4, |_| Ok(Some(Start::REST)))
             .expect("runs");
@@ -189,23 +153,24 @@ fn thresholds_from_rest() {
     }
 }
 
-/// The last step of a walk may be corrected over the end of its window: it ends there all the same. At these amplitudes it did
-/// not, and the response counted as lost.
+/// The corrector may move the last point of a continuation run beyond its window: the run ends at the window all the same. At
+/// these amplitudes it once did not, and the response counted as lost.
 #[test]
-fn a_walk_ends_at_the_end_of_its_window() {
+fn a_continuation_run_ends_at_the_end_of_its_window() {
     for amplitude in [9.95, 9.975, 10.0, 10.1, 10.35, 11.6] {
-        let belt =
-            tangential(Waveform::Sine, 1.0).with("dither.amplitude", amplitude).expect("valid");
+        let belt = decreasing_under(Waveform::Sine, 1.0)
+            .with("dither.amplitude", amplitude)
+            .expect("valid");
         let orbit = from_sliding(&belt, 8).unwrap_or_else(|why| panic!("{amplitude}: {why}"));
         assert_eq!(orbit.verdict(), Verdict::Stable, "{amplitude}");
         assert!(orbit.residual < 1e-9, "{amplitude}: {}", orbit.residual);
     }
 }
 
-/// A start that fails leaves the end unknown; where there is none, nothing is there to be quenched.
+/// Where a start cannot be computed the end is unknown; where no squealing start exists, nothing needs to be quenched.
 #[test]
-fn a_start_that_fails_is_not_quenched() {
-    let belt = tangential(Waveform::Sine, 1.0);
+fn a_start_that_cannot_be_computed_is_not_quenched() {
+    let belt = decreasing_under(Waveform::Sine, 1.0);
     let ends = |start: Result<Option<Start>, NoOrbit>| {
         switches(&belt, "dither.amplitude", (2.0, 3.0), 1, 1e-3, |_| start).expect("valid")
     };

@@ -1,4 +1,4 @@
-//! Laws of one's own, as a formula or from samples, against built-in laws that say the same.
+//! User-defined laws, as a formula or from samples, against the equivalent built-in laws.
 
 use quell_dynamics::orbit::{from_sliding, near};
 use quell_dynamics::simulation::{
@@ -8,33 +8,26 @@ use quell_linear::averaging::{
     AveragingOptions, CriticalVelocity, FastMotion, FastWave, closed_band, criterion, effective,
     effective_by_quadrature, everywhere_stable_amplitude, undithered_critical_velocity,
 };
-use quell_model::friction::NumericLaw;
 use quell_model::{Belt, Direction, Dither, Expression, Friction, LawKind, Samples, Waveform};
+use quell_zoo as zoo;
+use quell_zoo::belt::DAMPING_RATIO;
+use quell_zoo::dither::{at_phase, tangential};
+use quell_zoo::law::{self, measured};
 
 const TOLERANCE: f64 = 1e-13;
 
-/// (2.7) and (2.8) as formulas, with the values of the dissertation as constants.
+/// (2.7) and (2.8) built in and as formulas.
 fn pairs() -> Vec<(Friction, Friction)> {
-    let constants =
-        [("mu_s".to_owned(), 0.4), ("mu_m".to_owned(), 0.2857), ("v_m".to_owned(), 0.2)];
-    [
-        (LawKind::Stribeck, "mu_s - 3/2*(mu_s - mu_m)*(abs(v)/v_m - (abs(v)/v_m)^3/3)"),
-        (LawKind::Decreasing, "mu_m + (mu_s - mu_m)*exp(-abs(v)/v_m)"),
-    ]
-    .into_iter()
-    .map(|(kind, text)| {
-        let own = Expression::new(text, &constants, None, 1.0).expect(text);
-        (kind.build(&[0.4, 0.2857, 0.2]).expect("valid"), Friction::Expression(own))
-    })
-    .collect()
+    let pair = |kind| (law::dissertation(kind), law::dissertation_as_formula(kind));
+    [LawKind::Stribeck, LawKind::Decreasing].map(pair).to_vec()
 }
 
 fn dither(direction: Direction, waveform: Waveform, amplitude: f64) -> Dither {
-    Dither { direction, waveform, amplitude, frequency_ratio: 7.3, phase: 0.4 }
+    at_phase(zoo::dither::dither(direction, waveform, amplitude, 7.3), 0.4)
 }
 
 fn belt(law: &Friction, velocity: f64, dithers: Vec<Dither>) -> Belt {
-    Belt::new(0.005, 1.0, velocity, law.clone(), dithers).expect("valid")
+    zoo::belt::belt(DAMPING_RATIO, velocity, law, dithers)
 }
 
 fn events(belt: &Belt, until: f64) -> Vec<Event> {
@@ -43,10 +36,10 @@ fn events(belt: &Belt, until: f64) -> Vec<Event> {
     watch.events
 }
 
-/// Squeal is chaotic over long times under dither: the comparison ends before errors have grown.
+/// Under dither squeal is chaotic over long times: the comparison ends before errors have grown.
 #[test]
-fn a_formula_gives_the_events_of_the_law_that_it_is() {
-    for (built_in, own) in pairs() {
+fn a_formula_gives_the_events_of_the_equivalent_law() {
+    for (built_in, custom) in pairs() {
         for dithers in [
             vec![],
             vec![dither(Direction::Tangential, Waveform::Sine, 0.3)],
@@ -58,9 +51,9 @@ fn a_formula_gives_the_events_of_the_law_that_it_is() {
         ] {
             let (known, found) = (
                 events(&belt(&built_in, 0.05, dithers.clone()), 25.0),
-                events(&belt(&own, 0.05, dithers), 25.0),
+                events(&belt(&custom, 0.05, dithers), 25.0),
             );
-            assert!(known.len() >= 4 && known.len() == found.len(), "{own:?}: {}", known.len());
+            assert!(known.len() >= 4 && known.len() == found.len(), "{custom:?}: {}", known.len());
             for (known, found) in known.iter().zip(&found) {
                 assert_eq!((known.kind, known.slip_sign), (found.kind, found.slip_sign));
                 assert!((known.time - found.time).abs() < 1e-10, "{known:?} {found:?}");
@@ -72,13 +65,13 @@ fn a_formula_gives_the_events_of_the_law_that_it_is() {
 
 /// Quadrature against closed forms, and every threshold of averaging.
 #[test]
-fn a_formula_has_the_averages_and_thresholds_of_the_law_that_it_is() {
-    for (built_in, own) in pairs() {
+fn a_formula_has_the_averages_and_thresholds_of_the_equivalent_law() {
+    for (built_in, custom) in pairs() {
         for waveform in [Waveform::Sine, Waveform::Triangle, Waveform::Square] {
             for v in [0.02, 0.11, 0.3, -0.11] {
                 let dithers = vec![dither(Direction::Tangential, waveform, 0.8)];
                 let (known, found) =
-                    (belt(&built_in, 0.05, dithers.clone()), belt(&own, 0.05, dithers));
+                    (belt(&built_in, 0.05, dithers.clone()), belt(&custom, 0.05, dithers));
                 let mean = |belt: &Belt| {
                     let motion =
                         FastMotion::of(belt, v, AveragingOptions::default()).expect("fast");
@@ -89,9 +82,9 @@ fn a_formula_has_the_averages_and_thresholds_of_the_law_that_it_is() {
                 assert!((known.slope - found.slope).abs() < 1e-10 * (1.0 + known.slope.abs()));
             }
             let upper = |law: &Friction| {
-                closed_band(law, 0.005, 1.0, waveform, 0.1).ok().and_then(|it| it.upper)
+                closed_band(law, 0.005, 1.0, waveform, 0.1).ok().and_then(|band| band.upper)
             };
-            let (known, found) = (upper(&built_in), upper(&own));
+            let (known, found) = (upper(&built_in), upper(&custom));
             let close = known.zip(found).is_some_and(|(known, found)| (known - found).abs() < 1e-9);
             assert!(close, "{waveform:?}: {known:?} {found:?}");
         }
@@ -99,55 +92,46 @@ fn a_formula_has_the_averages_and_thresholds_of_the_law_that_it_is() {
             Ok(CriticalVelocity::Above(v)) => v,
             other => panic!("{other:?}"),
         };
-        assert!((edge(&built_in) - edge(&own)).abs() < 1e-10);
+        assert!((edge(&built_in) - edge(&custom)).abs() < 1e-10);
         let normal = vec![dither(Direction::Normal, Waveform::Sine, 0.5)];
         let value = |law: &Friction| {
             criterion(&belt(law, 0.12, normal.clone()), AveragingOptions::default())
                 .expect("a mean")
                 .value
         };
-        assert!((value(&built_in) - value(&own)).abs() < 1e-10);
+        assert!((value(&built_in) - value(&custom)).abs() < 1e-10);
     }
-    let (built_in, own) = &pairs()[0];
+    let (built_in, custom) = &pairs()[0];
     for direction in [Direction::Tangential, Direction::Normal] {
         let wave = FastWave::Integral(Waveform::Triangle);
         let all = |law: &Friction| everywhere_stable_amplitude(law, 0.005, 1.0, wave, direction);
-        let told = |law: &Friction| format!("{:.6?}", all(law).expect("an amplitude"));
-        let (known, found) = (told(built_in), told(own));
+        let digits = |law: &Friction| format!("{:.6?}", all(law).expect("an amplitude"));
+        let (known, found) = (digits(built_in), digits(custom));
         // The amplitudes to six digits; their error bounds differ by the method.
         let amplitude = |text: &str| text.split("error").next().map(str::to_owned);
         assert_eq!(amplitude(&known), amplitude(&found));
     }
 }
 
-fn measured(law: &Friction, last: f64, count: u32) -> Vec<(f64, f64)> {
-    (0..count)
-        .map(|k| {
-            let u = last * f64::from(k) / f64::from(count - 1);
-            (u, law.coefficient(u))
-        })
-        .collect()
-}
-
-/// An exponential is found again exactly; a cubic within the error that the fit states.
+/// An exponential is recovered exactly, a cubic within the error that the fit reports.
 #[test]
 fn samples_of_a_law_give_that_law_within_the_error_of_the_fit() {
     let built_in: Vec<Friction> = pairs().into_iter().map(|(built_in, _)| built_in).collect();
     for (law, last, most, close) in
         [(&built_in[1], 1.0, 1e-9, 1e-6), (&built_in[0], 0.3, 2e-3, 0.1)]
     {
-        let own = Samples::new(&measured(law, last, 61), None, None, 1.0).expect("a fit");
-        let error = own.fit().largest_error;
-        assert!(error < most, "{:?}", own.fit());
-        assert_eq!(own.fit().samples, 61);
-        let own = Friction::Samples(own);
+        let custom = Samples::new(&measured(law, last, 61), None, None, 1.0).expect("a fit");
+        let error = custom.fit().largest_error;
+        assert!(error < most, "{:?}", custom.fit());
+        assert_eq!(custom.fit().samples, 61);
+        let custom = Friction::Samples(custom);
         for k in 0..200 {
             let u = last * f64::from(k) / 200.0;
-            let off = (own.coefficient(u) - law.coefficient(u)).abs();
+            let off = (custom.coefficient(u) - law.coefficient(u)).abs();
             assert!(off <= 3.0 * error + 1e-15, "{law:?} at {u}: {off:.1e}, stated {error:.1e}");
         }
         let (known, found) =
-            (events(&belt(law, 0.05, vec![]), 20.0), events(&belt(&own, 0.05, vec![]), 20.0));
+            (events(&belt(law, 0.05, vec![]), 20.0), events(&belt(&custom, 0.05, vec![]), 20.0));
         assert_eq!(known.len(), found.len());
         for (known, found) in known.iter().zip(&found) {
             assert!((known.time - found.time).abs() < close, "{known:?} {found:?}");
@@ -156,25 +140,26 @@ fn samples_of_a_law_give_that_law_within_the_error_of_the_fit() {
         let mean = |law: &Friction| {
             effective_by_quadrature(law, wave, 0.1, 0.05).expect("a mean").coefficient
         };
-        assert!((mean(law) - mean(&own)).abs() <= 3.0 * error + 1e-12);
+        assert!((mean(law) - mean(&custom)).abs() <= 3.0 * error + 1e-12);
     }
 }
 
-/// Runs of different constants go side by side, with the bits that each has alone.
+/// Runs with different constants have the same bits side by side as alone.
 #[test]
-fn lanes_have_the_bits_of_a_run_alone() {
+fn lanes_have_the_same_bits_as_a_run_alone() {
     let mut belts = Vec::new();
     for k in 0..11_u32 {
         let x = f64::from(k);
         let constants = [("a".to_owned(), 0.1 + 0.01 * x), ("b".to_owned(), 0.2 + 0.02 * x)];
         let text = "0.25 + a*exp(-(v/b)^2) + 0.02*tanh(abs(v))/(1 + abs(v))";
         let level = if k % 2 == 0 { Some(0.6) } else { None };
-        let own = Expression::new(text, &constants, level, 1.0).expect(text);
+        let custom = Expression::new(text, &constants, level, 1.0).expect(text);
         let dithers = vec![dither(Direction::Tangential, Waveform::Sine, 0.1 + 0.2 * x)];
-        belts.push(belt(&Friction::Expression(own), 0.05 + 0.01 * x, dithers));
+        belts.push(belt(&Friction::Expression(custom), 0.05 + 0.01 * x, dithers));
         let (law, _) = &pairs()[k as usize % 2];
-        let own = Samples::new(&measured(law, 0.4, 30), Some(0.45), Some(2), 1.0).expect("a fit");
-        belts.push(belt(&Friction::Samples(own), 0.05 + 0.01 * x, vec![]));
+        let custom =
+            Samples::new(&measured(law, 0.4, 30), Some(0.45), Some(2), 1.0).expect("a fit");
+        belts.push(belt(&Friction::Samples(custom), 0.05 + 0.01 * x, vec![]));
     }
     let trace = |belt: &Belt| {
         let mut watch = EventRecorder::default();
@@ -194,24 +179,17 @@ fn lanes_have_the_bits_of_a_run_alone() {
     }
 }
 
-/// μ_s > μ(0⁺): at the release friction falls, and a later release starts as much later.
+/// μ_s > μ(0⁺): friction drops at the release, and a delay of the release delays the slip by the same time.
 #[test]
-fn multipliers_pass_a_release_with_a_jump() {
-    let law = Expression::new("0.3 + 0.06*exp(-abs(v)/0.2)", &[], Some(0.4), 1.0).expect("valid");
-    let law = Friction::Expression(law);
+fn multipliers_are_correct_across_a_release_with_a_jump() {
+    let law = law::jumping_formula();
     assert!(!law.starts_at_static_level());
     let mut judged = 0;
     for (waveform, amplitude) in
         [(Waveform::Sine, 0.7), (Waveform::Triangle, 0.8), (Waveform::Square, 0.5)]
     {
-        let wave = Dither {
-            direction: Direction::Tangential,
-            waveform,
-            amplitude,
-            frequency_ratio: 1.7,
-            phase: 0.2,
-        };
-        let belt = Belt::new(0.25, 1.0, 0.3, law.clone(), vec![wave]).expect("valid");
+        let wave = at_phase(tangential(waveform, amplitude, 1.7), 0.2);
+        let belt = zoo::belt::belt(0.25, 0.3, &law, vec![wave]);
         let period = std::f64::consts::TAU / 1.7;
         let settled =
             simulate(&belt, Start::REST, 40.0 * period, 1e-14, &mut ()).expect("no stall");
@@ -236,8 +214,11 @@ fn multipliers_pass_a_release_with_a_jump() {
         let (ahead, behind) = (end(h, 0.0), end(-h, 0.0));
         for row in 0..2 {
             let other = (ahead[row] - behind[row]) / (2.0 * h);
-            let own = orbit.monodromy[row][0];
-            assert!((own - other).abs() < 1e-6 * (1.0 + own.abs()), "{waveform:?}: {own} {other}");
+            let derivative = orbit.monodromy[row][0];
+            assert!(
+                (derivative - other).abs() < 1e-6 * (1.0 + derivative.abs()),
+                "{waveform:?}: {derivative} {other}"
+            );
         }
         judged += 1;
     }
@@ -245,15 +226,21 @@ fn multipliers_pass_a_release_with_a_jump() {
 }
 
 #[test]
-fn numbers_of_a_formula_are_numbers_of_the_belt() {
-    let (_, own) = &pairs()[1];
-    let belt = belt(own, 0.05, vec![]);
+fn constants_of_a_formula_are_parameters_of_the_belt() {
+    let (_, custom) = &pairs()[1];
+    let belt = belt(custom, 0.05, vec![]);
     assert_eq!(belt.get("friction.constants.v_m"), Some(0.2));
     let changed = belt.with("friction.constants.v_m", 0.3).expect("valid");
-    let known = quell_model::friction::Decreasing::from_values(&[0.4, 0.2857, 0.3]).expect("valid");
-    let known = Friction::Decreasing(known);
+    let known = law::build(LawKind::Decreasing, &[0.4, 0.2857, 0.3]);
     assert!((changed.friction().coefficient(0.17) - known.coefficient(0.17)).abs() < 1e-15);
-    assert!(belt.with("friction.constants.v_m", 0.0).is_err(), "a division by zero");
-    assert!(belt.with("friction.constants.mu_m", -1.0).is_err(), "a negative coefficient");
+    let refused = |path: &str, value: f64| {
+        let complaints = belt.with(path, value).expect_err(path);
+        assert_eq!(complaints[0].key, "friction.coefficient", "{complaints:?}");
+        complaints[0].allowed.clone()
+    };
+    let division = refused("friction.constants.v_m", 0.0);
+    assert!(division.contains("0⁺"), "{division}");
+    let negative = refused("friction.constants.mu_m", -1.0);
+    assert!(negative.contains("≥ 0"), "{negative}");
     assert_eq!(belt.get("friction.constants.v"), None);
 }

@@ -1,14 +1,26 @@
-//! Every reason for not having an answer says it in words, with its numbers.
+//! Every reason for a missing answer is stated in words, with its numbers.
+//!
+//! Each reason comes from the engine itself, from a belt that provokes it. Built by hand are only those that no belt is known
+//! to provoke within a second.
 
-use quell_dynamics::orbit::curve::{Open, OpenLine};
-use quell_dynamics::orbit::threshold::NoThresholds;
-use quell_dynamics::orbit::{NoOrbit, Unsettled};
-use quell_dynamics::simulation::{Stalled, Start};
-use quell_dynamics::start::NoSquealingStart;
-use quell_linear::averaging::{AveragingError, NoBand};
-use quell_numerics::quadrature::{Integral, QuadratureError};
+use quell_dynamics::attractor::{Patience, Scene, orbit_reached, settle};
+use quell_dynamics::orbit::curve::{Open, OpenLine, Plane, curves};
+use quell_dynamics::orbit::cycle::{cycles, free_end};
+use quell_dynamics::orbit::threshold::{NoThresholds, along, local, local_thresholds};
+use quell_dynamics::orbit::{NoOrbit, Orbit, Unsettled, common_period, from_sliding, near};
+use quell_dynamics::simulation::{Start, simulate, within};
+use quell_dynamics::start::{InitialState, NoSquealingStart};
+use quell_linear::averaging::{
+    AveragingError, AveragingOptions, NoBand, Response, closed_band, criterion,
+};
+use quell_model::{Belt, Waveform};
+use quell_numerics::quadrature::{QuadratureError, QuadratureOptions, integrate};
+use quell_zoo::belt::{self, decreasing_under, stribeck_under, undithered_belt};
+use quell_zoo::dither::{normal, sine};
+use quell_zoo::{BeltExt, law};
 
-fn told(reason: &dyn std::error::Error, parts: &[&str]) {
+#[track_caller]
+fn assert_states(reason: &dyn std::error::Error, parts: &[&str]) {
     let text = reason.to_string();
     for part in parts {
         assert!(text.contains(part), "{part}: {text}");
@@ -16,59 +28,213 @@ fn told(reason: &dyn std::error::Error, parts: &[&str]) {
     assert!(!text.contains("NaN") && !text.ends_with('.'), "{text}");
 }
 
-#[test]
-fn orbits() {
-    let at = Start { time: 0.0, displacement: 0.25, velocity: -0.5 };
-    told(&NoOrbit::NoDither, &["without dither"]);
-    told(&NoOrbit::Incommensurate, &["no common period"]);
-    let (steps, residual) = (17, 3.5e-4);
-    let place = ["17", "0.25", "-0.5", "3.5e-4"];
-    told(&NoOrbit::NotConverged { steps, residual, at }, &place);
-    told(
-        &NoOrbit::Degenerate { steps, residual, at },
-        &[&place[..], &["a multiplier is 1"]].concat(),
-    );
-    told(&NoOrbit::Another { distance: 0.125, at }, &["0.25", "-0.5", "1.2e-1", "another one"]);
-    told(&NoOrbit::Ends { share: 0.75 }, &["0.75 of the dither", "none beyond"]);
-    told(&NoOrbit::LostOnTheWay { share: 0.75 }, &["0.75 of the dither", "could not be followed"]);
-    told(&NoOrbit::NoPeriod { most: 200 }, &["200 periods"]);
-    told(&NoOrbit::AtRest, &["comes to rest"]);
-    told(&NoOrbit::Unsettled(Unsettled::Moving), &["has not settled", "still moved"]);
-    told(&NoOrbit::NoLimit, &["neither to a known limit cycle"]);
-    told(&NoOrbit::Invalid { value: -3.0 }, &["-3"]);
-    let stalled = Stalled { time: 12.5, why: "it stood still" };
-    told(&NoOrbit::Stalled(stalled), &[stalled.why]);
-    told(&NoSquealingStart::Stalled(stalled), &[stalled.why]);
-    told(&NoSquealingStart::BeltAtRest, &["v₀ = 0"]);
-    told(&NoSquealingStart::SettlesToSliding, &["no limit cycle"]);
+fn at(displacement: f64, velocity: f64) -> Start {
+    Start { time: 0.0, displacement, velocity }
+}
+
+fn no_orbit(found: Result<Orbit, NoOrbit>) -> NoOrbit {
+    found.expect_err("no orbit")
+}
+
+/// At the natural frequency the base response folds at D = 0.0016.
+fn folding(amplitude: f64) -> Belt {
+    belt::decreasing().with_dither(sine(amplitude, 1.0))
+}
+
+/// Free oscillations of every size: constant friction and no damping.
+fn continuum() -> Belt {
+    undithered_belt(0.0, 0.9767, law::coulomb(0.3, 0.3))
+}
+
+/// A base response that is lost where the mass begins to stick: μ(0⁺) < μ_s, under both dithers.
+fn lost() -> Belt {
+    let dithers = vec![sine(3.0, 10.0), normal(Waveform::Square, 0.4, 5.0)];
+    undithered_belt(0.25, 0.3, law::jumping_formula()).with_dithers(dithers)
 }
 
 #[test]
-fn thresholds_and_curves() {
-    told(&NoThresholds::Invalid { value: -1.5 }, &["-1.5"]);
-    told(&NoThresholds::Start(NoOrbit::NoDither), &["without dither"]);
-    told(&NoThresholds::Lost { at: 0.375 }, &["lost beyond 0.375"]);
+fn dithers_without_a_common_period() {
+    let none = common_period(&belt::stribeck()).expect_err("no dither");
+    assert_eq!(none, NoOrbit::NoDither);
+    assert_states(&none, &["without dither"]);
+    let dithers = vec![sine(0.1, 10.0), sine(0.1, 10.0 * 2f64.sqrt())];
+    let why = common_period(&belt::stribeck().with_dithers(dithers)).expect_err("√2 apart");
+    assert_eq!(why, NoOrbit::Incommensurate);
+    assert_states(&why, &["no common period"]);
+}
+
+#[test]
+fn shooting_that_does_not_close() {
+    let belt = stribeck_under(Waveform::Sine, 0.25);
+    let why = no_orbit(near(&belt, at(-2.0, -1.0), 3));
+    let NoOrbit::NotConverged { steps, residual, at: place } = why else { panic!("{why:?}") };
+    let numbers = [
+        steps.to_string(),
+        format!("{residual:.1e}"),
+        place.displacement.to_string(),
+        place.velocity.to_string(),
+    ];
+    assert_states(&why, &numbers.each_ref().map(String::as_str));
+    let why = no_orbit(near(&belt, at(-2.0, 0.5), 1));
+    let NoOrbit::Degenerate { residual, .. } = why else { panic!("{why:?}") };
+    assert_states(&why, &[&format!("{residual:.1e}"), "a multiplier is 1"]);
+    // Only a search that is bound to a branch can find another one.
+    let another = NoOrbit::Another { distance: 0.125, at: at(0.25, -0.5) };
+    assert_states(&another, &["0.25", "-0.5", "1.2e-1", "another one"]);
+}
+
+#[test]
+fn base_responses_that_end_or_are_lost() {
+    let why = no_orbit(from_sliding(&folding(2e-3), 8));
+    assert!(matches!(why, NoOrbit::Ends { .. }) && why.is_absence(), "{why:?}");
+    assert_states(&why, &["0.786", "of the dither", "none beyond"]);
+    let why = no_orbit(from_sliding(&lost(), 8));
+    assert!(matches!(why, NoOrbit::LostOnTheWay { .. }) && !why.is_absence(), "{why:?}");
+    assert_states(&why, &["0.997", "of the dither", "could not be followed"]);
+}
+
+#[test]
+fn runs_that_end_on_no_orbit() {
+    let why = no_orbit(orbit_reached(&stribeck_under(Waveform::Sine, 0.2), Start::REST));
+    assert_eq!(why, NoOrbit::NoPeriod { most: 200 });
+    assert_states(&why, &["200 periods"]);
+    let why = no_orbit(orbit_reached(&belt::stribeck().at_speed(0.0), Start::REST));
+    assert_eq!(why, NoOrbit::AtRest);
+    assert_states(&why, &["comes to rest"]);
+    let why = free_end(&continuum(), Start::REST).expect_err("a continuum");
+    assert_eq!(why, NoOrbit::NoLimit);
+    assert_states(&why, &["neither to a known limit cycle"]);
+}
+
+#[test]
+fn runs_that_have_not_settled() {
+    let unsettled = |belt: &Belt, start: Start, patience: Patience| {
+        let scene = Scene::new(belt).expect("commensurate");
+        let settled = settle(&scene, start, patience).expect("no stall");
+        settled.why().expect("not settled")
+    };
+    let belt = decreasing_under(Waveform::Sine, 4.3);
+    let moving = unsettled(&belt, at(1.5, 0.0), Patience { periods: 20, ..Patience::SWEEP });
+    assert_eq!(moving, Unsettled::Moving);
+    assert_states(&NoOrbit::Unsettled(moving), &["has not settled", "still moved"]);
+    // On the unstable cycle between sliding and squeal.
+    let belt = belt::decreasing();
+    let between = cycles(&belt).expect("no stall")[1].start;
+    let dwelling = unsettled(&belt, between, Patience::SWEEP);
+    assert_eq!(dwelling, Unsettled::Dwelling);
+    assert_states(&NoOrbit::Unsettled(dwelling), &["has not settled", "unstable curve"]);
+}
+
+#[test]
+fn runs_that_stall() {
+    let belt = decreasing_under(Waveform::Sine, 2.0);
+    let stalled = within(0, || simulate(&belt, Start::REST, 1.0, 1e-12, &mut ()));
+    let stalled = stalled.expect_err("no steps are left");
+    assert_states(&stalled, &[stalled.why, "used up"]);
+    let why = no_orbit(within(0, || near(&belt, Start::REST, 1)));
+    assert_eq!(why, NoOrbit::Stalled(stalled));
+    assert_states(&why, &[stalled.why]);
+    let squeal = within(0, || InitialState::Squealing.resolve(&belt::stribeck()));
+    let why = squeal.expect_err("no steps are left");
+    assert_eq!(why, NoSquealingStart::Stalled(stalled));
+    assert_states(&why, &[stalled.why]);
+}
+
+#[test]
+fn squealing_starts_that_do_not_exist() {
+    let at_speed = |belt_velocity: f64| {
+        let belt = belt::stribeck().at_speed(belt_velocity);
+        InitialState::Squealing.resolve(&belt).expect_err("nothing squeals")
+    };
+    let (rest, beyond) = (at_speed(0.0), at_speed(0.3));
+    assert_eq!(rest, NoSquealingStart::BeltAtRest);
+    assert_states(&rest, &["v₀ = 0"]);
+    assert_eq!(beyond, NoSquealingStart::SettlesToSliding);
+    assert_states(&beyond, &["no limit cycle"]);
+}
+
+#[test]
+fn thresholds() {
+    let belt = folding(1e-4);
+    let from = |from: f64| local(&belt, "dither.amplitude", from, 3e-3, 20).expect_err("nothing");
+    let why = from(-1.5);
+    assert_eq!(why, NoThresholds::Invalid { value: -1.5 });
+    assert_states(&why, &["-1.5"]);
+    let why = from(2e-3);
+    assert!(matches!(why, NoThresholds::Start(NoOrbit::Ends { .. })), "{why:?}");
+    assert_states(&why, &["0.786", "none beyond"]);
+    let why = along(&belt, "dither.amplitude", (-3.0, Start::REST), 1.0, 5, 1);
+    let why = why.expect_err("a negative amplitude");
+    assert_eq!(why, NoThresholds::Start(NoOrbit::Invalid { value: -3.0 }));
+    assert_states(&why, &["-3"]);
+    let why = local_thresholds(&lost(), "dither[0].amplitude", 2.5, 3.2, 8);
+    let why = why.expect_err("lost");
+    let NoThresholds::Lost { at } = why else { panic!("{why:?}") };
+    assert!((2.5..3.2).contains(&at), "{at}");
+    assert_states(&why, &[&format!("lost beyond {at}")]);
+}
+
+#[test]
+fn curves_of_thresholds() {
+    let line = |belt: &Belt, window, between| -> OpenLine {
+        let along = "belt.belt_velocity";
+        let plane = Plane { path: "dither.amplitude", window, along, between };
+        curves(belt, plane, 2, 5).expect("one line is followed").open[0]
+    };
+    let why = line(&decreasing_under(Waveform::Sine, 1.0), (0.1, 3.0), (-1.0, 1.0));
+    assert_eq!(why, OpenLine { along: -0.5, why: Open::Invalid });
+    assert_states(&why, &["at -0.5", "cannot take this value"]);
+    let why = line(&folding(1e-4), (2e-3, 3e-3), (0.9, 1.1));
+    let Open::Begin(NoThresholds::Start(NoOrbit::Ends { .. })) = why.why else { panic!("{why}") };
+    assert_states(&why, &["at 0.95", "none beyond"]);
+    // No plane is known in which these are met at once.
     let line = |why: Open| OpenLine { along: 2.5, why };
-    told(&line(Open::Invalid), &["at 2.5", "cannot take this value"]);
-    told(&line(Open::Begin(NoThresholds::Lost { at: 0.375 })), &["at 2.5", "0.375"]);
-    told(&line(Open::Lost { at: 0.375 }), &["at 2.5", "lost beyond 0.375"]);
-    told(&line(Open::NotFollowed { value: 0.375 }), &["at 2.5", "threshold at 0.375"]);
+    assert_states(&line(Open::Lost { at: 0.375 }), &["at 2.5", "lost beyond 0.375"]);
+    assert_states(&line(Open::NotFollowed { value: 0.375 }), &["at 2.5", "threshold at 0.375"]);
 }
 
 #[test]
 fn averages() {
-    told(&NoBand::Stable, &["stable"]);
-    told(&AveragingError::SetValued { static_coefficient: 0.375 }, &["0.375"]);
-    told(&AveragingError::TooManyGroups { groups: 5, largest: 3 }, &["5", "3"]);
-    let slow = AveragingError::NotFast { frequency_ratio: 0.75 };
-    told(&slow, &["0.75"]);
-    told(&NoBand::Failed(slow), &["0.75"]);
-    let best = Integral { value: 0.5, error: 1e-9, evaluations: 77 };
-    told(&QuadratureError::NotFinite { limit: f64::INFINITY }, &["inf", "not finite"]);
-    told(&QuadratureError::IntegrandNotFinite { at: 0.375 }, &["0.375"]);
-    told(&QuadratureError::Rounding { best }, &["1e-9", "5e-1"]);
-    told(
-        &AveragingError::Quadrature(QuadratureError::Evaluations { best }),
-        &["77", "1e-9", "5e-1"],
-    );
+    let options = AveragingOptions::default();
+    let constant = law::coulomb(0.3, 0.3);
+    let why = closed_band(&constant, 0.1, 1.0, Waveform::Sine, 0.1).expect_err("no band");
+    assert_eq!(why, NoBand::Stable);
+    assert_states(&why, &["stable"]);
+    let still = belt::stribeck().at_speed(0.0).with("friction.static_coefficient", 0.375);
+    let why = criterion(&still.expect("valid"), options).expect_err("at rest");
+    assert_eq!(why, AveragingError::SetValued { static_coefficient: 0.375 });
+    assert_states(&why, &["0.375"]);
+    let dithers = [1.0, 2f64.sqrt(), 3f64.sqrt(), 5f64.sqrt(), 7f64.sqrt()];
+    let dithers = dithers.map(|factor| sine(0.1, 10.0 * factor)).to_vec();
+    let why = criterion(&belt::stribeck().with_dithers(dithers), options).expect_err("too many");
+    assert_eq!(why, AveragingError::TooManyGroups { groups: 5, largest: 3 });
+    assert_states(&why, &["5", "3"]);
+    let slow = belt::stribeck().with_dither(sine(0.1, 0.75));
+    let oscillator = AveragingOptions { response: Response::Oscillator, ..options };
+    let why = criterion(&slow, oscillator).expect_err("below resonance");
+    assert_eq!(why, AveragingError::NotFast { frequency_ratio: 0.75 });
+    assert_states(&why, &["0.75"]);
+    assert_states(&NoBand::Failed(why), &["0.75"]);
+}
+
+#[test]
+fn quadratures() {
+    let options = QuadratureOptions::default();
+    let integral = |of: fn(f64) -> f64, to: f64| integrate(of, 0.0, to, &[], &options);
+    let why = integral(|x| x, f64::INFINITY).expect_err("no end");
+    assert_eq!(why, QuadratureError::NotFinite { limit: f64::INFINITY });
+    assert_states(&why, &["inf", "not finite"]);
+    let why = integral(|x| (x - 0.375).ln(), 1.0).expect_err("negative below 0.375");
+    let QuadratureError::IntegrandNotFinite { at } = why else { panic!("{why:?}") };
+    assert!((0.0..0.375).contains(&at), "{at}");
+    assert_states(&why, &[&at.to_string()]);
+    // Cancellation: ∫|f| is 10¹⁴ times ∫f.
+    let why = integral(|x| 1e14 * (x - 0.5) + 1.0, 1.0).expect_err("no digits");
+    let QuadratureError::Rounding { best } = why else { panic!("{why:?}") };
+    assert_states(&why, &[&format!("{:e}", best.error), &format!("{:e}", best.value)]);
+    let why = integral(|x| (1e7 * x).sin() + 2.0, 1.0).expect_err("too many waves");
+    let QuadratureError::Evaluations { best } = why else { panic!("{why:?}") };
+    let numbers = [best.evaluations.to_string(), format!("{:e}", best.error)];
+    assert_states(&why, &numbers.each_ref().map(String::as_str));
+    assert_states(&AveragingError::Quadrature(why), &numbers.each_ref().map(String::as_str));
 }

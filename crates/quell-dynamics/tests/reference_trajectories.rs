@@ -1,9 +1,10 @@
 //! Event times, kinds and states against `reference/trajectories.json` (two independent
-//! integrators, good to all digits printed): within 1e-9, same kinds in the same order, none
-//! missed, none added.
+//! integrators, good to all digits printed): within 1e-9, with the same kinds in the same order and
+//! neither missing nor spurious events.
 
 use quell_dynamics::simulation::{DEFAULT_TOLERANCE, EventKind, EventRecorder, Start, simulate};
-use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_model::{Belt, Direction, LawKind, Waveform};
+use quell_zoo::dither::dither;
 use serde_json::Value;
 
 const TOLERANCE: f64 = 1e-9;
@@ -17,16 +18,10 @@ fn belt(case: &Value) -> Belt {
     let text = |key: &str| case[key].as_str().expect("text");
     let law = LawKind::from_name(text("law")).expect("a known law");
     let law = law.build(&[p("mu_s"), p("mu_m"), p("v_m")]).expect("valid law");
-    let dither = |direction, waveform: &str, amplitude, frequency_ratio| Dither {
-        direction,
-        waveform: Waveform::from_name(waveform).expect("a known waveform"),
-        amplitude,
-        frequency_ratio,
-        phase: 0.0,
-    };
+    let waveform = |key: &str| Waveform::from_name(text(key)).expect("a known waveform");
     let dithers = vec![
-        dither(Direction::Tangential, text("wave_T"), p("D_T"), p("R_T")),
-        dither(Direction::Normal, text("wave_N"), p("D_N"), p("R_N")),
+        dither(Direction::Tangential, waveform("wave_T"), p("D_T"), p("R_T")),
+        dither(Direction::Normal, waveform("wave_N"), p("D_N"), p("R_N")),
     ];
     Belt::new(p("zeta"), p("F"), p("v0"), law, dithers).expect("valid belt")
 }

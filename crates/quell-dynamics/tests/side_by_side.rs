@@ -1,28 +1,27 @@
-//! A run has the same bits alone, in any lane, beside any neighbours, on any instruction set.
+//! A run has the same bits alone, in any lane, next to any other runs, on any instruction set.
 
 use quell_dynamics::response::{Case, Solver, Wanted, compare_many, respond};
 use quell_dynamics::simulation::{
     Event, EventRecorder, FinalState, InstructionSet, Run, Sample, Sampler, Start, simulate,
     simulate_many_with,
 };
-use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_model::{Belt, Direction, LawKind, Waveform};
+use quell_zoo::belt::belt;
+use quell_zoo::dither::{at_phase, dither};
+use quell_zoo::law::build;
 
 const TOLERANCE: f64 = 1e-11;
 
-/// Belts of every law, waveform and direction, with one dither, several and none, of different
-/// friction, length, start and phase.
+/// Belts of every law, waveform and direction, with none, one or several dithers, and with different
+/// friction, duration, start and phase.
 fn cases() -> Vec<(Belt, Start, f64)> {
     let mut cases = Vec::new();
     for (i, &law) in LawKind::NUMERIC.iter().enumerate() {
         for (j, &waveform) in Waveform::ALL.iter().enumerate() {
             for k in 0..7_u32 {
                 let x = f64::from(k) + 0.37 * i as f64 + 0.11 * j as f64;
-                let wave = |direction, amplitude, frequency_ratio| Dither {
-                    direction,
-                    waveform,
-                    amplitude,
-                    frequency_ratio,
-                    phase: 0.4 * x,
+                let wave = |direction, amplitude, frequency_ratio| {
+                    at_phase(dither(direction, waveform, amplitude, frequency_ratio), 0.4 * x)
                 };
                 let tangential = wave(Direction::Tangential, 0.1 + 0.13 * x, 5.0 + 1.3 * x);
                 let normal = wave(Direction::Normal, 0.1 + 0.1 * x, 7.0 - 0.5 * x);
@@ -42,17 +41,16 @@ fn cases() -> Vec<(Belt, Start, f64)> {
                     }
                     _ => vec![level, 0.28, velocity],
                 };
-                let friction = law.build(&values).expect("a valid law");
-                let belt = Belt::new(0.005 * x, 1.0, 0.05 + 0.02 * x, friction, dithers);
+                let belt = belt(0.005 * x, 0.05 + 0.02 * x, build(law, &values), dithers);
                 let start = Start { time: 0.3 * x, displacement: 0.1 * x, velocity: 0.02 * x };
-                cases.push((belt.expect("a valid belt"), start, 40.0 + 9.0 * x));
+                cases.push((belt, start, 40.0 + 9.0 * x));
             }
         }
     }
     cases
 }
 
-/// What a run is known by.
+/// Everything that identifies a run.
 type Trace = (FinalState, Vec<Event>, Vec<Sample>);
 
 fn watchers(cases: &[(Belt, Start, f64)]) -> Vec<(EventRecorder, Sampler)> {
@@ -93,16 +91,16 @@ fn together(set: InstructionSet, cases: &[(Belt, Start, f64)]) -> Vec<Trace> {
 }
 
 #[test]
-fn every_run_has_the_bits_it_has_alone() {
+fn every_run_has_the_same_bits_as_alone() {
     let mut cases = cases();
     let mut expected = alone(&cases);
     assert!(expected.iter().map(|(_, events, _)| events.len()).sum::<usize>() > 1000);
     for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
-        // Other lanes, other neighbours: the order is turned round by a step that shares no
+        // Other lanes and other neighbours: the order is rotated by a step that shares no
         // factor with the number of lanes.
-        for turn in [0, 5] {
-            cases.rotate_left(turn);
-            expected.rotate_left(turn);
+        for shift in [0, 5] {
+            cases.rotate_left(shift);
+            expected.rotate_left(shift);
             for (number, (run, alone)) in together(set, &cases).iter().zip(&expected).enumerate() {
                 assert_eq!(run, alone, "{}, run {number}: {:?}", set.name(), cases[number].0);
             }
@@ -111,14 +109,14 @@ fn every_run_has_the_bits_it_has_alone() {
 }
 
 #[test]
-fn unwatched_runs_have_the_same_bits_too() {
+fn runs_without_observers_have_the_same_bits() {
     let cases = cases();
     let expected = alone(&cases);
     for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
-        let mut nobody = vec![(); cases.len()];
+        let mut observers = vec![(); cases.len()];
         let runs = cases
             .iter()
-            .zip(&mut nobody)
+            .zip(&mut observers)
             .map(|((belt, start, until), observer)| Run {
                 belt,
                 start: *start,
@@ -134,7 +132,7 @@ fn unwatched_runs_have_the_same_bits_too() {
 }
 
 #[test]
-fn a_point_of_a_map_is_the_response_of_its_study() {
+fn a_point_of_a_map_is_the_response_of_its_belt() {
     let solver = Solver { tolerance: 1e-10, settle: 30.0, record_periods: 6 };
     let cases: Vec<Case> =
         cases().into_iter().map(|(belt, start, _)| Case { belt, start }).collect();

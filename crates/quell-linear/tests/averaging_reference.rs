@@ -4,20 +4,20 @@ use quell_linear::averaging::{
     AveragedVerdict, AveragingOptions, Becomes, CrossingKind, FastMotion, FastWave, NormalOrder,
     SlopeSide, criterion, critical_amplitudes, effective,
 };
-use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
+use quell_model::{Belt, Friction, LawKind, Waveform};
+use quell_zoo::belt::{DAMPING_RATIO, belt};
+use quell_zoo::dither::{normal, tangential};
+use quell_zoo::law::{REFERENCE_VELOCITY, dissertation};
 use serde_json::Value;
 
-const STATIC: f64 = 0.4;
-const MINIMUM: f64 = 0.2857;
-const VM: f64 = 0.2;
+const VM: f64 = REFERENCE_VELOCITY;
 
 fn reference() -> Value {
     serde_json::from_str(include_str!("../../../reference/averaging.json")).expect("valid JSON")
 }
 
 fn law(row: &Value) -> Friction {
-    let kind = LawKind::from_name(text(row, "law")).expect("a law");
-    kind.build(&[STATIC, MINIMUM, VM]).expect("valid")
+    dissertation(LawKind::from_name(text(row, "law")).expect("a law"))
 }
 
 fn waveform(row: &Value) -> Waveform {
@@ -37,7 +37,7 @@ fn rows<'a>(reference: &'a Value, key: &str) -> &'a Vec<Value> {
     reference[key].as_array().expect("rows")
 }
 
-/// Relative error, absolute where the exact value is zero up to the reference's own rounding.
+/// Relative error; absolute where the exact value is zero up to the rounding of the reference.
 fn error(value: f64, exact: f64) -> f64 {
     if exact.abs() < 1e-25 { (value - exact).abs() * 1e3 } else { ((value - exact) / exact).abs() }
 }
@@ -76,14 +76,8 @@ fn normal_rows() {
     let mut worst = [0.0_f64; 2];
     for row in rows(&reference, "normal") {
         let v = number(row, "vr_over_vm") * VM;
-        let dither = Dither {
-            direction: Direction::Normal,
-            waveform: waveform(row),
-            amplitude: number(row, "DN"),
-            frequency_ratio: number(row, "RN"),
-            phase: 0.0,
-        };
-        let belt = Belt::new(0.005, 1.0, v, law(row), vec![dither]).expect("valid");
+        let dither = normal(waveform(row), number(row, "DN"), number(row, "RN"));
+        let belt = belt(DAMPING_RATIO, v, law(row), vec![dither]);
         for (i, (order, key)) in
             [(NormalOrder::First, "mubar_first_order"), (NormalOrder::Second, "mubar_with_cos2")]
                 .into_iter()
@@ -107,13 +101,7 @@ fn stability_rows() {
     let (mut worst, mut critical) = (0.0_f64, 0);
     for row in rows(&reference, "stability") {
         let r = 10.0;
-        let dither = Dither {
-            direction: Direction::Tangential,
-            waveform: waveform(row),
-            amplitude: 1.0,
-            frequency_ratio: r,
-            phase: 0.0,
-        };
+        let dither = tangential(waveform(row), 1.0, r);
         let (zeta, load, v) = (number(row, "zeta"), number(row, "F"), number(row, "v0"));
         let belt = Belt::new(zeta, load, v, law(row), vec![dither]).expect("valid");
         let options = AveragingOptions::default();

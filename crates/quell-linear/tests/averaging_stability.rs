@@ -1,36 +1,21 @@
-//! Averaged stability: closed forms, limits, sharper thresholds, numbers of the corrected dissertation.
-
-use std::borrow::Borrow;
+//! Averaged stability: closed forms, limits, finite-R thresholds, numbers of the corrected dissertation.
 
 use core::f64::consts::PI;
 
 use quell_linear::averaging::{
-    AveragedVerdict, AveragingError, AveragingOptions, Becomes, CriticalVelocity, CrossingKind,
-    EverywhereStable, FastResponse, FastWave, NeverStable, NormalOrder, UndecidedBecause,
-    closed_band, criterion, critical_amplitudes, everywhere_stable_amplitude,
-    undithered_critical_velocity, unstable_bands,
+    AveragingError, AveragingOptions, Becomes, CriticalVelocity, Crossing, EverywhereStable,
+    FastWave, NeverStable, NormalOrder, Response, UndecidedBecause, Verdict, closed_band,
+    criterion, critical_amplitudes, everywhere_stable_amplitude, undithered_critical_velocity,
+    unstable_bands,
 };
-use quell_model::{Belt, Direction, Dither, Expression, Friction, LawKind, Waveform};
+use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
+use quell_zoo::BeltExt;
+use quell_zoo::belt::{belt, decreasing_under};
+use quell_zoo::dither::dither;
+use quell_zoo::law::{self, build, dissertation, formula_with_level};
 
 /// The laws with closed forms.
 const CLOSED: [LawKind; 2] = [LawKind::Stribeck, LawKind::Decreasing];
-
-fn law(kind: LawKind) -> Friction {
-    kind.build(&[0.4, 0.2857, 0.2]).expect("valid")
-}
-
-fn dither(
-    direction: Direction,
-    waveform: Waveform,
-    amplitude: f64,
-    frequency_ratio: f64,
-) -> Dither {
-    Dither { direction, waveform, amplitude, frequency_ratio, phase: 0.0 }
-}
-
-fn belt(zeta: f64, v0: f64, law: impl Borrow<Friction>, dithers: Vec<Dither>) -> Belt {
-    Belt::new(zeta, 1.0, v0, law.borrow().clone(), dithers).expect("valid")
-}
 
 fn close(value: f64, exact: f64, tolerance: f64) {
     assert!(((value - exact) / exact).abs() < tolerance, "{value} should be {exact}");
@@ -47,22 +32,23 @@ fn undithered_thresholds() {
         (LawKind::Decreasing, 0.05, 0.348618859449),
         (LawKind::Decreasing, 0.1, 0.209989423337),
     ] {
-        let Ok(CriticalVelocity::Above(v)) = undithered_critical_velocity(&law(kind), zeta, 1.0)
+        let Ok(CriticalVelocity::Above(v)) =
+            undithered_critical_velocity(&dissertation(kind), zeta, 1.0)
         else {
             panic!("{kind:?} {zeta} has a threshold")
         };
         close(v, exact, 3e-12);
-        let verdict = |v0: f64| {
-            criterion(&belt(zeta, v0, law(kind), vec![]), AveragingOptions::default())
+        let criterion = |v0: f64| {
+            criterion(&belt(zeta, v0, dissertation(kind), vec![]), AveragingOptions::default())
                 .expect("slides")
-                .verdict
         };
-        assert_eq!(verdict(v * (1.0 - 1e-9)), AveragedVerdict::Unstable);
-        assert_eq!(verdict(v * (1.0 + 1e-9)), AveragedVerdict::Stable);
-        let at = verdict(v);
-        assert!(at != AveragedVerdict::Unstable || kind == LawKind::Decreasing, "{at:?}");
+        assert_eq!(criterion(v * (1.0 - 1e-9)).verdict, Verdict::Unstable);
+        assert_eq!(criterion(v * (1.0 + 1e-9)).verdict, Verdict::Stable);
+        let at = criterion(v);
+        assert!(at.value.abs() < 1e-14, "{at:?}");
+        assert!(at.verdict != Verdict::Unstable || kind == LawKind::Decreasing, "{at:?}");
     }
-    let decreasing = law(LawKind::Decreasing);
+    let decreasing = dissertation(LawKind::Decreasing);
     let undamped = undithered_critical_velocity(&decreasing, 0.0, 1.0);
     assert_eq!(undamped, Ok(CriticalVelocity::UnstableEverywhere));
     let damped = undithered_critical_velocity(&decreasing, 0.3, 1.0);
@@ -79,17 +65,17 @@ fn roots_against_closed_forms() {
                 for k in 1..40 {
                     let v0 = 0.05 * f64::from(k);
                     let dithers = vec![dither(Direction::Tangential, waveform, 0.0, 10.0)];
-                    let belt = belt(zeta, v0, law(*kind), dithers);
+                    let belt = belt(zeta, v0, dissertation(*kind), dithers);
                     let found = critical_amplitudes(&belt, AveragingOptions::default());
                     for critical in found.expect("found") {
                         let alpha = critical.amplitude_ratio;
-                        if critical.crossing == CrossingKind::Jump {
+                        if critical.crossing == Crossing::Jump {
                             close(alpha * waveform.peak_integral(), v0, 1e-15);
                             assert_eq!(critical.becomes, Becomes::Stable);
                             continue;
                         }
                         met += 1;
-                        let band = closed_band(&law(*kind), zeta, 1.0, waveform, alpha);
+                        let band = closed_band(&dissertation(*kind), zeta, 1.0, waveform, alpha);
                         let upper = band.expect("a band").upper.expect("it ends");
                         close(upper, v0, 1e-12);
                         let becomes = if *kind == LawKind::Stribeck {
@@ -106,14 +92,12 @@ fn roots_against_closed_forms() {
     assert!(met > 40, "{met}");
 }
 
-/// Without damping a falling law is unstable from the fast velocity on, however far: named or as a formula, of which slopes far out
-/// are zero within their error. A law without a slope has no unstable velocity.
+/// Without damping a decreasing law, built in or as a formula, is unstable at every velocity above the fast velocity,
+/// although its slopes far out are zero within their error. A law without a slope has no unstable velocity.
 #[test]
-fn only_what_is_neutral_throughout_is_no_band() {
-    let formula = |text: &str| {
-        Friction::Expression(Expression::new(text, &[], Some(0.4), 1.0).expect("valid"))
-    };
-    let named = LawKind::Decreasing.build(&[0.4, 0.2857, 0.2]).expect("valid");
+fn only_laws_without_any_slope_have_no_unstable_band() {
+    let formula = |text: &str| formula_with_level(text, law::STATIC);
+    let named = law::decreasing();
     let falling = formula("0.2857 + 0.1143*exp(-abs(v)/0.2)");
     for (law, bands) in [(named, 1), (falling, 1), (formula("0.3"), 0)] {
         let sine = dither(Direction::Tangential, Waveform::Sine, 6.0, 10.0);
@@ -131,13 +115,13 @@ fn only_what_is_neutral_throughout_is_no_band() {
 fn bands() {
     let (mut tangential, mut normal) = (0, 0);
     for kind in &CLOSED {
-        let law = law(*kind);
+        let law = dissertation(*kind);
         for &waveform in Waveform::ALL {
             for zeta in [0.005, 0.05, 0.1] {
                 for alpha in [0.0, 0.02, 0.07, 0.15, 0.3] {
                     let dithers = vec![dither(Direction::Tangential, waveform, 10.0 * alpha, 10.0)];
-                    let belt = belt(zeta, 1.0, &law, dithers);
-                    let found = unstable_bands(&belt, AveragingOptions::default()).expect("ok");
+                    let dithered = belt(zeta, 1.0, &law, dithers);
+                    let found = unstable_bands(&dithered, AveragingOptions::default()).expect("ok");
                     let closed = closed_band(&law, zeta, 1.0, waveform, alpha);
                     assert_eq!(found.len(), usize::from(closed.is_ok()), "{found:?} {closed:?}");
                     if let (Some(found), Ok(closed)) = (found.first(), closed) {
@@ -147,8 +131,9 @@ fn bands() {
                         assert_eq!(found.lower_crossing, closed.lower_crossing);
                     }
                     let dithers = vec![dither(Direction::Normal, waveform, 2.0 * alpha, 2.0)];
-                    let belt = Belt::new(zeta, 1.0, 1.0, law.clone(), dithers).expect("valid");
-                    for band in unstable_bands(&belt, AveragingOptions::default()).expect("ok") {
+                    let dithered = belt(zeta, 1.0, &law, dithers);
+                    for band in unstable_bands(&dithered, AveragingOptions::default()).expect("ok")
+                    {
                         normal += 1;
                         let level = |v: f64| law.coefficient(v) * alpha;
                         let reach = level(band.lower) * waveform.peak_integral();
@@ -163,7 +148,7 @@ fn bands() {
     }
     assert!(tangential > 30 && normal > 50, "{tangential} {normal}");
     // The corrected (3.47): upper edge of the triangle at α = 0.15 (the print's π²/48 gives 0.18683).
-    let band = closed_band(&law(LawKind::Stribeck), 0.005, 1.0, Waveform::Triangle, 0.15);
+    let band = closed_band(&dissertation(LawKind::Stribeck), 0.005, 1.0, Waveform::Triangle, 0.15);
     close(band.expect("a band").upper.expect("ends"), 0.17925174576154, 1e-13);
 }
 
@@ -181,7 +166,8 @@ fn amplitude(found: Result<EverywhereStable, AveragingError>) -> f64 {
 #[test]
 fn everywhere_stable() {
     let [sine, triangle, square] = [Waveform::Sine, Waveform::Triangle, Waveform::Square];
-    let (stribeck, decreasing) = (law(LawKind::Stribeck), law(LawKind::Decreasing));
+    let (stribeck, decreasing) =
+        (dissertation(LawKind::Stribeck), dissertation(LawKind::Decreasing));
     let (t, n) = (Direction::Tangential, Direction::Normal);
     let found = |law: &Friction, zeta: f64, waveform: Waveform, direction: Direction| {
         let wave = FastWave::Integral(waveform);
@@ -224,10 +210,10 @@ fn everywhere_stable() {
 }
 
 /// Normal dither on a Stribeck law so steep that the largest α/μ(v₀) lies beyond the tip: the search under the oscillator's
-/// response finds, for fast dither, what the closed form says; at the tip alone it would be smaller.
+/// response agrees with the closed form for fast dither; taken at the tip alone the amplitude would be smaller.
 #[test]
 fn steep_laws_are_searched_beyond_the_tip() {
-    let steep = LawKind::Stribeck.build(&[0.4, 0.008, 0.2]).expect("valid");
+    let steep = build(LawKind::Stribeck, &[0.4, 0.008, 0.2]);
     let (waveform, frequency_ratio) = (Waveform::Square, 1e4);
     let limit = FastWave::Integral(waveform);
     let own = FastWave::Oscillator { waveform, frequency_ratio };
@@ -244,22 +230,22 @@ fn steep_laws_are_searched_beyond_the_tip() {
     close(found(own, Direction::Normal), closed, 1e-4);
 }
 
-/// α^L means what it says: just above it no belt velocity is unstable, just below the tip is; also for the
+/// Just above α^L no belt velocity is unstable, and just below it the tip is; also for the
 /// oscillator's response and for normal dither.
 #[test]
 fn everywhere_stable_closes_the_band() {
     for kind in &CLOSED {
         for &waveform in Waveform::ALL {
             for &direction in Direction::ALL {
-                for response in [FastResponse::Limit, FastResponse::Oscillator] {
+                for response in [Response::Limit, Response::Oscillator] {
                     let (zeta, r) = (0.08, 1.2);
                     let wave = match response {
-                        FastResponse::Limit => FastWave::Integral(waveform),
-                        FastResponse::Oscillator => {
+                        Response::Limit => FastWave::Integral(waveform),
+                        Response::Oscillator => {
                             FastWave::Oscillator { waveform, frequency_ratio: r }
                         }
                     };
-                    let law = law(*kind);
+                    let law = dissertation(*kind);
                     let alpha =
                         amplitude(everywhere_stable_amplitude(&law, zeta, 1.0, wave, direction));
                     let bands = |alpha: f64| {
@@ -292,7 +278,7 @@ fn inner_region_may_be_unstable() {
         [(Waveform::Sine, 6.0_f64.sqrt() / PI), (Waveform::Triangle, 0.4_f64.sqrt())]
     {
         for (fall, dips) in [(limit - 0.01, false), (limit + 0.01, true)] {
-            let law = LawKind::Stribeck.build(&[1.0, 1.0 - fall, 0.2]).expect("valid");
+            let law = build(LawKind::Stribeck, &[1.0, 1.0 - fall, 0.2]);
             let dithers = vec![dither(Direction::Tangential, waveform, 1.0, 10.0)];
             let belt = belt(0.0, 1e-7, &law, dithers);
             let found = critical_amplitudes(&belt, AveragingOptions::default()).expect("ok");
@@ -309,7 +295,7 @@ fn inner_region_may_be_unstable() {
             }
         }
     }
-    let deep = LawKind::Stribeck.build(&[1.0, 0.0, 0.2]).expect("valid");
+    let deep = build(LawKind::Stribeck, &[1.0, 0.0, 0.2]);
     let dithers = vec![dither(Direction::Tangential, Waveform::Square, 1.0, 10.0)];
     let found = critical_amplitudes(&belt(0.0, 1e-4, deep, dithers), AveragingOptions::default());
     assert_eq!(found.expect("ok").len(), 1);
@@ -317,11 +303,10 @@ fn inner_region_may_be_unstable() {
 
 /// Averaging with the oscillator's own velocity: decreasing law, v₀ = 1, R = 10, sine.
 #[test]
-fn sharper_thresholds() {
-    let dithers = vec![dither(Direction::Tangential, Waveform::Sine, 1.0, 10.0)];
-    let belt = belt(0.005, 1.0, law(LawKind::Decreasing), dithers);
-    let sharper = AveragingOptions { response: FastResponse::Oscillator, ..Default::default() };
-    let found = critical_amplitudes(&belt, sharper).expect("ok");
+fn finite_r_thresholds() {
+    let belt = decreasing_under(Waveform::Sine, 1.0);
+    let finite_r = AveragingOptions { response: Response::Oscillator, ..Default::default() };
+    let found = critical_amplitudes(&belt, finite_r).expect("ok");
     assert_eq!(found.len(), 2);
     // Exact (Floquet): 4.322392624 and 9.900214849; plain averaging 4.366 and 10.
     close(found[0].amplitude, 4.322392, 1e-7);
@@ -331,9 +316,8 @@ fn sharper_thresholds() {
     close(plain[0].amplitude, 4.36605249129233293, 1e-13);
     close(plain[1].amplitude, 10.0, 1e-15);
     // Square: exact 3.295664190 and 6.313857946.
-    let dithers = vec![dither(Direction::Tangential, Waveform::Square, 1.0, 10.0)];
-    let belt = Belt::new(0.005, 1.0, 1.0, law(LawKind::Decreasing), dithers).expect("valid");
-    let found = critical_amplitudes(&belt, sharper).expect("ok");
+    let belt = decreasing_under(Waveform::Square, 1.0);
+    let found = critical_amplitudes(&belt, finite_r).expect("ok");
     close(found[0].amplitude, 3.295664190, 1e-6);
     close(found[1].amplitude, 6.313857946, 1e-3);
     let plain = critical_amplitudes(&belt, AveragingOptions::default()).expect("ok");
@@ -344,7 +328,7 @@ fn sharper_thresholds() {
 /// (derived in `averaging_errata.rs`, where exact orbits are extrapolated to it).
 #[test]
 fn normal_dither() {
-    let law = law(LawKind::Decreasing);
+    let law = dissertation(LawKind::Decreasing);
     for (waveform, first, second, exact) in [
         (Waveform::Square, 0.115719, 0.115518, 0.115322),
         (Waveform::Sine, 0.148482, 0.148321, 0.147977),
@@ -357,26 +341,26 @@ fn normal_dither() {
         let one = critical(NormalOrder::First);
         assert_eq!(one.len(), 2, "{one:?}");
         assert!((one[0].amplitude_ratio - first).abs() < 6e-7, "{one:?}");
-        assert_eq!((one[0].crossing, one[0].becomes), (CrossingKind::Root, Becomes::Unstable));
+        assert_eq!((one[0].crossing, one[0].becomes), (Crossing::Root, Becomes::Unstable));
         let last = one[1];
         close(
             last.amplitude_ratio * law.coefficient(0.075) * waveform.peak_integral(),
             0.075,
             1e-14,
         );
-        assert_eq!(last.crossing, CrossingKind::Jump);
+        assert_eq!(last.crossing, Crossing::Jump);
         // D_N = 0.655 for the square, but 1.03 > F for the sine, whose jump lies at α_N = 0.206.
         assert_eq!(last.contact_stays_closed, waveform == Waveform::Square);
         let two = critical(NormalOrder::Second);
         assert_eq!(two.len(), 2, "{two:?}");
         assert!((two[0].amplitude_ratio - second).abs() < 6e-7, "{two:?}");
         assert!((two[0].amplitude_ratio - exact).abs() < (first - exact));
-        assert_eq!((two[0].crossing, two[1].crossing), (CrossingKind::Root, CrossingKind::Jump));
+        assert_eq!((two[0].crossing, two[1].crossing), (Crossing::Root, Crossing::Jump));
     }
     // The substitution α_T → μ(v₀)α_N, on every row of a grid.
     for kind in &CLOSED {
         for v0 in [0.03, 0.12, 0.18, 0.6] {
-            let law = self::law(*kind);
+            let law = dissertation(*kind);
             let of = |direction| {
                 let belt =
                     belt(0.05, v0, &law, vec![dither(direction, Waveform::Triangle, 0.1, 3.0)]);
@@ -399,13 +383,12 @@ fn lengths_scale_out() {
     for kind in &CLOSED {
         for &waveform in Waveform::ALL {
             for v0 in [0.1, 0.5, 1.0] {
-                let found = |s: f64| {
-                    let law = kind.build(&[0.4, 0.2857, 0.2 * s]).expect("valid");
-                    let dithers = vec![dither(Direction::Tangential, waveform, 0.1 * s, 10.0)];
-                    let belt = Belt::new(0.005, s, v0 * s, law, dithers).expect("valid");
-                    critical_amplitudes(&belt, AveragingOptions::default()).expect("ok")
+                let dithers = vec![dither(Direction::Tangential, waveform, 0.1, 10.0)];
+                let belt = belt(0.005, v0, dissertation(*kind), dithers);
+                let found = |belt: &Belt| {
+                    critical_amplitudes(belt, AveragingOptions::default()).expect("ok")
                 };
-                let (one, small) = (found(1.0), found(scale));
+                let (one, small) = (found(&belt), found(&belt.scaled(scale)));
                 assert_eq!(one.len(), small.len());
                 for (one, small) in one.iter().zip(&small) {
                     assert_eq!(one.amplitude_ratio * scale, small.amplitude_ratio);
@@ -420,33 +403,33 @@ fn lengths_scale_out() {
 #[test]
 fn limits() {
     for kind in &CLOSED {
-        let coulomb = kind.build(&[0.4, 0.4, 0.2]).expect("valid");
+        let coulomb = build(*kind, &[0.4, 0.4, 0.2]);
         for &waveform in Waveform::ALL {
             for v0 in [0.01, 0.3, 2.0] {
                 let dithers = vec![dither(Direction::Tangential, waveform, 1.0, 10.0)];
                 let belt = belt(0.01, v0, &coulomb, dithers);
                 let options = AveragingOptions::default();
-                assert_eq!(criterion(&belt, options).expect("ok").verdict, AveragedVerdict::Stable);
+                assert_eq!(criterion(&belt, options).expect("ok").verdict, Verdict::Stable);
                 assert!(critical_amplitudes(&belt, options).expect("ok").is_empty());
                 assert!(unstable_bands(&belt, options).expect("ok").is_empty());
             }
         }
         let rest = criterion(&belt(0.01, 0.0, &coulomb, vec![]), AveragingOptions::default());
         assert_eq!(rest, Err(AveragingError::SetValued { static_coefficient: 0.4 }));
-        // No damping and no slope: nothing can be said.
+        // Without damping and slope the criterion is zero, and undecided.
         let neutral = criterion(&belt(0.0, 1.0, &coulomb, vec![]), AveragingOptions::default());
         assert_eq!(
             neutral.expect("slides").verdict,
-            AveragedVerdict::Undecided { why: UndecidedBecause::WithinError }
+            Verdict::Undecided { why: UndecidedBecause::WithinError }
         );
     }
     // At rest with tangential dither there is no outer region; the default laws are stable for any amplitude.
     for kind in &CLOSED {
         let dithers = vec![dither(Direction::Tangential, Waveform::Sine, 1.0, 10.0)];
-        let belt = belt(0.005, 0.0, law(*kind), dithers);
+        let belt = belt(0.005, 0.0, dissertation(*kind), dithers);
         assert_eq!(
             criterion(&belt, AveragingOptions::default()).expect("dithered").verdict,
-            AveragedVerdict::Stable
+            Verdict::Stable
         );
         assert!(critical_amplitudes(&belt, AveragingOptions::default()).expect("ok").is_empty());
     }
@@ -457,22 +440,23 @@ fn limits() {
 fn verdict_at_the_corner() {
     let verdict = |kind: LawKind, v0: f64| {
         let dithers = vec![dither(Direction::Tangential, Waveform::Sine, 10.0 * v0, 10.0)];
-        criterion(&belt(0.005, v0, law(kind), dithers), AveragingOptions::default()).expect("ok")
+        criterion(&belt(0.005, v0, dissertation(kind), dithers), AveragingOptions::default())
+            .expect("ok")
     };
     let disagree = verdict(LawKind::Decreasing, 0.5);
-    assert_eq!(disagree.verdict, AveragedVerdict::Undecided { why: UndecidedBecause::AtCorner });
+    assert_eq!(disagree.verdict, Verdict::Undecided { why: UndecidedBecause::AtCorner });
     close(disagree.value, -0.14433154, 1e-7);
-    assert_eq!(verdict(LawKind::Stribeck, 0.25).verdict, AveragedVerdict::Stable);
+    assert_eq!(verdict(LawKind::Stribeck, 0.25).verdict, Verdict::Stable);
 }
 
-/// Two dithers: a second, held one shifts the critical amplitude of the first; equal frequencies add exactly.
+/// Two dithers: a second one of fixed amplitude shifts the critical amplitude of the first; equal frequencies add exactly.
 #[test]
 fn several_dithers() {
     let first = dither(Direction::Tangential, Waveform::Sine, 1.0, 10.0);
     let options = AveragingOptions::default();
     // The same wave twice: criticals of the first are lower by the second's α.
     let second = Dither { amplitude: 0.3, ..first };
-    let law = law(LawKind::Decreasing);
+    let law = dissertation(LawKind::Decreasing);
     let alone = critical_amplitudes(&belt(0.05, 0.5, &law, vec![first]), options).expect("ok");
     let both =
         critical_amplitudes(&belt(0.05, 0.5, &law, vec![first, second]), options).expect("ok");

@@ -4,12 +4,15 @@ use quell_linear::averaging::{
     AveragingError, AveragingOptions, FastMotion, FastResponse, FastWave, PeriodicMotion, SlipTerm,
     SlopeSide, effective, effective_by_quadrature,
 };
-use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
+use quell_model::{Direction, Friction, LawKind, Waveform};
+use quell_zoo::belt::belt;
+use quell_zoo::dither::{self, at_phase};
+use quell_zoo::law::{REFERENCE_VELOCITY, build, dissertation};
 
-const VM: f64 = 0.2;
+const VM: f64 = REFERENCE_VELOCITY;
 
 fn laws() -> [Friction; 2] {
-    [LawKind::Stribeck, LawKind::Decreasing].map(|k| k.build(&[0.4, 0.2857, VM]).expect("valid"))
+    [LawKind::Stribeck, LawKind::Decreasing].map(dissertation)
 }
 
 fn plain(waveform: Waveform, alpha: f64) -> FastMotion {
@@ -27,8 +30,7 @@ fn stored_wide_grid() {
     let (mut rows, mut worst, mut worst_slope) = (0, (0.0, ""), (0.0, ""));
     for line in table.lines().filter(|line| !line.starts_with('#')) {
         let field: Vec<&str> = line.split(',').collect();
-        let law = LawKind::from_name(field[0]).expect("a law");
-        let law = law.build(&[0.4, 0.2857, VM]).expect("valid");
+        let law = dissertation(LawKind::from_name(field[0]).expect("a law"));
         let waveform = Waveform::from_name(field[1]).expect("a waveform");
         let number = |i: usize| -> f64 { field[i].parse().expect("a number") };
         let found = effective(&law, &plain(waveform, number(2)), number(3)).expect("a value");
@@ -48,12 +50,12 @@ fn stored_wide_grid() {
     println!("{rows} rows, worst μ̄ {worst:?}, slope {worst_slope:?}");
 }
 
-/// Laws beside the default: a deep and a flat one.
+/// The default laws, and more: deep, flat and without a minimum level.
 fn more_laws() -> Vec<Friction> {
     let mut laws = laws().to_vec();
     for kind in [LawKind::Stribeck, LawKind::Decreasing] {
         for values in [[0.8, 0.05, 0.03], [0.5, 0.5, 1.0], [0.3, 0.0, 2.0]] {
-            laws.push(kind.build(&values).expect("valid"));
+            laws.push(build(kind, &values));
         }
     }
     laws
@@ -94,7 +96,7 @@ fn closed_forms_agree_with_quadrature() {
     println!("closed against quadrature: μ̄ {worst:e}, slope {worst_slope:e}");
 }
 
-/// μ̄ is continuous at the corner; the slope outside is, too, and the corner itself belongs to the outer side.
+/// μ̄ is continuous at the corner; so is the slope outside, and the corner itself belongs to the outer side.
 #[test]
 fn corner() {
     for law in more_laws() {
@@ -105,7 +107,7 @@ fn corner() {
                 let at = |x: f64| effective(&law, &plain(waveform, alpha), x).expect("a value");
                 let (inner, corner, outer) = (at(v * (1.0 - 1e-13)), at(v), at(v * (1.0 + 1e-13)));
                 let scale = law.coefficient(v).abs() + law.static_coefficient();
-                // The rounded peaks arrive with a square root.
+                // Near a rounded peak the difference grows with a square root.
                 assert!((inner.coefficient - corner.coefficient).abs() < 2e-6 * scale);
                 assert!((outer.coefficient - corner.coefficient).abs() < 1e-11 * scale);
                 let slope_scale = outer.slope.abs() + law.slope(0.0).abs();
@@ -124,7 +126,7 @@ fn corner() {
     }
 }
 
-/// α → 0 gives the law back; the difference shrinks with α².
+/// α → 0 recovers the law; the difference shrinks with α².
 #[test]
 fn without_dither() {
     for law in laws() {
@@ -221,7 +223,7 @@ fn sums_of_equal_frequency() {
                 worst_slope = worst_slope.max(s);
             }
         }
-        // Equal and opposite: nothing is left.
+        // Equal and opposite dithers cancel.
         let square = FastWave::Integral(Waveform::Square);
         let cancel =
             group(vec![term(square, 0.2, 1, 0.0), term(square, 0.2, 1, core::f64::consts::PI)]);
@@ -252,8 +254,8 @@ fn independent_sines_have_a_product_form() {
     }
 }
 
-/// Which group is averaged first does not matter, inside, outside and between the corners. A wave split in two equal
-/// halves is not recognised as one with a closed form, so it is integrated over: the splitting chooses the order.
+/// The order in which groups are averaged does not matter, inside, outside and between the corners. A wave split into two equal
+/// halves is not recognised as one with a closed form and is integrated numerically: the split chooses the order.
 #[test]
 fn independent_groups_commute() {
     let mut worst = (0.0_f64, 0.0_f64);
@@ -284,7 +286,7 @@ fn independent_groups_commute() {
                 worst = (worst.0.max(e), worst.1.max(s));
             }
         }
-        // A second group that hardly moves changes nothing.
+        // A second group of negligible amplitude changes nothing.
         let first = group(vec![term(FastWave::Integral(Waveform::Sine), 0.2, 1, 0.0)]);
         let still = group(vec![term(FastWave::Integral(Waveform::Square), 1e-9, 1, 0.0)]);
         let both = effective(&law, &FastMotion::new(vec![first, still]), 0.1).expect("ok");
@@ -324,17 +326,13 @@ fn correlated_load() {
     }
 }
 
-/// From a belt: commensurate and incommensurate dithers are grouped, zero amplitudes vanish, R ≤ 1 is refused.
+/// From a belt: commensurate and incommensurate dithers are grouped, zero amplitudes are dropped, R ≤ 1 is rejected.
 #[test]
 fn motion_of_a_belt() {
-    let dither = |direction, frequency_ratio: f64, amplitude| Dither {
-        direction,
-        waveform: Waveform::Triangle,
-        amplitude,
-        frequency_ratio,
-        phase: 0.3,
+    let dither = |direction, frequency_ratio: f64, amplitude| {
+        at_phase(dither::dither(direction, Waveform::Triangle, amplitude, frequency_ratio), 0.3)
     };
-    let belt = |dithers| Belt::new(0.01, 1.0, 0.3, laws()[0].clone(), dithers).expect("valid");
+    let belt = |dithers| belt(0.01, 0.3, &laws()[0], dithers);
     let (t, n) = (Direction::Tangential, Direction::Normal);
     let options = AveragingOptions::default();
     let motion = |dithers| FastMotion::of(&belt(dithers), 0.3, options).expect("ok");

@@ -1,4 +1,4 @@
-//! Formulas: whatever the text, an answer and no panic; wrong laws are refused with their reason.
+//! Formulas: any text gives a law or a complaint and never a panic; invalid laws are rejected with the reason.
 
 use proptest::prelude::*;
 use quell_model::{
@@ -10,7 +10,7 @@ fn constants() -> Vec<(String, f64)> {
     vec![("a".to_owned(), 0.3), ("b".to_owned(), 0.2)]
 }
 
-/// What is said about a formula.
+/// The complaints about a formula.
 fn refused(text: &str) -> String {
     let law = Expression::new(text, &constants(), None, 1.0);
     let wrong = law.and_then(|law| law.proven_up_to(1e3 * law.velocity_scale())).expect_err(text);
@@ -18,7 +18,7 @@ fn refused(text: &str) -> String {
 }
 
 #[test]
-fn what_is_no_law_is_refused_with_its_reason() {
+fn invalid_laws_are_rejected_with_the_reason() {
     for (text, part) in [
         ("0.3 + ", "at character 7"),
         ("min(v)", "kinks"),
@@ -34,8 +34,9 @@ fn what_is_no_law_is_refused_with_its_reason() {
         ("exp(abs(v))", "finite"),
         ("c*v", "constants are a, b"),
     ] {
-        let told = refused(text);
-        assert!(told.contains(part) && told.starts_with("friction.coefficient"), "{text}: {told}");
+        let complaint = refused(text);
+        assert!(complaint.contains(part), "{text}: {complaint}");
+        assert!(complaint.starts_with("friction.coefficient"), "{text}: {complaint}");
     }
     let wrong = |level, constants: &[(String, f64)]| {
         let found = Expression::new("a + b*exp(-abs(v))", constants, level, 1.0);
@@ -50,14 +51,15 @@ fn what_is_no_law_is_refused_with_its_reason() {
     assert!(wrong(None, &named).contains("means nothing else"));
 }
 
-/// The formula proven up to a speed, or what is said of it.
+/// The formula proven up to a speed, or the complaints about it.
 fn proven(text: &str, up_to: f64) -> Result<Expression, String> {
     let law =
         Expression::new(text, &constants(), None, 1.0).and_then(|law| law.proven_up_to(up_to));
     law.map_err(|wrong| wrong.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))
 }
 
-/// What no sampling would see is found, with the slip; what only sampling would fear is proven.
+/// Violations too narrow for any sampling are found, with the slip at which they occur; valid formulas that come close to one are
+/// proven.
 #[test]
 fn formulas_are_proven_over_their_range() {
     for (text, up_to, parts) in [
@@ -72,20 +74,22 @@ fn formulas_are_proven_over_their_range() {
         ("exp(abs(v))", 400.0, &["not finite"]),
         ("0.3 + (2 - abs(v))^0.5", 3.0, &["not finite"]),
     ] {
-        let said = proven(text, up_to).expect_err(text);
+        let complaint = proven(text, up_to).expect_err(text);
         for part in parts {
-            assert!(said.contains(part), "{text}: {said}");
+            assert!(complaint.contains(part), "{text}: {complaint}");
         }
     }
-    // Belts of any speed: what is bounded is proven as far as numbers go.
-    assert!(proven("0.3 + 0.1*exp(-abs(v)/0.2)", f64::INFINITY).is_ok());
-    assert!(proven("0.4 + 0.1*abs(v)", f64::INFINITY).is_err());
+    // At any belt speed: a bounded formula is proven up to the largest number.
+    let bounded = proven("0.3 + 0.1*exp(-abs(v)/0.2)", f64::INFINITY).expect("bounded");
+    assert_eq!(bounded.range().map(|range| range.upper), Some(f64::MAX));
+    let unbounded = proven("0.4 + 0.1*abs(v)", f64::INFINITY).expect_err("unbounded");
+    assert!(unbounded.contains("not finite"), "{unbounded}");
     for (text, up_to) in [
         ("0.4 - 0.1*abs(v)", 3.9),
         ("exp(abs(v))", 100.0),
         ("0.3+1e-7/(abs(v)-0.2)", 0.1999),
         ("0.31-0.3*exp(-((abs(v)-0.2)/1e-4)^2)", 2.0),
-        // It touches nothing at 2π, by rounding alone.
+        // It is zero at 2π, up to rounding.
         ("0.5*(1 + cos(v/2))", 9.0),
         ("0.4 - 0.17145*(abs(v)/b - (abs(v)/b)^3/3)", 50.0),
         ("tanh(abs(v)/1e-3)*(0.25 + 0.15/(1 + abs(v)/0.1)) + 0.01*abs(v)", 1e3),
@@ -97,7 +101,7 @@ fn formulas_are_proven_over_their_range() {
     }
 }
 
-/// The speed is the study's, or a multiple of what belt and dither reach; another belt is another proof.
+/// The range is given by the study, or a multiple of the slip that belt and dither reach; another belt needs another proof.
 #[test]
 fn a_formula_is_proven_for_its_belt() {
     let law = |maximum| {
@@ -109,24 +113,26 @@ fn a_formula_is_proven_for_its_belt() {
         let dither = Dither { direction, waveform, amplitude, frequency_ratio: 10.0, phase: 0.0 };
         Belt::new(0.01, 1.0, velocity, law(maximum), vec![dither])
     };
-    let quiet = belt(0.1, 0.0, None).expect("proven up to 1");
-    assert_eq!(quiet.friction().range().map(|range| range.upper), Some(1.0));
+    let undithered = belt(0.1, 0.0, None).expect("proven up to 1");
+    assert_eq!(undithered.friction().range().map(|range| range.upper), Some(1.0));
     // α max|G| = 0.2 · π/2 more.
-    let reached = quiet.with("dither.amplitude", 1.0).expect("proven up to 2.57");
+    let reached = undithered.with("dither.amplitude", 1.0).expect("proven up to 2.57");
     let upper = reached.friction().range().expect("a range").upper;
     assert!((upper - (1.0 + 0.5 * std::f64::consts::PI)).abs() < 1e-12, "{upper}");
-    let wrong = quiet.with("belt.belt_velocity", 0.41).expect_err("up to 4.1 it is negative");
+    let wrong = undithered.with("belt.belt_velocity", 0.41).expect_err("up to 4.1 it is negative");
     assert!(
         wrong[0].key == "friction.coefficient" && wrong[0].allowed.contains("4.1"),
         "{wrong:?}"
     );
     let given = belt(0.41, 0.0, Some(3.0)).expect("meant up to 3");
     assert_eq!(given.get("friction.maximum_velocity"), Some(3.0));
-    assert!(given.with("friction.maximum_velocity", 5.0).is_err());
-    assert!(given.parameter("friction.maximum_velocity").is_some());
+    let wrong = given.with("friction.maximum_velocity", 5.0).expect_err("negative from 4 on");
+    assert!(wrong[0].key == "friction.coefficient" && wrong[0].allowed.contains('5'), "{wrong:?}");
+    let parameter = given.parameter("friction.maximum_velocity").expect("an entry");
+    assert_eq!(parameter.path, "friction.maximum_velocity");
 }
 
-/// √3 v_m, where the cubic is back at its static level; beyond it is above any level.
+/// The cubic holds up to √3 v_m, where it returns to its static level; beyond, it grows without bound.
 #[test]
 fn the_cubic_holds_up_to_its_return() {
     for v_m in [0.2, 6e-6] {
@@ -142,44 +148,44 @@ fn the_cubic_holds_up_to_its_return() {
 }
 
 #[test]
-fn the_static_level_is_apart_or_follows_the_formula() {
+fn the_static_level_is_given_or_follows_from_the_formula() {
     let follows = Expression::new("a + b*exp(-abs(v))", &constants(), None, 1.0).expect("valid");
     assert_eq!((follows.static_coefficient(), follows.starts_at_static_level()), (0.5, true));
     let moved = follows.with("friction.constants.a", 0.4).expect("valid");
     assert_eq!(moved.static_coefficient(), 0.6000000000000001);
-    let apart = Expression::new("a + b*exp(-abs(v))", &constants(), Some(0.7), 1.0).expect("valid");
-    assert_eq!((apart.static_coefficient(), apart.starts_at_static_level()), (0.7, false));
-    assert_eq!(apart.coefficient(0.0), 0.5);
-    // A level that only the rounding of decimals keeps from μ(0⁺) is μ(0⁺).
+    let given = Expression::new("a + b*exp(-abs(v))", &constants(), Some(0.7), 1.0).expect("valid");
+    assert_eq!((given.static_coefficient(), given.starts_at_static_level()), (0.7, false));
+    assert_eq!(given.coefficient(0.0), 0.5);
+    // A level that differs from μ(0⁺) by the rounding of decimals alone is μ(0⁺).
     let sum = Expression::new("0.1 + 0.2*exp(-abs(v))", &[], Some(0.3), 1.0).expect("valid");
     assert!(sum.starts_at_static_level());
 }
 
 #[test]
-fn samples_that_make_no_law_are_refused_with_their_reason() {
+fn samples_that_determine_no_law_are_rejected_with_the_reason() {
     let line = |k: u32| (0.1 * f64::from(k), 0.4 - 0.01 * f64::from(k));
     let good: Vec<(f64, f64)> = (0..12).map(line).collect();
-    let told = |samples: &[(f64, f64)], level, terms| {
+    let complaints = |samples: &[(f64, f64)], level, terms| {
         let wrong = Samples::new(samples, level, terms, 1.0).expect_err("wrong");
         wrong.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
     };
-    assert!(told(&good[..4], None, None).contains("5 different speeds"));
-    assert!(told(&good, None, Some(9)).contains("from 1 to 4"));
+    assert!(complaints(&good[..4], None, None).contains("5 different speeds"));
+    assert!(complaints(&good, None, Some(9)).contains("from 1 to 4"));
     let mut bad = good.clone();
     bad[3].0 = -0.3;
     bad[5].1 = f64::NAN;
-    let both = told(&bad, None, None);
+    let both = complaints(&bad, None, None);
     assert!(both.contains("slip_velocity[3]") && both.contains("one direction"), "{both}");
     assert!(both.contains("coefficient[5]"), "{both}");
-    // Below the samples the static level holds the fit.
+    // A static level below the samples pins the fit.
     let pinned = Samples::new(&good, Some(0.39), None, 1.0).expect("a fit");
     assert!(pinned.fit().pinned && pinned.starts_at_static_level(), "{:?}", pinned.fit());
     assert!((pinned.coefficient(0.0) - 0.39).abs() < 1e-12);
 }
 
-/// Noise is not followed: the fit's error is that of the noise, and so is that at left-out samples.
+/// The fit does not follow noise: its error, at its own samples and at left-out ones, is that of the noise.
 #[test]
-fn noise_is_smoothed_and_its_size_told() {
+fn noise_is_smoothed_and_its_size_reported() {
     let mut state = 1_u64;
     let mut noise = || {
         state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -211,12 +217,21 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn any_text_has_an_answer(text in ".{0,60}") {
-        let _ = Expression::new(&text, &constants(), None, 1.0);
+    fn any_text_gives_a_law_or_a_complaint(text in ".{0,60}") {
+        match Expression::new(&text, &constants(), None, 1.0) {
+            Ok(law) => {
+                prop_assert!(law.coefficient(0.0) >= -1e-12 && law.slope(0.0).is_finite());
+                prop_assert_eq!(law.text(), text.as_str());
+            }
+            Err(wrong) => {
+                prop_assert!(!wrong.is_empty());
+                prop_assert!(wrong.iter().all(|complaint| complaint.key.starts_with("friction.")));
+            }
+        }
     }
 
     #[test]
-    fn any_arrangement_of_words_has_an_answer(
+    fn any_arrangement_of_words_gives_a_law_or_a_complaint(
         words in prop::collection::vec(
             prop::sample::select(vec![
                 "v", "a", "b", "abs(", "exp(", "log(", "sqrt(", "tanh(", "sech(", "sin(", "atan(", "sign(",

@@ -8,7 +8,7 @@ use super::axis::values;
 use super::failure::failed;
 use quell::complaint::Failure;
 use quell::run;
-use quell::study::Study;
+use quell::study::BeltStudy;
 
 /// Largest number of periods of a run. With fewer, a run that is still settling counts as
 /// vibrating and has no settled section; with more, a run at a threshold only takes longer.
@@ -23,7 +23,7 @@ pub(super) struct AmplitudeColumn {
     /// D.
     pub(super) amplitude: f64,
     /// Its study.
-    pub(super) study: Study,
+    pub(super) study: BeltStudy,
     /// Stability of the base response.
     pub(super) local: Verdict,
     /// Whether the run from the study's initial state converges to a quiescent attractor.
@@ -35,7 +35,7 @@ pub(super) struct AmplitudeColumn {
 }
 
 impl AmplitudeColumn {
-    fn new(name: &str, study: &Study, amplitude: f64) -> Result<Self, Failure> {
+    fn new(name: &str, study: &BeltStudy, amplitude: f64) -> Result<Self, Failure> {
         let study = study.with("dither.amplitude", amplitude)?;
         let belt = study.belt().clone();
         let scene = Scene::new(&belt).map_err(|why| failed(name, &why))?;
@@ -58,7 +58,7 @@ fn local(name: &str, scene: &Scene<'_>) -> Result<Verdict, Failure> {
 }
 
 /// Outcome of the run from the study's initial state.
-fn run_from_start(name: &str, study: &Study, scene: &Scene<'_>) -> Result<Settled, Failure> {
+fn run_from_start(name: &str, study: &BeltStudy, scene: &Scene<'_>) -> Result<Settled, Failure> {
     let start = run::start(study)?;
     let patience = Patience { periods: MOST_PERIODS, ..Patience::SWEEP };
     settle(scene, start, patience).map_err(|why| failed(name, &why))
@@ -76,7 +76,7 @@ pub(super) struct AmplitudeThreshold {
 /// The columns of a figure with one waveform, and the thresholds between them.
 #[derive(Debug)]
 pub(super) struct AmplitudeColumns {
-    pub(super) study: Study,
+    pub(super) study: BeltStudy,
     pub(super) cases: Vec<AmplitudeColumn>,
     /// Amplitudes at which the base response gains or loses stability.
     pub(super) local: Vec<AmplitudeThreshold>,
@@ -86,7 +86,7 @@ pub(super) struct AmplitudeColumns {
 
 impl AmplitudeColumns {
     /// Measures every column of a study.
-    pub(super) fn of(name: &str, study: Study) -> Result<Self, Failure> {
+    pub(super) fn of(name: &str, study: BeltStudy) -> Result<Self, Failure> {
         let cases: Vec<AmplitudeColumn> = values(&study, "dither.amplitude")
             .into_iter()
             .map(|amplitude| AmplitudeColumn::new(name, &study, amplitude))
@@ -107,9 +107,9 @@ impl AmplitudeColumns {
 
 /// Bisects each change between neighbouring columns; two changes between the same columns are missed.
 fn thresholds(
-    study: &Study,
+    study: &BeltStudy,
     known: &[(f64, bool)],
-    holds: impl Fn(&Study, &Scene<'_>) -> Result<bool, Failure>,
+    holds: impl Fn(&BeltStudy, &Scene<'_>) -> Result<bool, Failure>,
 ) -> Result<Vec<AmplitudeThreshold>, Failure> {
     let mut found = Vec::new();
     for pair in known.windows(2) {

@@ -1,9 +1,9 @@
 //! Values of the axes of a study.
 
-use quell::study::Study;
+use quell::study::BeltStudy;
 
 /// Values of the axis that varies `path`; empty where the study has no such axis.
-pub(super) fn values(study: &Study, path: &str) -> Vec<f64> {
+pub(super) fn values(study: &BeltStudy, path: &str) -> Vec<f64> {
     study
         .sweeps()
         .iter()

@@ -2,7 +2,7 @@
 
 use quell_model::{LawKind, Waveform};
 
-use quell::study::Study;
+use quell::study::BeltStudy;
 
 /// A number without the rounding of its last digits.
 pub(super) fn short(value: f64) -> String {
@@ -35,7 +35,7 @@ pub(super) fn waveform_name(waveform: Waveform) -> &'static str {
 }
 
 /// F, v_m, μ_s and μ_m for a caption.
-pub(super) fn parameters(study: &Study) -> String {
+pub(super) fn parameters(study: &BeltStudy) -> String {
     let belt = study.belt();
     let law = belt.friction();
     let values = law.values();

@@ -13,7 +13,9 @@ pub(crate) struct CrateLayer {
 const NOTHING: &[&str] = &[];
 const MATHEMATICS: &[&str] = &["quell-numerics"];
 const NOUNS: &[&str] = &["quell-model", "quell-numerics"];
-const LINEAR: &[&str] = &["quell-linear", "quell-model", "quell-numerics"];
+/// Lists with the models that the tests of a crate share.
+const NOUNS_AND_ZOO: &[&str] = &["quell-model", "quell-numerics", "quell-zoo"];
+const LINEAR_AND_ZOO: &[&str] = &["quell-linear", "quell-model", "quell-numerics", "quell-zoo"];
 const PHYSICS: &[&str] =
     &["quell-disc", "quell-dynamics", "quell-linear", "quell-model", "quell-numerics"];
 const ENGINES_AND_STUDIES: &[&str] = &[
@@ -42,9 +44,10 @@ const fn layer(
 pub(crate) const LAYERS: &[CrateLayer] = &[
     layer("quell-numerics", NOTHING,     "mathematics knows no physics: it serves belts, discs and what will come"),
     layer("quell-model",    MATHEMATICS, "nouns are valid values: they know no engine that works on them"),
-    layer("quell-linear",   NOUNS,       "linear questions about steady sliding: no trajectory is computed here"),
-    layer("quell-dynamics", LINEAR,      "motion, its orbits and attractors: no file, no thread and no particular kind of structure"),
-    layer("quell-disc",     LINEAR,      "what only a disc has; its motion is that of any structure"),
+    layer("quell-zoo",      NOUNS,       "named models for tests, no part of the product: they know no engine that they test"),
+    layer("quell-linear",   NOUNS_AND_ZOO, "linear questions about steady sliding: no trajectory is computed here"),
+    layer("quell-dynamics", LINEAR_AND_ZOO, "motion, its orbits and attractors: no file, no thread and no particular kind of structure"),
+    layer("quell-disc",     LINEAR_AND_ZOO, "what only a disc has; its motion is that of any structure"),
     layer("quell-plot",     NOTHING,     "a figure is data with a renderer: it knows no physics and no study"),
     layer("quell-study",    PHYSICS,     "a study is read and checked here, and computed elsewhere"),
     layer("quell",          ENGINES_AND_STUDIES, "the front door runs the physics; it does not know who knocks"),

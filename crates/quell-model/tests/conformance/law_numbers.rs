@@ -5,7 +5,7 @@ use quell_model::{Friction, LawKind};
 
 use crate::law_samples::{SCALED_SPEEDS, all_samples};
 
-/// Whether the law says that its branch starts from the static level.
+/// Whether the law reports that its branch starts from the static level.
 struct StartsAtStaticLevel;
 
 impl LawVisitor for StartsAtStaticLevel {
@@ -23,8 +23,8 @@ fn the_branch_starts_at_or_below_the_static_level() {
         let (start, level) = (law.coefficient(0.0), law.static_coefficient());
         let rounding = f64::EPSILON * level;
         assert!(start <= level + rounding, "{law:?}: {start} > {level}");
-        let said = law.visit(StartsAtStaticLevel);
-        assert_eq!(said, (start - level).abs() <= rounding, "{law:?}: μ(0⁺) = {start}");
+        let reported = law.visit(StartsAtStaticLevel);
+        assert_eq!(reported, (start - level).abs() <= rounding, "{law:?}: μ(0⁺) = {start}");
     }
 }
 
@@ -36,8 +36,8 @@ fn five_points(law: &Friction, speed: f64, step: f64, central: bool) -> f64 {
         ([-25.0, 48.0, -36.0, 16.0, -3.0], 0.0)
     };
     let mut sum = 0.0;
-    for (place, weight) in weights.into_iter().enumerate() {
-        sum += weight * law.coefficient(speed + (first + place as f64) * step);
+    for (index, weight) in weights.into_iter().enumerate() {
+        sum += weight * law.coefficient(speed + (first + index as f64) * step);
     }
     sum / (12.0 * step)
 }
@@ -57,7 +57,7 @@ fn slopes_agree_with_differences_of_values() {
         let mut size = law.static_coefficient().max(terms) / scale;
         for &scaled in SCALED_SPEEDS {
             let speed = scaled * scale;
-            // Central where the five points stay on the branch, forward beside v_r = 0.
+            // Central where the five points stay on the branch, forward next to v_r = 0.
             let central = speed > 2.0 * step;
             let differences = five_points(&law, speed, step, central);
             let slope = law.slope(speed);
@@ -86,9 +86,9 @@ fn extreme_slip_gives_finite_numbers() {
     }
 }
 
-/// Friction takes energy and never gives any: μ ≥ 0 at every slip speed, up to rounding.
+/// Friction dissipates energy at every slip speed: μ ≥ 0, up to rounding.
 #[test]
-fn friction_never_drives() {
+fn coefficients_are_never_negative() {
     for law in all_samples() {
         let spread = (0..4000).map(|i| 10f64.powf(f64::from(i) * 0.004 - 8.0));
         // About where an exponential leaves the normal numbers.
@@ -106,7 +106,7 @@ fn friction_never_drives() {
 fn laws_of_the_dissertation_have_its_values() {
     let (level, minimum, velocity) = (0.4, 0.2857, 0.2);
     let halfway = 0.5 * (level + minimum);
-    for (kind, places) in [
+    for (kind, points) in [
         // w − w³/3 is 0 at 0 and √3, 2/3 at 1, 11/24 at 1/2, −2/3 at 2.
         (
             LawKind::Stribeck,
@@ -130,7 +130,7 @@ fn laws_of_the_dissertation_have_its_values() {
         ),
     ] {
         let law = kind.build(&[level, minimum, velocity]).expect("valid");
-        for (scaled, value) in places {
+        for (scaled, value) in points {
             let found = law.coefficient(scaled * velocity);
             assert!((found - value).abs() < 4e-16, "{kind:?} at {scaled} v_m: {found}, {value}");
         }

@@ -1,4 +1,4 @@
-//! The recurrence of powers in `stribeck-exponential`, against formulas: another recurrence for the same law.
+//! The recurrence of powers in `stribeck-exponential`, against formulas, which use another recurrence for the same law.
 
 use quell_model::friction::{BranchSeries, LawVisitor, SlidingLaw};
 use quell_model::{Expression, Friction, StribeckExponential};
@@ -46,8 +46,8 @@ fn every_exponent_has_the_series_of_its_formula() {
             let found = Friction::StribeckExponential(law).visit(Along(slip));
             let other = Friction::Expression(formula.clone()).visit(Along(slip));
             for k in 0..TERMS {
-                // Sums of terms that alternate keep the size of the largest one.
-                let size = other[..=k].iter().fold(0.4_f64, |size, it| size.max(it.abs()));
+                // A sum of alternating terms is accurate relative to its largest term.
+                let size = other[..=k].iter().fold(0.4_f64, |size, term| size.max(term.abs()));
                 let error = (found[k] - other[k]).abs();
                 assert!(
                     error <= 1e-11 * size,

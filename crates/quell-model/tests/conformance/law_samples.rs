@@ -7,7 +7,7 @@ use quell_model::{Expression, Friction, LawKind, Samples};
 /// Slip speeds in units of the law's velocity scale: at rest, small, at the scale, far out.
 pub(crate) const SCALED_SPEEDS: &[f64] = &[0.0, 1e-9, 0.03, 0.31, 0.77, 1.0, 1.42, 3.3, 9.0];
 
-/// Examples tried, and the number that must turn out valid.
+/// Examples tried, and the least and largest number of valid ones.
 const TRIALS: usize = 400;
 const AT_LEAST: usize = 12;
 const AT_MOST: usize = 40;

@@ -31,14 +31,14 @@ impl<V: Lane> LawVisitor for Along<'_, V> {
     }
 }
 
-/// Slips that stay on the positive branch for |t| ≤ 1/4, with coefficients of every order.
+/// Slips on the positive branch for |t| ≤ 1/4, with coefficients of every order.
 fn slips() -> Vec<[f64; TERMS]> {
     [(1.1, 0.9), (0.4, -0.8), (2.7, 1.3), (6.0, -2.0)]
         .into_iter()
         .map(|(start, change)| {
             let mut slip = [start; TERMS];
             for (k, coefficient) in slip.iter_mut().enumerate().skip(1) {
-                // Signs and sizes without a pattern that a law could share.
+                // Signs and sizes without any pattern in common with a law.
                 *coefficient = change * (1.7 * (k * k) as f64 + 0.3).cos() / k as f64;
             }
             slip[1] = change;
@@ -80,7 +80,7 @@ fn the_series_gives_the_value_of_the_law() {
 }
 
 /// With its first K coefficients the series agrees to order K: halving t divides the error
-/// by 2ᴷ. A single wrong coefficient holds the order of all longer series at its own.
+/// by 2ᴷ. A single wrong coefficient limits the order of all longer series to its own.
 #[test]
 fn truncated_series_agree_to_their_order() {
     let mut measured = 0;
@@ -94,7 +94,7 @@ fn truncated_series_agree_to_their_order() {
                     let series = horner(&friction[..terms], t);
                     (series - exact(&law, 1.0, horner(&slip, t))).abs()
                 };
-                // The larger of two signs: an error term that vanishes on one side is no proof.
+                // The larger of two signs: an error term may vanish on one side.
                 let worst = |t: f64| error(t).max(error(-t));
                 let (wide, narrow) = (worst(0.04), worst(0.02));
                 if narrow <= 200.0 * f64::EPSILON * size {
@@ -127,7 +127,7 @@ fn both_branches_are_odd_to_the_last_bit() {
 }
 
 #[test]
-fn a_lane_gives_the_bits_of_the_number_alone() {
+fn a_lane_gives_the_same_bits_as_a_scalar() {
     let slips = slips();
     for law in all_samples() {
         for (first, second) in slips.iter().zip(slips.iter().rev()) {

@@ -1,9 +1,14 @@
-//! What a law accepts and refuses, and how it is named.
+//! Values that a law accepts and rejects, and the names of laws.
 
-use quell_model::LawKind;
 use quell_model::parameter::Parameter;
+use quell_model::{Invalid, LawKind};
 
 use crate::law_samples::{all_samples, samples};
+
+/// The keys of complaints, in order.
+fn keys(complaints: &[Invalid]) -> Vec<&str> {
+    complaints.iter().map(|complaint| complaint.key.as_str()).collect()
+}
 
 #[test]
 fn values_build_the_same_law_again() {
@@ -13,12 +18,13 @@ fn values_build_the_same_law_again() {
         if LawKind::NUMERIC.contains(&law.kind()) {
             assert_eq!(law.kind().build(&values), Ok(law));
         } else {
-            assert!(law.kind().build(&values).is_err(), "{law:?}: its data are missing");
+            let complaints = law.kind().build(&values).expect_err("its data are missing");
+            assert_eq!(keys(&complaints), ["friction.law"], "{law:?}");
         }
     }
 }
 
-/// Each number is found and set by its path; another path is refused.
+/// Each number can be read and set by its path; any other path is rejected.
 #[test]
 fn numbers_are_set_by_their_paths() {
     for law in all_samples() {
@@ -26,10 +32,12 @@ fn numbers_are_set_by_their_paths() {
             assert_eq!(law.get(parameter.path), Some(value), "{law:?}");
             let same = law.with(parameter.path, value).expect("its own value");
             assert_eq!(same.values(), law.values());
-            assert!(law.with(parameter.path, f64::NAN).is_err(), "{law:?}: {}", parameter.path);
+            let complaints = law.with(parameter.path, f64::NAN).expect_err("no number");
+            assert_eq!(keys(&complaints), [parameter.path], "{law:?}");
         }
         assert_eq!(law.get("friction.nothing"), None);
-        assert!(law.with("friction.nothing", 1.0).is_err());
+        let complaints = law.with("friction.nothing", 1.0).expect_err("no such path");
+        assert_eq!(keys(&complaints), ["friction.nothing"], "{law:?}");
     }
 }
 
@@ -49,7 +57,7 @@ fn impossible(parameter: &Parameter) -> Vec<f64> {
 }
 
 #[test]
-fn impossible_values_are_refused_by_name() {
+fn impossible_values_are_rejected_by_name() {
     for &kind in LawKind::NUMERIC {
         let valid = samples(kind)[0].values();
         for (index, parameter) in kind.parameters().iter().enumerate() {
@@ -67,9 +75,9 @@ fn impossible_values_are_refused_by_name() {
     }
 }
 
-/// No law of friction has a negative coefficient or velocity scale, whatever its bounds say.
+/// No law of friction has a negative coefficient or velocity scale, even where its bounds would allow one.
 #[test]
-fn negative_values_are_refused() {
+fn negative_values_are_rejected() {
     for &kind in LawKind::NUMERIC {
         let valid = samples(kind)[0].values();
         for (index, parameter) in kind.parameters().iter().enumerate() {
@@ -82,7 +90,7 @@ fn negative_values_are_refused() {
 }
 
 #[test]
-fn all_complaints_come_at_once() {
+fn all_complaints_are_returned_at_once() {
     for &kind in LawKind::NUMERIC {
         let wrong = vec![f64::NAN; kind.parameters().len()];
         let complaints = kind.build(&wrong).expect_err(kind.name());
@@ -98,23 +106,30 @@ fn a_wrong_number_of_values_is_a_complaint() {
     for &kind in LawKind::NUMERIC {
         let mut values = samples(kind)[0].values();
         values.push(0.1);
-        assert!(kind.build(&values).is_err(), "{}: one value too many", kind.name());
+        let count = kind.parameters().len().to_string();
+        let refused = |values: &[f64]| {
+            let complaints = kind.build(values).expect_err("a wrong number of values");
+            assert_eq!(keys(&complaints), ["friction"], "{}", kind.name());
+            assert_eq!(complaints[0].value, values.len().to_string(), "{}", kind.name());
+            assert!(complaints[0].allowed.ends_with(&count), "{}: {complaints:?}", kind.name());
+        };
+        refused(&values);
         values.truncate(values.len() - 2);
-        assert!(kind.build(&values).is_err(), "{}: one value too few", kind.name());
-        assert!(kind.build(&[]).is_err(), "{}: no value", kind.name());
+        refused(&values);
+        refused(&[]);
     }
 }
 
 #[test]
-fn names_lead_back_and_paths_are_those_of_the_friction_table() {
+fn names_round_trip_and_paths_belong_to_the_friction_table() {
     for (index, &kind) in LawKind::ALL.iter().enumerate() {
         assert_eq!(LawKind::from_name(kind.name()), Some(kind));
         assert!(LawKind::ALL[..index].iter().all(|other| other.name() != kind.name()));
         assert!(kind.name().chars().all(|c| c.is_ascii_lowercase() || "_-".contains(c)));
         assert!(!kind.about().is_empty());
-        for (place, parameter) in kind.parameters().iter().enumerate() {
+        for (index, parameter) in kind.parameters().iter().enumerate() {
             assert_eq!(parameter.table(), "friction", "{}", parameter.path);
-            let earlier = &kind.parameters()[..place];
+            let earlier = &kind.parameters()[..index];
             assert!(earlier.iter().all(|other| other.path != parameter.path));
         }
     }

@@ -1,7 +1,7 @@
 //! One conformance suite for every friction law and every waveform.
 //!
 //! It runs over [`quell_model::LawKind::ALL`] and [`quell_model::Waveform::ALL`]: a new law
-//! or waveform is one file and one line in its list, and is tested here without a change.
+//! or waveform is one file and one line in its list, and is tested here without any change.
 
 mod law_numbers;
 mod law_powers;

@@ -36,11 +36,14 @@ fn waves_are_odd_and_periodic() {
             let value = waveform.value(phase);
             let mirrored = waveform.value(-phase);
             assert!((value + mirrored).abs() < 4e-15, "{waveform:?}({phase})");
-            for turns in [-3.0, -1.0, 1.0, 1000.0] {
+            for periods in [-3.0, -1.0, 1.0, 1000.0] {
                 // θ + 2πn is known to half a unit of its last place; slopes are at most 1.
-                let allowed = 4e-15 + f64::EPSILON * TAU * f64::abs(turns);
-                let later = waveform.value(phase + TAU * turns);
-                assert!((later - value).abs() < allowed, "{waveform:?}({phase}) + {turns} turns");
+                let allowed = 4e-15 + f64::EPSILON * TAU * f64::abs(periods);
+                let later = waveform.value(phase + TAU * periods);
+                assert!(
+                    (later - value).abs() < allowed,
+                    "{waveform:?}({phase}) + {periods} periods"
+                );
             }
         }
     }
@@ -60,7 +63,7 @@ fn waves_have_unit_peak() {
 }
 
 #[test]
-fn breaks_ascend_within_one_turn_and_each_opens_a_piece() {
+fn breaks_ascend_within_one_period_and_each_opens_a_piece() {
     for &waveform in Waveform::ALL {
         let breaks = waveform.breaks();
         assert!(breaks.iter().all(|phase| (0.0..TAU).contains(phase)), "{waveform:?}");
@@ -69,9 +72,9 @@ fn breaks_ascend_within_one_turn_and_each_opens_a_piece() {
     }
 }
 
-/// The engine integrates the pieces, everything else asks `value`: they are one wave.
+/// The engine integrates the pieces and everything else calls `value`: both are the same wave.
 #[test]
-fn pieces_meet_the_value_from_both_sides_of_every_break() {
+fn pieces_agree_with_the_value_on_both_sides_of_every_break() {
     for &waveform in Waveform::ALL {
         for (open, close, piece) in spans(waveform) {
             assert_eq!(waveform.value(open), along(piece, open, open), "{waveform:?} at {open}");
@@ -84,7 +87,7 @@ fn pieces_meet_the_value_from_both_sides_of_every_break() {
     }
 }
 
-/// A break without a kink or a jump would cost the engine a step for nothing.
+/// A break without a kink or a jump would cost the engine an unnecessary step.
 #[test]
 fn every_break_is_a_kink_or_a_jump() {
     for &waveform in Waveform::ALL {
@@ -104,7 +107,7 @@ fn every_break_is_a_kink_or_a_jump() {
 }
 
 #[test]
-fn names_lead_back() {
+fn names_round_trip() {
     for (index, &waveform) in Waveform::ALL.iter().enumerate() {
         assert_eq!(Waveform::from_name(waveform.name()), Some(waveform));
         assert!(Waveform::ALL[..index].iter().all(|other| other.name() != waveform.name()));

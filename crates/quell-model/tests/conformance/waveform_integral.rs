@@ -15,7 +15,7 @@ const RULE: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_08),
 ];
 
-/// ∫ f from `a` to `b` inside one turn, split at the breaks of the waveform.
+/// ∫ f from `a` to `b` inside one period, split at the breaks of the waveform.
 fn integral(waveform: Waveform, a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
     let mut ends = vec![a];
     ends.extend(waveform.breaks().iter().filter(|&&phase| phase > a && phase < b));
@@ -44,7 +44,7 @@ fn g_and_its_integral_have_zero_mean() {
     }
 }
 
-/// G(b) − G(a) = ∫ g over intervals that lie inside a piece and over such that do not.
+/// G(b) − G(a) = ∫ g over intervals inside a piece and across pieces.
 /// The quadrature adds up to 240 terms to a sum below π: rounding up to 240·ε/2·π/3 = 3·10⁻¹⁴.
 #[test]
 fn the_derivative_of_the_integral_is_the_wave() {
@@ -77,9 +77,9 @@ fn the_integral_is_even_and_periodic() {
     }
 }
 
-/// The largest |G|, by a grid and then by halving around its best point.
+/// The largest |G|, on a grid and then by bisection around its best point.
 #[test]
-fn the_peak_of_the_integral_is_as_stated() {
+fn the_peak_of_the_integral_has_its_stated_value() {
     for &waveform in Waveform::ALL {
         let size = |phase: f64| waveform.integral(phase).abs();
         let mut best =
@@ -99,7 +99,7 @@ fn the_peak_of_the_integral_is_as_stated() {
 }
 
 #[test]
-fn mean_squares_are_as_stated() {
+fn mean_squares_have_their_stated_values() {
     for &waveform in Waveform::ALL {
         let square = |x: f64| x * x;
         let found = integral(waveform, 0.0, TAU, |phase| square(waveform.integral(phase))) / TAU;

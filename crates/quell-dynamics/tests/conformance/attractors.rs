@@ -1,0 +1,104 @@
+//! The judge: settled runs against multipliers, orbits and other lengths.
+
+use quell_dynamics::attractor::{
+    Kind, Outcome, Patience, Reached, Scene, Settled, measure, orbit_reached, reached, settle,
+    settle_many,
+};
+use quell_dynamics::orbit::{NoOrbit, Verdict, near};
+use quell_dynamics::simulation::Start;
+use quell_model::Belt;
+use quell_zoo::{BeltExt, all_belts};
+
+/// A start far from sliding.
+fn afar(belt: &Belt) -> Start {
+    Start { time: 0.0, displacement: 1.5 * belt.normal_load(), velocity: 0.0 }
+}
+
+/// A run from the base response stays there exactly where its multipliers say that it is stable.
+#[test]
+fn runs_stay_on_base_responses_that_are_stable() {
+    let mut judged = [0, 0];
+    for named in all_belts() {
+        let scene = Scene::new(&named.model).expect("commensurate");
+        let Ok(quiet) = &scene.quiet else { continue };
+        if quiet.verdict == Verdict::Undecided {
+            continue;
+        }
+        let start = Start { time: 0.0, displacement: quiet.displacement, velocity: quiet.velocity };
+        let settled = settle(&scene, start, Patience::BASIN).expect("no stall");
+        let stable = quiet.verdict == Verdict::Stable;
+        let stays = settled.outcome == Outcome::Quiet;
+        assert_eq!(stays, stable, "{}: {quiet:?} {settled:?}", named.name);
+        judged[usize::from(stable)] += 1;
+    }
+    assert!(judged[0] > 10 && judged[1] > 30, "{judged:?}");
+}
+
+/// Settling, measuring and shooting describe the same attractor.
+#[test]
+fn attractors_are_the_orbits_that_shooting_finds() {
+    let mut orbits = 0;
+    for named in all_belts() {
+        let belt = &named.model;
+        let scene = Scene::new(belt).expect("commensurate");
+        let settled = settle(&scene, Start::REST, Patience::SWEEP).expect("no stall");
+        let attractor = measure(&scene, &settled).expect("no stall");
+        let expected = match &attractor {
+            Some(attractor) if attractor.base => Reached::Base,
+            Some(attractor) if attractor.quiet => Reached::Forced,
+            Some(_) => Reached::Elsewhere,
+            None => Reached::Unsettled,
+        };
+        assert_eq!(reached(belt, Start::REST), Ok(expected), "{}", named.name);
+        let Some(attractor) = attractor else { continue };
+        assert_eq!(attractor.base, settled.outcome == Outcome::Quiet, "{}", named.name);
+        let orbit = orbit_reached(belt, Start::REST);
+        match attractor.kind {
+            Kind::Periodic { periods, radius } if !belt.dithers().is_empty() => {
+                let orbit = orbit.unwrap_or_else(|why| panic!("{}: {why}", named.name));
+                let period = f64::from(periods) * scene.strobe.period;
+                assert!((orbit.period - period).abs() < 1e-9, "{}", named.name);
+                assert!((orbit.radius() - radius).abs() < 1e-6, "{}", named.name);
+                assert_eq!(orbit.verdict(), Verdict::Stable, "{}: {orbit:?}", named.name);
+                let again = near(belt, attractor.state, periods).expect("the same orbit");
+                assert!((again.radius() - radius).abs() < 1e-6, "{}", named.name);
+                orbits += 1;
+            }
+            Kind::Cycle => {
+                let cycle = orbit.unwrap_or_else(|why| panic!("{}: {why}", named.name));
+                let frequency = attractor.frequency(scene.strobe.period).expect("it turns");
+                let own = std::f64::consts::TAU / cycle.period;
+                assert!((frequency - own).abs() < 1e-9, "{}: {frequency} {own}", named.name);
+                orbits += 1;
+            }
+            Kind::QuasiPeriodic => {
+                let no_period = matches!(orbit, Err(NoOrbit::NoPeriod { .. }));
+                assert!(no_period, "{}: {orbit:?}", named.name);
+            }
+            _ => {}
+        }
+    }
+    assert!(orbits > 40, "{orbits}");
+}
+
+/// A run settles with the same bits alone and in company, and doubled lengths double its end exactly.
+#[test]
+fn settled_runs_keep_their_bits_in_company_and_at_double_lengths() {
+    for named in all_belts() {
+        let settled = |belt: &Belt| -> Vec<Settled> {
+            let scene = Scene::new(belt).expect("commensurate");
+            let starts = [Start::REST, afar(belt)];
+            let together = settle_many(&scene, &starts, Patience::BASIN);
+            together.into_iter().map(|settled| settled.expect("no stall")).collect()
+        };
+        let one = settled(&named.model);
+        let scene = Scene::new(&named.model).expect("commensurate");
+        let alone = settle(&scene, afar(&named.model), Patience::BASIN).expect("no stall");
+        assert_eq!(alone, one[1], "{}", named.name);
+        for (one, two) in one.iter().zip(settled(&named.model.scaled(2.0))) {
+            assert_eq!((one.outcome, one.periods), (two.outcome, two.periods), "{}", named.name);
+            let doubled = 2.0 * one.state.displacement;
+            assert_eq!(doubled, two.state.displacement, "{}", named.name);
+        }
+    }
+}
