@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use quell_disc::dithered;
-use quell_disc::equations::System;
+use quell_disc::equations::linearised;
 use quell_disc::plate::{ModeSet, Plate, RadialShape, Reference};
 use quell_disc::resonance::Waves;
 use quell_disc::undithered;
@@ -154,30 +154,28 @@ fn reference_frequency_depends_on_the_modes() {
 fn indices_of_the_double_sum() {
     let disc = disc(0.3, 1.0 / 3.0, 0.0, DiscDither::None, 0.2);
     let right = undithered::growth(&disc).expect("finite");
-    let system = System::new(&disc);
-    // As printed: each row of the load's mass and damper acts on its coordinate alone, with the sum of all shapes.
-    let (count, load) = (system.coordinates(), &disc.loads()[0]);
-    let bare = System::assemble(
-        &disc,
-        Contributions::ALL.without(Contribution::LoadMass).without(Contribution::Damper),
-    );
+    // As printed: every row of the load's mass and damper acts on its own coordinate, with the sum of all shapes.
+    let (count, load) = (disc.coordinates(), &disc.loads()[0]);
+    let parts = Contributions::ALL.without(Contribution::LoadMass).without(Contribution::Damper);
+    let bare = linearised(&disc, parts).expect("finite");
+    let whole_mass = disc.system_of(Contributions::ALL).structure.mass().matrix();
+    let bare_mass = disc.system_of(parts).structure.mass().matrix();
     let row = |matrix: &Matrix, i: usize, j: usize| matrix.row(i)[j];
-    let (mut mass, mut damping) = (bare.mass().clone(), bare.damping().clone());
+    let (mut mass, mut damping) = (bare_mass.clone(), bare.damping().clone());
     for i in 0..count {
         // The diagonal of the full system shows on which rows the load acts: φ_pq² there.
-        let own = row(system.mass(), i, i) - row(bare.mass(), i, i);
-        let sum: f64 = (0..count)
-            .map(|j| (row(system.mass(), i, j) - row(bare.mass(), i, j)) / load.mass)
-            .sum();
+        let own = row(&whole_mass, i, i) - row(&bare_mass, i, i);
+        let sum: f64 =
+            (0..count).map(|j| (row(&whole_mass, i, j) - row(&bare_mass, i, j)) / load.mass).sum();
         if own != 0.0 {
             mass.row_mut(i)[i] += load.mass * sum;
             damping.row_mut(i)[i] += load.damping * sum;
         }
     }
     // With the follower forces: what the state matrix of the rest has in its lower left is −M⁻¹K.
-    let kept = bare.state_matrix(bare.mean_friction());
+    let kept = bare.state_matrix(&bare.mean_friction());
     let lower = Matrix::from_fn(count, count, |i, j| -kept.row(count + i)[j]);
-    let stiffness = bare.mass().times(&lower);
+    let stiffness = bare_mass.times(&lower);
     let joined = Matrix::from_fn(count, 2 * count, |i, j| {
         if j < count { -stiffness.row(i)[j] } else { -damping.row(i)[j - count] }
     });
@@ -233,12 +231,13 @@ fn first_harmonic_of_a_reversed_friction() {
 
 /// Growth rate under friction that is +f for a quarter period, −f for a half, +f for a quarter.
 fn reversing(disc: &Disc) -> f64 {
-    let system = System::new(disc);
-    let period = 2.0 * PI / system.frequency_ratio().expect("dither");
-    let (mean, swing) = system.modulation();
+    let system = linearised(disc, Contributions::ALL).expect("finite");
+    let period = 2.0 * PI / disc.dither().frequency_ratio().expect("dither");
+    let (mean, swing) = disc.dither().mean_and_amplitude();
     assert_eq!(mean, 0.0);
-    let friction =
-        |sign: f64| -> Vec<f64> { system.friction().iter().map(|f| sign * swing * f).collect() };
+    let friction = |sign: f64| -> Vec<f64> {
+        disc.loads().iter().map(|load| sign * swing * load.friction).collect()
+    };
     let forward = exponential(&system.state_matrix(&friction(1.0)), 0.25 * period);
     let back = exponential(&system.state_matrix(&friction(-1.0)), 0.5 * period);
     let monodromy = forward.times(&back).times(&forward);

@@ -5,7 +5,7 @@
 //! iteration that converges to the last digits: the distance moved is the error of the splitting.
 
 use num_complex::Complex64;
-use quell_disc::dithered::DitheredDisc;
+use quell_disc::dithered;
 use quell_model::Disc;
 use quell_model::disc::{DiscDither, Load, Mode};
 use quell_numerics::floquet::Effort;
@@ -91,7 +91,7 @@ fn the_hill_determinant_vanishes_at_the_exponents_of_the_splitting() {
                 for speed in [0.05, 0.2, 0.37, 0.61, 0.88] {
                     let load = Load::new(0.2, 0.15, 0.3, 1.0);
                     let disc = zoo::disc(modes.clone(), vec![load], dither, speed);
-                    let prepared = DitheredDisc::new(&disc).expect("finite").expect("dithered");
+                    let prepared = dithered::prepared(&disc).expect("finite").expect("dithered");
                     for friction in [0.1, 0.6, 1.5] {
                         let found = prepared.growth(friction, Effort::default()).expect("finite");
                         let start = Complex64::new(found.rate, found.frequency);

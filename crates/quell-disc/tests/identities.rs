@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use num_complex::Complex64;
 use quell_disc::boundaries::{Marginal, NoBoundary, boundaries};
-use quell_disc::dithered::{self, DitheredDisc};
+use quell_disc::dithered;
 use quell_disc::partition::{NoPartition, crossings};
 use quell_disc::undithered::{self, eigenvalues};
 use quell_linear::growth::{Growth, Verdict};
@@ -196,7 +196,7 @@ fn crossings_of_the_partition_are_marginal() {
             let load = Load::new(strength, strength, strength, 1.0);
             let disc = loaded(ModeSet::N12, damping, load, dither, speed);
             let name = format!("{dither:?}, Ω = {speed}, ξ = {damping}");
-            let prepared = DitheredDisc::new(&disc).expect("finite").expect("dithered");
+            let prepared = dithered::prepared(&disc).expect("finite").expect("dithered");
             let at = |factor| prepared.growth(factor, Effort::default()).expect("finite");
             let found = crossings(&disc).expect("one load, dithered");
             let mut leading = 0;
@@ -247,7 +247,7 @@ fn a_common_phase_shifts_time_and_half_a_period_reverses_the_sign() {
         let dither = DiscDither::Tangential { amplitude: 1.0, frequency_ratio: 3.9 };
         let modes = vec![mode(1, 1.8), mode(2, 2.0), mode(3, 3.1)];
         let disc = zoo::disc(modes, loads(friction, phases), dither, 0.3);
-        DitheredDisc::new(&disc)
+        dithered::prepared(&disc)
             .expect("finite")
             .expect("dithered")
             .growth(1.0, Effort { at_least: 1e-9, ..Effort::default() })

@@ -1,16 +1,16 @@
 //! Attractors against known ones: locking ratios, coexistence, and thresholds at which responses lose stability.
 
 use quell_dynamics::attractor::{
-    Attractor, Kind, Label, Outcome, Patience, Ratio, Scene, Settled, gather, measure, settle,
-    settle_many,
+    Attractor, AttractorKind, AttractorSettings, BasinLabel, Patience, Ratio, SettleOutcome,
+    Settled, gather, measure, settle, settle_many,
 };
-use quell_dynamics::orbit::Verdict;
+use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::simulation::Start;
 use quell_model::{Belt, Waveform};
 use quell_zoo::belt::{self, decreasing_under, stribeck_under};
 
 fn reached(belt: &Belt, displacement: f64, velocity: f64) -> (Settled, Option<Attractor>) {
-    let scene = Scene::new(belt).expect("a strobe");
+    let scene = AttractorSettings::new(belt).expect("a strobe");
     let start = Start { time: 0.0, displacement, velocity };
     let settled = settle(&scene, start, Patience::SWEEP).expect("no stall");
     let attractor = measure(&scene, &settled).expect("no stall");
@@ -26,13 +26,13 @@ fn responses_below_the_threshold_lock_at_known_fractions() {
         let belt = stribeck_under(waveform, 0.3);
         let (settled, attractor) = reached(&belt, 0.0, 0.0);
         let attractor = attractor.expect("settled");
-        assert_eq!(settled.outcome, Outcome::Elsewhere);
+        assert_eq!(settled.outcome, SettleOutcome::Elsewhere);
         let rotation = attractor.rotation.expect("a slow phase");
         assert_eq!(rotation.ratio, Some(Ratio { turns, periods }), "{attractor:?}");
         let period = std::f64::consts::TAU / 10.0;
         let found = attractor.frequency(period).expect("a slow phase");
         assert!((found - frequency).abs() < 1e-5, "{found}");
-        let Kind::Periodic { periods: closed, radius } = attractor.kind else {
+        let AttractorKind::Periodic { periods: closed, radius } = attractor.kind else {
             panic!("{:?}", attractor.kind)
         };
         assert_eq!(closed, periods);
@@ -55,15 +55,15 @@ fn the_base_response_and_squeal_coexist_below_the_local_threshold() {
         (9.91, true, true),
     ] {
         let belt = decreasing_under(Waveform::Sine, amplitude);
-        let scene = Scene::new(&belt).expect("a strobe");
-        let base = scene.quiet.clone().expect("an orbit");
-        assert_eq!(base.verdict == Verdict::Stable, stable, "{amplitude}");
+        let scene = AttractorSettings::new(&belt).expect("a strobe");
+        let base = scene.base.clone().expect("an orbit");
+        assert_eq!(base.verdict == OrbitVerdict::Stable, stable, "{amplitude}");
         // From the orbit itself: a run leaves it if it is unstable.
         let (settled, _) = reached(&belt, base.displacement, base.velocity);
-        assert_eq!(settled.outcome == Outcome::Quiet, stable, "{amplitude}");
+        assert_eq!(settled.outcome == SettleOutcome::Base, stable, "{amplitude}");
         let (settled, attractor) = reached(&belt, 1.5, 0.0);
         assert_eq!(
-            settled.outcome == Outcome::Quiet,
+            settled.outcome == SettleOutcome::Base,
             quenched_from_afar,
             "{amplitude} {settled:?}"
         );
@@ -79,7 +79,7 @@ fn the_base_response_and_squeal_coexist_below_the_local_threshold() {
 #[test]
 fn cycles_without_dither_have_their_size_and_frequency() {
     let (settled, attractor) = reached(&belt::decreasing(), 1.5, 0.0);
-    assert_eq!(settled.outcome, Outcome::Elsewhere);
+    assert_eq!(settled.outcome, SettleOutcome::Elsewhere);
     let size = attractor.expect("settled").size();
     assert!((size - 2.09).abs() < 0.005, "{size}");
     let (_, attractor) = reached(&belt::stribeck(), 0.0, 0.0);
@@ -89,7 +89,7 @@ fn cycles_without_dither_have_their_size_and_frequency() {
     assert!((found - 0.654_435).abs() < 1e-5, "{found}");
     // Steady sliding above the critical velocity.
     let (settled, attractor) = reached(&belt::decreasing(), 0.3, 0.0);
-    assert_eq!(settled.outcome, Outcome::Quiet);
+    assert_eq!(settled.outcome, SettleOutcome::Base);
     assert_eq!(attractor.expect("settled").size(), 0.0);
 }
 
@@ -98,7 +98,7 @@ fn cycles_without_dither_have_their_size_and_frequency() {
 #[test]
 fn a_line_of_starts_has_two_attractors() {
     let belt = decreasing_under(Waveform::Sine, 2.5);
-    let scene = Scene::new(&belt).expect("a strobe");
+    let scene = AttractorSettings::new(&belt).expect("a strobe");
     let starts: Vec<Start> = (0..40)
         .map(|k| Start { time: 0.0, displacement: -1.4 + 0.09 * f64::from(k), velocity: 0.0 })
         .collect();
@@ -110,13 +110,13 @@ fn a_line_of_starts_has_two_attractors() {
     assert_eq!((found.basins.len(), found.unknown()), (2, 0), "{found:?}");
     assert!(found.basins[0].attractor.quiet && !found.basins[1].attractor.quiet);
     let quenched: Vec<bool> =
-        found.labels.iter().map(|label| *label == Label::Attractor(0)).collect();
+        found.labels.iter().map(|label| *label == BasinLabel::Attractor(0)).collect();
     let changes = quenched.windows(2).filter(|pair| pair[0] != pair[1]).count();
     assert_eq!(changes, 2, "{quenched:?}");
     assert_eq!(quenched.iter().filter(|quenched| **quenched).count(), found.basins[0].starts);
     // A single long run from some of the starts agrees.
     for (start, quenched) in starts.iter().zip(&quenched).step_by(9) {
         let settled = settle(&scene, *start, Patience::SWEEP).expect("no stall");
-        assert_eq!(settled.outcome == Outcome::Quiet, *quenched, "{start:?}");
+        assert_eq!(settled.outcome == SettleOutcome::Base, *quenched, "{start:?}");
     }
 }

@@ -5,7 +5,7 @@
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use quell_dynamics::orbit::threshold::{Kind, local_thresholds};
+use quell_dynamics::orbit::threshold::{ThresholdKind, local_thresholds};
 use quell_linear::averaging::{
     AveragingOptions, Becomes, EverywhereStable, FastMotion, FastWave, NormalOrder, closed_band,
     critical_amplitudes, effective, effective_by_quadrature, everywhere_stable_amplitude,
@@ -369,7 +369,8 @@ fn limit_of_high_frequency_under_normal_dither() {
             let range = (0.85 * limit * ratio, limit * ratio);
             let found = local_thresholds(&belt, "dither.amplitude", range.0, range.1, 10);
             let found = found.unwrap_or_else(|why| panic!("{ratio} {waveform:?}: {why}"));
-            let hopf = found.iter().find(|threshold| threshold.kind == Kind::NeimarkSacker);
+            let hopf =
+                found.iter().find(|threshold| threshold.kind == ThresholdKind::NeimarkSacker);
             hopf.expect("a threshold in slip").value / ratio
         };
         for (pair, within) in [([orbit(3.3), orbit(6.6)], 1e-5), (orbits, 3e-6)] {

@@ -1,7 +1,7 @@
 //! Curves of thresholds in two parameters.
 
-use quell_dynamics::orbit::curve::{Ending, Plane, curves};
-use quell_dynamics::orbit::threshold::{Kind, local_thresholds};
+use quell_dynamics::orbit::curve::{ParameterPlane, ThresholdCurveEnd, curves};
+use quell_dynamics::orbit::threshold::{ThresholdKind, local_thresholds};
 use quell_model::Waveform;
 use quell_zoo::BeltExt;
 use quell_zoo::belt::decreasing_under;
@@ -9,7 +9,7 @@ use quell_zoo::belt::decreasing_under;
 /// Both thresholds of the amplitude over the belt velocity; each point of a curve is a threshold at its own velocity.
 #[test]
 fn amplitude_over_belt_velocity() {
-    let plane = Plane {
+    let plane = ParameterPlane {
         path: "dither.amplitude",
         window: (0.1, 16.0),
         along: "belt.belt_velocity",
@@ -21,10 +21,12 @@ fn amplitude_over_belt_velocity() {
         println!("{:?} {:?} {} points", curve.kind, curve.ends, curve.points.len());
     }
     assert_eq!(found.len(), 2);
-    for (kind, at_one) in [(Kind::NeimarkSacker, 4.322_392_624), (Kind::Grazing, 9.900_214_849)] {
+    for (kind, at_one) in
+        [(ThresholdKind::NeimarkSacker, 4.322_392_624), (ThresholdKind::Grazing, 9.900_214_849)]
+    {
         let curve = found.iter().find(|curve| curve.kind == kind).expect("a curve");
         assert!(
-            curve.points.len() > 30 && curve.ends.contains(&Ending::Window),
+            curve.points.len() > 30 && curve.ends.contains(&ThresholdCurveEnd::Window),
             "{:?}",
             curve.ends
         );

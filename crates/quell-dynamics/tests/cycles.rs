@@ -2,8 +2,8 @@
 
 use quell_dynamics::attractor::{Reached, orbit_reached, ramped, reached};
 use quell_dynamics::orbit::cycle::{cycles, free_end};
-use quell_dynamics::orbit::threshold::{Ending, Kind, local};
-use quell_dynamics::orbit::{NoOrbit, Orbit, Verdict, from_sliding};
+use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind, local};
+use quell_dynamics::orbit::{NoOrbit, Orbit, OrbitVerdict, from_sliding};
 use quell_dynamics::simulation::{EventKind, EventRecorder, Start, simulate};
 use quell_model::LawKind;
 use quell_zoo::belt::{self, undithered_belt};
@@ -22,7 +22,7 @@ fn squeal_is_an_orbit_of_known_period() {
     let cycle = &found[0];
     assert!((cycle.period - 9.600_930_182_576).abs() < 1e-10, "{}", cycle.period);
     assert!(cycle.is_free && cycle.residual < 1e-12);
-    assert_eq!((cycle.verdict(), cycle.count(EventKind::Stick)), (Verdict::Stable, 1));
+    assert_eq!((cycle.verdict(), cycle.count(EventKind::Stick)), (OrbitVerdict::Stable, 1));
     assert!(trivial(cycle) < 1e-9 && cycle.radius() < 1e-9, "{:?}", cycle.multipliers);
     // The mass moves with the belt from its stick to its release at x = μ_sF − 2ζv₀.
     let mut watch = EventRecorder::default();
@@ -39,7 +39,10 @@ fn an_unstable_cycle_lies_between_sliding_and_squeal() {
     let found = cycles(&belt).expect("no stall");
     assert_eq!(found.len(), 2, "{found:?}");
     let (squeal, between) = (&found[0], &found[1]);
-    assert_eq!((squeal.verdict(), between.verdict()), (Verdict::Stable, Verdict::Unstable));
+    assert_eq!(
+        (squeal.verdict(), between.verdict()),
+        (OrbitVerdict::Stable, OrbitVerdict::Unstable)
+    );
     assert!(between.is_pure_slip() && trivial(between) < 1e-9);
     // The other multiplier is the determinant, exp(−∮(2ζ + μ′N)).
     assert!((between.radius() - (-between.damping).exp()).abs() < 1e-9);
@@ -103,12 +106,16 @@ fn cycles_end_at_their_belt_velocity() {
 fn a_fold_is_not_stepped_over() {
     let belt = belt::decreasing().with_dither(sine(1e-4, 1.0));
     let found = local(&belt, "dither.amplitude", 1e-4, 3e-3, 20).expect("followed");
-    let fold = found.thresholds.iter().find(|threshold| threshold.kind == Kind::Fold);
+    let fold = found.thresholds.iter().find(|threshold| threshold.kind == ThresholdKind::Fold);
     println!("{:?}\n{:?}", found.thresholds, found.ending);
     let fold = fold.expect("a fold");
     assert!((fold.value - 0.001_572_4).abs() < 2e-7, "{fold:?}");
-    assert_eq!((fold.was, fold.becomes), (Some(Verdict::Stable), None));
-    assert!(matches!(found.ending, Ending::TurnedBack { at } if at < 0.0016), "{:?}", found.ending);
+    assert_eq!((fold.was, fold.becomes), (Some(OrbitVerdict::Stable), None));
+    assert!(
+        matches!(found.ending, BranchEnding::TurnedBack { at } if at < 0.0016),
+        "{:?}",
+        found.ending
+    );
     // Continuation from sliding reports this, rather than an orbit of another branch.
     let beyond = belt.undithered().with_dither(sine(2e-3, 1.0));
     let why = from_sliding(&beyond, 8).expect_err("none");
@@ -124,7 +131,7 @@ fn squeal_under_dither_is_an_orbit_of_many_periods() {
     let tenth = orbit.period / (0.2 * std::f64::consts::PI);
     assert!((tenth - 10.0).abs() < 1e-9, "{tenth} periods of the dither");
     assert!(orbit.count(EventKind::Stick) >= 1 && orbit.residual < 1e-9);
-    assert_eq!(orbit.verdict(), Verdict::Stable);
+    assert_eq!(orbit.verdict(), OrbitVerdict::Stable);
     assert!(orbit.multipliers[1].0.abs() < 1e-9);
 }
 

@@ -2,11 +2,12 @@
 //! agree.
 
 use quell_dynamics::attractor::{
-    Kind, Outcome, Patience, Reached, Scene, measure, orbit_reached, reached, settle, switches,
+    AttractorKind, AttractorSettings, Patience, Reached, SettleOutcome, measure, orbit_reached,
+    reached, settle, switches,
 };
 use quell_dynamics::orbit::cycle::{FreeEnd, cycles, free_end, keeps_vibrating};
 use quell_dynamics::orbit::threshold::{self, local_thresholds};
-use quell_dynamics::orbit::{Verdict, from_sliding, near};
+use quell_dynamics::orbit::{OrbitVerdict, from_sliding, near};
 use quell_dynamics::response::{Effect, Solver, Uncertain, Undefined, respond};
 use quell_dynamics::simulation::Start;
 use quell_dynamics::start::InitialState;
@@ -21,16 +22,18 @@ fn a_response_of_one_period_is_not_called_locked() {
     let fast = belt::decreasing();
     for amplitude in [2.0, 2.25, 2.5] {
         let belt = fast.with_dither(sine(amplitude, 0.9));
-        let scene = Scene::new(&belt).expect("a strobe");
+        let scene = AttractorSettings::new(&belt).expect("a strobe");
         let settled = settle(&scene, Start::REST, Patience::SWEEP).expect("no stall");
         let attractor = measure(&scene, &settled).expect("no stall").expect("settled");
-        let Kind::Periodic { periods, radius } = attractor.kind else { panic!("{attractor:?}") };
+        let AttractorKind::Periodic { periods, radius } = attractor.kind else {
+            panic!("{attractor:?}")
+        };
         assert_eq!((periods, attractor.section.len(), attractor.rotation), (1, 1, None));
         // `orbit --from-rest` finds the same response with the same multiplier.
         let orbit = orbit_reached(&belt, Start::REST).expect("an orbit");
         assert_eq!(orbit.period, std::f64::consts::TAU / 0.9);
         assert!((orbit.radius() - radius).abs() < 1e-9, "{amplitude}: {radius}");
-        assert_eq!(orbit.verdict(), Verdict::Stable);
+        assert_eq!(orbit.verdict(), OrbitVerdict::Stable);
     }
 }
 
@@ -42,7 +45,7 @@ fn a_driven_oscillator_settles_from_rest() {
         let belt = still.with_dither(sine(amplitude, 0.5));
         let orbit = orbit_reached(&belt, Start::REST).unwrap_or_else(|why| panic!("{why}"));
         assert_eq!(orbit.period, std::f64::consts::TAU / 0.5, "{amplitude}");
-        assert_eq!(orbit.verdict(), Verdict::Stable, "{amplitude}");
+        assert_eq!(orbit.verdict(), OrbitVerdict::Stable, "{amplitude}");
     }
 }
 
@@ -52,7 +55,7 @@ fn a_creep_along_a_nearly_locked_curve_ends_on_its_orbit() {
     let belt = belt::dissertation(LawKind::Decreasing).at_speed(1.5).with_dither(sine(7.0, 10.0));
     let orbit = orbit_reached(&belt, Start::REST).expect("an orbit");
     assert!((orbit.period - std::f64::consts::TAU).abs() < 1e-12, "{}", orbit.period);
-    assert_eq!(orbit.verdict(), Verdict::Stable);
+    assert_eq!(orbit.verdict(), OrbitVerdict::Stable);
 }
 
 /// A dither of amplitude zero does not change a limit cycle, at any frequency: the times of the section are unrelated to the
@@ -63,11 +66,11 @@ fn a_limit_cycle_does_not_depend_on_the_frequency_of_a_silent_dither() {
     let frequency = std::f64::consts::TAU / cycles(&belt).expect("no stall")[0].period;
     for frequency_ratio in [10.0, 1.45, 1.396, 1.0, 0.6] {
         let belt = belt.with_dither(sine(0.0, frequency_ratio));
-        let scene = Scene::new(&belt).expect("a strobe");
+        let scene = AttractorSettings::new(&belt).expect("a strobe");
         let settled = settle(&scene, Start::REST, Patience::SWEEP).expect("no stall");
         let attractor = measure(&scene, &settled).expect("no stall").expect("settled");
-        assert_eq!(attractor.kind, Kind::Cycle, "{frequency_ratio}");
-        let found = attractor.frequency(scene.strobe.period).expect("a slow phase");
+        assert_eq!(attractor.kind, AttractorKind::Cycle, "{frequency_ratio}");
+        let found = attractor.frequency(scene.section.period).expect("a slow phase");
         assert!((found - frequency).abs() < 1e-12, "{frequency_ratio}: {found} {frequency}");
         let orbit = orbit_reached(&belt, Start::REST).expect("a cycle");
         assert!(orbit.is_free && (orbit.period * frequency - std::f64::consts::TAU).abs() < 1e-12);
@@ -79,7 +82,7 @@ fn a_limit_cycle_does_not_depend_on_the_frequency_of_a_silent_dither() {
 fn squeal_ends_at_the_hopf_point() {
     let belt = belt::dissertation(LawKind::Stribeck).at_speed(0.15);
     let hopf = local_thresholds(&belt, "belt.belt_velocity", 0.15, 0.25, 20).expect("followed");
-    assert_eq!((hopf.len(), hopf[0].kind), (1, threshold::Kind::Hopf));
+    assert_eq!((hopf.len(), hopf[0].kind), (1, threshold::ThresholdKind::Hopf));
     let hopf = hopf[0].value;
     assert!((hopf - 0.198_830_1).abs() < 1e-7, "{hopf}");
     for (share, squeals) in [(1.0 - 1e-3, true), (1.0 - 1e-6, true), (1.0 + 1e-6, false)] {
@@ -120,12 +123,12 @@ fn a_marginal_orbit_is_undecided() {
     let guess = Start { time: 0.0, displacement: -1.300_01, velocity: 2.0 };
     let orbit = near(&belt, guess, 1).expect("an orbit");
     assert!((orbit.radius() - 1.0).abs() < 1e-4, "{orbit:?}");
-    assert_eq!(orbit.verdict(), Verdict::Undecided, "{orbit:?}");
+    assert_eq!(orbit.verdict(), OrbitVerdict::Undecided, "{orbit:?}");
     assert!(orbit.state_error > 1e3 * orbit.residual, "{orbit:?}");
     // An ordinary orbit is decided, with a small error.
     let belt = belt::decreasing().with_dither(sine(3.0, 10.0));
     let orbit = near(&belt, Start { displacement: 0.29, ..Start::REST }, 1).expect("an orbit");
-    assert_eq!(orbit.verdict(), Verdict::Stable);
+    assert_eq!(orbit.verdict(), OrbitVerdict::Stable);
     assert!(orbit.state_error < 1e-10 && orbit.multiplier_error < 1e-9, "{orbit:?}");
 }
 
@@ -161,8 +164,8 @@ fn every_effect_is_recognised() {
 fn undithered_runs_end_as_the_cycle_map_predicts() {
     let belt = belt::decreasing();
     let between = &cycles(&belt).expect("no stall")[1];
-    let scene = Scene::new(&belt).expect("a strobe");
-    for (share, outcome) in [(1.001, Outcome::Elsewhere), (0.999, Outcome::Quiet)] {
+    let scene = AttractorSettings::new(&belt).expect("a strobe");
+    for (share, outcome) in [(1.001, SettleOutcome::Elsewhere), (0.999, SettleOutcome::Base)] {
         let sliding = belt.steady_sliding();
         let displacement = sliding + share * (between.start.displacement - sliding);
         let start = Start { time: 0.0, displacement, velocity: 0.0 };

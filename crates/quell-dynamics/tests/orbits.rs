@@ -1,8 +1,8 @@
 //! Periodic responses against identities, differences and known thresholds.
 
 use quell_dynamics::attractor::{Reached, Switches, orbit_reached, switches};
-use quell_dynamics::orbit::threshold::{Kind, Threshold, local_thresholds};
-use quell_dynamics::orbit::{NoOrbit, Orbit, Verdict, from_sliding};
+use quell_dynamics::orbit::threshold::{Threshold, ThresholdKind, local_thresholds};
+use quell_dynamics::orbit::{NoOrbit, Orbit, OrbitVerdict, from_sliding};
 use quell_dynamics::simulation::{EventKind, Start, simulate};
 use quell_model::{Belt, LawKind, Waveform};
 use quell_zoo::BeltExt;
@@ -40,7 +40,7 @@ fn saltation_at_reversals() {
     assert_eq!(orbit.events.len(), 2, "{:?}", orbit.events);
     let [[a, b], [c, d]] = orbit.monodromy;
     assert!((a * d - b * c - 0.803_191_453_458_5).abs() < 1e-9, "{}", a * d - b * c);
-    assert_eq!(orbit.verdict(), Verdict::Stable);
+    assert_eq!(orbit.verdict(), OrbitVerdict::Stable);
 }
 
 /// With a stick among reversals, over ten periods of the dither, one multiplier is 0 and the derivative agrees with
@@ -63,7 +63,7 @@ fn multipliers_through_stick_and_reversal() {
     }
 }
 
-fn check(found: &[Threshold], expected: &[(f64, Kind, Verdict)]) {
+fn check(found: &[Threshold], expected: &[(f64, ThresholdKind, OrbitVerdict)]) {
     assert_eq!(found.len(), expected.len(), "{found:?}");
     for (threshold, (value, kind, becomes)) in found.iter().zip(expected) {
         let off = (threshold.value / value - 1.0).abs();
@@ -83,8 +83,8 @@ fn thresholds_of_tangential_dither() {
             local_thresholds(&decreasing_under(waveform, 1.0), "dither.amplitude", 0.5, 10.5, 40)
                 .expect("followed");
         let expected = [
-            (lower, Kind::NeimarkSacker, Verdict::Unstable),
-            (upper, Kind::Grazing, Verdict::Stable),
+            (lower, ThresholdKind::NeimarkSacker, OrbitVerdict::Unstable),
+            (upper, ThresholdKind::Grazing, OrbitVerdict::Stable),
         ];
         check(&found, &expected);
     }
@@ -103,8 +103,8 @@ fn thresholds_of_normal_dither() {
             let off = (threshold.value / value - 1.0).abs();
             assert!(off < closeness, "{waveform:?}: {} {value} {off:.1e}", threshold.value);
         }
-        assert_eq!(found[0].becomes, Some(Verdict::Unstable));
-        assert_eq!(found[1].becomes, Some(Verdict::Stable));
+        assert_eq!(found[0].becomes, Some(OrbitVerdict::Unstable));
+        assert_eq!(found[1].becomes, Some(OrbitVerdict::Stable));
     }
 }
 
@@ -125,7 +125,7 @@ fn quench_thresholds_of_the_reference() {
         let found = local_thresholds(&belt, "dither.amplitude", from, to, 12)
             .unwrap_or_else(|why| panic!("{case}: {why:?}"));
         let last = found.last().unwrap_or_else(|| panic!("no threshold: {case}"));
-        assert_eq!(last.kind, Kind::Grazing);
+        assert_eq!(last.kind, ThresholdKind::Grazing);
         let off = (last.value / expected - 1.0).abs();
         worst = worst.max(off);
         assert!(off < 2e-6, "{} {expected} {off:.1e}: {case}", last.value);
@@ -162,7 +162,7 @@ fn a_continuation_run_ends_at_the_end_of_its_window() {
             .with("dither.amplitude", amplitude)
             .expect("valid");
         let orbit = from_sliding(&belt, 8).unwrap_or_else(|why| panic!("{amplitude}: {why}"));
-        assert_eq!(orbit.verdict(), Verdict::Stable, "{amplitude}");
+        assert_eq!(orbit.verdict(), OrbitVerdict::Stable, "{amplitude}");
         assert!(orbit.residual < 1e-9, "{amplitude}: {}", orbit.residual);
     }
 }

@@ -2,7 +2,8 @@
 
 use quell_dynamics::orbit::{from_sliding, near};
 use quell_dynamics::simulation::{
-    Event, EventKind, EventRecorder, InstructionSet, Run, Start, simulate, simulate_many_with,
+    Event, EventKind, EventRecorder, InstructionSet, SimulationRun, Start, simulate,
+    simulate_many_with,
 };
 use quell_linear::averaging::{
     AveragingOptions, CriticalVelocity, FastMotion, FastWave, closed_band, criterion, effective,
@@ -170,8 +171,12 @@ fn lanes_have_the_same_bits_as_a_run_alone() {
     for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
         let mut watches = vec![EventRecorder::default(); belts.len()];
         let runs = belts.iter().zip(&mut watches);
-        let runs =
-            runs.map(|(belt, observer)| Run { belt, start: Start::REST, until: 40.0, observer });
+        let runs = runs.map(|(belt, observer)| SimulationRun {
+            belt,
+            start: Start::REST,
+            until: 40.0,
+            observer,
+        });
         let ends = simulate_many_with(set, runs.collect(), 1e-11);
         for ((end, watch), alone) in ends.into_iter().zip(watches).zip(&alone) {
             assert_eq!((end.expect("no stall"), watch.events), *alone, "{}", set.name());

@@ -3,15 +3,15 @@
 //! Each reason comes from the engine itself, from a belt that provokes it. Built by hand are only those that no belt is known
 //! to provoke within a second.
 
-use quell_dynamics::attractor::{Patience, Scene, orbit_reached, settle};
-use quell_dynamics::orbit::curve::{Open, OpenLine, Plane, curves};
+use quell_dynamics::attractor::{AttractorSettings, Patience, orbit_reached, settle};
+use quell_dynamics::orbit::curve::{Open, OpenLine, ParameterPlane, curves};
 use quell_dynamics::orbit::cycle::{cycles, free_end};
 use quell_dynamics::orbit::threshold::{NoThresholds, along, local, local_thresholds};
 use quell_dynamics::orbit::{NoOrbit, Orbit, Unsettled, common_period, from_sliding, near};
 use quell_dynamics::simulation::{Start, simulate, within};
 use quell_dynamics::start::{InitialState, NoSquealingStart};
 use quell_linear::averaging::{
-    AveragingError, AveragingOptions, NoBand, Response, closed_band, criterion,
+    AveragingError, AveragingOptions, FastResponse, NoBand, closed_band, criterion,
 };
 use quell_model::{Belt, Waveform};
 use quell_numerics::quadrature::{QuadratureError, QuadratureOptions, integrate};
@@ -109,7 +109,7 @@ fn runs_that_end_on_no_orbit() {
 #[test]
 fn runs_that_have_not_settled() {
     let unsettled = |belt: &Belt, start: Start, patience: Patience| {
-        let scene = Scene::new(belt).expect("commensurate");
+        let scene = AttractorSettings::new(belt).expect("commensurate");
         let settled = settle(&scene, start, patience).expect("no stall");
         settled.why().expect("not settled")
     };
@@ -178,7 +178,7 @@ fn thresholds() {
 fn curves_of_thresholds() {
     let line = |belt: &Belt, window, between| -> OpenLine {
         let along = "belt.belt_velocity";
-        let plane = Plane { path: "dither.amplitude", window, along, between };
+        let plane = ParameterPlane { path: "dither.amplitude", window, along, between };
         curves(belt, plane, 2, 5).expect("one line is followed").open[0]
     };
     let why = line(&decreasing_under(Waveform::Sine, 1.0), (0.1, 3.0), (-1.0, 1.0));
@@ -210,7 +210,7 @@ fn averages() {
     assert_eq!(why, AveragingError::TooManyGroups { groups: 5, largest: 3 });
     assert_states(&why, &["5", "3"]);
     let slow = belt::stribeck().with_dither(sine(0.1, 0.75));
-    let oscillator = AveragingOptions { response: Response::Oscillator, ..options };
+    let oscillator = AveragingOptions { response: FastResponse::Oscillator, ..options };
     let why = criterion(&slow, oscillator).expect_err("below resonance");
     assert_eq!(why, AveragingError::NotFast { frequency_ratio: 0.75 });
     assert_states(&why, &["0.75"]);

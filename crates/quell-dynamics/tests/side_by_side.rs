@@ -1,9 +1,9 @@
 //! A run has the same bits alone, in any lane, next to any other runs, on any instruction set.
 
-use quell_dynamics::response::{Case, Solver, Wanted, compare_many, respond};
+use quell_dynamics::response::{Observables, ResponseCase, Solver, compare_many, respond};
 use quell_dynamics::simulation::{
-    Event, EventRecorder, FinalState, InstructionSet, Run, Sample, Sampler, Start, simulate,
-    simulate_many_with,
+    Event, EventRecorder, FinalState, InstructionSet, Sample, Sampler, SimulationRun, Start,
+    simulate, simulate_many_with,
 };
 use quell_model::{Belt, Direction, LawKind, Waveform};
 use quell_zoo::belt::belt;
@@ -76,7 +76,7 @@ fn together(set: InstructionSet, cases: &[(Belt, Start, f64)]) -> Vec<Trace> {
     let runs = cases
         .iter()
         .zip(&mut watches)
-        .map(|((belt, start, until), observer)| Run {
+        .map(|((belt, start, until), observer)| SimulationRun {
             belt,
             start: *start,
             until: *until,
@@ -117,7 +117,7 @@ fn runs_without_observers_have_the_same_bits() {
         let runs = cases
             .iter()
             .zip(&mut observers)
-            .map(|((belt, start, until), observer)| Run {
+            .map(|((belt, start, until), observer)| SimulationRun {
                 belt,
                 start: *start,
                 until: *until,
@@ -134,9 +134,9 @@ fn runs_without_observers_have_the_same_bits() {
 #[test]
 fn a_point_of_a_map_is_the_response_of_its_belt() {
     let solver = Solver { tolerance: 1e-10, settle: 30.0, record_periods: 6 };
-    let cases: Vec<Case> =
-        cases().into_iter().map(|(belt, start, _)| Case { belt, start }).collect();
-    let compared = compare_many(&cases, &solver, Wanted { dither_cost: true });
+    let cases: Vec<ResponseCase> =
+        cases().into_iter().map(|(belt, start, _)| ResponseCase { belt, start }).collect();
+    let compared = compare_many(&cases, &solver, Observables { dither_cost: true });
     for (case, compared) in cases.iter().zip(compared) {
         let alone = respond(&case.belt, case.start, &solver).expect("no stall");
         let compared = compared.expect("no stall");

@@ -3,10 +3,10 @@
 use core::f64::consts::PI;
 
 use quell_linear::averaging::{
-    AveragingError, AveragingOptions, Becomes, CriticalVelocity, Crossing, EverywhereStable,
-    FastWave, NeverStable, NormalOrder, Response, UndecidedBecause, Verdict, closed_band,
-    criterion, critical_amplitudes, everywhere_stable_amplitude, undithered_critical_velocity,
-    unstable_bands,
+    AveragedVerdict, AveragingError, AveragingOptions, Becomes, CriticalVelocity, CrossingKind,
+    EverywhereStable, FastResponse, FastWave, NeverStable, NormalOrder, UndecidedBecause,
+    closed_band, criterion, critical_amplitudes, everywhere_stable_amplitude,
+    undithered_critical_velocity, unstable_bands,
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 use quell_zoo::BeltExt;
@@ -42,11 +42,11 @@ fn undithered_thresholds() {
             criterion(&belt(zeta, v0, dissertation(kind), vec![]), AveragingOptions::default())
                 .expect("slides")
         };
-        assert_eq!(criterion(v * (1.0 - 1e-9)).verdict, Verdict::Unstable);
-        assert_eq!(criterion(v * (1.0 + 1e-9)).verdict, Verdict::Stable);
+        assert_eq!(criterion(v * (1.0 - 1e-9)).verdict, AveragedVerdict::Unstable);
+        assert_eq!(criterion(v * (1.0 + 1e-9)).verdict, AveragedVerdict::Stable);
         let at = criterion(v);
         assert!(at.value.abs() < 1e-14, "{at:?}");
-        assert!(at.verdict != Verdict::Unstable || kind == LawKind::Decreasing, "{at:?}");
+        assert!(at.verdict != AveragedVerdict::Unstable || kind == LawKind::Decreasing, "{at:?}");
     }
     let decreasing = dissertation(LawKind::Decreasing);
     let undamped = undithered_critical_velocity(&decreasing, 0.0, 1.0);
@@ -69,7 +69,7 @@ fn roots_against_closed_forms() {
                     let found = critical_amplitudes(&belt, AveragingOptions::default());
                     for critical in found.expect("found") {
                         let alpha = critical.amplitude_ratio;
-                        if critical.crossing == Crossing::Jump {
+                        if critical.crossing == CrossingKind::Jump {
                             close(alpha * waveform.peak_integral(), v0, 1e-15);
                             assert_eq!(critical.becomes, Becomes::Stable);
                             continue;
@@ -237,11 +237,11 @@ fn everywhere_stable_closes_the_band() {
     for kind in &CLOSED {
         for &waveform in Waveform::ALL {
             for &direction in Direction::ALL {
-                for response in [Response::Limit, Response::Oscillator] {
+                for response in [FastResponse::Limit, FastResponse::Oscillator] {
                     let (zeta, r) = (0.08, 1.2);
                     let wave = match response {
-                        Response::Limit => FastWave::Integral(waveform),
-                        Response::Oscillator => {
+                        FastResponse::Limit => FastWave::Integral(waveform),
+                        FastResponse::Oscillator => {
                             FastWave::Oscillator { waveform, frequency_ratio: r }
                         }
                     };
@@ -305,7 +305,7 @@ fn inner_region_may_be_unstable() {
 #[test]
 fn finite_r_thresholds() {
     let belt = decreasing_under(Waveform::Sine, 1.0);
-    let finite_r = AveragingOptions { response: Response::Oscillator, ..Default::default() };
+    let finite_r = AveragingOptions { response: FastResponse::Oscillator, ..Default::default() };
     let found = critical_amplitudes(&belt, finite_r).expect("ok");
     assert_eq!(found.len(), 2);
     // Exact (Floquet): 4.322392624 and 9.900214849; plain averaging 4.366 and 10.
@@ -341,21 +341,21 @@ fn normal_dither() {
         let one = critical(NormalOrder::First);
         assert_eq!(one.len(), 2, "{one:?}");
         assert!((one[0].amplitude_ratio - first).abs() < 6e-7, "{one:?}");
-        assert_eq!((one[0].crossing, one[0].becomes), (Crossing::Root, Becomes::Unstable));
+        assert_eq!((one[0].crossing, one[0].becomes), (CrossingKind::Root, Becomes::Unstable));
         let last = one[1];
         close(
             last.amplitude_ratio * law.coefficient(0.075) * waveform.peak_integral(),
             0.075,
             1e-14,
         );
-        assert_eq!(last.crossing, Crossing::Jump);
+        assert_eq!(last.crossing, CrossingKind::Jump);
         // D_N = 0.655 for the square, but 1.03 > F for the sine, whose jump lies at α_N = 0.206.
         assert_eq!(last.contact_stays_closed, waveform == Waveform::Square);
         let two = critical(NormalOrder::Second);
         assert_eq!(two.len(), 2, "{two:?}");
         assert!((two[0].amplitude_ratio - second).abs() < 6e-7, "{two:?}");
         assert!((two[0].amplitude_ratio - exact).abs() < (first - exact));
-        assert_eq!((two[0].crossing, two[1].crossing), (Crossing::Root, Crossing::Jump));
+        assert_eq!((two[0].crossing, two[1].crossing), (CrossingKind::Root, CrossingKind::Jump));
     }
     // The substitution α_T → μ(v₀)α_N, on every row of a grid.
     for kind in &CLOSED {
@@ -409,7 +409,7 @@ fn limits() {
                 let dithers = vec![dither(Direction::Tangential, waveform, 1.0, 10.0)];
                 let belt = belt(0.01, v0, &coulomb, dithers);
                 let options = AveragingOptions::default();
-                assert_eq!(criterion(&belt, options).expect("ok").verdict, Verdict::Stable);
+                assert_eq!(criterion(&belt, options).expect("ok").verdict, AveragedVerdict::Stable);
                 assert!(critical_amplitudes(&belt, options).expect("ok").is_empty());
                 assert!(unstable_bands(&belt, options).expect("ok").is_empty());
             }
@@ -420,7 +420,7 @@ fn limits() {
         let neutral = criterion(&belt(0.0, 1.0, &coulomb, vec![]), AveragingOptions::default());
         assert_eq!(
             neutral.expect("slides").verdict,
-            Verdict::Undecided { why: UndecidedBecause::WithinError }
+            AveragedVerdict::Undecided { why: UndecidedBecause::WithinError }
         );
     }
     // At rest with tangential dither there is no outer region; the default laws are stable for any amplitude.
@@ -429,7 +429,7 @@ fn limits() {
         let belt = belt(0.005, 0.0, dissertation(*kind), dithers);
         assert_eq!(
             criterion(&belt, AveragingOptions::default()).expect("dithered").verdict,
-            Verdict::Stable
+            AveragedVerdict::Stable
         );
         assert!(critical_amplitudes(&belt, AveragingOptions::default()).expect("ok").is_empty());
     }
@@ -444,9 +444,9 @@ fn verdict_at_the_corner() {
             .expect("ok")
     };
     let disagree = verdict(LawKind::Decreasing, 0.5);
-    assert_eq!(disagree.verdict, Verdict::Undecided { why: UndecidedBecause::AtCorner });
+    assert_eq!(disagree.verdict, AveragedVerdict::Undecided { why: UndecidedBecause::AtCorner });
     close(disagree.value, -0.14433154, 1e-7);
-    assert_eq!(verdict(LawKind::Stribeck, 0.25).verdict, Verdict::Stable);
+    assert_eq!(verdict(LawKind::Stribeck, 0.25).verdict, AveragedVerdict::Stable);
 }
 
 /// Two dithers: a second one of fixed amplitude shifts the critical amplitude of the first; equal frequencies add exactly.

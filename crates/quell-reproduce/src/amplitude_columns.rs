@@ -1,8 +1,10 @@
 //! Measurements for figures 2.10, 2.11, 3.12, 3.13, 4.11: at each amplitude, the attractor of the run from rest and the stability
 //! of the base response, and the amplitudes at which either of them changes.
 
-use quell_dynamics::attractor::{Attractor, Outcome, Patience, Scene, Settled, measure, settle};
-use quell_dynamics::orbit::Verdict;
+use quell_dynamics::attractor::{
+    Attractor, AttractorSettings, Patience, SettleOutcome, Settled, measure, settle,
+};
+use quell_dynamics::orbit::OrbitVerdict;
 
 use super::axis::values;
 use super::failure::failed;
@@ -25,7 +27,7 @@ pub(super) struct AmplitudeColumn {
     /// Its study.
     pub(super) study: BeltStudy,
     /// Stability of the base response.
-    pub(super) local: Verdict,
+    pub(super) local: OrbitVerdict,
     /// Whether the run from the study's initial state converges to a quiescent attractor.
     pub(super) quiet: bool,
     /// The attractor to which the run converges, if it does.
@@ -38,12 +40,12 @@ impl AmplitudeColumn {
     fn new(name: &str, study: &BeltStudy, amplitude: f64) -> Result<Self, Failure> {
         let study = study.with("dither.amplitude", amplitude)?;
         let belt = study.belt().clone();
-        let scene = Scene::new(&belt).map_err(|why| failed(name, &why))?;
+        let scene = AttractorSettings::new(&belt).map_err(|why| failed(name, &why))?;
         let local = local(name, &scene)?;
         let settled = run_from_start(name, &study, &scene)?;
         let attractor = measure(&scene, &settled).map_err(|why| failed(name, &why))?;
         let quiet = attractor.as_ref().is_some_and(|attractor| attractor.quiet);
-        Ok(Self { amplitude, study, local, quiet, attractor, period: scene.strobe.period })
+        Ok(Self { amplitude, study, local, quiet, attractor, period: scene.section.period })
     }
 
     /// Slow frequency (ω₀), if the section of the response rotates.
@@ -53,12 +55,16 @@ impl AmplitudeColumn {
 }
 
 /// Stability of the base response.
-fn local(name: &str, scene: &Scene<'_>) -> Result<Verdict, Failure> {
-    scene.quiet.as_ref().map(|quiet| quiet.verdict).map_err(|why| failed(name, why))
+fn local(name: &str, scene: &AttractorSettings<'_>) -> Result<OrbitVerdict, Failure> {
+    scene.base.as_ref().map(|quiet| quiet.verdict).map_err(|why| failed(name, why))
 }
 
-/// Outcome of the run from the study's initial state.
-fn run_from_start(name: &str, study: &BeltStudy, scene: &Scene<'_>) -> Result<Settled, Failure> {
+/// SettleOutcome of the run from the study's initial state.
+fn run_from_start(
+    name: &str,
+    study: &BeltStudy,
+    scene: &AttractorSettings<'_>,
+) -> Result<Settled, Failure> {
     let start = run::start(study)?;
     let patience = Patience { periods: MOST_PERIODS, ..Patience::SWEEP };
     settle(scene, start, patience).map_err(|why| failed(name, &why))
@@ -94,12 +100,16 @@ impl AmplitudeColumns {
         let of = |holds: fn(&AmplitudeColumn) -> bool| {
             cases.iter().map(|case| (case.amplitude, holds(case))).collect::<Vec<_>>()
         };
-        let stable = of(|case| case.local == Verdict::Stable);
+        let stable = of(|case| case.local == OrbitVerdict::Stable);
         let local =
-            thresholds(&study, &stable, |_, scene| Ok(local(name, scene)? == Verdict::Stable))?;
+            thresholds(
+                &study,
+                &stable,
+                |_, scene| Ok(local(name, scene)? == OrbitVerdict::Stable),
+            )?;
         let quiet = of(|case| case.quiet);
         let from_rest = thresholds(&study, &quiet, |study, scene| {
-            Ok(run_from_start(name, study, scene)?.outcome == Outcome::Quiet)
+            Ok(run_from_start(name, study, scene)?.outcome == SettleOutcome::Base)
         })?;
         Ok(Self { study, cases, local, from_rest })
     }
@@ -109,7 +119,7 @@ impl AmplitudeColumns {
 fn thresholds(
     study: &BeltStudy,
     known: &[(f64, bool)],
-    holds: impl Fn(&BeltStudy, &Scene<'_>) -> Result<bool, Failure>,
+    holds: impl Fn(&BeltStudy, &AttractorSettings<'_>) -> Result<bool, Failure>,
 ) -> Result<Vec<AmplitudeThreshold>, Failure> {
     let mut found = Vec::new();
     for pair in known.windows(2) {
@@ -121,7 +131,7 @@ fn thresholds(
             let middle = 0.5 * (low + high);
             let study = study.with("dither.amplitude", middle)?;
             let belt = study.belt().clone();
-            let scene = Scene::new(&belt).map_err(|why| failed("reproduce", &why))?;
+            let scene = AttractorSettings::new(&belt).map_err(|why| failed("reproduce", &why))?;
             if holds(&study, &scene)? == before { low = middle } else { high = middle }
         }
         found.push(AmplitudeThreshold { amplitude: 0.5 * (low + high), holds_above: after });

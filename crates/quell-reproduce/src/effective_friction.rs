@@ -16,7 +16,8 @@ use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
-    Axis, Figure, Legend, Line, LineStyle, Panel, Place, Role, Rule, SharedLegend, Sharing, Size,
+    Figure, Legend, LegendPosition, LineStyle, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine,
+    SharedLegend, Sharing, Size,
 };
 use quell::study::BeltStudy;
 
@@ -30,7 +31,7 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
     let panel = panel(source, &study, Waveform::Sine, &mut table)?
-        .legend(Legend::Inside(Place::BottomRight));
+        .legend(Legend::Inside(LegendPosition::BottomRight));
     let caption = format!(
         "Figure {}. Effective {} friction under sinusoidal tangential dither of five amplitudes. {}.",
         source.name,
@@ -99,12 +100,12 @@ fn panel(
     let vm = law.velocity_scale();
     let static_level = law.static_coefficient();
     let mut panel = Panel::new(
-        Axis::new("slip velocity").symbol("v_r/v_m").between(FROM, TO),
-        Axis::new("effective friction")
+        PlotAxis::new("slip velocity").symbol("v_r/v_m").between(FROM, TO),
+        PlotAxis::new("effective friction")
             .symbol("\\bar{μ}")
             .between(-0.45, if law.kind() == LawKind::Stribeck { 0.75 } else { 0.45 }),
     )
-    .with(Rule::horizontal(0.0));
+    .with(ReferenceLine::horizontal(0.0));
     let mut printed = Vec::new();
     for (index, amplitude) in values(study, "dither.amplitude").into_iter().enumerate() {
         let alpha = amplitude / belt.dithers()[0].frequency_ratio;
@@ -148,14 +149,14 @@ fn panel(
             );
         } else {
             let jump = [(0.0, -static_level), (0.0, static_level)];
-            panel = panel.with(Line::new(Role::Guide, jump).style(LineStyle::Solid));
+            panel = panel.with(Polyline::new(PlotRole::Guide, jump).style(LineStyle::Solid));
         }
         let label = format!("$α$/$v_m$ = {}", short(alpha / vm));
-        panel = panel.with(Line::pieces(Role::Series(index), pieces).label(label));
+        panel = panel.with(Polyline::pieces(PlotRole::Series(index), pieces).label(label));
     }
     printed.retain(|piece| !piece.is_empty());
     if !printed.is_empty() {
-        let line = Line::pieces(Role::Printed, printed).style(LineStyle::Dotted).width(1.1);
+        let line = Polyline::pieces(PlotRole::Printed, printed).style(LineStyle::Dotted).width(1.1);
         panel = panel.with(line.label("as printed (3.38a)"));
     }
     Ok(panel)

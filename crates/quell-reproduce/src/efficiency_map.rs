@@ -18,7 +18,7 @@ use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::picture::{self, MapAxis, MapKind};
 use quell::plot::{
-    Axis, Figure, Legend, Line, LineStyle, Panel, Role, SharedLegend, Sharing, Size,
+    Figure, Legend, LineStyle, Panel, PlotAxis, PlotRole, Polyline, SharedLegend, Sharing, Size,
 };
 use quell::run::map::{Map, boundaries, run};
 use quell::study::BeltStudy;
@@ -124,7 +124,11 @@ fn figure(source: &EntrySource, cases: &[MapPanel], columns: usize) -> Result<Pr
 }
 
 /// The study of a panel. Its sweep of D extends beyond the averaged boundary by the same factor as in the first panel.
-fn study_of(source: &EntrySource, first: &BeltStudy, case: &MapPanel) -> Result<BeltStudy, Failure> {
+fn study_of(
+    source: &EntrySource,
+    first: &BeltStudy,
+    case: &MapPanel,
+) -> Result<BeltStudy, Failure> {
     let dither = first.belt().dithers()[0];
     let furthest = values(first, "dither.amplitude").last().copied().unwrap_or(1.0);
     let reach = case.belt_velocity / first.belt().belt_velocity()
@@ -174,17 +178,17 @@ fn record(table: &mut DataTable, panel: &str, case: &MapPanel, done: &Map) {
 }
 
 /// The boundary D = α*R by averaging, and that by finite-R averaging.
-fn boundary(done: &Map, panel: &str, table: &mut DataTable) -> Vec<Line> {
+fn boundary(done: &Map, panel: &str, table: &mut DataTable) -> Vec<Polyline> {
     let grid = done.plan().grid();
     let furthest = grid.axes()[1].values.last().copied().unwrap_or(1.0);
     let mut lines = Vec::new();
     for boundary in boundaries(grid) {
         let (name, label, role, style) = match boundary.response {
             FastResponse::Limit => {
-                ("averaging", "averaging, $D$ = $α^*R$", Role::Boundary, LineStyle::Solid)
+                ("averaging", "averaging, $D$ = $α^*R$", PlotRole::Boundary, LineStyle::Solid)
             }
             FastResponse::Oscillator => {
-                ("sharper", "with the exact fast motion", Role::Exact, LineStyle::Dashed)
+                ("sharper", "with the exact fast motion", PlotRole::Exact, LineStyle::Dashed)
             }
         };
         if boundary.becomes != Becomes::Stable {
@@ -195,7 +199,7 @@ fn boundary(done: &Map, panel: &str, table: &mut DataTable) -> Vec<Line> {
         }
         // The line ends at the edge of the panel.
         let points = boundary.points.into_iter().filter(|point| point.1 <= 1.2 * furthest);
-        lines.push(Line::new(role, points.collect::<Vec<_>>()).style(style).label(label));
+        lines.push(Polyline::new(role, points.collect::<Vec<_>>()).style(style).label(label));
     }
     lines
 }
@@ -204,7 +208,7 @@ fn panel(
     source: &EntrySource,
     study: &BeltStudy,
     done: &Map,
-    lines: Vec<Line>,
+    lines: Vec<Polyline>,
 ) -> Result<Panel, Failure> {
     let grid = done.plan().grid();
     let entry = &done.plan().sheet().entries()[0];
@@ -227,11 +231,11 @@ fn panel(
             .iter()
             .zip(grid.axes())
             .map(|((name, symbol), axis)| MapAxis {
-                axis: Axis::new(*name).symbol(*symbol),
+                axis: PlotAxis::new(*name).symbol(*symbol),
                 values: axis.values.clone(),
             })
             .collect(),
-        quantity: Axis::new("residual vibration").symbol("E"),
+        quantity: PlotAxis::new("residual vibration").symbol("E"),
         kind: MapKind::Efficiency,
         values: (0..grid.len()).map(value).collect(),
         reasons: unknown.iter().map(|status| status.about().to_owned()).collect(),

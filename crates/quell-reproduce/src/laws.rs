@@ -9,7 +9,9 @@ use super::product::{DataTable, Product};
 use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
-use quell::plot::{Axis, Figure, Legend, Line, LineStyle, Panel, Place, Role, Rule};
+use quell::plot::{
+    Figure, Legend, LegendPosition, LineStyle, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine,
+};
 
 /// Slip velocities shown, in v_m.
 const FROM: f64 = -1.0;
@@ -33,15 +35,16 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         table.row(std::iter::once(w).chain(cells).map(Into::into));
     }
     let mut panel = Panel::new(
-        Axis::new("slip velocity").symbol("v_r/v_m").between(FROM, TO),
-        Axis::new("friction coefficient").symbol("μ").between(-0.6, 0.6),
+        PlotAxis::new("slip velocity").symbol("v_r/v_m").between(FROM, TO),
+        PlotAxis::new("friction coefficient").symbol("μ").between(-0.6, 0.6),
     )
-    .legend(Legend::Inside(Place::BottomRight))
-    .with(Rule::horizontal(0.0))
-    .with(Rule::horizontal(static_level).label("$μ_s$"))
-    .with(Rule::horizontal(minimum).label("$μ_m$"))
+    .legend(Legend::Inside(LegendPosition::BottomRight))
+    .with(ReferenceLine::horizontal(0.0))
+    .with(ReferenceLine::horizontal(static_level).label("$μ_s$"))
+    .with(ReferenceLine::horizontal(minimum).label("$μ_m$"))
     .with(
-        Line::new(Role::Guide, [(0.0, -static_level), (0.0, static_level)]).style(LineStyle::Solid),
+        Polyline::new(PlotRole::Guide, [(0.0, -static_level), (0.0, static_level)])
+            .style(LineStyle::Solid),
     );
     for (law, style, index) in [(laws[0], LineStyle::Solid, 0), (laws[1], LineStyle::Dashed, 1)] {
         let sides = [
@@ -57,7 +60,8 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
                 .collect(),
         ];
         let name = format!("{} law", law_name(law.kind()));
-        panel = panel.with(Line::pieces(Role::Series(index), sides).style(style).label(name));
+        panel =
+            panel.with(Polyline::pieces(PlotRole::Series(index), sides).style(style).label(name));
     }
     let number = source.name;
     let caption = format!(

@@ -26,7 +26,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value as Json, json};
 
-use quell::complaint::{Complaint, Failure};
+use quell::complaint::{Complaint, Complaints, Failure};
 use quell::study::suggest;
 
 mod amplitude_columns;
@@ -248,7 +248,7 @@ pub fn find(names: &[String]) -> Result<Vec<CatalogueEntry>, Complaints> {
         })
         .collect();
     if !complaints.is_empty() {
-        return Err(complaints);
+        return Err(complaints.into());
     }
     let selected = |entry: &&CatalogueEntry| {
         names.is_empty() || names.iter().any(|name| bare(name) == entry.name)

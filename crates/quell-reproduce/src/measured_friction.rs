@@ -16,7 +16,9 @@ use super::product::{DataTable, Product};
 use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
-use quell::plot::{Axis, Figure, Line, Panel, Points, Role, SharedLegend, Sharing, Size};
+use quell::plot::{
+    Figure, Panel, PlotAxis, PlotRole, Points, Polyline, SharedLegend, Sharing, Size,
+};
 use quell::study::BeltStudy;
 
 /// Duration of a decay.
@@ -110,28 +112,30 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         let title = format!("({}) $D_N$ = {}", letter(index), case.amplitude);
         panels.push(
             Panel::new(
-                Axis::new("mean slip velocity").symbol("⟨v_r⟩").between(0.0, TO),
-                Axis::new("friction").symbol("⟨f/N⟩, \\bar{μ}, μ").between(0.0, 0.42),
+                PlotAxis::new("mean slip velocity").symbol("⟨v_r⟩").between(0.0, TO),
+                PlotAxis::new("friction").symbol("⟨f/N⟩, \\bar{μ}, μ").between(0.0, 0.42),
             )
             .title(title)
             .with(
                 Points::new(
-                    Role::Guide,
+                    PlotRole::Guide,
                     case.windows.iter().map(|w| (w.slip_velocity, w.coefficient)),
                 )
                 .size(1.2)
                 .label("single windows"),
             )
             .with(
-                Line::new(Role::Undithered, law_curve)
+                Polyline::new(PlotRole::Undithered, law_curve)
                     .label(format!("{} law", law_name(law.kind()))),
             )
             .with(
-                Points::new(Role::Exact, case.bins.iter().map(|&(v, median, _)| (v, median)))
+                Points::new(PlotRole::Exact, case.bins.iter().map(|&(v, median, _)| (v, median)))
                     .size(2.8)
                     .label("simulation, medians"),
             )
-            .with(Line::new(Role::Averaged, case.averaged.iter().copied()).label("averaging")),
+            .with(
+                Polyline::new(PlotRole::Averaged, case.averaged.iter().copied()).label("averaging"),
+            ),
         );
     }
     let figure = Figure::grid(2, panels)

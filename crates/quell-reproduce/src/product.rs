@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::claim::Claim;
 use quell::cite::{self, Sources, Task};
 use quell::plot::Figure;
-use quell::study::{DiscStudy, BeltStudy};
+use quell::study::{BeltStudy, DiscStudy};
 
 /// A figure or table, ready to be written to files.
 #[derive(Clone, Debug, Default)]

@@ -14,7 +14,9 @@ use super::product::{DataTable, Product};
 use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
-use quell::plot::{Axis, Figure, Legend, Line, Panel, Role, Rule, SharedLegend, Sharing, Size};
+use quell::plot::{
+    Figure, Legend, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing, Size,
+};
 use quell::run;
 use quell::study::BeltStudy;
 
@@ -132,26 +134,26 @@ fn histories_of(
     let title = format!("({name}) ${symbol}$ = {}{efficiency}", case.amplitude);
     let pair = |value: fn(&Sample) -> f64| {
         let curve = |role, samples: &[Sample]| {
-            Line::new(role, samples.iter().map(|s| (s.time, value(s))).collect::<Vec<_>>())
+            Polyline::new(role, samples.iter().map(|s| (s.time, value(s))).collect::<Vec<_>>())
         };
         [
-            curve(Role::Dithered, samples).width(1.0).label("with dither"),
-            curve(Role::Undithered, undithered).label("without dither"),
+            curve(PlotRole::Dithered, samples).width(1.0).label("with dither"),
+            curve(PlotRole::Undithered, undithered).label("without dither"),
         ]
     };
-    let velocity = Axis::new("velocity").symbol("x′").up_to(1.7 * belt.belt_velocity());
+    let velocity = PlotAxis::new("velocity").symbol("x′").up_to(1.7 * belt.belt_velocity());
     [
-        Panel::new(time_axis(), Axis::new("displacement").symbol("x"))
+        Panel::new(time_axis(), PlotAxis::new("displacement").symbol("x"))
             .title(title)
             .with_all(pair(|s| s.displacement)),
         Panel::new(time_axis(), velocity)
             .with_all(pair(|s| s.velocity))
-            .with(Rule::horizontal(belt.belt_velocity()).label("$v_0$")),
+            .with(ReferenceLine::horizontal(belt.belt_velocity()).label("$v_0$")),
     ]
 }
 
-fn time_axis() -> Axis {
-    Axis::new("time").symbol("τ").between(0.0, UNTIL)
+fn time_axis() -> PlotAxis {
+    PlotAxis::new("time").symbol("τ").between(0.0, UNTIL)
 }
 
 fn spectrum_panel(case: &ResponseColumn, top: f64) -> Panel {
@@ -160,15 +162,15 @@ fn spectrum_panel(case: &ResponseColumn, top: f64) -> Panel {
         let amplitudes = spectrum.amplitudes().iter().map(|amplitude| amplitude.max(0.1 * FLOOR));
         let points: Vec<(f64, f64)> =
             spectrum.frequencies().zip(amplitudes).take_while(|(ω, _)| *ω <= top).collect();
-        Line::new(role, points)
+        Polyline::new(role, points)
     };
     Panel::new(
-        Axis::new("frequency").symbol("ω").between(0.0, top),
-        Axis::new("amplitude").symbol("|X(ω)|").log().between(FLOOR, 0.5),
+        PlotAxis::new("frequency").symbol("ω").between(0.0, top),
+        PlotAxis::new("amplitude").symbol("|X(ω)|").log().between(FLOOR, 0.5),
     )
-    .with(curve(Role::Undithered, &undithered_record.spectrum))
-    .with(curve(Role::Dithered, &record.spectrum).width(1.1))
-    .with(Rule::vertical(case.study.belt().dithers()[0].frequency_ratio))
+    .with(curve(PlotRole::Undithered, &undithered_record.spectrum))
+    .with(curve(PlotRole::Dithered, &record.spectrum).width(1.1))
+    .with(ReferenceLine::vertical(case.study.belt().dithers()[0].frequency_ratio))
 }
 
 /// Samples of the first [`UNTIL`] of a run.

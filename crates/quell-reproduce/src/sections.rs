@@ -19,7 +19,8 @@ use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
-    Axis, Figure, Legend, Line, Marker, Panel, Points, Role, Rule, SharedLegend, Sharing, Size,
+    Figure, Legend, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
+    SharedLegend, Sharing, Size,
 };
 use quell::run;
 
@@ -171,31 +172,34 @@ fn drawn(
     transient: &[(f64, f64)],
 ) -> [Panel; 3] {
     let belt_velocity = case.study.belt().belt_velocity();
-    let role = if case.quiet { Role::Dithered } else { Role::Unstable };
+    let role = if case.quiet { PlotRole::Dithered } else { PlotRole::Unstable };
     let until = samples.last().map_or(1.0, |sample| sample.time);
-    let time = || Axis::new("time").symbol("τ").between(0.0, until);
+    let time = || PlotAxis::new("time").symbol("τ").between(0.0, until);
     let curve = |value: fn(&Sample) -> f64| {
-        Line::new(role, samples.iter().map(|s| (s.time, value(s))).collect::<Vec<_>>()).width(0.6)
+        Polyline::new(role, samples.iter().map(|s| (s.time, value(s))).collect::<Vec<_>>())
+            .width(0.6)
     };
-    let displacement = Panel::new(time(), Axis::new("displacement").symbol("x"))
+    let displacement = Panel::new(time(), PlotAxis::new("displacement").symbol("x"))
         .title(title)
         .with(curve(|s| s.displacement));
-    let velocity = Panel::new(time(), Axis::new("velocity").symbol("x′"))
+    let velocity = Panel::new(time(), PlotAxis::new("velocity").symbol("x′"))
         .with(curve(|s| s.velocity))
-        .with(Rule::horizontal(belt_velocity));
+        .with(ReferenceLine::horizontal(belt_velocity));
     let settled = case.attractor.as_ref().map_or(&[][..], |attractor| attractor.section.as_slice());
     let step = settled.len().div_ceil(SETTLED).max(1);
     let states: Vec<(f64, f64)> = settled.iter().step_by(step).copied().collect();
     let (marker, size) = if states.len() == 1 { (Marker::Disc, 5.0) } else { (Marker::Disc, 1.8) };
     let label = if case.quiet { "settles" } else { "vibrates" };
-    let section =
-        Panel::new(Axis::new("displacement").symbol("x"), Axis::new("velocity").symbol("x′"))
-            .with(
-                Points::new(Role::Guide, transient.iter().copied())
-                    .size(1.2)
-                    .label("section from rest"),
-            )
-            .with(Points::new(role, states).marker(marker).size(size).label(label));
+    let section = Panel::new(
+        PlotAxis::new("displacement").symbol("x"),
+        PlotAxis::new("velocity").symbol("x′"),
+    )
+    .with(
+        Points::new(PlotRole::Guide, transient.iter().copied())
+            .size(1.2)
+            .label("section from rest"),
+    )
+    .with(Points::new(role, states).marker(marker).size(size).label(label));
     [displacement, velocity, section]
 }
 

@@ -4,7 +4,7 @@ use quell_model::Waveform;
 
 use super::shared::SharedMeasurements;
 use quell::complaint::Failure;
-use quell::study::{Axis, Change, BeltStudy, Sweep};
+use quell::study::{Axis, BeltStudy, Change, Sweep};
 
 /// An entry's name and study file.
 #[derive(Clone, Debug)]

@@ -20,8 +20,8 @@ use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
-    Axis, Figure, Legend, Line, LineStyle, Note, Panel, Points, Region, Role, Rule, SharedLegend,
-    Sharing, Size,
+    Figure, Legend, LineStyle, Note, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
+    Region, SharedLegend, Sharing, Size,
 };
 use quell::study::BeltStudy;
 
@@ -197,23 +197,27 @@ fn panel(
     }
     let symbol = if normal { "α_N" } else { "α_T" };
     let mut panel = Panel::new(
-        Axis::new("dither amplitude").symbol(symbol).between(0.0, alpha),
-        Axis::new("belt velocity").symbol("v_0").between(0.0, velocity),
+        PlotAxis::new("dither amplitude").symbol(symbol).between(0.0, alpha),
+        PlotAxis::new("belt velocity").symbol("v_0").between(0.0, velocity),
     );
     let regions: Result<Vec<Unstable>, Failure> =
         damping.iter().map(|&zeta| plane.unstable(zeta)).collect();
     let regions = regions?;
     let lone = regions.len() == 1;
     for region in &regions {
-        panel =
-            panel.with(Region::between(Role::Unstable, region.lower.clone(), region.upper.clone()));
+        panel = panel.with(Region::between(
+            PlotRole::Unstable,
+            region.lower.clone(),
+            region.upper.clone(),
+        ));
     }
     for (index, region) in regions.iter().enumerate() {
-        let role = if lone { Role::Boundary } else { Role::Series([1, 2, 0][index % 3]) };
+        let role = if lone { PlotRole::Boundary } else { PlotRole::Series([1, 2, 0][index % 3]) };
         let label =
             if lone { "averaging".to_owned() } else { format!("$ζ$ = {}", region.damping_ratio) };
-        panel = panel
-            .with(Line::pieces(role, [region.lower.clone(), region.upper.clone()]).label(label));
+        panel = panel.with(
+            Polyline::pieces(role, [region.lower.clone(), region.upper.clone()]).label(label),
+        );
         plane.record(table, region.damping_ratio, "lower", &region.lower);
         plane.record(table, region.damping_ratio, "upper", &region.upper);
     }
@@ -294,7 +298,7 @@ impl StabilityPlane<'_> {
         };
         self.record(table, damping_ratio, "lower_oscillator", &edges[0]);
         self.record(table, damping_ratio, "upper_oscillator", &edges[1]);
-        let line = Line::pieces(Role::Exact, edges).style(LineStyle::DashDotted).width(0.9);
+        let line = Polyline::pieces(PlotRole::Exact, edges).style(LineStyle::DashDotted).width(0.9);
         Ok(panel.with(line.label(format!("exact fast motion, $R$ = {ratio}"))))
     }
 
@@ -369,7 +373,7 @@ impl StabilityPlane<'_> {
             pieces.push(edge);
         }
         let equation = if self.direction == Direction::Normal { "(4.35)" } else { "(3.47)" };
-        let line = Line::pieces(Role::Printed, pieces).style(LineStyle::Dotted).width(1.1);
+        let line = Polyline::pieces(PlotRole::Printed, pieces).style(LineStyle::Dotted).width(1.1);
         panel.with(line.label(format!("as printed {equation}")))
     }
 
@@ -383,9 +387,9 @@ impl StabilityPlane<'_> {
         }
         if lone {
             let alpha = tips[0].0;
-            panel = panel.with(Rule::vertical(alpha).label(format!("$α^L$ = {alpha:.4}")));
+            panel = panel.with(ReferenceLine::vertical(alpha).label(format!("$α^L$ = {alpha:.4}")));
         }
-        panel.with(Points::new(Role::Boundary, tips).label("$α^L$"))
+        panel.with(Points::new(PlotRole::Boundary, tips).label("$α^L$"))
     }
 
     /// Labels "stable" and "unstable", and the limit (4.29).
@@ -403,7 +407,7 @@ impl StabilityPlane<'_> {
         }
         if self.direction == Direction::Normal {
             let limit = self.belt.normal_load() / self.belt.dithers()[0].frequency_ratio;
-            panel = panel.with(Rule::vertical(limit).label("$F$/$R_N$"));
+            panel = panel.with(ReferenceLine::vertical(limit).label("$F$/$R_N$"));
         }
         panel
     }

@@ -9,7 +9,7 @@ use super::product::{DataTable, Product};
 use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
-use quell::plot::{Axis, Figure, Legend, Line, Panel, Role, Rule, Sharing};
+use quell::plot::{Figure, Legend, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine, Sharing};
 
 const CYCLES: u32 = 2;
 const POINTS_PER_CYCLE: u32 = 240;
@@ -35,15 +35,18 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         rows[0].push(
             axes("waveform", "g", "")
                 .title(title)
-                .with(Line::pieces(Role::Exact, force(waveform)))
+                .with(Polyline::pieces(PlotRole::Exact, force(waveform)))
                 .legend(Legend::None),
         );
         let peak = waveform.peak_integral();
         let label = ["$G_{max}$ = 1", "$G_{max}$ = π/4", "$G_{max}$ = π/2"][index];
         rows[1].push(
             axes("integral", "G", "cycles $τ$/2π")
-                .with(Rule::horizontal(peak).label(label))
-                .with(Line::new(Role::Averaged, cycles().map(|c| (c, waveform.integral(TAU * c)))))
+                .with(ReferenceLine::horizontal(peak).label(label))
+                .with(Polyline::new(
+                    PlotRole::Averaged,
+                    cycles().map(|c| (c, waveform.integral(TAU * c))),
+                ))
                 .legend(Legend::None),
         );
     }
@@ -60,13 +63,13 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
 
 fn axes(name: &str, symbol: &str, below: &str) -> Panel {
     Panel::new(
-        Axis::new(below).between(0.0, f64::from(CYCLES)).ticks([0.0, 0.5, 1.0, 1.5, 2.0]),
-        Axis::new(name)
+        PlotAxis::new(below).between(0.0, f64::from(CYCLES)).ticks([0.0, 0.5, 1.0, 1.5, 2.0]),
+        PlotAxis::new(name)
             .symbol(symbol)
             .between(-2.0, 2.0)
             .ticks([-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5]),
     )
-    .with(Rule::horizontal(0.0))
+    .with(ReferenceLine::horizontal(0.0))
 }
 
 fn cycles() -> impl Iterator<Item = f64> {

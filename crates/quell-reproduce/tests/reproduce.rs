@@ -97,7 +97,7 @@ fn study_files_are_valid_and_belong_to_their_figures() {
             continue;
         }
         let text = std::fs::read_to_string(&path).expect("text");
-        let study = Study::parse(&text, &[], &directory)
+        let study = Study::parse_in(&text, &[], &directory)
             .unwrap_or_else(|complaints| panic!("{}: {complaints:?}", path.display()));
         let title = study.title().expect("a title").to_owned();
         let stem = path.file_stem().and_then(|stem| stem.to_str()).expect("a name").to_owned();

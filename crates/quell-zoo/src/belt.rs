@@ -70,7 +70,7 @@ impl BeltExt for Belt {
     }
 }
 
-fn valid(belt: Result<Belt, Vec<quell_model::Invalid>>) -> Belt {
+fn valid(belt: Result<Belt, quell_model::InvalidValues>) -> Belt {
     belt.unwrap_or_else(|why| panic!("an invalid belt: {why:?}"))
 }
 

@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 
 use quell_dynamics::simulation::{
-    DEFAULT_TOLERANCE, LargestSlip, Observer, Run, Start, simulate, simulate_many,
+    DEFAULT_TOLERANCE, LargestSlip, Observer, SimulationRun, Start, simulate, simulate_many,
 };
 use quell_model::Belt;
 use quell_model::friction::SlipRange;
@@ -92,7 +92,7 @@ pub(crate) fn of_starts(cases: &[(&Belt, Start)]) -> Vec<f64> {
         .filter(|(_, slip)| slip.watches())
         .map(|(&(belt, start), slip)| {
             let observer: &mut dyn Observer = slip;
-            Run { belt, start, until: start.time + OF_START, observer }
+            SimulationRun { belt, start, until: start.time + OF_START, observer }
         })
         .collect();
     simulate_many(runs, DEFAULT_TOLERANCE);

@@ -1,18 +1,21 @@
 //! Pictures of maps as their users see them: isolines, gaps, outcomes, curves, size.
 
 use quell::picture::{Map, MapAxis, MapKind, map};
-use quell::plot::{Axis, Line, PlotError, Role, Size, Spread};
+use quell::plot::{PlotAxis, PlotError, PlotRole, Polyline, Size, Spread};
 
 fn even(from: f64, to: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| from + (to - from) * k as f64 / (count - 1) as f64).collect()
 }
 
 fn axis(name: &str, symbol: &str, values: Vec<f64>) -> MapAxis {
-    MapAxis { axis: Axis::new(name).symbol(symbol), values }
+    MapAxis { axis: PlotAxis::new(name).symbol(symbol), values }
 }
 
 fn stable_or_not() -> MapKind {
-    MapKind::Outcome(vec![(Role::Stable, "stable".into()), (Role::Unstable, "unstable".into())])
+    MapKind::Outcome(vec![
+        (PlotRole::Stable, "stable".into()),
+        (PlotRole::Unstable, "unstable".into()),
+    ])
 }
 
 /// A map over ratio (to the right) and amplitude with these values.
@@ -23,7 +26,7 @@ fn plane(count: usize, kind: MapKind, value: impl Fn(f64, f64) -> Result<f64, us
     Map {
         values: values.collect(),
         axes: vec![axis("frequency ratio", "R", ratio), axis("dither amplitude", "D", amplitude)],
-        quantity: Axis::new("efficiency").symbol("E"),
+        quantity: PlotAxis::new("efficiency").symbol("E"),
         kind,
         reasons: vec!["$E$ undefined".into(), "not settled".into()],
         over: Vec::new(),
@@ -86,7 +89,7 @@ fn zero_growth_is_drawn_where_the_sign_changes() {
     for spread in [Spread::Linear, Spread::SignedLog(1e-3)] {
         let growth = |sign: f64| {
             let mut given = plane(41, MapKind::Growth(spread), |r, _| Ok(sign + r - 10.5));
-            given.quantity = Axis::new("growth rate");
+            given.quantity = PlotAxis::new("growth rate");
             svg(&given)
         };
         assert!(growth(0.0).contains("zero growth rate"));
@@ -128,7 +131,7 @@ fn the_first_of_two_axes_lies_to_the_right() {
 fn curves_of_a_theory_lie_over_the_map_and_do_not_widen_it() {
     let mut given = plane(40, stable_or_not(), |_, _| Ok(0.0));
     let bare = svg(&given);
-    let boundary = Line::new(Role::Averaged, [(0.0, 0.0), (100.0, 5.0)]);
+    let boundary = Polyline::new(PlotRole::Averaged, [(0.0, 0.0), (100.0, 5.0)]);
     given.over = vec![boundary.label("averaged: $D$ = $α^*R$").into()];
     let with = svg(&given);
     assert!(with.contains("averaged: ") && !bare.contains("averaged: "));
@@ -245,7 +248,7 @@ fn a_large_map_is_a_small_file() {
     let smooth = |r: f64, d: f64| if r < 3.0 { Err(0) } else { Ok(quench(r, d)) };
     let worst = svg(&plane(
         200,
-        MapKind::Outcome((0..200).map(|k| (Role::Series(k), String::new())).collect()),
+        MapKind::Outcome((0..200).map(|k| (PlotRole::Series(k), String::new())).collect()),
         |r, d| noise(r, d).map(|value: f64| (200.0 * value).floor()),
     ));
     assert!(worst.len() < 400_000, "{} bytes of noise", worst.len());

@@ -7,12 +7,13 @@ use quell::input::Inputs;
 use quell::output::Output;
 use quell::picture::{EXTENSIONS, write};
 use quell::plot::{
-    Axis, Colouring, Contours, Field, Figure, Fill, Grid, Legend, Line, LineStyle, Marker, Note,
-    Palette, Panel, Points, Region, Role, Rule, Shading, SharedLegend, Sharing, Size, Spread, Tint,
+    Colouring, Contours, Field, Figure, Fill, Heatmap, Legend, LineStyle, Marker, Note, Palette,
+    Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region, Shading, SharedLegend,
+    Sharing, Size, Spread, Tint,
 };
 
 fn axes() -> Panel {
-    Panel::new(Axis::new("time").symbol("τ"), Axis::new("displacement").symbol("x"))
+    Panel::new(PlotAxis::new("time").symbol("τ"), PlotAxis::new("displacement").symbol("x"))
 }
 
 fn wave(count: u32) -> Vec<(f64, f64)> {
@@ -29,11 +30,13 @@ fn rich() -> Figure {
         axes()
             .title(title)
             .with(
-                Region::across_x(Role::Unstable, 20.0, 40.0).fill(Fill::Hatched).label("unstable"),
+                Region::across_x(PlotRole::Unstable, 20.0, 40.0)
+                    .fill(Fill::Hatched)
+                    .label("unstable"),
             )
-            .with(Line::new(Role::Undithered, wave(5000)).label("undithered"))
-            .with(Points::new(Role::Printed, wave(20)).marker(Marker::Circle).label("printed"))
-            .with(Rule::vertical(50.0).label("$R$ = 10"))
+            .with(Polyline::new(PlotRole::Undithered, wave(5000)).label("undithered"))
+            .with(Points::new(PlotRole::Printed, wave(20)).marker(Marker::Circle).label("printed"))
+            .with(ReferenceLine::vertical(50.0).label("$R$ = 10"))
             .with(Note::new(60.0, 0.5, "$\\bar{μ}$"))
     };
     Figure::grid(2, [panel("(a)"), panel("(b)"), panel("(c)")])
@@ -128,18 +131,18 @@ fn identifiers_of_different_pictures_differ() {
 #[test]
 fn roles_and_styles_decide_the_dashes() {
     let dashes =
-        |line: Line| Figure::single(axes().with(line)).to_svg().contains("stroke-dasharray=\"");
-    assert!(dashes(Line::new(Role::Undithered, wave(100))));
-    assert!(!dashes(Line::new(Role::Dithered, wave(100))));
-    assert!(dashes(Line::new(Role::Dithered, wave(100)).style(LineStyle::Dashed)));
-    assert!(dashes(Line::new(Role::Exact, wave(100)).style(LineStyle::Dotted)));
-    assert!(!dashes(Line::new(Role::Undithered, wave(100)).style(LineStyle::Solid)));
+        |line: Polyline| Figure::single(axes().with(line)).to_svg().contains("stroke-dasharray=\"");
+    assert!(dashes(Polyline::new(PlotRole::Undithered, wave(100))));
+    assert!(!dashes(Polyline::new(PlotRole::Dithered, wave(100))));
+    assert!(dashes(Polyline::new(PlotRole::Dithered, wave(100)).style(LineStyle::Dashed)));
+    assert!(dashes(Polyline::new(PlotRole::Exact, wave(100)).style(LineStyle::Dotted)));
+    assert!(!dashes(Polyline::new(PlotRole::Undithered, wave(100)).style(LineStyle::Solid)));
 }
 
 #[test]
 fn a_dashed_line_is_dashed_in_pixels_too() {
     let flat = |style| {
-        let line = Line::new(Role::Dithered, [(0.0, 0.5), (1.0, 0.5)]).style(style);
+        let line = Polyline::new(PlotRole::Dithered, [(0.0, 0.5), (1.0, 0.5)]).style(style);
         Figure::single(axes().with(line)).to_png().expect("a PNG")
     };
     assert_ne!(flat(LineStyle::Dashed), flat(LineStyle::Solid));
@@ -148,19 +151,19 @@ fn a_dashed_line_is_dashed_in_pixels_too() {
 #[test]
 fn a_break_is_not_bridged() {
     let jump = || (0..100).map(|step| (f64::from(step), if step < 50 { 0.0 } else { 1.0 }));
-    let count = |line: Line| {
+    let count = |line: Polyline| {
         let svg = Figure::single(axes().with(line)).to_svg();
         strokes(&svg, BLUE)[0].matches('M').count()
     };
-    assert_eq!(count(Line::new(Role::Dithered, jump())), 1);
-    assert_eq!(count(Line::pieces(Role::Dithered, [wave(50), wave(50), wave(50)])), 3);
+    assert_eq!(count(Polyline::new(PlotRole::Dithered, jump())), 1);
+    assert_eq!(count(Polyline::pieces(PlotRole::Dithered, [wave(50), wave(50), wave(50)])), 3);
     let hole = jump().map(|(x, y)| (x, if x == 70.0 { f64::INFINITY } else { y }));
-    assert_eq!(count(Line::new(Role::Dithered, hole)), 2);
+    assert_eq!(count(Polyline::new(PlotRole::Dithered, hole)), 2);
 }
 
 #[test]
 fn pieces_share_one_entry_of_the_legend() {
-    let line = Line::pieces(Role::Dithered, [wave(50), wave(50)]).label("only once");
+    let line = Polyline::pieces(PlotRole::Dithered, [wave(50), wave(50)]).label("only once");
     let svg = Figure::single(axes().with(line)).to_svg();
     assert_eq!(svg.matches("only once").count(), 1);
 }
@@ -179,7 +182,7 @@ fn a_shared_legend_names_each_curve_once() {
 fn a_long_series_stays_small_and_keeps_its_spike() {
     let mut series = wave(100_000);
     series[43_210].1 = 5.0;
-    let svg = Figure::single(axes().with(Line::new(Role::Dithered, series))).to_svg();
+    let svg = Figure::single(axes().with(Polyline::new(PlotRole::Dithered, series))).to_svg();
     assert!(svg.len() < 200_000, "{}", svg.len());
     // The spike is by far the highest point: its end of the axis is drawn close to the frame's top.
     let path = strokes(&svg, BLUE)[0];
@@ -213,14 +216,15 @@ fn a_long_orbit_stays_below_a_megabyte() {
             (1.0 + 0.1 * (0.01 * time).cos()) * time.sin(),
         )
     });
-    let svg = Figure::single(axes().with(Line::new(Role::Dithered, orbit))).to_svg();
+    let svg = Figure::single(axes().with(Polyline::new(PlotRole::Dithered, orbit))).to_svg();
     assert!(svg.len() < 1_000_000, "{}", svg.len());
 }
 
 #[test]
 fn hostile_labels_stay_text() {
     let panel = axes().title("<script>&\"'$x_{<b>}$ \u{1} 5$ \u{E000}");
-    let figure = Figure::single(panel.with(Line::new(Role::Dithered, wave(9)).label("</text><g>")));
+    let figure =
+        Figure::single(panel.with(Polyline::new(PlotRole::Dithered, wave(9)).label("</text><g>")));
     let svg = figure.to_svg();
     assert!(!svg.contains("<script>") && !svg.contains("<b>") && !svg.contains("</text><g>"));
     assert!(figure.to_png().is_ok());
@@ -230,15 +234,16 @@ fn hostile_labels_stay_text() {
 fn odd_figures_are_pictures_too() {
     let empty = Figure::grid(3, []);
     let nothing = Figure::single(Panel::default());
-    let single = axes().with(Line::new(Role::Dithered, [(2.0, 3.0)]));
-    let negative = Panel::new(Axis::new("x").log(), Axis::new("y").log())
-        .with(Line::new(Role::Dithered, [(-1.0, -1.0), (0.0, 0.0)]))
-        .with(Region::across_y(Role::Stable, f64::NEG_INFINITY, f64::INFINITY));
-    let huge = axes().with(Line::new(Role::Dithered, [(0.0, -1e308), (1.0, 1e308)]));
-    let far = axes().with(Line::new(Role::Dithered, [(0.0, 1e300), (1.0, 1.0)]).label("a"));
-    let tiny =
-        Figure::single(axes().with(Line::new(Role::Dithered, wave(10)).label("x".repeat(300))))
-            .size(Size::Whole(1.0, f64::NAN));
+    let single = axes().with(Polyline::new(PlotRole::Dithered, [(2.0, 3.0)]));
+    let negative = Panel::new(PlotAxis::new("x").log(), PlotAxis::new("y").log())
+        .with(Polyline::new(PlotRole::Dithered, [(-1.0, -1.0), (0.0, 0.0)]))
+        .with(Region::across_y(PlotRole::Stable, f64::NEG_INFINITY, f64::INFINITY));
+    let huge = axes().with(Polyline::new(PlotRole::Dithered, [(0.0, -1e308), (1.0, 1e308)]));
+    let far = axes().with(Polyline::new(PlotRole::Dithered, [(0.0, 1e300), (1.0, 1.0)]).label("a"));
+    let tiny = Figure::single(
+        axes().with(Polyline::new(PlotRole::Dithered, wave(10)).label("x".repeat(300))),
+    )
+    .size(Size::Whole(1.0, f64::NAN));
     let figures = [
         empty,
         nothing,
@@ -257,8 +262,12 @@ fn odd_figures_are_pictures_too() {
 
 #[test]
 fn points_out_of_the_frame_are_not_drawn() {
-    let panel = Panel::new(Axis::new("x").between(0.0, 1.0), Axis::new("y").between(0.0, 1.0))
-        .with(Points::new(Role::Undithered, [(0.5, 0.5), (2.0, 0.5), (0.5, -3.0), (1.0, 1.0)]));
+    let panel =
+        Panel::new(PlotAxis::new("x").between(0.0, 1.0), PlotAxis::new("y").between(0.0, 1.0))
+            .with(Points::new(
+                PlotRole::Undithered,
+                [(0.5, 0.5), (2.0, 0.5), (0.5, -3.0), (1.0, 1.0)],
+            ));
     let svg = Figure::single(panel).to_svg();
     assert_eq!(strokes(&svg, GREY)[0].matches("h0").count(), 2);
 }
@@ -295,24 +304,25 @@ fn shaded(palette: Palette) -> Colouring {
 
 #[test]
 fn a_map_is_one_image_with_one_bar() {
-    let grid = Grid::new(hill(400), shaded(Palette::Viridis)).bar(Axis::new("height").unit("m"));
+    let grid =
+        Heatmap::new(hill(400), shaded(Palette::Viridis)).bar(PlotAxis::new("height").unit("m"));
     let svg = Figure::single(axes().with(grid.clone())).to_svg();
     assert_eq!(svg.matches("<image ").count(), 2);
     assert!(svg.contains(">height (m)<") && svg.len() < 300_000, "{}", svg.len());
-    let svg = Figure::single(axes().with(Grid { bar: None, ..grid })).to_svg();
+    let svg = Figure::single(axes().with(Heatmap { bar: None, ..grid })).to_svg();
     assert_eq!(svg.matches("<image ").count(), 1);
 }
 
 #[test]
 fn pixels_of_a_map_have_the_colour_of_the_nearest_point() {
     // On the logarithmic axis the border between 1 and 100 lies at 10.
-    let outcomes = [Role::Stable, Role::Unstable, Role::Undecided, Role::Exact]
+    let outcomes = [PlotRole::Stable, PlotRole::Unstable, PlotRole::Undecided, PlotRole::Exact]
         .map(|role| Tint::new(role, ""))
         .to_vec();
     let values = (0..4).map(|value| Some(f64::from(value))).collect();
     let field = Field::new(vec![1.0, 100.0], vec![0.0, 1.0], values).expect("a field");
-    let panel = Panel::new(Axis::new("").log(), Axis::new(""))
-        .with(Grid::new(field, Colouring::Outcomes(outcomes)));
+    let panel = Panel::new(PlotAxis::new("").log(), PlotAxis::new(""))
+        .with(Heatmap::new(field, Colouring::Outcomes(outcomes)));
     let picture = Figure::single(panel).size(Size::Frame(200.0, 100.0)).to_png().expect("a PNG");
     let mut reader = png::Decoder::new(picture.as_slice()).read_info().expect("a header");
     let mut pixels = vec![0; reader.output_buffer_size()];
@@ -352,7 +362,7 @@ fn isolines_lie_where_the_field_has_their_value_also_on_a_log_axis() {
     let axis: Vec<f64> = even(0.0, 1.0, 9).into_iter().map(|power| 10_f64.powf(power)).collect();
     let product = |column: usize, row: usize| Some((axis[column] * axis[row]).ln());
     let field = Field::from_fn(axis.clone(), axis.clone(), product).expect("a field");
-    let panel = Panel::new(Axis::new("x").log(), Axis::new("y").log())
+    let panel = Panel::new(PlotAxis::new("x").log(), PlotAxis::new("y").log())
         .with(Contours::new(field, [10_f64.ln()]).plain());
     let svg = Figure::single(panel).size(Size::Frame(200.0, 100.0)).to_svg();
     let path = strokes(&svg, "#000000")[0];
@@ -376,7 +386,7 @@ fn gaps_are_hatched_and_named() {
     let axis = even(0.0, 1.0, 10);
     let value = |column: usize, row: usize| (column > 2 && row > 4).then_some(1.0);
     let field = Field::from_fn(axis.clone(), axis, value).expect("a field");
-    let grid = Grid::new(field, shaded(Palette::Pale))
+    let grid = Heatmap::new(field, shaded(Palette::Pale))
         .gap("undecided", |column, _| column <= 2)
         .gap("met nowhere", |_, _| false)
         .gap("no vibration", |_, _| true);
@@ -403,8 +413,8 @@ fn odd_maps_are_pictures_too() {
         for spread in spreads {
             for palette in [Palette::Viridis, Palette::Diverging] {
                 let shading = Colouring::Shaded(Shading::new(palette).spread(spread));
-                let grid = Grid::new(field.clone(), shading).bar(Axis::new("a"));
-                let panel = Panel::new(Axis::new("x").log(), Axis::new("y"))
+                let grid = Heatmap::new(field.clone(), shading).bar(PlotAxis::new("a"));
+                let panel = Panel::new(PlotAxis::new("x").log(), PlotAxis::new("y"))
                     .with(grid)
                     .with(Contours::about(field.clone(), 5));
                 let figure = Figure::single(panel);
@@ -426,6 +436,6 @@ fn a_map_of_noise_stays_small() {
         Some((state >> 40) as f64)
     };
     let field = Field::from_fn(axis.clone(), axis, noise).expect("a field");
-    let svg = Figure::single(axes().with(Grid::new(field, shaded(Palette::Viridis)))).to_svg();
+    let svg = Figure::single(axes().with(Heatmap::new(field, shaded(Palette::Viridis)))).to_svg();
     assert!(svg.len() < 250_000, "{}", svg.len());
 }

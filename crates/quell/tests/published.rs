@@ -5,9 +5,9 @@
 use quell::BeltStudy;
 use quell::run::orbit::{Response, Wanted, run as orbit};
 use quell::run::simulate::{Options, run as simulate};
-use quell::run::thresholds::{Kind, ThresholdsRequest, run as thresholds};
+use quell::run::thresholds::{ThresholdKind, ThresholdsRequest, run as thresholds};
 use quell_dynamics::orbit::cycle::cycles;
-use quell_dynamics::orbit::{Orbit, Verdict};
+use quell_dynamics::orbit::{Orbit, OrbitVerdict};
 use quell_dynamics::simulation::{Event, EventKind, EventRecorder, simulate as trajectory};
 use quell_model::units::Quantity;
 use serde_json::Value;
@@ -101,7 +101,7 @@ fn stick_slip_of_a_block_on_a_belt() {
     let exact = number(&leine, "exact", "period");
     close(found.period, exact, CLOSE);
     close(found.stick_fraction, number(&leine, "exact", "stick_fraction"), CLOSE);
-    assert_eq!(found.verdict(), Verdict::Stable);
+    assert_eq!(found.verdict(), OrbitVerdict::Stable);
     for (name, least, most) in [("period", 0.003, 0.004), ("period_smoothed", 0.05, 0.07)] {
         let short = 1.0 - number(&leine, "printed", name) / exact;
         assert!((least..most).contains(&short), "{name}: {short}");
@@ -169,7 +169,7 @@ fn bistability_of_the_block_of_veraszto_and_stepan() {
     let found = thresholds(&study, question).expect("followed");
     let scales = study.scales().expect("SI");
     let hopf = &found.local.thresholds[0];
-    assert_eq!((found.local.thresholds.len(), hopf.kind), (1, Kind::Hopf));
+    assert_eq!((found.local.thresholds.len(), hopf.kind), (1, ThresholdKind::Hopf));
     close(scales.to_si(Quantity::Velocity, hopf.value), number(&case, "printed", "hopf"), 1e-9);
 
     // Cycles at this velocity: the squeal and the unstable one below it, or none.

@@ -3,8 +3,8 @@
 //! No numbers are asserted: a new model is one line in the zoo, and is tested here without a change.
 
 use num_complex::Complex64;
-use quell_disc::dithered::{self, DitheredDisc};
-use quell_disc::equations::System;
+use quell_disc::dithered;
+use quell_disc::equations::linearised;
 use quell_disc::undithered::{self, eigenvalues};
 use quell_linear::growth::{Growth, Verdict};
 use quell_model::Disc;
@@ -33,7 +33,7 @@ fn eigenvalues_are_conjugate_and_add_up_to_the_trace() {
     for named in all_discs() {
         let disc = named.model.undithered();
         let values = eigenvalues(&disc).expect("finite");
-        let system = System::new(&disc);
+        let system = linearised(&disc, Contributions::ALL).expect("finite");
         assert_eq!(values.len(), 2 * disc.coordinates(), "{}", named.name);
         let size = values.iter().map(Complex64::norm_sqr).sum::<f64>().sqrt();
         for value in &values {
@@ -43,8 +43,8 @@ fn eigenvalues_are_conjugate_and_add_up_to_the_trace() {
         }
         let sum: Complex64 = values.iter().sum();
         let free = vec![0.0; disc.loads().len()];
-        for friction in [system.mean_friction(), &free] {
-            let trace = trace(&system.state_matrix(friction));
+        for friction in [system.mean_friction(), free] {
+            let trace = trace(&system.state_matrix(&friction));
             let gap = (sum - trace).norm_sqr().sqrt();
             assert!(gap < 1e-12 * size, "{}: {sum} {trace}", named.name);
         }
@@ -84,7 +84,7 @@ fn exponents_under_dither_of_amplitude_zero_are_eigenvalues() {
                 let silent = disc.with_dither(dither);
                 let expected = undithered::growth(plain).expect("finite");
                 assert_equal(&named.name, growth(&silent), expected);
-                let prepared = DitheredDisc::new(&silent).expect("finite").expect("dithered");
+                let prepared = dithered::prepared(&silent).expect("finite").expect("dithered");
                 let found = prepared.growing(Effort::default()).expect("finite");
                 let listed = undithered::growing_with(plain, Contributions::ALL).expect("finite");
                 assert_eq!(found.len(), listed.len(), "{}: {found:?} {listed:?}", named.name);
@@ -129,7 +129,7 @@ fn without_friction_nothing_grows() {
 #[test]
 fn a_row_of_a_map_gives_the_bits_of_its_points() {
     for named in all_discs() {
-        let Some(prepared) = DitheredDisc::new(&named.model).expect("finite") else { continue };
+        let Some(prepared) = dithered::prepared(&named.model).expect("finite") else { continue };
         for factor in [0.01, 0.2, 1.5] {
             let alone = growth(&named.model.with_friction_times(factor).expect("valid"));
             let shared = prepared.growth(factor, Effort::default()).expect("finite");

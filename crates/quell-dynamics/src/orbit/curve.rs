@@ -7,7 +7,7 @@
 use std::fmt;
 
 use quell_model::Belt;
-use quell_numerics::continuation::curve::{Curve as Traced, CurveEnd, Trace, trace};
+use quell_numerics::continuation::curve::{BifurcationCurve as Traced, CurveEnd, Trace, trace};
 use quell_numerics::continuation::spectral_radius;
 
 use super::family::{FamilyParameters, Forced, Signature};
@@ -93,7 +93,7 @@ impl ThresholdCurveEnd {
         match end {
             CurveEnd::Window => Self::Window,
             CurveEnd::Closed => Self::Closed,
-            CurveEnd::Touch => Self::Grazing,
+            CurveEnd::Grazing => Self::Grazing,
             CurveEnd::Resonance => Self::Resonance,
             CurveEnd::Lost | CurveEnd::TooLong => Self::Lost,
         }

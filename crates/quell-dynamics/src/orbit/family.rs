@@ -4,7 +4,7 @@
 //! law, with its least slip velocity as the distance. Orbits that stick or reverse are integrated as they are.
 
 use quell_model::Belt;
-use quell_numerics::continuation::{Family, Image};
+use quell_numerics::continuation::{Image, PeriodMap};
 
 use super::no_orbit::NoOrbit;
 use super::period::common_period;
@@ -117,7 +117,7 @@ impl Forced<'_> {
     }
 }
 
-impl Family for Forced<'_> {
+impl PeriodMap for Forced<'_> {
     type Signature = Signature;
     type Error = NoOrbit;
 

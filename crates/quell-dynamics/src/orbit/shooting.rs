@@ -65,13 +65,14 @@ pub fn from_sliding(belt: &Belt, steps: u32) -> Result<Orbit, NoOrbit> {
     let branch =
         follow(&forced, &[belt.steady_sliding(), 0.0], 0.0, true, Follow::window(0.0, 1.0, steps))?;
     // Where the branch turns back the base response ends, wherever the branch continues to.
-    let fold = branch.passages.iter().find(|point| point.below.is_none() || point.above.is_none());
+    let fold =
+        branch.special_points.iter().find(|point| point.below.is_none() || point.above.is_none());
     if let Some(fold) = fold {
         return Err(NoOrbit::Ends { share: fold.parameter });
     }
     match branch.end {
         End::Window { at: 1.0 } => {}
-        End::Touch { at } => return Err(NoOrbit::Ends { share: at }),
+        End::Grazing { at } => return Err(NoOrbit::Ends { share: at }),
         End::Lost { at } | End::TooLong { at } => {
             return Err(NoOrbit::LostOnTheWay { share: at });
         }

@@ -10,9 +10,11 @@
 use std::fmt;
 
 use quell_model::Belt;
-use quell_numerics::continuation::branch::{Branch, End, Follow, Passage, Side, follow};
+use quell_numerics::continuation::branch::{
+    BranchSide, End, FixedPointBranch, Follow, SpecialPoint, follow,
+};
 use quell_numerics::continuation::spectral_radius;
-use quell_numerics::continuation::threshold::Kind as Event;
+use quell_numerics::continuation::threshold::BifurcationKind as Event;
 
 use super::family::{FamilyParameters, Forced, Signature};
 use super::no_orbit::NoOrbit;
@@ -73,7 +75,7 @@ impl ThresholdKind {
             Event::Branching => Self::Branching,
             Event::Flip => Self::Flip,
             Event::NeimarkSacker => Self::NeimarkSacker,
-            Event::Touch => Self::Grazing,
+            Event::Grazing => Self::Grazing,
             Event::Border => Self::Signature,
         }
     }
@@ -85,7 +87,7 @@ impl ThresholdKind {
             Self::Branching | Self::Signature => return None,
             Self::Flip => Event::Flip,
             Self::NeimarkSacker | Self::Hopf => Event::NeimarkSacker,
-            Self::Grazing => Event::Touch,
+            Self::Grazing => Event::Grazing,
         })
     }
 }
@@ -259,10 +261,10 @@ pub fn along(
 }
 
 /// Translates a branch into the terms of the belt.
-fn local_thresholds_of(branch: &Branch<Signature>, from: f64, to: f64) -> Local {
+fn local_thresholds_of(branch: &FixedPointBranch<Signature>, from: f64, to: f64) -> Local {
     let mut thresholds = Vec::new();
     let mut changes = Vec::new();
-    for point in &branch.passages {
+    for point in &branch.special_points {
         let (was, becomes) = (verdict(point.below.as_ref()), verdict(point.above.as_ref()));
         let kind = ThresholdKind::of(point.kind);
         if was != becomes {
@@ -281,13 +283,13 @@ fn local_thresholds_of(branch: &Branch<Signature>, from: f64, to: f64) -> Local 
     });
     let beyond = |a: f64, b: f64| (b - a) * (to - from) > 0.0;
     let further = |a: f64, b: f64| if beyond(a, b) { b } else { a };
-    let special = branch.passages.iter().map(|point| point.parameter);
+    let special = branch.special_points.iter().map(|point| point.parameter);
     let furthest =
         branch.points.iter().map(|point| point.parameter).chain(special).fold(from, further);
     let ending = match branch.end {
         End::Window { at } if at == to => BranchEnding::Covered,
         End::Window { .. } | End::Closed => BranchEnding::TurnedBack { at: furthest },
-        End::Touch { at } => BranchEnding::Touch { at },
+        End::Grazing { at } => BranchEnding::Touch { at },
         End::Lost { at } | End::TooLong { at } if beyond(at, furthest) => {
             BranchEnding::LostTurning { furthest, at }
         }
@@ -296,14 +298,14 @@ fn local_thresholds_of(branch: &Branch<Signature>, from: f64, to: f64) -> Local 
     Local { thresholds, changes, branch: responses.collect(), ending }
 }
 
-fn verdict(side: Option<&Side<Signature>>) -> Option<OrbitVerdict> {
+fn verdict(side: Option<&BranchSide<Signature>>) -> Option<OrbitVerdict> {
     side.map(|side| OrbitVerdict::of(side.radius, 0.0))
 }
 
-fn signature_change(point: &Passage<Signature>) -> Option<SignatureChange> {
-    let signature = |side: Option<&Side<Signature>>| side.map(|side| side.signature.clone());
+fn signature_change(point: &SpecialPoint<Signature>) -> Option<SignatureChange> {
+    let signature = |side: Option<&BranchSide<Signature>>| side.map(|side| side.signature.clone());
     let (below, above) = (signature(point.below.as_ref()), signature(point.above.as_ref()));
-    let is_contact = matches!(point.kind, Event::Touch | Event::Border);
+    let is_contact = matches!(point.kind, Event::Grazing | Event::Border);
     (is_contact && below != above).then_some(SignatureChange {
         value: point.parameter,
         below,

@@ -1,10 +1,10 @@
 //! The judge: settled runs against multipliers, orbits and other lengths.
 
 use quell_dynamics::attractor::{
-    Kind, Outcome, Patience, Reached, Scene, Settled, measure, orbit_reached, reached, settle,
-    settle_many,
+    AttractorKind, AttractorSettings, Patience, Reached, SettleOutcome, Settled, measure,
+    orbit_reached, reached, settle, settle_many,
 };
-use quell_dynamics::orbit::{NoOrbit, Verdict, near};
+use quell_dynamics::orbit::{NoOrbit, OrbitVerdict, near};
 use quell_dynamics::simulation::Start;
 use quell_model::Belt;
 use quell_zoo::{BeltExt, all_belts};
@@ -19,15 +19,15 @@ fn afar(belt: &Belt) -> Start {
 fn runs_stay_on_base_responses_that_are_stable() {
     let mut judged = [0, 0];
     for named in all_belts() {
-        let scene = Scene::new(&named.model).expect("commensurate");
-        let Ok(quiet) = &scene.quiet else { continue };
-        if quiet.verdict == Verdict::Undecided {
+        let scene = AttractorSettings::new(&named.model).expect("commensurate");
+        let Ok(quiet) = &scene.base else { continue };
+        if quiet.verdict == OrbitVerdict::Undecided {
             continue;
         }
         let start = Start { time: 0.0, displacement: quiet.displacement, velocity: quiet.velocity };
         let settled = settle(&scene, start, Patience::BASIN).expect("no stall");
-        let stable = quiet.verdict == Verdict::Stable;
-        let stays = settled.outcome == Outcome::Quiet;
+        let stable = quiet.verdict == OrbitVerdict::Stable;
+        let stays = settled.outcome == SettleOutcome::Base;
         assert_eq!(stays, stable, "{}: {quiet:?} {settled:?}", named.name);
         judged[usize::from(stable)] += 1;
     }
@@ -40,7 +40,7 @@ fn attractors_are_the_orbits_that_shooting_finds() {
     let mut orbits = 0;
     for named in all_belts() {
         let belt = &named.model;
-        let scene = Scene::new(belt).expect("commensurate");
+        let scene = AttractorSettings::new(belt).expect("commensurate");
         let settled = settle(&scene, Start::REST, Patience::SWEEP).expect("no stall");
         let attractor = measure(&scene, &settled).expect("no stall");
         let expected = match &attractor {
@@ -51,27 +51,27 @@ fn attractors_are_the_orbits_that_shooting_finds() {
         };
         assert_eq!(reached(belt, Start::REST), Ok(expected), "{}", named.name);
         let Some(attractor) = attractor else { continue };
-        assert_eq!(attractor.base, settled.outcome == Outcome::Quiet, "{}", named.name);
+        assert_eq!(attractor.base, settled.outcome == SettleOutcome::Base, "{}", named.name);
         let orbit = orbit_reached(belt, Start::REST);
         match attractor.kind {
-            Kind::Periodic { periods, radius } if !belt.dithers().is_empty() => {
+            AttractorKind::Periodic { periods, radius } if !belt.dithers().is_empty() => {
                 let orbit = orbit.unwrap_or_else(|why| panic!("{}: {why}", named.name));
-                let period = f64::from(periods) * scene.strobe.period;
+                let period = f64::from(periods) * scene.section.period;
                 assert!((orbit.period - period).abs() < 1e-9, "{}", named.name);
                 assert!((orbit.radius() - radius).abs() < 1e-6, "{}", named.name);
-                assert_eq!(orbit.verdict(), Verdict::Stable, "{}: {orbit:?}", named.name);
+                assert_eq!(orbit.verdict(), OrbitVerdict::Stable, "{}: {orbit:?}", named.name);
                 let again = near(belt, attractor.state, periods).expect("the same orbit");
                 assert!((again.radius() - radius).abs() < 1e-6, "{}", named.name);
                 orbits += 1;
             }
-            Kind::Cycle => {
+            AttractorKind::Cycle => {
                 let cycle = orbit.unwrap_or_else(|why| panic!("{}: {why}", named.name));
-                let frequency = attractor.frequency(scene.strobe.period).expect("it turns");
+                let frequency = attractor.frequency(scene.section.period).expect("it turns");
                 let own = std::f64::consts::TAU / cycle.period;
                 assert!((frequency - own).abs() < 1e-9, "{}: {frequency} {own}", named.name);
                 orbits += 1;
             }
-            Kind::QuasiPeriodic => {
+            AttractorKind::QuasiPeriodic => {
                 let no_period = matches!(orbit, Err(NoOrbit::NoPeriod { .. }));
                 assert!(no_period, "{}: {orbit:?}", named.name);
             }
@@ -86,13 +86,13 @@ fn attractors_are_the_orbits_that_shooting_finds() {
 fn settled_runs_keep_their_bits_in_company_and_at_double_lengths() {
     for named in all_belts() {
         let settled = |belt: &Belt| -> Vec<Settled> {
-            let scene = Scene::new(belt).expect("commensurate");
+            let scene = AttractorSettings::new(belt).expect("commensurate");
             let starts = [Start::REST, afar(belt)];
             let together = settle_many(&scene, &starts, Patience::BASIN);
             together.into_iter().map(|settled| settled.expect("no stall")).collect()
         };
         let one = settled(&named.model);
-        let scene = Scene::new(&named.model).expect("commensurate");
+        let scene = AttractorSettings::new(&named.model).expect("commensurate");
         let alone = settle(&scene, afar(&named.model), Patience::BASIN).expect("no stall");
         assert_eq!(alone, one[1], "{}", named.name);
         for (one, two) in one.iter().zip(settled(&named.model.scaled(2.0))) {

@@ -2,8 +2,8 @@
 
 use quell_dynamics::orbit::{self, Orbit, from_sliding};
 use quell_linear::averaging::{
-    AveragingError, AveragingOptions, Becomes, Criterion, NormalOrder, Response, Verdict,
-    criterion, critical_amplitudes,
+    AveragedVerdict, AveragingError, AveragingOptions, Becomes, Criterion, FastResponse,
+    NormalOrder, criterion, critical_amplitudes,
 };
 use quell_model::{Belt, Direction, Dither, Waveform};
 use quell_zoo::dither::dither;
@@ -11,8 +11,8 @@ use quell_zoo::{BeltExt, all_belts, belt};
 
 /// Of the mass alone, R → ∞, and of the oscillator at its R.
 const OPTIONS: [AveragingOptions; 2] = [
-    AveragingOptions { response: Response::Limit, normal_order: NormalOrder::First },
-    AveragingOptions { response: Response::Oscillator, normal_order: NormalOrder::First },
+    AveragingOptions { response: FastResponse::Limit, normal_order: NormalOrder::First },
+    AveragingOptions { response: FastResponse::Oscillator, normal_order: NormalOrder::First },
 ];
 
 /// Without amplitude the averaged slope is the law's own, and the criterion is 2ζ + Fμ′(v₀).
@@ -50,8 +50,8 @@ fn the_verdict_changes_at_every_critical_amplitude() {
                 };
                 let (below, above) = (verdict(1.0 - 1e-6), verdict(1.0 + 1e-6));
                 let expected = match critical.becomes {
-                    Becomes::Stable => (Verdict::Unstable, Verdict::Stable),
-                    Becomes::Unstable => (Verdict::Stable, Verdict::Unstable),
+                    Becomes::Stable => (AveragedVerdict::Unstable, AveragedVerdict::Stable),
+                    Becomes::Unstable => (AveragedVerdict::Stable, AveragedVerdict::Unstable),
                 };
                 assert_eq!((below, above), expected, "{}: {critical:?}", named.name);
                 changes += 1;
@@ -126,12 +126,12 @@ fn the_criterion_is_the_limit_of_the_multipliers() {
                     // A margin for the difference that is left at R = 200.
                     if averaged.value.abs() > 1e-3 {
                         let expected = match averaged.verdict {
-                            Verdict::Stable => orbit::Verdict::Stable,
-                            Verdict::Unstable => orbit::Verdict::Unstable,
-                            Verdict::Undecided { .. } => panic!("{label}: {averaged:?}"),
+                            AveragedVerdict::Stable => orbit::OrbitVerdict::Stable,
+                            AveragedVerdict::Unstable => orbit::OrbitVerdict::Unstable,
+                            AveragedVerdict::Undecided { .. } => panic!("{label}: {averaged:?}"),
                         };
                         assert_eq!(orbit.verdict(), expected, "{label}: {orbit:?}");
-                        judged[usize::from(expected == orbit::Verdict::Stable)] += 1;
+                        judged[usize::from(expected == orbit::OrbitVerdict::Stable)] += 1;
                     }
                 }
             }

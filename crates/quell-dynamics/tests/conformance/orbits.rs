@@ -1,7 +1,7 @@
 //! Periodic responses: closure, determinants, differences, lengths, and simulation.
 
 use quell_dynamics::orbit::cycle::cycles;
-use quell_dynamics::orbit::{Orbit, Verdict, from_sliding};
+use quell_dynamics::orbit::{Orbit, OrbitVerdict, from_sliding};
 use quell_dynamics::simulation::{EventKind, Start, simulate};
 use quell_model::Belt;
 use quell_zoo::{BeltExt, Named, all_belts};
@@ -100,13 +100,13 @@ fn simulated_runs_approach_stable_orbits_and_leave_unstable_ones() {
         let distance = 1e-7 * named.model.normal_load();
         // Enough periods to change the distance by a factor of 100.
         let periods = (100f64.ln() / orbit.radius().ln().abs()).ceil();
-        if orbit.verdict() == Verdict::Undecided || periods > 3000.0 {
+        if orbit.verdict() == OrbitVerdict::Undecided || periods > 3000.0 {
             continue;
         }
         let start = moved(orbit.start, distance, 0.0);
         let [x, v] = after(&named.model, start, periods * orbit.period);
         let left = (x - orbit.start.displacement).hypot(v - orbit.start.velocity);
-        if orbit.verdict() == Verdict::Stable {
+        if orbit.verdict() == OrbitVerdict::Stable {
             assert!(left < 0.1 * distance, "{}: {left:e} {orbit:?}", named.name);
             stable += 1;
         } else {

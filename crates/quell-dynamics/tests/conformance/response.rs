@@ -1,7 +1,7 @@
 //! The steady response: against its orbit, its energy balance, and many at once.
 
-use quell_dynamics::orbit::{Verdict, from_sliding};
-use quell_dynamics::response::{Case, Solver, Wanted, compare_many, respond};
+use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
+use quell_dynamics::response::{Observables, ResponseCase, Solver, compare_many, respond};
 use quell_dynamics::simulation::{Sampler, Start, simulate};
 use quell_model::Belt;
 use quell_zoo::all_belts;
@@ -12,9 +12,11 @@ const SOLVER: Solver = Solver { tolerance: 1e-12, settle: 60.0, record_periods: 
 #[test]
 fn many_responses_have_the_bits_of_one_alone() {
     let belts = all_belts();
-    let cases: Vec<Case> =
-        belts.iter().map(|named| Case { belt: named.model.clone(), start: Start::REST }).collect();
-    let together = compare_many(&cases, &SOLVER, Wanted { dither_cost: true });
+    let cases: Vec<ResponseCase> = belts
+        .iter()
+        .map(|named| ResponseCase { belt: named.model.clone(), start: Start::REST })
+        .collect();
+    let together = compare_many(&cases, &SOLVER, Observables { dither_cost: true });
     for (named, compared) in belts.iter().zip(together) {
         let alone = respond(&named.model, Start::REST, &SOLVER).expect("no stall");
         let compared = compared.expect("no stall");
@@ -42,7 +44,7 @@ fn the_steady_response_is_the_orbit() {
     for named in all_belts() {
         let belt = &named.model;
         let Ok(orbit) = from_sliding(belt, 8) else { continue };
-        if orbit.verdict() != Verdict::Stable {
+        if orbit.verdict() != OrbitVerdict::Stable {
             continue;
         }
         let found = respond(belt, orbit.start, &SOLVER).expect("no stall");

@@ -1,8 +1,8 @@
 //! The simulation: bits, work, lengths, and dither without amplitude.
 
 use quell_dynamics::simulation::{
-    DEFAULT_TOLERANCE, Event, EventRecorder, FinalState, InstructionSet, Run, Sample, Sampler,
-    Start, simulate, simulate_many_with,
+    DEFAULT_TOLERANCE, Event, EventRecorder, FinalState, InstructionSet, Sample, Sampler,
+    SimulationRun, Start, simulate, simulate_many_with,
 };
 use quell_model::{Belt, Dither};
 use quell_zoo::{BeltExt, all_belts};
@@ -42,7 +42,7 @@ fn a_run_has_the_same_bits_alone_and_side_by_side() {
         let runs = belts
             .iter()
             .zip(&mut watches)
-            .map(|(named, observer)| Run {
+            .map(|(named, observer)| SimulationRun {
                 belt: &named.model,
                 start: START,
                 until: UNTIL,

@@ -2,7 +2,7 @@
 
 use quell_model::friction::{BranchSeries, LawVisitor, SlidingLaw};
 use quell_model::{Friction, LawKind};
-use quell_numerics::lane::{Lane, Pair, horner};
+use quell_numerics::lane::{Lane, LanePair, horner};
 
 use crate::law_samples::all_samples;
 
@@ -131,8 +131,8 @@ fn a_lane_gives_the_same_bits_as_a_scalar() {
     let slips = slips();
     for law in all_samples() {
         for (first, second) in slips.iter().zip(slips.iter().rev()) {
-            let both: [Pair<f64>; TERMS] =
-                std::array::from_fn(|k| Pair::load(&[first[k], second[k]]));
+            let both: [LanePair<f64>; TERMS] =
+                std::array::from_fn(|k| LanePair::load(&[first[k], second[k]]));
             let together = law.visit(Along { sign: 1.0, slip: &both });
             let one = law.visit(Along { sign: 1.0, slip: first });
             let other = law.visit(Along { sign: 1.0, slip: second });

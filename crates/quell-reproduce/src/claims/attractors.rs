@@ -1,6 +1,6 @@
 //! Claims about single responses from rest, figures 2.10, 2.11, 3.12, 3.13, 4.11, and from other initial conditions.
 
-use quell_dynamics::attractor::{Patience, Scene, gather, settle_many};
+use quell_dynamics::attractor::{AttractorSettings, Patience, gather, settle_many};
 use quell_dynamics::simulation::Start;
 use quell_model::{Direction, LawKind, Waveform};
 
@@ -210,7 +210,7 @@ pub(super) fn other_starts(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     for (law, damping, velocity, waveform, amplitude, ratio) in cases {
         let dither = Some((Direction::Normal, waveform, amplitude, ratio));
         let belt = belt(law, damping, velocity, dither)?;
-        let scene = Scene::new(&belt).map_err(|why| failed("claims", &why))?;
+        let scene = AttractorSettings::new(&belt).map_err(|why| failed("claims", &why))?;
         let ends = settle_many(&scene, &starts, Patience::BASIN);
         let basins = gather(&scene, &ends).map_err(|why| failed("claims", &why))?;
         found.push(basins.basins.len() as f64);

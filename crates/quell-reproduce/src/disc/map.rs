@@ -4,12 +4,12 @@
 //! hatching where its sign is undetermined within its error. The speeds are those of the study's axis and additional ones near
 //! every meeting of waves.
 
-use quell_disc::dithered::DitheredDisc;
-use quell_disc::equations::System;
-use quell_disc::undithered;
+use quell_disc::dithered;
+use quell_disc::equations::linearised;
+use quell_linear::eigenvalues;
 use quell_linear::growth::{Growth, Verdict};
 use quell_model::Disc;
-use quell_model::disc::DiscDither;
+use quell_model::disc::{Contributions, DiscDither};
 use quell_numerics::floquet::Effort;
 use rayon::prelude::*;
 
@@ -21,7 +21,7 @@ use super::{FRICTION_PER_PRINTED, OPEN, STRENGTH_PER_PRINTED, study};
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::picture::{self, MapAxis, MapKind};
-use quell::plot::{Axis, Figure, Legend, Panel, SharedLegend, Sharing, Size, Spread};
+use quell::plot::{Figure, Legend, Panel, PlotAxis, SharedLegend, Sharing, Size, Spread};
 use quell::study::DiscStudy;
 use quell::sweep::Grid;
 
@@ -53,13 +53,13 @@ pub(crate) fn growths(
         .map(|&speed| {
             let unit = disc.at_speed(speed).and_then(|disc| disc.with("disc.load.friction", 1.0));
             let unit = unit.map_err(|_| failure(&"a disc of the map is not valid"))?;
-            let dithered = DitheredDisc::new(&unit).map_err(|why| failure(&why))?;
-            let system = System::new(&unit);
+            let dithered = dithered::prepared(&unit).map_err(|why| failure(&why))?;
+            let linear = linearised(&unit, Contributions::ALL).map_err(|why| failure(&why))?;
             frictions
                 .iter()
                 .map(|&friction| match &dithered {
                     Some(dithered) => dithered.growth(friction, Effort::default()),
-                    None => undithered::growth_of(&system, &[friction]),
+                    None => eigenvalues::growth(&linear, &[friction]),
                 })
                 .map(|growth| growth.map_err(|why| failure(&why)))
                 .collect()
@@ -181,8 +181,8 @@ fn panel(done: &Growths, disc: &Disc, bar: bool) -> Result<Panel, quell::plot::P
             < 1e-6;
     // Printed f in units of 10⁻⁴.
     let unit = 1e4 / FRICTION_PER_PRINTED;
-    let across = Axis::new("speed").symbol("Ω").log();
-    let up = Axis::new("friction as printed").symbol("f").unit("10⁻⁴");
+    let across = PlotAxis::new("speed").symbol("Ω").log();
+    let up = PlotAxis::new("friction as printed").symbol("f").unit("10⁻⁴");
     let up = if logarithmic { up.log() } else { up };
     let ends = (done.speeds.first(), done.speeds.last());
     let over = match (ends, done.frictions.last()) {
@@ -199,7 +199,7 @@ fn panel(done: &Growths, disc: &Disc, bar: bool) -> Result<Panel, quell::plot::P
             MapAxis { axis: across, values: done.speeds.clone() },
             MapAxis { axis: up, values: done.frictions.iter().map(|f| f * unit).collect() },
         ],
-        quantity: Axis::new("growth rate").symbol("Re ρ"),
+        quantity: PlotAxis::new("growth rate").symbol("Re ρ"),
         kind: MapKind::Growth(Spread::SignedLog(LINEAR)),
         values: done
             .values

@@ -14,7 +14,7 @@ use crate::picture;
 use crate::plot::Figure;
 use crate::run::disc;
 use crate::run::disc::stability::Stability as DiscStability;
-use crate::run::stability::{Averaged, DECIBELS, LOOKED_AT, Side, Stability, becomes, kind};
+use crate::run::stability::{Averaged, DECIBELS, LOOKED_AT, SlopeSide, Stability, becomes, kind};
 use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy};
 
 impl Outcome for Answered<BeltSetup, Stability> {
@@ -159,7 +159,7 @@ fn averaged(study: &BeltStudy, found: &Averaged) -> String {
         table.number("  error", Quantity::Ratio, criterion.error);
         table.rate("growth rate", of_criterion(criterion.value));
         table.number("effective friction μ̄", Quantity::Ratio, criterion.effective.coefficient);
-        if criterion.effective.side == Side::Outer {
+        if criterion.effective.side == SlopeSide::Outer {
             table.word("  one-sided", "the slope is that for slightly faster belts");
         }
     }

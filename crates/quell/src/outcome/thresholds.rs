@@ -11,7 +11,7 @@ use crate::dataset::Dataset;
 use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::curves::{Curves, Ending};
+use crate::run::curves::{Curves, ThresholdCurveEnd};
 use crate::run::thresholds::{
     Signature, TRIED, Thresholds, becomes, path_in_words, quantity_of, side, value_in_words,
 };
@@ -69,7 +69,7 @@ fn table_of_curves(study: &BeltStudy, done: &Curves) -> String {
     let mut text = String::new();
     let (parameter, across) = (&done.question.parameter, &done.question.along);
     for curve in &done.curves {
-        let [first, last] = curve.ends.map(Ending::name);
+        let [first, last] = curve.ends.map(ThresholdCurveEnd::name);
         let _ =
             writeln!(text, "\n{}, from its end ({first}) to its end ({last}):", curve.kind.name());
         let [x, y] = [across, parameter].map(|path| path_in_words(study, path));

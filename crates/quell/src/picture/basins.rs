@@ -1,7 +1,7 @@
 //! Basins in the plane of starts, and the share of the quiet response over a parameter.
 
-use quell_dynamics::attractor::{Basin, Label};
-use quell_dynamics::orbit::Verdict;
+use quell_dynamics::attractor::{Basin, BasinLabel};
+use quell_dynamics::orbit::OrbitVerdict;
 use quell_model::units::Quantity;
 
 use super::bifurcation::{axis, stretches};
@@ -11,7 +11,8 @@ use super::ruler::Ruler;
 use super::{undrawable, with_unstable};
 use crate::complaint::Failure;
 use crate::plot::{
-    Axis, Figure, Layer, Legend, Line, Marker, Panel, Points, Region, Role, SharedLegend, Size,
+    Figure, Layer, Legend, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, Region,
+    SharedLegend, Size,
 };
 use crate::run::attractor::words;
 use crate::run::basins::{Basins, Portrait, Share};
@@ -72,7 +73,8 @@ pub(crate) fn plane(
         let states: Vec<(f64, f64)> =
             section.iter().step_by(step).map(|(a, b)| (x.place(*a), v.place(*b))).collect();
         let single = states.len() == 1;
-        let points = Points::new(if single { Role::Exact } else { role(basins, place) }, states);
+        let points =
+            Points::new(if single { PlotRole::Exact } else { role(basins, place) }, states);
         let marker = if single { Marker::Cross } else { Marker::Disc };
         let label = if place == 0 { "sections of the responses" } else { "" };
         over.push(points.marker(marker).size(if single { 8.0 } else { 2.4 }).label(label).into());
@@ -84,15 +86,15 @@ pub(crate) fn plane(
         for place in 0..basins.len() {
             let (role, label) = outcome(place);
             let states = done.starts.states().iter().zip(labels);
-            let inside = states.filter(|(_, label)| **label == Label::Attractor(place));
+            let inside = states.filter(|(_, label)| **label == BasinLabel::Attractor(place));
             let inside = inside.map(|(it, _)| (x.place(it.displacement), v.place(it.velocity)));
             panel = panel.with(Points::new(role, inside).size(3.0).label(label));
         }
         return Ok(panel.with_all(over).legend(Legend::Above));
     };
     let value = |column: usize, row: usize| match labels[row * columns.len() + column] {
-        Label::Attractor(place) => Ok(place as f64),
-        Label::Unsettled(_) | Label::Stalled(_) => Err(0),
+        BasinLabel::Attractor(place) => Ok(place as f64),
+        BasinLabel::Unsettled(_) | BasinLabel::Stalled(_) => Err(0),
     };
     let values =
         (0..columns.len()).flat_map(|column| (0..rows.len()).map(move |row| (column, row)));
@@ -102,7 +104,7 @@ pub(crate) fn plane(
             MapAxis { axis: across, values: columns.iter().map(|it| x.place(*it)).collect() },
             MapAxis { axis: up, values: rows.iter().map(|it| v.place(*it)).collect() },
         ],
-        quantity: Axis::new("end"),
+        quantity: PlotAxis::new("end"),
         kind: MapKind::Outcome((0..basins.len()).map(outcome).collect()),
         reasons: vec![UNKNOWN.to_owned()],
         over,
@@ -111,19 +113,19 @@ pub(crate) fn plane(
 }
 
 /// The quiet response is blue, the largest other one red.
-fn role(basins: &[Basin], place: usize) -> Role {
+fn role(basins: &[Basin], place: usize) -> PlotRole {
     let quiet_first = basins.first().is_some_and(|basin| basin.attractor.quiet);
     match (quiet_first, place) {
-        (true, 0) => Role::Stable,
-        (true, 1) | (false, 0) => Role::Unstable,
-        _ => Role::Series(place + 1),
+        (true, 0) => PlotRole::Stable,
+        (true, 1) | (false, 0) => PlotRole::Unstable,
+        _ => PlotRole::Series(place + 1),
     }
 }
 
 /// The share of the quiet response over the parameter.
 fn shares(done: &Basins) -> Panel {
     let Some(varied) = &done.varied else { return Panel::default() };
-    let up = Axis::new("share of starts that fall quiet").between(0.0, 1.0);
+    let up = PlotAxis::new("share of starts that fall quiet").between(0.0, 1.0);
     // Broken where no end is known.
     let pieces: Vec<Vec<(f64, Share)>> = done
         .portraits
@@ -139,16 +141,16 @@ fn shares(done: &Basins) -> Panel {
     let local: Vec<(f64, bool)> = done
         .portraits
         .iter()
-        .filter_map(|it| Some((it.value?, it.local == Ok(Verdict::Unstable))))
+        .filter_map(|it| Some((it.value?, it.local == Ok(OrbitVerdict::Unstable))))
         .collect();
     let mut panel = with_unstable(Panel::new(axis(varied), up), stretches(&local));
     for (number, piece) in pieces.iter().enumerate() {
         let (low, high) = (points(piece, |share| share.low), points(piece, |share| share.high));
         let label = if number == 0 { "bounds" } else { "" };
-        panel = panel.with(Region::between(Role::Dithered, low, high).label(label));
+        panel = panel.with(Region::between(PlotRole::Dithered, low, high).label(label));
     }
     let dots = shares.concat();
     panel
-        .with(Line::pieces(Role::Dithered, shares).label("starts that fall quiet"))
-        .with(Points::new(Role::Dithered, dots).size(3.5))
+        .with(Polyline::pieces(PlotRole::Dithered, shares).label("starts that fall quiet"))
+        .with(Points::new(PlotRole::Dithered, dots).size(3.5))
 }

@@ -1,14 +1,16 @@
 //! Bifurcation diagrams: section, size and slow frequency over the parameter, up and down.
 
 use quell_dynamics::attractor::Attractor;
-use quell_dynamics::orbit::Verdict;
+use quell_dynamics::orbit::OrbitVerdict;
 use quell_model::units::Quantity;
 
 use super::caption::caption_of_run;
 use super::ruler::Ruler;
 use super::sweep::labelled;
 use super::with_unstable;
-use crate::plot::{Axis, Figure, Line, Marker, Panel, Points, Role, SharedLegend, Sharing, Size};
+use crate::plot::{
+    Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, SharedLegend, Sharing, Size,
+};
 use crate::run::bifurcation::{Bifurcation, Branch, Direction};
 use crate::run::varied::Varied;
 use crate::study::BeltStudy;
@@ -20,8 +22,8 @@ const MOST_STATES: usize = 16_000;
 const STATES: usize = 12;
 
 /// The axis of a varied number.
-pub(super) fn axis(varied: &Varied) -> Axis {
-    labelled(Axis::new(varied.about), varied.symbol.unwrap_or(""), varied.unit)
+pub(super) fn axis(varied: &Varied) -> PlotAxis {
+    labelled(PlotAxis::new(varied.about), varied.symbol.unwrap_or(""), varied.unit)
 }
 
 /// Stretches in which something holds, each from the middle before it to the middle behind it.
@@ -57,10 +59,10 @@ pub fn bifurcation(study: &BeltStudy, done: &Bifurcation) -> Figure {
     );
     let count = attractors().count().max(1);
     let each = (MOST_STATES / count).max(STATES);
-    let panel = |up: Axis| with_unstable(Panel::new(axis(&done.varied), up), unstable(done));
+    let panel = |up: PlotAxis| with_unstable(Panel::new(axis(&done.varied), up), unstable(done));
     let mut section = panel(ruler.axis("section displacement", "x"));
     let mut size = panel(ruler.axis("peak-to-peak", "").from(0.0));
-    let mut frequency = panel(Axis::new("slow frequency").symbol("ω/ω_0"));
+    let mut frequency = panel(PlotAxis::new("slow frequency").symbol("ω/ω_0"));
     for branch in &done.branches {
         let (role, marker, width) = look(branch.direction);
         let label = format!("swept {}", branch.direction.name());
@@ -73,7 +75,7 @@ pub fn bifurcation(study: &BeltStudy, done: &Bifurcation) -> Figure {
         });
         section = section.with(Points::new(role, states).marker(marker).size(width).label(label));
         let sizes = line(branch, |attractor| Some(ruler.place(attractor.size())));
-        size = size.with(Line::pieces(role, sizes).width(1.6));
+        size = size.with(Polyline::pieces(role, sizes).width(1.6));
         let turning = settled().filter_map(|(point, attractor)| {
             Some((point.value, attractor.frequency(point.period)?))
         });
@@ -92,10 +94,10 @@ pub fn bifurcation(study: &BeltStudy, done: &Bifurcation) -> Figure {
 }
 
 /// Colour and mark of a direction: one below the other where both agree.
-fn look(direction: Direction) -> (Role, Marker, f64) {
+fn look(direction: Direction) -> (PlotRole, Marker, f64) {
     match direction {
-        Direction::Up => (Role::Series(0), Marker::Disc, 2.2),
-        Direction::Down => (Role::Series(1), Marker::Circle, 3.0),
+        Direction::Up => (PlotRole::Series(0), Marker::Disc, 2.2),
+        Direction::Down => (PlotRole::Series(1), Marker::Circle, 3.0),
     }
 }
 
@@ -105,7 +107,7 @@ fn unstable(done: &Bifurcation) -> Vec<(f64, f64)> {
     let mut values: Vec<(f64, bool)> = branch
         .points
         .iter()
-        .map(|point| (point.value, point.local == Ok(Verdict::Unstable)))
+        .map(|point| (point.value, point.local == Ok(OrbitVerdict::Unstable)))
         .collect();
     values.sort_by(|a, b| a.0.total_cmp(&b.0));
     stretches(&values)

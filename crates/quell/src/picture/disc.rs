@@ -9,8 +9,9 @@ use super::caption::caption_of_disc;
 use super::undrawable;
 use crate::complaint::Failure;
 use crate::plot::{
-    Axis, Colouring, Contours, Field, Figure, Grid, Layer, Legend, Line, LineStyle, Marker,
-    Palette, Panel, PlotError, Points, Role, Rule, Shading, SharedLegend, Sharing, Size,
+    Colouring, Contours, Field, Figure, Heatmap, Layer, Legend, LineStyle, Marker, Palette, Panel,
+    PlotAxis, PlotError, PlotRole, Points, Polyline, ReferenceLine, Shading, SharedLegend, Sharing,
+    Size,
 };
 use crate::run::disc::campbell::Campbell;
 use crate::run::disc::modes::Modes;
@@ -53,10 +54,10 @@ pub fn modes(study: &DiscStudy, done: &Modes) -> Result<Figure, Failure> {
         ModeSource::List(_) | ModeSource::File { .. } => {
             let points = done.rows.iter().map(|row| (row.diameters as f64, row.ratio));
             let panel = Panel::new(
-                Axis::new("nodal diameters").symbol("q"),
-                Axis::new("frequency").symbol("β").from(0.0),
+                PlotAxis::new("nodal diameters").symbol("q"),
+                PlotAxis::new("frequency").symbol("β").from(0.0),
             );
-            Figure::single(panel.with(Points::new(Role::Exact, points).marker(Marker::Disc)))
+            Figure::single(panel.with(Points::new(PlotRole::Exact, points).marker(Marker::Disc)))
         }
     };
     let left = done.rows.len().saturating_sub(MOST_SHAPES);
@@ -90,24 +91,24 @@ pub fn shape(mode: &PlateMode, inner: f64) -> Result<Panel, PlotError> {
         })
     };
     let axis = |symbol: &str| {
-        let axis = Axis::new("").symbol(format!("{symbol}/a")).between(-1.02, 1.02);
+        let axis = PlotAxis::new("").symbol(format!("{symbol}/a")).between(-1.02, 1.02);
         axis.ticks([-1.0, -0.5, 0.0, 0.5, 1.0])
     };
     // Outside the plate nothing moves: the colour of rest, not hatched as unknown.
     let values = field.values().iter().map(|value| Some(value.unwrap_or(0.0))).collect();
     let shown = Field::new(places.clone(), places.clone(), values)?;
-    let grid = Grid::new(shown, Colouring::Shaded(shading));
+    let grid = Heatmap::new(shown, Colouring::Shaded(shading));
     Ok(Panel::new(axis("x"), axis("y"))
         .with(grid)
         .with(Contours::new(field, [0.0]).plain())
-        .with(Line::pieces(Role::Boundary, [circle(inner), circle(1.0)]))
+        .with(Polyline::pieces(PlotRole::Boundary, [circle(inner), circle(1.0)]))
         .legend(Legend::None))
 }
 
 /// Frequency and growth of every motion over speed, the study's own speed marked.
 pub fn stability(study: &DiscStudy, done: &Stability, campbell: &Campbell) -> Figure {
     let last = campbell.speeds.last().copied().unwrap_or(1.0);
-    let across = || Axis::new("speed").symbol("Ω").between(0.0, last);
+    let across = || PlotAxis::new("speed").symbol("Ω").between(0.0, last);
     let every = |pick: fn(&(f64, f64)) -> f64| {
         let columns = campbell.speeds.iter().zip(&campbell.motions);
         columns
@@ -115,22 +116,23 @@ pub fn stability(study: &DiscStudy, done: &Stability, campbell: &Campbell) -> Fi
             .collect::<Vec<_>>()
     };
     let dots = |points: Vec<(f64, f64)>, label: &str| {
-        Points::new(Role::Undithered, points).marker(Marker::Disc).size(1.6).label(label)
+        Points::new(PlotRole::Undithered, points).marker(Marker::Disc).size(1.6).label(label)
     };
     let speed = study.disc().speed();
     let own =
-        |value: f64| Points::new(Role::Exact, [(speed, value)]).marker(Marker::Disc).size(7.0);
-    let frequency = Panel::new(across(), Axis::new("frequency").symbol("|Im ρ|").from(0.0))
+        |value: f64| Points::new(PlotRole::Exact, [(speed, value)]).marker(Marker::Disc).size(7.0);
+    let frequency = Panel::new(across(), PlotAxis::new("frequency").symbol("|Im ρ|").from(0.0))
         .with(dots(every(|motion| motion.0), "motions without dither"))
         .with(own(done.undithered.frequency).label("least stable at this speed"))
         .title("(a) frequency in the frame of the load")
         .legend(Legend::None);
-    let mut growth = Panel::new(across(), Axis::new("growth rate").symbol("Re ρ"))
-        .with(Rule::horizontal(0.0))
+    let mut growth = Panel::new(across(), PlotAxis::new("growth rate").symbol("Re ρ"))
+        .with(ReferenceLine::horizontal(0.0))
         .with(dots(every(|motion| motion.1), "motions without dither"));
     if let Some(dithered) = &campbell.dithered {
         let points = campbell.speeds.iter().copied().zip(dithered.iter().copied());
-        growth = growth.with(Line::new(Role::Dithered, points).label("largest, with dither"));
+        growth =
+            growth.with(Polyline::new(PlotRole::Dithered, points).label("largest, with dither"));
     }
     let growth = growth
         .with(own(done.growth.rate).label("this study"))
@@ -150,18 +152,21 @@ pub fn resonances(study: &DiscStudy, done: &Resonances) -> Figure {
     let scale =
         load.map_or(1.0, |load| 2.0 * load.friction.abs().max(2.0 * load.damping)).max(1e-6);
     let mut panel = Panel::new(
-        Axis::new("speed").symbol("Ω").between(from, to),
-        Axis::new("friction").symbol("f*").between(0.0, scale),
+        PlotAxis::new("speed").symbol("Ω").between(from, to),
+        PlotAxis::new("friction").symbol("f*").between(0.0, scale),
     );
     let all = done.undithered.iter().chain(&done.dithered);
     for resonance in all.filter(|resonance| !resonance.can_be_unstable()) {
-        panel =
-            panel.with(Rule::vertical(resonance.speed).role(Role::Guide).style(LineStyle::Dotted));
+        panel = panel.with(
+            ReferenceLine::vertical(resonance.speed).role(PlotRole::Guide).style(LineStyle::Dotted),
+        );
     }
     let frictions: Vec<f64> = (1..=EDGES).map(|k| scale * (k as f64 / EDGES as f64)).collect();
     panel = panel.with_all(tongues(study.disc(), (from, to), &frictions, |f| f));
     if let Some(load) = load {
-        panel = panel.with(Rule::horizontal(load.friction).role(Role::Guide).label("this study"));
+        panel = panel.with(
+            ReferenceLine::horizontal(load.friction).role(PlotRole::Guide).label("this study"),
+        );
     }
     Figure::single(panel.legend(Legend::Above))
         .size(Size::Frame(520.0, 320.0))
@@ -207,6 +212,6 @@ pub fn tongues(
     if pieces.is_empty() {
         return Vec::new();
     }
-    let line = Line::pieces(Role::Boundary, pieces).style(LineStyle::Dashed).width(0.8);
+    let line = Polyline::pieces(PlotRole::Boundary, pieces).style(LineStyle::Dashed).width(0.8);
     vec![line.label("tongues, predicted").into()]
 }

@@ -4,7 +4,7 @@ use quell_model::units::Quantity;
 
 use super::caption::caption;
 use super::ruler::{Ruler, words};
-use crate::plot::{Axis, Figure, Line, Panel, Role, Rule};
+use crate::plot::{Figure, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine};
 use crate::run::friction::FrictionCurve;
 use crate::study::BeltStudy;
 
@@ -18,26 +18,27 @@ pub fn friction(study: &BeltStudy, curve: &FrictionCurve) -> Figure {
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         // The law jumps at rest.
         let (left, right): (Vec<_>, Vec<_>) = points.into_iter().partition(|(v, _)| *v <= 0.0);
-        Line::pieces(role, [left, right])
+        Polyline::pieces(role, [left, right])
     };
     let whole = |role, values: Vec<f64>| {
         let mut points: Vec<(f64, f64)> =
             slip.iter().zip(values).map(|(&v, value)| (ruler.place(v), value)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Line::new(role, points)
+        Polyline::new(role, points)
     };
     let symbol = if study.scales().is_some() { "V_0" } else { "v_0" };
     let belt_velocity = study.belt().belt_velocity();
     let label = format!("${symbol}$ = {}", words(study, Quantity::Velocity, belt_velocity));
     let mut panel = Panel::new(
         ruler.axis("slip velocity", "v_r"),
-        Axis::new("friction coefficient").symbol("μ"),
+        PlotAxis::new("friction coefficient").symbol("μ"),
     )
-    .with(Rule::vertical(ruler.place(belt_velocity)).label(label))
-    .with(line(Role::Undithered, curve.coefficients()).label("without dither: $μ$"));
+    .with(ReferenceLine::vertical(ruler.place(belt_velocity)).label(label))
+    .with(line(PlotRole::Undithered, curve.coefficients()).label("without dither: $μ$"));
     if !study.belt().dithers().is_empty() {
         panel = panel.with(
-            whole(Role::Averaged, curve.effective_coefficients()).label("effective: $\\bar{μ}$"),
+            whole(PlotRole::Averaged, curve.effective_coefficients())
+                .label("effective: $\\bar{μ}$"),
         );
     }
     Figure::single(panel)

@@ -9,8 +9,9 @@ use std::ops::Range;
 
 use super::ruler::short;
 use crate::plot::{
-    Axis, Colouring, Contours, Field, Figure, Fill, Grid, Layer, Legend, Line, Palette, Panel,
-    PlotError, Region, Role, Rule, Shading, SharedLegend, Sharing, Size, Spread, Tint,
+    Colouring, Contours, Field, Figure, Fill, Heatmap, Layer, Legend, Palette, Panel, PlotAxis,
+    PlotError, PlotRole, Polyline, ReferenceLine, Region, Shading, SharedLegend, Sharing, Size,
+    Spread, Tint,
 };
 
 /// Isolines of an efficiency (per cent).
@@ -30,7 +31,7 @@ pub const MOST_PANELS: usize = 24;
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapAxis {
     /// Name, symbol, unit and scale. Its range is left to the values.
-    pub axis: Axis,
+    pub axis: PlotAxis,
     /// The values, each once, in any order.
     pub values: Vec<f64>,
 }
@@ -43,7 +44,7 @@ pub enum MapKind {
     /// A rate whose sign decides: colours centred on zero, spread as told, the line of zero.
     Growth(Spread),
     /// The place (0, 1, …) of an outcome in this list of words.
-    Outcome(Vec<(Role, String)>),
+    Outcome(Vec<(PlotRole, String)>),
     /// Any number: colours spread as told, isolines at round values.
     Number(Spread),
 }
@@ -56,7 +57,7 @@ pub struct Map {
     /// to right.
     pub axes: Vec<MapAxis>,
     /// Name, symbol and unit of the quantity (no unit for an efficiency: it prints per cent).
-    pub quantity: Axis,
+    pub quantity: PlotAxis,
     /// What its numbers are.
     pub kind: MapKind,
     /// At each point, last axis fastest, the number, or the place in `reasons` of why there is none.
@@ -174,7 +175,7 @@ fn plane(
     let field = Field::from_fn(at_x, at_y, |column, row| {
         point(column, row).ok().map(|value| scale * value)
     })?;
-    let mut grid = Grid::new(field.clone(), colouring(map));
+    let mut grid = Heatmap::new(field.clone(), colouring(map));
     if bar && !matches!(map.kind, MapKind::Outcome(_)) {
         grid = grid.bar(shown_quantity(map));
     }
@@ -205,7 +206,7 @@ fn shown_scale(map: &Map) -> f64 {
     if map.kind == MapKind::Efficiency { 100.0 } else { 1.0 }
 }
 
-fn shown_quantity(map: &Map) -> Axis {
+fn shown_quantity(map: &Map) -> PlotAxis {
     if map.kind == MapKind::Efficiency {
         map.quantity.clone().unit("%")
     } else {
@@ -231,7 +232,7 @@ fn colouring(map: &Map) -> Colouring {
             range.map_or(shading.clone(), |(least, most)| shading.range(least, most))
         }
         MapKind::Outcome(outcomes) => {
-            let tint = |(role, word): &(Role, String)| Tint::new(*role, word.clone());
+            let tint = |(role, word): &(PlotRole, String)| Tint::new(*role, word.clone());
             return Colouring::Outcomes(outcomes.iter().map(tint).collect());
         }
     };
@@ -276,7 +277,7 @@ fn sweep(map: &Map, x: &MapAxis) -> Result<Panel, PlotError> {
     };
     let mut panel;
     if let MapKind::Outcome(outcomes) = &map.kind {
-        let blank = Axis { ticks: Some(Vec::new()), ..map.quantity.clone() };
+        let blank = PlotAxis { ticks: Some(Vec::new()), ..map.quantity.clone() };
         panel = Panel::new(x.axis.clone(), blank.between(0.0, 1.0)).legend(Legend::Above);
         #[expect(
             clippy::cast_possible_truncation,
@@ -293,7 +294,7 @@ fn sweep(map: &Map, x: &MapAxis) -> Result<Panel, PlotError> {
     } else {
         panel = Panel::new(x.axis.clone(), shown_quantity(map));
         if matches!(map.kind, MapKind::Growth(_)) {
-            panel = panel.with(Rule::horizontal(0.0));
+            panel = panel.with(ReferenceLine::horizontal(0.0));
         }
         if matches!(map.kind, MapKind::Number(Spread::Log)) {
             panel.y = panel.y.clone().log();
@@ -302,11 +303,11 @@ fn sweep(map: &Map, x: &MapAxis) -> Result<Panel, PlotError> {
         let number = |value: &Result<f64, usize>| value.map_or(f64::NAN, |value| scale * value);
         // A point that is not finite opens the curve.
         let points = at.iter().copied().zip(values.iter().map(number));
-        panel = panel.with(Line::new(Role::Exact, points));
+        panel = panel.with(Polyline::new(PlotRole::Exact, points));
     }
     for (number, from, to) in runs(&|value: Result<f64, usize>| value.err()) {
         let reason = map.reasons.get(number).map_or("no value", String::as_str);
-        let gap = Region::across_x(Role::Undecided, from, to).fill(Fill::Hatched);
+        let gap = Region::across_x(PlotRole::Undecided, from, to).fill(Fill::Hatched);
         panel = panel.with(gap.label(reason));
     }
     let (Some(first), Some(last)) = (at.first(), at.last()) else { return Ok(panel) };
@@ -315,7 +316,7 @@ fn sweep(map: &Map, x: &MapAxis) -> Result<Panel, PlotError> {
 }
 
 /// Borders halfway between neighbours along the axis, the first and the last value outermost.
-fn borders(values: &[f64], axis: &Axis) -> Vec<f64> {
+fn borders(values: &[f64], axis: &PlotAxis) -> Vec<f64> {
     let halfway = |pair: &[f64]| match axis.scale {
         crate::plot::Scale::Log if pair[0] > 0.0 => (pair[0] * pair[1]).sqrt(),
         _ => 0.5 * (pair[0] + pair[1]),

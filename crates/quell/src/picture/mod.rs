@@ -30,7 +30,7 @@ pub use thresholds::{curves, thresholds};
 
 use crate::complaint::Failure;
 use crate::output::Output;
-use crate::plot::{Figure, Line, Panel, PlotError, Region, Role};
+use crate::plot::{Figure, Panel, PlotError, PlotRole, Polyline, Region};
 use crate::study::BeltStudy;
 
 /// Kinds of pictures that can be written.
@@ -59,16 +59,16 @@ fn undrawable(why: PlotError) -> Failure {
 fn with_unstable(panel: Panel, stretches: Vec<(f64, f64)>) -> Panel {
     stretches.into_iter().enumerate().fold(panel, |panel, (number, (from, to))| {
         let label = if number == 0 { "quiet response unstable" } else { "" };
-        panel.with(Region::across_x(Role::Undecided, from, to).label(label))
+        panel.with(Region::across_x(PlotRole::Undecided, from, to).label(label))
     })
 }
 
 /// A panel with a curve without dither beside one with it, or of a study without dither its one curve.
-fn both(panel: Panel, study: &BeltStudy, curve: impl Fn(Role, bool) -> Line) -> Panel {
+fn both(panel: Panel, study: &BeltStudy, curve: impl Fn(PlotRole, bool) -> Polyline) -> Panel {
     if study.belt().dithers().is_empty() {
-        return panel.with(curve(Role::Exact, true));
+        return panel.with(curve(PlotRole::Exact, true));
     }
     panel
-        .with(curve(Role::Undithered, false).label("without dither"))
-        .with(curve(Role::Dithered, true).label("with dither"))
+        .with(curve(PlotRole::Undithered, false).label("without dither"))
+        .with(curve(PlotRole::Dithered, true).label("with dither"))
 }

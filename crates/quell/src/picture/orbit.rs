@@ -8,7 +8,9 @@ use quell_model::units::Quantity;
 use super::caption::caption;
 use super::ruler::Ruler;
 use crate::complaint::Failure;
-use crate::plot::{Axis, Figure, Line, Marker, Panel, Points, Role, Rule, Size};
+use crate::plot::{
+    Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Size,
+};
 use crate::run::orbit::{Response, samples, sentence};
 use crate::study::BeltStudy;
 
@@ -37,17 +39,17 @@ pub fn orbit(study: &BeltStudy, found: &Orbit) -> Figure {
     let curve =
         samples.iter().map(|sample| (x.place(sample.displacement), v.place(sample.velocity)));
     let phase = Panel::new(x.axis("displacement", "x"), v.axis("velocity", "x′"))
-        .with(Line::new(Role::Dithered, curve))
-        .with(Rule::horizontal(v.place(belt.belt_velocity())).label("belt"));
+        .with(Polyline::new(PlotRole::Dithered, curve))
+        .with(ReferenceLine::horizontal(v.place(belt.belt_velocity())).label("belt"));
     let circle = (0..=CIRCLE).map(|k| {
         let angle = TAU * f64::from(k) / f64::from(CIRCLE);
         (libm::cos(angle), libm::sin(angle))
     });
     let reach = 1.1_f64.max(1.1 * found.radius());
-    let axis = |name: &str| Axis::new(name).symbol("λ").between(-reach, reach);
+    let axis = |name: &str| PlotAxis::new(name).symbol("λ").between(-reach, reach);
     let multipliers = Panel::new(axis("Re"), axis("Im"))
-        .with(Line::new(Role::Guide, circle))
-        .with(Points::new(Role::Exact, found.multipliers).marker(Marker::Disc).size(7.0));
+        .with(Polyline::new(PlotRole::Guide, circle))
+        .with(Points::new(PlotRole::Exact, found.multipliers).marker(Marker::Disc).size(7.0));
     Figure::grid(2, [phase, multipliers])
         .size(Size::Frame(280.0, 260.0))
         .title(study.title().unwrap_or_default())

@@ -11,7 +11,7 @@ use super::both;
 use super::caption::caption_of_run;
 use super::ruler::Ruler;
 use super::simulate::time_axis;
-use crate::plot::{Figure, Line, Panel, Rule, SharedLegend};
+use crate::plot::{Figure, Panel, Polyline, ReferenceLine, SharedLegend};
 use crate::run::response::Steady;
 use crate::study::BeltStudy;
 
@@ -45,7 +45,7 @@ fn record(study: &BeltStudy, done: &Steady) -> Panel {
         let points = samples
             .iter()
             .map(|sample| (time.place(sample.time), place.place(sample.displacement)));
-        Line::new(role, points.collect::<Vec<_>>())
+        Polyline::new(role, points.collect::<Vec<_>>())
     };
     let panel = Panel::new(time_axis(study, &time), place.axis("displacement", "x"));
     both(panel, study, |role, dithered| curve(if dithered { &with } else { &without }, role))
@@ -72,7 +72,7 @@ fn spectrum(study: &BeltStudy, done: &Steady) -> Panel {
         let points = shown.map(|(frequency, amplitude)| {
             (rate.place(frequency), size.place(amplitude.max(0.1 * floor)))
         });
-        Line::new(role, points.collect::<Vec<_>>())
+        Polyline::new(role, points.collect::<Vec<_>>())
     };
     let symbol = if study.scales().is_some() { "f" } else { "ω/ω_0" };
     let mut vertical = size.axis("spectral amplitude", "|x|").log();
@@ -80,6 +80,6 @@ fn spectrum(study: &BeltStudy, done: &Steady) -> Panel {
         vertical = vertical.between(size.place(floor), size.place(2.0 * top));
     }
     let panel = Panel::new(rate.axis("frequency", symbol).between(0.0, rate.place(end)), vertical)
-        .with(Rule::vertical(rate.place(BAND_END)).label("band of $E$"));
+        .with(ReferenceLine::vertical(rate.place(BAND_END)).label("band of $E$"));
     both(panel, study, |role, dithered| curve(if dithered { with } else { without }, role))
 }

@@ -2,7 +2,7 @@
 
 use quell_model::units::Quantity;
 
-use crate::plot::Axis;
+use crate::plot::PlotAxis;
 use crate::study::BeltStudy;
 
 /// Metric prefixes from large to small.
@@ -43,8 +43,8 @@ impl Ruler {
     }
 
     /// The axis of a quantity.
-    pub(super) fn axis(&self, name: &str, symbol: &str) -> Axis {
-        let axis = Axis::new(name).symbol(symbol);
+    pub(super) fn axis(&self, name: &str, symbol: &str) -> PlotAxis {
+        let axis = PlotAxis::new(name).symbol(symbol);
         if self.unit.is_empty() { axis } else { axis.unit(self.unit.clone()) }
     }
 

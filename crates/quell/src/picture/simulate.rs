@@ -5,7 +5,9 @@ use quell_model::units::Quantity;
 
 use super::caption::caption_of_run;
 use super::ruler::Ruler;
-use crate::plot::{Axis, Figure, Line, Panel, Role, Rule, SharedLegend, Sharing};
+use crate::plot::{
+    Figure, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing,
+};
 use crate::run::simulate::Simulation;
 use crate::study::BeltStudy;
 
@@ -19,18 +21,18 @@ pub fn simulate(study: &BeltStudy, done: &Simulation) -> Figure {
     let speed = Ruler::of(study, Quantity::Velocity, both().map(|sample| sample.velocity));
     let curve = |samples: &[Sample], role, value: &dyn Fn(&Sample) -> f64| {
         let points = samples.iter().map(|sample| (time.place(sample.time), value(sample)));
-        Line::new(role, points.collect::<Vec<_>>())
+        Polyline::new(role, points.collect::<Vec<_>>())
     };
     let displacement = |sample: &Sample| place.place(sample.displacement);
     let velocity = |sample: &Sample| speed.place(sample.velocity);
     let lines = |value: &dyn Fn(&Sample) -> f64| {
         let mut lines = Vec::new();
         if !without.is_empty() {
-            lines.push(curve(without, Role::Undithered, value).label("without dither"));
+            lines.push(curve(without, PlotRole::Undithered, value).label("without dither"));
         }
         let (role, label) = match study.belt().dithers() {
-            [] => (Role::Exact, "no dither"),
-            _ => (Role::Dithered, "with dither"),
+            [] => (PlotRole::Exact, "no dither"),
+            _ => (PlotRole::Dithered, "with dither"),
         };
         lines.push(curve(with, role, value).label(label));
         lines
@@ -41,7 +43,7 @@ pub fn simulate(study: &BeltStudy, done: &Simulation) -> Figure {
     let panels = [
         Panel::new(horizontal(), place.axis("displacement", "x")).with_all(lines(&displacement)),
         Panel::new(horizontal(), speed.axis("velocity", velocity_symbol))
-            .with(Rule::horizontal(belt_velocity).label(belt_symbol))
+            .with(ReferenceLine::horizontal(belt_velocity).label(belt_symbol))
             .with_all(lines(&velocity)),
     ];
     let figure = Figure::grid(1, panels)
@@ -52,7 +54,7 @@ pub fn simulate(study: &BeltStudy, done: &Simulation) -> Figure {
 }
 
 /// The axis of time.
-pub(super) fn time_axis(study: &BeltStudy, ruler: &Ruler) -> Axis {
+pub(super) fn time_axis(study: &BeltStudy, ruler: &Ruler) -> PlotAxis {
     ruler.axis("time", if study.scales().is_some() { "t" } else { "τ" })
 }
 

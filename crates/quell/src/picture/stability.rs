@@ -6,7 +6,9 @@ use quell_model::{Belt, Direction};
 
 use super::caption::caption;
 use super::ruler::Ruler;
-use crate::plot::{Axis, Figure, Line, Marker, Panel, Points, Region, Role, Rule};
+use crate::plot::{
+    Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
+};
 use crate::run::stability::Stability;
 use crate::study::BeltStudy;
 
@@ -33,16 +35,17 @@ pub fn stability(study: &BeltStudy, done: &Stability) -> Figure {
     let symbol = if study.scales().is_some() { "A" } else { "D" };
     let mut panel =
         Panel::new(force.axis("dither amplitude", symbol).between(0.0, force.place(end)), vertical)
-            .with(Region::across_y(Role::Unstable, f64::NEG_INFINITY, 0.0).label("unstable"))
-            .with(Rule::horizontal(0.0));
+            .with(Region::across_y(PlotRole::Unstable, f64::NEG_INFINITY, 0.0).label("unstable"))
+            .with(ReferenceLine::horizontal(0.0));
     if let Ok(found) = criterion(&belt.undithered(), AveragingOptions::default()) {
         let level = [(0.0, found.value), (force.place(end), found.value)];
-        panel = panel.with(Line::new(Role::Undithered, level).label("without dither"));
+        panel = panel.with(Polyline::new(PlotRole::Undithered, level).label("without dither"));
     }
-    panel = panel.with(Line::pieces(Role::Averaged, pieces).label("averaged"));
+    panel = panel.with(Polyline::pieces(PlotRole::Averaged, pieces).label("averaged"));
     let by = format!("by {}", done.method(study));
     if let Some((place, value)) = value(own).filter(|_| !belt.dithers().is_empty()) {
-        let point = Points::new(Role::Dithered, [(place, value)]).marker(Marker::Disc).size(7.0);
+        let point =
+            Points::new(PlotRole::Dithered, [(place, value)]).marker(Marker::Disc).size(7.0);
         panel = panel.with(point.label("this study"));
     }
     Figure::single(panel)
@@ -85,7 +88,7 @@ fn between(
 }
 
 /// The axis of the criterion.
-fn upwards(pieces: &[Vec<(f64, f64)>]) -> Axis {
+fn upwards(pieces: &[Vec<(f64, f64)>]) -> PlotAxis {
     let lowest = pieces.iter().flatten().map(|point| point.1).fold(0.0, f64::min);
     // Beyond a jump the criterion falls from infinity: the picture shows where it comes to.
     let low_of =
@@ -93,6 +96,6 @@ fn upwards(pieces: &[Vec<(f64, f64)>]) -> Axis {
     let levels = pieces.iter().map(low_of).filter(|level| level.is_finite());
     let highest = 2.0 * levels.fold(0.5 * lowest.abs(), f64::max);
     let span = highest - lowest;
-    let axis = Axis::new("criterion").symbol("2ζ + F\\bar{μ}′");
+    let axis = PlotAxis::new("criterion").symbol("2ζ + F\\bar{μ}′");
     if span > 0.0 { axis.between(lowest - 0.08 * span, highest + 0.08 * span) } else { axis }
 }

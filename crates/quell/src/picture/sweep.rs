@@ -10,7 +10,7 @@ use super::map::{self, Map as Picture, MapAxis, MapKind};
 use super::undrawable;
 use crate::complaint::Failure;
 use crate::plot::{
-    Axis, Figure, Layer, Legend, Line, LineStyle, Panel, PlotError, Role, Size, Spread,
+    Figure, Layer, Legend, LineStyle, Panel, PlotAxis, PlotError, PlotRole, Polyline, Size, Spread,
 };
 use crate::run::map::{Map, boundaries};
 use crate::study::DiscStudy;
@@ -90,7 +90,7 @@ fn picture(done: &Map, entry: &Entry) -> Picture {
             .iter()
             .map(|axis| MapAxis { axis: across(axis), values: axis.values.clone() })
             .collect(),
-        quantity: labelled(Axis::new(name), variable.symbol, unit),
+        quantity: labelled(PlotAxis::new(name), variable.symbol, unit),
         kind,
         values: (0..grid.len()).map(value).collect(),
         reasons: unknown.iter().map(|status| status.about().to_owned()).collect(),
@@ -121,11 +121,11 @@ fn over(done: &Map) -> Vec<Layer> {
             })
             .collect();
         let (role, style) = match response {
-            FastResponse::Limit => (Role::Boundary, LineStyle::Solid),
-            FastResponse::Oscillator => (Role::Exact, LineStyle::Dashed),
+            FastResponse::Limit => (PlotRole::Boundary, LineStyle::Solid),
+            FastResponse::Oscillator => (PlotRole::Exact, LineStyle::Dashed),
         };
         let any = points.iter().any(|piece: &Vec<_>| piece.len() > 1);
-        any.then(|| Layer::from(Line::pieces(role, points).style(style).label(label)))
+        any.then(|| Layer::from(Polyline::pieces(role, points).style(style).label(label)))
     };
     [
         line(FastResponse::Limit, Becomes::Stable, "quenches, by averaging"),
@@ -154,10 +154,10 @@ fn over_disc(grid: &Grid, study: &DiscStudy) -> Vec<Layer> {
     super::disc::tongues(study.disc(), (least, most), &friction.values, |friction| friction)
 }
 
-fn role_of(word: &str) -> Role {
+fn role_of(word: &str) -> PlotRole {
     match word {
-        "stable" | "yes" => Role::Stable,
-        _ => Role::Unstable,
+        "stable" | "yes" => PlotRole::Stable,
+        _ => PlotRole::Unstable,
     }
 }
 
@@ -168,23 +168,23 @@ fn number(done: &Map, entry: &Entry, point: usize) -> Option<f64> {
     }
 }
 
-fn across(swept: &GridAxis) -> Axis {
-    let axis = labelled(Axis::new(swept.about), swept.symbol.unwrap_or(""), swept.unit);
+fn across(swept: &GridAxis) -> PlotAxis {
+    let axis = labelled(PlotAxis::new(swept.about), swept.symbol.unwrap_or(""), swept.unit);
     if swept.logarithmic { axis.log() } else { axis }
 }
 
 fn panel(map: &Map, entry: &Entry) -> Panel {
     let plan = map.plan();
     let Some(swept) = plan.grid().axes().first() else {
-        return Panel::new(Axis::new(""), Axis::new(""));
+        return Panel::new(PlotAxis::new(""), PlotAxis::new(""));
     };
     let across = across(swept);
     let variable = &entry.variable;
     let array = entry.twin.unwrap_or(entry.value);
     let unit = &plan.sheet().fields()[array].unit;
-    let mut up = labelled(Axis::new(variable.about), variable.symbol, unit);
+    let mut up = labelled(PlotAxis::new(variable.about), variable.symbol, unit);
     if let VariableKind::Word { words, .. } = variable.kind {
-        up = Axis::new(format!("{} (0 {})", variable.about, words.join(", 1 ")));
+        up = PlotAxis::new(format!("{} (0 {})", variable.about, words.join(", 1 ")));
         up = up.between(-0.1, 1.1).ticks([0.0, 1.0]);
     }
     let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
@@ -195,11 +195,11 @@ fn panel(map: &Map, entry: &Entry) -> Panel {
             _ => {}
         }
     }
-    Panel::new(across, up).with(Line::pieces(Role::Dithered, pieces))
+    Panel::new(across, up).with(Polyline::pieces(PlotRole::Dithered, pieces))
 }
 
 /// An axis with symbol and unit; numbers of the equations carry none.
-pub(super) fn labelled(axis: Axis, symbol: &str, unit: &str) -> Axis {
+pub(super) fn labelled(axis: PlotAxis, symbol: &str, unit: &str) -> PlotAxis {
     let axis = if symbol.is_empty() { axis } else { axis.symbol(symbol) };
     let scaled = unit.is_empty() || unit == "1" || unit.contains(['ω', '(']) || unit == "length";
     if scaled { axis } else { axis.unit(unit) }

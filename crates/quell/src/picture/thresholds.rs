@@ -1,13 +1,14 @@
 //! The modulus of the larger multiplier over a parameter, with its thresholds; and curves of thresholds in two parameters beside
 //! the boundaries of averaging.
 
-use quell_dynamics::orbit::threshold::Kind;
+use quell_dynamics::orbit::threshold::ThresholdKind;
 use quell_model::units::Quantity;
 
 use super::caption::caption;
 use super::ruler::Ruler;
 use crate::plot::{
-    Axis, Figure, Legend, Line, LineStyle, Marker, Panel, Points, Region, Role, Rule, Size,
+    Figure, Legend, LineStyle, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
+    Region, Size,
 };
 use crate::run::curves::Curves;
 use crate::run::thresholds::{Thresholds, becomes};
@@ -17,10 +18,10 @@ use crate::study::BeltStudy;
 const JUMP: f64 = 0.05;
 
 /// The axis of a parameter, and how its values are placed.
-fn axis_of(study: &BeltStudy, path: &str, range: (f64, f64)) -> (Axis, Ruler) {
+fn axis_of(study: &BeltStudy, path: &str, range: (f64, f64)) -> (PlotAxis, Ruler) {
     let largest = range.0.abs().max(range.1.abs());
     let Some(parameter) = study.belt().parameter(path) else {
-        return (Axis::new(path), Ruler::new(study, Quantity::Ratio, largest));
+        return (PlotAxis::new(path), Ruler::new(study, Quantity::Ratio, largest));
     };
     let ruler = Ruler::new(study, parameter.quantity, largest);
     let name = parameter.key().replace('_', " ");
@@ -52,12 +53,12 @@ pub fn thresholds(study: &BeltStudy, done: &Thresholds) -> Figure {
     let (low, high) = (radii().fold(1.0, f64::min), radii().fold(1.0, f64::max));
     let room = 0.15 * (high - low).max(1e-3);
     let modulus =
-        Axis::new("modulus of the multiplier").symbol("|λ|").between(low - room, high + room);
+        PlotAxis::new("modulus of the multiplier").symbol("|λ|").between(low - room, high + room);
     let mut panel = Panel::new(axis, modulus)
-        .with(Region::across_y(Role::Unstable, 1.0, f64::INFINITY).label("unstable"))
-        .with(Rule::horizontal(1.0))
-        .with(Line::pieces(Role::Exact, pieces));
-    for kind in Kind::ALL {
+        .with(Region::across_y(PlotRole::Unstable, 1.0, f64::INFINITY).label("unstable"))
+        .with(ReferenceLine::horizontal(1.0))
+        .with(Polyline::pieces(PlotRole::Exact, pieces));
+    for kind in ThresholdKind::ALL {
         let places: Vec<(f64, f64)> = done
             .local
             .thresholds
@@ -66,9 +67,10 @@ pub fn thresholds(study: &BeltStudy, done: &Thresholds) -> Figure {
             .map(|it| (ruler.place(it.value), 1.0))
             .collect();
         if !places.is_empty() {
-            let marker = if kind == Kind::Grazing { Marker::Circle } else { Marker::Disc };
-            panel = panel
-                .with(Points::new(Role::Exact, places).marker(marker).size(7.0).label(words(kind)));
+            let marker = if kind == ThresholdKind::Grazing { Marker::Circle } else { Marker::Disc };
+            panel = panel.with(
+                Points::new(PlotRole::Exact, places).marker(marker).size(7.0).label(words(kind)),
+            );
         }
     }
     for (protocol, switches) in &done.protocols {
@@ -78,7 +80,7 @@ pub fn thresholds(study: &BeltStudy, done: &Thresholds) -> Figure {
                 protocol.name().replace('_', " "),
                 becomes(switch.becomes, done.in_band)
             );
-            let rule = Rule::vertical(ruler.place(switch.value)).style(LineStyle::Dashed);
+            let rule = ReferenceLine::vertical(ruler.place(switch.value)).style(LineStyle::Dashed);
             panel = panel.with(rule.label(label));
         }
     }
@@ -88,15 +90,15 @@ pub fn thresholds(study: &BeltStudy, done: &Thresholds) -> Figure {
 }
 
 /// A kind in a legend.
-fn words(kind: Kind) -> &'static str {
+fn words(kind: ThresholdKind) -> &'static str {
     match kind {
-        Kind::NeimarkSacker => "Neimark–Sacker",
-        Kind::Hopf => "Hopf",
-        Kind::Flip => "flip",
-        Kind::Fold => "fold",
-        Kind::Branching => "branching",
-        Kind::Grazing => "grazing",
-        Kind::Signature => "change of events",
+        ThresholdKind::NeimarkSacker => "Neimark–Sacker",
+        ThresholdKind::Hopf => "Hopf",
+        ThresholdKind::Flip => "flip",
+        ThresholdKind::Fold => "fold",
+        ThresholdKind::Branching => "branching",
+        ThresholdKind::Grazing => "grazing",
+        ThresholdKind::Signature => "change of events",
     }
 }
 
@@ -116,10 +118,11 @@ pub fn curves(study: &BeltStudy, done: &Curves) -> Figure {
         let pieces = averaged.pieces.iter().map(|piece| piece.iter().copied().map(place));
         let pieces: Vec<Vec<(f64, f64)>> = pieces.map(Iterator::collect).collect();
         if !pieces.is_empty() {
-            panel = panel.with(Line::pieces(Role::Averaged, pieces).style(style).label(label));
+            panel =
+                panel.with(Polyline::pieces(PlotRole::Averaged, pieces).style(style).label(label));
         }
     }
-    for (number, kind) in Kind::ALL.into_iter().enumerate() {
+    for (number, kind) in ThresholdKind::ALL.into_iter().enumerate() {
         let pieces: Vec<Vec<(f64, f64)>> = done
             .curves
             .iter()
@@ -128,9 +131,13 @@ pub fn curves(study: &BeltStudy, done: &Curves) -> Figure {
             .collect();
         if !pieces.is_empty() {
             // Whatever else is in the picture, a kind has its colour.
-            let role =
-                if kind == Kind::NeimarkSacker { Role::Exact } else { Role::Series(number - 1) };
-            panel = panel.with(Line::pieces(role, pieces).label(format!("exact: {}", words(kind))));
+            let role = if kind == ThresholdKind::NeimarkSacker {
+                PlotRole::Exact
+            } else {
+                PlotRole::Series(number - 1)
+            };
+            panel =
+                panel.with(Polyline::pieces(role, pieces).label(format!("exact: {}", words(kind))));
         }
     }
     Figure::single(panel.legend(Legend::Above))

@@ -1,7 +1,7 @@
 //! Attractors in outcomes: their names in JSON and in sentences, for `bifurcation` and `basins`.
 
-use quell_dynamics::attractor::{Attractor, Kind, Scene};
-use quell_dynamics::orbit::{NoOrbit, Verdict};
+use quell_dynamics::attractor::{Attractor, AttractorKind, AttractorSettings};
+use quell_dynamics::orbit::{NoOrbit, OrbitVerdict};
 use quell_model::Belt;
 use quell_model::units::{Quantity, Scales};
 use serde_json::json;
@@ -13,8 +13,8 @@ use crate::study::BeltStudy;
 use crate::words::{digits, in_scales};
 
 /// The belt with its strobe and its quiet response.
-pub(super) fn scene(belt: &Belt) -> Result<Scene<'_>, Failure> {
-    Scene::new(belt).map_err(refused)
+pub(super) fn scene(belt: &Belt) -> Result<AttractorSettings<'_>, Failure> {
+    AttractorSettings::new(belt).map_err(refused)
 }
 
 /// The attractor in words: what it is, and at which frequency it turns.
@@ -25,16 +25,16 @@ pub fn words(scales: Option<Scales>, attractor: &Attractor, period: f64) -> Stri
     });
     let ratio = attractor.rotation.and_then(|rotation| rotation.ratio);
     match (attractor.kind, ratio) {
-        (Kind::Periodic { periods: 1, .. }, _) if attractor.size() == 0.0 => {
+        (AttractorKind::Periodic { periods: 1, .. }, _) if attractor.size() == 0.0 => {
             "steady sliding".to_owned()
         }
-        (Kind::Periodic { periods: 1, .. }, _) if attractor.base => {
+        (AttractorKind::Periodic { periods: 1, .. }, _) if attractor.base => {
             "the base response, of the dither's period".to_owned()
         }
-        (Kind::Periodic { periods: 1, .. }, _) => {
+        (AttractorKind::Periodic { periods: 1, .. }, _) => {
             "another response of the dither's period".to_owned()
         }
-        (Kind::Periodic { periods, .. }, Some(ratio)) => {
+        (AttractorKind::Periodic { periods, .. }, Some(ratio)) => {
             let turns = if ratio.turns == 1 { "turn" } else { "turns" };
             let each = if ratio.periods == 1 { "period" } else { "periods" };
             let closed = if periods == ratio.periods {
@@ -56,23 +56,27 @@ pub(super) fn put(fields: &mut Fields, attractor: &Attractor, period: f64) {
     let not_turning = || "a response of one period does not turn".to_owned();
     let rotation = attractor.rotation;
     let (kind, periods, radius) = match attractor.kind {
-        Kind::Periodic { periods: 1, radius } => ("period-1", Ok(f64::from(1)), Ok(radius)),
-        Kind::Periodic { periods, radius } => ("locked", Ok(f64::from(periods)), Ok(radius)),
-        Kind::Cycle => {
+        AttractorKind::Periodic { periods: 1, radius } => {
+            ("period-1", Ok(f64::from(1)), Ok(radius))
+        }
+        AttractorKind::Periodic { periods, radius } => {
+            ("locked", Ok(f64::from(periods)), Ok(radius))
+        }
+        AttractorKind::Cycle => {
             let why = || {
                 "a cycle without dither has a period of its own, not one of the strobe".to_owned()
             };
             ("limit-cycle", Err(why()), Err(why()))
         }
-        Kind::QuasiPeriodic => {
+        AttractorKind::QuasiPeriodic => {
             let why = || "a quasi-periodic response has no period".to_owned();
             ("quasi-periodic", Err(why()), Err(why()))
         }
-        Kind::Rest => {
+        AttractorKind::Rest => {
             let why = || "at rest nothing repeats".to_owned();
             ("rest", Err(why()), Err(why()))
         }
-        Kind::Unclassified => {
+        AttractorKind::Unclassified => {
             let why = || "no period up to 200 and no steady rotation number was found".to_owned();
             ("unclassified", Err(why()), Err(why()))
         }
@@ -162,22 +166,22 @@ pub(super) const VERDICTS: [(u8, &str); 4] =
 /// Code of the column `kind`.
 pub(super) fn kind_code(attractor: Option<&Attractor>) -> u8 {
     match attractor.map(|it| it.kind) {
-        Some(Kind::Periodic { periods: 1, .. }) => 0,
-        Some(Kind::Periodic { .. }) => 1,
-        Some(Kind::QuasiPeriodic) => 2,
-        Some(Kind::Unclassified) => 3,
-        Some(Kind::Cycle) => 5,
-        Some(Kind::Rest) => 6,
+        Some(AttractorKind::Periodic { periods: 1, .. }) => 0,
+        Some(AttractorKind::Periodic { .. }) => 1,
+        Some(AttractorKind::QuasiPeriodic) => 2,
+        Some(AttractorKind::Unclassified) => 3,
+        Some(AttractorKind::Cycle) => 5,
+        Some(AttractorKind::Rest) => 6,
         None => 4,
     }
 }
 
 /// Code of the column `local_verdict`.
-pub(super) fn verdict_code(local: &Result<Verdict, String>) -> u8 {
+pub(super) fn verdict_code(local: &Result<OrbitVerdict, String>) -> u8 {
     match local {
-        Ok(Verdict::Stable) => 0,
-        Ok(Verdict::Unstable) => 1,
-        Ok(Verdict::Undecided) => 2,
+        Ok(OrbitVerdict::Stable) => 0,
+        Ok(OrbitVerdict::Unstable) => 1,
+        Ok(OrbitVerdict::Undecided) => 2,
         Err(_) => 3,
     }
 }

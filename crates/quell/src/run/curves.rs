@@ -1,7 +1,7 @@
 //! `thresholds --along`: curves of local thresholds in two parameters, beside the boundaries of averaging.
 
-pub use quell_dynamics::orbit::curve::{CurvePoint, Ending, ThresholdCurve};
-use quell_dynamics::orbit::curve::{CurvesFound, Open, OpenLine, Plane, curves};
+use quell_dynamics::orbit::curve::{CurvesFound, Open, OpenLine, ParameterPlane, curves};
+pub use quell_dynamics::orbit::curve::{ThresholdCurve, ThresholdCurveEnd, ThresholdCurvePoint};
 use quell_dynamics::simulation::within;
 use quell_linear::averaging::{
     AveragingOptions, CriticalAmplitude, FastResponse, critical_amplitudes,
@@ -9,7 +9,7 @@ use quell_linear::averaging::{
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
-use super::thresholds::{Kind, path_in_words, quantity_of, told, value_in_words};
+use super::thresholds::{ThresholdKind, path_in_words, quantity_of, told, value_in_words};
 use super::varied::{Named, ascending};
 use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
@@ -115,7 +115,7 @@ pub fn run(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failur
 fn found(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failure> {
     let belt = study.belt();
     let question = understood(study, question)?;
-    let plane = Plane {
+    let plane = ParameterPlane {
         path: &question.parameter,
         window: question.window,
         along: &question.along,
@@ -208,7 +208,7 @@ impl Curves {
         let along = quantity_of(study, &question.along);
         let object = || Fields::new(study.scales());
         let curves = self.curves.iter().map(|curve| {
-            let column = |of: &dyn Fn(&CurvePoint) -> f64| -> Vec<f64> {
+            let column = |of: &dyn Fn(&ThresholdCurvePoint) -> f64| -> Vec<f64> {
                 curve.points.iter().map(of).collect()
             };
             let mut inner = object();
@@ -223,7 +223,7 @@ impl Curves {
                 )
                 .numbers("velocity", Quantity::Velocity, &column(&|it| it.state.velocity))
                 .numbers("multiplier_modulus", Quantity::Ratio, &column(&|it| it.radius))
-                .plain("ends", curve.ends.map(Ending::name).to_vec());
+                .plain("ends", curve.ends.map(ThresholdCurveEnd::name).to_vec());
             if let Some(ratios) = self.amplitude_ratios(study, curve) {
                 inner.numbers("amplitude_ratio", Quantity::Velocity, &ratios);
             }
@@ -279,16 +279,16 @@ impl Curves {
         let ratio = study.belt().dithers().first()?.frequency_ratio;
         let along_ratio = ["dither.frequency_ratio", "dither[0].frequency_ratio"]
             .contains(&self.question.along.as_str());
-        let of = |it: &CurvePoint| it.value / if along_ratio { it.along } else { ratio };
+        let of = |it: &ThresholdCurvePoint| it.value / if along_ratio { it.along } else { ratio };
         Some(curve.points.iter().map(of).collect())
     }
 
     /// The points of all curves, one after another.
     pub fn dataset(&self, study: &BeltStudy) -> Dataset {
         let quantity = |path: &str| quantity_of(study, path);
-        let numbered = || (0_u8..).zip(Kind::ALL);
-        let code = |kind: Kind| numbered().filter(move |it| it.1 == kind).map(|it| it.0);
-        let each = |of: &dyn Fn(&CurvePoint) -> f64| -> Vec<f64> {
+        let numbered = || (0_u8..).zip(ThresholdKind::ALL);
+        let code = |kind: ThresholdKind| numbered().filter(move |it| it.1 == kind).map(|it| it.0);
+        let each = |of: &dyn Fn(&ThresholdCurvePoint) -> f64| -> Vec<f64> {
             self.curves.iter().flat_map(|curve| &curve.points).map(of).collect()
         };
         let per_curve = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {

@@ -4,7 +4,7 @@
 use quell_dynamics::attractor::orbit_reached;
 use quell_dynamics::orbit::cycle::{cycle_reached, cycles, sliding_verdict};
 use quell_dynamics::orbit::{NoOrbit, from_sliding, near};
-pub use quell_dynamics::orbit::{Orbit, Verdict};
+pub use quell_dynamics::orbit::{Orbit, OrbitVerdict};
 use quell_dynamics::simulation::{
     DEFAULT_TOLERANCE, EventKind, Extremes, Observer, Sample, Sampler, Start, simulate, within,
 };
@@ -65,8 +65,8 @@ pub struct Response {
     pub orbit: Option<Orbit>,
     /// Every limit cycle of an undithered belt, the largest first.
     pub cycles: Vec<Orbit>,
-    /// Verdict on steady sliding of an undithered belt, 2ζ + μ′(v₀)F > 0.
-    pub sliding: Option<Verdict>,
+    /// OrbitVerdict on steady sliding of an undithered belt, 2ζ + μ′(v₀)F > 0.
+    pub sliding: Option<OrbitVerdict>,
     /// Whether a run from rest was taken because v₀ = 0 has no steady sliding to continue from.
     pub from_rest_instead: bool,
     /// The slip that the responses meet over their periods.
@@ -226,9 +226,11 @@ pub(super) fn refused(why: NoOrbit) -> Failure {
 /// The orbit in one sentence.
 pub fn sentence(study: &BeltStudy, orbit: &Orbit) -> String {
     let verdict = match orbit.verdict() {
-        Verdict::Stable => "stable: small deviations die out",
-        Verdict::Unstable => "unstable: small deviations grow",
-        Verdict::Undecided => "undecided: its largest multiplier has modulus 1 within its error",
+        OrbitVerdict::Stable => "stable: small deviations die out",
+        OrbitVerdict::Unstable => "unstable: small deviations grow",
+        OrbitVerdict::Undecided => {
+            "undecided: its largest multiplier has modulus 1 within its error"
+        }
     };
     let contact = match (orbit.count(EventKind::Stick), orbit.count(EventKind::Reversal)) {
         (0, 0) if orbit.is_pure_slip() => "slides throughout and never touches v_r = 0".to_owned(),
@@ -268,9 +270,9 @@ impl Response {
     fn without_orbit(&self, study: &BeltStudy) -> String {
         let place = in_words(study, Quantity::Displacement, study.belt().steady_sliding());
         let whether = match self.sliding {
-            Some(Verdict::Stable) => "which is stable",
-            Some(Verdict::Unstable) => "which is unstable",
-            Some(Verdict::Undecided) | None => "which is at its threshold",
+            Some(OrbitVerdict::Stable) => "which is stable",
+            Some(OrbitVerdict::Unstable) => "which is unstable",
+            Some(OrbitVerdict::Undecided) | None => "which is at its threshold",
         };
         let cycles = if self.cycles.is_empty() {
             "and no limit cycle was found"
@@ -332,7 +334,7 @@ impl Response {
             .known("period", Quantity::Time, Err(sentence.clone()))
             .unknown("multipliers", sentence.clone())
             .unknown("monodromy", sentence)
-            .plain("verdict", self.sliding.map_or("undecided", Verdict::name))
+            .plain("verdict", self.sliding.map_or("undecided", OrbitVerdict::name))
             .plain("stick_episodes", 0)
             .plain("reversals", 0)
             .number("stick_fraction", Quantity::Ratio, 0.0)

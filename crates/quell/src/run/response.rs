@@ -2,7 +2,8 @@
 
 use quell_dynamics::attractor::Reached;
 use quell_dynamics::response::{
-    BAND_END, Effect, Ending, Record, Response, Uncertain, respond, samples_per_slow_period,
+    BAND_END, Effect, Response, RunEnding, SettledRecord, Uncertain, respond,
+    samples_per_slow_period,
 };
 use quell_dynamics::simulation::{Sample, Start};
 use quell_model::units::Quantity;
@@ -111,7 +112,7 @@ impl Steady {
             Effect::Unknown(why) => format!("the effect of this dither is unknown: {why}"),
         };
         let left = match (response.effect, response.ending) {
-            (Effect::Quenches, Ending::Reached(Reached::Elsewhere)) => {
+            (Effect::Quenches, RunEnding::Reached(Reached::Elsewhere)) => {
                 " A slow vibration of that size stays: `thresholds`, `basins` and `bifurcation` call this \
                  response vibrating."
             }
@@ -176,7 +177,7 @@ impl Steady {
     pub fn in_band(&self, study: &BeltStudy) -> Option<InBand> {
         let band = study.band()?;
         let [low, high] = band;
-        let of = |record: &Record| record.spectrum.root_mean_square(low, high);
+        let of = |record: &SettledRecord| record.spectrum.root_mean_square(low, high);
         let both = of(&self.response.record).zip(of(&self.response.undithered_record));
         // The window spreads a tone over four lines of the unpadded record.
         let resolved = 4.0 / f64::from(study.solver().record_periods);
@@ -409,13 +410,13 @@ fn level(with: f64, without: f64) -> Result<f64, String> {
 }
 
 /// Why it is unknown where a run ends.
-fn why_end_unknown(ending: Ending) -> Option<String> {
+fn why_end_unknown(ending: RunEnding) -> Option<String> {
     match ending {
-        Ending::Unknown(why) => Some(why.to_string()),
-        Ending::Reached(Reached::Unsettled | Reached::Unknown) => {
+        RunEnding::Unknown(why) => Some(why.to_string()),
+        RunEnding::Reached(Reached::Unsettled | Reached::Unknown) => {
             Some("the run had not settled when its periods were over".to_owned())
         }
-        Ending::Reached(Reached::Base | Reached::Forced | Reached::Elsewhere) => None,
+        RunEnding::Reached(Reached::Base | Reached::Forced | Reached::Elsewhere) => None,
     }
 }
 

@@ -4,11 +4,11 @@
 //! high frequency; `sharper` takes the oscillator's own response to the dither instead, and one
 //! more term of the fast motion under normal dither.
 
-pub use quell_linear::averaging::Side;
+pub use quell_linear::averaging::SlopeSide;
 use quell_linear::averaging::{
-    AveragingError, AveragingOptions, Band, Becomes, Criterion, CriticalAmplitude, Crossing,
-    EverywhereStable, NeverStable, UndecidedBecause, Verdict, criterion, critical_amplitudes,
-    everywhere_stable_amplitude, fast_wave, unstable_bands,
+    AveragedVerdict, AveragingError, AveragingOptions, Becomes, Criterion, CriticalAmplitude,
+    CrossingKind, EverywhereStable, NeverStable, UndecidedBecause, UnstableBand, criterion,
+    critical_amplitudes, everywhere_stable_amplitude, fast_wave, unstable_bands,
 };
 use quell_linear::growth::of_criterion;
 use quell_model::Belt;
@@ -35,7 +35,7 @@ pub struct Averaged {
     /// Amplitude ratio from which every belt velocity is stable, or why there is none.
     pub everywhere_stable: Result<f64, String>,
     /// Belt velocities at which the study's own dither leaves steady sliding unstable.
-    pub unstable_bands: Result<Vec<Band>, AveragingError>,
+    pub unstable_bands: Result<Vec<UnstableBand>, AveragingError>,
 }
 
 /// Averaged stability of a study.
@@ -122,9 +122,9 @@ fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, Stri
 /// The word of a verdict.
 fn word(criterion: &Result<Criterion, AveragingError>) -> &'static str {
     match criterion.as_ref().map(|criterion| criterion.verdict) {
-        Ok(Verdict::Stable) => "stable",
-        Ok(Verdict::Unstable) => "unstable",
-        Ok(Verdict::Undecided { .. }) | Err(_) => "undecided",
+        Ok(AveragedVerdict::Stable) => "stable",
+        Ok(AveragedVerdict::Unstable) => "unstable",
+        Ok(AveragedVerdict::Undecided { .. }) | Err(_) => "undecided",
     }
 }
 
@@ -156,7 +156,7 @@ impl Averaged {
                 value(|criterion| criterion.effective.coefficient),
             );
         let one_sided =
-            self.criterion.as_ref().is_ok_and(|found| found.effective.side == Side::Outer);
+            self.criterion.as_ref().is_ok_and(|found| found.effective.side == SlopeSide::Outer);
         fields.plain("one_sided", one_sided);
         self.put_critical(fields);
         let frequency_ratio =
@@ -228,10 +228,10 @@ impl Averaged {
 pub const LOOKED_AT: &str = "up to 200 v_m beyond the fast velocity";
 
 /// Name of a crossing in output.
-pub fn kind(crossing: Crossing) -> &'static str {
+pub fn kind(crossing: CrossingKind) -> &'static str {
     match crossing {
-        Crossing::Root => "root",
-        Crossing::Jump => "jump",
+        CrossingKind::Root => "root",
+        CrossingKind::Jump => "jump",
     }
 }
 
@@ -278,12 +278,12 @@ impl Stability {
         let verdict = match &self.leading().criterion {
             Err(why) => format!("nothing can be said about steady sliding at v₀ = {v}: {why}"),
             Ok(found) => match found.verdict {
-                Verdict::Stable => format!("steady sliding at v₀ = {v} is stable"),
-                Verdict::Unstable => format!("steady sliding at v₀ = {v} is unstable"),
-                Verdict::Undecided { why: UndecidedBecause::WithinError } => format!(
+                AveragedVerdict::Stable => format!("steady sliding at v₀ = {v} is stable"),
+                AveragedVerdict::Unstable => format!("steady sliding at v₀ = {v} is unstable"),
+                AveragedVerdict::Undecided { why: UndecidedBecause::WithinError } => format!(
                     "steady sliding at v₀ = {v} is undecided: the criterion is zero within its error"
                 ),
-                Verdict::Undecided { why: UndecidedBecause::AtCorner } => format!(
+                AveragedVerdict::Undecided { why: UndecidedBecause::AtCorner } => format!(
                     "steady sliding at v₀ = {v} is undecided: the belt is exactly as fast as the fast motion, \
                      unstable for slightly faster belts and stable for slightly slower ones"
                 ),

@@ -1,7 +1,7 @@
 //! What a map computes of belts: responses and averages, and the quantities read from them.
 
 use quell_dynamics::response::Effect;
-use quell_linear::averaging::{Criterion, UndecidedBecause, Verdict};
+use quell_linear::averaging::{AveragedVerdict, Criterion, UndecidedBecause};
 use quell_linear::growth::of_criterion as growth_rate;
 use quell_model::units;
 
@@ -200,10 +200,12 @@ fn sharper(results: &Results) -> Result<&Criterion, Status> {
 
 fn verdict(criterion: &Criterion) -> Result<f64, Status> {
     match criterion.verdict {
-        Verdict::Unstable => Ok(0.0),
-        Verdict::Stable => Ok(1.0),
-        Verdict::Undecided { why: UndecidedBecause::WithinError } => Err(Status::WithinError),
-        Verdict::Undecided { why: UndecidedBecause::AtCorner } => Err(Status::AtCorner),
+        AveragedVerdict::Unstable => Ok(0.0),
+        AveragedVerdict::Stable => Ok(1.0),
+        AveragedVerdict::Undecided { why: UndecidedBecause::WithinError } => {
+            Err(Status::WithinError)
+        }
+        AveragedVerdict::Undecided { why: UndecidedBecause::AtCorner } => Err(Status::AtCorner),
     }
 }
 

@@ -4,7 +4,7 @@
 //! whole chunk side by side; a point's result depends on its own study alone all the same.
 
 use quell_dynamics::response::{
-    Case, Compared, Effect, Ending, Undefined, Wanted, compare_many, effect,
+    Compared, Effect, Observables, ResponseCase, RunEnding, Undefined, compare_many, effect,
 };
 use quell_dynamics::simulation::{Start, within};
 use quell_linear::averaging::{
@@ -174,7 +174,7 @@ pub(super) fn evaluate(points: &[BeltStudy], wanted: &[Computation]) -> Vec<Resu
     let dither_cost = wanted.contains(&Computation::ResponseWithCost);
     if wanted.iter().any(|computation| computation.is_response()) {
         let with_effect = wanted.contains(&Computation::ResponseWithEffect);
-        let found = responses(points, Wanted { dither_cost }, with_effect);
+        let found = responses(points, Observables { dither_cost }, with_effect);
         for (result, outcome) in results.iter_mut().zip(found) {
             result.steady = Some(outcome.map(|it| it.0));
             result.effect = Some(outcome.and_then(|it| it.1.ok_or(Status::Missing)));
@@ -189,7 +189,7 @@ type Responded = (Steady, Option<Effect>);
 /// The steady responses, side by side where the points share their solver.
 fn responses(
     points: &[BeltStudy],
-    wanted: Wanted,
+    wanted: Observables,
     with_effect: bool,
 ) -> Vec<Result<Responded, Status>> {
     let starts: Vec<Result<Start, Status>> = points
@@ -204,10 +204,10 @@ fn responses(
         let (alike, others): (Vec<usize>, Vec<usize>) =
             rest.into_iter().partition(|&at| *points[at].solver() == solver);
         rest = others;
-        let cases: Vec<Case> = alike
+        let cases: Vec<ResponseCase> = alike
             .iter()
             .filter_map(|&at| {
-                Some(Case { belt: points[at].belt().clone(), start: starts[at].ok()? })
+                Some(ResponseCase { belt: points[at].belt().clone(), start: starts[at].ok()? })
             })
             .collect();
         let firsts: Vec<(&Belt, Start)> =
@@ -218,7 +218,8 @@ fn responses(
             outcomes[at] = compared.map_err(|_| Status::Stalled).and_then(|compared| {
                 let start = starts[at]?;
                 let belt = points[at].belt();
-                let effect = with_effect.then(|| effect(belt, &compared, Ending::of(belt, start)));
+                let effect =
+                    with_effect.then(|| effect(belt, &compared, RunEnding::of(belt, start)));
                 let steady = Steady::from(&compared);
                 let largest_slip = steady.largest_slip.max(first);
                 Ok((Steady { largest_slip, ..steady }, effect))

@@ -1,6 +1,6 @@
 //! Proof that a formula is finite, smooth and not negative over a range of slip speeds.
 //!
-//! Scheme: the formula and its slope are evaluated over an interval of speeds with outward rounding ([`Interval`]), on the
+//! Scheme: the formula and its slope are evaluated over an interval of speeds with outward rounding ([`RealInterval`]), on the
 //! tree. Where their bounds prove nothing the interval is halved: a lower bound comes from the formula itself, where the
 //! slope has one sign from an end, else from the mean value. Every halving also evaluates the formula at the middle: what
 //! is negative or not finite there ends the search with the speed and the value. What is still open when the budget ends or
@@ -10,7 +10,7 @@
 
 use std::fmt;
 
-use quell_numerics::interval::Interval;
+use quell_numerics::interval::RealInterval;
 
 use super::tree::{Function, Tree};
 use super::{Expression, LARGEST};
@@ -112,15 +112,15 @@ struct Formula<'f> {
 /// Bounds of a formula and of its slope in v.
 #[derive(Clone, Copy, Debug)]
 struct Bounded {
-    value: Interval,
-    slope: Interval,
+    value: RealInterval,
+    slope: RealInterval,
 }
 
 impl Formula<'_> {
     /// Bounds between two speeds ≥ 0; `None` where it is not defined throughout.
     fn over(&self, from: f64, to: f64) -> Option<Bounded> {
         // On the branch of slip v = 0 is 0⁺, where sign(v) is 1.
-        let speeds = Interval::new(from, to.max(f64::MIN_POSITIVE));
+        let speeds = RealInterval::new(from, to.max(f64::MIN_POSITIVE));
         self.bounds(self.tree, speeds)
     }
 
@@ -140,19 +140,19 @@ impl Formula<'_> {
         } else {
             let middle = f64::midpoint(from, to);
             let there = self.over(middle, middle)?.value;
-            let away = Interval::new(from, to) - Interval::point(middle);
+            let away = RealInterval::new(from, to) - RealInterval::point(middle);
             Some((there + whole.slope * away).lower)
         };
         Some(other.unwrap_or(f64::NEG_INFINITY).max(whole.value.lower))
     }
 
-    fn bounds(&self, tree: &Tree, v: Interval) -> Option<Bounded> {
-        let constant = |value| Bounded { value, slope: Interval::point(0.0) };
+    fn bounds(&self, tree: &Tree, v: RealInterval) -> Option<Bounded> {
+        let constant = |value| Bounded { value, slope: RealInterval::point(0.0) };
         let of = |tree: &Tree| self.bounds(tree, v);
         Some(match tree {
-            Tree::Number(number) => constant(Interval::point(*number)),
-            Tree::Constant(place) => constant(Interval::point(*self.named.get(*place)?)),
-            Tree::Velocity => Bounded { value: v, slope: Interval::point(1.0) },
+            Tree::Number(number) => constant(RealInterval::point(*number)),
+            Tree::Constant(place) => constant(RealInterval::point(*self.named.get(*place)?)),
+            Tree::Velocity => Bounded { value: v, slope: RealInterval::point(1.0) },
             Tree::Negative(x) => {
                 let x = of(x)?;
                 Bounded { value: -x.value, slope: -x.slope }
@@ -173,7 +173,7 @@ impl Formula<'_> {
             Tree::Power(x, y) if !(x.has_velocity() || y.has_velocity()) => {
                 let value = tree.value(self.named);
                 // The platform-free power errs by less than this.
-                constant(Interval::point(value) * Interval::new(1.0 - 1e-15, 1.0 + 1e-15))
+                constant(RealInterval::point(value) * RealInterval::new(1.0 - 1e-15, 1.0 + 1e-15))
             }
             Tree::Power(x, y) => power(of(x)?, y, of(y)?)?,
             Tree::Call(function, x) => called(*function, of(x)?)?,
@@ -190,7 +190,7 @@ impl Bounded {
     }
 
     /// f(X) with f′(X) over X.
-    fn through(self, value: Interval, derivative: Interval) -> Self {
+    fn through(self, value: RealInterval, derivative: RealInterval) -> Self {
         Self { value, slope: derivative * self.slope }
     }
 }
@@ -207,11 +207,11 @@ fn power(x: Bounded, written: &Tree, y: Bounded) -> Option<Bounded> {
             )]
             let whole = n.abs() as u32;
             let derivative = match whole {
-                0 => Interval::point(0.0),
-                whole => Interval::point(f64::from(whole)) * x.value.power(whole - 1),
+                0 => RealInterval::point(0.0),
+                whole => RealInterval::point(f64::from(whole)) * x.value.power(whole - 1),
             };
             let raised = x.through(x.value.power(whole), derivative);
-            let one = Bounded { value: Interval::point(1.0), slope: Interval::point(0.0) };
+            let one = Bounded { value: RealInterval::point(1.0), slope: RealInterval::point(0.0) };
             if n < 0.0 { one.over(raised) } else { Some(raised) }
         }
         Some(0.5) => called(Function::Sqrt, x),
@@ -227,19 +227,19 @@ fn power(x: Bounded, written: &Tree, y: Bounded) -> Option<Bounded> {
 }
 
 fn called(function: Function, x: Bounded) -> Option<Bounded> {
-    let one = Interval::point(1.0);
+    let one = RealInterval::point(1.0);
     let sign = if x.value.lower >= 0.0 && x.value.upper > 0.0 {
         one
     } else if x.value.upper <= 0.0 && x.value.lower < 0.0 {
         -one
     } else if x.value.lower == 0.0 && x.value.upper == 0.0 {
-        Interval::point(0.0)
+        RealInterval::point(0.0)
     } else {
-        Interval::new(-1.0, 1.0)
+        RealInterval::new(-1.0, 1.0)
     };
     Some(match function {
         Function::Abs => x.through(x.value.abs(), sign),
-        Function::Sign => Bounded { value: sign, slope: Interval::point(0.0) },
+        Function::Sign => Bounded { value: sign, slope: RealInterval::point(0.0) },
         Function::Exp => {
             let value = x.value.exp();
             x.through(value, value)
@@ -247,7 +247,7 @@ fn called(function: Function, x: Bounded) -> Option<Bounded> {
         Function::Log => x.through(x.value.log()?, one.over(x.value)?),
         Function::Sqrt => {
             let value = x.value.sqrt()?;
-            x.through(value, Interval::point(0.5).over(value)?)
+            x.through(value, RealInterval::point(0.5).over(value)?)
         }
         Function::Sin => x.through(x.value.sin(), x.value.cos()),
         Function::Cos => x.through(x.value.cos(), -x.value.sin()),

@@ -17,9 +17,10 @@ mod tests;
 use std::sync::atomic::Ordering;
 
 use quell_dynamics::attractor::{
-    Basins as Gathered, Label, Patience, Scene, Settled, gather, settle_many,
+    AttractorSettings, BasinLabel, BasinsOfAttraction as Gathered, Patience, Settled, gather,
+    settle_many,
 };
-use quell_dynamics::orbit::Verdict;
+use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::simulation::{Stalled, within};
 use quell_model::units::Scales;
 use rayon::prelude::*;
@@ -60,7 +61,7 @@ pub struct Portrait {
     /// Period of the section, τ.
     pub period: f64,
     /// Whether the response of sliding is stable, whoever reaches it; or why that is not known.
-    pub local: Result<Verdict, String>,
+    pub local: Result<OrbitVerdict, String>,
     /// Attractors and where each start ends.
     pub gathered: Gathered,
     /// The share of each attractor.
@@ -169,7 +170,7 @@ fn portraits(
     starts: &Starts,
     running: Running<'_>,
 ) -> Result<Vec<Portrait>, Failure> {
-    let scenes: Vec<Scene<'_>> = studies
+    let scenes: Vec<AttractorSettings<'_>> = studies
         .par_iter()
         .map(|(_, study)| within(STEPS_OF_A_SEARCH, || scene(study.belt())))
         .collect::<Result<_, Failure>>()?;
@@ -210,21 +211,23 @@ impl Portrait {
     fn new(
         value: Option<f64>,
         scales: Option<Scales>,
-        scene: &Scene<'_>,
+        scene: &AttractorSettings<'_>,
         starts: &Starts,
         gathered: Gathered,
     ) -> Self {
         let layout = starts.layout();
-        let inside = |holds: &dyn Fn(&Label) -> bool| -> Vec<bool> {
+        let inside = |holds: &dyn Fn(&BasinLabel) -> bool| -> Vec<bool> {
             gathered.labels.iter().map(holds).collect()
         };
         let shares = (0..gathered.basins.len())
-            .map(|place| Share::of(layout, &inside(&|label| *label == Label::Attractor(place))))
+            .map(|place| {
+                Share::of(layout, &inside(&|label| *label == BasinLabel::Attractor(place)))
+            })
             .collect();
-        let open = inside(&|label| !matches!(label, Label::Attractor(_)));
-        let ends_quiet = |label: &Label| match label {
-            Label::Attractor(place) => gathered.basins[*place].attractor.quiet,
-            Label::Unsettled(_) | Label::Stalled(_) => false,
+        let open = inside(&|label| !matches!(label, BasinLabel::Attractor(_)));
+        let ends_quiet = |label: &BasinLabel| match label {
+            BasinLabel::Attractor(place) => gathered.basins[*place].attractor.quiet,
+            BasinLabel::Unsettled(_) | BasinLabel::Stalled(_) => false,
         };
         let known = open.contains(&false);
         let quiet = known.then(|| Share::between(layout, &inside(&ends_quiet), &open));
@@ -232,9 +235,9 @@ impl Portrait {
         Self {
             value,
             scales,
-            period: scene.strobe.period,
+            period: scene.section.period,
             in_band: scene.reaches_the_band(),
-            local: scene.quiet.as_ref().map(|quiet| quiet.verdict).map_err(unknown),
+            local: scene.base.as_ref().map(|quiet| quiet.verdict).map_err(unknown),
             shares,
             quiet,
             unknown: unknown_share,

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use quell_dynamics::attractor::{Attractor, Label};
-use quell_dynamics::orbit::Verdict;
+use quell_dynamics::attractor::{Attractor, BasinLabel};
+use quell_dynamics::orbit::OrbitVerdict;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
@@ -107,9 +107,9 @@ impl Portrait {
 
     /// Place of the attractor on which each start ends, null where that is not known.
     fn ends(&self) -> Json {
-        let end = |label: &Label| match label {
-            Label::Attractor(place) => Json::from(*place),
-            Label::Unsettled(_) | Label::Stalled(_) => Json::Null,
+        let end = |label: &BasinLabel| match label {
+            BasinLabel::Attractor(place) => Json::from(*place),
+            BasinLabel::Unsettled(_) | BasinLabel::Stalled(_) => Json::Null,
         };
         self.gathered.labels.iter().map(end).collect()
     }
@@ -194,7 +194,7 @@ impl Basins {
                 }
                 let only_local = portraits
                     .iter()
-                    .filter(|it| it.local == Ok(Verdict::Stable) && it.leaves())
+                    .filter(|it| it.local == Ok(OrbitVerdict::Stable) && it.leaves())
                     .count();
                 let open = portraits.iter().filter(|it| it.unknown.starts > 0).count();
                 if open > 0 && least.is_some() {
@@ -228,9 +228,9 @@ impl Basins {
             let mut reasons: Vec<(&str, usize)> = Vec::new();
             for label in &portrait.gathered.labels {
                 let why = match label {
-                    Label::Attractor(_) => continue,
-                    Label::Unsettled(why) => why.about(),
-                    Label::Stalled(stalled) => stalled.why,
+                    BasinLabel::Attractor(_) => continue,
+                    BasinLabel::Unsettled(why) => why.about(),
+                    BasinLabel::Stalled(stalled) => stalled.why,
                 };
                 match reasons.iter_mut().find(|it| it.0 == why) {
                     Some(reason) => reason.1 += 1,
@@ -313,13 +313,15 @@ impl Basins {
     /// Where each start ends: over the grid, or a row a start.
     fn map(&self, study: &BeltStudy, portrait: &Portrait) -> Dataset {
         let labels = &portrait.gathered.labels;
-        let place = |label: &Label| match label {
-            Label::Attractor(place) => *place as f64,
-            Label::Unsettled(_) | Label::Stalled(_) => f64::NAN,
+        let place = |label: &BasinLabel| match label {
+            BasinLabel::Attractor(place) => *place as f64,
+            BasinLabel::Unsettled(_) | BasinLabel::Stalled(_) => f64::NAN,
         };
-        let quiet = |label: &Label| match label {
-            Label::Attractor(place) => u8::from(portrait.gathered.basins[*place].attractor.quiet),
-            Label::Unsettled(_) | Label::Stalled(_) => 2,
+        let quiet = |label: &BasinLabel| match label {
+            BasinLabel::Attractor(place) => {
+                u8::from(portrait.gathered.basins[*place].attractor.quiet)
+            }
+            BasinLabel::Unsettled(_) | BasinLabel::Stalled(_) => 2,
         };
         let ends: Vec<f64> = labels.iter().map(place).collect();
         let quiet: Vec<u8> = labels.iter().map(quiet).collect();

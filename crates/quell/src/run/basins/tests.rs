@@ -1,6 +1,6 @@
 //! What is told where ends are not known.
 
-use quell_dynamics::attractor::{Basins as Gathered, Unsettled};
+use quell_dynamics::attractor::{BasinsOfAttraction as Gathered, Unsettled};
 
 use super::*;
 
@@ -10,7 +10,7 @@ const STUDY: &str = "schema = 1\n[belt]\ndamping_ratio = 0.1\nnormal_load = 1\nb
 /// Where no end is known nothing is said about whether starts reach the quiet response.
 #[test]
 fn unknown_ends_reach_nothing() {
-    let labels = vec![Label::Unsettled(Unsettled::Moving); 3];
+    let labels = vec![BasinLabel::Unsettled(Unsettled::Moving); 3];
     let gathered = Gathered { basins: Vec::new(), labels };
     let share = Share::of(Layout::Sample { count: 3, seed: 1 }, &[true; 3]);
     let mut portrait = Portrait {
@@ -18,7 +18,7 @@ fn unknown_ends_reach_nothing() {
         period: 1.0,
         scales: None,
         in_band: false,
-        local: Ok(Verdict::Stable),
+        local: Ok(OrbitVerdict::Stable),
         gathered,
         shares: Vec::new(),
         quiet: None,

@@ -7,8 +7,8 @@ mod tell;
 
 use std::sync::atomic::Ordering;
 
-use quell_dynamics::attractor::{Attractor, Kind, Patience, Unsettled, measure, settle};
-use quell_dynamics::orbit::Verdict;
+use quell_dynamics::attractor::{Attractor, AttractorKind, Patience, Unsettled, measure, settle};
+use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::simulation::{Start, within};
 use quell_model::units::Scales;
 
@@ -72,7 +72,7 @@ pub struct Point {
     /// Whether responses of the dither's own period may vibrate in the band of slow vibration (R ≤ 1.9).
     pub in_band: bool,
     /// Whether the response of sliding is stable here, whether or not the sweep is on it; or why that is not known.
-    pub local: Result<Verdict, String>,
+    pub local: Result<OrbitVerdict, String>,
     /// What the sweep is on; or why it has not settled.
     pub response: Result<Attractor, Unsettled>,
     /// Periods until it had settled.
@@ -173,8 +173,8 @@ fn point(study: &BeltStudy, value: f64, begun: Start) -> Result<(Point, Start), 
     let attractor = measure(&scene, &settled).map_err(failed)?;
     let end = attractor.as_ref().map_or(settled.state, |attractor| attractor.state);
     let response = attractor.ok_or_else(|| settled.why().unwrap_or(Unsettled::Moving));
-    let local = scene.quiet.as_ref().map(|quiet| quiet.verdict).map_err(unknown);
-    let period = scene.strobe.period;
+    let local = scene.base.as_ref().map(|quiet| quiet.verdict).map_err(unknown);
+    let period = scene.section.period;
     let in_band = scene.reaches_the_band();
     let scales = study.scales();
     Ok((Point { value, scales, period, in_band, local, response, periods: settled.periods }, end))
@@ -211,8 +211,8 @@ fn hysteresis(study: &BeltStudy, branches: &[Branch]) -> Vec<(f64, f64)> {
 fn is_one_torus(one: &Attractor, other: &Attractor) -> bool {
     let turns = |it: &Attractor| it.rotation.map(|rotation| rotation.turns_per_period);
     match (one.kind, other.kind) {
-        (Kind::Unclassified, _) | (_, Kind::Unclassified) => true,
-        (Kind::QuasiPeriodic, Kind::QuasiPeriodic) => turns(one)
+        (AttractorKind::Unclassified, _) | (_, AttractorKind::Unclassified) => true,
+        (AttractorKind::QuasiPeriodic, AttractorKind::QuasiPeriodic) => turns(one)
             .zip(turns(other))
             .is_some_and(|(one, other)| (one - other).abs() <= TURN_ALIKE),
         _ => false,

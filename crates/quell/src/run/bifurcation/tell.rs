@@ -1,6 +1,6 @@
 //! Sweeps as sentence, JSON, dataset.
 
-use quell_dynamics::attractor::{Attractor, Kind};
+use quell_dynamics::attractor::{Attractor, AttractorKind};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -239,7 +239,7 @@ impl Bifurcation {
 /// Periods of a closed orbit.
 fn periods(attractor: &Attractor) -> Option<f64> {
     match attractor.kind {
-        Kind::Periodic { periods, .. } => Some(f64::from(periods)),
+        AttractorKind::Periodic { periods, .. } => Some(f64::from(periods)),
         _ => None,
     }
 }
@@ -247,7 +247,7 @@ fn periods(attractor: &Attractor) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use quell_dynamics::attractor::Unsettled;
-    use quell_dynamics::orbit::Verdict;
+    use quell_dynamics::orbit::OrbitVerdict;
 
     use super::super::Branch;
     use super::*;
@@ -269,7 +269,7 @@ mod tests {
             scales: None,
             period: 1.0,
             in_band: false,
-            local: Ok(Verdict::Stable),
+            local: Ok(OrbitVerdict::Stable),
             response: Err(Unsettled::Moving),
             periods: 7,
         };

@@ -1,10 +1,14 @@
 //! `thresholds`: values of a parameter at which the response changes: local ones by Floquet multipliers, and for runs
 //! from given starts the values at which dither begins or ceases to quench. `tell` says it in sentences.
 
-use quell_dynamics::attractor::{Reached, Scene, Strobe, Switches, ramped, switches};
+use quell_dynamics::attractor::{
+    AttractorSettings, Reached, StroboscopicSection, Switches, ramped, switches,
+};
 use quell_dynamics::orbit::NoOrbit;
 pub use quell_dynamics::orbit::family::Signature;
-pub use quell_dynamics::orbit::threshold::{Change, Ending, Kind, Local, Threshold};
+pub use quell_dynamics::orbit::threshold::{
+    BranchEnding, Local, SignatureChange, Threshold, ThresholdKind,
+};
 use quell_dynamics::orbit::threshold::{NoThresholds, local};
 use quell_dynamics::response::BAND_END;
 use quell_dynamics::simulation::{Start, within};
@@ -190,8 +194,10 @@ fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, F
         Err(why) => return Err(told(study, why, path, "--from")),
     };
     let last = belt.with(path, to).ok();
-    let resumes = local.ending != Ending::Covered
-        && last.is_some_and(|belt| Scene::new(&belt).is_ok_and(|scene| scene.quiet.is_ok()));
+    let resumes = local.ending != BranchEnding::Covered
+        && last.is_some_and(|belt| {
+            AttractorSettings::new(&belt).is_ok_and(|scene| scene.base.is_ok())
+        });
     let mut protocols = Vec::new();
     for &protocol in &question.protocols {
         let initial = protocol.initial();
@@ -216,7 +222,8 @@ fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, F
     let slip = slip_met(study, &question, &local, &protocols);
     let reaches = |value: f64| {
         let belt = belt.with(path, value).ok();
-        belt.and_then(|belt| Strobe::of(&belt).ok()).is_some_and(|it| it.reaches_the_band())
+        belt.and_then(|belt| StroboscopicSection::of(&belt).ok())
+            .is_some_and(|it| it.reaches_the_band())
     };
     let in_band = reaches(from) || reaches(to);
     Ok(Thresholds { question, local, no_base, resumes, protocols, slip, in_band })
@@ -273,8 +280,8 @@ pub fn becomes(reached: Reached, in_band: bool) -> &'static str {
 }
 
 /// The verdict on one side of a threshold; "none" where this response does not exist there.
-pub fn side(verdict: Option<quell_dynamics::orbit::Verdict>) -> &'static str {
-    verdict.map_or("none", quell_dynamics::orbit::Verdict::name)
+pub fn side(verdict: Option<quell_dynamics::orbit::OrbitVerdict>) -> &'static str {
+    verdict.map_or("none", quell_dynamics::orbit::OrbitVerdict::name)
 }
 
 impl Thresholds {
@@ -313,7 +320,7 @@ impl Thresholds {
             .plain("parameter", question.parameter.as_str())
             .number("from", quantity, question.from)
             .number("to", quantity, question.to)
-            .plain("covered", self.local.ending == Ending::Covered)
+            .plain("covered", self.local.ending == BranchEnding::Covered)
             .plain("resumes", self.resumes)
             .list("local", local)
             .list("signature_changes", changes);

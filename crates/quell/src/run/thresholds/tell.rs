@@ -1,11 +1,11 @@
 //! What `thresholds` answers, in sentences: where the base response is stable, and from where on each start is quenched.
 
 use quell_dynamics::attractor::{Switch, Switches};
-use quell_dynamics::orbit::Verdict;
+use quell_dynamics::orbit::OrbitVerdict;
 use quell_model::Dither;
 use quell_model::units::Quantity;
 
-use super::{Ending, Kind, Threshold, Thresholds, path_in_words, quantity_of};
+use super::{BranchEnding, Threshold, ThresholdKind, Thresholds, path_in_words, quantity_of};
 use crate::run::attractor::unknown;
 use crate::run::protocol::Protocol;
 use crate::study::BeltStudy;
@@ -18,7 +18,7 @@ struct Limit {
     /// How uncertain it is, where that is to be said.
     error: Option<f64>,
     /// What happens there; nothing at an end of the range.
-    kind: Option<Kind>,
+    kind: Option<ThresholdKind>,
     /// Whether it is the end of what was asked, or of what could be answered.
     of_range: bool,
 }
@@ -140,11 +140,11 @@ impl Thresholds {
     }
 
     /// The intervals of the base response, from the first value on until it turns back or ends; and the threshold there.
-    fn base_response(&self) -> (Vec<Interval<Verdict>>, Option<&Threshold>) {
+    fn base_response(&self) -> (Vec<Interval<OrbitVerdict>>, Option<&Threshold>) {
         let Some(first) = self.local.branch.first() else { return (Vec::new(), None) };
         let mut intervals = Vec::new();
         let mut from = Limit::of_range(self.question.from);
-        let mut answer = Verdict::of(first.radius, 0.0);
+        let mut answer = OrbitVerdict::of(first.radius, 0.0);
         for threshold in &self.local.thresholds {
             let Threshold { value, kind, becomes, was, .. } = *threshold;
             let limit = Limit { value, error: None, kind: Some(kind), of_range: false };
@@ -156,9 +156,11 @@ impl Thresholds {
             (from, answer) = (limit, next);
         }
         let to = match self.local.ending {
-            Ending::Covered => self.question.to,
-            Ending::TurnedBack { at } | Ending::Touch { at } | Ending::Lost { at } => at,
-            Ending::LostTurning { furthest, .. } => furthest,
+            BranchEnding::Covered => self.question.to,
+            BranchEnding::TurnedBack { at }
+            | BranchEnding::Touch { at }
+            | BranchEnding::Lost { at } => at,
+            BranchEnding::LostTurning { furthest, .. } => furthest,
         };
         intervals.push(Interval { from, to: Limit::of_range(to), answer });
         (merged(intervals), None)
@@ -179,12 +181,12 @@ impl Thresholds {
         }
         let subject = if dithered { "the base response" } else { "steady sliding" };
         let (intervals, end) = self.base_response();
-        let is_stable = |it: &&Interval<Verdict>| it.answer == Verdict::Stable;
-        let stable: Vec<&Interval<Verdict>> = intervals.iter().filter(is_stable).collect();
+        let is_stable = |it: &&Interval<OrbitVerdict>| it.answer == OrbitVerdict::Stable;
+        let stable: Vec<&Interval<OrbitVerdict>> = intervals.iter().filter(is_stable).collect();
         let told = match (stable.len(), intervals.as_slice()) {
             (0, all) => {
-                let unstable = all.iter().all(|it| it.answer == Verdict::Unstable);
-                let covered = end.is_none() && self.local.ending == Ending::Covered;
+                let unstable = all.iter().all(|it| it.answer == OrbitVerdict::Unstable);
+                let covered = end.is_none() && self.local.ending == BranchEnding::Covered;
                 let none = if covered { " (no threshold in this range)" } else { "" };
                 if unstable {
                     format!("{subject} is unstable at every {}{none}", parameter.whole(all))
@@ -193,7 +195,7 @@ impl Thresholds {
                 }
             }
             (_, [only]) if only.to.of_range => {
-                let covered = self.local.ending == Ending::Covered;
+                let covered = self.local.ending == BranchEnding::Covered;
                 let none = if covered { " (no threshold in this range)" } else { "" };
                 format!("{subject} is stable {}{none}", parameter.interval(only))
             }
@@ -201,7 +203,7 @@ impl Thresholds {
                 let only = stable[0];
                 let interval = parameter.interval(only);
                 // Undecided lies at thresholds alone, and is said by the table.
-                let unstable = all.iter().filter(|it| it.answer == Verdict::Unstable).count();
+                let unstable = all.iter().filter(|it| it.answer == OrbitVerdict::Unstable).count();
                 match (only.from.of_range, only.to.of_range) {
                     _ if unstable + 1 < all.len() || all.len() == 1 => {
                         format!("{interval} {subject} is stable")
@@ -240,26 +242,30 @@ impl Thresholds {
         };
         match (end, self.local.ending) {
             (Some(end), _) if said_already => {
-                let ends = if end.kind == Kind::Fold { "turns back" } else { "ends" };
+                let ends = if end.kind == ThresholdKind::Fold { "turns back" } else { "ends" };
                 format!(" There it {ends}; {beyond}.")
             }
-            (Some(end), _) if end.kind == Kind::Fold || self.local.ending == Ending::Covered => {
+            (Some(end), _)
+                if end.kind == ThresholdKind::Fold
+                    || self.local.ending == BranchEnding::Covered =>
+            {
                 format!(" It turns back at {} ({}); {beyond}.", at(end.value), end.kind.name())
             }
             (Some(end), _) => {
                 format!(" It ends at {} ({}); {beyond}.", at(end.value), end.kind.name())
             }
-            (None, Ending::Covered) => String::new(),
+            (None, BranchEnding::Covered) => String::new(),
             (
                 None,
-                Ending::TurnedBack { at: value } | Ending::LostTurning { furthest: value, .. },
+                BranchEnding::TurnedBack { at: value }
+                | BranchEnding::LostTurning { furthest: value, .. },
             ) => {
                 format!(" It turns back at {}; {beyond}.", at(value))
             }
-            (None, Ending::Touch { at: value }) => {
+            (None, BranchEnding::Touch { at: value }) => {
                 format!(" It ends at {}, where it touches v_r = 0; {beyond}.", at(value))
             }
-            (None, Ending::Lost { at: value }) => {
+            (None, BranchEnding::Lost { at: value }) => {
                 let then = if self.resumes { beyond.as_str() } else { "what follows is unknown" };
                 format!(" It could not be continued beyond {}; {then}.", at(value))
             }
