@@ -267,7 +267,7 @@ fn what_cannot_be_is_refused_and_the_clamp_is_warned_of() {
     place.write("belt.toml", "schema = 1\n[belt]\ndamping_ratio = 0.01\nnormal_load = 1\nbelt_velocity = 0.1\n\
         [friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2\nreference_velocity = 0.2\n".as_bytes());
     let errors = place.refused(&["modes", "belt.toml"]);
-    assert_eq!(errors[0]["key"], "disc");
+    assert_eq!(errors[0]["key"], "belt");
 }
 
 /// A brake disc of steel with its loads in SI.

@@ -27,12 +27,10 @@ pub fn prepared_with(
     disc: &Disc,
     parts: Contributions,
 ) -> Result<Option<FollowerDither>, EigenError> {
-    if disc.dither().frequency_ratio().is_none() {
-        return Ok(None);
-    }
+    let Some(frequency) = disc.dither().frequency_ratio() else { return Ok(None) };
     let system = disc.system_of(parts);
     let linear = Linearised::new(&system).map_err(|_| EigenError::NotFinite)?;
-    FollowerDither::new(&system, &linear)
+    FollowerDither::new(&system, &linear, frequency)
 }
 
 /// Largest growth rate of a disc, dithered or not.

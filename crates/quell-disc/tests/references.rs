@@ -7,7 +7,7 @@ use quell_linear::growth::Verdict;
 use quell_model::disc::{Contribution, Contributions};
 use quell_model::disc::{DiscDither, Load, Mode};
 use quell_numerics::floquet::Effort;
-use quell_zoo::disc::{self as zoo, ModeSet, equal_load};
+use quell_zoo::disc::{self as zoo, ZooModes, equal_load};
 use serde_json::Value;
 
 fn reference(name: &str) -> Value {
@@ -41,7 +41,7 @@ fn modes(of: &Value, damping: f64) -> Vec<Mode> {
 #[test]
 fn the_zoo_has_the_modes_of_the_reference() {
     let reference = reference("disc_eigenvalues.json");
-    for set in ModeSet::ALL {
+    for set in ZooModes::ALL {
         assert_eq!(set.modes(1e-3), modes(&reference["models"][set.name()], 1e-3), "{set:?}");
     }
 }

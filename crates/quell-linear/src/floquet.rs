@@ -33,13 +33,17 @@ pub struct FollowerDither {
 }
 
 impl FollowerDither {
-    /// Prepares a system that was linearised; `None` without dither, and where an input is not one sine on the friction of
-    /// a contact without tangent, all of one frequency.
+    /// Prepares a linearised system for a dither of angular `frequency`; `None` where an input is not one sine of this
+    /// frequency on the friction of a contact without tangent.
     ///
     /// # Errors
     /// [`EigenError`] where parameters are so large that the matrix overflows.
-    pub fn new(system: &System, linear: &Linearised) -> Result<Option<Self>, EigenError> {
-        let Some((frequency, factors)) = factors(system) else { return Ok(None) };
+    pub fn new(
+        system: &System,
+        linear: &Linearised,
+        frequency: f64,
+    ) -> Result<Option<Self>, EigenError> {
+        let Some(factors) = factors(system, frequency) else { return Ok(None) };
         if linear.contacts().iter().any(|contact| contact.has_tangent()) {
             return Ok(None);
         }
@@ -92,15 +96,13 @@ impl FollowerDither {
     }
 }
 
-/// The common frequency and the factor of each contact.
-fn factors(system: &System) -> Option<(f64, Vec<Factor>)> {
-    let mut common = None;
+/// The factor of each contact.
+fn factors(system: &System, frequency: f64) -> Option<Vec<Factor>> {
     let mut factors = vec![None; system.contacts.len()];
     for input in &system.inputs {
         let InputTarget::Friction { contact } = input.target else { return None };
         let [wave] = input.profile.waves() else { return None };
-        let seen = *common.get_or_insert(wave.frequency);
-        if seen != wave.frequency || wave.waveform != Waveform::Sine {
+        if wave.frequency != frequency || wave.waveform != Waveform::Sine {
             return None;
         }
         // A sine that leads by a quarter of a cycle is a cosine.
@@ -108,5 +110,5 @@ fn factors(system: &System) -> Option<(f64, Vec<Factor>)> {
         let (mean, amplitude) = (input.profile.mean(), wave.amplitude);
         factors[contact] = Some(Factor { mean, amplitude, sine, cosine });
     }
-    Some((common?, factors.into_iter().collect::<Option<_>>()?))
+    factors.into_iter().collect()
 }

@@ -5,7 +5,7 @@ use std::borrow::Borrow;
 use quell_model::{Belt, Dither, Friction, LawKind, Waveform};
 
 use crate::dither::{normal, tangential};
-use crate::{Named, law};
+use crate::{NamedModel, law};
 
 /// Damping ratio ζ of the dissertation.
 pub const DAMPING_RATIO: f64 = 0.005;
@@ -143,11 +143,11 @@ pub fn chapter_4() -> Belt {
 }
 
 /// Every belt without dither.
-pub fn undithered() -> Vec<Named<Belt>> {
+pub fn undithered() -> Vec<NamedModel<Belt>> {
     let mut belts = vec![
-        Named::new("stribeck belt", "figure 2.3", stribeck()),
-        Named::new("decreasing belt", "figure 2.10", decreasing()),
-        Named::new("chapter 4 belt", "figure 4.11", chapter_4()),
+        NamedModel::new("stribeck belt", "figure 2.3", stribeck()),
+        NamedModel::new("decreasing belt", "figure 2.10", decreasing()),
+        NamedModel::new("chapter 4 belt", "figure 4.11", chapter_4()),
     ];
     let velocities = [
         ("coulomb", 0.05, 0.3),
@@ -160,20 +160,20 @@ pub fn undithered() -> Vec<Named<Belt>> {
         let chosen = velocities.iter().find(|(name, ..)| *name == named.name);
         if let Some(&(name, damping_ratio, velocity)) = chosen {
             let belt = undithered_belt(damping_ratio, velocity, named.model);
-            belts.push(Named::new(format!("{name} belt"), named.source, belt));
+            belts.push(NamedModel::new(format!("{name} belt"), named.source, belt));
         }
     }
     belts
 }
 
 /// Every belt: each of [`undithered`] alone, with a tangential and with a normal dither of each waveform, and with both.
-pub fn all_belts() -> Vec<Named<Belt>> {
+pub fn all_belts() -> Vec<NamedModel<Belt>> {
     let mut all = Vec::new();
     for base in undithered() {
         // Tangential dither that reaches the belt's velocity about half way, and normal dither of half the load.
         let reach = base.model.belt_velocity();
         let mut add = |name: String, dithers: Vec<Dither>| {
-            all.push(Named::new(name, base.source, base.model.with_dithers(dithers)));
+            all.push(NamedModel::new(name, base.source, base.model.with_dithers(dithers)));
         };
         add(base.name.clone(), Vec::new());
         for &waveform in Waveform::ALL {

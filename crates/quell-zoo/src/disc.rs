@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use quell_model::Disc;
 use quell_model::disc::{DiscDither, Load, Mode};
 
-use crate::Named;
+use crate::NamedModel;
 
 /// Normal dither of full amplitude at R = 2.7.
 pub const NORMAL: DiscDither = DiscDither::Normal { amplitude: 1.0, frequency_ratio: 2.7 };
@@ -16,7 +16,7 @@ pub const TANGENTIAL: DiscDither = DiscDither::Tangential { amplitude: 1.0, freq
 /// A set of modes of the annular plate b/a = 0.5, ν = 0.3 at r₀/a = 0.75, as in `reference/disc_eigenvalues.json`:
 /// radial families, largest number of nodal diameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ModeSet {
+pub enum ZooModes {
     /// N = (1, 2): three modes, ω_ref of chapter 5.
     N12,
     /// N = (1, 5): six modes.
@@ -48,7 +48,7 @@ const N25: [(f64, usize, f64); 12] = [
     (20.598011901090862, 5, -2.04368782383033),
 ];
 
-impl ModeSet {
+impl ZooModes {
     /// Every set.
     pub const ALL: [Self; 3] = [Self::N12, Self::N15, Self::N25];
 
@@ -111,7 +111,7 @@ pub fn disc(modes: Vec<Mode>, loads: Vec<Load>, dither: DiscDither, speed: f64) 
 ///
 /// # Panics
 /// On values out of bounds.
-pub fn loaded(set: ModeSet, damping: f64, load: Load, dither: DiscDither, speed: f64) -> Disc {
+pub fn loaded(set: ZooModes, damping: f64, load: Load, dither: DiscDither, speed: f64) -> Disc {
     disc(set.modes(damping), vec![load], dither, speed)
 }
 
@@ -119,7 +119,7 @@ pub fn loaded(set: ModeSet, damping: f64, load: Load, dither: DiscDither, speed:
 ///
 /// # Panics
 /// On values out of bounds.
-pub fn free(set: ModeSet, damping: f64, speed: f64) -> Disc {
+pub fn free(set: ZooModes, damping: f64, speed: f64) -> Disc {
     disc(set.modes(damping), Vec::new(), DiscDither::None, speed)
 }
 
@@ -129,7 +129,7 @@ pub fn equal_load(strength: f64, friction: f64) -> Load {
 }
 
 /// Every disc without dither.
-pub fn undithered() -> Vec<Named<Disc>> {
+pub fn undithered() -> Vec<NamedModel<Disc>> {
     let none = DiscDither::None;
     let two_loads = vec![
         Load::new(0.1, 0.1, 0.2, 0.2),
@@ -141,31 +141,35 @@ pub fn undithered() -> Vec<Named<Disc>> {
         loaded(set, damping, equal_load(strength, friction), none, speed)
     };
     vec![
-        Named::new("free disc", "chosen: no load", free(ModeSet::N12, 1e-3, 1.3)),
-        Named::new("one load", "figure 5.3", one(ModeSet::N12, 0.0, 0.1, 0.1, 0.3)),
-        Named::new(
+        NamedModel::new("free disc", "chosen: no load", free(ZooModes::N12, 1e-3, 1.3)),
+        NamedModel::new("one load", "figure 5.3", one(ZooModes::N12, 0.0, 0.1, 0.1, 0.3)),
+        NamedModel::new(
             "one load, tongue",
             "table 5.1: the middle of the tongue that begins at Ω = 0.064",
-            one(ModeSet::N12, 0.0, 0.1, 0.04, 0.07),
+            one(ZooModes::N12, 0.0, 0.1, 0.04, 0.07),
         ),
-        Named::new("one load, damped", "chosen: ξ = 10⁻³", one(ModeSet::N12, 1e-3, 0.1, 0.1, 0.3)),
-        Named::new("six modes", "figure 5.4", one(ModeSet::N15, 1e-4, 0.3, 0.6, 0.7)),
-        Named::new("twelve modes", "figure 5.5", one(ModeSet::N25, 1e-4, 0.2, 0.4, 0.37)),
-        Named::new(
+        NamedModel::new(
+            "one load, damped",
+            "chosen: ξ = 10⁻³",
+            one(ZooModes::N12, 1e-3, 0.1, 0.1, 0.3),
+        ),
+        NamedModel::new("six modes", "figure 5.4", one(ZooModes::N15, 1e-4, 0.3, 0.6, 0.7)),
+        NamedModel::new("twelve modes", "figure 5.5", one(ZooModes::N25, 1e-4, 0.2, 0.4, 0.37)),
+        NamedModel::new(
             "two loads",
             "chosen: unequal, with a phase between their dithers",
-            disc(ModeSet::N15.modes(1e-3), two_loads, none, 0.4),
+            disc(ZooModes::N15.modes(1e-3), two_loads, none, 0.4),
         ),
-        Named::new(
+        NamedModel::new(
             "two pads",
             "chosen: opposite halves of one load",
-            disc(ModeSet::N12.modes(1e-4), pads, none, 0.85),
+            disc(ZooModes::N12.modes(1e-4), pads, none, 0.85),
         ),
     ]
 }
 
 /// Every disc: each of [`undithered`] alone, with normal and with tangential dither.
-pub fn all_discs() -> Vec<Named<Disc>> {
+pub fn all_discs() -> Vec<NamedModel<Disc>> {
     let mut all = Vec::new();
     for base in undithered() {
         for (suffix, dither) in [
@@ -174,7 +178,7 @@ pub fn all_discs() -> Vec<Named<Disc>> {
             (" + tangential dither", TANGENTIAL),
         ] {
             let name = format!("{}{suffix}", base.name);
-            all.push(Named::new(name, base.source, base.model.with_dither(dither)));
+            all.push(NamedModel::new(name, base.source, base.model.with_dither(dither)));
         }
     }
     all

@@ -3,7 +3,7 @@
 use quell_model::units::Quantity;
 use quell_model::{Expression, Friction, LawKind, Samples};
 
-use crate::Named;
+use crate::NamedModel;
 
 /// Static level μ_s of the dissertation.
 pub const STATIC: f64 = 0.4;
@@ -111,19 +111,19 @@ pub fn samples() -> Friction {
 }
 
 /// One law of every kind, and two of Coulomb's.
-pub fn all() -> Vec<Named<Friction>> {
+pub fn all() -> Vec<NamedModel<Friction>> {
     vec![
-        Named::new("stribeck", "(2.7)", stribeck()),
-        Named::new("decreasing", "(2.8)", decreasing()),
-        Named::new("coulomb", "chosen: μ_s = μ", coulomb(0.3, 0.3)),
-        Named::new(
+        NamedModel::new("stribeck", "(2.7)", stribeck()),
+        NamedModel::new("decreasing", "(2.8)", decreasing()),
+        NamedModel::new("coulomb", "chosen: μ_s = μ", coulomb(0.3, 0.3)),
+        NamedModel::new(
             "coulomb with a static level",
             "chosen: a viscous part and μ_s > μ",
             build(LawKind::Coulomb, &[MINIMUM, STATIC, 0.05]),
         ),
-        Named::new("stribeck-exponential", "chosen: exponent 2", stribeck_exponential()),
-        Named::new("expression", "chosen: μ_s > μ(0⁺)", jumping_formula()),
-        Named::new("samples", "chosen: (2.8) sampled, μ_s > μ(0⁺)", samples()),
+        NamedModel::new("stribeck-exponential", "chosen: exponent 2", stribeck_exponential()),
+        NamedModel::new("expression", "chosen: μ_s > μ(0⁺)", jumping_formula()),
+        NamedModel::new("samples", "chosen: (2.8) sampled, μ_s > μ(0⁺)", samples()),
     ]
 }
 

@@ -1,4 +1,4 @@
-//! Named models for the tests of Quell, each with its source.
+//! NamedModel models for the tests of Quell, each with its source.
 //!
 //! * [`law`]: friction laws;
 //! * [`dither`]: dither forces;
@@ -18,7 +18,7 @@ pub use disc::{DiscExt, all_discs};
 
 /// A model with its name and its source.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Named<M> {
+pub struct NamedModel<M> {
     /// Name in messages, unique within a list.
     pub name: String,
     /// Figure or equation of the dissertation, or "chosen" with the reason.
@@ -27,7 +27,7 @@ pub struct Named<M> {
     pub model: M,
 }
 
-impl<M> Named<M> {
+impl<M> NamedModel<M> {
     /// A model under a name.
     pub fn new(name: impl Into<String>, source: &'static str, model: M) -> Self {
         Self { name: name.into(), source, model }
@@ -38,7 +38,7 @@ impl<M> Named<M> {
 mod tests {
     use super::*;
 
-    fn assert_unique<M>(models: &[Named<M>]) {
+    fn assert_unique<M>(models: &[NamedModel<M>]) {
         for (index, model) in models.iter().enumerate() {
             assert!(!model.source.is_empty(), "{}", model.name);
             assert!(models[..index].iter().all(|other| other.name != model.name), "{}", model.name);

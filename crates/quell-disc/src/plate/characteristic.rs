@@ -11,7 +11,7 @@
 //! ∇² multiplies J, Y by −k² and I, K by k², so no second or third derivative is needed. The determinant in that form has entries
 //! between 10⁻²⁴ and 10²⁴ at n = 20, b/a = 0.05. Here I and K are the scaled functions of `quell_numerics::bessel` with the
 //! exponents shifted to e^{k(r−1)} and e^{−k(r−b)}, each condition is divided by k^(its order), and every column by its largest
-//! entry. Wave numbers then agree with 40-digit arithmetic to a few units of rounding. Elimination with complete pivoting gives
+//! entry. TravellingWave numbers then agree with 40-digit arithmetic to a few units of rounding. Elimination with complete pivoting gives
 //! the determinant and, at a root, the null vector.
 //!
 //! Limitation: for b/a → 0 the columns of Y and K become parallel at the clamp (both ∝ r⁻ⁿ). This costs up to four digits of

@@ -17,7 +17,7 @@ use quell_numerics::roots::{Closeness, minimise, quadratic};
 use super::meetings::MeetingFamily;
 use super::pair::DetuningBand;
 use super::tongue::{Resonance, Tongue};
-use super::wave::Wave;
+use super::wave::TravellingWave;
 use super::waves::{Order, Waves};
 use quell_model::disc::DiscDither;
 
@@ -40,7 +40,7 @@ pub struct Blocked {
     /// Highest frequency R.
     pub to: f64,
     /// The two waves.
-    pub waves: [Wave; 2],
+    pub waves: [TravellingWave; 2],
     /// Whether the second wave couples through its conjugate.
     pub sum: bool,
 }
@@ -55,7 +55,7 @@ pub enum ClearanceError {
     /// This wave grows by itself in the range of speeds, so no dither frequency clears the range.
     WaveUnstable {
         /// The wave.
-        wave: Wave,
+        wave: TravellingWave,
         /// A speed at which it is undamped or grows.
         speed: f64,
     },

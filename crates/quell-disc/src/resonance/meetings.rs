@@ -6,13 +6,13 @@
 
 use core::ops::RangeInclusive;
 
-use super::wave::{SignedWave, Wave};
+use super::wave::{SignedWave, TravellingWave};
 use super::waves::{COINCIDENCE, Waves};
 
 /// A meeting of two waves at a speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct WaveMeeting {
-    pub(super) waves: [Wave; 2],
+    pub(super) waves: [TravellingWave; 2],
     pub(super) conjugate: bool,
     pub(super) h: i32,
     pub(super) speed: f64,
@@ -21,7 +21,7 @@ pub(super) struct WaveMeeting {
 /// The meetings of a pair of waves at a harmonic of the dither, with the speed as a function of R: Ω = (offset + hR)/slope.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct MeetingFamily {
-    pub(super) waves: [Wave; 2],
+    pub(super) waves: [TravellingWave; 2],
     pub(super) conjugate: bool,
     pub(super) h: i32,
     /// σβ₂ − β₁.
@@ -44,7 +44,7 @@ impl WaveMeeting {
     }
 }
 
-fn signed(waves: &[Wave; 2], conjugate: bool) -> [SignedWave; 2] {
+fn signed(waves: &[TravellingWave; 2], conjugate: bool) -> [SignedWave; 2] {
     [SignedWave::new(&waves[0], false), SignedWave::new(&waves[1], conjugate)]
 }
 

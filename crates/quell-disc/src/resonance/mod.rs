@@ -39,5 +39,5 @@ mod tests;
 pub use clear::{Blocked, Clearance, ClearanceError, Nearby, clear_frequencies, within};
 pub use tongue::{Coupling, Resonance, Tongue};
 pub use verified::{Verified, verified_frequency};
-pub use wave::{Wave, WaveDirection};
+pub use wave::{TravellingWave, WaveDirection};
 pub use waves::{Order, WaveError, Waves};

@@ -4,7 +4,7 @@ use core::ops::RangeInclusive;
 
 use super::meetings::{MeetingFamily, WaveMeeting};
 use super::pair::{DetuningBand, WavePair};
-use super::wave::Wave;
+use super::wave::TravellingWave;
 use super::waves::{Order, Waves};
 
 /// Effect of the meeting of two waves on their stability, at the order of the expansion.
@@ -78,7 +78,7 @@ pub struct Resonance {
     /// Speed Ω of the load in ω_ref at which the free waves meet.
     pub speed: f64,
     /// The two waves.
-    pub waves: [Wave; 2],
+    pub waves: [TravellingWave; 2],
     /// Whether the second wave couples through its conjugate: a sum of frequencies, not a difference.
     pub sum: bool,
     /// Harmonic h of the dither, w₁ = w₂ + hR; 0 without dither.

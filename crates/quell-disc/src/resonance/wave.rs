@@ -13,7 +13,7 @@ pub enum WaveDirection {
 
 /// One wave of a mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Wave {
+pub struct TravellingWave {
     /// Index of the mode in the list of modes.
     pub mode: usize,
     /// Radial number of the mode among those with the same number of nodal diameters, in order of frequency, from 1.
@@ -24,7 +24,7 @@ pub struct Wave {
     pub direction: WaveDirection,
 }
 
-impl core::fmt::Display for Wave {
+impl core::fmt::Display for TravellingWave {
     /// "forward (1,2)": direction, radial number, nodal diameters.
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let direction = match self.direction {
@@ -36,7 +36,7 @@ impl core::fmt::Display for Wave {
     }
 }
 
-impl Wave {
+impl TravellingWave {
     /// Signed number of diameters: −q forward, q backward; frequency β + sΩ in the load's frame.
     #[must_use]
     pub fn signed_diameters(&self) -> f64 {
@@ -59,7 +59,7 @@ pub(super) struct SignedWave {
 }
 
 impl SignedWave {
-    pub(super) fn new(wave: &Wave, conjugate: bool) -> Self {
+    pub(super) fn new(wave: &TravellingWave, conjugate: bool) -> Self {
         let sigma = if conjugate { -1.0 } else { 1.0 };
         Self { mode: wave.mode, l: sigma * wave.signed_diameters(), sigma }
     }

@@ -16,7 +16,7 @@
 
 use num_complex::Complex64;
 
-use super::wave::{SignedWave, Wave, WaveDirection};
+use super::wave::{SignedWave, TravellingWave, WaveDirection};
 use quell_model::disc::{Disc, DiscDither};
 use quell_model::disc::{Load, Mode};
 
@@ -33,7 +33,7 @@ pub enum Order {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Waves {
     pub(super) modes: Vec<Mode>,
-    pub(super) list: Vec<Wave>,
+    pub(super) list: Vec<TravellingWave>,
     pub(super) load: Load,
     pub(super) dither: DiscDither,
     pub(super) order: Order,
@@ -137,13 +137,13 @@ impl Waves {
 
     /// All waves, without conjugates.
     #[must_use]
-    pub fn waves(&self) -> &[Wave] {
+    pub fn waves(&self) -> &[TravellingWave] {
         &self.list
     }
 
     /// Growth rate of one wave away from every resonance: −(g²/2β)[c(β + sΩ) − s f₀] − ξβ at first order.
     #[must_use]
-    pub fn growth_rate(&self, wave: &Wave, speed: f64) -> f64 {
+    pub fn growth_rate(&self, wave: &TravellingWave, speed: f64) -> f64 {
         self.self_term(&SignedWave::new(wave, false), speed, &[]).re
     }
 
@@ -262,7 +262,7 @@ impl Waves {
 }
 
 /// Waves of the modes, in the order of the modes.
-fn list(modes: &[Mode]) -> Vec<Wave> {
+fn list(modes: &[Mode]) -> Vec<TravellingWave> {
     let mut waves = Vec::with_capacity(2 * modes.len());
     for (index, mode) in modes.iter().enumerate() {
         let lower = |other: &(usize, &Mode)| {
@@ -277,7 +277,7 @@ fn list(modes: &[Mode]) -> Vec<Wave> {
         };
         for direction in directions {
             let diameters = mode.diameters;
-            waves.push(Wave { mode: index, radial, diameters, direction: *direction });
+            waves.push(TravellingWave { mode: index, radial, diameters, direction: *direction });
         }
     }
     waves

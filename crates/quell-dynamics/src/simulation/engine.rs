@@ -21,7 +21,7 @@ use super::forcing::{Forcing, ForcingShape};
 use super::observer::{Observer, Segment};
 use super::release::Release;
 use super::run::SimulationRun;
-use super::run_state::{Contact, PATIENCE, RunState};
+use super::run_state::{ContactState, PATIENCE, RunState};
 use super::slip_step::{Next, SlipDue, SlipTaken, StepRoot};
 use super::state::{FinalState, Stalled};
 use super::step_budget::StepBudget;
@@ -127,10 +127,10 @@ impl<'a> Engine<'a> {
         }
         while self.state.clock.until(self.until) > 0.0 {
             match self.state.contact {
-                Contact::Slip { sign, zeros } => {
+                ContactState::Slip { sign, zeros } => {
                     return Next::Slip(SlipDue { sign, zeros, stop: self.next_stop() });
                 }
-                Contact::Stick { held } => {
+                ContactState::Stick { held } => {
                     let before = self.state.clock;
                     self.stick_interval(held);
                     if let Err(stalled) = self.check_progress(before) {
@@ -180,7 +180,7 @@ impl<'a> Engine<'a> {
             time: self.state.clock.time(),
             displacement: self.unit * self.state.displacement,
             velocity: self.belt_velocity - self.unit * self.state.slip,
-            sticking: matches!(self.state.contact, Contact::Stick { .. }),
+            sticking: matches!(self.state.contact, ContactState::Stick { .. }),
             slip_sign: self.state.slip_sign(),
             events: self.state.events,
             steps: self.state.steps,
@@ -226,7 +226,7 @@ impl<'a> Engine<'a> {
         if zeros > 0 && taken.slip.coefficient(zeros) * sign <= 0.0 {
             // The zero is of higher order than its cause allows: rounding at a grazing contact. The
             // slip that was requested has no length.
-            self.state.contact = Contact::Stick { held: true };
+            self.state.contact = ContactState::Stick { held: true };
             self.report(EventKind::Stick);
             return self.check_progress(before);
         }
@@ -255,7 +255,7 @@ impl<'a> Engine<'a> {
         }
         self.state.displacement = displacement;
         self.state.slip = if root.is_some() { 0.0 } else { taken.end.1 };
-        self.state.contact = Contact::Slip { sign, zeros: 0 };
+        self.state.contact = ContactState::Slip { sign, zeros: 0 };
         self.advance(duration, reaches_stop, stop);
         if root.is_some() {
             self.arrive(sign);
@@ -283,7 +283,7 @@ impl<'a> Engine<'a> {
         if held {
             let rate = self.tangential.highest_rate().max(self.normal.highest_rate());
             self.stay(room.min(HOLD / rate.max(1.0)), stop, room);
-            self.state.contact = Contact::Stick { held: false };
+            self.state.contact = ContactState::Stick { held: false };
             return;
         }
         if let Some(release) = &self.release {

@@ -12,7 +12,7 @@ pub(super) const PATIENCE: u32 = 4;
 
 /// State of the contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Contact {
+pub(super) enum ContactState {
     /// Moving with the belt; `held` after a grazing contact.
     Stick { held: bool },
     /// Slipping with this sign. `zeros` is the multiplicity of the zero of v_r at the start
@@ -31,7 +31,7 @@ pub(super) struct RunState {
     /// w.
     pub(super) slip: f64,
     /// What the contact does from here on.
-    pub(super) contact: Contact,
+    pub(super) contact: ContactState,
     /// Whether the last event was a kink or a jump of the dither.
     pub(super) at_break: bool,
     /// Number of changes since time last advanced.
@@ -51,7 +51,7 @@ impl RunState {
             clock,
             displacement,
             slip,
-            contact: Contact::Slip { sign: 1f64.copysign(slip), zeros: 0 },
+            contact: ContactState::Slip { sign: 1f64.copysign(slip), zeros: 0 },
             at_break: false,
             idle: 0,
             events: 0,
@@ -64,9 +64,9 @@ impl RunState {
     #[inline(always)]
     pub(super) fn slip_sign(&self) -> i8 {
         match self.contact {
-            Contact::Stick { .. } => 0,
-            Contact::Slip { sign, .. } if sign > 0.0 => 1,
-            Contact::Slip { .. } => -1,
+            ContactState::Stick { .. } => 0,
+            ContactState::Slip { sign, .. } if sign > 0.0 => 1,
+            ContactState::Slip { .. } => -1,
         }
     }
 
@@ -79,7 +79,7 @@ impl RunState {
             self.idle = 0;
             self.clock = clock;
             (self.displacement, self.slip) = state;
-            self.contact = Contact::Slip { sign, zeros: 0 };
+            self.contact = ContactState::Slip { sign, zeros: 0 };
         }
     }
 }

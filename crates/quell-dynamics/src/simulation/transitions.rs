@@ -2,7 +2,7 @@
 
 use super::engine::Engine;
 use super::event::{Event, EventKind};
-use super::run_state::{Contact, PATIENCE};
+use super::run_state::{ContactState, PATIENCE};
 
 /// Rate of |f_s| − μ_s N, relative to its scale, below which a release counts as nearly
 /// tangential.
@@ -11,14 +11,14 @@ const NEARLY_TANGENTIAL: f64 = 1e-6;
 impl Engine<'_> {
     /// The contact after v_r = 0, decided by f_s alone.
     #[inline(always)]
-    pub(super) fn decided(&self) -> Contact {
+    pub(super) fn decided(&self) -> ContactState {
         let force =
             self.stiction.force(self.state.displacement, self.tangential.value(self.state.clock));
         let limit = self.stiction.static_coefficient * self.normal.value(self.state.clock);
         if force.abs() <= limit || self.state.idle >= PATIENCE {
-            Contact::Stick { held: self.state.idle >= PATIENCE }
+            ContactState::Stick { held: self.state.idle >= PATIENCE }
         } else {
-            Contact::Slip { sign: 1f64.copysign(force), zeros: 1 }
+            ContactState::Slip { sign: 1f64.copysign(force), zeros: 1 }
         }
     }
 
@@ -27,10 +27,12 @@ impl Engine<'_> {
     pub(super) fn arrive(&mut self, sign: f64) {
         self.state.contact = self.decided();
         match self.state.contact {
-            Contact::Stick { .. } => self.report(EventKind::Stick),
-            Contact::Slip { sign: after, .. } if after != sign => self.report(EventKind::Reversal),
+            ContactState::Stick { .. } => self.report(EventKind::Stick),
+            ContactState::Slip { sign: after, .. } if after != sign => {
+                self.report(EventKind::Reversal)
+            }
             // Grazing: v_r touches 0 and returns to the same side, without an event.
-            Contact::Slip { .. } => {}
+            ContactState::Slip { .. } => {}
         }
     }
 
@@ -44,11 +46,11 @@ impl Engine<'_> {
             self.state.near_tangential_releases += 1;
         }
         if !jumped && rate <= 0.0 {
-            self.state.contact = Contact::Stick { held: true };
+            self.state.contact = ContactState::Stick { held: true };
             return;
         }
         let zeros = if jumped || !self.smooth_release { 1 } else { 2 };
-        self.state.contact = Contact::Slip { sign, zeros };
+        self.state.contact = ContactState::Slip { sign, zeros };
         self.report(EventKind::Release);
     }
 

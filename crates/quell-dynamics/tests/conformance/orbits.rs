@@ -4,10 +4,10 @@ use quell_dynamics::orbit::cycle::cycles;
 use quell_dynamics::orbit::{Orbit, OrbitVerdict, from_sliding};
 use quell_dynamics::simulation::{EventKind, Start, simulate};
 use quell_model::Belt;
-use quell_zoo::{BeltExt, Named, all_belts};
+use quell_zoo::{BeltExt, NamedModel, all_belts};
 
 /// The base responses of all dithered belts: each has one.
-fn base_responses() -> Vec<(Named<Belt>, Orbit)> {
+fn base_responses() -> Vec<(NamedModel<Belt>, Orbit)> {
     let dithered = all_belts().into_iter().filter(|named| !named.model.dithers().is_empty());
     dithered
         .map(|named| {

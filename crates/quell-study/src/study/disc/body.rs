@@ -57,7 +57,7 @@ impl Body {
         let loads = pads
             .into_iter()
             .zip(shapes)
-            .map(|(Pad { load, .. }, shapes)| Load { shapes, ..load })
+            .map(|(Pad { load, radius, .. }, shapes)| Load { shapes, radius_ratio: radius, ..load })
             .collect();
         let material = material.map(|(material, _)| material);
         Some(Self { source, material, modes, loads, radii, speed, parts, warnings })

@@ -1,0 +1,45 @@
+//! From which amplitude on does the dither quench, exactly, and from rest?
+//!
+//! `cargo run --release --package quell --example thresholds`
+
+use quell::outcome::{Answered, Outcome};
+use quell::run::protocol::Protocol;
+use quell::run::thresholds::{self, ThresholdsRequest};
+use quell::{Failure, Study};
+
+/// A Stribeck belt; the amplitude of its dither is varied.
+const STUDY: &str = r#"
+[belt]
+damping_ratio = 0.005
+normal_load = 1.0
+belt_velocity = 0.05
+[friction]
+law = "stribeck"
+static_coefficient = 0.4
+minimum_coefficient = 0.2857
+reference_velocity = 0.2
+[dither]
+direction = "tangential"
+waveform = "sine"
+amplitude = 0.5
+frequency_ratio = 10.0
+"#;
+
+/// Answers the question.
+///
+/// # Errors
+/// An invalid study; a response that cannot be followed.
+pub(crate) fn main() -> Result<(), Failure> {
+    let study = Study::parse(STUDY, &[])?.belt()?;
+    let request = ThresholdsRequest {
+        parameter: "dither.amplitude".to_owned(),
+        from: 0.4,
+        to: 0.6,
+        protocols: vec![Protocol::Rest],
+        ..ThresholdsRequest::default()
+    };
+    let found = thresholds::run(&study, request)?;
+    assert!((found.local.thresholds[0].value - 0.4965619).abs() < 1e-7);
+    println!("{}", Answered::new(&study, found).text());
+    Ok(())
+}
