@@ -42,20 +42,20 @@ const fn layer(
 /// Every crate, present or planned, from the bottom up. A crate that is not listed fails the check.
 #[rustfmt::skip]
 pub(crate) const LAYERS: &[CrateLayer] = &[
-    layer("quell-numerics", NOTHING,     "mathematics knows no physics: it serves belts, discs and what will come"),
-    layer("quell-model",    MATHEMATICS, "nouns are valid values: they know no engine that works on them"),
+    layer("quell-numerics", NOTHING,     "mathematics without physics: it serves every structure"),
+    layer("quell-model",    MATHEMATICS, "validated values, independent of the engines that use them"),
     layer("quell-zoo",      NOUNS,       "named models for tests, no part of the product: they know no engine that they test"),
     layer("quell-linear",   NOUNS_AND_ZOO, "linear questions about steady sliding: no trajectory is computed here"),
     layer("quell-dynamics", LINEAR_AND_ZOO, "motion, its orbits and attractors: no file, no thread and no particular kind of structure"),
     layer("quell-disc",     LINEAR_AND_ZOO, "what only a disc has; its motion is that of any structure"),
-    layer("quell-plot",     NOTHING,     "a figure is data with a renderer: it knows no physics and no study"),
-    layer("quell-study",    PHYSICS,     "a study is read and checked here, and computed elsewhere"),
-    layer("quell",          ENGINES_AND_STUDIES, "the front door runs the physics; it does not know who knocks"),
-    layer("quell-reproduce", CLIENT,     "the dissertation is a client of the front door; only doors use it"),
-    layer("quell-cli",      FRONT_DOOR,  "a door parses and shows: no physics, and no other door"),
-    layer("quell-python",   FRONT_DOOR,  "a door parses and shows: no physics, and no other door"),
-    layer("quell-explorer", FRONT_DOOR,  "a door parses and shows: no physics, and no other door"),
-    layer("xtask",          NOTHING,     "chores must run while the product does not compile"),
+    layer("quell-plot",     NOTHING,     "a figure is data plus a renderer, independent of physics and studies"),
+    layer("quell-study",    PHYSICS,     "reads and checks studies; computes nothing"),
+    layer("quell",          ENGINES_AND_STUDIES, "runs the physics, independent of its clients"),
+    layer("quell-reproduce", CLIENT,     "the dissertation is a client of `quell`; only user interfaces use it"),
+    layer("quell-cli",      FRONT_DOOR,  "a user interface parses and displays: no physics, no other interface"),
+    layer("quell-python",   FRONT_DOOR,  "a user interface parses and displays: no physics, no other interface"),
+    layer("quell-explorer", FRONT_DOOR,  "a user interface parses and displays: no physics, no other interface"),
+    layer("xtask",          NOTHING,     "development commands must run while the product does not compile"),
 ];
 
 /// An external dependency that is confined to a few crates.
