@@ -34,3 +34,6 @@ pub use parametrisation::Parametrisation;
 pub use profile::Profile;
 pub use system::{Contact, Input, Structure, System};
 pub use waveform::Waveform;
+
+/// The parameters of every kind of system, kind by kind: study files, `--set` and the schema are made of them.
+pub const PARAMETERS: &[&[parameter::Parameter]] = &[parameter::BELT, parameter::disc::DISC];

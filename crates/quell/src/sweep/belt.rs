@@ -11,17 +11,17 @@ use super::grid::Grid;
 use super::kind::{Mapped, Point};
 use super::quantity::{Quantity, VERDICTS, Variable, VariableKind, variable};
 use super::status::Status;
-use crate::study::{BeltStudy, Study};
+use crate::study::BeltStudy;
 
 /// Name of the kind.
 pub(super) const KIND: &str = "belt";
 
 /// A study of a belt as a map sees it.
-pub(super) struct BeltPoints(Option<BeltStudy>);
+pub(super) struct BeltPoints(BeltStudy);
 
 impl BeltPoints {
-    pub(super) fn of(study: &Study) -> Self {
-        Self(study.belt().ok())
+    pub(super) fn of(study: BeltStudy) -> Self {
+        Self(study)
     }
 }
 
@@ -31,7 +31,7 @@ impl Mapped for BeltPoints {
     }
 
     fn seconds(&self, wanted: &[Computation]) -> f64 {
-        self.0.as_ref().map_or(0.0, |study| cost::of_belt(study, wanted))
+        cost::of_belt(&self.0, wanted)
     }
 
     fn compute(

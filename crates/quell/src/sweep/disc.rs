@@ -20,17 +20,17 @@ use super::kind::{Mapped, Point};
 use super::quantity::{Quantity, VERDICTS, Variable, VariableKind, variable};
 use super::status::Status;
 use super::{cost, refine};
-use crate::study::{DiscStudy, Study, Sweep};
+use crate::study::{DiscStudy, Sweep};
 
 /// Name of the kind.
 const KIND: &str = "disc";
 
 /// A study of a disc as a map sees it.
-pub(super) struct DiscPoints(Option<DiscStudy>);
+pub(super) struct DiscPoints(DiscStudy);
 
 impl DiscPoints {
-    pub(super) fn of(study: &Study) -> Self {
-        Self(study.disc().ok())
+    pub(super) fn of(study: DiscStudy) -> Self {
+        Self(study)
     }
 }
 
@@ -40,14 +40,11 @@ impl Mapped for DiscPoints {
     }
 
     fn values(&self, sweep: &Sweep) -> Vec<f64> {
-        match &self.0 {
-            Some(study) => refine::values(study, sweep),
-            None => sweep.axis.values().collect(),
-        }
+        refine::values(&self.0, sweep)
     }
 
     fn seconds(&self, wanted: &[Computation]) -> f64 {
-        self.0.as_ref().map_or(0.0, |study| cost::of_disc(study, wanted))
+        cost::of_disc(&self.0, wanted)
     }
 
     fn compute(
@@ -56,7 +53,7 @@ impl Mapped for DiscPoints {
         indices: &[usize],
         wanted: &[Computation],
     ) -> Vec<Option<Point>> {
-        let Some(study) = &self.0 else { return indices.iter().map(|_| None).collect() };
+        let study = &self.0;
         let discs: Vec<Option<Disc>> =
             indices.iter().map(|index| study.disc_at(&grid.numbers_at(*index))).collect();
         let found = evaluate(&discs, study.parts(), wanted);

@@ -7,7 +7,7 @@ use super::disc::DiscPoints;
 use super::evaluate::{Computation, Results};
 use super::grid::Grid;
 use super::quantity::Quantity;
-use crate::study::{Kind, Study, Sweep};
+use crate::study::{Study, Sweep};
 
 /// What was computed at a point, with the scales of its study.
 pub(super) type Point = (Option<Scales>, Results);
@@ -30,10 +30,28 @@ pub(crate) trait Mapped: Send + Sync {
     -> Vec<Option<Point>>;
 }
 
+/// A study of a kind that has no maps.
+struct Unmapped;
+
+impl Mapped for Unmapped {
+    fn quantities(&self) -> &'static [Quantity] {
+        &[]
+    }
+
+    fn seconds(&self, _: &[Computation]) -> f64 {
+        0.0
+    }
+
+    fn compute(&self, _: &Grid, indices: &[usize], _: &[Computation]) -> Vec<Option<Point>> {
+        indices.iter().map(|_| None).collect()
+    }
+}
+
 /// The kind of a study as a map sees it.
 pub(crate) fn of(study: &Study) -> Box<dyn Mapped> {
-    match study.kind() {
-        Kind::Belt(_) => Box::new(BeltPoints::of(study)),
-        Kind::Disc(_) => Box::new(DiscPoints::of(study)),
+    match (study.belt(), study.disc()) {
+        (Ok(study), _) => Box::new(BeltPoints::of(study)),
+        (_, Ok(study)) => Box::new(DiscPoints::of(study)),
+        _ => Box::new(Unmapped),
     }
 }

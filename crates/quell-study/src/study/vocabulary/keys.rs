@@ -42,10 +42,13 @@ fn numbers() -> Vec<Key> {
         about: scale.about,
     });
     let mut keys: Vec<Key> = scales.collect();
-    let mut parameters = parameter::BELT.to_vec();
-    // The disc's dither has the keys of the belt's.
-    let own = |parameter: &&Parameter| parameter.table() == "disc";
-    parameters.extend(parameter::disc::DISC.iter().filter(own));
+    // Kinds may share keys (the dither of a disc has those of a belt): the first kind defines them.
+    let mut parameters: Vec<Parameter> = Vec::new();
+    for parameter in quell_model::PARAMETERS.iter().copied().flatten() {
+        if !parameters.iter().any(|known| known.path == parameter.path) {
+            parameters.push(*parameter);
+        }
+    }
     let of_laws = LawKind::ALL.iter().flat_map(|law| law.parameters().iter().chain(law.options()));
     // The key of a coefficient also takes formulas and samples.
     for parameter in of_laws.filter(|parameter| parameter.path != COEFFICIENT.path) {
