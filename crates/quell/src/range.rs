@@ -75,7 +75,8 @@ impl SlipMet {
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let Some((speed, range)) = self.worst else { return Vec::new() };
         let others = if self.runs > 1 {
-            format!(" ({} of {} runs leave it)", self.beyond, self.runs)
+            let leave = if self.beyond == 1 { "leaves" } else { "leave" };
+            format!(" ({} of {} runs {leave} it)", self.beyond, self.runs)
         } else {
             String::new()
         };
@@ -128,9 +129,9 @@ pub(crate) fn averaged_at(study: &BeltStudy, slip: f64) -> Vec<String> {
     let (together, fast) = (with_dither(belt, slip), belt.fast_velocity());
     if together > range.upper {
         let what = match (fast > 0.0, slip == belt.belt_velocity()) {
-            (true, true) => "slip reaches, by belt and dither together,".to_owned(),
-            (true, false) => "slip and dither together reach".to_owned(),
-            (false, true) => "slip reaches, by the belt alone,".to_owned(),
+            (true, true) => "slip including dither reaches".to_owned(),
+            (true, false) => "slip including dither reaches".to_owned(),
+            (false, true) => "slip without dither reaches".to_owned(),
             (false, false) => "slip reaches".to_owned(),
         };
         warnings.push(sentence(study, &range, &what, together));
@@ -146,7 +147,7 @@ pub(crate) fn averaged_at(study: &BeltStudy, slip: f64) -> Vec<String> {
 pub(crate) fn sentence(study: &BeltStudy, range: &SlipRange, what: &str, speed: f64) -> String {
     let words = |speed: f64| in_words(study, Quantity::Velocity, speed);
     format!(
-        "{what} {}, outside the range of the {} law, {} to {} ({}): numbers from there are an extrapolation",
+        "{what} {}, outside the range of the {} law, {} to {} ({}): numbers from there are extrapolated",
         words(speed),
         study.belt().friction().kind().name(),
         words(range.lower),

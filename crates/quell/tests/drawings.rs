@@ -141,7 +141,7 @@ fn an_orbit_closes_and_its_multipliers_are_drawn() {
     let quiet = belt("does-it-squeal.toml", &["belt.belt_velocity=9"]);
     let found = orbit::run(&quiet, Wanted::default()).expect("sliding");
     let refused = periodic_response(&quiet, &found).expect_err("no orbit").to_string();
-    assert!(refused.contains("no limit cycle was found"), "{refused}");
+    assert!(refused.contains("No limit cycle was found"), "{refused}");
 }
 
 fn portraits(study: &BeltStudy, layout: Layout, over: Option<Range>) -> (Json, Figure) {

@@ -10,7 +10,7 @@ use super::orbit::refused;
 use crate::complaint::Failure;
 use crate::fields::Fields;
 use crate::study::BeltStudy;
-use crate::words::{digits, in_scales};
+use crate::words::{digits, in_scales, plural};
 
 /// The belt with its strobe and its quiet response.
 pub(super) fn scene(belt: &Belt) -> Result<AttractorSettings<'_>, Failure> {
@@ -29,22 +29,21 @@ pub fn words(scales: Option<Scales>, attractor: &Attractor, period: f64) -> Stri
             "steady sliding".to_owned()
         }
         (AttractorKind::Periodic { periods: 1, .. }, _) if attractor.base => {
-            "the base response, of the dither's period".to_owned()
+            "base response (period 1)".to_owned()
         }
-        (AttractorKind::Periodic { periods: 1, .. }, _) => {
-            "another response of the dither's period".to_owned()
-        }
+        (AttractorKind::Periodic { periods: 1, .. }, _) => "another period-1 response".to_owned(),
         (AttractorKind::Periodic { periods, .. }, Some(ratio)) => {
-            let turns = if ratio.turns == 1 { "turn" } else { "turns" };
-            let each = if ratio.periods == 1 { "period" } else { "periods" };
             let closed = if periods == ratio.periods {
                 String::new()
             } else {
-                format!(", closed after {periods}")
+                format!(", repeating after {periods}")
             };
             format!(
-                "locked: {} {turns} in {} {each}{closed}{frequency}",
-                ratio.turns, ratio.periods
+                "locked: {} slow cycle{} in {} period{}{closed}{frequency}",
+                ratio.turns,
+                plural(ratio.turns),
+                ratio.periods,
+                plural(ratio.periods)
             )
         }
         (kind, _) => format!("{}{frequency}", kind.words()),
@@ -53,7 +52,7 @@ pub fn words(scales: Option<Scales>, attractor: &Attractor, period: f64) -> Stri
 
 /// What is known of an attractor, added to an object.
 pub(super) fn put(fields: &mut Fields, attractor: &Attractor, period: f64) {
-    let not_turning = || "a response of one period does not turn".to_owned();
+    let not_turning = || "a period-1 response has no slow rotation".to_owned();
     let rotation = attractor.rotation;
     let (kind, periods, radius) = match attractor.kind {
         AttractorKind::Periodic { periods: 1, radius } => {
@@ -64,7 +63,8 @@ pub(super) fn put(fields: &mut Fields, attractor: &Attractor, period: f64) {
         }
         AttractorKind::Cycle => {
             let why = || {
-                "a cycle without dither has a period of its own, not one of the strobe".to_owned()
+                "an undithered limit cycle has its own period, not a multiple of the section's"
+                    .to_owned()
             };
             ("limit-cycle", Err(why()), Err(why()))
         }
@@ -73,7 +73,7 @@ pub(super) fn put(fields: &mut Fields, attractor: &Attractor, period: f64) {
             ("quasi-periodic", Err(why()), Err(why()))
         }
         AttractorKind::Rest => {
-            let why = || "at rest nothing repeats".to_owned();
+            let why = || "a mass at rest has no period".to_owned();
             ("rest", Err(why()), Err(why()))
         }
         AttractorKind::Unclassified => {
@@ -113,7 +113,7 @@ pub(super) fn put(fields: &mut Fields, attractor: &Attractor, period: f64) {
             fields.plain("locking", json!({ "turns": ratio.turns, "periods": ratio.periods }));
         }
         None => {
-            fields.unknown("locking", "it is not locked");
+            fields.unknown("locking", "the response is not locked");
         }
     }
 }
@@ -132,11 +132,14 @@ pub(super) fn put_section(fields: &mut Fields, attractor: &Attractor) {
 pub(in crate::run) fn unknown(why: &NoOrbit) -> String {
     match why {
         NoOrbit::Ends { share } => {
-            format!("the base response ends at {} of the dither's amplitude", digits(*share))
+            format!(
+                "the base response ends at {} % of the dither's amplitude",
+                digits(100.0 * share)
+            )
         }
         NoOrbit::LostOnTheWay { share } => format!(
-            "the base response could not be followed beyond {} of the dither's amplitude",
-            digits(*share)
+            "the base response could not be followed beyond {} % of the dither's amplitude",
+            digits(100.0 * share)
         ),
         why => format!("the base response was not found: {why}"),
     }

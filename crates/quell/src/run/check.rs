@@ -26,7 +26,7 @@ impl Check<'_> {
         fields.plain("ok", true);
         match study.title() {
             Some(title) => fields.plain("title", title),
-            None => fields.unknown("title", "the study gives none"),
+            None => fields.unknown("title", "the study has no title"),
         };
         fields.plain("system", if scales.is_some() { "si" } else { "dimensionless" });
         let mut inner = Fields::new(scales);

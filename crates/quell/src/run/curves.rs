@@ -17,6 +17,7 @@ use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::fields::Fields;
 use crate::range::SlipMet;
 use crate::study::BeltStudy;
+use crate::words::plural;
 
 /// Lines across the second parameter on which curves are met first.
 const LINES: u32 = 5;
@@ -70,7 +71,7 @@ fn understood(study: &BeltStudy, question: &CurvesRequest) -> Result<CurvesReque
     let parameter = Named::new(study, "--parameter", &question.parameter)?;
     let along = Named::new(study, "--along", &question.along)?;
     if parameter.is(&along) {
-        let allowed = "another parameter than the one whose thresholds are followed";
+        let allowed = "a parameter other than --parameter";
         return Err(Complaint::option("--along", question.along.as_str(), allowed).into());
     }
     let (from, to) = question.window;
@@ -191,12 +192,13 @@ impl Curves {
         let (parameter, along) = (path_in_words(study, parameter), path_in_words(study, along));
         match self.curves.len() {
             0 => format!(
-                "No threshold of {parameter} was met on {LINES} lines across {along} from {first} to {last}."
+                "No threshold of {parameter} was found on {LINES} lines across {along} from {first} to {last}."
             ),
             count => format!(
-                "{count} curve{} of thresholds of {parameter} along {along} from {first} to {last}, {} points.",
-                if count == 1 { "" } else { "s" },
-                self.points()
+                "Found {count} threshold curve{} of {parameter} along {along} from {first} to {last}, with {} point{} in total.",
+                plural(count),
+                self.points(),
+                plural(self.points())
             ),
         }
     }

@@ -111,7 +111,7 @@ fn of_own_law(study: &BeltStudy) -> Vec<(String, String)> {
 }
 
 fn error(fit: &Fit) -> String {
-    let pinned = if fit.pinned { ", held at the static level at v = 0" } else { "" };
+    let pinned = if fit.pinned { ", fixed to the static coefficient at v = 0" } else { "" };
     format!(
         "{:.2e} at most, {:.2e} rms, {:.2e} rms at left-out samples{pinned}",
         fit.largest_error, fit.rms_error, fit.left_out_error

@@ -67,7 +67,7 @@ fn moves(study: &BeltStudy, why: &str) -> Result<(), Failure> {
 
 /// What a stopped verb says.
 fn stopped(verb: &str) -> Failure {
-    Failure::Failed { key: verb.to_owned(), why: "stopped; nothing is kept".to_owned() }
+    Failure::Failed { key: verb.to_owned(), why: "stopped; no results were kept".to_owned() }
 }
 
 /// So many values at equal steps, both ends included and exact.

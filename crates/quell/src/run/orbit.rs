@@ -26,8 +26,7 @@ use crate::words::in_words;
 const STEPS: u32 = 8;
 
 /// What is said where a run from rest stands in for steady sliding.
-const FROM_REST_INSTEAD: &str =
-    "A run from rest reaches it; at v₀ = 0 there is no steady sliding to continue from.";
+const FROM_REST_INSTEAD: &str = "It was reached by a run from rest, because at v₀ = 0 there is no steady sliding to continue from.";
 
 /// Steps between the samples of a period.
 const SAMPLES: usize = 1200;
@@ -108,8 +107,7 @@ fn found(study: &BeltStudy, wanted: Wanted) -> Result<Response, Failure> {
         matches!(wanted, Wanted::OfSliding { .. }) && belt.belt_velocity() == 0.0;
     let found = match wanted {
         Wanted::OfSliding { periods } if from_rest_instead && periods > 1 => {
-            let allowed =
-                "1 at v₀ = 0 unless --near is given: a run from rest has its own number of periods";
+            let allowed = "1 at v₀ = 0 unless --near is given: the run from rest determines the number of periods";
             return Err(Complaint::option("--periods", periods, allowed).into());
         }
         Wanted::OfSliding { .. } if from_rest_instead => {
@@ -137,10 +135,10 @@ fn undithered(study: &BeltStudy, wanted: Wanted) -> Result<Response, Failure> {
     if let Wanted::OfSliding { periods } | Wanted::Near { periods, .. } = wanted
         && periods > 1
     {
-        let allowed = "1: without dither there are no periods of it to count";
+        let allowed = "1: without dither there is no dither period to count";
         return Err(Complaint::option("--periods", periods, allowed).into());
     }
-    let why = "on a belt at rest without dither the mass may stay anywhere inside the stick band, and nothing is periodic";
+    let why = "on an undithered belt at rest any position inside the stick band is an equilibrium, so no response is periodic";
     moves(study, why)?;
     let cycles = cycles(belt).map_err(refused)?;
     let orbit = match wanted {
@@ -165,7 +163,7 @@ impl Protocol {
     pub(super) fn start(self, study: &BeltStudy) -> Result<Start, Failure> {
         resolved(study, self.initial(), |why| {
             let key = "--from-squeal";
-            let allowed = format!("another start is needed: {why}");
+            let allowed = format!("choose another start: {why}");
             Complaint::new(Fault::Conflict, key, Origin::Argument(key), Json::Null, allowed)
         })
     }
@@ -226,14 +224,14 @@ pub(super) fn refused(why: NoOrbit) -> Failure {
 /// The orbit in one sentence.
 pub fn sentence(study: &BeltStudy, orbit: &Orbit) -> String {
     let verdict = match orbit.verdict() {
-        OrbitVerdict::Stable => "stable: small deviations die out",
-        OrbitVerdict::Unstable => "unstable: small deviations grow",
+        OrbitVerdict::Stable => "It is stable: small deviations die out.",
+        OrbitVerdict::Unstable => "It is unstable: small deviations grow.",
         OrbitVerdict::Undecided => {
-            "undecided: its largest multiplier has modulus 1 within its error"
+            "Its stability is undecided: the largest multiplier has modulus 1 within its error."
         }
     };
     let contact = match (orbit.count(EventKind::Stick), orbit.count(EventKind::Reversal)) {
-        (0, 0) if orbit.is_pure_slip() => "slides throughout and never touches v_r = 0".to_owned(),
+        (0, 0) if orbit.is_pure_slip() => "slides throughout, without grazing v_r = 0".to_owned(),
         (0, 0) => "sticks throughout".to_owned(),
         (0, reversals) => format!("reverses {} per period and never sticks", times(reversals)),
         (sticks, 0) => format!("sticks {} per period and never reverses", times(sticks)),
@@ -243,7 +241,7 @@ pub fn sentence(study: &BeltStudy, orbit: &Orbit) -> String {
     };
     let period = in_words(study, Quantity::Time, orbit.period);
     let what = if orbit.is_free { "The limit cycle without dither" } else { "The response" };
-    format!("{what} has period {period}. It {contact}. It is {verdict}.")
+    format!("{what} has period {period}. It {contact}. {verdict}")
 }
 
 /// How often, in words.
@@ -272,16 +270,14 @@ impl Response {
         let whether = match self.sliding {
             Some(OrbitVerdict::Stable) => "which is stable",
             Some(OrbitVerdict::Unstable) => "which is unstable",
-            Some(OrbitVerdict::Undecided) | None => "which is at its threshold",
+            Some(OrbitVerdict::Undecided) | None => "which is at its stability threshold",
         };
         let cycles = if self.cycles.is_empty() {
-            "and no limit cycle was found"
+            "No limit cycle was found."
         } else {
-            "next to the limit cycles"
+            "It coexists with the limit cycles."
         };
-        format!(
-            "Without dither the response is steady sliding at x = {place}, {whether}, {cycles}."
-        )
+        format!("Without dither the response is steady sliding at x = {place}, {whether}. {cycles}")
     }
 
     /// The periodic response over one period.
@@ -357,7 +353,7 @@ fn finite(error: f64) -> Result<f64, String> {
     if error.is_finite() {
         return Ok(error);
     }
-    Err("a multiplier is too near to 1 for the state to be known closely".to_owned())
+    Err("a multiplier is too close to 1 for the error of the state to be bounded".to_owned())
 }
 
 /// The orbit as JSON.

@@ -15,7 +15,7 @@ use crate::dataset::Dataset;
 use crate::fields::Fields;
 use crate::range::SlipMet;
 use crate::study::BeltStudy;
-use crate::words::{in_words, start_in_words};
+use crate::words::{capital, in_words, start_in_words};
 
 /// Levels beyond this are told as such: what is left is the engine's error and rounding.
 const MOST_DECIBELS: f64 = 120.0;
@@ -77,22 +77,22 @@ impl Steady {
         let from = start_in_words(study);
         if study.belt().dithers().iter().all(|dither| dither.amplitude == 0.0) {
             return match &response.efficiency {
-                Ok(_) => format!("Without dither, {from}, the belt keeps vibrating."),
-                Err(why) => format!("The study has no dither, and {why}."),
+                Ok(_) => format!("Without dither, started {from}, the belt keeps vibrating."),
+                Err(why) => format!("The study has no dither. {}.", capital(&why.to_string())),
             };
         }
         let residual = response.efficiency.map_or_else(
             |_| String::new(),
             |ratio| {
                 let level = self.level();
-                let told = |level: f64| {
+                let in_brackets = |level: f64| {
                     if level < -MOST_DECIBELS {
-                        format!(", below −{MOST_DECIBELS} dB")
+                        format!(" (below −{MOST_DECIBELS} dB)")
                     } else {
-                        format!(", {level:.1} dB")
+                        format!(" ({level:.1} dB)")
                     }
                 };
-                let level = level.map_or_else(String::new, told);
+                let level = level.map_or_else(String::new, in_brackets);
                 format!("the residual vibration E below {BAND_END} ω₀ is {}{level}", percent(ratio))
             },
         );
@@ -102,19 +102,19 @@ impl Steady {
             Effect::Reduces => format!("this dither reduces the vibration: {residual}"),
             Effect::Increases => format!("this dither increases the vibration: {residual}"),
             Effect::Causes => format!(
-                "this dither causes vibration: the belt is quiet without it, and vibrates with an amplitude of \
-                 {amplitude} below {BAND_END} ω₀ with it"
+                "this dither causes vibration: the belt is quiet without it, and with it vibrates below \
+                 {BAND_END} ω₀ with an amplitude of {amplitude}"
             ),
             Effect::Quiet => {
-                "the belt is quiet without this dither and with it: there is nothing to quench"
+                "the belt is quiet with and without this dither: there is nothing to quench"
                     .to_owned()
             }
             Effect::Unknown(why) => format!("the effect of this dither is unknown: {why}"),
         };
         let left = match (response.effect, response.ending) {
             (Effect::Quenches, RunEnding::Reached(Reached::Elsewhere)) => {
-                " A slow vibration of that size stays: `thresholds`, `basins` and `bifurcation` call this \
-                 response vibrating."
+                " A slow vibration of that size remains: `thresholds`, `basins` and `bifurcation` classify this \
+                 response as vibrating."
             }
             _ => "",
         };
@@ -128,17 +128,21 @@ impl Steady {
         let loss = self.friction_loss().ok().map(|loss| {
             let change = if loss < 0.0 { "raises" } else { "lowers" };
             format!(
-                "{change} the mean friction by {} of that of steady sliding",
+                "{change} the mean friction by {} relative to steady sliding",
                 percent(loss.abs())
             )
         });
         let power = response.dither_power.map(|power| {
-            let verb = if power < 0.0 { "returns to its actuator" } else { "takes" };
-            format!("{verb} a mean power of {}", in_words(study, Quantity::Power, power.abs()))
+            let size = in_words(study, Quantity::Power, power.abs());
+            if power < 0.0 {
+                format!("returns a mean power of {size} to its actuator")
+            } else {
+                format!("consumes a mean power of {size}")
+            }
         });
         let stroke = response.dither_stroke.map(|stroke| {
             let stroke = in_words(study, Quantity::Displacement, stroke);
-            format!("needs a stroke of {stroke} peak to peak")
+            format!("needs a peak-to-peak stroke of {stroke}")
         });
         let parts: Vec<String> = [loss, power, stroke].into_iter().flatten().collect();
         match parts.as_slice() {
@@ -185,14 +189,15 @@ impl Steady {
             let resolved = in_words(study, Quantity::FrequencyRatio, resolved);
             let unit = if study.scales().is_some() { "" } else { " ω₀" };
             let why = format!(
-                "the band is narrower than {resolved}{unit}, what the record resolves; raise solver.record_periods"
+                "the band is narrower than the resolution of the record, {resolved}{unit}; raise solver.record_periods"
             );
             return Some(InBand { band, values: Err(why) });
         }
         let values = both.ok_or_else(|| {
             let last = self.response.record.spectrum.frequencies().last().unwrap_or_default();
             let last = in_words(study, Quantity::FrequencyRatio, last);
-            format!("the record has no frequencies above {last}")
+            let unit = if study.scales().is_some() { "" } else { " ω₀" };
+            format!("the record has no frequencies above {last}{unit}")
         });
         Some(InBand { band, values })
     }
@@ -200,7 +205,8 @@ impl Steady {
     /// The levels in the band, null without one.
     fn put_band(&self, study: &BeltStudy, fields: &mut Fields) {
         let band = self.in_band(study);
-        let band = band.as_ref().ok_or_else(|| "the study names no band of frequencies".to_owned());
+        let band =
+            band.as_ref().ok_or_else(|| "the study does not define a frequency band".to_owned());
         let end = |place: usize| band.clone().map(|band| band.band[place]);
         fields.known("band_from", Quantity::FrequencyRatio, end(0)).known(
             "band_to",
@@ -228,21 +234,21 @@ impl Steady {
         let levels = values.and_then(|(with, without)| {
             Ok([level(with[0], without[0])?, level(with[1], without[1])?])
         });
-        let told = match levels {
+        let change = match levels {
             Ok([displacement, velocity]) => {
                 let change = |level: f64| {
                     let way = if level > 0.0 { "rises" } else { "falls" };
                     format!("{way} by {}", decibels(level.abs()))
                 };
                 format!(
-                    "the level of the displacement {}, that of the velocity {}",
+                    "the displacement level {} and the velocity level {}",
                     change(displacement),
                     change(velocity)
                 )
             }
-            Err(why) => format!("there is no level: {why}"),
+            Err(why) => format!("the level is undefined: {why}"),
         };
-        format!(" From {low}{unit} to {high}{unit} {told}.")
+        format!(" From {low}{unit} to {high}{unit} {change}.")
     }
 
     /// What a reader of the numbers should know.
@@ -292,7 +298,7 @@ impl Steady {
         });
         fields.list("peaks", peaks);
         let only_normal = || {
-            "all dither is normal: the model has no normal motion on which it could work".to_owned()
+            "all dither is normal, and the model has no motion in the normal direction".to_owned()
         };
         fields
             .number("stick_fraction", Quantity::Ratio, response.stick_fraction)
@@ -305,7 +311,7 @@ impl Steady {
                 "level_db",
                 Quantity::Ratio,
                 self.level().ok_or_else(|| match response.efficiency {
-                    Ok(_) => "E is zero".to_owned(),
+                    Ok(_) => "E is zero, which has no level in decibels".to_owned(),
                     Err(why) => why.to_string(),
                 }),
             )
@@ -373,7 +379,7 @@ impl Steady {
         let (with, without) =
             (&self.response.record.spectrum, &self.response.undithered_record.spectrum);
         Dataset::new(study, "response: spectrum of the displacement")
-            .fact("mean removed, Hann window, four times the record's length by zeros; amplitude of a pure tone")
+            .fact("mean removed, Hann window, zero-padded to four times the record length; amplitudes are those of a pure tone")
             .axis("frequency", Quantity::FrequencyRatio, with.frequencies().collect())
             .array("amplitude", Quantity::Displacement, with.amplitudes().to_vec())
             .array("undithered_amplitude", Quantity::Displacement, without.amplitudes().to_vec())
@@ -401,10 +407,10 @@ fn decibels(size: f64) -> String {
 /// 20 lg of two root mean squares, in dB.
 fn level(with: f64, without: f64) -> Result<f64, String> {
     if without == 0.0 {
-        return Err("without dither nothing vibrates in the band".to_owned());
+        return Err("nothing vibrates in the band without dither".to_owned());
     }
     if with == 0.0 {
-        return Err("with dither nothing vibrates in the band".to_owned());
+        return Err("nothing vibrates in the band with dither".to_owned());
     }
     Ok(20.0 * (with / without).log10())
 }
@@ -414,7 +420,7 @@ fn why_end_unknown(ending: RunEnding) -> Option<String> {
     match ending {
         RunEnding::Unknown(why) => Some(why.to_string()),
         RunEnding::Reached(Reached::Unsettled | Reached::Unknown) => {
-            Some("the run had not settled when its periods were over".to_owned())
+            Some("the run had not settled within its number of periods".to_owned())
         }
         RunEnding::Reached(Reached::Base | Reached::Forced | Reached::Elsewhere) => None,
     }

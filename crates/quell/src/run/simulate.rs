@@ -14,7 +14,7 @@ use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::range::SlipMet;
 use crate::study::BeltStudy;
-use crate::words::{in_words, start_in_words};
+use crate::words::{in_words, plural, start_in_words};
 
 /// Samples per period of the fastest dither, and at least this many in a slow period.
 const SAMPLES_PER_DITHER_PERIOD: f64 = 32.0;
@@ -138,12 +138,12 @@ impl Simulation {
         };
         let time = if study.scales().is_some() { "t" } else { "τ" };
         let events = match end.events {
-            0 => "nothing happened at the contact".to_owned(),
-            1 => "there was one event at the contact".to_owned(),
-            count => format!("there were {count} events at the contact"),
+            0 => "without any contact event".to_owned(),
+            1 => "after 1 contact event".to_owned(),
+            count => format!("after {count} contact events"),
         };
         format!(
-            "Started {}, at {} = {} {state}; on the way {events}.",
+            "Started {}: at {} = {} {state}, {events}.",
             start_in_words(study),
             time,
             in_words(study, Quantity::Time, end.time)
@@ -197,13 +197,14 @@ impl Simulation {
         let mut warnings = self.slip.warnings(study);
         if self.coarse {
             warnings.push(format!(
-                "only {MOST_SAMPLES} samples are kept; they are coarser than the dither deserves"
+                "only {MOST_SAMPLES} samples are kept, too few to resolve the dither"
             ));
         }
         let releases = self.end.near_tangential_releases;
         if releases > 0 {
             warnings.push(format!(
-                "{releases} releases hardly crossed the threshold: forward uniqueness is not guaranteed there"
+                "{releases} release{} barely crossed the stiction threshold, where forward uniqueness is not guaranteed",
+                plural(releases)
             ));
         }
         warnings

@@ -58,7 +58,7 @@ pub fn run(study: &BeltStudy) -> Stability {
     Stability {
         limit: averaged(belt, AveragingOptions::default()),
         sharper: match slow {
-            _ if belt.dithers().is_empty() => Err("there is no dither".to_owned()),
+            _ if belt.dithers().is_empty() => Err("the study has no dither".to_owned()),
             Some(why) => Err(why.to_string()),
             None => Ok(averaged(belt, AveragingOptions::FINITE_R)),
         },
@@ -84,8 +84,8 @@ fn is_neutral(belt: &Belt) -> bool {
 fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, String> {
     let &[dither] = belt.dithers() else {
         return Err(match belt.dithers() {
-            [] => "there is no dither".to_owned(),
-            _ => "it is defined for one dither, this study has several".to_owned(),
+            [] => "the study has no dither".to_owned(),
+            _ => "it is defined for a single dither, and this study has several".to_owned(),
         });
     };
     let found = everywhere_stable_amplitude(
@@ -97,22 +97,20 @@ fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, Stri
     );
     match found.map_err(|why| why.to_string())? {
         EverywhereStable::Always if is_neutral(belt) => {
-            Err("without damping and without a slope of the law nothing grows or decays".to_owned())
+            Err("without damping and with a flat friction law nothing grows or decays".to_owned())
         }
         EverywhereStable::Always => Ok(0.0),
         EverywhereStable::From { amplitude_ratio, .. } => Ok(amplitude_ratio),
         EverywhereStable::Never { why } => Err(match why {
             NeverStable::NoDamping => {
-                "without damping a law that falls for ever leaves fast belts unstable at \
-                                       any amplitude"
+                "without damping, a friction law that keeps falling leaves fast belts unstable at any amplitude"
             }
             NeverStable::InnerRegion => {
-                "slow belts stay unstable at any amplitude: the law falls too steeply"
+                "slow belts stay unstable at any amplitude: the friction law falls too steeply"
             }
-            NeverStable::OffScale => "there is none up to 10⁶ v_m",
+            NeverStable::OffScale => "no such amplitude ratio exists up to 10⁶ v_m",
             NeverStable::NoEdge => {
-                "without dither sliding is unstable as far as belt velocities were looked at, up to 365 v_m; amplitudes were \
-                 not tried"
+                "without dither, sliding is unstable at every belt velocity examined (up to 365 v_m), so no amplitude was tried"
             }
         }
         .to_owned()),
@@ -208,7 +206,7 @@ impl Averaged {
         let scales = fields.scales();
         let items = bands.iter().map(|band| {
             let mut inner = Fields::new(scales);
-            let no_end = || format!("no upper end was met {LOOKED_AT}");
+            let no_end = || format!("no upper end was found {LOOKED_AT}");
             inner.number("lower", Quantity::Velocity, band.lower).known(
                 "upper",
                 Quantity::Velocity,
@@ -267,7 +265,7 @@ impl Stability {
                 "the slope of the friction law".to_owned()
             }
             Err(why) => format!(
-                "averaging in the limit of high dither frequency (finite-R averaging does not exist here: {why})"
+                "averaging in the limit of high dither frequency (finite-R averaging is unavailable: {why})"
             ),
         }
     }
@@ -276,30 +274,30 @@ impl Stability {
     pub fn sentence(&self, study: &BeltStudy) -> String {
         let v = in_words(study, Quantity::Velocity, study.belt().belt_velocity());
         let verdict = match &self.leading().criterion {
-            Err(why) => format!("nothing can be said about steady sliding at v₀ = {v}: {why}"),
+            Err(why) => format!("the stability of steady sliding at v₀ = {v} is unknown: {why}"),
             Ok(found) => match found.verdict {
-                AveragedVerdict::Stable => format!("steady sliding at v₀ = {v} is stable"),
-                AveragedVerdict::Unstable => format!("steady sliding at v₀ = {v} is unstable"),
+                AveragedVerdict::Stable => {
+                    format!("steady sliding at v₀ = {v} is stable for small slow motions")
+                }
+                AveragedVerdict::Unstable => {
+                    format!("steady sliding at v₀ = {v} is unstable for small slow motions")
+                }
                 AveragedVerdict::Undecided { why: UndecidedBecause::WithinError } => format!(
-                    "steady sliding at v₀ = {v} is undecided: the criterion is zero within its error"
+                    "the stability of steady sliding at v₀ = {v} is undecided: the criterion is zero within its error"
                 ),
                 AveragedVerdict::Undecided { why: UndecidedBecause::AtCorner } => format!(
-                    "steady sliding at v₀ = {v} is undecided: the belt is exactly as fast as the fast motion, \
-                     unstable for slightly faster belts and stable for slightly slower ones"
+                    "the stability of steady sliding at v₀ = {v} is undecided: the belt is exactly as fast as the fast motion; \
+                     slightly faster belts are unstable and slightly slower ones stable"
                 ),
             },
         };
-        format!(
-            "By {}, locally, for small slow motions, {verdict}{}.",
-            self.method(study),
-            self.next(study)
-        )
+        format!("By {}, {verdict}.{}", self.method(study), self.next(study))
     }
 
     /// The next amplitude at which the verdict changes.
     fn next(&self, study: &BeltStudy) -> String {
         let Some(dither) = study.belt().dithers().first() else {
-            return "; there is no dither".to_owned();
+            return " The study has no dither.".to_owned();
         };
         let leading = self.leading();
         let (Ok(critical), Ok(_)) = (&leading.critical_amplitudes, &leading.criterion) else {
@@ -311,14 +309,14 @@ impl Stability {
         });
         match next {
             Some(next) => format!(
-                "; more dither makes it {} from D = {} (α = {}) on{}",
+                " More dither makes it {} from D = {} (α = {}) on{}.",
                 becomes(next.becomes),
                 in_words(study, Quantity::Force, next.amplitude),
                 in_words(study, Quantity::Velocity, next.amplitude_ratio),
-                if next.contact_stays_closed { "" } else { ", but would pull the contact apart" }
+                if next.contact_stays_closed { "" } else { ", but would open the contact" }
             ),
-            None if critical.is_empty() => "; no amplitude of this dither changes that".to_owned(),
-            None => "; more of this dither does not change that".to_owned(),
+            None if critical.is_empty() => " No amplitude of this dither changes that.".to_owned(),
+            None => " A larger amplitude does not change that.".to_owned(),
         }
     }
 
@@ -327,14 +325,14 @@ impl Stability {
         let slow = study.belt().dithers().iter().filter(|dither| dither.frequency_ratio < FAST);
         let hardly = slow.map(|dither| {
             format!(
-                "averaging presumes fast dither; R = {} is hardly fast, simulate to be sure",
+                "averaging assumes fast dither, and R = {} is hardly fast; check with `simulate`",
                 dither.frequency_ratio
             )
         });
         let verdicts = self.finite().ok().map(|finite| (finite.verdict(), self.limit.verdict()));
         let apart = verdicts.filter(|(finite, limit)| finite != limit).map(|(finite, limit)| {
             format!(
-                "the two averagings differ: {finite} at finite R, {limit} in the limit of high frequency; simulate to be sure"
+                "the two averaging methods disagree: {finite} at finite R, {limit} in the limit of high frequency; check with `simulate`"
             )
         });
         let range = range::averaged(study).into_iter().chain(self.beyond(study));
@@ -356,7 +354,7 @@ impl Stability {
         if let Some((amplitude, slip)) = outside.min_by(|a, b| a.0.total_cmp(&b.0)) {
             let amplitude = in_words(study, Quantity::Force, amplitude);
             let what =
-                format!("at the critical amplitude D = {amplitude} slip and dither together reach");
+                format!("at the critical amplitude D = {amplitude}, slip including dither reaches");
             warnings.push(range::sentence(study, &range, &what, slip));
         }
         let everywhere = averaged.iter().filter_map(|it| it.everywhere_stable.as_ref().ok());
@@ -366,7 +364,7 @@ impl Stability {
         if slip > range.upper {
             let ratio = in_words(study, Quantity::Velocity, ratio);
             let what = format!(
-                "at α = {ratio}, from which every belt velocity is stable, slip and dither together reach"
+                "at α = {ratio}, from which every belt velocity is stable, slip including dither reaches"
             );
             warnings.push(range::sentence(study, &range, &what, slip));
         }
@@ -377,7 +375,7 @@ impl Stability {
         if slip > range.upper {
             let furthest = in_words(study, Quantity::Velocity, furthest);
             let what = format!(
-                "unstable belt velocities go up to {furthest}, where slip and dither together reach"
+                "at the largest unstable belt velocity, {furthest}, slip including dither reaches"
             );
             warnings.push(range::sentence(study, &range, &what, slip));
         }

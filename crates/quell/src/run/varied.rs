@@ -70,7 +70,7 @@ impl Varied {
             None
         });
         if !lacking.is_empty() {
-            let allowed = format!("a number that this study has: {}", lacking.join("; "));
+            let allowed = format!("a number of this study: {}", lacking.join("; "));
             complaints.push(Complaint::option(option, path.as_str(), allowed));
         }
         complaints.extend(ascending(from, to).err().map(|complaint| *complaint));
@@ -82,7 +82,8 @@ impl Varied {
             && first.belt() == last.belt()
             && from < to
         {
-            let allowed = "a number of the belt, of its friction or of a dither: this one changes none of them";
+            let allowed =
+                "a number of the belt, its friction law or a dither; this one changes none of them";
             complaints.push(Complaint::option(option, path.as_str(), allowed));
         }
         if !complaints.is_empty() {
@@ -168,20 +169,20 @@ impl Named {
             }
             (_, _) if is_of_several(path) => {
                 let allowed = format!(
-                    "one number of the equations; {path} changes several of them: `bifurcation` and `map` vary it"
+                    "a single number of the equations; {path} changes several, which `bifurcation` and `map` can vary"
                 );
                 Err(Box::new(Complaint::option(option, path, allowed)))
             }
             (Some(number), _) if is_root_mean_square(path) => {
                 let peak = key_of(study, &number);
-                let allowed = format!("{peak}, a peak: a root mean square depends on the waveform");
+                let allowed =
+                    format!("{peak}, a peak value: a root mean square depends on the waveform");
                 Err(Box::new(Complaint::option(option, path, allowed).suggesting(Some(peak))))
             }
             (meant, _) => {
                 let [amplitude, velocity] = [DITHER_AMPLITUDE, BELT_VELOCITY]
                     .map(|parameter| key_of(study, parameter.path));
-                let allowed =
-                    format!("a number that this study has, such as {amplitude} or {velocity}");
+                let allowed = format!("a number of this study, such as {amplitude} or {velocity}");
                 let near = meant.map(|path| key_of(study, &path));
                 Err(Box::new(Complaint::option(option, path, allowed).suggesting(near)))
             }

@@ -70,7 +70,7 @@ pub(super) const QUANTITIES: &[Quantity] = &[
     disc("growth", "largest growth rate of the disc, its verdict and the bound on its error", Computation::DiscGrowth, &[
         variable(("growth", "Re ρ"), "largest growth rate", VariableKind::DiscRate, &[], |r| Ok(grown(r)?.rate)),
         variable(("growth_error", ""), "bound on the error of the growth rate", VariableKind::DiscRate, &[], |r| Ok(grown(r)?.error)),
-        variable(("growth_verdict", ""), "whether the growth rate has a sign within its error", VERDICTS, OF_DISC, |r| decided(grown(r)?)),
+        variable(("growth_verdict", ""), "whether the sign of the growth rate is certain within its error", VERDICTS, OF_DISC, |r| decided(grown(r)?)),
     ]),
     disc("frequency", "frequency of the fastest growing motion; under dither up to multiples of R", Computation::DiscGrowth, &[
         variable(("frequency", "Im ρ"), "frequency of the fastest growing motion", VariableKind::DiscRate, &[], |r| Ok(grown(r)?.frequency)),
@@ -80,7 +80,7 @@ pub(super) const QUANTITIES: &[Quantity] = &[
     ]),
     disc("growth-undithered", "the growth rate without dither", Computation::DiscGrowthUndithered, &[
         variable(("growth_undithered", "Re ρ_0"), "largest growth rate without dither", VariableKind::DiscRate, &[], |r| Ok(grown_undithered(r)?.rate)),
-        variable(("growth_undithered_error", ""), "bound on the error of that", VariableKind::DiscRate, &[], |r| Ok(grown_undithered(r)?.error)),
+        variable(("growth_undithered_error", ""), "bound on the error of the growth rate without dither", VariableKind::DiscRate, &[], |r| Ok(grown_undithered(r)?.error)),
     ]),
 ];
 

@@ -141,7 +141,7 @@ impl Sheet {
             });
             let states = variable.all_statuses(computation);
             let states = states.iter().map(|status| (status.code(), status.name())).collect();
-            let about = format!("state of {name}: known, or why it is not");
+            let about = format!("status of {name}: known, or why it is unknown");
             let content = Content::Codes(states);
             let name = format!("{name}_status");
             let status = sheet.add(name, &about, String::new(), content, None);
@@ -227,7 +227,7 @@ fn unknown_word(kind: VariableKind) -> u8 {
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "words are few; of a number that is no word this code is not used"
+    reason = "there are few words; the code of a number that is not a word is not used"
 )]
 fn whole(value: f64) -> u8 {
     value as u8

@@ -121,8 +121,8 @@ pub fn run(
         }
     };
     for (_, study) in &studies {
-        let why = "on a belt at rest the mass may stay anywhere within the reach of friction, and these ends are \
-                   no separate attractors";
+        let why = "on a belt at rest any position inside the stick band is an equilibrium, so there are no \
+                   isolated attractors";
         moves(study, why)?;
     }
     let pool = running.pool()?;
@@ -160,7 +160,9 @@ fn all_of(varied: &Varied, starts: &Starts) -> Result<(), Failure> {
     if values.checked_mul(starts).is_some_and(|all| all <= MOST_STARTS) {
         return Ok(());
     }
-    let allowed = format!("such that values times starts ({starts}) are at most {MOST_STARTS}");
+    let allowed = format!(
+        "such that the number of values times the number of starts ({starts}) is at most {MOST_STARTS}"
+    );
     Err(Complaint::option("--points", values, allowed).into())
 }
 

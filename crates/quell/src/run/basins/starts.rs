@@ -86,7 +86,7 @@ impl Starts {
                 let count = columns.checked_mul(rows);
                 if columns < 2 || rows < 2 || count.is_none_or(|count| count > MOST_STARTS) {
                     let allowed = format!(
-                        "NxM, two whole numbers from 2, at most {MOST_STARTS} starts, such as 41x31"
+                        "NxM, two whole numbers of at least 2 and at most {MOST_STARTS} starts in total, such as 41x31"
                     );
                     complaints.push(Complaint::option(
                         "--grid",

@@ -12,7 +12,7 @@ use super::{Basins, Layout, Portrait, Share};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::study::BeltStudy;
-use crate::words::{in_words, plural};
+use crate::words::{capital, in_words, plural};
 
 /// A share in words: 62 %, with the bounds.
 fn percent(share: Share) -> String {
@@ -45,51 +45,55 @@ impl Portrait {
         let unknown = self.gathered.unknown();
         let known = count - unknown;
         if known == 0 {
-            let nowhere = match count {
-                1 => "the outcome of the start is unknown".to_owned(),
-                _ => format!("the outcome of {count} starts is unknown"),
+            let outcome = match count {
+                1 => "The outcome of the start is unknown".to_owned(),
+                _ => format!("The outcome of {count} starts is unknown"),
             };
-            return match &self.local {
-                Ok(verdict) => format!("The base response is {}; {nowhere}.", verdict.name()),
-                Err(why) => format!("T{}; {why}.", &nowhere[1..]),
-            };
+            return format!("{outcome}. {}", self.local_sentence());
         }
         let starts = if unknown == 0 {
-            format!("{count} start{}", plural(count))
+            format!("{count} starts")
         } else {
-            format!("{known} start{} with a known outcome", plural(known))
-        };
-        let local = match &self.local {
-            Ok(verdict) => format!("the base response is {}", verdict.name()),
-            Err(why) => why.clone(),
+            format!("{known} starts with a known outcome")
         };
         let [falls, fall] = quiescence(self.in_band);
-        let told = match self.quiet.filter(|share| share.starts > 0) {
-            Some(share) if share.starts == known => {
-                let every = match known {
-                    1 => "The start".to_owned(),
-                    _ => format!("Every one of {starts}"),
-                };
-                format!("{every} {falls}; {local}.")
-            }
+        let outcome = match self.quiet.filter(|share| share.starts > 0) {
+            Some(share) if share.starts == known => match (known, unknown) {
+                (1, 0) => format!("The start {falls}."),
+                (1, _) => format!("The only start with a known outcome {falls}."),
+                _ => format!("All {starts} {fall}."),
+            },
             Some(share) => {
                 let elsewhere = self.elsewhere();
-                format!("Only {} of {count} starts {fall}{elsewhere}; {local}.", percent(share))
+                format!("Only {} of {count} starts {fall}{elsewhere}.", percent(share))
             }
             None => {
                 let basins = self.gathered.basins.len();
-                let none = match known {
-                    1 => format!("The start does not {fall}: it ends"),
-                    _ => format!("None of {starts} {falls}: they end"),
-                };
-                format!("{none} on {basins} attractor{}; {local}.", plural(basins))
+                match (known, unknown) {
+                    (1, 0) => format!("The start does not {fall}."),
+                    (1, _) => format!("The only start with a known outcome does not {fall}."),
+                    _ => format!(
+                        "None of {starts} {falls}; they end on {basins} attractor{}.",
+                        plural(basins)
+                    ),
+                }
             }
         };
+        let local = self.local_sentence();
         match unknown {
-            0 => told,
-            unknown => {
-                format!("{told} The outcome of {unknown} start{} is unknown.", plural(unknown))
-            }
+            0 => format!("{outcome} {local}"),
+            _ => format!(
+                "{outcome} The outcome of {unknown} start{} is unknown. {local}",
+                plural(unknown)
+            ),
+        }
+    }
+
+    /// The verdict on the base response.
+    fn local_sentence(&self) -> String {
+        match &self.local {
+            Ok(verdict) => format!("The base response is {}.", verdict.name()),
+            Err(why) => format!("{}.", capital(why)),
         }
     }
 
@@ -98,10 +102,10 @@ impl Portrait {
         let others = self.gathered.basins.iter().filter(|basin| !basin.attractor.quiet).count();
         match (others, self.gathered.unknown()) {
             (0, _) => String::new(),
-            (1, 0) => ", the others end on one more attractor".to_owned(),
-            (1, _) => "; one more attractor was met".to_owned(),
-            (_, 0) => format!(", the others end on {others} more attractors"),
-            _ => format!("; {others} more attractors were met"),
+            (1, 0) => "; the others end on another attractor".to_owned(),
+            (1, _) => "; one other attractor was found".to_owned(),
+            (_, 0) => format!("; the others end on {others} other attractors"),
+            _ => format!("; {others} other attractors were found"),
         }
     }
 
@@ -129,12 +133,13 @@ impl Basins {
     pub fn meaning(&self) -> &'static str {
         match self.starts.layout() {
             Layout::Grid { .. } => {
-                "a grid: each start stands for its cell of the window; the bounds give or take half of each cell beside the border, and \
-                 parts of a basin smaller than a cell are not seen; starts of unknown outcome are in the upper bound of the quiet fraction"
+                "each start represents its cell of the window; the bounds add or subtract half of each cell next to a basin boundary, \
+                 and miss parts of a basin smaller than a cell; starts of unknown outcome count only towards the upper bound of the quiet \
+                 fraction"
             }
             Layout::Sample { .. } => {
-                "a random sample of the window, evenly spread: the bounds are Wilson's 95 % interval; starts of unknown outcome are in \
-                 the upper bound of the quiet fraction"
+                "the starts are a uniform random sample of the window, and the bounds are Wilson's 95 % interval; starts of unknown \
+                 outcome count only towards the upper bound of the quiet fraction"
             }
         }
     }
@@ -185,12 +190,12 @@ impl Basins {
                 if let (Some((least, low)), Some((most, high))) = (least, most) {
                     let _ = write!(
                         text,
-                        " the share of starts that {fall} lies between {low:.1} % (at {}) and {high:.1} % (at {})",
+                        ", the share of starts that {fall} ranges from {low:.1} % (at {}) to {high:.1} % (at {})",
                         value(least),
                         value(most)
                     );
                 } else {
-                    text.push_str(" the outcome of no start is known");
+                    text.push_str(", the outcome of every start is unknown");
                 }
                 let only_local = portraits
                     .iter()
@@ -200,14 +205,14 @@ impl Basins {
                 if open > 0 && least.is_some() {
                     let _ = write!(
                         text,
-                        "; at {open} of {} values some outcomes are unknown",
+                        ". Some outcomes are unknown at {open} of {} values",
                         portraits.len()
                     );
                 }
                 if only_local > 0 {
                     let _ = write!(
                         text,
-                        "; at {only_local} of {} values the base response is stable, but not every start {falls}",
+                        ". At {only_local} of {} values the base response is stable, but not every start {falls}",
                         portraits.len()
                     );
                 }
@@ -237,11 +242,9 @@ impl Basins {
                     None => reasons.push((why, 1)),
                 }
             }
-            warnings.extend(
-                reasons.into_iter().map(|(why, count)| {
-                    format!("the end of {count} starts{at} is not known: {why}")
-                }),
-            );
+            warnings.extend(reasons.into_iter().map(|(why, count)| {
+                format!("the outcome of {count} start{}{at} is unknown: {why}", plural(count))
+            }));
         }
         warnings
     }
@@ -255,7 +258,7 @@ impl Basins {
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
-            .plain("protocol", "each start at τ = 0, run until a growth rate says where it ends")
+            .plain("protocol", "each start at τ = 0 is run until a growth rate determines on which attractor it ends")
             .plain("error_meaning", self.meaning())
             .numbers("window_displacement", Quantity::Displacement, &pair(window.displacement))
             .numbers("window_velocity", Quantity::Velocity, &pair(window.velocity))
@@ -376,7 +379,7 @@ fn put_portrait(fields: &mut Fields, portrait: &Portrait, section: bool) {
         ("quiet_fraction_high", |share| share.high),
     ];
     for (name, which) in shares {
-        let unknown = || "the outcome of its starts is unknown".to_owned();
+        let unknown = || "the outcome of every start is unknown".to_owned();
         fields.known(name, Quantity::Ratio, portrait.quiet.map(which).ok_or_else(unknown));
     }
     let scales = portrait.scales;

@@ -11,7 +11,7 @@ use super::{Bifurcation, Direction, Point};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::study::BeltStudy;
-use crate::words::start_in_words;
+use crate::words::{plural, start_in_words};
 
 impl Bifurcation {
     /// What happens, in one sentence a direction and one for both.
@@ -47,8 +47,8 @@ impl Bifurcation {
                     value(jump.after)
                 ));
             }
-            parts.push(format!("ends {} at {}", quiet(last), value(last.value)));
-            sentences.push(format!("{}.", parts.join(", ")));
+            let parts = parts.join(", ");
+            sentences.push(format!("{parts}, and is {} at {}.", quiet(last), value(last.value)));
         }
         if self.branches.len() == 2 {
             sentences.push(match self.hysteresis.as_slice() {
@@ -59,13 +59,16 @@ impl Bifurcation {
                     "Both directions show responses of the same size wherever both have settled."
                         .to_owned()
                 }
-                [] => "At no value have both directions settled.".to_owned(),
+                [] => "The two directions have not both settled at any value.".to_owned(),
                 stretches => {
                     let parts: Vec<String> = stretches
                         .iter()
                         .map(|(from, to)| format!("from {} to {}", value(*from), value(*to)))
                         .collect();
-                    format!("Up and down differ {}: responses coexist there.", parts.join(" and "))
+                    format!(
+                        "The two directions differ {}, where responses coexist.",
+                        parts.join(" and ")
+                    )
                 }
             });
         }
@@ -91,11 +94,12 @@ impl Bifurcation {
             for point in &branch.points {
                 if let Err(why) = &point.response {
                     warnings.push(format!(
-                        "{} at {} = {} has not settled after {} periods: {}",
+                        "sweeping {}, the response at {} = {} has not settled after {} period{}: {}",
                         branch.direction.name(),
                         self.varied.path,
                         point.value,
                         point.periods,
+                        plural(point.periods),
                         why.about()
                     ));
                 }
@@ -111,7 +115,7 @@ impl Bifurcation {
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
-            .plain("protocol", "the state is carried over from value to value; up first, then down from where that ended")
+            .plain("protocol", "the state is carried over from value to value; upward first, then downward from the final state")
             .plain("parameter", self.varied.path.as_str())
             .plain("unit", self.varied.unit)
             .plain("start", start_in_words(study));
@@ -156,7 +160,7 @@ impl Bifurcation {
                 self.hysteresis.iter().map(|(from, to)| vec![*from, *to].into()).collect();
             fields.plain("hysteresis", pairs);
         } else {
-            fields.unknown("hysteresis", "it takes both directions to show it");
+            fields.unknown("hysteresis", "hysteresis requires sweeps in both directions");
         }
         fields.plain("warnings", self.warnings(study));
         fields.finish()
@@ -280,7 +284,7 @@ mod tests {
             Bifurcation { varied, branches, hysteresis: Vec::new(), slip: SlipMet::default() };
         let told = found.sentence(&study);
         assert!(told.contains("the response is unsettled at 1"), "{told}");
-        assert!(told.ends_with("At no value have both directions settled."), "{told}");
+        assert!(told.ends_with("The two directions have not both settled at any value."), "{told}");
         let json = found.json(&study);
         assert_eq!(json["jumps"].as_array().map(Vec::len), Some(0));
         assert!(json["up"][0]["kind"].is_null() && json["why"]["up[0].kind"].is_string());

@@ -71,7 +71,7 @@ pub fn json(study: &DiscStudy) -> Json {
         put_both(&mut object["dither"], DITHER_FREQUENCY_RATIO, ratio, scales);
     }
     if study.title().is_none() {
-        object["why"] = json!({ "title": "the study gives none" });
+        object["why"] = json!({ "title": "the study has no title" });
     }
     object
 }

@@ -128,11 +128,10 @@ impl Modes {
                 why.insert(key.to_owned(), reason.into());
             }
         };
-        let unlisted = "modes are given, not computed: no plate is known";
+        let unlisted = "the modes are given, not computed from a plate";
         told(self.reference.is_none(), "modes[].frequency_parameter", unlisted);
         told(self.reference.is_none(), "reference_frequency", unlisted);
-        let metal =
-            "the study gives no youngs_modulus_pa, density_kg_per_m3, thickness_m, outer_radius_m";
+        let metal = "the study does not give youngs_modulus_pa, density_kg_per_m3, thickness_m and outer_radius_m";
         told(self.reference_hz.is_none(), "modes[].frequency_hz", metal);
         told(self.reference_hz.is_none(), "modes[].critical_speed_rpm", metal);
         told(self.reference_hz.is_none(), "reference_hz", metal);
@@ -140,7 +139,7 @@ impl Modes {
         told(
             self.rows.iter().any(|row| row.diameters == 0),
             "modes[].critical_speed",
-            "without nodal diameters there is no critical speed",
+            "a mode without nodal diameters has no critical speed",
         );
         told(critical.is_none(), "critical_mode", "no mode has a nodal diameter");
         let mut object = json!({
@@ -164,7 +163,7 @@ impl Modes {
         });
         if study.disc().loads().is_empty() {
             object["why"]["modes[].shape_at_load"] =
-                "without a load: shapes at the outer edge".into();
+                "the disc has no load, so the shape is given at the outer edge".into();
         }
         object
     }

@@ -44,10 +44,10 @@ impl ResonancesRequest {
         let mut range = |option, bounds: Bounds, (from, to): (f64, f64)| {
             let told = || format!("{from}:{to}");
             if !(from.is_finite() && to.is_finite() && from <= to) {
-                let allowed = "two numbers of which the first is not larger";
+                let allowed = "FROM:TO, two finite numbers, the first at most the second";
                 wrong.push(Complaint::option(option, told(), allowed));
             } else if !(bounds.contains(from) && bounds.contains(to)) {
-                let allowed = format!("a range whose ends are each {bounds}");
+                let allowed = format!("a range with both ends {bounds}");
                 wrong.push(Complaint::option(option, told(), allowed));
             }
             from..=to
@@ -62,7 +62,7 @@ impl ResonancesRequest {
             if let Some((from, to)) = one
                 && other
             {
-                let allowed = "--clear and --frequency are given together";
+                let allowed = "--clear and --frequency must be given together";
                 let (origin, given) = (Origin::Argument(option), format!("{from}:{to}"));
                 wrong.push(Complaint::new(Fault::Conflict, option, origin, given, allowed));
             }
@@ -120,7 +120,7 @@ pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances,
     };
     if study.parts() != Contributions::ALL {
         let told = study.without();
-        let allowed = "nothing: resonance theory is about the whole disc";
+        let allowed = "empty: resonance theory applies to the whole disc only";
         let complaint = Complaint::new(Fault::Value, "disc.without", Origin::Whole, told, allowed);
         return Err(complaint.into());
     }
@@ -191,18 +191,18 @@ fn meeting(resonance: &Resonance, hertz: Option<f64>) -> Json {
     let edges = resonance.tongue.edges();
     if edges.is_none() {
         let reason = match resonance.tongue {
-            Tongue::WaveUnstable { .. } => "a wave of the pair grows, or is undamped, by itself",
-            _ => "there is no tongue at this friction",
+            Tongue::WaveUnstable { .. } => "one wave of the pair grows, or is undamped, on its own",
+            _ => "no tongue exists at this friction",
         };
         why.insert("edges".to_owned(), reason.into());
     }
     if resonance.tongue.peak_growth().is_none() {
-        let reason = "there is no tongue at this friction";
+        let reason = "no tongue exists at this friction";
         why.insert("peak_growth".to_owned(), reason.into());
     }
     if resonance.threshold.is_none() {
         let reason = if resonance.can_be_unstable() {
-            "no friction gives a tongue before a wave grows by itself"
+            "as friction rises, a wave grows on its own before a tongue appears"
         } else {
             "this meeting cannot be unstable at this order"
         };
@@ -313,13 +313,13 @@ impl Resonances {
             put_hertz(&mut inner, hertz, &["speeds", "frequencies", "clear", "suggestion"]);
             let mut why = Map::new();
             if clear.suggestion.is_none() {
-                why.insert("suggestion".to_owned(), "no frequency of the range is clear".into());
+                why.insert("suggestion".to_owned(), "no frequency in the range is clear".into());
             }
             if clear.verified.is_none() {
                 let reason = if clear.suggestion.is_none() {
-                    "no frequency of the range is clear"
+                    "no frequency in the range is clear"
                 } else {
-                    "exponents cannot be computed with such numbers"
+                    "the Floquet exponents could not be computed"
                 };
                 for name in ["verified_growth_rate", "verified"] {
                     why.insert(name.to_owned(), reason.into());

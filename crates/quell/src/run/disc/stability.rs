@@ -58,7 +58,7 @@ pub fn run(study: &DiscStudy) -> Result<Stability, Failure> {
     };
     let (changes, out_of_reach) = match disc.dither() {
         _ if parts != Contributions::ALL => (
-            Err("they are reported for a whole disc, and parts of this one are left out".to_owned()),
+            Err("marginal frictions are computed for the whole disc only, and this study leaves parts out".to_owned()),
             false,
         ),
         DiscDither::None => still(study),
@@ -95,13 +95,14 @@ fn still(study: &DiscStudy) -> (Result<Vec<Change>, String>, bool) {
 }
 
 /// What shows the boundaries that have no exact way.
-const MAP: &str = "`quell map` over disc.load.friction shows them for any";
+const MAP: &str = "`quell map` over disc.load.friction shows the boundaries in every case";
 
 /// Boundaries under dither.
 fn shaken(study: &DiscStudy) -> Result<Vec<Change>, String> {
     let disc = study.disc();
     // The partition tells factors on the friction: of one, not of none.
-    let unit = disc.with("disc.load.friction", 1.0).map_err(|_| "there is no load".to_owned())?;
+    let unit =
+        disc.with("disc.load.friction", 1.0).map_err(|_| "the disc has no load".to_owned())?;
     let sign = sign_of_friction(study);
     let unit = if sign < 0.0 { unit.with_friction_times(-1.0).unwrap_or(unit) } else { unit };
     let found = crossings(&unit).map_err(|why| match why {
@@ -146,14 +147,16 @@ impl Stability {
         let Growth { rate, error, .. } = self.growth;
         match self.growth.verdict() {
             Verdict::Stable => {
-                format!("at Ω = {speed} the disc is stable {under}: every motion decays")
+                format!("At Ω = {speed} ω_ref the disc is stable {under}: every motion decays.")
             }
             Verdict::Unstable => {
-                format!("at Ω = {speed} the disc is unstable {under}: some motion grows")
+                format!(
+                    "At Ω = {speed} ω_ref the disc is unstable {under}: at least one motion grows."
+                )
             }
             Verdict::Undecided => format!(
-                "at Ω = {speed} nothing can be decided {under}: the growth rate {rate:.1e} is zero within its error {error:.1e}; \
-                 such are whole lines of the map where the disc has no damping of its own"
+                "At Ω = {speed} ω_ref the stability of the disc {under} is undecided: the growth rate {rate:.1e} ω_ref is zero \
+                 within its error {error:.1e} ω_ref. Without damping of its own, a disc is undecided along whole lines of a map."
             ),
         }
     }

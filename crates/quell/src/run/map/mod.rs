@@ -91,8 +91,8 @@ fn same_program(plan: &Plan, store: &Store, number: usize, values: &[Data]) -> R
     }
     Err(Failure::Failed {
         key: store.path().display().to_string(),
-        why: "this program gives other bits at a point than the store holds (another build of \
-              Quell made it): choose another name"
+        why: "this build of Quell computes a stored point with different bits (the store was made by another \
+              build): choose another name"
             .to_owned(),
     })
 }
@@ -111,13 +111,12 @@ fn stopped(store: Option<&Store>, left: usize, chunks: usize) -> Failure {
         Some(store) => Failure::Failed {
             key: store.path().display().to_string(),
             why: format!(
-                "stopped; {done} of {chunks} chunks are kept, {left} are left: the same command with \
-                 --resume goes on"
+                "stopped; {done} of {chunks} chunks kept, {left} left: the same command with --resume continues"
             ),
         },
         None => Failure::Failed {
             key: "map".to_owned(),
-            why: "stopped; nothing is kept: --save FILE.zarr keeps what is done, and --resume goes on"
+            why: "stopped; nothing was kept: --save FILE.zarr keeps finished chunks, and --resume continues"
                 .to_owned(),
         },
     }
@@ -128,8 +127,8 @@ fn interrupted(failure: Failure, store: Option<&Store>, left: usize, chunks: usi
         (Failure::Failed { key, why }, Some(_)) => Failure::Failed {
             key,
             why: format!(
-                "{why}; {} of {chunks} chunks are kept, {left} are left: once that is mended, the same \
-                 command with --resume goes on",
+                "{why}; {} of {chunks} chunks kept, {left} left: once the cause is fixed, the same command \
+                 with --resume continues",
                 chunks - left
             ),
         },

@@ -133,8 +133,9 @@ impl Map {
             let points = 0..self.plan.grid().len();
             let not = points.filter(|point| self.number(settled, *point) == Some(0.0)).count();
             if not > 0 {
+                let have = if not == 1 { "has" } else { "have" };
                 warnings.push(format!(
-                    "{not} of {} points have not settled (see `settled`): raise solver.settle or \
+                    "{not} of {} points {have} not settled (see `settled`): raise solver.settle or \
                      solver.record_periods",
                     self.plan.grid().len()
                 ));
@@ -142,11 +143,7 @@ impl Map {
         }
         warnings.extend(self.beyond_range());
         if self.damaged > 0 {
-            warnings.push(format!(
-                "{} chunks of the store were cut short or changed since they were written; they were \
-                 computed again",
-                self.damaged
-            ));
+            warnings.push(recomputed(self.damaged));
         }
         warnings
     }
@@ -162,9 +159,10 @@ impl Map {
         let study = self.plan.grid().study().belt().ok()?;
         let range = study.belt().friction().range().filter(|_| count > 0)?;
         let upper = in_words(&study, Quantity::Velocity, range.upper);
+        let have = if count == 1 { "has" } else { "have" };
         Some(format!(
-            "{count} of {} points have slip outside the range of the {} law, up to {upper} in the study itself ({}): \
-             their status is {}",
+            "{count} of {} points {have} slip outside the range of the {} law, up to {upper} for the study's own values \
+             ({}); the status there is {}",
             self.plan.grid().len(),
             study.belt().friction().kind().name(),
             range.limit,
@@ -283,6 +281,15 @@ impl Map {
         }
         dataset
     }
+}
+
+/// What is said of chunks of a store that were damaged, and computed again.
+pub(super) fn recomputed(chunks: usize) -> String {
+    let were = if chunks == 1 { "was" } else { "were" };
+    format!(
+        "recomputed {chunks} chunk{} of the store that {were} truncated or changed",
+        plural(chunks)
+    )
 }
 
 /// Why numbers of a variable are null, one sentence for all of them.

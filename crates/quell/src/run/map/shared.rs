@@ -15,6 +15,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value as Json, json};
 
+use super::outcome::recomputed;
 use super::{Map, put, same_program};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::store::{Found, Store};
@@ -81,9 +82,7 @@ impl Sharded {
     /// What a reader should know.
     pub fn warnings(&self) -> Vec<String> {
         let damaged = self.part.damaged;
-        let told =
-            format!("{damaged} chunks of the store were cut short or changed, and done again");
-        if damaged > 0 { vec![told] } else { Vec::new() }
+        if damaged > 0 { vec![recomputed(damaged)] } else { Vec::new() }
     }
 }
 
@@ -218,7 +217,7 @@ impl Shared {
         let chunks = self.plan.chunks().len();
         let changed = match damaged {
             0 => String::new(),
-            damaged => format!(", and {damaged} were cut short or changed"),
+            damaged => format!(", and {damaged} are truncated or changed"),
         };
         Err(self.failed(format!("{missing} of {chunks} chunks are not computed yet{changed}")))
     }
@@ -233,7 +232,7 @@ impl Shared {
         let unknown = chunks.iter().filter(|&&chunk| chunk >= count);
         let complaints: Vec<Complaint> = unknown
             .map(|&chunk| {
-                let allowed = format!("the number of a chunk, 0 to {}", count - 1);
+                let allowed = format!("a chunk number from 0 to {}", count - 1);
                 Complaint::new(Fault::Value, "chunk", Origin::Whole, chunk, allowed)
             })
             .collect();
@@ -243,8 +242,7 @@ impl Shared {
     fn incomplete(&self, why: &str, left: usize, chunks: usize) -> Failure {
         let done = chunks - left;
         self.failed(format!(
-            "{why}; {done} of the {chunks} chunks asked for are kept, {left} are left: the same \
-             command again goes on"
+            "{why}; {done} of the {chunks} requested chunks kept, {left} left: repeat the command to continue"
         ))
     }
 
@@ -322,7 +320,7 @@ mod tests {
         fs::write(path.join("growth/c/0/0"), "short").expect("damaged");
         assert!(shared.missing().contains(&0) && !shared.missing().contains(&1));
         let stopped = shared.compute(&[0, 1, 2], running(&stop)).expect_err("stopped").to_string();
-        assert!(stopped.contains("1 of the 3 chunks asked for are kept, 2 are left"), "{stopped}");
+        assert!(stopped.contains("1 of the 3 requested chunks kept, 2 left"), "{stopped}");
         assert_eq!(shared.compute(&[0], running(&go)).expect("computed").damaged, 1);
         let wrong = shared.compute(&[0, 1_000_000], running(&go)).expect_err("no such chunk");
         assert!(wrong.to_string().contains("1000000"), "{wrong}");

@@ -27,7 +27,7 @@ use crate::quantity::bearable;
 use crate::range::SlipMet;
 use crate::study::document::given_number;
 use crate::study::{BeltStudy, InitialState};
-use crate::words::{digits, in_words};
+use crate::words::{digits, in_words, plural};
 
 mod tell;
 
@@ -107,19 +107,19 @@ pub(super) fn told(
     let words = |value: f64| value_in_words(study, path, value);
     match why {
         NoThresholds::Invalid { value } => {
-            Complaint::option(option, words(value), format!("values that {key} can take")).into()
+            Complaint::option(option, words(value), format!("a value that {key} can take")).into()
         }
         NoThresholds::Start(why) if why.is_absence() || is_lost(why) => Failure::Failed {
             key: "thresholds".to_owned(),
             why: format!(
-                "{} at the first value: begin where there is a base response, or ask for runs (--from-rest, --from-squeal, …)",
+                "{} at the first value: begin where a base response exists, or request runs (--from-rest, --from-squeal, …)",
                 unknown(&why)
             ),
         },
         NoThresholds::Start(why) => refused(why),
         NoThresholds::Lost { at } => Failure::Failed {
             key: "thresholds".to_owned(),
-            why: format!("the response was lost beyond {key} = {}", words(at)),
+            why: format!("the continuation lost the response beyond {key} = {}", words(at)),
         },
     }
 }
@@ -140,7 +140,7 @@ fn understood(
     wrong.extend(ascending(from, to).err().map(|complaint| *complaint));
     wrong.extend(bearable(ramp, given_number(ramp), "--ramp").err().map(|complaint| *complaint));
     if ramp > 0.0 && question.protocols.is_empty() {
-        let allowed = "given together with --from-rest, --from-sliding, --from-squeal or --start: it is the dither of their runs";
+        let allowed = "requires --from-rest, --from-sliding, --from-squeal or --start: it ramps up the dither of those runs";
         let origin = Origin::Argument("--ramp");
         wrong.push(Complaint::new(Fault::Conflict, "--ramp", origin, ramp, allowed));
     }
@@ -159,7 +159,7 @@ fn slides(study: &BeltStudy, named: &Named, from: f64) -> Result<(), Box<Complai
     if !belt.with(&named.path, named.of(from)).is_ok_and(|first| at_rest(&first)) {
         return Ok(());
     }
-    let why = "thresholds are those of the response that is continued from steady sliding, and a belt at rest has none; \
+    let why = "thresholds are computed for the response continued from steady sliding, which a belt at rest does not have; \
                `orbit`, `response` and `bifurcation` start from rest";
     let allowed = format!("such that the belt moves: {why}");
     Err(Box::new(if at_rest(belt) {
@@ -357,18 +357,18 @@ impl Thresholds {
             let runs = protocol.name().replace('_', " ");
             let count = switches.unknown.len();
             let others = if count > 1 {
-                format!("; so at {} more values", count - 1)
+                format!("; it is also unknown at {} more value{}", count - 1, plural(count - 1))
             } else {
                 String::new()
             };
             Some(format!(
-                "where the run {runs} ends at {path} = {value} is not known: {why}{others}"
+                "the outcome of the run {runs} at {path} = {value} is unknown: {why}{others}"
             ))
         };
         let in_band = (self.in_band && !self.protocols.is_empty()).then(|| {
             format!(
-                "dither acts at or below {BAND_END} ω₀, in the band of the vibration itself: a run in step with it \
-                 still vibrates there; `response` says how much remains"
+                "the dither acts at or below {BAND_END} ω₀, in the band of the vibration itself: a run in step with it \
+                 still vibrates; `response` gives the remaining amplitude"
             )
         });
         self.slip

@@ -9,7 +9,7 @@ use super::{BranchEnding, Threshold, ThresholdKind, Thresholds, path_in_words, q
 use crate::run::attractor::unknown;
 use crate::run::protocol::Protocol;
 use crate::study::BeltStudy;
-use crate::words::in_words;
+use crate::words::{capital, in_words};
 
 /// One end of an interval of the parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -134,7 +134,7 @@ impl Thresholds {
         }
         for (starts, answer) in answers {
             let (starts, ramp) = (listed(&starts, "or"), self.ramp_in_words(study));
-            sentences.push(format!("Started {starts}{ramp}, {answer}."));
+            sentences.push(format!("For runs started {starts}{ramp}, {answer}."));
         }
         sentences.join(" ")
     }
@@ -172,7 +172,7 @@ impl Thresholds {
             let last = parameter.value(Limit::of_range(self.question.to));
             let again = if self.resumes {
                 format!(
-                    "; at {last} there is one, and a range that begins beyond finds its thresholds"
+                    "; at {last} a base response exists again (begin the range beyond the gap to find its thresholds)"
                 )
             } else {
                 String::new()
@@ -202,19 +202,18 @@ impl Thresholds {
             (1, all) => {
                 let only = stable[0];
                 let interval = parameter.interval(only);
+                let stable = format!("{subject} is stable {interval}");
                 // Undecided lies at thresholds alone, and is said by the table.
                 let unstable = all.iter().filter(|it| it.answer == OrbitVerdict::Unstable).count();
                 match (only.from.of_range, only.to.of_range) {
-                    _ if unstable + 1 < all.len() || all.len() == 1 => {
-                        format!("{interval} {subject} is stable")
-                    }
+                    _ if unstable + 1 < all.len() || all.len() == 1 => stable,
                     (false, true) => {
-                        format!("{interval} {subject} is stable; below, it is unstable")
+                        format!("{stable} and unstable below")
                     }
                     (true, false) => {
-                        format!("{interval} {subject} is stable; above, it is unstable")
+                        format!("{stable} and unstable above")
                     }
-                    _ => format!("{interval} {subject} is stable; outside, it is unstable"),
+                    _ => format!("{stable} and unstable outside this interval"),
                 }
             }
             _ => format!("{subject} is stable {}", parameter.intervals(stable)),
@@ -235,7 +234,7 @@ impl Thresholds {
         let beyond = if self.resumes {
             let last = at(self.question.to);
             format!(
-                "at {last} a base response exists again, and a range that begins beyond finds its thresholds"
+                "at {last} a base response exists again (begin the range beyond the gap to find its thresholds)"
             )
         } else {
             "beyond, runs end on another response".to_owned()
@@ -263,10 +262,11 @@ impl Thresholds {
                 format!(" It turns back at {}; {beyond}.", at(value))
             }
             (None, BranchEnding::Touch { at: value }) => {
-                format!(" It ends at {}, where it touches v_r = 0; {beyond}.", at(value))
+                format!(" It ends at {}, where it grazes v_r = 0; {beyond}.", at(value))
             }
             (None, BranchEnding::Lost { at: value }) => {
-                let then = if self.resumes { beyond.as_str() } else { "what follows is unknown" };
+                let then =
+                    if self.resumes { beyond.as_str() } else { "the rest of the range is unknown" };
                 format!(" It could not be continued beyond {}; {then}.", at(value))
             }
         }
@@ -275,7 +275,7 @@ impl Thresholds {
     fn ramp_in_words(&self, study: &BeltStudy) -> String {
         if self.question.ramp > 0.0 {
             let time = in_words(study, Quantity::Time, self.question.ramp);
-            format!(" with the dither raised over {time}")
+            format!(" with the dither ramped up over {time}")
         } else {
             String::new()
         }
@@ -294,7 +294,7 @@ impl Thresholds {
         };
         let quenched = of(Some(true));
         let told = if quenched.is_empty() {
-            format!("{verb} nowhere for {}", parameter.whole(&intervals))
+            format!("{verb} at no {}", parameter.whole(&intervals))
         } else {
             format!("{verb} {}", parameter.intervals(quenched))
         };
@@ -345,10 +345,4 @@ fn runs(from: f64, to: f64, switches: &Switches) -> Vec<Interval<Option<bool>>> 
         Interval { from, to, answer }
     });
     merged(each.collect())
-}
-
-/// A sentence with its first letter as it begins one; symbols stay as they are.
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
