@@ -30,12 +30,18 @@ impl Bifurcation {
                 Some(false) => "vibrating",
                 None => "unsettled",
             };
-            let mut parts = vec![format!(
-                "Sweeping {path} {way}, the response is {} at {}",
-                quiet(first),
-                value(first.value)
-            )];
-            for jump in branch.jumps() {
+            let (start, end) = (value(first.value), value(last.value));
+            let jumps = branch.jumps();
+            if jumps.is_empty() && quiet(first) == quiet(last) {
+                let state = quiet(first);
+                sentences.push(format!(
+                    "Sweeping {path} {way}, the response is {state} at both {start} and {end}."
+                ));
+                continue;
+            }
+            let mut parts =
+                vec![format!("Sweeping {path} {way}, the response is {} at {start}", quiet(first))];
+            for jump in jumps {
                 let word = match (jump.to_quiet, jump.in_band) {
                     (true, false) => "falls quiet",
                     (true, true) => "falls into step with the dither",
@@ -48,7 +54,7 @@ impl Bifurcation {
                 ));
             }
             let parts = parts.join(", ");
-            sentences.push(format!("{parts}, and is {} at {}.", quiet(last), value(last.value)));
+            sentences.push(format!("{parts}, and is {} at {end}.", quiet(last)));
         }
         if self.branches.len() == 2 {
             sentences.push(match self.hysteresis.as_slice() {
@@ -283,7 +289,7 @@ mod tests {
         let found =
             Bifurcation { varied, branches, hysteresis: Vec::new(), slip: SlipMet::default() };
         let told = found.sentence(&study);
-        assert!(told.contains("the response is unsettled at 1"), "{told}");
+        assert!(told.contains("the response is unsettled at both 1 and 2"), "{told}");
         assert!(told.ends_with("The two directions have not both settled at any value."), "{told}");
         let json = found.json(&study);
         assert_eq!(json["jumps"].as_array().map(Vec::len), Some(0));

@@ -202,18 +202,18 @@ impl Thresholds {
             (1, all) => {
                 let only = stable[0];
                 let interval = parameter.interval(only);
-                let stable = format!("{subject} is stable {interval}");
+                let statement = format!("{subject} is stable {interval}");
                 // Undecided lies at thresholds alone, and is said by the table.
                 let unstable = all.iter().filter(|it| it.answer == OrbitVerdict::Unstable).count();
                 match (only.from.of_range, only.to.of_range) {
-                    _ if unstable + 1 < all.len() || all.len() == 1 => stable,
+                    _ if unstable + 1 < all.len() || all.len() == 1 => statement,
                     (false, true) => {
-                        format!("{stable} and unstable below")
+                        format!("{statement} and unstable below")
                     }
                     (true, false) => {
-                        format!("{stable} and unstable above")
+                        format!("{statement} and unstable above")
                     }
-                    _ => format!("{stable} and unstable outside this interval"),
+                    _ => format!("{statement} and unstable outside this interval"),
                 }
             }
             _ => format!("{subject} is stable {}", parameter.intervals(stable)),
