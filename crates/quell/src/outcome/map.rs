@@ -84,7 +84,7 @@ fn table(done: &Map) -> String {
 }
 
 fn heading(entry: &Entry, done: &Map) -> String {
-    let field = &done.plan().sheet().fields()[done.told(entry)];
+    let field = &done.plan().sheet().fields()[done.shown(entry)];
     let unit = match field.unit.as_str() {
         "" | "1" => String::new(),
         unit => format!(" [{unit}]"),

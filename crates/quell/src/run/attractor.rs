@@ -96,19 +96,19 @@ pub(super) fn put(fields: &mut Fields, attractor: &Attractor, period: f64) {
         .known(
             "rotation_number",
             Quantity::Ratio,
-            rotation.map(|it| it.turns_per_period).ok_or_else(not_turning),
+            rotation.map(|rotation| rotation.turns_per_period).ok_or_else(not_turning),
         )
         .known(
             "rotation_error",
             Quantity::Ratio,
-            rotation.map(|it| it.error).ok_or_else(not_turning),
+            rotation.map(|rotation| rotation.error).ok_or_else(not_turning),
         )
         .known(
             "frequency",
             Quantity::FrequencyRatio,
             attractor.frequency(period).ok_or_else(not_turning),
         );
-    match rotation.and_then(|it| it.ratio) {
+    match rotation.and_then(|rotation| rotation.ratio) {
         Some(ratio) => {
             fields.plain("locking", json!({ "turns": ratio.turns, "periods": ratio.periods }));
         }
@@ -168,7 +168,7 @@ pub(super) const VERDICTS: [(u8, &str); 4] =
 
 /// Code of the column `kind`.
 pub(super) fn kind_code(attractor: Option<&Attractor>) -> u8 {
-    match attractor.map(|it| it.kind) {
+    match attractor.map(|attractor| attractor.kind) {
         Some(AttractorKind::Periodic { periods: 1, .. }) => 0,
         Some(AttractorKind::Periodic { .. }) => 1,
         Some(AttractorKind::QuasiPeriodic) => 2,

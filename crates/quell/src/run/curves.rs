@@ -9,7 +9,7 @@ use quell_linear::averaging::{
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
-use super::thresholds::{ThresholdKind, path_in_words, quantity_of, told, value_in_words};
+use super::thresholds::{ThresholdKind, path_in_words, quantity_of, refused, value_in_words};
 use super::varied::{Named, ascending};
 use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
@@ -124,7 +124,7 @@ fn found(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failure>
     };
     let CurvesFound { curves, open } =
         curves(belt, plane, LINES, POINTS).map_err(|line| match line.why {
-            Open::Begin(why) => told(study, why, &question.parameter, "--from"),
+            Open::Begin(why) => refused(study, why, &question.parameter, "--from"),
             _ => Failure::Failed {
                 key: "thresholds".to_owned(),
                 why: line_in_words(study, &question, &line),
@@ -143,8 +143,8 @@ fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<Averaged> {
         return Vec::new();
     }
     let (first, last) = question.between;
-    let inside = |it: &CriticalAmplitude| {
-        it.amplitude >= question.window.0 && it.amplitude <= question.window.1
+    let inside = |critical: &CriticalAmplitude| {
+        critical.amplitude >= question.window.0 && critical.amplitude <= question.window.1
     };
     [(false, FastResponse::Limit), (true, FastResponse::Oscillator)]
         .into_iter()
@@ -158,8 +158,9 @@ fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<Averaged> {
                     let along = first + (last - first) * f64::from(k) / f64::from(AVERAGED);
                     let found = belt.with(&question.along, along).ok().and_then(|belt| {
                         let found = critical_amplitudes(&belt, options).ok()?;
-                        let of_kind = |it: &&CriticalAmplitude| {
-                            (it.becomes == quell_linear::averaging::Becomes::Stable) == (index == 0)
+                        let of_kind = |critical: &&CriticalAmplitude| {
+                            (critical.becomes == quell_linear::averaging::Becomes::Stable)
+                                == (index == 0)
                         };
                         found.iter().find(of_kind).copied().filter(inside)
                     });
@@ -216,30 +217,30 @@ impl Curves {
             let mut inner = object();
             inner
                 .plain("kind", curve.kind.name())
-                .numbers("value", value, &column(&|it| it.value))
-                .numbers("along", along, &column(&|it| it.along))
+                .numbers("value", value, &column(&|point| point.value))
+                .numbers("along", along, &column(&|point| point.along))
                 .numbers(
                     "displacement",
                     Quantity::Displacement,
-                    &column(&|it| it.state.displacement),
+                    &column(&|point| point.state.displacement),
                 )
-                .numbers("velocity", Quantity::Velocity, &column(&|it| it.state.velocity))
-                .numbers("multiplier_modulus", Quantity::Ratio, &column(&|it| it.radius))
+                .numbers("velocity", Quantity::Velocity, &column(&|point| point.state.velocity))
+                .numbers("multiplier_modulus", Quantity::Ratio, &column(&|point| point.radius))
                 .plain("ends", curve.ends.map(ThresholdCurveEnd::name).to_vec());
             if let Some(ratios) = self.amplitude_ratios(study, curve) {
                 inner.numbers("amplitude_ratio", Quantity::Velocity, &ratios);
             }
             inner
         });
-        let averaged = self.averaged.iter().map(|it| {
-            let points = || it.pieces.iter().flatten();
+        let averaged = self.averaged.iter().map(|boundary| {
+            let points = || boundary.pieces.iter().flatten();
             let pairs: Vec<Json> = points().map(|(along, value)| json!([along, value])).collect();
             let mut inner = object();
             inner
-                .plain("sharper", it.sharper)
+                .plain("sharper", boundary.sharper)
                 .plain("points", pairs)
-                .numbers("along", along, &points().map(|it| it.0).collect::<Vec<_>>())
-                .numbers("value", value, &points().map(|it| it.1).collect::<Vec<_>>());
+                .numbers("along", along, &points().map(|(along, _)| *along).collect::<Vec<_>>())
+                .numbers("value", value, &points().map(|(_, value)| *value).collect::<Vec<_>>());
             inner
         });
         let mut fields = object();
@@ -259,7 +260,7 @@ impl Curves {
 
     /// Lines on which curves may be missing, in words.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
-        let told = |line: &OpenLine| {
+        let warning = |line: &OpenLine| {
             format!("curves may be missing {}", line_in_words(study, &self.question, line))
         };
         let mut slip = SlipMet::default();
@@ -270,7 +271,7 @@ impl Curves {
                 slip.add_attractor(&belt, point.state);
             }
         }
-        slip.warnings(study).into_iter().chain(self.open.iter().map(told)).collect()
+        slip.warnings(study).into_iter().chain(self.open.iter().map(warning)).collect()
     }
 
     /// α = D/R of the first dither along a curve, where the first parameter is its amplitude.
@@ -281,7 +282,9 @@ impl Curves {
         let ratio = study.belt().dithers().first()?.frequency_ratio;
         let along_ratio = ["dither.frequency_ratio", "dither[0].frequency_ratio"]
             .contains(&self.question.along.as_str());
-        let of = |it: &ThresholdCurvePoint| it.value / if along_ratio { it.along } else { ratio };
+        let of = |point: &ThresholdCurvePoint| {
+            point.value / if along_ratio { point.along } else { ratio }
+        };
         Some(curve.points.iter().map(of).collect())
     }
 
@@ -289,7 +292,9 @@ impl Curves {
     pub fn dataset(&self, study: &BeltStudy) -> Dataset {
         let quantity = |path: &str| quantity_of(study, path);
         let numbered = || (0_u8..).zip(ThresholdKind::ALL);
-        let code = |kind: ThresholdKind| numbered().filter(move |it| it.1 == kind).map(|it| it.0);
+        let code = |kind: ThresholdKind| {
+            numbered().filter(move |(_, other)| *other == kind).map(|(code, _)| code)
+        };
         let each = |of: &dyn Fn(&ThresholdCurvePoint) -> f64| -> Vec<f64> {
             self.curves.iter().flat_map(|curve| &curve.points).map(of).collect()
         };
@@ -305,14 +310,14 @@ impl Curves {
             .collect();
         let names = numbered().map(|(code, kind)| (code, kind.name()));
         let (parameter, along) = (self.question.parameter.as_str(), self.question.along.as_str());
-        let numbers = (0..self.points()).map(|it| it as f64).collect();
+        let numbers = (0..self.points()).map(|number| number as f64).collect();
         let mut dataset = Dataset::new(study, "thresholds")
             .fact(self.sentence(study))
             .with_axis(Array::new("point", "1", numbers))
             .with(Array::new("curve", "1", per_curve(&|number| number as f64)))
             .with(Array::of_words("kind", names.collect(), &codes))
-            .array(along, quantity(along), each(&|it| it.along))
-            .array(parameter, quantity(parameter), each(&|it| it.value));
+            .array(along, quantity(along), each(&|point| point.along))
+            .array(parameter, quantity(parameter), each(&|point| point.value));
         let ratios: Option<Vec<f64>> = self
             .curves
             .iter()
@@ -323,8 +328,8 @@ impl Curves {
             dataset = dataset.array("amplitude_ratio", Quantity::Velocity, ratios);
         }
         dataset
-            .array("displacement", Quantity::Displacement, each(&|it| it.state.displacement))
-            .array("velocity", Quantity::Velocity, each(&|it| it.state.velocity))
-            .array("multiplier_modulus", Quantity::Ratio, each(&|it| it.radius))
+            .array("displacement", Quantity::Displacement, each(&|point| point.state.displacement))
+            .array("velocity", Quantity::Velocity, each(&|point| point.state.velocity))
+            .array("multiplier_modulus", Quantity::Ratio, each(&|point| point.radius))
     }
 }

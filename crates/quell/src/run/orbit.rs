@@ -148,7 +148,8 @@ fn undithered(study: &BeltStudy, wanted: Wanted) -> Result<Response, Failure> {
         }
         Wanted::OfSliding { .. } => cycles.first(),
         Wanted::Near { state: (x, v), .. } => {
-            let off = |it: &&Orbit| (it.start.displacement - x).hypot(it.start.velocity - v);
+            let off =
+                |cycle: &&Orbit| (cycle.start.displacement - x).hypot(cycle.start.velocity - v);
             cycles.iter().min_by(|a, b| off(a).total_cmp(&off(b)))
         }
     };

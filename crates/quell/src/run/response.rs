@@ -217,7 +217,8 @@ impl Steady {
         let names = [("displacement", Quantity::Displacement), ("velocity", Quantity::Velocity)];
         for (place, (name, quantity)) in names.into_iter().enumerate() {
             let both = values.clone().map(|(with, without)| (with[place], without[place]));
-            let (with, without) = (both.clone().map(|it| it.0), both.clone().map(|it| it.1));
+            let (with, without) =
+                (both.clone().map(|pair| pair.0), both.clone().map(|pair| pair.1));
             let level = both.and_then(|(with, without)| level(with, without));
             fields
                 .known(&format!("band_{name}_rms"), quantity, with)

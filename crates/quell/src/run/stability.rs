@@ -136,8 +136,9 @@ impl Averaged {
     }
 
     fn put(&self, study: &BeltStudy, fields: &mut Fields) {
-        let told = |why: &AveragingError| why.to_string();
-        let value = |field: fn(&Criterion) -> f64| self.criterion.as_ref().map(field).map_err(told);
+        let words = |why: &AveragingError| why.to_string();
+        let value =
+            |field: fn(&Criterion) -> f64| self.criterion.as_ref().map(field).map_err(words);
         let rate = value(|criterion| of_criterion(criterion.value));
         if let Some(scales) = fields.scales() {
             let decibels = rate.clone().map(|rate| DECIBELS * rate * scales.angular_frequency());
@@ -345,7 +346,8 @@ impl Stability {
         let Some(range) = belt.friction().range() else { return Vec::new() };
         let averaged: Vec<&Averaged> = [&self.limit].into_iter().chain(&self.sharper).collect();
         let mut warnings = Vec::new();
-        let amplitudes = averaged.iter().filter_map(|it| it.critical_amplitudes.as_ref().ok());
+        let amplitudes =
+            averaged.iter().filter_map(|averaged| averaged.critical_amplitudes.as_ref().ok());
         let slips = amplitudes.flatten().map(|critical| {
             let slip = range::at_amplitude(belt, critical.amplitude);
             (critical.amplitude, slip)
@@ -357,7 +359,8 @@ impl Stability {
                 format!("at the critical amplitude D = {amplitude}, slip including dither reaches");
             warnings.push(range::sentence(study, &range, &what, slip));
         }
-        let everywhere = averaged.iter().filter_map(|it| it.everywhere_stable.as_ref().ok());
+        let everywhere =
+            averaged.iter().filter_map(|averaged| averaged.everywhere_stable.as_ref().ok());
         let ratio = everywhere.fold(0.0_f64, |most, ratio| most.max(*ratio));
         let frequency = belt.dithers().first().map_or(0.0, |dither| dither.frequency_ratio);
         let slip = range::at_amplitude(belt, ratio * frequency);
@@ -368,7 +371,7 @@ impl Stability {
             );
             warnings.push(range::sentence(study, &range, &what, slip));
         }
-        let bands = averaged.iter().filter_map(|it| it.unstable_bands.as_ref().ok());
+        let bands = averaged.iter().filter_map(|averaged| averaged.unstable_bands.as_ref().ok());
         let ends = bands.flatten().map(|band| band.upper.unwrap_or(band.lower));
         let furthest = ends.fold(0.0, f64::max);
         let slip = range::with_dither(belt, furthest);

@@ -58,7 +58,7 @@ impl Varied {
                 if complaint.fault == Fault::Value {
                     // The value of the option, not what it makes of other numbers.
                     let complaint = Complaint { value: given_number(value), ..complaint };
-                    complaints.push(told(complaint, end));
+                    complaints.push(for_option(complaint, end));
                 } else {
                     // Where it was written says nothing: it is this option.
                     let said = Complaint { origin: Origin::Whole, ..complaint }.to_string();
@@ -147,10 +147,10 @@ impl Named {
         let found = resolve(path);
         // The number of the equations that is meant, whether or not its key is one of this study.
         let meant = match &found {
-            Ok(address) => address.key.parameter().map(|it| join(table, it.key())),
+            Ok(address) => address.key.parameter().map(|parameter| join(table, parameter.key())),
             Err(nearest) => nearest.clone(),
         };
-        let meant = meant.or_else(|| Some(path.to_owned())).filter(|it| belt.get(it).is_some());
+        let meant = meant.or_else(|| Some(path.to_owned())).filter(|path| belt.get(path).is_some());
         let per_unit = match (&meant, found.ok().map(|address| address.key.role), study.scales()) {
             // A root mean square depends on the waveform: what is found is a peak.
             (Some(_), Some(Role::Twin(parameter, twin)), Some(scales)) if !twin.rms => {
@@ -207,7 +207,7 @@ impl Named {
         (option, given): (&'static str, f64),
     ) -> impl Iterator<Item = Complaint> {
         let refused = study.with(&self.key, given).err();
-        refused.into_iter().flatten().map(move |complaint| told(complaint, option))
+        refused.into_iter().flatten().map(move |complaint| for_option(complaint, option))
     }
 }
 
@@ -241,8 +241,8 @@ fn address(study: &BeltStudy, option: &'static str, path: &str) -> Result<Addres
     if found.key.takes_number() { Ok(found) } else { Err(refuse(None)) }
 }
 
-/// A complaint about a study at an end of the range, told of that option.
-fn told(complaint: Complaint, option: &'static str) -> Complaint {
+/// A complaint about a study at an end of the range, as one about that option.
+fn for_option(complaint: Complaint, option: &'static str) -> Complaint {
     let allowed = format!("such that {} is {}", complaint.key, complaint.allowed);
     Complaint {
         fault: Fault::Value,

@@ -176,8 +176,8 @@ pub(super) fn evaluate(points: &[BeltStudy], wanted: &[Computation]) -> Vec<Resu
         let with_effect = wanted.contains(&Computation::ResponseWithEffect);
         let found = responses(points, Observables { dither_cost }, with_effect);
         for (result, outcome) in results.iter_mut().zip(found) {
-            result.steady = Some(outcome.map(|it| it.0));
-            result.effect = Some(outcome.and_then(|it| it.1.ok_or(Status::Missing)));
+            result.steady = Some(outcome.map(|(steady, _)| steady));
+            result.effect = Some(outcome.and_then(|(_, effect)| effect.ok_or(Status::Missing)));
         }
     }
     results
@@ -233,7 +233,7 @@ fn responses(
 fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
     let belt = study.belt();
     let mut results = Results { reach: Reach::of(belt), ..Results::default() };
-    let told = |why: AveragingError| Status::from(&why);
+    let status = |why: AveragingError| Status::from(&why);
     for computation in wanted {
         match computation {
             Computation::Response
@@ -243,20 +243,20 @@ fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
             | Computation::DiscGrowthUndithered => {}
             Computation::Criterion => {
                 let found = criterion(belt, AveragingOptions::default());
-                results.criterion = Some(found.map_err(told));
+                results.criterion = Some(found.map_err(status));
             }
             Computation::CriterionSharper => {
                 let slow = belt.dithers().iter().any(|dither| dither.frequency_ratio <= 1.0);
                 results.criterion_sharper = Some(match belt.dithers() {
                     [] => Err(Status::NoDither),
                     _ if slow => Err(Status::NotFast),
-                    _ => criterion(belt, AveragingOptions::FINITE_R).map_err(told),
+                    _ => criterion(belt, AveragingOptions::FINITE_R).map_err(status),
                 });
             }
             Computation::CriticalAmplitudes => {
                 results.critical_amplitudes = Some(match belt.dithers() {
                     [] => Err(Status::NoDither),
-                    _ => critical_amplitudes(belt, AveragingOptions::default()).map_err(told),
+                    _ => critical_amplitudes(belt, AveragingOptions::default()).map_err(status),
                 });
             }
         }

@@ -154,7 +154,7 @@ mod tests {
             let found = Quantity::named_for(quantity.kind, quantity.name, "--quantity");
             assert_eq!(found, Ok(quantity));
         }
-        let told = Quantity::named("stick_fraction", "--quantity").expect_err("an underscore");
-        assert_eq!(told.suggestion.as_deref(), Some("stick-fraction"));
+        let refused = Quantity::named("stick_fraction", "--quantity").expect_err("an underscore");
+        assert_eq!(refused.suggestion.as_deref(), Some("stick-fraction"));
     }
 }

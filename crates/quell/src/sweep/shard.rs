@@ -93,6 +93,9 @@ mod tests {
         for text in ["", "3", "0/4", "5/4", "1/0", "-1/4", "1.5/4", "a/b", "1/2/3", "1/1000001"] {
             assert!(Shard::parse(text, "--shard").is_err(), "{text}");
         }
-        assert_eq!(Shard::parse(" 3/16 ", "--shard").map(|it| it.to_string()), Ok("3/16".into()));
+        assert_eq!(
+            Shard::parse(" 3/16 ", "--shard").map(|shard| shard.to_string()),
+            Ok("3/16".into())
+        );
     }
 }

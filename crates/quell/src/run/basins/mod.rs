@@ -6,11 +6,11 @@
 //! | `share` | how large a basin is, and how sure that is |
 //! | `tell` | the outcome as sentence, JSON, datasets |
 
+mod answer;
 mod share;
 mod starts;
-mod tell;
 
-pub use tell::quiescence;
+pub use answer::quiescence;
 #[cfg(test)]
 mod tests;
 

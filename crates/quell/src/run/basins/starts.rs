@@ -186,7 +186,7 @@ mod tests {
         let window = Window { displacement: (0.0, 1.0), velocity: (2.0, 3.0) };
         let states = states(window, Layout::Grid { columns: 3, rows: 2 });
         let pairs: Vec<(f64, f64)> =
-            states.iter().map(|it| (it.displacement, it.velocity)).collect();
+            states.iter().map(|start| (start.displacement, start.velocity)).collect();
         assert_eq!(pairs, [(0.0, 2.0), (0.5, 2.0), (1.0, 2.0), (0.0, 3.0), (0.5, 3.0), (1.0, 3.0)]);
     }
 }

@@ -3,7 +3,7 @@
 //! At each value the run goes on from where the last one ended (on a closed orbit from its exact state), until a growth rate says
 //! that it has settled. Sweeping down begins where sweeping up ended. Where the two differ, responses coexist.
 
-mod tell;
+mod answer;
 
 use std::sync::atomic::Ordering;
 
@@ -129,8 +129,8 @@ pub fn run(
     let (up, down) =
         if question.up || question.down { (question.up, question.down) } else { (true, true) };
     let count = varied.values.len();
-    let asked = [(up, Direction::Up), (down, Direction::Down)].into_iter().filter(|it| it.0);
-    let directions: Vec<Direction> = asked.map(|it| it.1).collect();
+    let asked = [(up, Direction::Up), (down, Direction::Down)].into_iter().filter(|(on, _)| *on);
+    let directions: Vec<Direction> = asked.map(|(_, direction)| direction).collect();
     running.progress.begin(count * directions.len(), 0);
     let mut branches: Vec<Branch> = Vec::new();
     let mut state: Option<Start> = None;

@@ -123,7 +123,7 @@ impl Modes {
             json!({ "radial": row.radial, "diameters": row.diameters })
         });
         let mut why = Map::new();
-        let mut told = |null: bool, key: &str, reason: &str| {
+        let mut explain = |null: bool, key: &str, reason: &str| {
             if null {
                 why.insert(key.to_owned(), reason.into());
             }

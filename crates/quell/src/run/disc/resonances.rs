@@ -42,20 +42,20 @@ impl ResonancesRequest {
     ) -> Result<Self, Complaints> {
         let mut wrong = Vec::new();
         let mut range = |option, bounds: Bounds, (from, to): (f64, f64)| {
-            let told = || format!("{from}:{to}");
+            let given = || format!("{from}:{to}");
             if !(from.is_finite() && to.is_finite() && from <= to) {
                 let allowed = "FROM:TO, two finite numbers, the first at most the second";
-                wrong.push(Complaint::option(option, told(), allowed));
+                wrong.push(Complaint::option(option, given(), allowed));
             } else if !(bounds.contains(from) && bounds.contains(to)) {
                 let allowed = format!("a range with both ends {bounds}");
-                wrong.push(Complaint::option(option, told(), allowed));
+                wrong.push(Complaint::option(option, given(), allowed));
             }
             from..=to
         };
         let speeds = range("--speeds", Bounds::FINITE, speeds);
-        let wanted = clear.map(|it| range("--clear", Bounds::FINITE, it));
+        let wanted = clear.map(|ends| range("--clear", Bounds::FINITE, ends));
         let frequencies =
-            frequency.map(|it| range("--frequency", DITHER_FREQUENCY_RATIO.bounds, it));
+            frequency.map(|ends| range("--frequency", DITHER_FREQUENCY_RATIO.bounds, ends));
         for (option, one, other) in
             [("--clear", clear, frequency.is_none()), ("--frequency", frequency, clear.is_none())]
         {
@@ -119,9 +119,9 @@ pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances,
         Failure::from(Complaint::new(Fault::Conflict, key, Origin::Whole, Json::Null, why))
     };
     if study.parts() != Contributions::ALL {
-        let told = study.without();
+        let given = study.without();
         let allowed = "empty: resonance theory applies to the whole disc only";
-        let complaint = Complaint::new(Fault::Value, "disc.without", Origin::Whole, told, allowed);
+        let complaint = Complaint::new(Fault::Value, "disc.without", Origin::Whole, given, allowed);
         return Err(complaint.into());
     }
     let waves = Waves::new(study.disc()).map_err(|why| {
@@ -149,7 +149,7 @@ pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances,
                 clearance.clear.iter().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
             let verified = verified_frequency(study.disc(), &clearance, speeds.clone());
             let suggestion = widest.map(|[from, to]| {
-                let ratio = verified.map_or(0.5 * (from + to), |it| it.frequency_ratio);
+                let ratio = verified.map_or(0.5 * (from + to), |best| best.frequency_ratio);
                 let there = waves
                     .with_dither_frequency(ratio)
                     .map_err(|why| refuse("--frequency", why.to_string()))?;
@@ -244,10 +244,11 @@ impl Resonances {
     /// As a dataset: one row a meeting; one that is induced by dither has a harmonic that is not 0.
     pub fn dataset(&self, study: &DiscStudy) -> Dataset {
         let all: Vec<&Resonance> = self.undithered.iter().chain(&self.dithered).collect();
-        let column =
-            |of: &dyn Fn(&Resonance) -> f64| all.iter().map(|it| of(it)).collect::<Vec<_>>();
+        let column = |of: &dyn Fn(&Resonance) -> f64| {
+            all.iter().map(|resonance| of(resonance)).collect::<Vec<_>>()
+        };
         let edge = |side: usize| {
-            column(&move |it| it.tongue.edges().map_or(f64::NAN, |edges| edges[side]))
+            column(&move |resonance| resonance.tongue.edges().map_or(f64::NAN, |edges| edges[side]))
         };
         let none = f64::NAN;
         let number = (1..=all.len()).map(|index| index as f64).collect();
@@ -257,20 +258,24 @@ impl Resonances {
         }
         dataset
             .axis("meeting", Quantity::Count, number)
-            .with(Array::new("speed", "ω_ref", column(&|it| it.speed)))
-            .with(Array::new("harmonic", "1", column(&|it| f64::from(it.harmonic))))
+            .with(Array::new("speed", "ω_ref", column(&|resonance| resonance.speed)))
+            .with(Array::new("harmonic", "1", column(&|resonance| f64::from(resonance.harmonic))))
             .with(Array::new(
                 "can_be_unstable",
                 "1",
-                column(&|it| f64::from(u8::from(it.can_be_unstable()))),
+                column(&|resonance| f64::from(u8::from(resonance.can_be_unstable()))),
             ))
-            .with(Array::new("threshold", "1", column(&|it| it.threshold.unwrap_or(none))))
+            .with(Array::new(
+                "threshold",
+                "1",
+                column(&|resonance| resonance.threshold.unwrap_or(none)),
+            ))
             .with(Array::new("lower_edge", "ω_ref", edge(0)))
             .with(Array::new("upper_edge", "ω_ref", edge(1)))
             .with(Array::new(
                 "peak_growth",
                 "ω_ref",
-                column(&|it| it.tongue.peak_growth().unwrap_or(none)),
+                column(&|resonance| resonance.tongue.peak_growth().unwrap_or(none)),
             ))
     }
 
@@ -282,8 +287,8 @@ impl Resonances {
             "ok": true,
             "speeds": [start, end],
             "order": if self.question.order == Order::First { "first" } else { "second" },
-            "undithered": self.undithered.iter().map(|it| meeting(it, hertz)).collect::<Vec<_>>(),
-            "dithered": self.dithered.iter().map(|it| meeting(it, hertz)).collect::<Vec<_>>(),
+            "undithered": self.undithered.iter().map(|resonance| meeting(resonance, hertz)).collect::<Vec<_>>(),
+            "dithered": self.dithered.iter().map(|resonance| meeting(resonance, hertz)).collect::<Vec<_>>(),
             "units": {
                 "speed": "ω_ref", "edges": "ω_ref", "width": "ω_ref", "peak_growth": "ω_ref", "threshold": "1 (f*)",
             },
@@ -298,12 +303,12 @@ impl Resonances {
                 "blocked": clear.clearance.blocked.iter().map(blocked).collect::<Vec<_>>(),
                 "original_suppressed": clear.clearance.original_suppressed,
                 "suggestion": clear.suggestion.as_ref().map(|(ratio, _)| *ratio),
-                "verified_growth_rate": clear.verified.map(|it| it.growth.rate),
-                "verified": clear.verified.map(|it| json!({
-                    "verdict": it.growth.verdict().name(),
-                    "growth_rate": it.growth.rate,
-                    "growth_rate_error": it.growth.error,
-                    "speed": it.speed,
+                "verified_growth_rate": clear.verified.map(|verified| verified.growth.rate),
+                "verified": clear.verified.map(|verified| json!({
+                    "verdict": verified.growth.verdict().name(),
+                    "growth_rate": verified.growth.rate,
+                    "growth_rate_error": verified.growth.error,
+                    "speed": verified.speed,
                 })),
                 "units": {
                     "speeds": "ω_ref", "frequencies": "ω_ref", "clear": "ω_ref", "suggestion": "ω_ref",

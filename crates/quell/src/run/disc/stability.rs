@@ -220,7 +220,7 @@ impl Stability {
                 object["speed_at_load_km_per_h"] = (3.6 * velocity).into();
             }
             if let Some(force) =
-                study.scales(0).and_then(|it| it.si_per_unit(Quantity::LoadFriction))
+                study.scales(0).and_then(|scales| scales.si_per_unit(Quantity::LoadFriction))
                 && let Some(changes) = object["changes"].as_array_mut()
             {
                 for change in changes {

@@ -58,8 +58,8 @@ pub fn boundaries(grid: &Grid) -> Vec<Boundary> {
                 .filter_map(|(value, ratio, critical)| {
                     let alpha = critical
                         .iter()
-                        .map(|it| (it.amplitude_ratio, it.becomes))
-                        .find(|(alpha, it)| *alpha > 0.0 && *it == becomes)?
+                        .map(|critical| (critical.amplitude_ratio, critical.becomes))
+                        .find(|(alpha, change)| *alpha > 0.0 && *change == becomes)?
                         .0;
                     Some((*value, alpha * ratio))
                 })

@@ -77,8 +77,8 @@ impl Map {
         })
     }
 
-    /// The array whose numbers are told: in SI where the study is.
-    pub fn told(&self, entry: &Entry) -> usize {
+    /// The array of numbers to show: in SI if the study is in SI.
+    pub fn shown(&self, entry: &Entry) -> usize {
         entry.twin.unwrap_or(entry.value)
     }
 
@@ -92,11 +92,11 @@ impl Map {
         let mut states: BTreeMap<Status, usize> = BTreeMap::new();
         let mut least: Option<(f64, usize)> = None;
         let mut most = least;
-        let told = self.told(entry);
+        let shown = self.shown(entry);
         let numbers = self.plan.sheet().fields()[entry.value].content == Content::Numbers;
         for point in 0..grid.len() {
             *states.entry(self.status(entry, point)).or_default() += 1;
-            let Some(value) = self.value(told, entry, point).filter(|_| numbers) else {
+            let Some(value) = self.value(shown, entry, point).filter(|_| numbers) else {
                 continue;
             };
             if least.is_none_or(|(lowest, _)| value < lowest) {

@@ -17,7 +17,7 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::attractor::unknown;
-use super::orbit::refused;
+use super::orbit;
 use super::protocol::Protocol;
 use super::varied::{Named, ascending, key_of};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
@@ -29,7 +29,7 @@ use crate::study::document::given_number;
 use crate::study::{BeltStudy, InitialState};
 use crate::words::{digits, in_words, plural};
 
-mod tell;
+mod answer;
 
 /// Least number of values between which an orbit is followed.
 const STEPS: u32 = 40;
@@ -96,8 +96,8 @@ pub fn quantity_of(study: &BeltStudy, path: &str) -> Quantity {
     study.belt().parameter(path).map_or(Quantity::Ratio, |parameter| parameter.quantity)
 }
 
-/// Why there are no thresholds, as it is told.
-pub(super) fn told(
+/// The failure that reports why there are no thresholds.
+pub(super) fn refused(
     study: &BeltStudy,
     why: NoThresholds,
     path: &str,
@@ -116,7 +116,7 @@ pub(super) fn told(
                 unknown(&why)
             ),
         },
-        NoThresholds::Start(why) => refused(why),
+        NoThresholds::Start(why) => orbit::refused(why),
         NoThresholds::Lost { at } => Failure::Failed {
             key: "thresholds".to_owned(),
             why: format!("the continuation lost the response beyond {key} = {}", words(at)),
@@ -191,7 +191,7 @@ fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, F
         {
             (Local::nowhere(from), Some(why))
         }
-        Err(why) => return Err(told(study, why, path, "--from")),
+        Err(why) => return Err(refused(study, why, path, "--from")),
     };
     let last = belt.with(path, to).ok();
     let resumes = local.ending != BranchEnding::Covered
@@ -216,14 +216,14 @@ fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, F
             }
         };
         let found = switches(belt, path, (from, to), TRIED, CLOSENESS, start)
-            .map_err(|why| told(study, why, path, "--from"))?;
+            .map_err(|why| refused(study, why, path, "--from"))?;
         protocols.push((protocol, found));
     }
     let slip = slip_met(study, &question, &local, &protocols);
     let reaches = |value: f64| {
         let belt = belt.with(path, value).ok();
         belt.and_then(|belt| StroboscopicSection::of(&belt).ok())
-            .is_some_and(|it| it.reaches_the_band())
+            .is_some_and(|section| section.reaches_the_band())
     };
     let in_band = reaches(from) || reaches(to);
     Ok(Thresholds { question, local, no_base, resumes, protocols, slip, in_band })
@@ -290,27 +290,27 @@ impl Thresholds {
         let question = &self.question;
         let quantity = quantity_of(study, &question.parameter);
         let object = || Fields::new(study.scales());
-        let local = self.local.thresholds.iter().map(|it| {
+        let local = self.local.thresholds.iter().map(|threshold| {
             let mut inner = object();
             inner
-                .number("value", quantity, it.value)
-                .number("error", quantity, it.error)
-                .plain("kind", it.kind.name())
-                .plain("was", side(it.was))
-                .plain("becomes", side(it.becomes))
-                .number("displacement", Quantity::Displacement, it.state.displacement)
-                .number("velocity", Quantity::Velocity, it.state.velocity);
+                .number("value", quantity, threshold.value)
+                .number("error", quantity, threshold.error)
+                .plain("kind", threshold.kind.name())
+                .plain("was", side(threshold.was))
+                .plain("becomes", side(threshold.becomes))
+                .number("displacement", Quantity::Displacement, threshold.state.displacement)
+                .number("velocity", Quantity::Velocity, threshold.state.velocity);
             inner
         });
         let words = |signature: Option<&Signature>| {
             signature.map_or_else(|| "none".to_owned(), Signature::words)
         };
-        let changes = self.local.changes.iter().map(|it| {
+        let changes = self.local.changes.iter().map(|change| {
             let mut inner = object();
             inner
-                .number("value", quantity, it.value)
-                .plain("below", words(it.below.as_ref()))
-                .plain("above", words(it.above.as_ref()));
+                .number("value", quantity, change.value)
+                .plain("below", words(change.below.as_ref()))
+                .plain("above", words(change.above.as_ref()));
             inner
         });
         let mut fields = object();
@@ -330,12 +330,12 @@ impl Thresholds {
         let mut first = object();
         for (protocol, switches) in &self.protocols {
             first.plain(protocol.name(), becomes(switches.first, self.in_band));
-            let switches = switches.changes.iter().map(|it| {
+            let switches = switches.changes.iter().map(|switch| {
                 let mut inner = object();
                 inner
-                    .number("value", quantity, it.value)
-                    .number("error", quantity, it.error)
-                    .plain("becomes", becomes(it.becomes, self.in_band));
+                    .number("value", quantity, switch.value)
+                    .number("error", quantity, switch.error)
+                    .plain("becomes", becomes(switch.becomes, self.in_band));
                 inner
             });
             fields.list(protocol.name(), switches);
@@ -351,7 +351,7 @@ impl Thresholds {
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let given = &self.question.parameter;
         let path = path_in_words(study, given);
-        let told = |(protocol, switches): &(Protocol, Switches)| {
+        let warning = |(protocol, switches): &(Protocol, Switches)| {
             let (value, why) = switches.unknown.first()?;
             let value = value_in_words(study, given, *value);
             let runs = protocol.name().replace('_', " ");
@@ -375,7 +375,7 @@ impl Thresholds {
             .warnings(study)
             .into_iter()
             .chain(in_band)
-            .chain(self.protocols.iter().filter_map(told))
+            .chain(self.protocols.iter().filter_map(warning))
             .collect()
     }
 }

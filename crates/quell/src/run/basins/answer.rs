@@ -183,8 +183,11 @@ impl Basins {
                 let ends: Vec<String> =
                     portraits.first().into_iter().chain(portraits.last()).map(value).collect();
                 let mut text = format!("Over {path} from {}", ends.join(" to "));
-                let known =
-                    || portraits.iter().filter_map(|it| Some((it, 100.0 * it.quiet?.fraction)));
+                let known = || {
+                    portraits
+                        .iter()
+                        .filter_map(|portrait| Some((portrait, 100.0 * portrait.quiet?.fraction)))
+                };
                 let least = known().min_by(|a, b| a.1.total_cmp(&b.1));
                 let most = known().max_by(|a, b| a.1.total_cmp(&b.1));
                 if let (Some((least, low)), Some((most, high))) = (least, most) {
@@ -199,9 +202,11 @@ impl Basins {
                 }
                 let only_local = portraits
                     .iter()
-                    .filter(|it| it.local == Ok(OrbitVerdict::Stable) && it.leaves())
+                    .filter(|portrait| {
+                        portrait.local == Ok(OrbitVerdict::Stable) && portrait.leaves()
+                    })
                     .count();
-                let open = portraits.iter().filter(|it| it.unknown.starts > 0).count();
+                let open = portraits.iter().filter(|portrait| portrait.unknown.starts > 0).count();
                 if open > 0 && least.is_some() {
                     let _ = write!(
                         text,
@@ -237,7 +242,7 @@ impl Basins {
                     BasinLabel::Unsettled(why) => why.about(),
                     BasinLabel::Stalled(stalled) => stalled.why,
                 };
-                match reasons.iter_mut().find(|it| it.0 == why) {
+                match reasons.iter_mut().find(|reason| reason.0 == why) {
                     Some(reason) => reason.1 += 1,
                     None => reasons.push((why, 1)),
                 }
@@ -294,21 +299,35 @@ impl Basins {
                 let of = |value: &dyn Fn(&Portrait) -> f64| {
                     portraits.iter().map(value).collect::<Vec<f64>>()
                 };
-                let quiet = |which: fn(Share) -> f64| of(&|it| it.quiet.map_or(f64::NAN, which));
+                let quiet = |which: fn(Share) -> f64| {
+                    of(&|portrait| portrait.quiet.map_or(f64::NAN, which))
+                };
                 let verdicts: Vec<u8> =
-                    portraits.iter().map(|it| verdict_code(&it.local)).collect();
+                    portraits.iter().map(|portrait| verdict_code(&portrait.local)).collect();
                 let (name, unit) = varied
                     .as_ref()
                     .map_or((String::new(), ""), |varied| (varied.name(), varied.unit));
                 Dataset::new(study, "basins")
                     .fact(facts)
-                    .with_axis(Array::new(name, unit, of(&|it| it.value.unwrap_or(f64::NAN))))
+                    .with_axis(Array::new(
+                        name,
+                        unit,
+                        of(&|portrait| portrait.value.unwrap_or(f64::NAN)),
+                    ))
                     .with(Array::of_words("local_verdict", VERDICTS.to_vec(), &verdicts))
                     .array("quiet_fraction", Quantity::Ratio, quiet(|share| share.fraction))
                     .array("quiet_fraction_low", Quantity::Ratio, quiet(|share| share.low))
                     .array("quiet_fraction_high", Quantity::Ratio, quiet(|share| share.high))
-                    .array("unknown_fraction", Quantity::Ratio, of(&|it| it.unknown.fraction))
-                    .array("attractors", Quantity::Count, of(&|it| it.gathered.basins.len() as f64))
+                    .array(
+                        "unknown_fraction",
+                        Quantity::Ratio,
+                        of(&|portrait| portrait.unknown.fraction),
+                    )
+                    .array(
+                        "attractors",
+                        Quantity::Count,
+                        of(&|portrait| portrait.gathered.basins.len() as f64),
+                    )
             }
         }
     }
@@ -351,12 +370,12 @@ impl Basins {
                 .array(
                     "displacement",
                     Quantity::Displacement,
-                    states.iter().map(|it| it.displacement).collect(),
+                    states.iter().map(|start| start.displacement).collect(),
                 )
                 .array(
                     "velocity",
                     Quantity::Velocity,
-                    states.iter().map(|it| it.velocity).collect(),
+                    states.iter().map(|start| start.velocity).collect(),
                 )
         };
         dataset

@@ -180,9 +180,9 @@ impl Bifurcation {
             for point in &branch.points {
                 let attractor = point.response.as_ref().ok();
                 let none = [(f64::NAN, f64::NAN)];
-                let section = attractor.map_or(&none[..], |it| it.section.as_slice());
-                let rotation = attractor.and_then(|it| it.rotation);
-                let ratio = rotation.and_then(|it| it.ratio);
+                let section = attractor.map_or(&none[..], |attractor| attractor.section.as_slice());
+                let rotation = attractor.and_then(|attractor| attractor.rotation);
+                let ratio = rotation.and_then(|rotation| rotation.ratio);
                 let of = |value: Option<f64>| value.unwrap_or(f64::NAN);
                 // Columns are scaled by the study as it is; where mass or stiffness vary, that is made good here.
                 let other = |quantity: Quantity| match (point.scales, study.scales()) {
@@ -197,13 +197,14 @@ impl Bifurcation {
                         *x,
                         *v * velocity,
                         of(attractor.map(Attractor::size)),
-                        of(attractor.map(|it| it.stick_fraction)),
+                        of(attractor.map(|attractor| attractor.stick_fraction)),
                         of(attractor.and_then(periods)),
-                        of(rotation.map(|it| it.turns_per_period)),
-                        of(rotation.map(|it| it.error)),
-                        of(ratio.map(|it| it.turns as f64)),
-                        of(ratio.map(|it| f64::from(it.periods))),
-                        of(attractor.and_then(|it| it.frequency(point.period))) * hertz,
+                        of(rotation.map(|rotation| rotation.turns_per_period)),
+                        of(rotation.map(|rotation| rotation.error)),
+                        of(ratio.map(|ratio| ratio.turns as f64)),
+                        of(ratio.map(|ratio| f64::from(ratio.periods))),
+                        of(attractor.and_then(|attractor| attractor.frequency(point.period)))
+                            * hertz,
                         point.periods as f64,
                     ];
                     numbers.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
@@ -288,9 +289,12 @@ mod tests {
         let branches = vec![branch(Direction::Up, [1.0, 2.0]), branch(Direction::Down, [2.0, 1.0])];
         let found =
             Bifurcation { varied, branches, hysteresis: Vec::new(), slip: SlipMet::default() };
-        let told = found.sentence(&study);
-        assert!(told.contains("the response is unsettled at both 1 and 2"), "{told}");
-        assert!(told.ends_with("The two directions have not both settled at any value."), "{told}");
+        let sentence = found.sentence(&study);
+        assert!(sentence.contains("the response is unsettled at both 1 and 2"), "{sentence}");
+        assert!(
+            sentence.ends_with("The two directions have not both settled at any value."),
+            "{sentence}"
+        );
         let json = found.json(&study);
         assert_eq!(json["jumps"].as_array().map(Vec::len), Some(0));
         assert!(json["up"][0]["kind"].is_null() && json["why"]["up[0].kind"].is_string());

@@ -181,11 +181,12 @@ impl Thresholds {
         }
         let subject = if dithered { "the base response" } else { "steady sliding" };
         let (intervals, end) = self.base_response();
-        let is_stable = |it: &&Interval<OrbitVerdict>| it.answer == OrbitVerdict::Stable;
+        let is_stable =
+            |interval: &&Interval<OrbitVerdict>| interval.answer == OrbitVerdict::Stable;
         let stable: Vec<&Interval<OrbitVerdict>> = intervals.iter().filter(is_stable).collect();
-        let told = match (stable.len(), intervals.as_slice()) {
+        let statement = match (stable.len(), intervals.as_slice()) {
             (0, all) => {
-                let unstable = all.iter().all(|it| it.answer == OrbitVerdict::Unstable);
+                let unstable = all.iter().all(|interval| interval.answer == OrbitVerdict::Unstable);
                 let covered = end.is_none() && self.local.ending == BranchEnding::Covered;
                 let none = if covered { " (no threshold in this range)" } else { "" };
                 if unstable {
@@ -204,7 +205,8 @@ impl Thresholds {
                 let interval = parameter.interval(only);
                 let statement = format!("{subject} is stable {interval}");
                 // Undecided lies at thresholds alone, and is said by the table.
-                let unstable = all.iter().filter(|it| it.answer == OrbitVerdict::Unstable).count();
+                let unstable =
+                    all.iter().filter(|interval| interval.answer == OrbitVerdict::Unstable).count();
                 match (only.from.of_range, only.to.of_range) {
                     _ if unstable + 1 < all.len() || all.len() == 1 => statement,
                     (false, true) => {
@@ -220,7 +222,7 @@ impl Thresholds {
         };
         let stable_until_then = intervals.last().as_ref().is_some_and(is_stable);
         let ends = self.of_the_end(parameter, end, stable_until_then);
-        format!("{}.{ends}", capital(&told))
+        format!("{}.{ends}", capital(&statement))
     }
 
     /// Where and why the base response ends before the range does.
@@ -285,7 +287,7 @@ impl Thresholds {
     fn of_runs(&self, parameter: &Parameter<'_>, switches: &Switches, dithered: bool) -> String {
         let intervals = runs(self.question.from, self.question.to, switches);
         let of = |wanted: Option<bool>| -> Vec<&Interval<Option<bool>>> {
-            intervals.iter().filter(|it| it.answer == wanted).collect()
+            intervals.iter().filter(|interval| interval.answer == wanted).collect()
         };
         let verb = match (dithered, self.in_band) {
             (false, _) => "the run ends in steady sliding",
@@ -293,16 +295,16 @@ impl Thresholds {
             (true, false) => "the dither quenches",
         };
         let quenched = of(Some(true));
-        let told = if quenched.is_empty() {
+        let answer = if quenched.is_empty() {
             format!("{verb} at no {}", parameter.whole(&intervals))
         } else {
             format!("{verb} {}", parameter.intervals(quenched))
         };
         let open = of(None);
         if open.is_empty() {
-            return told;
+            return answer;
         }
-        format!("{told}; the outcome is unknown {}", parameter.intervals(open))
+        format!("{answer}; the outcome is unknown {}", parameter.intervals(open))
     }
 }
 
