@@ -12,12 +12,12 @@ use crate::fields::Fields;
 use crate::study::BeltStudy;
 use crate::words::{digits, in_scales, plural};
 
-/// The belt with its strobe and its quiet response.
+/// The belt with its stroboscopic section and its base response.
 pub(super) fn scene(belt: &Belt) -> Result<AttractorSettings<'_>, Failure> {
     AttractorSettings::new(belt).map_err(refused)
 }
 
-/// The attractor in words: what it is, and at which frequency it turns.
+/// The attractor as text: its kind and its slow frequency.
 pub fn words(scales: Option<Scales>, attractor: &Attractor, period: f64) -> String {
     let frequency = attractor.frequency(period).map_or_else(String::new, |frequency| {
         let unit = if scales.is_some() { "" } else { " ω₀" };
@@ -50,7 +50,7 @@ pub fn words(scales: Option<Scales>, attractor: &Attractor, period: f64) -> Stri
     }
 }
 
-/// What is known of an attractor, added to an object.
+/// Adds the fields of an attractor to an object.
 pub(super) fn put(fields: &mut Fields, attractor: &Attractor, period: f64) {
     let not_turning = || "a period-1 response has no slow rotation".to_owned();
     let rotation = attractor.rotation;
@@ -128,7 +128,7 @@ pub(super) fn put_section(fields: &mut Fields, attractor: &Attractor) {
     );
 }
 
-/// Why the base response is not known, in words.
+/// Why the base response is unknown, as text.
 pub(in crate::run) fn unknown(why: &NoOrbit) -> String {
     match why {
         NoOrbit::Ends { share } => {
@@ -145,7 +145,7 @@ pub(in crate::run) fn unknown(why: &NoOrbit) -> String {
     }
 }
 
-/// A number of the study in words.
+/// A number of the study as text.
 pub(super) fn number(study: &BeltStudy, unit: &str, value: f64) -> String {
     let text = digits(value);
     if study.scales().is_some() && !unit.starts_with('1') { format!("{text} {unit}") } else { text }

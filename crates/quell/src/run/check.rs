@@ -1,4 +1,4 @@
-//! `check`: the study in numbers, once everything about it is right.
+//! `check`: the numbers of a valid study.
 
 use quell_model::parameter::{BELT_VELOCITY, DAMPING_RATIO, NORMAL_LOAD};
 use quell_model::units::Quantity;
@@ -9,7 +9,7 @@ use crate::fields::Fields;
 use crate::range;
 use crate::study::BeltStudy;
 
-/// What a valid study says.
+/// The answer for a valid study.
 #[derive(Clone, Debug)]
 pub struct Check<'a> {
     /// The study.

@@ -1,4 +1,4 @@
-//! `thresholds --along`: curves of local thresholds in two parameters, beside the boundaries of averaging.
+//! `thresholds --along`: curves of local thresholds in two parameters, and the boundaries of averaging.
 
 use quell_dynamics::orbit::curve::{CurvesFound, Open, OpenLine, ParameterPlane, curves};
 pub use quell_dynamics::orbit::curve::{ThresholdCurve, ThresholdCurveEnd, ThresholdCurvePoint};
@@ -19,19 +19,19 @@ use crate::range::SlipMet;
 use crate::study::BeltStudy;
 use crate::words::plural;
 
-/// Lines across the second parameter on which curves are met first.
+/// Lines across the second parameter on which the search for curves starts.
 const LINES: u32 = 5;
 
-/// Least number of points of a curve across a window.
+/// Minimum number of points of a curve across a window.
 const POINTS: u32 = 100;
 
-/// Places of the second parameter at which averaging is asked.
+/// Intervals of the second parameter between evaluations of averaging.
 const AVERAGED: u32 = 120;
 
-/// What is asked.
+/// Options of threshold curves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CurvesRequest {
-    /// Path of the parameter whose thresholds are followed; its key in SI in a study in SI too.
+    /// Path of the parameter whose thresholds are followed; an SI key is allowed in a study in SI.
     pub parameter: String,
     /// Its window, first and last value in the unit of that key.
     pub window: (f64, f64),
@@ -44,26 +44,26 @@ pub struct CurvesRequest {
 /// A boundary of averaging in the same plane: (second parameter, amplitude), both in the numbers of the equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Averaged {
-    /// Whether the fast motion is the oscillator's own instead of its limit R → ∞.
+    /// Whether this is finite-R averaging, with the oscillator's own fast motion, instead of the limit R → ∞.
     pub sharper: bool,
-    /// Points; a boundary that is not there at a place is broken there.
+    /// Points; a boundary is broken where it does not exist.
     pub pieces: Vec<Vec<(f64, f64)>>,
 }
 
 /// Curves of thresholds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
-    /// What was asked, in numbers of the equations.
+    /// The request, in numbers of the equations.
     pub question: CurvesRequest,
     /// The curves.
     pub curves: Vec<ThresholdCurve>,
     /// Lines across the second parameter on which curves may be missing.
     pub open: Vec<OpenLine>,
-    /// Boundaries of averaging, where the first parameter is the amplitude of the first dither.
+    /// Boundaries of averaging, if the first parameter is the amplitude of the first dither.
     pub averaged: Vec<Averaged>,
 }
 
-/// The question in numbers of the equations.
+/// The request in numbers of the equations.
 ///
 /// # Errors
 /// Every complaint about it at once.
@@ -97,7 +97,7 @@ fn understood(study: &BeltStudy, question: &CurvesRequest) -> Result<CurvesReque
     Ok(CurvesRequest { window, between, parameter: parameter.path, along: along.path })
 }
 
-/// What happened on a line across the second parameter.
+/// The problem on a line across the second parameter, as text.
 fn line_in_words(study: &BeltStudy, question: &CurvesRequest, line: &OpenLine) -> String {
     let along = path_in_words(study, &question.along);
     let place = value_in_words(study, &question.along, line.along);
@@ -108,7 +108,7 @@ fn line_in_words(study: &BeltStudy, question: &CurvesRequest, line: &OpenLine) -
 /// The curves of a study.
 ///
 /// # Errors
-/// A complaint about a parameter or its window; [`Failure::Failed`] where there is no response to begin with.
+/// A complaint about a parameter or its window; [`Failure::Failed`] if no response exists at the beginning.
 pub fn run(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failure> {
     within(STEPS_OF_MANY_SEARCHES, || found(study, question))
 }
@@ -134,8 +134,8 @@ fn found(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failure>
     Ok(Curves { question, curves, open, averaged })
 }
 
-/// The boundaries of averaging; none where the first parameter is no amplitude of the first dither. Where averaging
-/// says nothing a boundary is broken.
+/// The boundaries of averaging; none if the first parameter is not the amplitude of the first dither. A boundary is broken
+/// where averaging gives no result.
 fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<Averaged> {
     let belt = study.belt();
     let amplitude = ["dither.amplitude", "dither[0].amplitude"];
@@ -151,7 +151,7 @@ fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<Averaged> {
         .map(|(sharper, response)| {
             let options = AveragingOptions { response, ..AveragingOptions::default() };
             let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
-            // Boundaries that become stable and those that become unstable are curves of their own.
+            // Boundaries towards stability and towards instability are separate curves.
             for index in 0..2 {
                 let mut piece = Vec::new();
                 for k in 0..=AVERAGED {
@@ -180,12 +180,12 @@ fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<Averaged> {
 }
 
 impl Curves {
-    /// Number of points of all curves.
+    /// Total number of points.
     pub fn points(&self) -> usize {
         self.curves.iter().map(|curve| curve.points.len()).sum()
     }
 
-    /// What was found in one sentence.
+    /// The result in one sentence.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         let CurvesRequest { parameter, along, between: (first, last), .. } = &self.question;
         let (first, last) =
@@ -258,7 +258,7 @@ impl Curves {
         fields.finish()
     }
 
-    /// Lines on which curves may be missing, in words.
+    /// Warnings about lines on which curves may be missing.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let warning = |line: &OpenLine| {
             format!("curves may be missing {}", line_in_words(study, &self.question, line))
@@ -274,7 +274,7 @@ impl Curves {
         slip.warnings(study).into_iter().chain(self.open.iter().map(warning)).collect()
     }
 
-    /// α = D/R of the first dither along a curve, where the first parameter is its amplitude.
+    /// α = D/R of the first dither along a curve, if the first parameter is its amplitude.
     pub fn amplitude_ratios(&self, study: &BeltStudy, curve: &ThresholdCurve) -> Option<Vec<f64>> {
         if self.averaged.is_empty() {
             return None;

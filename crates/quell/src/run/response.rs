@@ -1,4 +1,4 @@
-//! `response`: the steady response, what the dither does to it, and what it costs.
+//! `response`: the steady response, the effect of the dither and its cost.
 
 use quell_dynamics::attractor::Reached;
 use quell_dynamics::response::{
@@ -17,30 +17,30 @@ use crate::range::SlipMet;
 use crate::study::BeltStudy;
 use crate::words::{capital, in_words, start_in_words};
 
-/// Levels beyond this are told as such: what is left is the engine's error and rounding.
+/// Levels beyond this are reported as "below" or "more than" it: the rest is integration error and rounding.
 const MOST_DECIBELS: f64 = 120.0;
 
-/// Most samples of a record that is kept: with its twin without dither and both spectra about a gigabyte. Larger, a fast dither
-/// could take all memory; smaller, it would take shorter records.
+/// Largest number of samples of a record: with the undithered record and both spectra about a gigabyte. With more, a fast
+/// dither could exhaust the memory; with fewer, records would have to be shorter.
 const MOST_SAMPLES: f64 = 4_194_304.0;
 
 /// A steady response with its start.
 #[derive(Clone, Debug)]
 pub struct Steady {
-    /// Where both runs started.
+    /// The start of both runs.
     pub start: Start,
     /// The response.
     pub response: Response,
     /// Whether the belt moves.
     moves: bool,
-    /// The slip that both runs met.
+    /// The slip reached by both runs.
     pub slip: SlipMet,
 }
 
 /// Measures the steady response of a study.
 ///
 /// # Errors
-/// [`Failure::Wrong`] where the study starts squealing and cannot; [`Failure::Failed`] if the
+/// [`Failure::Wrong`] if a squealing start is requested but does not exist; [`Failure::Failed`] if the
 /// engine stops.
 pub fn run(study: &BeltStudy) -> Result<Steady, Failure> {
     record_fits(study)?;
@@ -55,7 +55,7 @@ pub fn run(study: &BeltStudy) -> Result<Steady, Failure> {
     Ok(Steady { start, response, moves, slip })
 }
 
-/// Refuses a record that would not fit into memory: fast dithers are sampled several times a period.
+/// Rejects a record that would not fit into memory: fast dithers are sampled several times per period.
 fn record_fits(study: &BeltStudy) -> Result<(), Failure> {
     let solver = study.solver();
     let each = samples_per_slow_period(study.belt());
@@ -71,7 +71,7 @@ fn record_fits(study: &BeltStudy) -> Result<(), Failure> {
 }
 
 impl Steady {
-    /// What the dither does, and at what cost.
+    /// The effect of the dither and its cost.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         let response = &self.response;
         let from = start_in_words(study);
@@ -155,7 +155,7 @@ impl Steady {
         }
     }
 
-    /// Share of the friction of undithered steady sliding that is lost, 1 − ⟨f⟩/(μ(v₀)F); negative where there is more.
+    /// Relative loss of friction, 1 − ⟨f⟩/(μ(v₀)F), compared with undithered steady sliding; negative for a gain.
     ///
     /// # Errors
     /// Why it is undefined.
@@ -171,13 +171,13 @@ impl Steady {
         }
     }
 
-    /// 20 lg E, in dB; `None` where E is undefined or zero.
+    /// 20 lg E, in dB; `None` if E is undefined or zero.
     pub fn level(&self) -> Option<f64> {
         let ratio = self.response.efficiency.ok().filter(|ratio| *ratio > 0.0)?;
         Some(20.0 * ratio.log10())
     }
 
-    /// The levels in the band that the study asks for.
+    /// The levels in the frequency band of the study.
     pub fn in_band(&self, study: &BeltStudy) -> Option<InBand> {
         let band = study.band()?;
         let [low, high] = band;
@@ -202,7 +202,7 @@ impl Steady {
         Some(InBand { band, values })
     }
 
-    /// The levels in the band, null without one.
+    /// Adds the levels in the band; null without a band.
     fn put_band(&self, study: &BeltStudy, fields: &mut Fields) {
         let band = self.in_band(study);
         let band =
@@ -252,7 +252,7 @@ impl Steady {
         format!(" From {low}{unit} to {high}{unit} {change}.")
     }
 
-    /// What a reader of the numbers should know.
+    /// Warnings about the result.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let time = if study.scales().is_some() { "t" } else { "τ" };
         let settle = in_words(study, Quantity::Time, study.solver().settle);
@@ -266,7 +266,7 @@ impl Steady {
             }
         };
         warn("dithered", self.response.settled);
-        // Where it decays to nothing it need not settle: E is undefined and says so.
+        // A run that decays to zero need not settle: E is then undefined, with a reason.
         warn("undithered", self.response.undithered_settled || self.response.efficiency.is_err());
         warnings
     }
@@ -387,12 +387,12 @@ impl Steady {
     }
 }
 
-/// Levels in a band of frequencies.
+/// Levels in a frequency band.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InBand {
     /// Its ends, in ω₀.
     pub band: [f64; 2],
-    /// Root mean square of displacement and velocity with dither, and without; or why there is none.
+    /// Root mean square of displacement and velocity, with and without dither; or why they are undefined.
     pub values: Result<([f64; 2], [f64; 2]), String>,
 }
 
@@ -416,7 +416,7 @@ fn level(with: f64, without: f64) -> Result<f64, String> {
     Ok(20.0 * (with / without).log10())
 }
 
-/// Why it is unknown where a run ends.
+/// Why the end of a run is unknown.
 fn why_end_unknown(ending: RunEnding) -> Option<String> {
     match ending {
         RunEnding::Unknown(why) => Some(why.to_string()),

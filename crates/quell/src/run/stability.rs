@@ -1,7 +1,7 @@
 //! `stability`: averaged stability of steady sliding, and the amplitudes at which it changes.
 //!
 //! Protocol "averaged": the slow motion about steady sliding under fast dither, in the limit of
-//! high frequency; `sharper` takes the oscillator's own response to the dither instead, and one
+//! high frequency; `sharper` is finite-R averaging, which uses the oscillator's own response to the dither and one
 //! more term of the fast motion under normal dither.
 
 pub use quell_linear::averaging::SlopeSide;
@@ -26,13 +26,13 @@ const FAST: f64 = 5.0;
 /// Averaged stability under one model of the fast motion.
 #[derive(Clone, Debug)]
 pub struct Averaged {
-    /// How the fast motion is modelled.
+    /// Model of the fast motion.
     pub options: AveragingOptions,
     /// Criterion and verdict at the study's own amplitude.
     pub criterion: Result<Criterion, AveragingError>,
     /// Amplitudes of the first dither at which stability changes.
     pub critical_amplitudes: Result<Vec<CriticalAmplitude>, AveragingError>,
-    /// Amplitude ratio from which every belt velocity is stable, or why there is none.
+    /// Amplitude ratio from which every belt velocity is stable, or why none exists.
     pub everywhere_stable: Result<f64, String>,
     /// Belt velocities at which the study's own dither leaves steady sliding unstable.
     pub unstable_bands: Result<Vec<UnstableBand>, AveragingError>,
@@ -43,7 +43,7 @@ pub struct Averaged {
 pub struct Stability {
     /// In the limit of high frequency: the dissertation's averaging.
     pub limit: Averaged,
-    /// With the oscillator's response; or why there is none.
+    /// Finite-R averaging, with the oscillator's own response; or why it is unavailable.
     pub sharper: Result<Averaged, String>,
 }
 
@@ -75,7 +75,7 @@ fn averaged(belt: &Belt, options: AveragingOptions) -> Averaged {
     }
 }
 
-/// Whether neither damping nor the slope of the law decides anything at the belt's velocity.
+/// Whether damping and the slope of the law cancel at the belt velocity.
 fn is_neutral(belt: &Belt) -> bool {
     let slope = belt.friction().slope(belt.belt_velocity());
     belt.damping_rate(slope, belt.normal_load()) == 0.0
@@ -126,7 +126,7 @@ fn word(criterion: &Result<Criterion, AveragingError>) -> &'static str {
     }
 }
 
-/// Decibels of a growth by a factor of e: 20 log₁₀ e.
+/// Growth by a factor of e in decibels: 20 log₁₀ e.
 pub const DECIBELS: f64 = 20.0 * std::f64::consts::LOG10_E;
 
 impl Averaged {
@@ -194,7 +194,7 @@ impl Averaged {
         fields.list(name, items);
     }
 
-    /// The belt velocities of instability.
+    /// The unstable belt velocities.
     fn put_bands(&self, fields: &mut Fields) {
         let name = "unstable_belt_velocities";
         let bands = match &self.unstable_bands {
@@ -223,7 +223,7 @@ impl Averaged {
     }
 }
 
-/// How far belt velocities are looked at for bands of instability, as [`unstable_bands`] has it.
+/// The range of belt velocities that [`unstable_bands`] examines.
 pub const LOOKED_AT: &str = "up to 200 v_m beyond the fast velocity";
 
 /// Name of a crossing in output.
@@ -243,13 +243,13 @@ pub fn becomes(becomes: Becomes) -> &'static str {
 }
 
 impl Stability {
-    /// The averaging that sentence and picture go by: the one at finite R, where it exists, else the limit of high
+    /// The averaging that sentence and picture use: finite-R averaging if available, else the limit of high
     /// frequency.
     pub fn leading(&self) -> &Averaged {
         self.finite().unwrap_or(&self.limit)
     }
 
-    /// Averaging at finite R, or why it does not exist.
+    /// Finite-R averaging, or why it is unavailable.
     fn finite(&self) -> Result<&Averaged, String> {
         let finite = self.sharper.as_ref().map_err(Clone::clone)?;
         match &finite.criterion {
@@ -258,7 +258,7 @@ impl Stability {
         }
     }
 
-    /// The averaging that sentence and picture go by, in words.
+    /// The name of the averaging that sentence and picture use.
     pub fn method(&self, study: &BeltStudy) -> String {
         match self.finite() {
             Ok(_) => "finite-R averaging".to_owned(),
@@ -271,7 +271,7 @@ impl Stability {
         }
     }
 
-    /// What averaging says, in one sentence.
+    /// The verdict, and the next amplitude that changes it.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         let v = in_words(study, Quantity::Velocity, study.belt().belt_velocity());
         let verdict = match &self.leading().criterion {
@@ -321,7 +321,7 @@ impl Stability {
         }
     }
 
-    /// What a reader of the numbers should know.
+    /// Warnings about the result.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let slow = study.belt().dithers().iter().filter(|dither| dither.frequency_ratio < FAST);
         let hardly = slow.map(|dither| {
@@ -340,7 +340,7 @@ impl Stability {
         hardly.chain(apart).chain(range).collect()
     }
 
-    /// Critical amplitudes and bands that lie outside of the range of the friction law.
+    /// Warnings about critical amplitudes and bands outside the range of the friction law.
     fn beyond(&self, study: &BeltStudy) -> Vec<String> {
         let belt = study.belt();
         let Some(range) = belt.friction().range() else { return Vec::new() };

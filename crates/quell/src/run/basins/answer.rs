@@ -1,4 +1,4 @@
-//! Basins as sentences, JSON, datasets.
+//! Basins as sentences, JSON and datasets.
 
 use std::fmt::Write as _;
 
@@ -14,7 +14,7 @@ use crate::fields::Fields;
 use crate::study::BeltStudy;
 use crate::words::{capital, in_words, plural};
 
-/// A share in words: 62 %, with the bounds.
+/// A share as a percentage with its bounds.
 fn percent(share: Share) -> String {
     let digits = |value: f64| {
         let text = format!("{:.1}", 100.0 * value);
@@ -23,8 +23,8 @@ fn percent(share: Share) -> String {
     format!("{} % ({} to {} %)", digits(share.fraction), digits(share.low), digits(share.high))
 }
 
-/// What a start does that ends without a slow motion, singular and plural. A dither in the band of the vibration itself leaves
-/// nothing quiet.
+/// The verb for a start that ends without slow motion, singular and plural. Under a dither in the band of the vibration
+/// itself no response is quiet.
 pub fn quiescence(in_band: bool) -> [&'static str; 2] {
     if in_band {
         ["falls into step with the dither", "fall into step with the dither"]
@@ -34,12 +34,12 @@ pub fn quiescence(in_band: bool) -> [&'static str; 2] {
 }
 
 impl Portrait {
-    /// What a quiet attractor is called; `None` of one that vibrates.
+    /// The word for a quiet attractor; `None` for one that vibrates.
     pub fn quiet_word(&self, attractor: &Attractor) -> Option<&'static str> {
         attractor.quiet.then_some(if self.in_band { "in step with the dither" } else { "quiet" })
     }
 
-    /// Whether starts end on the response of sliding, in one sentence.
+    /// How many starts fall quiet, and whether the base response is stable.
     pub fn sentence(&self) -> String {
         let count = self.gathered.labels.len();
         let unknown = self.gathered.unknown();
@@ -97,7 +97,7 @@ impl Portrait {
         }
     }
 
-    /// What other attractors starts end on, where some fall quiet.
+    /// The other attractors on which starts end, if some fall quiet.
     fn elsewhere(&self) -> String {
         let others = self.gathered.basins.iter().filter(|basin| !basin.attractor.quiet).count();
         match (others, self.gathered.unknown()) {
@@ -109,7 +109,7 @@ impl Portrait {
         }
     }
 
-    /// Place of the attractor on which each start ends, null where that is not known.
+    /// Index of the attractor on which each start ends; null if unknown.
     fn ends(&self) -> Json {
         let end = |label: &BasinLabel| match label {
             BasinLabel::Attractor(place) => Json::from(*place),
@@ -129,7 +129,7 @@ fn put_share(fields: &mut Fields, share: Share) {
 }
 
 impl Basins {
-    /// What the shares and their bounds mean.
+    /// The meaning of the shares and their bounds.
     pub fn meaning(&self) -> &'static str {
         match self.starts.layout() {
             Layout::Grid { .. } => {
@@ -144,7 +144,7 @@ impl Basins {
         }
     }
 
-    /// The window and its starts, in words.
+    /// The window and its starts as text.
     pub fn starts_in_words(&self, study: &BeltStudy) -> String {
         let window = self.starts.window();
         let x = |value| in_words(study, Quantity::Displacement, value);
@@ -168,7 +168,7 @@ impl Basins {
         self.portraits.iter().any(|portrait| portrait.in_band)
     }
 
-    /// What was found, in one sentence or a few.
+    /// The result in a few sentences.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         match (&self.varied, self.portraits.as_slice()) {
             (None, [portrait]) => portrait.sentence(),
@@ -227,7 +227,7 @@ impl Basins {
         }
     }
 
-    /// What a reader of the numbers should know.
+    /// Warnings about the result.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let mut warnings = self.slip.warnings(study);
         for portrait in &self.portraits {
@@ -254,7 +254,7 @@ impl Basins {
         warnings
     }
 
-    /// As JSON: with one portrait its fields, with several a list of them.
+    /// As JSON: the fields of a single portrait, or a list of portraits.
     pub fn json(&self, study: &BeltStudy) -> Json {
         let scales = study.scales();
         let mut fields = Fields::new(scales);
@@ -290,7 +290,7 @@ impl Basins {
         fields.finish()
     }
 
-    /// Where each start ends; with a parameter the shares over it.
+    /// The attractor of each start; with a parameter, the shares versus the parameter.
     pub fn dataset(&self, study: &BeltStudy) -> Dataset {
         let facts = format!("{}; {}", self.starts_in_words(study), self.meaning());
         match (&self.varied, self.portraits.as_slice()) {
@@ -332,7 +332,7 @@ impl Basins {
         }
     }
 
-    /// Where each start ends: over the grid, or a row a start.
+    /// The attractor of each start: over the grid, or one row per start.
     fn map(&self, study: &BeltStudy, portrait: &Portrait) -> Dataset {
         let labels = &portrait.gathered.labels;
         let place = |label: &BasinLabel| match label {
@@ -356,7 +356,7 @@ impl Basins {
         }
         let words = vec![(0, "no"), (1, "yes"), (2, "unknown")];
         let dataset = if let Some((x, v)) = self.starts.axes() {
-            // The axis that runs fastest is the last.
+            // The last axis runs fastest.
             dataset.axis("velocity", Quantity::Velocity, v).axis(
                 "displacement",
                 Quantity::Displacement,

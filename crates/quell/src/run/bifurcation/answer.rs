@@ -1,4 +1,4 @@
-//! Sweeps as sentence, JSON, dataset.
+//! Sweeps as sentences, JSON and dataset.
 
 use quell_dynamics::attractor::{Attractor, AttractorKind};
 use quell_model::units::Quantity;
@@ -14,7 +14,7 @@ use crate::study::BeltStudy;
 use crate::words::{plural, start_in_words};
 
 impl Bifurcation {
-    /// What happens, in one sentence a direction and one for both.
+    /// One sentence for each direction and one that compares both.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         let value = |value: f64| number(study, self.varied.unit, value);
         let path = &self.varied.path;
@@ -81,19 +81,19 @@ impl Bifurcation {
         sentences.join(" ")
     }
 
-    /// Whether every point has.
+    /// Whether every point has settled.
     fn has_settled(&self) -> bool {
         self.branches.iter().flat_map(|branch| &branch.points).all(|point| point.response.is_ok())
     }
 
-    /// Whether there is a value at which both directions have.
+    /// Whether both directions have settled at any one value.
     fn both_settle(&self) -> bool {
         let [up, down] = self.branches.as_slice() else { return false };
         let mut pairs = up.points.iter().zip(down.points.iter().rev());
         pairs.any(|(one, other)| one.response.is_ok() && other.response.is_ok())
     }
 
-    /// Points that have not settled, in words.
+    /// Warnings about points that have not settled.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let mut warnings = self.slip.warnings(study);
         for branch in &self.branches {
@@ -184,7 +184,7 @@ impl Bifurcation {
                 let rotation = attractor.and_then(|attractor| attractor.rotation);
                 let ratio = rotation.and_then(|rotation| rotation.ratio);
                 let of = |value: Option<f64>| value.unwrap_or(f64::NAN);
-                // Columns are scaled by the study as it is; where mass or stiffness vary, that is made good here.
+                // Columns use the scales of the unmodified study; this corrects for a varied mass or stiffness.
                 let other = |quantity: Quantity| match (point.scales, study.scales()) {
                     (Some(own), Some(all)) => own.si_per_unit(quantity) / all.si_per_unit(quantity),
                     _ => 1.0,
@@ -247,7 +247,7 @@ impl Bifurcation {
     }
 }
 
-/// Periods of a closed orbit.
+/// Number of periods of a closed orbit.
 fn periods(attractor: &Attractor) -> Option<f64> {
     match attractor.kind {
         AttractorKind::Periodic { periods, .. } => Some(f64::from(periods)),
@@ -269,9 +269,9 @@ mod tests {
         [friction]\nlaw = \"decreasing\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.3\nreference_velocity = 0.2\n\
         [[dither]]\ndirection = \"tangential\"\nwaveform = \"sine\"\namplitude = 1\nfrequency_ratio = 10\n";
 
-    /// A point that has not settled is neither quiet nor not: no jump begins or ends there, and no hysteresis is denied.
+    /// A point that has not settled is neither quiet nor vibrating: no jump begins or ends there, and hysteresis is not ruled out.
     #[test]
-    fn what_has_not_settled_says_nothing() {
+    fn unsettled_points_give_no_jumps() {
         let study = BeltStudy::parse(STUDY, &[]).expect("valid");
         let range = Range { parameter: "dither.amplitude".into(), from: 1.0, to: 2.0, points: 2 };
         let varied = Varied::new(&study, "--parameter", &range).expect("valid");

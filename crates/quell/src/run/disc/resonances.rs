@@ -18,19 +18,19 @@ use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::dataset::{Array, Dataset};
 use crate::study::DiscStudy;
 
-/// What is asked of the resonances.
+/// Options of `resonances`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResonancesRequest {
-    /// Speeds between which meetings are listed.
+    /// Range of speeds in which meetings are listed.
     pub speeds: RangeInclusive<f64>,
-    /// How far the expansion goes.
+    /// Order of the expansion.
     pub order: Order,
-    /// A range of speeds to be kept clear, and the dither frequencies that may do it.
+    /// A range of speeds to be kept clear, and the range of dither frequencies to search.
     pub clear: Option<(RangeInclusive<f64>, RangeInclusive<f64>)>,
 }
 
 impl ResonancesRequest {
-    /// Checks what is asked: ends of ranges of speeds and of dither frequencies.
+    /// Checks the ends of the ranges of speeds and dither frequencies.
     ///
     /// # Errors
     /// Every complaint at once.
@@ -87,10 +87,10 @@ pub struct Clear {
     pub speeds: RangeInclusive<f64>,
     /// The frequencies searched.
     pub frequencies: RangeInclusive<f64>,
-    /// Intervals, and what blocks the rest.
+    /// Clear intervals, and the resonances that block the rest.
     pub clearance: Clearance,
-    /// The best frequency by the exact exponents, or where they cannot be computed the middle of the widest interval; and what
-    /// lies in the range of speeds there, original tongues as the second order has them.
+    /// The best frequency by the exact exponents, or the middle of the widest interval if they cannot be computed; and the
+    /// resonances in the range of speeds there, with the original tongues to second order.
     pub suggestion: Option<(f64, Vec<Nearby>)>,
     /// The largest growth rate of the exact equations at that frequency over the range of speeds.
     pub verified: Option<Verified>,
@@ -99,11 +99,11 @@ pub struct Clear {
 /// Resonances of a study's disc.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resonances {
-    /// What was asked.
+    /// The request.
     pub question: ResonancesRequest,
-    /// Meetings that need no dither.
+    /// Meetings without dither.
     pub undithered: Vec<Resonance>,
-    /// Meetings that the dither makes.
+    /// Meetings induced by dither.
     pub dithered: Vec<Resonance>,
     /// The answer about clear frequencies.
     pub clear: Option<Clear>,
@@ -112,8 +112,8 @@ pub struct Resonances {
 /// Resonances of a study's disc.
 ///
 /// # Errors
-/// A complaint where the theory does not apply (other than one load, negative friction, parts left out), where there is no dither
-/// whose frequency could be chosen, or where a wave grows by itself whatever the frequency.
+/// A complaint if the theory does not apply (not exactly one load, negative friction, parts left out), if the disc has no dither
+/// whose frequency could be chosen, or if a wave grows on its own at any frequency.
 pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances, Failure> {
     let refuse = |key: &str, why: String| {
         Failure::from(Complaint::new(Fault::Conflict, key, Origin::Whole, Json::Null, why))
@@ -169,7 +169,7 @@ pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances,
     })
 }
 
-/// Adds numbers in ω_ref of an object in hertz, under their names with `_hz`.
+/// Adds to an object its numbers in ω_ref converted to hertz, under their names with `_hz`.
 fn put_hertz(object: &mut Json, hertz: Option<f64>, names: &[&str]) {
     fn times(value: &Json, hertz: f64) -> Json {
         match value {
@@ -241,7 +241,7 @@ fn blocked(block: &Blocked) -> Json {
 }
 
 impl Resonances {
-    /// As a dataset: one row a meeting; one that is induced by dither has a harmonic that is not 0.
+    /// As a dataset: one row per meeting; meetings induced by dither have a nonzero harmonic.
     pub fn dataset(&self, study: &DiscStudy) -> Dataset {
         let all: Vec<&Resonance> = self.undithered.iter().chain(&self.dithered).collect();
         let column = |of: &dyn Fn(&Resonance) -> f64| {

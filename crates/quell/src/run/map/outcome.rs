@@ -1,4 +1,4 @@
-//! A finished map: its numbers, what they come to, as JSON and as a dataset.
+//! A finished map: its numbers and their summary, as JSON and as a dataset.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -15,33 +15,33 @@ use crate::words::{in_words, plural};
 pub struct Map {
     pub(super) plan: Plan,
     pub(super) arrays: Vec<Data>,
-    /// Points that were in the store already.
+    /// Points that were already in the store.
     pub resumed: usize,
-    /// Chunks of the store that were damaged and done again.
+    /// Damaged chunks of the store that were recomputed.
     pub damaged: usize,
     /// How long it took.
     pub elapsed: Duration,
 }
 
-/// A value and the point where it is.
+/// A value and its point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {
-    /// The value, in SI where the study is.
+    /// The value, in SI if the study is in SI.
     pub value: f64,
     /// Values of the axes there.
     pub place: Vec<f64>,
 }
 
-/// What a variable comes to over the map.
+/// Summary of a variable over the map.
 #[derive(Clone, Debug)]
 pub struct Summary {
-    /// Smallest value; of equal ones the first. None of words, or where none is known.
+    /// Smallest value, the first of equal ones; `None` for words, or if no value is known.
     pub least: Option<Extreme>,
     /// Largest value.
     pub most: Option<Extreme>,
-    /// Points of each word, in the order of their codes; empty of numbers.
+    /// Number of points of each word, in the order of the codes; empty for numbers.
     pub words: Vec<(&'static str, usize)>,
-    /// Points of each state.
+    /// Number of points of each status.
     pub states: BTreeMap<Status, usize>,
 }
 
@@ -51,7 +51,7 @@ impl Map {
         &self.plan
     }
 
-    /// State of a variable at a point.
+    /// Status of a variable at a point.
     pub fn status(&self, entry: &Entry, point: usize) -> Status {
         match &self.arrays[entry.status] {
             Data::Codes(codes) => Status::of_code(codes[point]).unwrap_or(Status::Missing),
@@ -59,12 +59,12 @@ impl Map {
         }
     }
 
-    /// Number of a variable at a point, in the numbers of the equations; of a word its code.
+    /// Value of a variable at a point, in the numbers of the equations; for a word its code.
     pub fn number(&self, entry: &Entry, point: usize) -> Option<f64> {
         self.value(entry.value, entry, point)
     }
 
-    /// The same in SI, where the variable has a twin.
+    /// [`Map::number`] in SI, if the variable has an SI array.
     pub fn number_in_si(&self, entry: &Entry, point: usize) -> Option<f64> {
         self.value(entry.twin?, entry, point)
     }
@@ -82,7 +82,7 @@ impl Map {
         entry.twin.unwrap_or(entry.value)
     }
 
-    /// What each variable comes to, in the order of the sheet's entries.
+    /// Summary of each variable, in the order of the sheet's entries.
     pub fn summaries(&self) -> Vec<Summary> {
         self.plan.sheet().entries().iter().map(|entry| self.summary(entry)).collect()
     }
@@ -125,7 +125,7 @@ impl Map {
         Summary { least: extreme(least), most: extreme(most), words, states }
     }
 
-    /// What a reader of the numbers should know.
+    /// Warnings about the result.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         let entries = self.plan.sheet().entries();
@@ -148,7 +148,7 @@ impl Map {
         warnings
     }
 
-    /// Points at which slip leaves the range of the friction law.
+    /// A warning if slip leaves the range of the friction law at some points.
     fn beyond_range(&self) -> Option<String> {
         let entries = self.plan.sheet().entries();
         let points = 0..self.plan.grid().len();
@@ -235,7 +235,7 @@ impl Map {
         object.into()
     }
 
-    /// One value in JSON: a number, a word, or null where it is not known.
+    /// One value in JSON: a number, a word, or null if unknown.
     fn cell(&self, entry: &Entry, array: usize, point: usize, states: bool) -> Json {
         if states {
             return self.status(entry, point).name().into();
@@ -249,7 +249,7 @@ impl Map {
         }
     }
 
-    /// As a dataset: one row a point.
+    /// As a dataset: one row per point.
     pub fn dataset(&self) -> Dataset {
         let mut dataset = Dataset::of(self.plan.grid().study(), "map");
         for axis in self.plan.grid().axes() {
@@ -283,7 +283,7 @@ impl Map {
     }
 }
 
-/// What is said of chunks of a store that were damaged, and computed again.
+/// The warning about damaged chunks of a store that were recomputed.
 pub(super) fn recomputed(chunks: usize) -> String {
     let were = if chunks == 1 { "was" } else { "were" };
     format!(

@@ -1,4 +1,4 @@
-//! What `thresholds` answers, in sentences: where the base response is stable, and from where on each start is quenched.
+//! The answer of `thresholds` in sentences: where the base response is stable, and where runs from each start are quenched.
 
 use quell_dynamics::attractor::{Switch, Switches};
 use quell_dynamics::orbit::OrbitVerdict;
@@ -15,11 +15,11 @@ use crate::words::{capital, in_words};
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Limit {
     value: f64,
-    /// How uncertain it is, where that is to be said.
+    /// Its error, if it is to be shown.
     error: Option<f64>,
-    /// What happens there; nothing at an end of the range.
+    /// The kind of threshold; `None` at an end of the range.
     kind: Option<ThresholdKind>,
-    /// Whether it is the end of what was asked, or of what could be answered.
+    /// Whether it is an end of the requested range, or of the part that could be answered.
     of_range: bool,
 }
 
@@ -37,7 +37,7 @@ impl Limit {
     }
 }
 
-/// Neighbouring intervals with the same answer as one.
+/// Merges neighbouring intervals with the same answer.
 fn merged<T: PartialEq>(intervals: Vec<Interval<T>>) -> Vec<Interval<T>> {
     let mut merged: Vec<Interval<T>> = Vec::new();
     for interval in intervals {
@@ -57,7 +57,7 @@ struct Parameter<'a> {
 }
 
 impl<'a> Parameter<'a> {
-    /// The symbol, where it is clear; else the key.
+    /// The symbol if it is unambiguous, else the key.
     fn of(study: &'a BeltStudy, path: &str) -> Self {
         let belt = study.belt();
         let one_of_many = path.starts_with("dither") && belt.dithers().len() > 1;
@@ -105,7 +105,7 @@ impl<'a> Parameter<'a> {
         listed(&each, "and")
     }
 
-    /// All of them together: "D from 1 to 2".
+    /// The range that all intervals cover: "D from 1 to 2".
     fn whole<T>(&self, intervals: &[Interval<T>]) -> String {
         let ends = intervals.first().zip(intervals.last());
         ends.map_or_else(String::new, |(first, last)| {
@@ -115,14 +115,14 @@ impl<'a> Parameter<'a> {
 }
 
 impl Thresholds {
-    /// Where the base response is stable, and from where on the dither quenches from each start.
+    /// Where the base response is stable, and where the dither quenches runs from each start.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         let parameter = Parameter::of(study, &self.question.parameter);
         let acts = |dither: &Dither| dither.amplitude > 0.0;
         let is_varied = self.question.parameter.starts_with("dither");
         let dithered = is_varied || study.belt().dithers().iter().any(acts);
         let mut sentences = vec![self.of_the_base_response(&parameter, dithered)];
-        // Starts with the same answer are said together.
+        // Starts with the same answer share a sentence.
         let mut answers: Vec<(Vec<String>, String)> = Vec::new();
         for (protocol, switches) in &self.protocols {
             let answer = self.of_runs(&parameter, switches, dithered);
@@ -139,7 +139,7 @@ impl Thresholds {
         sentences.join(" ")
     }
 
-    /// The intervals of the base response, from the first value on until it turns back or ends; and the threshold there.
+    /// The intervals of the base response from the first value until it turns back or ends, and the threshold there.
     fn base_response(&self) -> (Vec<Interval<OrbitVerdict>>, Option<&Threshold>) {
         let Some(first) = self.local.branch.first() else { return (Vec::new(), None) };
         let mut intervals = Vec::new();
@@ -149,7 +149,7 @@ impl Thresholds {
             let Threshold { value, kind, becomes, was, .. } = *threshold;
             let limit = Limit { value, error: None, kind: Some(kind), of_range: false };
             intervals.push(Interval { from, to: limit, answer });
-            // A side without a response: the branch ends or turns back there.
+            // No response on one side: the branch ends or turns back there.
             let (Some(_), Some(next)) = (was, becomes) else {
                 return (merged(intervals), Some(threshold));
             };
@@ -204,7 +204,7 @@ impl Thresholds {
                 let only = stable[0];
                 let interval = parameter.interval(only);
                 let statement = format!("{subject} is stable {interval}");
-                // Undecided lies at thresholds alone, and is said by the table.
+                // Undecided values occur only at thresholds, and are listed in the table.
                 let unstable =
                     all.iter().filter(|interval| interval.answer == OrbitVerdict::Unstable).count();
                 match (only.from.of_range, only.to.of_range) {
@@ -225,7 +225,7 @@ impl Thresholds {
         format!("{}.{ends}", capital(&statement))
     }
 
-    /// Where and why the base response ends before the range does.
+    /// Where and why the base response ends within the range.
     fn of_the_end(
         &self,
         parameter: &Parameter<'_>,
@@ -283,7 +283,7 @@ impl Thresholds {
         }
     }
 
-    /// From where on runs of a start are quenched.
+    /// The intervals in which runs from a start are quenched.
     fn of_runs(&self, parameter: &Parameter<'_>, switches: &Switches, dithered: bool) -> String {
         let intervals = runs(self.question.from, self.question.to, switches);
         let of = |wanted: Option<bool>| -> Vec<&Interval<Option<bool>>> {
@@ -308,7 +308,7 @@ impl Thresholds {
     }
 }
 
-/// A start, as it follows "started".
+/// A start as text that follows "started".
 fn start_in_words(study: &BeltStudy, protocol: Protocol) -> String {
     match protocol {
         Protocol::Rest => "from rest".to_owned(),

@@ -1,5 +1,5 @@
-//! `thresholds`: values of a parameter at which the response changes: local ones by Floquet multipliers, and for runs
-//! from given starts the values at which dither begins or ceases to quench. `tell` says it in sentences.
+//! `thresholds`: values of a parameter at which the response changes: local thresholds by Floquet multipliers, and for runs
+//! from given starts the values at which dither begins or ceases to quench. `answer` puts them into sentences.
 
 use quell_dynamics::attractor::{
     AttractorSettings, Reached, StroboscopicSection, Switches, ramped, switches,
@@ -31,67 +31,67 @@ use crate::words::{digits, in_words, plural};
 
 mod answer;
 
-/// Least number of values between which an orbit is followed.
+/// Minimum number of continuation steps over the range.
 const STEPS: u32 = 40;
 
-/// Equal steps between values that are tried of a start; changes between two of them that cancel each other are not seen.
+/// Equal steps between the values tried for a start; two changes between neighbouring values that cancel are missed.
 pub const TRIED: u32 = 40;
 
-/// Relative closeness of a protocol's threshold.
+/// Relative tolerance of the threshold of a protocol.
 const CLOSENESS: f64 = 1e-5;
 
-/// What is asked.
+/// Options of `thresholds`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ThresholdsRequest {
-    /// Path of the parameter; its key in SI in a study in SI too.
+    /// Path of the parameter; an SI key is allowed in a study in SI.
     pub parameter: String,
     /// First value, in the unit of that key.
     pub from: f64,
     /// Last value, above the first.
     pub to: f64,
-    /// Protocols besides the local thresholds.
+    /// Protocols to run in addition to the local thresholds.
     pub protocols: Vec<Protocol>,
-    /// Time τ over which the dither of a protocol grows from nothing, in steps of its period; 0 switches it on.
+    /// Time τ over which the dither of a protocol is ramped up from zero, in steps of its period; 0 switches it on at once.
     pub ramp: f64,
 }
 
 /// The thresholds of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thresholds {
-    /// What was asked, in numbers of the equations.
+    /// The request, in numbers of the equations.
     pub question: ThresholdsRequest,
-    /// By multipliers, with the branch of responses on which they lie.
+    /// Thresholds by multipliers, with the branch of responses that contains them.
     pub local: Local,
-    /// Why there is no base response at the first value, where runs alone are judged.
+    /// Why no base response exists at the first value, if only runs are judged.
     pub no_base: Option<NoOrbit>,
-    /// Whether a base response exists at the last value although this branch ends before it.
+    /// Whether a base response exists at the last value although the branch ends before it.
     pub resumes: bool,
-    /// By runs from a start.
+    /// Thresholds by runs from each start.
     pub protocols: Vec<(Protocol, Switches)>,
-    /// The slip that the responses meet at both ends and at the thresholds, and the runs at their beginning.
+    /// The slip reached by the responses at both ends and at the thresholds, and by the runs at their beginning.
     pub slip: SlipMet,
     /// Whether responses of the dither's own period may vibrate in the band of slow vibration (R ≤ 1.9), somewhere in the range.
     pub in_band: bool,
 }
 
-/// The key of a number of the equations, in SI where the study is.
+/// The key of a number of the equations, in SI if the study is in SI.
 pub fn path_in_words(study: &BeltStudy, path: &str) -> String {
     key_of(study, path)
 }
 
-/// A value of a number of the equations, in SI where the study is.
+/// A value of a number of the equations, in SI if the study is in SI.
 pub fn value_in_words(study: &BeltStudy, path: &str, value: f64) -> String {
     if study.scales().is_none() {
         return value.to_string();
     }
     match quantity_of(study, path) {
-        // Its path says ζ, whatever key the study has.
+        // The path names ζ for any key that the study uses.
         Quantity::DampingRatio => digits(value),
         quantity => in_words(study, quantity, value),
     }
 }
 
-/// What a number of the equations measures.
+/// The quantity of a number of the equations.
 pub fn quantity_of(study: &BeltStudy, path: &str) -> Quantity {
     study.belt().parameter(path).map_or(Quantity::Ratio, |parameter| parameter.quantity)
 }
@@ -124,7 +124,7 @@ pub(super) fn refused(
     }
 }
 
-/// The question in numbers of the equations.
+/// The request in numbers of the equations.
 ///
 /// # Errors
 /// Every complaint about it at once.
@@ -152,7 +152,7 @@ fn understood(
     Ok(ThresholdsRequest { parameter: named.path, from, to, ..question })
 }
 
-/// Refuses a first value at which the belt is at rest: there is no steady sliding to continue from.
+/// Rejects a first value at which the belt is at rest: no steady sliding exists to continue from.
 fn slides(study: &BeltStudy, named: &Named, from: f64) -> Result<(), Box<Complaint>> {
     let belt = study.belt();
     let at_rest = |belt: &quell_model::Belt| belt.belt_velocity() == 0.0;
@@ -173,7 +173,7 @@ fn slides(study: &BeltStudy, named: &Named, from: f64) -> Result<(), Box<Complai
 /// Thresholds of a study's belt.
 ///
 /// # Errors
-/// A complaint about the parameter or its range; [`Failure::Failed`] where there is no response to begin with.
+/// A complaint about the parameter or its range; [`Failure::Failed`] if no response exists at the beginning.
 pub fn run(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, Failure> {
     within(STEPS_OF_MANY_SEARCHES, || found(study, question))
 }
@@ -185,7 +185,7 @@ fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, F
     let (from, to) = (question.from, question.to);
     let (local, no_base) = match local(belt, path, from, to, STEPS) {
         Ok(local) => (local, None),
-        // Runs have ends without a base response too.
+        // Runs have an outcome even without a base response.
         Err(NoThresholds::Start(why))
             if !question.protocols.is_empty() && (why.is_absence() || is_lost(why)) =>
         {
@@ -209,7 +209,7 @@ fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, F
                 }
                 Err(NoSquealingStart::Stalled(why)) => return Err(NoOrbit::Stalled(why)),
             };
-            // Without dither there is nothing to grow.
+            // Without dither there is nothing to ramp up.
             match ramped(belt, start, question.ramp) {
                 Err(NoOrbit::NoDither) => Ok(Some(start)),
                 ramped => ramped.map(Some),
@@ -229,13 +229,13 @@ fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, F
     Ok(Thresholds { question, local, no_base, resumes, protocols, slip, in_band })
 }
 
-/// Whether the base response could not be followed, rather than that it does not exist.
+/// Whether the continuation lost the base response, as opposed to its not existing.
 fn is_lost(why: NoOrbit) -> bool {
     matches!(why, NoOrbit::LostOnTheWay { .. })
 }
 
-/// The slip of the responses at the thresholds, of steady sliding at both ends, and of the runs of protocols there and at
-/// their switches.
+/// The slip reached by the responses at the thresholds, by steady sliding at both ends, and by the runs of protocols there and
+/// at their switches.
 fn slip_met(
     study: &BeltStudy,
     question: &ThresholdsRequest,
@@ -267,7 +267,8 @@ fn slip_met(
     slip
 }
 
-/// What runs do beyond a switch. A dither in the band of the vibration itself is no end of it: runs fall into step with it or not.
+/// The outcome of runs beyond a switch. A dither in the band of the vibration itself cannot quench it: runs fall into step with
+/// the dither or not.
 pub fn becomes(reached: Reached, in_band: bool) -> &'static str {
     match (reached, in_band) {
         (Reached::Base | Reached::Forced, false) => "quenched",
@@ -279,7 +280,7 @@ pub fn becomes(reached: Reached, in_band: bool) -> &'static str {
     }
 }
 
-/// The verdict on one side of a threshold; "none" where this response does not exist there.
+/// The verdict on one side of a threshold; "none" if this response does not exist there.
 pub fn side(verdict: Option<quell_dynamics::orbit::OrbitVerdict>) -> &'static str {
     verdict.map_or("none", quell_dynamics::orbit::OrbitVerdict::name)
 }
@@ -347,7 +348,7 @@ impl Thresholds {
         fields.finish()
     }
 
-    /// Values at which it is not known where runs end, in words.
+    /// Warnings, among them values at which the outcome of runs is unknown.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let given = &self.question.parameter;
         let path = path_in_words(study, given);
