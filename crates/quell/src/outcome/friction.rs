@@ -40,7 +40,7 @@ impl Outcome for Answered<BeltSetup, FrictionCurve> {
 }
 
 fn table(study: &BeltStudy, curve: &FrictionCurve) -> String {
-    // In the units of the study: m/s, and slopes per m/s, in SI.
+    // In the units of the study; in SI velocities are in m/s and slopes per m/s.
     let (unit, per_unit) = match study.scales() {
         Some(scales) => ("m/s".to_owned(), scales.si_per_unit(Quantity::Velocity)),
         None => (quantity::unit_of(Quantity::Velocity, false), 1.0),

@@ -1,4 +1,4 @@
-//! `resonances`: where waves of a disc meet, and which dither frequency keeps speeds clear.
+//! `resonances`: the meetings of waves of a disc, and the dither frequencies that keep a range of speeds clear.
 
 use std::fmt::Write as _;
 
@@ -40,7 +40,7 @@ impl Outcome for Answered<DiscSetup, Resonances> {
     }
 }
 
-/// Growth in ω_ref that is rounding alone: rates are differences of numbers of order 1.
+/// Growth in ω_ref below which a rate is rounding error: rates are differences of numbers of order 1.
 const NO_GROWTH: f64 = 1e-12;
 
 /// The growth of a wave on its own, without the other one of its pair.
@@ -111,7 +111,7 @@ fn verified(clear: &Clear) -> String {
     }
 }
 
-/// Which dither frequencies keep the speeds clear.
+/// The dither frequencies that keep the speeds clear.
 fn clearance(study: &DiscStudy, clear: &Clear) -> String {
     let mut text = String::new();
     let (from, to) = (figure(*clear.speeds.start()), figure(*clear.speeds.end()));

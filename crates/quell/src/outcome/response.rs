@@ -44,7 +44,7 @@ impl Outcome for Answered<BeltSetup, Steady> {
     }
 }
 
-/// Most peaks in the table for people; JSON has them all.
+/// Largest number of peaks in the table; JSON has them all.
 const PEAKS: usize = 8;
 
 fn table(study: &BeltStudy, done: &Steady) -> String {

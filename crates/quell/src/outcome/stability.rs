@@ -118,7 +118,7 @@ fn table_of_disc(study: &DiscStudy, done: &DiscStability) -> String {
     table.text()
 }
 
-/// The speed of the loads, in rpm and, where the radius of the first load is known, in km/h.
+/// The speed of the loads, in rpm and, if the radius of the first load is known, in km/h.
 fn speed_in_words(study: &DiscStudy) -> String {
     let speed = study.disc().speed();
     let radius = study.scales(0).and_then(|scales| scales.load_radius_m);

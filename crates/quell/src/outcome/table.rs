@@ -55,7 +55,7 @@ impl Table {
         self.rows.push([label.to_owned(), figure(value), unit, si.unwrap_or_default()]);
     }
 
-    /// A row of words.
+    /// A row of text.
     pub(super) fn word(&mut self, label: &str, value: &str) {
         self.rows.push([label.to_owned(), value.to_owned(), String::new(), String::new()]);
     }
@@ -130,7 +130,7 @@ pub(super) fn figure(value: f64) -> String {
         scale *= 10.0;
         places -= 1;
     }
-    // Below 0.1 zeros after the point are not significant.
+    // Below 0.1, leading zeros after the decimal point are not significant.
     let mut scale = 0.1;
     while size < scale {
         scale /= 10.0;

@@ -1,4 +1,4 @@
-//! `thresholds`: exact values of a parameter at which the response changes, and curves of them in two.
+//! `thresholds`: exact values of a parameter at which the response changes, and curves of thresholds in two parameters.
 
 use std::fmt::Write as _;
 
@@ -90,7 +90,7 @@ fn table_of_curves(study: &BeltStudy, done: &Curves) -> String {
     text
 }
 
-/// A value of a number of the equations, in SI where the study is.
+/// A value of a number of the equations, in SI if the study is in SI.
 fn figure_at(study: &BeltStudy, path: &str, value: f64) -> String {
     figure_of(study, quantity_of(study, path), value)
 }

@@ -1,4 +1,4 @@
-//! What a map computes of belts: responses and averages, and the quantities read from them.
+//! Maps of belts: responses and averages, and the quantities read from them.
 
 use quell_dynamics::response::Effect;
 use quell_linear::averaging::{AveragedVerdict, Criterion, UndecidedBecause};
@@ -16,7 +16,7 @@ use crate::study::{BeltStudy, Study};
 /// Name of the kind.
 pub(super) const KIND: &str = "belt";
 
-/// A study of a belt as a map sees it.
+/// Implementation of maps for belt studies.
 pub(super) struct BeltPoints(Option<BeltStudy>);
 
 impl BeltPoints {
@@ -53,10 +53,10 @@ impl Mapped for BeltPoints {
     }
 }
 
-/// What a response can be instead of known.
+/// Statuses of a response other than known.
 const OF_RESPONSE: &[Status] = &[Status::Stalled, Status::NoSquealingStart];
 
-/// The same for E.
+/// Statuses of E other than known.
 const OF_EFFICIENCY: &[Status] = &[
     Status::Stalled,
     Status::NoSquealingStart,
@@ -65,14 +65,14 @@ const OF_EFFICIENCY: &[Status] = &[
     Status::UnditheredUnknown,
 ];
 
-/// The same for power and stroke.
+/// Statuses of power and stroke other than known.
 const OF_COST: &[Status] = &[Status::Stalled, Status::NoSquealingStart, Status::OnlyNormalDither];
 
-/// What averaging can be instead of known.
+/// Statuses of averaging other than known.
 const OF_AVERAGING: &[Status] =
     &[Status::SetValued, Status::TooManyGroups, Status::NotFast, Status::NotConverged];
 
-/// The same for the sharper averaging.
+/// Statuses of finite-R averaging other than known.
 const OF_FINITE_R: &[Status] = &[
     Status::SetValued,
     Status::TooManyGroups,
@@ -81,7 +81,7 @@ const OF_FINITE_R: &[Status] = &[
     Status::NoDither,
 ];
 
-/// The same for verdicts.
+/// Statuses of verdicts other than known.
 const OF_VERDICT: &[Status] = &[
     Status::WithinError,
     Status::AtCorner,
@@ -92,7 +92,7 @@ const OF_VERDICT: &[Status] = &[
     Status::NoDither,
 ];
 
-/// The same for critical amplitudes.
+/// Statuses of critical amplitudes other than known.
 const OF_CRITICAL: &[Status] = &[
     Status::SetValued,
     Status::TooManyGroups,
@@ -103,10 +103,10 @@ const OF_CRITICAL: &[Status] = &[
     Status::ChangesOnce,
 ];
 
-/// Words of an effect; the first is 0, what is wanted of a dither.
+/// Words of an effect; the first, the desired effect, is 0.
 const EFFECTS: VariableKind = VariableKind::Word { words: &Effect::NAMES, unknown: "unknown" };
 
-/// What an effect can be instead of known.
+/// Statuses of an effect other than known.
 const OF_EFFECT: &[Status] = &[
     Status::Stalled,
     Status::NoSquealingStart,
@@ -123,7 +123,7 @@ const LENGTH: VariableKind = VariableKind::Number(units::Quantity::Displacement)
 const FORCE: VariableKind = VariableKind::Number(units::Quantity::Force);
 const VELOCITY: VariableKind = VariableKind::Number(units::Quantity::Velocity);
 
-/// What a map of belts can show.
+/// The quantities of a map of belts.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[Quantity] = &[
     belt("effect", "effect of the dither on the vibration: quenches, reduces, increases, causes, or quiet with and without it", Computation::ResponseWithEffect, &[
@@ -228,5 +228,5 @@ const fn belt(
     Quantity { name, about, kind: KIND, computation, variables }
 }
 
-/// Whether a response has settled: it comes with every number of one.
+/// Whether a response has settled; added to every quantity of a response.
 pub(super) const SETTLED_NAME: &str = "settled";

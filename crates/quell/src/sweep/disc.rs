@@ -1,7 +1,7 @@
-//! What a map computes of discs: growth rates, with the work that neighbours share, and the quantities read from them.
+//! Maps of discs: growth rates, with the work that neighbours share, and the quantities read from them.
 //!
-//! Points that differ in the friction of the one load alone share the constant flow or the assembled equations. Every point
-//! is computed through the same arithmetic whether it has such neighbours or not, so that its bits do not depend on them.
+//! Points that differ only in the friction of a single load share the constant flow or the assembled equations. Every point
+//! goes through the same arithmetic with or without such neighbours, so that its bits do not depend on them.
 
 use quell_disc::dithered;
 use quell_disc::equations::linearised;
@@ -25,7 +25,7 @@ use crate::study::{DiscStudy, Study, Sweep};
 /// Name of the kind.
 const KIND: &str = "disc";
 
-/// A study of a disc as a map sees it.
+/// Implementation of maps for disc studies.
 pub(super) struct DiscPoints(Option<DiscStudy>);
 
 impl DiscPoints {
@@ -64,7 +64,7 @@ impl Mapped for DiscPoints {
     }
 }
 
-/// What a map of discs can show.
+/// The quantities of a map of discs.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[Quantity] = &[
     disc("growth", "largest growth rate of the disc, its verdict and the bound on its error", Computation::DiscGrowth, &[
@@ -84,7 +84,7 @@ pub(super) const QUANTITIES: &[Quantity] = &[
     ]),
 ];
 
-/// What a disc's verdict can be instead of known.
+/// Statuses of a disc's verdict other than known.
 const OF_DISC: &[Status] = &[Status::WithinError];
 
 const fn disc(
@@ -112,7 +112,7 @@ fn decided(growth: Growth) -> Result<f64, Status> {
     }
 }
 
-/// A disc of unit friction, and what it was prepared for.
+/// A disc of unit friction, and what was prepared for it.
 struct Prepared {
     disc: Disc,
     equations: Equations,
@@ -123,7 +123,7 @@ enum Equations {
     Constant(Box<Linearised>),
 }
 
-/// Computes at every point; `None` where there is no valid disc.
+/// Computes every point; `None` without a valid disc.
 fn evaluate(
     points: &[Option<Disc>],
     parts: Contributions,
@@ -150,7 +150,7 @@ fn evaluate(
     points.iter().map(|disc| disc.as_ref().map(&mut one)).collect()
 }
 
-/// Largest growth rate of a disc. What `prepared` holds is used where it is for this disc but for the friction of its load.
+/// Largest growth rate of a disc. Uses `prepared` if it fits this disc except for the friction of its load.
 fn growth(
     disc: &Disc,
     parts: Contributions,

@@ -6,7 +6,7 @@ use quell_dynamics::response::{Uncertain, Undefined};
 use quell_dynamics::start::NoSquealingStart;
 use quell_linear::averaging::AveragingError;
 
-/// State of one number of a map.
+/// Status of one number of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum Status {
@@ -44,7 +44,7 @@ pub enum Status {
     NotFast = 24,
     /// A quadrature did not converge.
     NotConverged = 25,
-    /// There is no dither.
+    /// The study has no dither.
     NoDither = 26,
     /// No amplitude changes averaged stability.
     NeverChanges = 27,
@@ -57,7 +57,7 @@ pub enum Status {
 }
 
 impl Status {
-    /// Every state, in the order of their codes.
+    /// Every status, in the order of the codes.
     pub const ALL: &'static [Self] = &[
         Self::Known,
         Self::InvalidStudy,
@@ -93,7 +93,7 @@ impl Status {
         matches!(self, Self::Known | Self::BeyondRange)
     }
 
-    /// The state with a code.
+    /// The status with a code.
     pub fn of_code(code: u8) -> Option<Self> {
         Self::ALL.iter().copied().find(|status| status.code() == code)
     }
