@@ -66,8 +66,8 @@ impl Bifurcation {
                         .to_owned()
                 }
                 [] => "The two directions have not both settled at any value.".to_owned(),
-                stretches => {
-                    let parts: Vec<String> = stretches
+                ranges => {
+                    let parts: Vec<String> = ranges
                         .iter()
                         .map(|(from, to)| format!("from {} to {}", value(*from), value(*to)))
                         .collect();

@@ -185,7 +185,7 @@ fn point(study: &BeltStudy, value: f64, begun: Start) -> Result<(Point, Start), 
 fn hysteresis(study: &BeltStudy, branches: &[Branch]) -> Vec<(f64, f64)> {
     let [up, down] = branches else { return Vec::new() };
     let scale = study.belt().normal_load();
-    let mut stretches: Vec<(f64, f64)> = Vec::new();
+    let mut ranges: Vec<(f64, f64)> = Vec::new();
     let mut open = false;
     for (one, other) in up.points.iter().zip(down.points.iter().rev()) {
         let apart = match (&one.response, &other.response) {
@@ -197,20 +197,21 @@ fn hysteresis(study: &BeltStudy, branches: &[Branch]) -> Vec<(f64, f64)> {
             }
             _ => false,
         };
-        match (apart, stretches.last_mut()) {
+        match (apart, ranges.last_mut()) {
             (true, Some(last)) if open => last.1 = one.value,
-            (true, _) => stretches.push((one.value, one.value)),
+            (true, _) => ranges.push((one.value, one.value)),
             (false, _) => {}
         }
         open = apart;
     }
-    stretches
+    ranges
 }
 
 /// Whether two responses may be the same although their records differ in size: closed curves with the same rotation, or
 /// responses that are neither a closed orbit nor a curve, of which a record shows only a part.
 fn is_one_torus(one: &Attractor, other: &Attractor) -> bool {
-    let turns = |it: &Attractor| it.rotation.map(|rotation| rotation.turns_per_period);
+    let turns =
+        |attractor: &Attractor| attractor.rotation.map(|rotation| rotation.turns_per_period);
     match (one.kind, other.kind) {
         (AttractorKind::Unclassified, _) | (_, AttractorKind::Unclassified) => true,
         (AttractorKind::QuasiPeriodic, AttractorKind::QuasiPeriodic) => turns(one)

@@ -242,7 +242,7 @@ impl Shared {
     fn incomplete(&self, why: &str, left: usize, chunks: usize) -> Failure {
         let done = chunks - left;
         self.failed(format!(
-            "{why}; {done} of the {chunks} requested chunks kept, {left} left: repeat the command to continue"
+            "{why}; {done} of the {chunks} requested chunks kept, {left} left: run it again to continue"
         ))
     }
 
