@@ -164,13 +164,13 @@ fn thresholds_answer_with_the_number() {
     let amplitude = "dither.amplitude";
     assert_eq!(
         sentence("quench.toml", amplitude, ["0.4", "0.6"], &["--from-rest", "--from-squeal"]),
-        "From D = 0.496562 on (grazing) the base response is stable; below, it is unstable. \
-         Started from rest or in full squeal, the dither quenches from D = 0.49656 on."
+        "The base response is stable from D = 0.496562 on (grazing) and unstable below. \
+         For runs started from rest or in full squeal, the dither quenches from D = 0.49656 on."
     );
     assert_eq!(
         sentence("quench.toml", amplitude, ["0.3", "0.4"], &["--from-rest"]),
         "The base response is unstable at every D from 0.3 to 0.4 (no threshold in this range). \
-         Started from rest, the dither quenches nowhere for D from 0.3 to 0.4."
+         For runs started from rest, the dither quenches at no D from 0.3 to 0.4."
     );
     // Several intervals, and a branch that turns back.
     let law = DECREASING.map(|change| ["--set", change]).concat();
@@ -183,8 +183,8 @@ fn thresholds_answer_with_the_number() {
             &with(&["--from-rest", "--from-squeal"])
         ),
         "The base response is stable up to D = 4.32239 (neimark-sacker) and from D = 9.90021 on (grazing). \
-         Started from rest, the dither quenches up to D = 2.86785 and from D = 9.90024 on. \
-         Started in full squeal, the dither quenches from D = 9.90024 on."
+         For runs started from rest, the dither quenches up to D = 2.86785 and from D = 9.90024 on. \
+         For runs started in full squeal, the dither quenches from D = 9.90024 on."
     );
     assert_eq!(
         sentence(
@@ -193,11 +193,12 @@ fn thresholds_answer_with_the_number() {
             ["1e-4", "3e-3"],
             &with(&["--set", "dither.frequency_ratio=1"])
         ),
-        "Up to D = 0.0015724 (fold) the base response is stable. There it turns back; beyond, runs end on another response."
+        "The base response is stable up to D = 0.0015724 (fold). There it turns back; beyond, runs end on another response."
     );
     let drive = sentence("drive.toml", "belt.belt_velocity_m_per_s", ["0.005", "0.04"], &[]);
     assert!(
-        drive.starts_with("From v₀ = 0.02") && drive.contains(" m/s on (hopf) steady"),
+        drive.starts_with("Steady sliding is stable from v₀ = 0.02")
+            && drive.contains(" m/s on (hopf) and unstable below"),
         "{drive}"
     );
 }

@@ -400,7 +400,7 @@ fn options_that_say_nothing_together_are_refused() {
         (
             vec!["orbit", STUDY, "--set", "belt.belt_velocity=9", "--from-squeal"],
             "--from-squeal",
-            "another start is needed",
+            "choose another start",
         ),
     ] {
         let (object, status) = quell(&arguments);

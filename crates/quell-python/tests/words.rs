@@ -10,10 +10,13 @@ fn options_are_named_as_arguments() {
     for (text, told) in [
         ("a number above --from 2", "a number above from_ 2"),
         (
-            "given together with --from-rest, --from-sliding, --from-squeal or --start: it is",
-            "given together with from_rest, from_sliding, from_squeal or start: it is",
+            "requires --from-rest, --from-sliding, --from-squeal or --start: it ramps up",
+            "requires from_rest, from_sliding, from_squeal or start: it ramps up",
         ),
-        ("--clear and --frequency are given together", "clear and frequency are given together"),
+        (
+            "--clear and --frequency must be given together",
+            "clear and frequency must be given together",
+        ),
         ("name it by --save", "name it by store"),
         ("(--ramp)", "(ramp)"),
         ("--ramp-", "ramp-"),
@@ -31,12 +34,12 @@ fn ways_are_those_of_python() {
             "exists already: resume=True goes on with it; or choose another name",
         ),
         (
-            "stopped; 3 of 4 chunks are kept, 1 are left: the same command with --resume goes on",
-            "stopped; 3 of 4 chunks are kept, 1 are left: the same call with resume=True goes on",
+            "stopped; 3 of 4 chunks kept, 1 left: the same command with --resume continues",
+            "stopped; 3 of 4 chunks kept, 1 left: the same call with resume=True continues",
         ),
         (
-            "stopped; nothing is kept: --save FILE.zarr keeps what is done, and --resume goes on",
-            "stopped; nothing is kept: store=\"FILE.zarr\" keeps what is done, and resume=True goes on",
+            "stopped; nothing was kept: --save FILE.zarr keeps finished chunks, and --resume continues",
+            "stopped; nothing was kept: store=\"FILE.zarr\" keeps finished chunks, and resume=True continues",
         ),
         ("the keys that `quell schema` lists", "the keys that quell.schema() lists"),
         (

@@ -1,7 +1,7 @@
-//! Slip beyond the range of the friction law: where an answer meets it, and the one sentence that says so.
+//! Slip beyond the range of the friction law: where it occurs in an answer, and the warning about it.
 //!
-//! Averages meet v₀ plus the largest fast velocity of the dither. Runs meet what they meet: verbs that keep a record look
-//! there; those that tell of attractors and orbits run each of them once more for a few periods, and every start for one.
+//! Averages reach v₀ plus the largest fast velocity of the dither. For runs the slip is measured: verbs that keep a record
+//! use the record; those that report attractors and orbits run each of them again for a few periods, and every start for one.
 
 use std::f64::consts::TAU;
 
@@ -15,23 +15,23 @@ use quell_model::units::Quantity;
 use crate::study::BeltStudy;
 use crate::words::in_words;
 
-/// How long a start is watched: its first slow period, in which a decaying transient is largest.
+/// Time for which a start is observed: its first slow period, in which a decaying transient is largest.
 const OF_START: f64 = TAU;
 
-/// How long an attractor is watched.
+/// Time for which an attractor is observed.
 const OF_ATTRACTOR: f64 = 4.0 * TAU;
 
-/// The slip that the runs of an answer meet, each against the range of its own law.
+/// The slip reached by the runs of an answer, each compared with the range of its own law.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SlipMet {
     runs: usize,
     beyond: usize,
-    /// The largest slip speed of those beyond, relative to the range, and that range.
+    /// The slip speed that is largest relative to its range, and that range.
     worst: Option<(f64, SlipRange)>,
 }
 
 impl SlipMet {
-    /// What a record of these velocities x′ met.
+    /// The slip reached in a record of velocities x′.
     pub(crate) fn of_velocities(belt: &Belt, velocities: impl Iterator<Item = f64>) -> Self {
         let mut met = Self::default();
         let speeds = velocities.map(|velocity| (belt.belt_velocity() - velocity).abs());
@@ -39,7 +39,7 @@ impl SlipMet {
         met
     }
 
-    /// A run that meets slip up to `speed`.
+    /// Adds a run that reaches slip up to `speed`.
     pub(crate) fn add(&mut self, belt: &Belt, speed: f64) {
         self.runs += 1;
         let Some(range) = belt.friction().range().filter(|range| speed > range.upper) else {
@@ -52,17 +52,17 @@ impl SlipMet {
         }
     }
 
-    /// Runs from a start for its first slow period.
+    /// Adds a run from a start over its first slow period.
     pub(crate) fn add_start(&mut self, belt: &Belt, start: Start) {
         self.add_run(belt, start, OF_START);
     }
 
-    /// Runs on an attractor for a few slow periods, from a state on it.
+    /// Adds a run on an attractor over a few slow periods, from a state on it.
     pub(crate) fn add_attractor(&mut self, belt: &Belt, state: Start) {
         self.add_run(belt, state, OF_ATTRACTOR);
     }
 
-    /// Runs from a state for `length`. A run that stops has met what it met until then.
+    /// Adds a run of duration `length` from a state. A run that stops counts up to there.
     pub(crate) fn add_run(&mut self, belt: &Belt, state: Start, length: f64) {
         let mut slip = LargestSlip::of(belt);
         if slip.watches() {
@@ -71,11 +71,12 @@ impl SlipMet {
         self.add(belt, slip.speed);
     }
 
-    /// The warning, where a run leaves the range.
+    /// The warning, if a run leaves the range.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let Some((speed, range)) = self.worst else { return Vec::new() };
         let others = if self.runs > 1 {
-            format!(" ({} of {} runs leave it)", self.beyond, self.runs)
+            let leave = if self.beyond == 1 { "leaves" } else { "leave" };
+            format!(" ({} of {} runs {leave} it)", self.beyond, self.runs)
         } else {
             String::new()
         };
@@ -83,7 +84,7 @@ impl SlipMet {
     }
 }
 
-/// Largest slip speed in the first slow period of each run, the runs side by side; 0 where the law has no range.
+/// Largest slip speed in the first slow period of each run, computed in one batch; 0 if the law has no range.
 pub(crate) fn of_starts(cases: &[(&Belt, Start)]) -> Vec<f64> {
     let mut slips: Vec<LargestSlip> = cases.iter().map(|(belt, _)| LargestSlip::of(belt)).collect();
     let runs = cases
@@ -99,12 +100,12 @@ pub(crate) fn of_starts(cases: &[(&Belt, Start)]) -> Vec<f64> {
     slips.into_iter().map(|slip| slip.speed).collect()
 }
 
-/// Slip that averages meet at slip speed `slip`: with the largest fast velocity.
+/// Slip that averages reach at slip speed `slip`: that speed plus the largest fast velocity.
 pub(crate) fn with_dither(belt: &Belt, slip: f64) -> f64 {
     slip + belt.fast_velocity()
 }
 
-/// Slip that averages meet at v₀ with the first dither at this amplitude.
+/// Slip that averages reach at v₀ with the first dither at this amplitude.
 pub(crate) fn at_amplitude(belt: &Belt, amplitude: f64) -> f64 {
     let mut dithers = belt.dithers().to_vec();
     let first = dithers.first().map_or(0.0, |dither| belt.fast_velocity_of(dither));
@@ -115,12 +116,12 @@ pub(crate) fn at_amplitude(belt: &Belt, amplitude: f64) -> f64 {
     with_dither(belt, belt.belt_velocity()) - first + then
 }
 
-/// What averages at the study's own slip, v₀, leave of the range.
+/// Warnings if averages at the study's own slip, v₀, leave the range.
 pub(crate) fn averaged(study: &BeltStudy) -> Vec<String> {
     averaged_at(study, study.belt().belt_velocity())
 }
 
-/// What averages at slip speeds up to `slip` leave of the range.
+/// Warnings if averages at slip speeds up to `slip` leave the range.
 pub(crate) fn averaged_at(study: &BeltStudy, slip: f64) -> Vec<String> {
     let belt = study.belt();
     let Some(range) = belt.friction().range() else { return Vec::new() };
@@ -128,9 +129,9 @@ pub(crate) fn averaged_at(study: &BeltStudy, slip: f64) -> Vec<String> {
     let (together, fast) = (with_dither(belt, slip), belt.fast_velocity());
     if together > range.upper {
         let what = match (fast > 0.0, slip == belt.belt_velocity()) {
-            (true, true) => "slip reaches, by belt and dither together,".to_owned(),
-            (true, false) => "slip and dither together reach".to_owned(),
-            (false, true) => "slip reaches, by the belt alone,".to_owned(),
+            (true, true) => "slip including dither reaches".to_owned(),
+            (true, false) => "slip including dither reaches".to_owned(),
+            (false, true) => "slip without dither reaches".to_owned(),
             (false, false) => "slip reaches".to_owned(),
         };
         warnings.push(sentence(study, &range, &what, together));
@@ -142,11 +143,11 @@ pub(crate) fn averaged_at(study: &BeltStudy, slip: f64) -> Vec<String> {
     warnings
 }
 
-/// One sentence about slip outside a range; `what` ends before the speed.
+/// One sentence about slip outside a range; `what` is the part before the speed.
 pub(crate) fn sentence(study: &BeltStudy, range: &SlipRange, what: &str, speed: f64) -> String {
     let words = |speed: f64| in_words(study, Quantity::Velocity, speed);
     format!(
-        "{what} {}, outside the range of the {} law, {} to {} ({}): numbers from there are an extrapolation",
+        "{what} {}, outside the range of the {} law, {} to {} ({}): numbers from there are extrapolated",
         words(speed),
         study.belt().friction().kind().name(),
         words(range.lower),

@@ -1,10 +1,10 @@
-//! Numbers and starts in sentences.
+//! Numbers and starts as text.
 
 use quell_model::units::{Quantity, Scales};
 
 use crate::study::{BeltStudy, InitialState};
 
-/// The start in words.
+/// The start as text, such as "from rest".
 pub fn start_in_words(study: &BeltStudy) -> String {
     match study.initial() {
         InitialState::Rest => "from rest".to_owned(),
@@ -18,12 +18,12 @@ pub fn start_in_words(study: &BeltStudy) -> String {
     }
 }
 
-/// A quantity in a sentence: six digits, in SI where the study is.
+/// A quantity with six significant digits, in SI with its unit if the study is in SI.
 pub(crate) fn in_words(study: &BeltStudy, quantity: Quantity, value: f64) -> String {
     in_scales(study.scales(), quantity, value)
 }
 
-/// The same of a study with these scales.
+/// [`in_words`] for a study with these scales.
 pub(crate) fn in_scales(scales: Option<Scales>, quantity: Quantity, value: f64) -> String {
     match scales.zip(quantity.si_unit()) {
         Some((scales, (unit, _))) => format!("{} {unit}", digits(scales.to_si(quantity, value))),
@@ -31,7 +31,7 @@ pub(crate) fn in_scales(scales: Option<Scales>, quantity: Quantity, value: f64) 
     }
 }
 
-/// Six significant digits, without zeros that say nothing.
+/// Six significant digits, without trailing zeros.
 pub(crate) fn digits(value: f64) -> String {
     let text = format!("{value:.5e}");
     text.parse::<f64>()
@@ -39,8 +39,14 @@ pub(crate) fn digits(value: f64) -> String {
 }
 
 /// The ending of a noun after a count.
-pub fn plural(count: usize) -> &'static str {
-    if count == 1 { "" } else { "s" }
+pub fn plural<N: Copy + PartialEq + From<u8>>(count: N) -> &'static str {
+    if count == N::from(1) { "" } else { "s" }
+}
+
+/// A text with its first letter in upper case.
+pub(crate) fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 #[cfg(test)]
@@ -48,11 +54,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn small_numbers_are_told_as_they_are() {
-        for (value, told) in
+    fn small_numbers_are_not_rounded() {
+        for (value, text) in
             [(1e-8, "1e-8"), (4.3224, "4.3224"), (20.0, "20"), (0.0, "0"), (1234567.0, "1234570")]
         {
-            assert_eq!(digits(value), told);
+            assert_eq!(digits(value), text);
         }
     }
 }

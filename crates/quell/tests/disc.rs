@@ -1,4 +1,4 @@
-//! Disc studies: what is read, what is refused, modes that go through a file, maps of discs.
+//! Disc studies: valid and invalid input, modes saved and read back, maps of discs.
 
 use std::fs;
 use std::path::Path;
@@ -31,7 +31,7 @@ fn computed(study: &DiscStudy, quantity: &str) -> quell::run::map::Map {
 }
 
 #[test]
-fn what_is_wrong_is_told_with_its_place() {
+fn complaints_name_the_key() {
     let with = |from: &str, to: &str| PLATE.replace(from, to);
     for (text, key, line, allowed) in [
         (with("= 0.5\n", "= 1.0\n"), "disc.inner_radius_ratio", Some(3), "0.95"),
@@ -74,19 +74,19 @@ fn what_is_wrong_is_told_with_its_place() {
         ("schema = 1\n[disc]\nmode = []\n".to_owned(), "disc.mode", Some(3), "at least one"),
         (format!("{PLATE}[belt]\nnormal_load = 1\n"), "belt", Some(11), "of a belt or of a disc"),
     ] {
-        let told = parse(&text).expect_err(&text);
-        let found = told.iter().find(|complaint| complaint.key == key);
-        let found = found.unwrap_or_else(|| panic!("{key}: {told:#?}"));
+        let complaints = parse(&text).expect_err(&text);
+        let found = complaints.iter().find(|complaint| complaint.key == key);
+        let found = found.unwrap_or_else(|| panic!("{key}: {complaints:#?}"));
         assert_eq!(found.origin.line(), line, "{found}");
         assert!(found.allowed.contains(allowed), "{found}");
     }
-    let told = parse(&with("damping = 0.1", "dampng = 0.1")).expect_err("a slip");
-    assert_eq!(told[0].suggestion.as_deref(), Some("disc.load.damping"));
+    let complaints = parse(&with("damping = 0.1", "dampng = 0.1")).expect_err("a slip");
+    assert_eq!(complaints[0].suggestion.as_deref(), Some("disc.load.damping"));
 }
 
-/// What is wrong about the material, the reference, axes and dither of a disc.
+/// Complaints about the material, the reference, axes and dither of a disc.
 #[test]
-fn what_is_wrong_about_a_plate_is_told_with_its_place() {
+fn complaints_about_a_plate_name_the_key() {
     let disc = |keys: &str| PLATE.replace("= 0.5\n", &format!("= 0.5\n{keys}"));
     let metal = "youngs_modulus_pa = 1.1e11\ndensity_kg_per_m3 = 7200\n";
     let axis = "[[sweep]]\nparameter = \"disc.load.speed\"\nfrom = 0.1\nto = 1\npoints = 3\n";
@@ -121,9 +121,9 @@ fn what_is_wrong_about_a_plate_is_told_with_its_place() {
         (format!("{PLATE}{axis}{axis}"), "sweep[1].parameter", Some(16), "sweep[0] varies"),
         (format!("sweep = 3\n{PLATE}"), "sweep", Some(1), "tables [[sweep]]"),
     ] {
-        let told = parse(&text).err().unwrap_or_else(|| panic!("{key} is accepted"));
-        let found = told.iter().find(|complaint| complaint.key == key);
-        let found = found.unwrap_or_else(|| panic!("{key}: {told:#?}"));
+        let complaints = parse(&text).err().unwrap_or_else(|| panic!("{key} is accepted"));
+        let found = complaints.iter().find(|complaint| complaint.key == key);
+        let found = found.unwrap_or_else(|| panic!("{key}: {complaints:#?}"));
         assert_eq!(found.origin.line(), line, "{found}");
         assert!(found.allowed.contains(allowed), "{found}");
     }
@@ -169,7 +169,7 @@ fn modes_go_through_a_file() {
     let (one, other) =
         (stability::run(&study).expect("finite"), stability::run(&read).expect("finite"));
     assert!((one.growth.rate - other.growth.rate).abs() <= 1e-12);
-    // A mode that is changed by one digit is another study.
+    // Changing one digit of a mode gives another study.
     assert_ne!(read.settings(), study.settings());
 }
 
@@ -193,8 +193,8 @@ fn two_half_pads_give_both_families_of_one() {
          [[disc.load]]\nangle_deg = 180\nradius_ratio = 0.75\nmass = 0.05\ndamping = 0.05\nstiffness = 0.05\nfriction = 0.025\n");
     let study = good(&halves);
     assert_eq!((study.disc().loads().len(), study.disc().speed()), (2, 0.3));
-    let told = parse(&format!("{halves}speed = 0.4\n")).expect_err("two speeds");
-    assert!(told[0].allowed.contains("turn together"), "{told:?}");
+    let complaints = parse(&format!("{halves}speed = 0.4\n")).expect_err("two speeds");
+    assert!(complaints[0].allowed.contains("turn together"), "{complaints:?}");
     let refused = resonances::run(&study, resonances::ResonancesRequest::default());
     assert!(
         refused.expect_err("two loads").json()["errors"][0]["allowed"]
@@ -211,7 +211,10 @@ fn tables_of_the_dissertation() {
     let found =
         resonances::run(&study, resonances::ResonancesRequest::default()).expect("one load");
     let places = |list: &[quell_disc::resonance::Resonance]| -> Vec<String> {
-        list.iter().filter(|it| it.speed > 1e-9).map(|it| format!("{:.3}", it.speed)).collect()
+        list.iter()
+            .filter(|meeting| meeting.speed > 1e-9)
+            .map(|meeting| format!("{:.3}", meeting.speed))
+            .collect()
     };
     assert_eq!(places(&found.undithered), ["0.036", "0.064", "0.114", "0.192", "1.000"]);
     assert_eq!(
@@ -232,7 +235,7 @@ fn a_map_has_the_numbers_of_its_points_and_points_beside_resonances() {
         let study = good(&format!("{PLATE}{dither}{axes}"));
         let grid = Grid::of(&study).expect("axes");
         let speeds = &grid.axes()[0].values;
-        // Below and above the third meeting of waves, by no more than 10⁻⁵.
+        // Within 10⁻⁵ below and above the third meeting of waves.
         let place = resonances::run(&study, resonances::ResonancesRequest::default())
             .expect("one load")
             .undithered[2]
@@ -286,7 +289,7 @@ fn the_answer_of_each_run_is_one_object_with_its_names() {
     assert!(quiet.changes.is_err() && quiet.growth.rate <= 0.0);
 }
 
-/// First-order theory calls R from 3.05 to 6 clear; the exact exponents grow from 4.4 on.
+/// First-order theory reports R from 3.05 to 6 as clear; by the exact exponents motions grow from 4.4 on.
 #[test]
 fn a_clear_frequency_is_verified_by_the_exact_equations() {
     let path =
@@ -303,10 +306,10 @@ fn a_clear_frequency_is_verified_by_the_exact_equations() {
     let verified = clear.verified.expect("exponents");
     assert!(verified.is_clear() && verified.growth.rate < 0.0, "{verified:?}");
     assert!((3.1..4.4).contains(ratio) && *ratio == verified.frequency_ratio, "{ratio}");
-    let told = found.json(&study)["clear"].clone();
-    assert_eq!(told["verified_growth_rate"].as_f64(), Some(verified.growth.rate));
-    assert_eq!(told["verified"]["verdict"], "stable");
-    assert_eq!(told["verified"]["speed"].as_f64(), Some(verified.speed));
+    let clear = found.json(&study)["clear"].clone();
+    assert_eq!(clear["verified_growth_rate"].as_f64(), Some(verified.growth.rate));
+    assert_eq!(clear["verified"]["verdict"], "stable");
+    assert_eq!(clear["verified"]["speed"].as_f64(), Some(verified.speed));
     let growth = |ratio: f64, speed: f64| {
         let disc = study.disc().with("dither.frequency_ratio", ratio).expect("valid");
         let disc = disc.at_speed(speed).expect("valid");
@@ -317,17 +320,17 @@ fn a_clear_frequency_is_verified_by_the_exact_equations() {
     };
     assert!(largest(*ratio) <= verified.growth.rate + 1e-9, "{}", largest(*ratio));
     assert!(largest(4.523_287) > 1e-3);
-    // One frequency is an interval too, and where it grows the answer says so.
+    // A single frequency is also an interval, and the answer reports growth there.
     let asked = |ratio: f64| {
         let clear = Some((0.25..=0.9, ratio..=ratio));
         let question = resonances::ResonancesRequest { clear, ..Default::default() };
         resonances::run(&study, question).expect("an answer").json(&study)["clear"].clone()
     };
     for (ratio, verdict) in [(*ratio, "stable"), (4.523_287, "unstable")] {
-        let told = asked(ratio);
-        assert_eq!(told["suggestion"].as_f64(), Some(ratio));
-        assert_eq!(told["verified"]["verdict"], verdict, "{told}");
-        let rate = told["verified"]["growth_rate"].as_f64();
+        let answer = asked(ratio);
+        assert_eq!(answer["suggestion"].as_f64(), Some(ratio));
+        assert_eq!(answer["verified"]["verdict"], verdict, "{answer}");
+        let rate = answer["verified"]["growth_rate"].as_f64();
         assert_eq!(rate.map(|rate| rate > 0.0), Some(verdict == "unstable"));
     }
 }

@@ -1,4 +1,4 @@
-//! What each verb draws is what it answers: the numbers of its picture against those of its JSON.
+//! Each verb draws what it answers: compares the numbers of its picture with those of its JSON.
 
 use std::fs;
 use std::path::Path;
@@ -33,7 +33,7 @@ fn layers<'a>(figure: &'a Json, panel: usize, kind: &str) -> Vec<&'a Json> {
     all.iter().filter(|layer| layer["kind"] == kind).collect()
 }
 
-/// Points (x, y) of a layer, all pieces of a line together.
+/// Points (x, y) of a layer, including all pieces of a line.
 fn places(layer: &Json) -> Vec<(f64, f64)> {
     let pieces = match layer["kind"].as_str() {
         Some("line") => layer["pieces"].as_array().expect("pieces").clone(),
@@ -47,7 +47,7 @@ fn places(layer: &Json) -> Vec<(f64, f64)> {
 
 fn numbers(list: &Json, name: &str) -> Vec<f64> {
     let list = list.as_array().expect("a list");
-    list.iter().map(|it| it[name].as_f64().expect("a number")).collect()
+    list.iter().map(|object| object[name].as_f64().expect("a number")).collect()
 }
 
 #[test]
@@ -62,8 +62,11 @@ fn thresholds_are_marked_where_they_are() {
     };
     let done = thresholds::run(&study, question).expect("an answer");
     let (answer, figure) = (done.json(&study), picture::thresholds(&study, &done).described());
-    let marked: Vec<f64> =
-        layers(&figure, 0, "points").iter().flat_map(|it| places(it)).map(|it| it.0).collect();
+    let marked: Vec<f64> = layers(&figure, 0, "points")
+        .iter()
+        .flat_map(|layer| places(layer))
+        .map(|(x, _)| x)
+        .collect();
     let mut found = numbers(&answer["local"], "value");
     assert!(found.len() >= 2);
     found.sort_by(f64::total_cmp);
@@ -74,15 +77,15 @@ fn thresholds_are_marked_where_they_are() {
     let modulus = places(layers(&figure, 0, "line")[0]);
     let around = |value: f64| {
         let (low, high) = (value - 0.3, value + 0.3);
-        let near = modulus.iter().filter(|it| (low..high).contains(&it.0)).map(|it| it.1);
+        let near = modulus.iter().filter(|(x, _)| (low..high).contains(x)).map(|(_, y)| *y);
         near.clone().fold(f64::MAX, f64::min) < 1.0 && near.fold(0.0, f64::max) > 1.0
     };
     assert!(found.iter().all(|value| around(*value)), "{found:?}");
     let switches = numbers(&answer["from_sliding"], "value");
     let rules: Vec<f64> = layers(&figure, 0, "rule")
         .iter()
-        .filter(|it| it["vertical"] == true)
-        .filter_map(|it| it["value"].as_f64())
+        .filter(|rule| rule["vertical"] == true)
+        .filter_map(|rule| rule["value"].as_f64())
         .collect();
     assert_eq!(rules, switches);
 }
@@ -104,7 +107,8 @@ fn curves_of_thresholds_are_drawn_point_by_point() {
             "grazing" => "exact: grazing",
             _ => "exact: Neimark–Sacker",
         };
-        let line = drawn.iter().find(|it| it["label"] == label).unwrap_or_else(|| panic!("{kind}"));
+        let line =
+            drawn.iter().find(|line| line["label"] == label).unwrap_or_else(|| panic!("{kind}"));
         let expected: Vec<(f64, f64)> = answer["curves"]
             .as_array()
             .expect("curves")
@@ -120,7 +124,7 @@ fn curves_of_thresholds_are_drawn_point_by_point() {
             .collect();
         assert!(expected.len() > 50 && places(line) == expected, "{kind}");
     }
-    assert!(drawn.iter().any(|it| it["label"] == "averaged"));
+    assert!(drawn.iter().any(|line| line["label"] == "averaged"));
     assert_eq!(answer["warnings"].as_array().map(Vec::len), Some(0), "{}", answer["warnings"]);
 }
 
@@ -141,7 +145,7 @@ fn an_orbit_closes_and_its_multipliers_are_drawn() {
     let quiet = belt("does-it-squeal.toml", &["belt.belt_velocity=9"]);
     let found = orbit::run(&quiet, Wanted::default()).expect("sliding");
     let refused = periodic_response(&quiet, &found).expect_err("no orbit").to_string();
-    assert!(refused.contains("no limit cycle was found"), "{refused}");
+    assert!(refused.contains("No limit cycle was found"), "{refused}");
 }
 
 fn portraits(study: &BeltStudy, layout: Layout, over: Option<Range>) -> (Json, Figure) {
@@ -160,7 +164,7 @@ fn basins_show_every_start_and_every_share() {
     let attractors = answer["attractors"].as_array().expect("attractors").len();
     let figure = figure.described();
     let starts: usize =
-        layers(&figure, 0, "points").iter().take(attractors).map(|it| places(it).len()).sum();
+        layers(&figure, 0, "points").iter().take(attractors).map(|layer| places(layer).len()).sum();
     let unknown = answer["unknown"]["starts"].as_u64().expect("a count");
     assert_eq!(starts as u64 + unknown, 24);
     let over = Range { parameter: "dither.amplitude".into(), from: 5.0, to: 10.5, points: 3 };
@@ -168,7 +172,7 @@ fn basins_show_every_start_and_every_share() {
     let figure = figure.described();
     let line = places(layers(&figure, 0, "line")[0]);
     let shares = numbers(&answer["portraits"], "quiet_fraction");
-    assert_eq!(line.iter().map(|it| it.1).collect::<Vec<_>>(), shares);
+    assert_eq!(line.iter().map(|(_, share)| *share).collect::<Vec<_>>(), shares);
 }
 
 #[test]
@@ -180,27 +184,28 @@ fn a_disc_is_drawn_with_its_own_place() {
     let figure = disc::stability(&study, &answer, &speeds).described();
     let at = (study.disc().speed(), answer.growth.rate);
     let own = layers(&figure, 1, "points");
-    assert!(own.iter().any(|it| places(it) == [at]), "{at:?}");
-    // Under dither a line of its own, through the same place.
+    assert!(own.iter().any(|layer| places(layer) == [at]), "{at:?}");
+    // Under dither a separate line passes through the same point.
     let line = places(layers(&figure, 1, "line")[0]);
-    let beside = line.windows(2).find(|pair| (pair[0].0..=pair[1].0).contains(&at.0));
-    let beside = beside.expect("speeds around it");
-    let (low, high) = (beside[0].1.min(beside[1].1), beside[0].1.max(beside[1].1));
-    assert!((low - 1e-3..=high + 1e-3).contains(&at.1), "{beside:?} {at:?}");
+    let around = line.windows(2).find(|pair| (pair[0].0..=pair[1].0).contains(&at.0));
+    let around = around.expect("speeds around it");
+    let (low, high) = (around[0].1.min(around[1].1), around[0].1.max(around[1].1));
+    assert!((low - 1e-3..=high + 1e-3).contains(&at.1), "{around:?} {at:?}");
 
     let found =
         resonances::run(&study, resonances::ResonancesRequest::default()).expect("one load");
     let figure = disc::resonances(&study, &found).described();
     let rules = layers(&figure, 0, "rule");
-    let own = rules.iter().find(|it| it["label"] == "this study").expect("its friction");
+    let own = rules.iter().find(|rule| rule["label"] == "this study").expect("its friction");
     assert_eq!(own["value"], 0.25);
     let dotted: Vec<f64> = rules
         .iter()
-        .filter(|it| it["vertical"] == true)
-        .filter_map(|it| it["value"].as_f64())
+        .filter(|rule| rule["vertical"] == true)
+        .filter_map(|rule| rule["value"].as_f64())
         .collect();
-    let stable = found.undithered.iter().chain(&found.dithered).filter(|it| !it.can_be_unstable());
-    assert_eq!(dotted, stable.map(|it| it.speed).collect::<Vec<_>>());
+    let stable =
+        found.undithered.iter().chain(&found.dithered).filter(|meeting| !meeting.can_be_unstable());
+    assert_eq!(dotted, stable.map(|meeting| meeting.speed).collect::<Vec<_>>());
 
     let listed = DiscStudy::parse_in(
         "schema = 1\n[disc]\n[[disc.mode]]\ndiameters = 1\nratio = 1\nshape_at_load = 1\n\
@@ -211,7 +216,7 @@ fn a_disc_is_drawn_with_its_own_place() {
     .expect("modes");
     let figure = disc::modes(&listed, &modes::run(&listed)).expect("a picture").described();
     let rows = modes::run(&listed).rows;
-    let rows: Vec<(f64, f64)> = rows.iter().map(|it| (it.diameters as f64, it.ratio)).collect();
+    let rows: Vec<(f64, f64)> = rows.iter().map(|row| (row.diameters as f64, row.ratio)).collect();
     assert_eq!(places(layers(&figure, 0, "points")[0]), rows);
     assert_eq!(rows.len(), 2);
 }

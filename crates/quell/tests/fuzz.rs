@@ -1,5 +1,5 @@
-//! Random and mutated input: the reader of studies and the reader of map stores meet it without a panic, and refuse it
-//! with complaints. A short run with fixed seeds; `fuzz/` holds the same two targets for cargo-fuzz, to run for hours.
+//! Random and mutated input: the reader of studies and the reader of map stores must not panic, and must reject it
+//! with complaints. A short run with fixed seeds; `fuzz/` holds the same two targets for long runs with cargo-fuzz.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -28,7 +28,7 @@ impl Dice {
     }
 }
 
-/// What stands in for a piece of a study: numbers at the edges, other types, broken text.
+/// Replacements for a piece of a study: extreme numbers, other types, broken text.
 const PIECES: &[&str] = &[
     "0",
     "-1",
@@ -75,7 +75,7 @@ fn mutated(text: &str, dice: &mut Dice) -> String {
             0 => drop(letters.drain(at..at + length)),
             1 => drop(letters.splice(at..at + length, PIECES[dice.below(PIECES.len())].chars())),
             2 => {
-                // A value: what follows an equals sign.
+                // A value: the text after an equals sign.
                 let signs: Vec<usize> =
                     (0..letters.len()).filter(|place| letters[*place] == '=').collect();
                 if let Some(&sign) = signs.get(dice.below(signs.len())) {
@@ -108,9 +108,9 @@ fn studies() -> Vec<String> {
     files.iter().map(|path| fs::read_to_string(path).expect("a study")).collect()
 }
 
-/// Every text is a study or has complaints, each with a key and what is allowed; a study that was accepted is accepted again.
+/// Every text is a valid study or gives complaints, each with a key and the allowed values; an accepted study is accepted again.
 #[test]
-fn the_reader_of_studies_refuses_in_words() {
+fn the_reader_of_studies_rejects_with_complaints() {
     let (studies, mut dice) = (studies(), Dice(1));
     let (mut accepted, mut refused) = (0, 0);
     for round in 0..6000 {
@@ -118,8 +118,9 @@ fn the_reader_of_studies_refuses_in_words() {
         match Study::parse_in(&text, &[], Path::new("")) {
             Ok(subject) => {
                 accepted += 1;
-                // A point of a map without numbers is the study itself, checked again from its mirror.
-                let again = subject.at([]).unwrap_or_else(|told| panic!("{told:?}\n{text}"));
+                // A map point without changed numbers is the study itself, checked again from its document.
+                let again =
+                    subject.at([]).unwrap_or_else(|complaints| panic!("{complaints:?}\n{text}"));
                 assert_eq!(again.settings(), subject.settings(), "{text}");
                 if let Ok(study) = subject.belt() {
                     let belt = study.belt();
@@ -130,13 +131,13 @@ fn the_reader_of_studies_refuses_in_words() {
                 refused += 1;
                 assert!(!complaints.is_empty(), "{text}");
                 for complaint in complaints {
-                    let told = complaint.to_string();
+                    let message = complaint.to_string();
                     assert!(
-                        complaint.fault == Fault::Syntax || told.contains(&complaint.key),
-                        "{told}"
+                        complaint.fault == Fault::Syntax || message.contains(&complaint.key),
+                        "{message}"
                     );
-                    assert!(!complaint.allowed.is_empty(), "{told}");
-                    assert_ne!(complaint.suggestion.as_ref(), Some(&complaint.key), "{told}");
+                    assert!(!complaint.allowed.is_empty(), "{message}");
+                    assert_ne!(complaint.suggestion.as_ref(), Some(&complaint.key), "{message}");
                 }
             }
         }
@@ -193,9 +194,9 @@ fn damaged(bytes: &[u8], dice: &mut Dice) -> Vec<u8> {
     bytes
 }
 
-/// A store with one file changed is refused, or its chunk is found damaged, or it gives the values that it had: never others.
+/// A store with one changed file is rejected, or its chunk is reported as damaged, or it gives the original values: never others.
 #[test]
-fn the_reader_of_stores_believes_no_damage() {
+fn the_reader_of_stores_detects_damage() {
     let folder = tempfile::tempdir().expect("a folder");
     let whole = folder.path().join("whole.zarr");
     let (plan, never) = (plan(), AtomicBool::new(false));
@@ -220,7 +221,7 @@ fn the_reader_of_stores_believes_no_damage() {
         }
         let opened = Store::open(&path, &plan, true);
         if opened.is_ok() {
-            // Metadata and coordinates are what readers of Zarr believe.
+            // Readers of Zarr rely on metadata and coordinates.
             for name in names.iter().filter(|name| !name.starts_with(".quell")) {
                 let of_chunks = name.to_string_lossy().starts_with("verdict");
                 if !of_chunks || name.ends_with("zarr.json") {

@@ -1,4 +1,4 @@
-//! `coulomb` and `stribeck-exponential`, friction in newtons, formulas that are proven, and slip beyond the range of a law.
+//! `coulomb` and `stribeck-exponential`, friction in newtons, formulas that are verified, and slip beyond the range of a law.
 //!
 //! Numbers: `reference/laws.json` (source and tolerance in `reference/README.md`); published cases with their source.
 
@@ -39,7 +39,7 @@ fn set(study: &str, changes: &[&str]) -> BeltStudy {
 
 fn warnings(json: &Json) -> String {
     let list = json["warnings"].as_array().expect("a list");
-    list.iter().map(|it| it.as_str().expect("text")).collect::<Vec<_>>().join("\n")
+    list.iter().map(|text| text.as_str().expect("text")).collect::<Vec<_>>().join("\n")
 }
 
 #[test]
@@ -56,17 +56,17 @@ fn averages_are_those_of_the_definition() {
             assert!(error < 1e-10, "{row}: {} differs by {error:e}", values[place]);
         }
         // The stored slopes are rounded to 13 digits after the point; below δ = 1 the slope at rest is unbounded, and the
-        // error that is told with the average is larger.
+        // reported error of the average is larger.
         for (place, slope) in numbers(&row["slope"]).into_iter().enumerate() {
             let error = (slopes[place] - slope).abs();
-            let told = found.points[place].effective.as_ref().expect("an average").slope_error;
-            assert!(told < 1e-4, "{row}: {told:e}");
-            assert!(error < 1e-9 + told, "{row}: slope {} differs by {error:e}", slopes[place]);
+            let reported = found.points[place].effective.as_ref().expect("an average").slope_error;
+            assert!(reported < 1e-4, "{row}: {reported:e}");
+            assert!(error < 1e-9 + reported, "{row}: slope {} differs by {error:e}", slopes[place]);
         }
     }
 }
 
-/// Under a sine Coulomb friction averages to μ_d (2/π) asin(v/α), whatever the static level.
+/// Under a sine, Coulomb friction averages to μ_d (2/π) asin(v/α) for any static level.
 #[test]
 fn coulomb_under_a_sine_is_an_arcsine() {
     let reference = reference();
@@ -121,9 +121,9 @@ const DRIVE: &str = "schema = 1\n[belt]\nmass_kg = 0.538\nstiffness_n_per_m = 69
      belt_velocity_m_per_s = 0.1\n[friction]\nlaw = \"stribeck-exponential\"\nfriction_force_n = 2.0\n\
      static_friction_force_n = 6.0\nreference_velocity_m_per_s = 0.1\nexponent = 1.0\nviscous_n_s_per_m = 0.2\n";
 
-/// Forces decide, whatever the normal force; the same study in coefficients gives the same numbers.
+/// Friction forces are independent of the normal force; the same study in coefficients gives the same numbers.
 #[test]
-fn friction_in_newtons_is_friction_whatever_presses() {
+fn friction_in_newtons_is_independent_of_the_normal_force() {
     let own = study(DRIVE);
     let pressed = DRIVE.replace("[friction]", "normal_force_n = 30.0\n[friction]");
     let pressed = study(&pressed);
@@ -155,14 +155,14 @@ fn friction_in_newtons_is_friction_whatever_presses() {
     for rest in &rests {
         assert!((rest / rests[0] - 1.0).abs() < 1e-7, "{rests:?}");
     }
-    // A point of a map and --set reach the forces.
+    // Map points and --set change the forces.
     let softer = set(DRIVE, &["friction.friction_force_n=5.0"]);
     assert!((force(&softer, 1e3) - 205.0).abs() < 1e-9);
     let point = own.with("friction.friction_force_n", 5.0).expect("a study");
     assert_eq!(softer.belt(), point.belt());
 }
 
-/// Steady sliding is stable from v = v_s ln(ΔF/(v_s(c + c_v))) on, whatever the level: 0.190616072953803 m/s.
+/// Steady sliding is stable from v = v_s ln(ΔF/(v_s(c + c_v))) on, for any friction level: 0.190616072953803 m/s.
 #[test]
 fn the_drive_of_veraszto_and_stepan_has_its_hopf_point() {
     let study = study(DRIVE);
@@ -208,9 +208,9 @@ fn friction_in_newtons_is_never_guessed() {
     assert!(said.contains("at least friction.friction_force_n = 2"), "{said}");
 }
 
-/// Without an exponent that is whole a run is refused with the reason; averages are there.
+/// Without an integer exponent a run is rejected with the reason; averages are available.
 #[test]
-fn what_is_not_analytic_at_rest_is_averaged_alone() {
+fn laws_not_analytic_at_rest_are_only_averaged() {
     let text = DRIVE.replace("exponent = 1.0", "exponent = 0.5");
     let study = study(&text);
     let wrong = simulate::run(&study, 10.0, simulate::Options::default()).expect_err("no branch");
@@ -223,7 +223,7 @@ const CUBIC: &str = "schema = 1\n[belt]\ndamping_ratio = 0.005\nnormal_load = 1.
      direction = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.5\nfrequency_ratio = 10.0\n[solver]\nsettle = 100.0\n\
      record_periods = 8\n";
 
-/// v₀ = 10 km/h with v_m = 0.2 m/s: the case that was answered "stable" under 619 279 N without a word.
+/// v₀ = 10 km/h with v_m = 0.2 m/s: the case that used to be reported as "stable" under 619 279 N without a warning.
 #[test]
 fn a_cubic_far_out_warns_in_the_study_s_units() {
     let si = "schema = 1\n[belt]\nmass_kg = 1.0\nstiffness_n_per_m = 1e6\ndamping_n_s_per_m = 10.0\n\
@@ -250,7 +250,7 @@ fn a_cubic_far_out_warns_in_the_study_s_units() {
     assert_eq!(warnings(&friction::run(&near, &[near.belt().belt_velocity()]).json(&near)), "");
 }
 
-/// Every verb, in and out of the range; without --at `friction` ends where slip and dither reach it.
+/// Every verb, inside and outside the range; without --at, `friction` ends where slip including dither reaches the limit.
 #[test]
 fn every_verb_warns_where_slip_leaves_the_range() {
     let inside = study(CUBIC);
@@ -263,11 +263,11 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     let at = [0.1];
     quiet(&friction::run(&inside, &at).json(&inside));
     warns(&friction::run(&outside, &at).json(&outside));
-    // Outside, the belt's own slip with the dither leaves the range whatever the grid.
+    // Outside, the belt's own slip including the dither leaves the range for any grid.
     for study in [&inside, &outside] {
         let grid = friction::grid(study.belt());
         let end = grid.last().copied().expect("points");
-        // With dither the average at a slip velocity meets the fast velocity beyond it.
+        // With dither, the average at a slip velocity reaches that velocity plus the fast velocity.
         let met = end + study.belt().fast_velocity();
         assert!((met - 0.2 * 3f64.sqrt()).abs() < 1e-15, "{end}");
     }
@@ -304,7 +304,7 @@ fn every_verb_warns_where_slip_leaves_the_range() {
         over: None,
     };
     warns(&basins::run(&outside, &question, running).expect("basins").json(&outside));
-    // A point of a map has its value, and a status that says so.
+    // A map point has its value, and a status that reports the range.
     let axes = "[[sweep]]\nparameter = \"dither.amplitude\"\nvalues = [0.5, 3.0]\n";
     let swept = study(&format!("{CUBIC}{axes}"));
     for name in ["efficiency", "mean-friction", "verdict", "criterion-sharper"] {
@@ -320,7 +320,7 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     }
 }
 
-/// A formula is proven for each study, and refused with its key where it cannot be.
+/// A formula is verified for each study, and rejected with its key if that fails.
 #[test]
 fn formulas_are_proven_for_every_study() {
     let text = |formula: &str, more: &str| {
@@ -341,7 +341,10 @@ fn formulas_are_proven_for_every_study() {
     let belt = study(&falling);
     assert_eq!(belt.belt().friction().range().map(|range| range.upper), Some(1.0));
     let faster = belt.with("belt.belt_velocity", 0.5).expect_err("negative from v = 4 on");
-    assert!(faster.iter().any(|it| it.to_string().contains("at v = 4.")), "{faster:?}");
+    assert!(
+        faster.iter().any(|complaint| complaint.to_string().contains("at v = 4.")),
+        "{faster:?}"
+    );
     let meant = set(&falling, &["belt.belt_velocity=0.5", "friction.maximum_velocity=3.0"]);
     assert_eq!(meant.belt().friction().range().map(|range| range.upper), Some(3.0));
     let run = simulate::run(&meant, 30.0, simulate::Options::default()).expect("a run");
@@ -353,7 +356,7 @@ fn formulas_are_proven_for_every_study() {
         said.contains("range of the expression law, 0 to 0.12 (the maximum velocity"),
         "{said}"
     );
-    // In SI the key has its unit.
+    // In SI the key includes its unit.
     let si = "schema = 1\n[belt]\nmass_kg = 1.0\nstiffness_n_per_m = 1e4\ndamping_n_s_per_m = 1.0\n\
         normal_force_n = 10.0\nbelt_velocity_m_per_s = 0.5\n[friction]\nlaw = \"expression\"\n\
         coefficient = \"0.4 - 0.1*abs(v)\"\nmaximum_velocity_m_per_s = 3.0\n";

@@ -1,4 +1,4 @@
-//! Pictures of maps as their users see them: isolines, gaps, outcomes, curves, size.
+//! Pictures of maps as users see them: isolines, gaps, outcomes, curves, size.
 
 use quell::picture::{Map, MapAxis, MapKind, map};
 use quell::plot::{PlotAxis, PlotError, PlotRole, Polyline, Size, Spread};
@@ -64,7 +64,7 @@ fn isolines_of_an_efficiency_carry_their_per_cent() {
 }
 
 #[test]
-fn reasons_stand_in_the_legend_where_they_are_met() {
+fn reasons_that_occur_are_in_the_legend() {
     let undefined = |r: f64, d: f64| if r < 3.0 { Err(0) } else { Ok(quench(r, d)) };
     let one = svg(&plane(40, MapKind::Efficiency, undefined));
     assert!(one.contains(" undefined") && !one.contains("not settled"));
@@ -76,7 +76,7 @@ fn reasons_stand_in_the_legend_where_they_are_met() {
 }
 
 #[test]
-fn outcomes_that_occur_stand_in_the_legend_and_there_is_no_bar() {
+fn outcomes_that_occur_are_in_the_legend_without_a_bar() {
     let both = svg(&plane(40, stable_or_not(), |r, d| Ok(f64::from(u8::from(20.0 * d < r)))));
     assert!(both.contains(">stable<") && both.contains(">unstable<"));
     assert_eq!(both.matches("<image ").count(), 1);
@@ -100,8 +100,8 @@ fn zero_growth_is_drawn_where_the_sign_changes() {
 }
 
 #[test]
-fn the_first_of_two_axes_lies_to_the_right() {
-    // One point of the ratio's upper end is unknown: the hatch touches the right edge only.
+fn the_first_of_two_axes_is_horizontal() {
+    // One point at the upper end of the ratio is unknown: the hatching touches only the right edge.
     let given = plane(3, MapKind::Number(Spread::Linear), |r, d| {
         if r > 19.0 && d < 0.1 { Err(0) } else { Ok(r + d) }
     });
@@ -110,7 +110,7 @@ fn the_first_of_two_axes_lies_to_the_right() {
         values: (0..9).map(|k| given.values[3 * (k % 3) + k / 3]).collect(),
         ..given.clone()
     };
-    // Where the hatched corner starts, from the left.
+    // Left end of the hatched corner.
     let corner = |given: &Map| -> f64 {
         let svg = svg(given);
         // The sample in the legend comes last.
@@ -120,7 +120,7 @@ fn the_first_of_two_axes_lies_to_the_right() {
     };
     // The frame is 400 pixels wide, each cell at least a quarter of it.
     assert!(corner(&given) - corner(&turned) > 250.0, "{} {}", corner(&given), corner(&turned));
-    // Values in falling order are the same map.
+    // Descending values give the same map.
     let mut falling = given.clone();
     falling.axes[0].values.reverse();
     falling.values = (0..9).map(|k| given.values[3 * (2 - k / 3) + k % 3]).collect();
@@ -128,7 +128,7 @@ fn the_first_of_two_axes_lies_to_the_right() {
 }
 
 #[test]
-fn curves_of_a_theory_lie_over_the_map_and_do_not_widen_it() {
+fn curves_of_a_theory_are_drawn_over_the_map_and_do_not_widen_it() {
     let mut given = plane(40, stable_or_not(), |_, _| Ok(0.0));
     let bare = svg(&given);
     let boundary = Polyline::new(PlotRole::Averaged, [(0.0, 0.0), (100.0, 5.0)]);
@@ -192,7 +192,7 @@ fn a_third_axis_gives_a_panel_for_each_of_its_values() {
 }
 
 #[test]
-fn what_is_no_map_is_refused() {
+fn invalid_maps_are_refused() {
     let good = || plane(5, MapKind::Efficiency, |r, d| Ok(quench(r, d)));
     let mut doubled = good();
     doubled.axes[0].values[1] = doubled.axes[0].values[0];
@@ -211,7 +211,7 @@ fn what_is_no_map_is_refused() {
     }
 }
 
-/// What a map holds at a ratio and an amplitude.
+/// The value of a map at a ratio and an amplitude.
 type Value = fn(f64, f64) -> Result<f64, usize>;
 
 #[test]

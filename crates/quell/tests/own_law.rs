@@ -1,4 +1,4 @@
-//! Studies with a friction law of one's own: keys, units, complaints, files, axes of maps.
+//! Studies with a user-defined friction law: keys, units, complaints, files, axes of maps.
 
 use std::path::Path;
 
@@ -13,9 +13,12 @@ fn study(friction: &str) -> Result<BeltStudy, Complaints> {
     BeltStudy::parse(&format!("{BELT}[friction]\n{friction}"), &[])
 }
 
-fn told(friction: &str) -> Vec<(String, Option<usize>, String)> {
+fn complaints(friction: &str) -> Vec<(String, Option<usize>, String)> {
     let wrong = study(friction).expect_err(friction);
-    wrong.into_iter().map(|it| (it.key, it.origin.line(), it.allowed)).collect()
+    wrong
+        .into_iter()
+        .map(|complaint| (complaint.key, complaint.origin.line(), complaint.allowed))
+        .collect()
 }
 
 #[test]
@@ -129,14 +132,15 @@ fn complaints_name_the_key_and_the_line() {
             "4",
         ),
     ] {
-        let told = told(text);
-        let found =
-            told.iter().any(|(at, on, why)| at == key && *on == Some(line) && why.contains(part));
-        assert!(found, "{text}: {told:?}");
+        let complaints = complaints(text);
+        let found = complaints
+            .iter()
+            .any(|(at, on, why)| at == key && *on == Some(line) && why.contains(part));
+        assert!(found, "{text}: {complaints:?}");
     }
 }
 
-/// The files of `studies/`, in SI and not.
+/// The files of `studies/`, with and without SI.
 #[test]
 fn the_studies_of_own_laws_are_valid() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies");
@@ -152,7 +156,7 @@ fn the_studies_of_own_laws_are_valid() {
         (at_a_tenth - (0.26 + 0.12 * (-0.1f64 / 0.08).exp() + 0.005)).abs() < 0.004,
         "{at_a_tenth}"
     );
-    // A point of a map is the same study, though the file is not read again.
+    // A map point is the same study, although the file is not read again.
     let again = measured.at([("friction.static_coefficient", 0.42)]).expect("valid");
     assert_eq!(again.belt(), measured.belt());
     assert_eq!(
@@ -161,5 +165,8 @@ fn the_studies_of_own_laws_are_valid() {
         "what decides a map is in its settings"
     );
     let object = quell::run::check::Check { study: &measured }.json();
-    assert!(object["friction"]["fit"]["rms_error"].as_f64().is_some_and(|it| it > 0.0), "{object}");
+    assert!(
+        object["friction"]["fit"]["rms_error"].as_f64().is_some_and(|error| error > 0.0),
+        "{object}"
+    );
 }

@@ -1,4 +1,4 @@
-//! Pictures as their users see them: kinds, files, dashes, gaps, size, sameness.
+//! Pictures as users see them: kinds, files, dashes, gaps, size, reproducibility.
 
 use std::fs;
 
@@ -87,7 +87,7 @@ fn a_path_that_cannot_be_written_is_an_error_and_leaves_nothing() {
     assert!(output(&missing).is_err());
     let taken = folder.path().join("taken.svg");
     let prepared = output(&taken).expect("free");
-    // Meanwhile a folder of the file's name stands in the way of the rename.
+    // Meanwhile a folder with the name of the file blocks the rename.
     fs::create_dir(&taken).expect("a folder");
     fs::write(taken.join("content"), "kept").expect("a file");
     let refused = write(&Figure::single(axes()), prepared).expect_err("a folder is there");
@@ -174,7 +174,7 @@ fn a_shared_legend_names_each_curve_once() {
     for name in ["undithered", "unstable", "printed"] {
         assert_eq!(svg.matches(&format!(">{name}<")).count(), 1, "{name}");
     }
-    // Shared x: the label stands below the last panel of each column only.
+    // Shared x: only the last panel of each column has the label.
     assert_eq!(svg.matches(">time ").count(), 2);
 }
 
@@ -315,7 +315,7 @@ fn a_map_is_one_image_with_one_bar() {
 
 #[test]
 fn pixels_of_a_map_have_the_colour_of_the_nearest_point() {
-    // On the logarithmic axis the border between 1 and 100 lies at 10.
+    // On the logarithmic axis the border between 1 and 100 is at 10.
     let outcomes = [PlotRole::Stable, PlotRole::Unstable, PlotRole::Undecided, PlotRole::Exact]
         .map(|role| Tint::new(role, ""))
         .to_vec();
@@ -348,7 +348,7 @@ fn isolines_carry_their_numbers_and_are_open_under_them() {
         assert!(labelled.contains(&format!(">{level}<")), "{level}");
         assert!(!plain.contains(level));
     }
-    // A closed line is one piece; under each number it opens.
+    // A closed line is one piece, interrupted at each number.
     let pieces = |svg: &str| strokes(svg, "#000000").iter().map(|d| d.matches('M').count()).sum();
     let (open, closed): (usize, usize) = (pieces(&labelled), pieces(&plain));
     // The circle of 20 % leaves no gap in the frame: four closed lines.
@@ -357,7 +357,7 @@ fn isolines_carry_their_numbers_and_are_open_under_them() {
 }
 
 #[test]
-fn isolines_lie_where_the_field_has_their_value_also_on_a_log_axis() {
+fn isolines_follow_the_field_also_on_a_log_axis() {
     // x y = 10 is straight on two logarithmic axes.
     let axis: Vec<f64> = even(0.0, 1.0, 9).into_iter().map(|power| 10_f64.powf(power)).collect();
     let product = |column: usize, row: usize| Some((axis[column] * axis[row]).ln());

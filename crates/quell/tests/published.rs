@@ -1,6 +1,6 @@
-//! Published cases: what a paper or another program prints, what is exact, and what Quell answers.
+//! Published cases: the values of a paper or another program, exact values, and the results of Quell.
 //!
-//! Numbers and sources stand in `reference/published.json`; the page on correctness shows the same table.
+//! Numbers and sources are in `reference/published.json`; the page on correctness shows the same table.
 
 use quell::BeltStudy;
 use quell::run::orbit::{Response, Wanted, run as orbit};
@@ -12,7 +12,7 @@ use quell_dynamics::simulation::{Event, EventKind, EventRecorder, simulate as tr
 use quell_model::units::Quantity;
 use serde_json::Value;
 
-/// The independent integrator agrees with closed forms to 2e-12; periods and places are of the order of 10.
+/// The independent integrator agrees with closed forms to 2e-12; periods and positions are of order 10.
 const CLOSE: f64 = 1e-10;
 
 fn case(name: &str) -> Value {
@@ -43,7 +43,7 @@ fn belt(damping: f64, velocity: f64, law: &str, rest: &str) -> BeltStudy {
     .replace("LAW", &format!("[friction]\nlaw = \"expression\"\ncoefficient = \"{law}\"\n")))
 }
 
-/// A driven oscillator with Coulomb friction 1: the support is at rest, and the dither is the drive.
+/// A driven oscillator with Coulomb friction 1: the support is at rest and the dither is the drive.
 fn driven(damping: f64, stiction: f64, amplitude: f64, ratio: f64) -> BeltStudy {
     let rest = format!(
         "LAWstatic_coefficient = {stiction:?}\n[dither]\ndirection = \"tangential\"\nwaveform = \"sine\"\n\
@@ -83,7 +83,7 @@ fn driven_oscillator_in_slip_and_with_stick() {
         close(value, number(&stick, "printed", name), 1e-12);
     }
     close(found.multipliers[0].0, number(&stick, "printed", "multiplier"), 6e-11);
-    let sticks = events(&study, &found).into_iter().filter(|it| it.kind == EventKind::Stick);
+    let sticks = events(&study, &found).into_iter().filter(|event| event.kind == EventKind::Stick);
     let places: Vec<f64> = sticks.map(|event| event.displacement.abs()).collect();
     assert_eq!(places.len(), 2);
     for place in places {
@@ -172,7 +172,7 @@ fn bistability_of_the_block_of_veraszto_and_stepan() {
     assert_eq!((found.local.thresholds.len(), hopf.kind), (1, ThresholdKind::Hopf));
     close(scales.to_si(Quantity::Velocity, hopf.value), number(&case, "printed", "hopf"), 1e-9);
 
-    // Cycles at this velocity: the squeal and the unstable one below it, or none.
+    // Cycles at this velocity: the squeal and the smaller unstable cycle, or none.
     let count = |velocity: f64| {
         cycles(study.with(key, velocity).expect("valid").belt()).expect("no stall").len()
     };

@@ -1,11 +1,11 @@
-//! Sources that `quell cite` prints stand in `references.bib`, with the same title and year.
+//! Sources that `quell cite` prints are in `references.bib`, with the same title and year.
 
 use std::path::Path;
 
 use quell::cite::SOURCES;
 use quell::cite::bibliography::BIBLIOGRAPHY;
 
-/// Fields of one entry: what stands after `name = {`.
+/// Fields of one entry: the text after `name = {`.
 fn field<'a>(entry: &'a str, name: &str) -> Option<&'a str> {
     let line = entry.lines().find(|line| {
         line.trim_start().strip_prefix(name).is_some_and(|rest| rest.trim_start().starts_with('='))
@@ -59,7 +59,7 @@ fn keys_are_unique_and_entries_complete() {
     }
 }
 
-/// The copy in the root, which people find, is the file that is compiled in.
+/// The visible copy in the root is identical to the compiled-in file.
 #[test]
 fn the_copy_in_the_root_is_the_bibliography() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../references.bib");

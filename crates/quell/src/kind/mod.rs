@@ -1,7 +1,7 @@
-//! The verbs of a kind of study: what can be asked of it, and one way to say what cannot.
+//! The verbs of each kind of study, and one error for a verb that a kind does not have.
 //!
-//! The doors ask [`verbs`] for the verbs of a study, whatever its kind; a kind implements those that it has. A new kind
-//! is a file here, its reading in `quell-study`, and its points in [`crate::sweep`] if it has maps.
+//! The command line and Python call [`verbs`] for a study of any kind; a kind implements the verbs that it has. A new kind
+//! needs a file here, its parser in `quell-study`, and its map points in [`crate::sweep`] if it has maps.
 
 use serde_json::Value as Json;
 
@@ -17,15 +17,15 @@ use crate::sweep::Running;
 mod belt;
 mod disc;
 
-/// The answer of a verb, or why there is none.
+/// The answer of a verb, or why it failed.
 pub type Reply = Result<Box<dyn Outcome>, Failure>;
 
-/// The verbs of one study. What its kind does not implement is refused by name.
+/// The verbs of one study. A verb that its kind does not implement returns an error that names it.
 pub trait Verbs: Send + Sync {
     /// Name of the kind.
     fn kind(&self) -> &'static str;
 
-    /// Names of the verbs that the kind has.
+    /// Names of the verbs of the kind.
     fn names(&self) -> &'static [&'static str];
 
     /// The values of the study.
@@ -34,7 +34,7 @@ pub trait Verbs: Send + Sync {
     /// The equations and papers that the study's computations use.
     fn sources(&self) -> Sources;
 
-    /// The same as an answer.
+    /// [`Verbs::sources`] as an answer.
     fn cite(&self) -> Box<dyn Outcome>;
 
     /// The friction law and the effective friction, at these slip velocities or on a grid.
@@ -133,12 +133,10 @@ pub trait Verbs: Send + Sync {
         Err(self.lacks("resonances"))
     }
 
-    /// What a kind without a verb answers.
+    /// The error of a verb that the kind does not have.
     fn lacks(&self, verb: &str) -> Failure {
         let (kind, names) = (self.kind(), self.names().join(", "));
-        let allowed = format!(
-            "the study is of a {kind}, and {verb} is not one of its verbs, which are {names}"
-        );
+        let allowed = format!("{verb} is not available for a {kind} study; its verbs are {names}");
         Complaint::new(Fault::Conflict, kind, Origin::Whole, Json::Null, allowed).into()
     }
 }

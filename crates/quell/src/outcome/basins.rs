@@ -1,4 +1,4 @@
-//! `basins`: which starts end on which response.
+//! `basins`: the response on which each start ends.
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,4 @@
-//! `bifurcation`: the response along a parameter, swept up and down.
+//! `bifurcation`: the response along a parameter swept up and down.
 
 use std::fmt::Write as _;
 
@@ -56,13 +56,15 @@ fn table(done: &Bifurcation) -> String {
     text
 }
 
-/// Neighbouring values at which the same is to be said, one line each.
+/// Ranges of neighbouring values with the same kind of response, one line each.
 fn intervals(branch: &Branch) -> Vec<String> {
-    let told = |place: usize| {
+    let kind = |place: usize| {
         let point = &branch.points[place];
         match &point.response {
-            // The frequency of a curve changes from value to value: the kind is what a stretch has in common.
-            Ok(attractor) if attractor.rotation.is_some_and(|it| it.ratio.is_none()) => {
+            // The frequency of a quasi-periodic response changes from value to value; a range shares the kind.
+            Ok(attractor)
+                if attractor.rotation.is_some_and(|rotation| rotation.ratio.is_none()) =>
+            {
                 attractor.kind.words()
             }
             Ok(attractor) => words(point.scales, attractor, point.period),
@@ -73,14 +75,14 @@ fn intervals(branch: &Branch) -> Vec<String> {
     let mut from = 0;
     for place in 0..branch.points.len() {
         let last = place + 1 == branch.points.len();
-        if last || told(place + 1) != told(from) {
+        if last || kind(place + 1) != kind(from) {
             let value = |place: usize| figure(branch.points[place].value);
             let ends = if from == place {
                 value(place)
             } else {
                 format!("{} to {}", value(from), value(place))
             };
-            lines.push(format!("{ends:<22}  {}", told(from)));
+            lines.push(format!("{ends:<22}  {}", kind(from)));
             from = place + 1;
         }
     }

@@ -11,7 +11,7 @@ use crate::run::disc;
 use crate::run::law;
 use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy, StudyOf};
 
-/// A study that is valid: all that `check` says follows from it.
+/// Marks a valid study; the answer of `check` follows from the study alone.
 #[derive(Clone, Copy, Debug)]
 pub struct Valid;
 

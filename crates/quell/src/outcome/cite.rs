@@ -39,7 +39,7 @@ fn table(found: &Sources) -> String {
         }
     }
     if !found.corrections.is_empty() {
-        text.push_str("\nWhere the print was corrected:\n");
+        text.push_str("\nCorrections to the printed equations:\n");
     }
     for correction in &found.corrections {
         let _ = writeln!(text, "    {}: {}", correction.equations, correction.right);

@@ -40,7 +40,7 @@ impl Outcome for Answered<BeltSetup, FrictionCurve> {
 }
 
 fn table(study: &BeltStudy, curve: &FrictionCurve) -> String {
-    // In the units of the study: m/s, and slopes per m/s, in SI.
+    // In the units of the study; in SI velocities are in m/s and slopes per m/s.
     let (unit, per_unit) = match study.scales() {
         Some(scales) => ("m/s".to_owned(), scales.si_per_unit(Quantity::Velocity)),
         None => (quantity::unit_of(Quantity::Velocity, false), 1.0),
@@ -51,11 +51,11 @@ fn table(study: &BeltStudy, curve: &FrictionCurve) -> String {
     }
     let _ = write!(
         text,
-        "Friction over the slip velocity v_r, in {unit}: the law μ, the effective μ̄ under the dither, \
-         its slope\n  {:>14}  {:>14}  {:>14}  {:>14}\n",
+        "Friction versus slip velocity v_r in {unit}: the law μ, the effective friction μ̄ under the dither, \
+         and its slope\n  {:>14}  {:>14}  {:>14}  {:>14}\n",
         "v_r", "μ", "μ̄", "μ̄′"
     );
-    // A grid is for a file or a program; people see every tenth point of it.
+    // The full grid goes to files and programs; the table shows every tenth point.
     let stride = if curve.points.len() > 100 { 10 } else { 1 };
     for point in curve.points.iter().step_by(stride) {
         let law =

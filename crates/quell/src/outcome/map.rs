@@ -65,7 +65,7 @@ fn table(done: &Map) -> String {
     text.push('\n');
     for (entry, summary) in done.plan().sheet().entries().iter().zip(done.summaries()) {
         let _ = writeln!(text, "\n{}", heading(entry, done));
-        for (word, found) in [("least", &summary.least), ("most", &summary.most)] {
+        for (word, found) in [("min", &summary.least), ("max", &summary.most)] {
             if let Some(extreme) = found {
                 let _ = writeln!(text, "  {word}  {}", place(extreme, grid));
             }
@@ -84,7 +84,7 @@ fn table(done: &Map) -> String {
 }
 
 fn heading(entry: &Entry, done: &Map) -> String {
-    let field = &done.plan().sheet().fields()[done.told(entry)];
+    let field = &done.plan().sheet().fields()[done.shown(entry)];
     let unit = match field.unit.as_str() {
         "" | "1" => String::new(),
         unit => format!(" [{unit}]"),

@@ -51,23 +51,23 @@ fn table(done: &Modes) -> String {
         if hertz { format!("  {:>12}  {:>12}", "Hz", "rpm") } else { String::new() }
     );
     for (index, row) in done.rows.iter().enumerate() {
-        let told = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), figure);
+        let cell = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), figure);
         let _ = write!(
             text,
             "  ({}, {:>2})  {:>13}  {:>10}  {:>12}  {:>10}",
             row.radial,
             row.diameters,
-            told(row.frequency_parameter),
+            cell(row.frequency_parameter),
             figure(row.ratio),
             figure(row.shape_at_load),
-            told(row.critical_speed()),
+            cell(row.critical_speed()),
         );
         if hertz {
             let _ = write!(
                 text,
                 "  {:>12}  {:>12}",
-                told(row.frequency_hz),
-                told(row.critical_speed_rpm())
+                cell(row.frequency_hz),
+                cell(row.critical_speed_rpm())
             );
         }
         let _ = writeln!(

@@ -46,7 +46,7 @@ fn tables(study: &BeltStudy, found: &Response) -> String {
     if let Some(orbit) = &found.orbit {
         text += &table(study, orbit);
     }
-    let others = found.cycles.iter().filter(|it| Some(*it) != found.orbit.as_ref());
+    let others = found.cycles.iter().filter(|cycle| Some(*cycle) != found.orbit.as_ref());
     for other in others {
         let _ = write!(text, "\nAlso found: {}\n{}", sentence(study, other), table(study, other));
     }
@@ -61,7 +61,7 @@ fn table(study: &BeltStudy, found: &Orbit) -> String {
         table.word("multiplier", &multiplier);
     }
     let modulus =
-        if found.is_free { "modulus of the one that decides" } else { "modulus of the larger" };
+        if found.is_free { "modulus of the deciding one" } else { "modulus of the larger" };
     table.number(modulus, Quantity::Ratio, found.radius());
     table.number("displacement x at τ = 0", Quantity::Displacement, found.start.displacement);
     table.number("velocity x′ at τ = 0", Quantity::Velocity, found.start.velocity);

@@ -1,4 +1,4 @@
-//! `resonances`: where waves of a disc meet, and which dither frequency keeps speeds clear.
+//! `resonances`: the meetings of waves of a disc, and the dither frequencies that keep a range of speeds clear.
 
 use std::fmt::Write as _;
 
@@ -40,15 +40,15 @@ impl Outcome for Answered<DiscSetup, Resonances> {
     }
 }
 
-/// Growth in ω_ref that is rounding alone: rates are differences of numbers of order 1.
+/// Growth in ω_ref below which a rate is rounding error: rates are differences of numbers of order 1.
 const NO_GROWTH: f64 = 1e-12;
 
-/// What a wave does without the other one of its pair.
+/// The growth of a wave on its own, without the other one of its pair.
 fn by_itself(growth: f64) -> String {
     if growth.abs() <= NO_GROWTH {
-        "a wave of it is undamped by itself".to_owned()
+        "one wave is undamped on its own".to_owned()
     } else {
-        format!("a wave of it grows by itself with {}", figure(growth))
+        format!("one wave grows on its own at the rate {}", figure(growth))
     }
 }
 
@@ -73,7 +73,7 @@ fn table(study: &DiscStudy, done: &Resonances) -> String {
     text
 }
 
-/// What becomes of a meeting.
+/// The instability at a meeting.
 fn tongue(resonance: &Resonance) -> String {
     match (resonance.tongue.edges(), resonance.tongue.peak_growth()) {
         (Some([from, to]), Some(growth)) => {
@@ -82,42 +82,42 @@ fn tongue(resonance: &Resonance) -> String {
         }
         (None, Some(growth)) => by_itself(growth),
         _ if resonance.can_be_unstable() => match resonance.threshold {
-            Some(threshold) => format!("a tongue from f* = {}", figure(threshold)),
+            Some(threshold) => format!("tongue from f* = {} on", figure(threshold)),
             None => "no tongue".to_owned(),
         },
         _ => "cannot be unstable".to_owned(),
     }
 }
 
-/// What the exact equations say of the best dither frequency.
+/// The result of the exact equations at the suggested dither frequency.
 fn verified(clear: &Clear) -> String {
     match &clear.verified {
-        Some(it) if it.growth.verdict() == Verdict::Stable => format!(
-            "verified: by the exact equations nothing grows there, the largest rate is {}",
-            figure(it.growth.rate)
+        Some(found) if found.growth.verdict() == Verdict::Stable => format!(
+            "verified: in the exact equations nothing grows there; the largest growth rate is {}",
+            figure(found.growth.rate)
         ),
-        Some(it) if it.growth.verdict() == Verdict::Undecided => format!(
-            "not decided by the exact equations: the largest rate {} at Ω = {} is zero within its error {}",
-            figure(it.growth.rate),
-            figure(it.speed),
-            figure(it.growth.error)
+        Some(found) if found.growth.verdict() == Verdict::Undecided => format!(
+            "undecided: in the exact equations the largest growth rate, {} at Ω = {}, is zero within its error {}",
+            figure(found.growth.rate),
+            figure(found.speed),
+            figure(found.growth.error)
         ),
-        Some(it) => format!(
-            "not clear by the exact equations, the least growth of all: up to {} at Ω = {}",
-            figure(it.growth.rate),
-            figure(it.speed)
+        Some(found) => format!(
+            "not clear: in the exact equations the growth rate, although the smallest of all, reaches {} at Ω = {}",
+            figure(found.growth.rate),
+            figure(found.speed)
         ),
-        None => "not verified: exponents cannot be computed with such numbers".to_owned(),
+        None => "not verified: the Floquet exponents could not be computed".to_owned(),
     }
 }
 
-/// Which dither frequencies keep the speeds clear.
+/// The dither frequencies that keep the speeds clear.
 fn clearance(study: &DiscStudy, clear: &Clear) -> String {
     let mut text = String::new();
     let (from, to) = (figure(*clear.speeds.start()), figure(*clear.speeds.end()));
     let _ = writeln!(
         text,
-        "Dither frequencies R that keep {from} to {to} clear of tongues that dither makes:"
+        "Dither frequencies R that keep Ω = {from} to {to} clear of dither-induced tongues:"
     );
     for [from, to] in &clear.clearance.clear {
         let hertz = in_hertz(study, &[*from, *to]);
@@ -127,7 +127,7 @@ fn clearance(study: &DiscStudy, clear: &Clear) -> String {
         None => text.push_str("  none\n"),
         Some((ratio, nearby)) => {
             let hertz = in_hertz(study, &[*ratio]);
-            let _ = writeln!(text, "  best away from the others: R = {}{hertz}", figure(*ratio));
+            let _ = writeln!(text, "  suggested: R = {}{hertz}", figure(*ratio));
             let _ = writeln!(text, "  {}", verified(clear));
             for nearby in nearby.iter().filter(|nearby| nearby.reaches_in) {
                 let resonance = &nearby.resonance;
@@ -137,14 +137,15 @@ fn clearance(study: &DiscStudy, clear: &Clear) -> String {
                     (None, Some(growth)) => format!(", {}", by_itself(growth)),
                 };
                 let place = figure(resonance.speed) + &in_rpm(study, resonance.speed);
-                let _ = writeln!(text, "  left there: Ω = {place}, {}{growth}", resonance.label());
+                let _ =
+                    writeln!(text, "  remaining there: Ω = {place}, {}{growth}", resonance.label());
             }
         }
     }
     let words = if clear.clearance.original_suppressed {
-        "Tangential dither takes the tongues without dither away at first order."
+        "Tangential dither removes the tongues without dither at first order."
     } else {
-        "Normal dither leaves the tongues without dither as they are."
+        "Normal dither leaves the tongues without dither unchanged."
     };
     let _ = writeln!(text, "{words}");
     text
@@ -155,8 +156,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rounding_is_no_growth() {
+    fn rounding_is_not_growth() {
         assert!(by_itself(-3.469447e-18).contains("undamped"));
-        assert!(by_itself(1e-3).contains("grows by itself with 0.001"));
+        assert!(by_itself(1e-3).contains("grows on its own at the rate 0.001"));
     }
 }

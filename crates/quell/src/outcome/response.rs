@@ -1,4 +1,4 @@
-//! `response`: the steady response, what the dither does to it, and what it costs.
+//! `response`: the steady response, the effect of the dither and its cost.
 
 use std::fmt::Write as _;
 
@@ -44,7 +44,7 @@ impl Outcome for Answered<BeltSetup, Steady> {
     }
 }
 
-/// Most peaks in the table for people; JSON has them all.
+/// Largest number of peaks in the table; JSON has them all.
 const PEAKS: usize = 8;
 
 fn table(study: &BeltStudy, done: &Steady) -> String {
@@ -63,7 +63,7 @@ fn table(study: &BeltStudy, done: &Steady) -> String {
     table.word("settled", if response.settled { "yes" } else { "no" });
     table.number("mean friction", Quantity::Force, response.mean_friction);
     table.number("  steady, undithered", Quantity::Force, response.mean_friction_undithered);
-    table.known("friction lost", Quantity::Ratio, done.friction_loss());
+    table.known("friction loss", Quantity::Ratio, done.friction_loss());
     let only_normal = || "all dither is normal".to_owned();
     table.known("dither power", Quantity::Power, response.dither_power.ok_or_else(only_normal));
     table.known(

@@ -63,7 +63,7 @@ impl Outcome for Answered<DiscSetup, DiscStability> {
     }
 }
 
-/// Most marginal frictions that are told in words.
+/// Most marginal frictions listed in the table.
 const MOST_CHANGES: usize = 6;
 
 fn table_of_disc(study: &DiscStudy, done: &DiscStability) -> String {
@@ -89,7 +89,7 @@ fn table_of_disc(study: &DiscStudy, done: &DiscStability) -> String {
         let words = format!("{}, growth rate {}", frequency(mode.frequency), rate(mode.rate));
         table.word("unstable mode", &words);
     }
-    let newtons = study.scales(0).and_then(|it| it.si_per_unit(Quantity::LoadFriction));
+    let newtons = study.scales(0).and_then(|scales| scales.si_per_unit(Quantity::LoadFriction));
     match &done.changes {
         Ok(changes) => {
             for change in changes.iter().take(MOST_CHANGES) {
@@ -108,7 +108,7 @@ fn table_of_disc(study: &DiscStudy, done: &DiscStability) -> String {
     if done.out_of_reach {
         table.word(
             "out of reach",
-            "a motion that the load does not reach is marginal at any friction",
+            "a motion that the load cannot reach is marginal at any friction",
         );
     }
     let without = study.without();
@@ -118,7 +118,7 @@ fn table_of_disc(study: &DiscStudy, done: &DiscStability) -> String {
     table.text()
 }
 
-/// The speed of the loads, in rpm and, where the radius of the first load is known, in km/h.
+/// The speed of the loads, in rpm and, if the radius of the first load is known, in km/h.
 fn speed_in_words(study: &DiscStudy) -> String {
     let speed = study.disc().speed();
     let radius = study.scales(0).and_then(|scales| scales.load_radius_m);
@@ -160,7 +160,7 @@ fn averaged(study: &BeltStudy, found: &Averaged) -> String {
         table.rate("growth rate", of_criterion(criterion.value));
         table.number("effective friction μ̄", Quantity::Ratio, criterion.effective.coefficient);
         if criterion.effective.side == SlopeSide::Outer {
-            table.word("  one-sided", "the slope is that for slightly faster belts");
+            table.word("  one-sided", "the slope applies to slightly faster belts");
         }
     }
     match &found.critical_amplitudes {
@@ -174,7 +174,7 @@ fn averaged(study: &BeltStudy, found: &Averaged) -> String {
                     critical.amplitude,
                 );
                 if !critical.contact_stays_closed {
-                    table.word("  contact", "would be pulled apart");
+                    table.word("  contact", "would open");
                 }
             }
         }
@@ -184,7 +184,7 @@ fn averaged(study: &BeltStudy, found: &Averaged) -> String {
     match &found.everywhere_stable {
         Ok(ratio) => {
             table.number(label, Quantity::Velocity, *ratio);
-            let rate = study.belt().dithers().first().map_or(0.0, |it| it.frequency_ratio);
+            let rate = study.belt().dithers().first().map_or(0.0, |dither| dither.frequency_ratio);
             table.number("  D", Quantity::Force, ratio * rate);
         }
         Err(why) => table.word(label, &format!("none: {why}")),
@@ -198,7 +198,7 @@ fn averaged(study: &BeltStudy, found: &Averaged) -> String {
                     Some(upper) => {
                         format!("{lower} to {}", figure_of(study, Quantity::Velocity, upper))
                     }
-                    None => format!("{lower} upwards, no end met {LOOKED_AT}"),
+                    None => format!("above {lower}, no upper end found {LOOKED_AT}"),
                 }
             })
             .collect();

@@ -1,4 +1,4 @@
-//! Short tables for people: what, value, unit, and the same in SI.
+//! Short tables for people: label, value, unit, and the value in SI.
 
 use crate::quantity::unit_of;
 use crate::run::stability::DECIBELS;
@@ -24,7 +24,7 @@ impl Table {
     /// A row of a quantity.
     pub(super) fn number(&mut self, label: &str, quantity: Quantity, value: f64) {
         if !value.is_finite() {
-            return self.word(label, "undefined: it is beyond the range of numbers");
+            return self.word(label, "undefined: beyond the range of floating-point numbers");
         }
         let unit = unit_of(quantity, self.scales.is_some());
         let unit = if unit == "1" { String::new() } else { unit };
@@ -37,7 +37,7 @@ impl Table {
         self.rows.push([label.to_owned(), figure(value), unit, si]);
     }
 
-    /// A row of a quantity, or why there is none.
+    /// A row of a quantity, or why it is undefined.
     pub(super) fn known(&mut self, label: &str, quantity: Quantity, value: Result<f64, String>) {
         match value {
             Ok(value) => self.number(label, quantity, value),
@@ -55,14 +55,14 @@ impl Table {
         self.rows.push([label.to_owned(), figure(value), unit, si.unwrap_or_default()]);
     }
 
-    /// A row of words.
+    /// A row of text.
     pub(super) fn word(&mut self, label: &str, value: &str) {
         self.rows.push([label.to_owned(), value.to_owned(), String::new(), String::new()]);
     }
 
     /// The table as text.
     pub(super) fn text(&self) -> String {
-        // Words may be long; they are not what the columns are made for.
+        // Rows of words may be long and do not widen the columns.
         let width = |column: usize| {
             let measured = self.rows.iter().filter(|row| column == 0 || !is_word(row));
             measured.map(|row| row[column].chars().count()).max().unwrap_or(0)
@@ -88,7 +88,7 @@ fn is_word(row: &[String; 4]) -> bool {
     row[2].is_empty() && row[3].is_empty() && row[1].parse::<f64>().is_err()
 }
 
-/// A quantity with [`DIGITS`] significant digits, in SI with its unit where the study is.
+/// A quantity with [`DIGITS`] significant digits, in SI with its unit if the study is in SI.
 pub(super) fn figure_of(study: &BeltStudy, quantity: Quantity, value: f64) -> String {
     match study.scales().zip(quantity.si_unit()) {
         Some((scales, (unit, _))) => format!("{} {unit}", figure(scales.to_si(quantity, value))),
@@ -96,19 +96,19 @@ pub(super) fn figure_of(study: &BeltStudy, quantity: Quantity, value: f64) -> St
     }
 }
 
-/// Frequencies of a disc in hertz, in brackets; nothing where the study does not say what ω_ref is.
+/// Frequencies of a disc in hertz, in brackets; empty if the study does not define ω_ref.
 pub(super) fn in_hertz(study: &DiscStudy, ratios: &[f64]) -> String {
-    let told = |hertz: f64| {
+    let in_brackets = |hertz: f64| {
         let values: Vec<String> = ratios.iter().map(|ratio| figure(ratio * hertz)).collect();
         format!(" ({} Hz)", values.join(" to "))
     };
-    study.reference_hz().map_or_else(String::new, told)
+    study.reference_hz().map_or_else(String::new, in_brackets)
 }
 
-/// A speed of a disc in revolutions per minute, in brackets; nothing where the study does not say what ω_ref is.
+/// A speed of a disc in revolutions per minute, in brackets; empty if the study does not define ω_ref.
 pub(super) fn in_rpm(study: &DiscStudy, speed: f64) -> String {
-    let told = |hertz: f64| format!(" ({} rpm)", figure(60.0 * hertz * speed));
-    study.reference_hz().map_or_else(String::new, told)
+    let in_brackets = |hertz: f64| format!(" ({} rpm)", figure(60.0 * hertz * speed));
+    study.reference_hz().map_or_else(String::new, in_brackets)
 }
 
 /// A number with [`DIGITS`] significant digits.
@@ -130,7 +130,7 @@ pub(super) fn figure(value: f64) -> String {
         scale *= 10.0;
         places -= 1;
     }
-    // Below 0.1 zeros after the point are not significant.
+    // Below 0.1, leading zeros after the decimal point are not significant.
     let mut scale = 0.1;
     while size < scale {
         scale /= 10.0;

@@ -1,4 +1,4 @@
-//! `thresholds`: exact values of a parameter at which the response changes, and curves of them in two.
+//! `thresholds`: exact values of a parameter at which the response changes, and curves of thresholds in two parameters.
 
 use std::fmt::Write as _;
 
@@ -70,8 +70,11 @@ fn table_of_curves(study: &BeltStudy, done: &Curves) -> String {
     let (parameter, across) = (&done.question.parameter, &done.question.along);
     for curve in &done.curves {
         let [first, last] = curve.ends.map(ThresholdCurveEnd::name);
-        let _ =
-            writeln!(text, "\n{}, from its end ({first}) to its end ({last}):", curve.kind.name());
+        let _ = writeln!(
+            text,
+            "\n{}, from one end ({first}) to the other ({last}):",
+            curve.kind.name()
+        );
         let [x, y] = [across, parameter].map(|path| path_in_words(study, path));
         let _ = writeln!(text, "  {x:<14}  {y:<14}");
         let every = curve.points.len().div_ceil(12).max(1);
@@ -87,7 +90,7 @@ fn table_of_curves(study: &BeltStudy, done: &Curves) -> String {
     text
 }
 
-/// A value of a number of the equations, in SI where the study is.
+/// A value of a number of the equations, in SI if the study is in SI.
 fn figure_at(study: &BeltStudy, path: &str, value: f64) -> String {
     figure_of(study, quantity_of(study, path), value)
 }
@@ -116,14 +119,16 @@ fn table(study: &BeltStudy, done: &Thresholds) -> String {
         text.push_str("  no local threshold\n");
     }
     for change in &done.local.changes {
-        let words = |it: &Option<_>| it.as_ref().map_or("none".to_owned(), Signature::words);
+        let words = |signature: &Option<_>| {
+            signature.as_ref().map_or_else(|| "none".to_owned(), Signature::words)
+        };
         let (below, above) = (words(&change.below), words(&change.above));
         let _ = writeln!(text, "  {:<14}  {below} below, {above} above", figure(change.value));
     }
     for (protocol, switches) in &done.protocols {
         let _ = writeln!(
             text,
-            "runs {} (at {} values; pairs of changes between two of them are not seen):",
+            "runs {} (at {} values; a pair of changes between two of them is missed):",
             protocol.name().replace('_', " "),
             TRIED + 1
         );
@@ -138,7 +143,7 @@ fn table(study: &BeltStudy, done: &Thresholds) -> String {
             let error = if switch.is_close() {
                 String::new()
             } else {
-                format!(", to ± {}", figure(switch.error))
+                format!(" (± {})", figure(switch.error))
             };
             let _ = writeln!(
                 text,

@@ -10,14 +10,14 @@ use super::orbit::refused;
 use crate::complaint::Failure;
 use crate::fields::Fields;
 use crate::study::BeltStudy;
-use crate::words::{digits, in_scales};
+use crate::words::{digits, in_scales, plural};
 
-/// The belt with its strobe and its quiet response.
+/// The belt with its stroboscopic section and its base response.
 pub(super) fn scene(belt: &Belt) -> Result<AttractorSettings<'_>, Failure> {
     AttractorSettings::new(belt).map_err(refused)
 }
 
-/// The attractor in words: what it is, and at which frequency it turns.
+/// The attractor as text: its kind and its slow frequency.
 pub fn words(scales: Option<Scales>, attractor: &Attractor, period: f64) -> String {
     let frequency = attractor.frequency(period).map_or_else(String::new, |frequency| {
         let unit = if scales.is_some() { "" } else { " ω₀" };
@@ -29,31 +29,30 @@ pub fn words(scales: Option<Scales>, attractor: &Attractor, period: f64) -> Stri
             "steady sliding".to_owned()
         }
         (AttractorKind::Periodic { periods: 1, .. }, _) if attractor.base => {
-            "the base response, of the dither's period".to_owned()
+            "base response (period 1)".to_owned()
         }
-        (AttractorKind::Periodic { periods: 1, .. }, _) => {
-            "another response of the dither's period".to_owned()
-        }
+        (AttractorKind::Periodic { periods: 1, .. }, _) => "another period-1 response".to_owned(),
         (AttractorKind::Periodic { periods, .. }, Some(ratio)) => {
-            let turns = if ratio.turns == 1 { "turn" } else { "turns" };
-            let each = if ratio.periods == 1 { "period" } else { "periods" };
             let closed = if periods == ratio.periods {
                 String::new()
             } else {
-                format!(", closed after {periods}")
+                format!(", repeating after {periods}")
             };
             format!(
-                "locked: {} {turns} in {} {each}{closed}{frequency}",
-                ratio.turns, ratio.periods
+                "locked: {} slow cycle{} in {} period{}{closed}{frequency}",
+                ratio.turns,
+                plural(ratio.turns),
+                ratio.periods,
+                plural(ratio.periods)
             )
         }
         (kind, _) => format!("{}{frequency}", kind.words()),
     }
 }
 
-/// What is known of an attractor, added to an object.
+/// Adds the fields of an attractor to an object.
 pub(super) fn put(fields: &mut Fields, attractor: &Attractor, period: f64) {
-    let not_turning = || "a response of one period does not turn".to_owned();
+    let not_turning = || "a period-1 response has no slow rotation".to_owned();
     let rotation = attractor.rotation;
     let (kind, periods, radius) = match attractor.kind {
         AttractorKind::Periodic { periods: 1, radius } => {
@@ -64,7 +63,8 @@ pub(super) fn put(fields: &mut Fields, attractor: &Attractor, period: f64) {
         }
         AttractorKind::Cycle => {
             let why = || {
-                "a cycle without dither has a period of its own, not one of the strobe".to_owned()
+                "an undithered limit cycle has its own period, not a multiple of the section's"
+                    .to_owned()
             };
             ("limit-cycle", Err(why()), Err(why()))
         }
@@ -73,7 +73,7 @@ pub(super) fn put(fields: &mut Fields, attractor: &Attractor, period: f64) {
             ("quasi-periodic", Err(why()), Err(why()))
         }
         AttractorKind::Rest => {
-            let why = || "at rest nothing repeats".to_owned();
+            let why = || "a mass at rest has no period".to_owned();
             ("rest", Err(why()), Err(why()))
         }
         AttractorKind::Unclassified => {
@@ -96,24 +96,24 @@ pub(super) fn put(fields: &mut Fields, attractor: &Attractor, period: f64) {
         .known(
             "rotation_number",
             Quantity::Ratio,
-            rotation.map(|it| it.turns_per_period).ok_or_else(not_turning),
+            rotation.map(|rotation| rotation.turns_per_period).ok_or_else(not_turning),
         )
         .known(
             "rotation_error",
             Quantity::Ratio,
-            rotation.map(|it| it.error).ok_or_else(not_turning),
+            rotation.map(|rotation| rotation.error).ok_or_else(not_turning),
         )
         .known(
             "frequency",
             Quantity::FrequencyRatio,
             attractor.frequency(period).ok_or_else(not_turning),
         );
-    match rotation.and_then(|it| it.ratio) {
+    match rotation.and_then(|rotation| rotation.ratio) {
         Some(ratio) => {
             fields.plain("locking", json!({ "turns": ratio.turns, "periods": ratio.periods }));
         }
         None => {
-            fields.unknown("locking", "it is not locked");
+            fields.unknown("locking", "the response is not locked");
         }
     }
 }
@@ -128,21 +128,24 @@ pub(super) fn put_section(fields: &mut Fields, attractor: &Attractor) {
     );
 }
 
-/// Why the base response is not known, in words.
+/// Why the base response is unknown, as text.
 pub(in crate::run) fn unknown(why: &NoOrbit) -> String {
     match why {
         NoOrbit::Ends { share } => {
-            format!("the base response ends at {} of the dither's amplitude", digits(*share))
+            format!(
+                "the base response ends at {} % of the dither's amplitude",
+                digits(100.0 * share)
+            )
         }
         NoOrbit::LostOnTheWay { share } => format!(
-            "the base response could not be followed beyond {} of the dither's amplitude",
-            digits(*share)
+            "the base response could not be followed beyond {} % of the dither's amplitude",
+            digits(100.0 * share)
         ),
         why => format!("the base response was not found: {why}"),
     }
 }
 
-/// A number of the study in words.
+/// A number of the study as text.
 pub(super) fn number(study: &BeltStudy, unit: &str, value: f64) -> String {
     let text = digits(value);
     if study.scales().is_some() && !unit.starts_with('1') { format!("{text} {unit}") } else { text }
@@ -165,7 +168,7 @@ pub(super) const VERDICTS: [(u8, &str); 4] =
 
 /// Code of the column `kind`.
 pub(super) fn kind_code(attractor: Option<&Attractor>) -> u8 {
-    match attractor.map(|it| it.kind) {
+    match attractor.map(|attractor| attractor.kind) {
         Some(AttractorKind::Periodic { periods: 1, .. }) => 0,
         Some(AttractorKind::Periodic { .. }) => 1,
         Some(AttractorKind::QuasiPeriodic) => 2,

@@ -1,4 +1,4 @@
-//! `check`: the study in numbers, once everything about it is right.
+//! `check`: the numbers of a valid study.
 
 use quell_model::parameter::{BELT_VELOCITY, DAMPING_RATIO, NORMAL_LOAD};
 use quell_model::units::Quantity;
@@ -9,7 +9,7 @@ use crate::fields::Fields;
 use crate::range;
 use crate::study::BeltStudy;
 
-/// What a valid study says.
+/// The answer for a valid study.
 #[derive(Clone, Debug)]
 pub struct Check<'a> {
     /// The study.
@@ -26,7 +26,7 @@ impl Check<'_> {
         fields.plain("ok", true);
         match study.title() {
             Some(title) => fields.plain("title", title),
-            None => fields.unknown("title", "the study gives none"),
+            None => fields.unknown("title", "the study has no title"),
         };
         fields.plain("system", if scales.is_some() { "si" } else { "dimensionless" });
         let mut inner = Fields::new(scales);

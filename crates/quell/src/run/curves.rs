@@ -1,4 +1,4 @@
-//! `thresholds --along`: curves of local thresholds in two parameters, beside the boundaries of averaging.
+//! `thresholds --along`: curves of local thresholds in two parameters, and the boundaries of averaging.
 
 use quell_dynamics::orbit::curve::{CurvesFound, Open, OpenLine, ParameterPlane, curves};
 pub use quell_dynamics::orbit::curve::{ThresholdCurve, ThresholdCurveEnd, ThresholdCurvePoint};
@@ -9,7 +9,7 @@ use quell_linear::averaging::{
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
-use super::thresholds::{ThresholdKind, path_in_words, quantity_of, told, value_in_words};
+use super::thresholds::{ThresholdKind, path_in_words, quantity_of, refused, value_in_words};
 use super::varied::{Named, ascending};
 use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
@@ -17,20 +17,21 @@ use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::fields::Fields;
 use crate::range::SlipMet;
 use crate::study::BeltStudy;
+use crate::words::plural;
 
-/// Lines across the second parameter on which curves are met first.
+/// Lines across the second parameter on which the search for curves starts.
 const LINES: u32 = 5;
 
-/// Least number of points of a curve across a window.
+/// Minimum number of points of a curve across a window.
 const POINTS: u32 = 100;
 
-/// Places of the second parameter at which averaging is asked.
+/// Intervals of the second parameter between evaluations of averaging.
 const AVERAGED: u32 = 120;
 
-/// What is asked.
+/// Options of threshold curves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CurvesRequest {
-    /// Path of the parameter whose thresholds are followed; its key in SI in a study in SI too.
+    /// Path of the parameter whose thresholds are followed; an SI key is allowed in a study in SI.
     pub parameter: String,
     /// Its window, first and last value in the unit of that key.
     pub window: (f64, f64),
@@ -43,26 +44,26 @@ pub struct CurvesRequest {
 /// A boundary of averaging in the same plane: (second parameter, amplitude), both in the numbers of the equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Averaged {
-    /// Whether the fast motion is the oscillator's own instead of its limit R → ∞.
+    /// Whether this is finite-R averaging, with the oscillator's own fast motion, instead of the limit R → ∞.
     pub sharper: bool,
-    /// Points; a boundary that is not there at a place is broken there.
+    /// Points; a boundary is broken where it does not exist.
     pub pieces: Vec<Vec<(f64, f64)>>,
 }
 
 /// Curves of thresholds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
-    /// What was asked, in numbers of the equations.
+    /// The request, in numbers of the equations.
     pub question: CurvesRequest,
     /// The curves.
     pub curves: Vec<ThresholdCurve>,
     /// Lines across the second parameter on which curves may be missing.
     pub open: Vec<OpenLine>,
-    /// Boundaries of averaging, where the first parameter is the amplitude of the first dither.
+    /// Boundaries of averaging, if the first parameter is the amplitude of the first dither.
     pub averaged: Vec<Averaged>,
 }
 
-/// The question in numbers of the equations.
+/// The request in numbers of the equations.
 ///
 /// # Errors
 /// Every complaint about it at once.
@@ -70,7 +71,7 @@ fn understood(study: &BeltStudy, question: &CurvesRequest) -> Result<CurvesReque
     let parameter = Named::new(study, "--parameter", &question.parameter)?;
     let along = Named::new(study, "--along", &question.along)?;
     if parameter.is(&along) {
-        let allowed = "another parameter than the one whose thresholds are followed";
+        let allowed = "a parameter other than --parameter";
         return Err(Complaint::option("--along", question.along.as_str(), allowed).into());
     }
     let (from, to) = question.window;
@@ -96,7 +97,7 @@ fn understood(study: &BeltStudy, question: &CurvesRequest) -> Result<CurvesReque
     Ok(CurvesRequest { window, between, parameter: parameter.path, along: along.path })
 }
 
-/// What happened on a line across the second parameter.
+/// The problem on a line across the second parameter, as text.
 fn line_in_words(study: &BeltStudy, question: &CurvesRequest, line: &OpenLine) -> String {
     let along = path_in_words(study, &question.along);
     let place = value_in_words(study, &question.along, line.along);
@@ -107,7 +108,7 @@ fn line_in_words(study: &BeltStudy, question: &CurvesRequest, line: &OpenLine) -
 /// The curves of a study.
 ///
 /// # Errors
-/// A complaint about a parameter or its window; [`Failure::Failed`] where there is no response to begin with.
+/// A complaint about a parameter or its window; [`Failure::Failed`] if no response exists at the beginning.
 pub fn run(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failure> {
     within(STEPS_OF_MANY_SEARCHES, || found(study, question))
 }
@@ -123,7 +124,7 @@ fn found(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failure>
     };
     let CurvesFound { curves, open } =
         curves(belt, plane, LINES, POINTS).map_err(|line| match line.why {
-            Open::Begin(why) => told(study, why, &question.parameter, "--from"),
+            Open::Begin(why) => refused(study, why, &question.parameter, "--from"),
             _ => Failure::Failed {
                 key: "thresholds".to_owned(),
                 why: line_in_words(study, &question, &line),
@@ -133,8 +134,8 @@ fn found(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failure>
     Ok(Curves { question, curves, open, averaged })
 }
 
-/// The boundaries of averaging; none where the first parameter is no amplitude of the first dither. Where averaging
-/// says nothing a boundary is broken.
+/// The boundaries of averaging; none if the first parameter is not the amplitude of the first dither. A boundary is broken
+/// where averaging gives no result.
 fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<Averaged> {
     let belt = study.belt();
     let amplitude = ["dither.amplitude", "dither[0].amplitude"];
@@ -142,23 +143,24 @@ fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<Averaged> {
         return Vec::new();
     }
     let (first, last) = question.between;
-    let inside = |it: &CriticalAmplitude| {
-        it.amplitude >= question.window.0 && it.amplitude <= question.window.1
+    let inside = |critical: &CriticalAmplitude| {
+        critical.amplitude >= question.window.0 && critical.amplitude <= question.window.1
     };
     [(false, FastResponse::Limit), (true, FastResponse::Oscillator)]
         .into_iter()
         .map(|(sharper, response)| {
             let options = AveragingOptions { response, ..AveragingOptions::default() };
             let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
-            // Boundaries that become stable and those that become unstable are curves of their own.
+            // Boundaries towards stability and towards instability are separate curves.
             for index in 0..2 {
                 let mut piece = Vec::new();
                 for k in 0..=AVERAGED {
                     let along = first + (last - first) * f64::from(k) / f64::from(AVERAGED);
                     let found = belt.with(&question.along, along).ok().and_then(|belt| {
                         let found = critical_amplitudes(&belt, options).ok()?;
-                        let of_kind = |it: &&CriticalAmplitude| {
-                            (it.becomes == quell_linear::averaging::Becomes::Stable) == (index == 0)
+                        let of_kind = |critical: &&CriticalAmplitude| {
+                            (critical.becomes == quell_linear::averaging::Becomes::Stable)
+                                == (index == 0)
                         };
                         found.iter().find(of_kind).copied().filter(inside)
                     });
@@ -178,12 +180,12 @@ fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<Averaged> {
 }
 
 impl Curves {
-    /// Number of points of all curves.
+    /// Total number of points.
     pub fn points(&self) -> usize {
         self.curves.iter().map(|curve| curve.points.len()).sum()
     }
 
-    /// What was found in one sentence.
+    /// The result in one sentence.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         let CurvesRequest { parameter, along, between: (first, last), .. } = &self.question;
         let (first, last) =
@@ -191,12 +193,13 @@ impl Curves {
         let (parameter, along) = (path_in_words(study, parameter), path_in_words(study, along));
         match self.curves.len() {
             0 => format!(
-                "No threshold of {parameter} was met on {LINES} lines across {along} from {first} to {last}."
+                "No threshold of {parameter} was found on {LINES} lines across {along} from {first} to {last}."
             ),
             count => format!(
-                "{count} curve{} of thresholds of {parameter} along {along} from {first} to {last}, {} points.",
-                if count == 1 { "" } else { "s" },
-                self.points()
+                "Found {count} threshold curve{} of {parameter} along {along} from {first} to {last}, with {} point{} in total.",
+                plural(count),
+                self.points(),
+                plural(self.points())
             ),
         }
     }
@@ -214,30 +217,30 @@ impl Curves {
             let mut inner = object();
             inner
                 .plain("kind", curve.kind.name())
-                .numbers("value", value, &column(&|it| it.value))
-                .numbers("along", along, &column(&|it| it.along))
+                .numbers("value", value, &column(&|point| point.value))
+                .numbers("along", along, &column(&|point| point.along))
                 .numbers(
                     "displacement",
                     Quantity::Displacement,
-                    &column(&|it| it.state.displacement),
+                    &column(&|point| point.state.displacement),
                 )
-                .numbers("velocity", Quantity::Velocity, &column(&|it| it.state.velocity))
-                .numbers("multiplier_modulus", Quantity::Ratio, &column(&|it| it.radius))
+                .numbers("velocity", Quantity::Velocity, &column(&|point| point.state.velocity))
+                .numbers("multiplier_modulus", Quantity::Ratio, &column(&|point| point.radius))
                 .plain("ends", curve.ends.map(ThresholdCurveEnd::name).to_vec());
             if let Some(ratios) = self.amplitude_ratios(study, curve) {
                 inner.numbers("amplitude_ratio", Quantity::Velocity, &ratios);
             }
             inner
         });
-        let averaged = self.averaged.iter().map(|it| {
-            let points = || it.pieces.iter().flatten();
+        let averaged = self.averaged.iter().map(|boundary| {
+            let points = || boundary.pieces.iter().flatten();
             let pairs: Vec<Json> = points().map(|(along, value)| json!([along, value])).collect();
             let mut inner = object();
             inner
-                .plain("sharper", it.sharper)
+                .plain("sharper", boundary.sharper)
                 .plain("points", pairs)
-                .numbers("along", along, &points().map(|it| it.0).collect::<Vec<_>>())
-                .numbers("value", value, &points().map(|it| it.1).collect::<Vec<_>>());
+                .numbers("along", along, &points().map(|(along, _)| *along).collect::<Vec<_>>())
+                .numbers("value", value, &points().map(|(_, value)| *value).collect::<Vec<_>>());
             inner
         });
         let mut fields = object();
@@ -255,9 +258,9 @@ impl Curves {
         fields.finish()
     }
 
-    /// Lines on which curves may be missing, in words.
+    /// Warnings about lines on which curves may be missing.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
-        let told = |line: &OpenLine| {
+        let warning = |line: &OpenLine| {
             format!("curves may be missing {}", line_in_words(study, &self.question, line))
         };
         let mut slip = SlipMet::default();
@@ -268,10 +271,10 @@ impl Curves {
                 slip.add_attractor(&belt, point.state);
             }
         }
-        slip.warnings(study).into_iter().chain(self.open.iter().map(told)).collect()
+        slip.warnings(study).into_iter().chain(self.open.iter().map(warning)).collect()
     }
 
-    /// α = D/R of the first dither along a curve, where the first parameter is its amplitude.
+    /// α = D/R of the first dither along a curve, if the first parameter is its amplitude.
     pub fn amplitude_ratios(&self, study: &BeltStudy, curve: &ThresholdCurve) -> Option<Vec<f64>> {
         if self.averaged.is_empty() {
             return None;
@@ -279,7 +282,9 @@ impl Curves {
         let ratio = study.belt().dithers().first()?.frequency_ratio;
         let along_ratio = ["dither.frequency_ratio", "dither[0].frequency_ratio"]
             .contains(&self.question.along.as_str());
-        let of = |it: &ThresholdCurvePoint| it.value / if along_ratio { it.along } else { ratio };
+        let of = |point: &ThresholdCurvePoint| {
+            point.value / if along_ratio { point.along } else { ratio }
+        };
         Some(curve.points.iter().map(of).collect())
     }
 
@@ -287,7 +292,9 @@ impl Curves {
     pub fn dataset(&self, study: &BeltStudy) -> Dataset {
         let quantity = |path: &str| quantity_of(study, path);
         let numbered = || (0_u8..).zip(ThresholdKind::ALL);
-        let code = |kind: ThresholdKind| numbered().filter(move |it| it.1 == kind).map(|it| it.0);
+        let code = |kind: ThresholdKind| {
+            numbered().filter(move |(_, other)| *other == kind).map(|(code, _)| code)
+        };
         let each = |of: &dyn Fn(&ThresholdCurvePoint) -> f64| -> Vec<f64> {
             self.curves.iter().flat_map(|curve| &curve.points).map(of).collect()
         };
@@ -303,14 +310,14 @@ impl Curves {
             .collect();
         let names = numbered().map(|(code, kind)| (code, kind.name()));
         let (parameter, along) = (self.question.parameter.as_str(), self.question.along.as_str());
-        let numbers = (0..self.points()).map(|it| it as f64).collect();
+        let numbers = (0..self.points()).map(|number| number as f64).collect();
         let mut dataset = Dataset::new(study, "thresholds")
             .fact(self.sentence(study))
             .with_axis(Array::new("point", "1", numbers))
             .with(Array::new("curve", "1", per_curve(&|number| number as f64)))
             .with(Array::of_words("kind", names.collect(), &codes))
-            .array(along, quantity(along), each(&|it| it.along))
-            .array(parameter, quantity(parameter), each(&|it| it.value));
+            .array(along, quantity(along), each(&|point| point.along))
+            .array(parameter, quantity(parameter), each(&|point| point.value));
         let ratios: Option<Vec<f64>> = self
             .curves
             .iter()
@@ -321,8 +328,8 @@ impl Curves {
             dataset = dataset.array("amplitude_ratio", Quantity::Velocity, ratios);
         }
         dataset
-            .array("displacement", Quantity::Displacement, each(&|it| it.state.displacement))
-            .array("velocity", Quantity::Velocity, each(&|it| it.state.velocity))
-            .array("multiplier_modulus", Quantity::Ratio, each(&|it| it.radius))
+            .array("displacement", Quantity::Displacement, each(&|point| point.state.displacement))
+            .array("velocity", Quantity::Velocity, each(&|point| point.state.velocity))
+            .array("multiplier_modulus", Quantity::Ratio, each(&|point| point.radius))
     }
 }

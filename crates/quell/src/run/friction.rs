@@ -1,4 +1,4 @@
-//! `friction`: the law and what the dither makes of it, over the slip velocity.
+//! `friction`: the friction law and the effective friction under the dither, versus slip velocity.
 
 use quell_linear::averaging::{AveragingOptions, Effective, FastMotion, SlopeSide, effective};
 use quell_model::Belt;
@@ -13,7 +13,7 @@ use crate::study::BeltStudy;
 /// Points of the default grid on each side of v_r = 0.
 const POINTS: u32 = 200;
 
-/// Points that crowd at the corner of the effective friction, each at half the distance.
+/// Points clustered at the corner of the effective friction, each at half the distance of the one before.
 const CORNER: i32 = 16;
 
 /// Friction at one slip velocity.
@@ -21,31 +21,31 @@ const CORNER: i32 = 16;
 pub struct Point {
     /// Slip velocity v_r: a length per τ.
     pub slip_velocity: f64,
-    /// μ with the sign of v_r, dimensionless; or why there is no one value.
+    /// μ with the sign of v_r, dimensionless; or why it has no single value.
     pub coefficient: Result<f64, String>,
-    /// μ̄, dimensionless, and its slope per unit of v_r; or why there are none.
+    /// μ̄, dimensionless, and its slope per unit of v_r; or why they are undefined.
     pub effective: Result<Effective, String>,
 }
 
-/// Friction over the slip velocity.
+/// Friction versus slip velocity.
 #[derive(Clone, Debug)]
 pub struct FrictionCurve {
-    /// Points in the order asked for.
+    /// Points in the requested order.
     pub points: Vec<Point>,
 }
 
-/// Slip velocities of a picture: past the law's own velocity, the belt's, and the fast motion's, up to where slip and
-/// dither together leave the law's range.
+/// Slip velocities of a picture: beyond the velocities of the law, the belt and the fast motion, up to where slip
+/// including dither leaves the law's range.
 pub fn grid(belt: &Belt) -> Vec<f64> {
     let law = belt.friction();
     let fast = belt.fast_velocity();
     let reached = 1.5 * belt.belt_velocity().max(fast);
     let scale = law.velocity_scale();
     let own = if law.has_velocity() || reached == 0.0 { 2.0 * scale } else { 0.0 };
-    // The average at a slip velocity meets that and the fast velocity together.
+    // The average at a slip velocity reaches that velocity plus the fast velocity.
     let within = law.range().map_or(f64::INFINITY, |range| range.upper);
     let within = match within - fast {
-        // Rounding must not lead out of the range again.
+        // Rounding must not leave the range again.
         rest if rest > 0.0 && rest + fast > within => rest.next_down(),
         rest if rest > 0.0 => rest,
         _ => within,
@@ -53,7 +53,7 @@ pub fn grid(belt: &Belt) -> Vec<f64> {
     let end = within.min(own.max(reached));
     let mut side: Vec<f64> =
         (1..=POINTS).map(|k| (end * f64::from(k) / f64::from(POINTS)).min(end)).collect();
-    // At the largest fast velocity the effective friction has a corner.
+    // The effective friction has a corner at the largest fast velocity.
     if fast > 0.0 {
         let crowd = (1..=CORNER).map(|k| fast * (1.0 - 0.5f64.powi(k))).chain([fast]);
         side.extend(crowd.filter(|&v| v <= end));
@@ -84,12 +84,12 @@ pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
 }
 
 impl FrictionCurve {
-    /// μ̄ at each point; NaN where there is none.
+    /// μ̄ at each point; NaN where it is undefined.
     pub fn effective_coefficients(&self) -> Vec<f64> {
         self.column(|point| point.effective.as_ref().map_or(f64::NAN, |found| found.coefficient))
     }
 
-    /// μ at each point; NaN where there is no one value.
+    /// μ at each point; NaN where it has no single value.
     pub fn coefficients(&self) -> Vec<f64> {
         self.column(|point| *point.coefficient.as_ref().unwrap_or(&f64::NAN))
     }
@@ -99,7 +99,7 @@ impl FrictionCurve {
         self.column(|point| point.slip_velocity)
     }
 
-    /// μ̄′ at each point; NaN where there is none.
+    /// μ̄′ at each point; NaN where it is undefined.
     pub fn effective_slopes(&self) -> Vec<f64> {
         self.column(|point| point.effective.as_ref().map_or(f64::NAN, |found| found.slope))
     }
@@ -145,7 +145,7 @@ impl FrictionCurve {
         fields.finish()
     }
 
-    /// Where the slip velocities, or that of the belt, leave the range of the law together with the fast motion.
+    /// Warnings where the slip velocities, or that of the belt, leave the range of the law when the fast motion is added.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let speeds = self.points.iter().map(|point| point.slip_velocity.abs());
         let fastest = speeds.fold(study.belt().belt_velocity(), f64::max);

@@ -1,4 +1,4 @@
-//! The friction law of a study in words and fields: its numbers, its formula, the error of its fit.
+//! The friction law of a study as text and fields: its numbers, its formula, the error of its fit.
 
 use quell_model::Friction;
 use quell_model::friction::samples::Fit;
@@ -70,7 +70,7 @@ pub(super) fn fields(study: &BeltStudy) -> Fields {
     fields
 }
 
-/// What a law says beyond its numbers, as label and words.
+/// Further facts about a law besides its numbers, as label and text.
 pub fn words(study: &BeltStudy) -> Vec<(String, String)> {
     let range = study.belt().friction().range().map(|range| {
         let speed = |speed: f64| in_words(study, Quantity::Velocity, speed);
@@ -81,7 +81,7 @@ pub fn words(study: &BeltStudy) -> Vec<(String, String)> {
     of_own_law(study).into_iter().chain(range).collect()
 }
 
-/// What a law of one's own says beyond its numbers; nothing for other laws.
+/// Further facts about a user-defined law; none for other laws.
 fn of_own_law(study: &BeltStudy) -> Vec<(String, String)> {
     let row = |label: &str, words: String| (label.to_owned(), words);
     match study.belt().friction() {
@@ -111,7 +111,7 @@ fn of_own_law(study: &BeltStudy) -> Vec<(String, String)> {
 }
 
 fn error(fit: &Fit) -> String {
-    let pinned = if fit.pinned { ", held at the static level at v = 0" } else { "" };
+    let pinned = if fit.pinned { ", fixed to the static coefficient at v = 0" } else { "" };
     format!(
         "{:.2e} at most, {:.2e} rms, {:.2e} rms at left-out samples{pinned}",
         fit.largest_error, fit.rms_error, fit.left_out_error

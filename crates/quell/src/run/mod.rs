@@ -1,7 +1,7 @@
-//! Runs: a checked study in, a typed outcome out; each outcome as JSON and as a dataset.
+//! Runs: functions from a checked study to a typed result, which can be written as JSON and as a dataset.
 //!
-//! One file per verb. Numbers leave in the units of the equations and, for a study in SI, in
-//! SI beside them ([`crate::fields`]).
+//! One file per verb. Numbers are reported in the units of the equations and, for a study in SI, also in
+//! SI ([`crate::fields`]).
 
 pub mod attractor;
 pub mod basins;
@@ -30,10 +30,10 @@ use crate::effort::STEPS_OF_A_SEARCH;
 use crate::study::vocabulary::in_system;
 use crate::study::{BeltStudy, InitialState};
 
-/// The state a study starts from, in numbers.
+/// The initial state of a study, in numbers.
 ///
 /// # Errors
-/// A complaint where a squealing start is asked for and there is none.
+/// A complaint if a squealing start is requested but no limit cycle exists.
 pub fn start(study: &BeltStudy) -> Result<Start, Failure> {
     resolved(study, study.initial(), |why| {
         let allowed = format!("another state: {why}");
@@ -41,7 +41,7 @@ pub fn start(study: &BeltStudy) -> Result<Start, Failure> {
     })
 }
 
-/// The numbers of a state; `refused` complains where it is the limit cycle and there is none.
+/// The numbers of an initial state; `refused` makes the complaint if it is a limit cycle that does not exist.
 fn resolved(
     study: &BeltStudy,
     initial: InitialState,
@@ -54,7 +54,7 @@ fn resolved(
     })
 }
 
-/// Refuses a belt at rest, which holds the mass wherever friction can; `why` that is no answer.
+/// Rejects a belt at rest, where any position in the stick band is an equilibrium; `why` gives the reason.
 fn moves(study: &BeltStudy, why: &str) -> Result<(), Failure> {
     let velocity = study.belt().belt_velocity();
     if velocity > 0.0 {
@@ -65,12 +65,12 @@ fn moves(study: &BeltStudy, why: &str) -> Result<(), Failure> {
     Err(Complaint::new(Fault::Value, key, Origin::Whole, velocity, allowed).into())
 }
 
-/// What a stopped verb says.
+/// The failure of an interrupted verb.
 fn stopped(verb: &str) -> Failure {
-    Failure::Failed { key: verb.to_owned(), why: "stopped; nothing is kept".to_owned() }
+    Failure::Failed { key: verb.to_owned(), why: "stopped; no results were kept".to_owned() }
 }
 
-/// So many values at equal steps, both ends included and exact.
+/// `count` values at equal steps; both ends are included and exact.
 fn evenly((from, to): (f64, f64), count: usize) -> Vec<f64> {
     let last = count.saturating_sub(1);
     let value = |k: usize| from + (to - from) * k as f64 / last as f64;

@@ -1,5 +1,5 @@
-//! `orbit`: the periodic response that sliding becomes under dither, one near a given state, or the one on which a run ends,
-//! with its Floquet multipliers; without dither the limit cycles, or steady sliding where there is none.
+//! `orbit`: the base response under dither, a periodic response near a given state, or the one on which a run ends,
+//! with its Floquet multipliers; without dither the limit cycles, or steady sliding if no limit cycle exists.
 
 use quell_dynamics::attractor::orbit_reached;
 use quell_dynamics::orbit::cycle::{cycle_reached, cycles, sliding_verdict};
@@ -22,33 +22,32 @@ use crate::range::SlipMet;
 use crate::study::BeltStudy;
 use crate::words::in_words;
 
-/// Least number of steps of the dither's amplitude from nothing to its value.
+/// Minimum number of steps in which the dither amplitude is raised from zero to its value.
 const STEPS: u32 = 8;
 
-/// What is said where a run from rest stands in for steady sliding.
-const FROM_REST_INSTEAD: &str =
-    "A run from rest reaches it; at v₀ = 0 there is no steady sliding to continue from.";
+/// Added to the answer where a run from rest replaces the continuation from steady sliding.
+const FROM_REST_INSTEAD: &str = "It was reached by a run from rest, because at v₀ = 0 there is no steady sliding to continue from.";
 
-/// Steps between the samples of a period.
+/// Number of sampling steps in a period.
 const SAMPLES: usize = 1200;
 
-/// Which periodic response is looked for.
+/// The periodic response to find.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wanted {
-    /// The base response, continued from steady sliding; without dither the limit cycle; at v₀ = 0, where nothing slides
-    /// steadily, the one on which a run from rest ends.
+    /// The base response, continued from steady sliding; without dither the limit cycle; at v₀ = 0, where steady sliding
+    /// does not exist, the response on which a run from rest ends.
     OfSliding {
-        /// Common periods of the dithers in a period of the response.
+        /// Number of common dither periods in a period of the response.
         periods: u32,
     },
-    /// One near a state. Without dither the cycle whose lowest point is nearest to it.
+    /// A response near a state; without dither the cycle whose lowest point is nearest to it.
     Near {
         /// Displacement x and velocity x′ at τ = 0.
         state: (f64, f64),
-        /// Common periods of the dithers in a period of the response.
+        /// Number of common dither periods in a period of the response.
         periods: u32,
     },
-    /// The one on which a run from here ends, of whatever number of periods.
+    /// The response on which a run from this start ends, of any number of periods.
     After(Protocol),
 }
 
@@ -58,23 +57,23 @@ impl Default for Wanted {
     }
 }
 
-/// What was found.
+/// The periodic response, and the limit cycles of an undithered belt.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
-    /// The periodic response; none for an undithered belt without a limit cycle.
+    /// The periodic response; `None` for an undithered belt without a limit cycle.
     pub orbit: Option<Orbit>,
     /// Every limit cycle of an undithered belt, the largest first.
     pub cycles: Vec<Orbit>,
-    /// OrbitVerdict on steady sliding of an undithered belt, 2ζ + μ′(v₀)F > 0.
+    /// Verdict on steady sliding of an undithered belt: stable if 2ζ + μ′(v₀)F > 0.
     pub sliding: Option<OrbitVerdict>,
-    /// Whether a run from rest was taken because v₀ = 0 has no steady sliding to continue from.
+    /// Whether a run from rest was used because v₀ = 0 has no steady sliding to continue from.
     pub from_rest_instead: bool,
-    /// The slip that the responses meet over their periods.
+    /// The slip reached by the responses over their periods.
     pub slip: SlipMet,
 }
 
 impl Response {
-    /// A periodic response of a belt.
+    /// The result for a periodic response of a belt.
     fn of(belt: &Belt, orbit: Orbit) -> Self {
         let slip = slip_of(belt, [&orbit]);
         let orbit = Some(orbit);
@@ -82,7 +81,7 @@ impl Response {
     }
 }
 
-/// The slip that responses of a belt meet over their periods.
+/// The slip reached by responses of a belt over their periods.
 fn slip_of<'o>(belt: &Belt, orbits: impl IntoIterator<Item = &'o Orbit>) -> SlipMet {
     let mut slip = SlipMet::default();
     for orbit in orbits {
@@ -94,7 +93,7 @@ fn slip_of<'o>(belt: &Belt, orbits: impl IntoIterator<Item = &'o Orbit>) -> Slip
 /// The periodic response of a study.
 ///
 /// # Errors
-/// A complaint where there is no period; [`Failure::Failed`] where shooting does not converge, with the place.
+/// A complaint if the response has no prescribed period; [`Failure::Failed`] with the last state if shooting does not converge.
 pub fn run(study: &BeltStudy, wanted: Wanted) -> Result<Response, Failure> {
     within(STEPS_OF_A_SEARCH, || found(study, wanted))
 }
@@ -108,8 +107,7 @@ fn found(study: &BeltStudy, wanted: Wanted) -> Result<Response, Failure> {
         matches!(wanted, Wanted::OfSliding { .. }) && belt.belt_velocity() == 0.0;
     let found = match wanted {
         Wanted::OfSliding { periods } if from_rest_instead && periods > 1 => {
-            let allowed =
-                "1 at v₀ = 0 unless --near is given: a run from rest has its own number of periods";
+            let allowed = "1 at v₀ = 0 unless --near is given: the run from rest determines the number of periods";
             return Err(Complaint::option("--periods", periods, allowed).into());
         }
         Wanted::OfSliding { .. } if from_rest_instead => {
@@ -137,10 +135,10 @@ fn undithered(study: &BeltStudy, wanted: Wanted) -> Result<Response, Failure> {
     if let Wanted::OfSliding { periods } | Wanted::Near { periods, .. } = wanted
         && periods > 1
     {
-        let allowed = "1: without dither there are no periods of it to count";
+        let allowed = "1: without dither there is no dither period to count";
         return Err(Complaint::option("--periods", periods, allowed).into());
     }
-    let why = "on a belt at rest without dither the mass may stay anywhere inside the stick band, and nothing is periodic";
+    let why = "on an undithered belt at rest any position inside the stick band is an equilibrium, so no response is periodic";
     moves(study, why)?;
     let cycles = cycles(belt).map_err(refused)?;
     let orbit = match wanted {
@@ -150,7 +148,8 @@ fn undithered(study: &BeltStudy, wanted: Wanted) -> Result<Response, Failure> {
         }
         Wanted::OfSliding { .. } => cycles.first(),
         Wanted::Near { state: (x, v), .. } => {
-            let off = |it: &&Orbit| (it.start.displacement - x).hypot(it.start.velocity - v);
+            let off =
+                |cycle: &&Orbit| (cycle.start.displacement - x).hypot(cycle.start.velocity - v);
             cycles.iter().min_by(|a, b| off(a).total_cmp(&off(b)))
         }
     };
@@ -165,14 +164,14 @@ impl Protocol {
     pub(super) fn start(self, study: &BeltStudy) -> Result<Start, Failure> {
         resolved(study, self.initial(), |why| {
             let key = "--from-squeal";
-            let allowed = format!("another start is needed: {why}");
+            let allowed = format!("choose another start: {why}");
             Complaint::new(Fault::Conflict, key, Origin::Argument(key), Json::Null, allowed)
         })
     }
 }
 
-/// Integrates one period of an orbit under an observer. Where the engine stops the observer has seen what came before:
-/// the orbit itself was integrated when it was found.
+/// Integrates one period of an orbit with an observer. If the engine stops, the observer keeps the part before: the orbit
+/// itself was already integrated when it was found.
 fn trace(study: &BeltStudy, orbit: &Orbit, observer: &mut impl Observer) {
     let free;
     let belt = if orbit.is_free {
@@ -199,7 +198,7 @@ pub fn samples(study: &BeltStudy, orbit: &Orbit) -> Vec<Sample> {
     sampler.samples
 }
 
-/// Why there is no orbit, as it is told.
+/// The failure that reports why no orbit was found.
 pub(super) fn refused(why: NoOrbit) -> Failure {
     let key = match why {
         NoOrbit::NoDither => "dither",
@@ -226,14 +225,14 @@ pub(super) fn refused(why: NoOrbit) -> Failure {
 /// The orbit in one sentence.
 pub fn sentence(study: &BeltStudy, orbit: &Orbit) -> String {
     let verdict = match orbit.verdict() {
-        OrbitVerdict::Stable => "stable: small deviations die out",
-        OrbitVerdict::Unstable => "unstable: small deviations grow",
+        OrbitVerdict::Stable => "It is stable: small deviations die out.",
+        OrbitVerdict::Unstable => "It is unstable: small deviations grow.",
         OrbitVerdict::Undecided => {
-            "undecided: its largest multiplier has modulus 1 within its error"
+            "Its stability is undecided: the largest multiplier has modulus 1 within its error."
         }
     };
     let contact = match (orbit.count(EventKind::Stick), orbit.count(EventKind::Reversal)) {
-        (0, 0) if orbit.is_pure_slip() => "slides throughout and never touches v_r = 0".to_owned(),
+        (0, 0) if orbit.is_pure_slip() => "slides throughout, without grazing v_r = 0".to_owned(),
         (0, 0) => "sticks throughout".to_owned(),
         (0, reversals) => format!("reverses {} per period and never sticks", times(reversals)),
         (sticks, 0) => format!("sticks {} per period and never reverses", times(sticks)),
@@ -243,10 +242,10 @@ pub fn sentence(study: &BeltStudy, orbit: &Orbit) -> String {
     };
     let period = in_words(study, Quantity::Time, orbit.period);
     let what = if orbit.is_free { "The limit cycle without dither" } else { "The response" };
-    format!("{what} has period {period}. It {contact}. It is {verdict}.")
+    format!("{what} has period {period}. It {contact}. {verdict}")
 }
 
-/// How often, in words.
+/// A count as text: "once", "twice", "3 times".
 fn times(count: usize) -> String {
     match count {
         1 => "once".to_owned(),
@@ -256,7 +255,7 @@ fn times(count: usize) -> String {
 }
 
 impl Response {
-    /// What was found in one sentence.
+    /// The result in one or two sentences.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         match &self.orbit {
             Some(orbit) if self.from_rest_instead => {
@@ -272,22 +271,20 @@ impl Response {
         let whether = match self.sliding {
             Some(OrbitVerdict::Stable) => "which is stable",
             Some(OrbitVerdict::Unstable) => "which is unstable",
-            Some(OrbitVerdict::Undecided) | None => "which is at its threshold",
+            Some(OrbitVerdict::Undecided) | None => "which is at its stability threshold",
         };
         let cycles = if self.cycles.is_empty() {
-            "and no limit cycle was found"
+            "No limit cycle was found."
         } else {
-            "next to the limit cycles"
+            "It coexists with the limit cycles."
         };
-        format!(
-            "Without dither the response is steady sliding at x = {place}, {whether}, {cycles}."
-        )
+        format!("Without dither the response is steady sliding at x = {place}, {whether}. {cycles}")
     }
 
     /// The periodic response over one period.
     ///
     /// # Errors
-    /// [`Failure::Failed`] where there is none.
+    /// [`Failure::Failed`] if no periodic response exists.
     pub fn dataset(&self, study: &BeltStudy) -> Result<Dataset, Failure> {
         let why = || Failure::Failed { key: "--save".to_owned(), why: self.sentence(study) };
         let samples = samples(study, self.orbit.as_ref().ok_or_else(why)?);
@@ -352,12 +349,12 @@ impl Response {
     }
 }
 
-/// An estimated error, or why there is none.
+/// An estimated error, or why it is unknown.
 fn finite(error: f64) -> Result<f64, String> {
     if error.is_finite() {
         return Ok(error);
     }
-    Err("a multiplier is too near to 1 for the state to be known closely".to_owned())
+    Err("a multiplier is too close to 1 for the error of the state to be bounded".to_owned())
 }
 
 /// The orbit as JSON.

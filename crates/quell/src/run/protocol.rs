@@ -1,8 +1,8 @@
-//! Initial-condition protocols: from where runs start.
+//! Initial-condition protocols: the state from which runs start.
 
 use crate::study::InitialState;
 
-/// From where runs start.
+/// The state from which a run starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Protocol {
     /// x = 0, x′ = 0.
@@ -11,7 +11,7 @@ pub enum Protocol {
     Sliding,
     /// The undithered limit cycle.
     Squeal,
-    /// This state (x, x′).
+    /// A given state (x, x′).
     From(f64, f64),
 }
 

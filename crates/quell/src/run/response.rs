@@ -1,4 +1,4 @@
-//! `response`: the steady response, what the dither does to it, and what it costs.
+//! `response`: the steady response, the effect of the dither and its cost.
 
 use quell_dynamics::attractor::Reached;
 use quell_dynamics::response::{
@@ -15,32 +15,32 @@ use crate::dataset::Dataset;
 use crate::fields::Fields;
 use crate::range::SlipMet;
 use crate::study::BeltStudy;
-use crate::words::{in_words, start_in_words};
+use crate::words::{capital, in_words, start_in_words};
 
-/// Levels beyond this are told as such: what is left is the engine's error and rounding.
+/// Levels beyond this are reported as "below" or "more than" it: the rest is integration error and rounding.
 const MOST_DECIBELS: f64 = 120.0;
 
-/// Most samples of a record that is kept: with its twin without dither and both spectra about a gigabyte. Larger, a fast dither
-/// could take all memory; smaller, it would take shorter records.
+/// Largest number of samples of a record: with the undithered record and both spectra about a gigabyte. With more, a fast
+/// dither could exhaust the memory; with fewer, records would have to be shorter.
 const MOST_SAMPLES: f64 = 4_194_304.0;
 
 /// A steady response with its start.
 #[derive(Clone, Debug)]
 pub struct Steady {
-    /// Where both runs started.
+    /// The start of both runs.
     pub start: Start,
     /// The response.
     pub response: Response,
     /// Whether the belt moves.
     moves: bool,
-    /// The slip that both runs met.
+    /// The slip reached by both runs.
     pub slip: SlipMet,
 }
 
 /// Measures the steady response of a study.
 ///
 /// # Errors
-/// [`Failure::Wrong`] where the study starts squealing and cannot; [`Failure::Failed`] if the
+/// [`Failure::Wrong`] if a squealing start is requested but does not exist; [`Failure::Failed`] if the
 /// engine stops.
 pub fn run(study: &BeltStudy) -> Result<Steady, Failure> {
     record_fits(study)?;
@@ -55,7 +55,7 @@ pub fn run(study: &BeltStudy) -> Result<Steady, Failure> {
     Ok(Steady { start, response, moves, slip })
 }
 
-/// Refuses a record that would not fit into memory: fast dithers are sampled several times a period.
+/// Rejects a record that would not fit into memory: fast dithers are sampled several times per period.
 fn record_fits(study: &BeltStudy) -> Result<(), Failure> {
     let solver = study.solver();
     let each = samples_per_slow_period(study.belt());
@@ -71,28 +71,28 @@ fn record_fits(study: &BeltStudy) -> Result<(), Failure> {
 }
 
 impl Steady {
-    /// What the dither does, and at what cost.
+    /// The effect of the dither and its cost.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         let response = &self.response;
         let from = start_in_words(study);
         if study.belt().dithers().iter().all(|dither| dither.amplitude == 0.0) {
             return match &response.efficiency {
-                Ok(_) => format!("Without dither, {from}, the belt keeps vibrating."),
-                Err(why) => format!("The study has no dither, and {why}."),
+                Ok(_) => format!("Without dither, started {from}, the belt keeps vibrating."),
+                Err(why) => format!("The study has no dither. {}.", capital(&why.to_string())),
             };
         }
         let residual = response.efficiency.map_or_else(
             |_| String::new(),
             |ratio| {
                 let level = self.level();
-                let told = |level: f64| {
+                let in_brackets = |level: f64| {
                     if level < -MOST_DECIBELS {
-                        format!(", below −{MOST_DECIBELS} dB")
+                        format!(" (below −{MOST_DECIBELS} dB)")
                     } else {
-                        format!(", {level:.1} dB")
+                        format!(" ({level:.1} dB)")
                     }
                 };
-                let level = level.map_or_else(String::new, told);
+                let level = level.map_or_else(String::new, in_brackets);
                 format!("the residual vibration E below {BAND_END} ω₀ is {}{level}", percent(ratio))
             },
         );
@@ -102,19 +102,19 @@ impl Steady {
             Effect::Reduces => format!("this dither reduces the vibration: {residual}"),
             Effect::Increases => format!("this dither increases the vibration: {residual}"),
             Effect::Causes => format!(
-                "this dither causes vibration: the belt is quiet without it, and vibrates with an amplitude of \
-                 {amplitude} below {BAND_END} ω₀ with it"
+                "this dither causes vibration: the belt is quiet without it, and with it vibrates below \
+                 {BAND_END} ω₀ with an amplitude of {amplitude}"
             ),
             Effect::Quiet => {
-                "the belt is quiet without this dither and with it: there is nothing to quench"
+                "the belt is quiet with and without this dither: there is nothing to quench"
                     .to_owned()
             }
             Effect::Unknown(why) => format!("the effect of this dither is unknown: {why}"),
         };
         let left = match (response.effect, response.ending) {
             (Effect::Quenches, RunEnding::Reached(Reached::Elsewhere)) => {
-                " A slow vibration of that size stays: `thresholds`, `basins` and `bifurcation` call this \
-                 response vibrating."
+                " A slow vibration of that size remains: `thresholds`, `basins` and `bifurcation` classify this \
+                 response as vibrating."
             }
             _ => "",
         };
@@ -128,17 +128,21 @@ impl Steady {
         let loss = self.friction_loss().ok().map(|loss| {
             let change = if loss < 0.0 { "raises" } else { "lowers" };
             format!(
-                "{change} the mean friction by {} of that of steady sliding",
+                "{change} the mean friction by {} relative to steady sliding",
                 percent(loss.abs())
             )
         });
         let power = response.dither_power.map(|power| {
-            let verb = if power < 0.0 { "returns to its actuator" } else { "takes" };
-            format!("{verb} a mean power of {}", in_words(study, Quantity::Power, power.abs()))
+            let size = in_words(study, Quantity::Power, power.abs());
+            if power < 0.0 {
+                format!("returns a mean power of {size} to its actuator")
+            } else {
+                format!("consumes a mean power of {size}")
+            }
         });
         let stroke = response.dither_stroke.map(|stroke| {
             let stroke = in_words(study, Quantity::Displacement, stroke);
-            format!("needs a stroke of {stroke} peak to peak")
+            format!("needs a peak-to-peak stroke of {stroke}")
         });
         let parts: Vec<String> = [loss, power, stroke].into_iter().flatten().collect();
         match parts.as_slice() {
@@ -151,7 +155,7 @@ impl Steady {
         }
     }
 
-    /// Share of the friction of undithered steady sliding that is lost, 1 − ⟨f⟩/(μ(v₀)F); negative where there is more.
+    /// Relative loss of friction, 1 − ⟨f⟩/(μ(v₀)F), compared with undithered steady sliding; negative for a gain.
     ///
     /// # Errors
     /// Why it is undefined.
@@ -167,13 +171,13 @@ impl Steady {
         }
     }
 
-    /// 20 lg E, in dB; `None` where E is undefined or zero.
+    /// 20 lg E, in dB; `None` if E is undefined or zero.
     pub fn level(&self) -> Option<f64> {
         let ratio = self.response.efficiency.ok().filter(|ratio| *ratio > 0.0)?;
         Some(20.0 * ratio.log10())
     }
 
-    /// The levels in the band that the study asks for.
+    /// The levels in the frequency band of the study.
     pub fn in_band(&self, study: &BeltStudy) -> Option<InBand> {
         let band = study.band()?;
         let [low, high] = band;
@@ -185,22 +189,24 @@ impl Steady {
             let resolved = in_words(study, Quantity::FrequencyRatio, resolved);
             let unit = if study.scales().is_some() { "" } else { " ω₀" };
             let why = format!(
-                "the band is narrower than {resolved}{unit}, what the record resolves; raise solver.record_periods"
+                "the band is narrower than the resolution of the record, {resolved}{unit}; raise solver.record_periods"
             );
             return Some(InBand { band, values: Err(why) });
         }
         let values = both.ok_or_else(|| {
             let last = self.response.record.spectrum.frequencies().last().unwrap_or_default();
             let last = in_words(study, Quantity::FrequencyRatio, last);
-            format!("the record has no frequencies above {last}")
+            let unit = if study.scales().is_some() { "" } else { " ω₀" };
+            format!("the record has no frequencies above {last}{unit}")
         });
         Some(InBand { band, values })
     }
 
-    /// The levels in the band, null without one.
+    /// Adds the levels in the band; null without a band.
     fn put_band(&self, study: &BeltStudy, fields: &mut Fields) {
         let band = self.in_band(study);
-        let band = band.as_ref().ok_or_else(|| "the study names no band of frequencies".to_owned());
+        let band =
+            band.as_ref().ok_or_else(|| "the study does not define a frequency band".to_owned());
         let end = |place: usize| band.clone().map(|band| band.band[place]);
         fields.known("band_from", Quantity::FrequencyRatio, end(0)).known(
             "band_to",
@@ -211,7 +217,8 @@ impl Steady {
         let names = [("displacement", Quantity::Displacement), ("velocity", Quantity::Velocity)];
         for (place, (name, quantity)) in names.into_iter().enumerate() {
             let both = values.clone().map(|(with, without)| (with[place], without[place]));
-            let (with, without) = (both.clone().map(|it| it.0), both.clone().map(|it| it.1));
+            let (with, without) =
+                (both.clone().map(|pair| pair.0), both.clone().map(|pair| pair.1));
             let level = both.and_then(|(with, without)| level(with, without));
             fields
                 .known(&format!("band_{name}_rms"), quantity, with)
@@ -228,24 +235,24 @@ impl Steady {
         let levels = values.and_then(|(with, without)| {
             Ok([level(with[0], without[0])?, level(with[1], without[1])?])
         });
-        let told = match levels {
+        let change = match levels {
             Ok([displacement, velocity]) => {
                 let change = |level: f64| {
                     let way = if level > 0.0 { "rises" } else { "falls" };
                     format!("{way} by {}", decibels(level.abs()))
                 };
                 format!(
-                    "the level of the displacement {}, that of the velocity {}",
+                    "the displacement level {} and the velocity level {}",
                     change(displacement),
                     change(velocity)
                 )
             }
-            Err(why) => format!("there is no level: {why}"),
+            Err(why) => format!("the level is undefined: {why}"),
         };
-        format!(" From {low}{unit} to {high}{unit} {told}.")
+        format!(" From {low}{unit} to {high}{unit} {change}.")
     }
 
-    /// What a reader of the numbers should know.
+    /// Warnings about the result.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let time = if study.scales().is_some() { "t" } else { "τ" };
         let settle = in_words(study, Quantity::Time, study.solver().settle);
@@ -259,7 +266,7 @@ impl Steady {
             }
         };
         warn("dithered", self.response.settled);
-        // Where it decays to nothing it need not settle: E is undefined and says so.
+        // A run that decays to zero need not settle: E is then undefined, with a reason.
         warn("undithered", self.response.undithered_settled || self.response.efficiency.is_err());
         warnings
     }
@@ -292,7 +299,7 @@ impl Steady {
         });
         fields.list("peaks", peaks);
         let only_normal = || {
-            "all dither is normal: the model has no normal motion on which it could work".to_owned()
+            "all dither is normal, and the model has no motion in the normal direction".to_owned()
         };
         fields
             .number("stick_fraction", Quantity::Ratio, response.stick_fraction)
@@ -305,7 +312,7 @@ impl Steady {
                 "level_db",
                 Quantity::Ratio,
                 self.level().ok_or_else(|| match response.efficiency {
-                    Ok(_) => "E is zero".to_owned(),
+                    Ok(_) => "E is zero, which has no level in decibels".to_owned(),
                     Err(why) => why.to_string(),
                 }),
             )
@@ -373,19 +380,19 @@ impl Steady {
         let (with, without) =
             (&self.response.record.spectrum, &self.response.undithered_record.spectrum);
         Dataset::new(study, "response: spectrum of the displacement")
-            .fact("mean removed, Hann window, four times the record's length by zeros; amplitude of a pure tone")
+            .fact("mean removed, Hann window, zero-padded to four times the record length; amplitudes are those of a pure tone")
             .axis("frequency", Quantity::FrequencyRatio, with.frequencies().collect())
             .array("amplitude", Quantity::Displacement, with.amplitudes().to_vec())
             .array("undithered_amplitude", Quantity::Displacement, without.amplitudes().to_vec())
     }
 }
 
-/// Levels in a band of frequencies.
+/// Levels in a frequency band.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InBand {
     /// Its ends, in ω₀.
     pub band: [f64; 2],
-    /// Root mean square of displacement and velocity with dither, and without; or why there is none.
+    /// Root mean square of displacement and velocity, with and without dither; or why they are undefined.
     pub values: Result<([f64; 2], [f64; 2]), String>,
 }
 
@@ -401,20 +408,20 @@ fn decibels(size: f64) -> String {
 /// 20 lg of two root mean squares, in dB.
 fn level(with: f64, without: f64) -> Result<f64, String> {
     if without == 0.0 {
-        return Err("without dither nothing vibrates in the band".to_owned());
+        return Err("nothing vibrates in the band without dither".to_owned());
     }
     if with == 0.0 {
-        return Err("with dither nothing vibrates in the band".to_owned());
+        return Err("nothing vibrates in the band with dither".to_owned());
     }
     Ok(20.0 * (with / without).log10())
 }
 
-/// Why it is unknown where a run ends.
+/// Why the end of a run is unknown.
 fn why_end_unknown(ending: RunEnding) -> Option<String> {
     match ending {
         RunEnding::Unknown(why) => Some(why.to_string()),
         RunEnding::Reached(Reached::Unsettled | Reached::Unknown) => {
-            Some("the run had not settled when its periods were over".to_owned())
+            Some("the run had not settled within its number of periods".to_owned())
         }
         RunEnding::Reached(Reached::Base | Reached::Forced | Reached::Elsewhere) => None,
     }

@@ -14,49 +14,49 @@ use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::range::SlipMet;
 use crate::study::BeltStudy;
-use crate::words::{in_words, start_in_words};
+use crate::words::{in_words, plural, start_in_words};
 
 /// Samples per period of the fastest dither, and at least this many in a slow period.
 const SAMPLES_PER_DITHER_PERIOD: f64 = 32.0;
 const SAMPLES_PER_SLOW_PERIOD: f64 = 256.0;
 
-/// Most samples that are kept; a longer run is sampled more coarsely.
+/// Largest number of samples kept; a longer run is sampled more coarsely.
 pub const MOST_SAMPLES: usize = 2_000_000;
 
-/// What to keep of a run.
+/// What a run keeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// Whether every event is kept.
     pub events: bool,
     /// Whether the trajectory is sampled densely.
     pub samples: bool,
-    /// Whether the same is computed without dither, beside it.
+    /// Whether the run without dither is computed as well.
     pub undithered: bool,
 }
 
 /// A trajectory.
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    /// Where it started.
+    /// Initial state.
     pub start: Start,
-    /// Where it ended.
+    /// Final state.
     pub end: FinalState,
-    /// The events, where they were asked for.
+    /// The events, if requested.
     pub events: Option<Vec<Event>>,
-    /// Samples at equal steps, both ends included, where they were asked for.
+    /// Samples at equal steps, both ends included, if requested.
     pub samples: Option<Vec<Sample>>,
-    /// The same without dither, where it was asked for and there is dither.
+    /// Samples of the run without dither, if requested and the study has dither.
     pub undithered_samples: Option<Vec<Sample>>,
-    /// Whether the samples are coarser than the fastest dither deserves.
+    /// Whether the samples are too coarse to resolve the fastest dither.
     pub coarse: bool,
-    /// The slip that it met.
+    /// The slip reached.
     pub slip: SlipMet,
 }
 
 /// Integrates a study to τ = `until`.
 ///
 /// # Errors
-/// [`Failure::Wrong`] where the study starts squealing and cannot; [`Failure::Failed`] if the
+/// [`Failure::Wrong`] if a squealing start is requested but does not exist; [`Failure::Failed`] if the
 /// engine stops.
 pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation, Failure> {
     let belt = study.belt();
@@ -98,7 +98,7 @@ pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation
     })
 }
 
-/// Samples with the end itself: a grid point may round to just behind it.
+/// Samples plus the final state: the last grid point may round to just beyond the end.
 fn with_end(mut samples: Vec<Sample>, end: &FinalState) -> Vec<Sample> {
     samples.push(Sample {
         time: end.time,
@@ -109,7 +109,7 @@ fn with_end(mut samples: Vec<Sample>, end: &FinalState) -> Vec<Sample> {
     samples
 }
 
-/// Number of intervals between samples, and whether it had to be cut.
+/// Number of intervals between samples, and whether it had to be limited.
 fn grid(study: &BeltStudy, length: f64) -> (usize, bool) {
     let dithers = study.belt().dithers().iter().filter(|dither| dither.amplitude > 0.0);
     let fastest = dithers.fold(0.0_f64, |rate, dither| rate.max(dither.frequency_ratio));
@@ -128,7 +128,7 @@ fn grid(study: &BeltStudy, length: f64) -> (usize, bool) {
 }
 
 impl Simulation {
-    /// What happened, in one sentence.
+    /// The outcome in one sentence.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         let end = &self.end;
         let state = match (end.sticking, end.slip_sign) {
@@ -138,12 +138,12 @@ impl Simulation {
         };
         let time = if study.scales().is_some() { "t" } else { "τ" };
         let events = match end.events {
-            0 => "nothing happened at the contact".to_owned(),
-            1 => "there was one event at the contact".to_owned(),
-            count => format!("there were {count} events at the contact"),
+            0 => "without any contact event".to_owned(),
+            1 => "after 1 contact event".to_owned(),
+            count => format!("after {count} contact events"),
         };
         format!(
-            "Started {}, at {} = {} {state}; on the way {events}.",
+            "Started {}: at {} = {} {state}, {events}.",
             start_in_words(study),
             time,
             in_words(study, Quantity::Time, end.time)
@@ -192,24 +192,25 @@ impl Simulation {
         fields.finish()
     }
 
-    /// What a reader of the numbers should know.
+    /// Warnings about the result.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let mut warnings = self.slip.warnings(study);
         if self.coarse {
             warnings.push(format!(
-                "only {MOST_SAMPLES} samples are kept; they are coarser than the dither deserves"
+                "only {MOST_SAMPLES} samples are kept, too few to resolve the dither"
             ));
         }
         let releases = self.end.near_tangential_releases;
         if releases > 0 {
             warnings.push(format!(
-                "{releases} releases hardly crossed the threshold: forward uniqueness is not guaranteed there"
+                "{releases} release{} barely crossed the stiction threshold, where forward uniqueness is not guaranteed",
+                plural(releases)
             ));
         }
         warnings
     }
 
-    /// The events, one row each; empty where they were not asked for. The velocity at every event is the belt's.
+    /// The events, one row each; empty if not requested. The velocity at every event is the belt's.
     pub fn events_dataset(&self, study: &BeltStudy) -> Dataset {
         let events = self.events.as_deref().unwrap_or_default();
         let column = |value: fn(&Event) -> f64| events.iter().map(value).collect::<Vec<f64>>();
@@ -228,7 +229,7 @@ impl Simulation {
             .array("velocity", Quantity::Velocity, vec![study.belt().belt_velocity(); events.len()])
     }
 
-    /// The sampled trajectory; empty where no samples were asked for.
+    /// The sampled trajectory; empty if no samples were requested.
     pub fn dataset(&self, study: &BeltStudy) -> Dataset {
         let samples = self.samples.as_deref().unwrap_or_default();
         let column = |value: fn(&Sample) -> f64| samples.iter().map(value).collect::<Vec<f64>>();

@@ -1,7 +1,7 @@
 //! `stability`: averaged stability of steady sliding, and the amplitudes at which it changes.
 //!
 //! Protocol "averaged": the slow motion about steady sliding under fast dither, in the limit of
-//! high frequency; `sharper` takes the oscillator's own response to the dither instead, and one
+//! high frequency; `sharper` is finite-R averaging, which uses the oscillator's own response to the dither and one
 //! more term of the fast motion under normal dither.
 
 pub use quell_linear::averaging::SlopeSide;
@@ -26,13 +26,13 @@ const FAST: f64 = 5.0;
 /// Averaged stability under one model of the fast motion.
 #[derive(Clone, Debug)]
 pub struct Averaged {
-    /// How the fast motion is modelled.
+    /// Model of the fast motion.
     pub options: AveragingOptions,
     /// Criterion and verdict at the study's own amplitude.
     pub criterion: Result<Criterion, AveragingError>,
     /// Amplitudes of the first dither at which stability changes.
     pub critical_amplitudes: Result<Vec<CriticalAmplitude>, AveragingError>,
-    /// Amplitude ratio from which every belt velocity is stable, or why there is none.
+    /// Amplitude ratio from which every belt velocity is stable, or why none exists.
     pub everywhere_stable: Result<f64, String>,
     /// Belt velocities at which the study's own dither leaves steady sliding unstable.
     pub unstable_bands: Result<Vec<UnstableBand>, AveragingError>,
@@ -43,7 +43,7 @@ pub struct Averaged {
 pub struct Stability {
     /// In the limit of high frequency: the dissertation's averaging.
     pub limit: Averaged,
-    /// With the oscillator's response; or why there is none.
+    /// Finite-R averaging, with the oscillator's own response; or why it is unavailable.
     pub sharper: Result<Averaged, String>,
 }
 
@@ -58,7 +58,7 @@ pub fn run(study: &BeltStudy) -> Stability {
     Stability {
         limit: averaged(belt, AveragingOptions::default()),
         sharper: match slow {
-            _ if belt.dithers().is_empty() => Err("there is no dither".to_owned()),
+            _ if belt.dithers().is_empty() => Err("the study has no dither".to_owned()),
             Some(why) => Err(why.to_string()),
             None => Ok(averaged(belt, AveragingOptions::FINITE_R)),
         },
@@ -75,7 +75,7 @@ fn averaged(belt: &Belt, options: AveragingOptions) -> Averaged {
     }
 }
 
-/// Whether neither damping nor the slope of the law decides anything at the belt's velocity.
+/// Whether damping and the slope of the law cancel at the belt velocity.
 fn is_neutral(belt: &Belt) -> bool {
     let slope = belt.friction().slope(belt.belt_velocity());
     belt.damping_rate(slope, belt.normal_load()) == 0.0
@@ -84,8 +84,8 @@ fn is_neutral(belt: &Belt) -> bool {
 fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, String> {
     let &[dither] = belt.dithers() else {
         return Err(match belt.dithers() {
-            [] => "there is no dither".to_owned(),
-            _ => "it is defined for one dither, this study has several".to_owned(),
+            [] => "the study has no dither".to_owned(),
+            _ => "it is defined for a single dither, and this study has several".to_owned(),
         });
     };
     let found = everywhere_stable_amplitude(
@@ -97,22 +97,20 @@ fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, Stri
     );
     match found.map_err(|why| why.to_string())? {
         EverywhereStable::Always if is_neutral(belt) => {
-            Err("without damping and without a slope of the law nothing grows or decays".to_owned())
+            Err("without damping and with a flat friction law nothing grows or decays".to_owned())
         }
         EverywhereStable::Always => Ok(0.0),
         EverywhereStable::From { amplitude_ratio, .. } => Ok(amplitude_ratio),
         EverywhereStable::Never { why } => Err(match why {
             NeverStable::NoDamping => {
-                "without damping a law that falls for ever leaves fast belts unstable at \
-                                       any amplitude"
+                "without damping, a friction law that keeps falling leaves fast belts unstable at any amplitude"
             }
             NeverStable::InnerRegion => {
-                "slow belts stay unstable at any amplitude: the law falls too steeply"
+                "slow belts stay unstable at any amplitude: the friction law falls too steeply"
             }
-            NeverStable::OffScale => "there is none up to 10⁶ v_m",
+            NeverStable::OffScale => "no such amplitude ratio exists up to 10⁶ v_m",
             NeverStable::NoEdge => {
-                "without dither sliding is unstable as far as belt velocities were looked at, up to 365 v_m; amplitudes were \
-                 not tried"
+                "without dither, sliding is unstable at every belt velocity examined (up to 365 v_m), so no amplitude was tried"
             }
         }
         .to_owned()),
@@ -128,7 +126,7 @@ fn word(criterion: &Result<Criterion, AveragingError>) -> &'static str {
     }
 }
 
-/// Decibels of a growth by a factor of e: 20 log₁₀ e.
+/// Growth by a factor of e in decibels: 20 log₁₀ e.
 pub const DECIBELS: f64 = 20.0 * std::f64::consts::LOG10_E;
 
 impl Averaged {
@@ -138,8 +136,9 @@ impl Averaged {
     }
 
     fn put(&self, study: &BeltStudy, fields: &mut Fields) {
-        let told = |why: &AveragingError| why.to_string();
-        let value = |field: fn(&Criterion) -> f64| self.criterion.as_ref().map(field).map_err(told);
+        let words = |why: &AveragingError| why.to_string();
+        let value =
+            |field: fn(&Criterion) -> f64| self.criterion.as_ref().map(field).map_err(words);
         let rate = value(|criterion| of_criterion(criterion.value));
         if let Some(scales) = fields.scales() {
             let decibels = rate.clone().map(|rate| DECIBELS * rate * scales.angular_frequency());
@@ -195,7 +194,7 @@ impl Averaged {
         fields.list(name, items);
     }
 
-    /// The belt velocities of instability.
+    /// The unstable belt velocities.
     fn put_bands(&self, fields: &mut Fields) {
         let name = "unstable_belt_velocities";
         let bands = match &self.unstable_bands {
@@ -208,7 +207,7 @@ impl Averaged {
         let scales = fields.scales();
         let items = bands.iter().map(|band| {
             let mut inner = Fields::new(scales);
-            let no_end = || format!("no upper end was met {LOOKED_AT}");
+            let no_end = || format!("no upper end was found {LOOKED_AT}");
             inner.number("lower", Quantity::Velocity, band.lower).known(
                 "upper",
                 Quantity::Velocity,
@@ -224,7 +223,7 @@ impl Averaged {
     }
 }
 
-/// How far belt velocities are looked at for bands of instability, as [`unstable_bands`] has it.
+/// The range of belt velocities that [`unstable_bands`] examines.
 pub const LOOKED_AT: &str = "up to 200 v_m beyond the fast velocity";
 
 /// Name of a crossing in output.
@@ -244,13 +243,13 @@ pub fn becomes(becomes: Becomes) -> &'static str {
 }
 
 impl Stability {
-    /// The averaging that sentence and picture go by: the one at finite R, where it exists, else the limit of high
+    /// The averaging that sentence and picture use: finite-R averaging if available, else the limit of high
     /// frequency.
     pub fn leading(&self) -> &Averaged {
         self.finite().unwrap_or(&self.limit)
     }
 
-    /// Averaging at finite R, or why it does not exist.
+    /// Finite-R averaging, or why it is unavailable.
     fn finite(&self) -> Result<&Averaged, String> {
         let finite = self.sharper.as_ref().map_err(Clone::clone)?;
         match &finite.criterion {
@@ -259,7 +258,7 @@ impl Stability {
         }
     }
 
-    /// The averaging that sentence and picture go by, in words.
+    /// The name of the averaging that sentence and picture use.
     pub fn method(&self, study: &BeltStudy) -> String {
         match self.finite() {
             Ok(_) => "finite-R averaging".to_owned(),
@@ -267,39 +266,39 @@ impl Stability {
                 "the slope of the friction law".to_owned()
             }
             Err(why) => format!(
-                "averaging in the limit of high dither frequency (finite-R averaging does not exist here: {why})"
+                "averaging in the limit of high dither frequency (finite-R averaging is unavailable: {why})"
             ),
         }
     }
 
-    /// What averaging says, in one sentence.
+    /// The verdict, and the next amplitude that changes it.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         let v = in_words(study, Quantity::Velocity, study.belt().belt_velocity());
         let verdict = match &self.leading().criterion {
-            Err(why) => format!("nothing can be said about steady sliding at v₀ = {v}: {why}"),
+            Err(why) => format!("the stability of steady sliding at v₀ = {v} is unknown: {why}"),
             Ok(found) => match found.verdict {
-                AveragedVerdict::Stable => format!("steady sliding at v₀ = {v} is stable"),
-                AveragedVerdict::Unstable => format!("steady sliding at v₀ = {v} is unstable"),
+                AveragedVerdict::Stable => {
+                    format!("steady sliding at v₀ = {v} is stable for small slow motions")
+                }
+                AveragedVerdict::Unstable => {
+                    format!("steady sliding at v₀ = {v} is unstable for small slow motions")
+                }
                 AveragedVerdict::Undecided { why: UndecidedBecause::WithinError } => format!(
-                    "steady sliding at v₀ = {v} is undecided: the criterion is zero within its error"
+                    "the stability of steady sliding at v₀ = {v} is undecided: the criterion is zero within its error"
                 ),
                 AveragedVerdict::Undecided { why: UndecidedBecause::AtCorner } => format!(
-                    "steady sliding at v₀ = {v} is undecided: the belt is exactly as fast as the fast motion, \
-                     unstable for slightly faster belts and stable for slightly slower ones"
+                    "the stability of steady sliding at v₀ = {v} is undecided: the belt is exactly as fast as the fast motion; \
+                     slightly faster belts are unstable and slightly slower ones stable"
                 ),
             },
         };
-        format!(
-            "By {}, locally, for small slow motions, {verdict}{}.",
-            self.method(study),
-            self.next(study)
-        )
+        format!("By {}, {verdict}.{}", self.method(study), self.next(study))
     }
 
     /// The next amplitude at which the verdict changes.
     fn next(&self, study: &BeltStudy) -> String {
         let Some(dither) = study.belt().dithers().first() else {
-            return "; there is no dither".to_owned();
+            return " The study has no dither.".to_owned();
         };
         let leading = self.leading();
         let (Ok(critical), Ok(_)) = (&leading.critical_amplitudes, &leading.criterion) else {
@@ -311,43 +310,44 @@ impl Stability {
         });
         match next {
             Some(next) => format!(
-                "; more dither makes it {} from D = {} (α = {}) on{}",
+                " More dither makes it {} from D = {} (α = {}) on{}.",
                 becomes(next.becomes),
                 in_words(study, Quantity::Force, next.amplitude),
                 in_words(study, Quantity::Velocity, next.amplitude_ratio),
-                if next.contact_stays_closed { "" } else { ", but would pull the contact apart" }
+                if next.contact_stays_closed { "" } else { ", but would open the contact" }
             ),
-            None if critical.is_empty() => "; no amplitude of this dither changes that".to_owned(),
-            None => "; more of this dither does not change that".to_owned(),
+            None if critical.is_empty() => " No amplitude of this dither changes that.".to_owned(),
+            None => " A larger amplitude does not change that.".to_owned(),
         }
     }
 
-    /// What a reader of the numbers should know.
+    /// Warnings about the result.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let slow = study.belt().dithers().iter().filter(|dither| dither.frequency_ratio < FAST);
         let hardly = slow.map(|dither| {
             format!(
-                "averaging presumes fast dither; R = {} is hardly fast, simulate to be sure",
+                "averaging assumes fast dither, and R = {} is hardly fast; check with `simulate`",
                 dither.frequency_ratio
             )
         });
         let verdicts = self.finite().ok().map(|finite| (finite.verdict(), self.limit.verdict()));
         let apart = verdicts.filter(|(finite, limit)| finite != limit).map(|(finite, limit)| {
             format!(
-                "the two averagings differ: {finite} at finite R, {limit} in the limit of high frequency; simulate to be sure"
+                "the two averaging methods disagree: {finite} at finite R, {limit} in the limit of high frequency; check with `simulate`"
             )
         });
         let range = range::averaged(study).into_iter().chain(self.beyond(study));
         hardly.chain(apart).chain(range).collect()
     }
 
-    /// Critical amplitudes and bands that lie outside of the range of the friction law.
+    /// Warnings about critical amplitudes and bands outside the range of the friction law.
     fn beyond(&self, study: &BeltStudy) -> Vec<String> {
         let belt = study.belt();
         let Some(range) = belt.friction().range() else { return Vec::new() };
         let averaged: Vec<&Averaged> = [&self.limit].into_iter().chain(&self.sharper).collect();
         let mut warnings = Vec::new();
-        let amplitudes = averaged.iter().filter_map(|it| it.critical_amplitudes.as_ref().ok());
+        let amplitudes =
+            averaged.iter().filter_map(|averaged| averaged.critical_amplitudes.as_ref().ok());
         let slips = amplitudes.flatten().map(|critical| {
             let slip = range::at_amplitude(belt, critical.amplitude);
             (critical.amplitude, slip)
@@ -356,28 +356,29 @@ impl Stability {
         if let Some((amplitude, slip)) = outside.min_by(|a, b| a.0.total_cmp(&b.0)) {
             let amplitude = in_words(study, Quantity::Force, amplitude);
             let what =
-                format!("at the critical amplitude D = {amplitude} slip and dither together reach");
+                format!("at the critical amplitude D = {amplitude}, slip including dither reaches");
             warnings.push(range::sentence(study, &range, &what, slip));
         }
-        let everywhere = averaged.iter().filter_map(|it| it.everywhere_stable.as_ref().ok());
+        let everywhere =
+            averaged.iter().filter_map(|averaged| averaged.everywhere_stable.as_ref().ok());
         let ratio = everywhere.fold(0.0_f64, |most, ratio| most.max(*ratio));
         let frequency = belt.dithers().first().map_or(0.0, |dither| dither.frequency_ratio);
         let slip = range::at_amplitude(belt, ratio * frequency);
         if slip > range.upper {
             let ratio = in_words(study, Quantity::Velocity, ratio);
             let what = format!(
-                "at α = {ratio}, from which every belt velocity is stable, slip and dither together reach"
+                "at α = {ratio}, from which every belt velocity is stable, slip including dither reaches"
             );
             warnings.push(range::sentence(study, &range, &what, slip));
         }
-        let bands = averaged.iter().filter_map(|it| it.unstable_bands.as_ref().ok());
+        let bands = averaged.iter().filter_map(|averaged| averaged.unstable_bands.as_ref().ok());
         let ends = bands.flatten().map(|band| band.upper.unwrap_or(band.lower));
         let furthest = ends.fold(0.0, f64::max);
         let slip = range::with_dither(belt, furthest);
         if slip > range.upper {
             let furthest = in_words(study, Quantity::Velocity, furthest);
             let what = format!(
-                "unstable belt velocities go up to {furthest}, where slip and dither together reach"
+                "at the largest unstable belt velocity, {furthest}, slip including dither reaches"
             );
             warnings.push(range::sentence(study, &range, &what, slip));
         }

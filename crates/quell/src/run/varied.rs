@@ -11,7 +11,7 @@ use crate::study::{BeltStudy, suggest};
 /// Most values of a range.
 pub const MOST_VALUES: usize = 100_000;
 
-/// A number of a study and the range of its values, as they are asked for.
+/// A requested number of a study and the range of its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Range {
     /// Path of the number.
@@ -24,14 +24,14 @@ pub struct Range {
     pub points: usize,
 }
 
-/// One number of a study and the values it takes, in rising order.
+/// One number of a study and its values in ascending order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Varied {
-    /// Path, such as `dither.amplitude`; the SI keys of a study in SI too.
+    /// Path, such as `dither.amplitude`, or an SI key in a study in SI.
     pub path: String,
-    /// What it is, in one line.
+    /// Description in one line.
     pub about: &'static str,
-    /// Symbol in the equations, where it has one.
+    /// Symbol in the equations, if any.
     pub symbol: Option<&'static str>,
     /// Unit of the values.
     pub unit: &'static str,
@@ -40,7 +40,7 @@ pub struct Varied {
 }
 
 impl Varied {
-    /// A range of values; `option` is how the path was given.
+    /// A range of values; `option` is the option that gave the path.
     ///
     /// # Errors
     /// Every complaint about the path, the ends and the number of values at once.
@@ -56,11 +56,11 @@ impl Varied {
             };
             for complaint in wrong {
                 if complaint.fault == Fault::Value {
-                    // The value of the option, not what it makes of other numbers.
+                    // Report the value of the option, not the numbers derived from it.
                     let complaint = Complaint { value: given_number(value), ..complaint };
-                    complaints.push(told(complaint, end));
+                    complaints.push(for_option(complaint, end));
                 } else {
-                    // Where it was written says nothing: it is this option.
+                    // The place in the study is irrelevant: the value comes from this option.
                     let said = Complaint { origin: Origin::Whole, ..complaint }.to_string();
                     if !lacking.contains(&said) {
                         lacking.push(said);
@@ -70,7 +70,7 @@ impl Varied {
             None
         });
         if !lacking.is_empty() {
-            let allowed = format!("a number that this study has: {}", lacking.join("; "));
+            let allowed = format!("a number of this study: {}", lacking.join("; "));
             complaints.push(Complaint::option(option, path.as_str(), allowed));
         }
         complaints.extend(ascending(from, to).err().map(|complaint| *complaint));
@@ -82,7 +82,8 @@ impl Varied {
             && first.belt() == last.belt()
             && from < to
         {
-            let allowed = "a number of the belt, of its friction or of a dither: this one changes none of them";
+            let allowed =
+                "a number of the belt, its friction law or a dither; this one changes none of them";
             complaints.push(Complaint::option(option, path.as_str(), allowed));
         }
         if !complaints.is_empty() {
@@ -100,7 +101,7 @@ impl Varied {
     /// The study at one value.
     ///
     /// # Errors
-    /// Complaints, where a value inside the range is not allowed although its ends are.
+    /// Complaints if a value inside the range is not allowed although its ends are.
     pub fn study_at(&self, study: &BeltStudy, value: f64) -> Result<BeltStudy, Complaints> {
         study.with(&self.path, value)
     }
@@ -120,22 +121,22 @@ pub(super) fn ascending(from: f64, to: f64) -> Result<(), Box<Complaint>> {
     Err(Box::new(Complaint::option("--to", given_number(to), allowed)))
 }
 
-/// A number of the equations that a study has, named by its own key or, in a study in SI, by its twin.
+/// A number of the equations of a study, named by its own key or, in a study in SI, by its SI key.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Named {
     /// Path of the number of the equations, such as `dither.amplitude`.
     pub(super) path: String,
     /// The key that names it.
     key: String,
-    /// Values of the named key that make one of the equations: 1, or the unit in SI.
+    /// Value of the named key that corresponds to 1 in the equations: 1, or the unit in SI.
     per_unit: f64,
 }
 
 impl Named {
-    /// What `path` names; `option` is how it was given.
+    /// The number that `path` names; `option` is the option that gave it.
     ///
     /// # Errors
-    /// A complaint with the nearest key that does name a number of this study.
+    /// A complaint with the nearest key that names a number of this study.
     pub(super) fn new(
         study: &BeltStudy,
         option: &'static str,
@@ -144,14 +145,14 @@ impl Named {
         let belt = study.belt();
         let table = path.trim().rsplit_once('.').map_or("", |(table, _)| table);
         let found = resolve(path);
-        // The number of the equations that is meant, whether or not its key is one of this study.
+        // The intended number of the equations, whether or not this study uses its key.
         let meant = match &found {
-            Ok(address) => address.key.parameter().map(|it| join(table, it.key())),
+            Ok(address) => address.key.parameter().map(|parameter| join(table, parameter.key())),
             Err(nearest) => nearest.clone(),
         };
-        let meant = meant.or_else(|| Some(path.to_owned())).filter(|it| belt.get(it).is_some());
+        let meant = meant.or_else(|| Some(path.to_owned())).filter(|path| belt.get(path).is_some());
         let per_unit = match (&meant, found.ok().map(|address| address.key.role), study.scales()) {
-            // A root mean square depends on the waveform: what is found is a peak.
+            // A root mean square depends on the waveform, and the result is a peak value.
             (Some(_), Some(Role::Twin(parameter, twin)), Some(scales)) if !twin.rms => {
                 Some(scales.si_per_unit(parameter.quantity))
             }
@@ -168,27 +169,27 @@ impl Named {
             }
             (_, _) if is_of_several(path) => {
                 let allowed = format!(
-                    "one number of the equations; {path} changes several of them: `bifurcation` and `map` vary it"
+                    "a single number of the equations; {path} changes several, which `bifurcation` and `map` can vary"
                 );
                 Err(Box::new(Complaint::option(option, path, allowed)))
             }
             (Some(number), _) if is_root_mean_square(path) => {
                 let peak = key_of(study, &number);
-                let allowed = format!("{peak}, a peak: a root mean square depends on the waveform");
+                let allowed =
+                    format!("{peak}, a peak value: a root mean square depends on the waveform");
                 Err(Box::new(Complaint::option(option, path, allowed).suggesting(Some(peak))))
             }
             (meant, _) => {
                 let [amplitude, velocity] = [DITHER_AMPLITUDE, BELT_VELOCITY]
                     .map(|parameter| key_of(study, parameter.path));
-                let allowed =
-                    format!("a number that this study has, such as {amplitude} or {velocity}");
+                let allowed = format!("a number of this study, such as {amplitude} or {velocity}");
                 let near = meant.map(|path| key_of(study, &path));
                 Err(Box::new(Complaint::option(option, path, allowed).suggesting(near)))
             }
         }
     }
 
-    /// Whether both name the same number; an index that is left out is 0.
+    /// Whether both name the same number; an omitted index is 0.
     pub(super) fn is(&self, other: &Self) -> bool {
         let whole = |path: &str| path.replacen("dither.", "dither[0].", 1);
         whole(&self.path) == whole(&other.path)
@@ -199,14 +200,14 @@ impl Named {
         given / self.per_unit
     }
 
-    /// Complaints about the value of an option that the study cannot take: those of `--set`.
+    /// Complaints about a value that the study does not accept: the same as for `--set`.
     pub(super) fn unable(
         &self,
         study: &BeltStudy,
         (option, given): (&'static str, f64),
     ) -> impl Iterator<Item = Complaint> {
         let refused = study.with(&self.key, given).err();
-        refused.into_iter().flatten().map(move |complaint| told(complaint, option))
+        refused.into_iter().flatten().map(move |complaint| for_option(complaint, option))
     }
 }
 
@@ -220,7 +221,7 @@ fn is_of_several(path: &str) -> bool {
     matches!(role, Ok(Role::Scale(_) | Role::FrictionForce(..)))
 }
 
-/// The key by which a study gives a number of the equations: in SI where the study is.
+/// The key by which a study gives a number of the equations: in SI if the study is in SI.
 pub fn key_of(study: &BeltStudy, path: &str) -> String {
     in_system(path, study.scales().is_some())
 }
@@ -240,8 +241,8 @@ fn address(study: &BeltStudy, option: &'static str, path: &str) -> Result<Addres
     if found.key.takes_number() { Ok(found) } else { Err(refuse(None)) }
 }
 
-/// A complaint about a study at an end of the range, told of that option.
-fn told(complaint: Complaint, option: &'static str) -> Complaint {
+/// A complaint about a study at an end of the range, as one about that option.
+fn for_option(complaint: Complaint, option: &'static str) -> Complaint {
     let allowed = format!("such that {} is {}", complaint.key, complaint.allowed);
     Complaint {
         fault: Fault::Value,

@@ -1,4 +1,4 @@
-//! What a map computes of belts: responses and averages, and the quantities read from them.
+//! Maps of belts: responses and averages, and the quantities read from them.
 
 use quell_dynamics::response::Effect;
 use quell_linear::averaging::{AveragedVerdict, Criterion, UndecidedBecause};
@@ -16,7 +16,7 @@ use crate::study::BeltStudy;
 /// Name of the kind.
 pub(super) const KIND: &str = "belt";
 
-/// A study of a belt as a map sees it.
+/// Maps of belt studies.
 pub(super) struct BeltPoints(BeltStudy);
 
 impl BeltPoints {
@@ -53,10 +53,10 @@ impl Mapped for BeltPoints {
     }
 }
 
-/// What a response can be instead of known.
+/// Statuses of a response other than known.
 const OF_RESPONSE: &[Status] = &[Status::Stalled, Status::NoSquealingStart];
 
-/// The same for E.
+/// Statuses of E other than known.
 const OF_EFFICIENCY: &[Status] = &[
     Status::Stalled,
     Status::NoSquealingStart,
@@ -65,14 +65,14 @@ const OF_EFFICIENCY: &[Status] = &[
     Status::UnditheredUnknown,
 ];
 
-/// The same for power and stroke.
+/// Statuses of power and stroke other than known.
 const OF_COST: &[Status] = &[Status::Stalled, Status::NoSquealingStart, Status::OnlyNormalDither];
 
-/// What averaging can be instead of known.
+/// Statuses of averaging other than known.
 const OF_AVERAGING: &[Status] =
     &[Status::SetValued, Status::TooManyGroups, Status::NotFast, Status::NotConverged];
 
-/// The same for the sharper averaging.
+/// Statuses of finite-R averaging other than known.
 const OF_FINITE_R: &[Status] = &[
     Status::SetValued,
     Status::TooManyGroups,
@@ -81,7 +81,7 @@ const OF_FINITE_R: &[Status] = &[
     Status::NoDither,
 ];
 
-/// The same for verdicts.
+/// Statuses of verdicts other than known.
 const OF_VERDICT: &[Status] = &[
     Status::WithinError,
     Status::AtCorner,
@@ -92,7 +92,7 @@ const OF_VERDICT: &[Status] = &[
     Status::NoDither,
 ];
 
-/// The same for critical amplitudes.
+/// Statuses of critical amplitudes other than known.
 const OF_CRITICAL: &[Status] = &[
     Status::SetValued,
     Status::TooManyGroups,
@@ -103,10 +103,10 @@ const OF_CRITICAL: &[Status] = &[
     Status::ChangesOnce,
 ];
 
-/// Words of an effect; the first is 0, what is wanted of a dither.
+/// Words of an effect; the first, the desired effect, is 0.
 const EFFECTS: VariableKind = VariableKind::Word { words: &Effect::NAMES, unknown: "unknown" };
 
-/// What an effect can be instead of known.
+/// Statuses of an effect other than known.
 const OF_EFFECT: &[Status] = &[
     Status::Stalled,
     Status::NoSquealingStart,
@@ -123,37 +123,37 @@ const LENGTH: VariableKind = VariableKind::Number(units::Quantity::Displacement)
 const FORCE: VariableKind = VariableKind::Number(units::Quantity::Force);
 const VELOCITY: VariableKind = VariableKind::Number(units::Quantity::Velocity);
 
-/// What a map of belts can show.
+/// The quantities of a map of belts.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[Quantity] = &[
-    belt("effect", "what the dither does to the vibration: quenches, reduces, increases, causes, or quiet without and with it", Computation::ResponseWithEffect, &[
+    belt("effect", "effect of the dither on the vibration: quenches, reduces, increases, causes, or quiet with and without it", Computation::ResponseWithEffect, &[
         variable(("effect", ""), "effect of the dither", EFFECTS, OF_EFFECT, effect),
     ]),
-    belt("efficiency", "residual vibration E = M₁/M₀ (2.27), the share left by the dither, 0 where it is quenched", Computation::Response, &[
+    belt("efficiency", "residual vibration E = M₁/M₀ (2.27), the share that remains under dither; 0 if quenched", Computation::Response, &[
         variable(("efficiency", "E"), "residual vibration E = M₁/M₀", RATIO, OF_EFFICIENCY, |r| steady(r)?.efficiency.map_err(Status::from)),
     ]),
     belt("amplitude", "largest spectral amplitude M of the displacement below 1.9 ω₀", Computation::Response, &[
         variable(("amplitude", "M"), "spectral amplitude of the slow vibration", LENGTH, OF_RESPONSE, |r| Ok(steady(r)?.amplitude)),
     ]),
-    belt("undithered-amplitude", "the same of the run without dither, M₀", Computation::Response, &[
+    belt("undithered-amplitude", "spectral amplitude M₀ of the run without dither", Computation::Response, &[
         variable(("undithered_amplitude", "M_0"), "spectral amplitude without dither", LENGTH, OF_RESPONSE, |r| Ok(steady(r)?.undithered_amplitude)),
     ]),
-    belt("stick-fraction", "share of the time that is spent in stick", Computation::Response, &[
-        variable(("stick_fraction", ""), "share of the time in stick", RATIO, OF_RESPONSE, |r| Ok(steady(r)?.stick_fraction)),
+    belt("stick-fraction", "fraction of the time spent sticking", Computation::Response, &[
+        variable(("stick_fraction", ""), "fraction of the time spent sticking", RATIO, OF_RESPONSE, |r| Ok(steady(r)?.stick_fraction)),
     ]),
     belt(SETTLED_NAME, "whether the amplitudes of the two halves of the record agree", Computation::Response, &[
         variable(("settled", ""), "whether the response has settled", SETTLED, OF_RESPONSE, |r| Ok(f64::from(u8::from(steady(r)?.settled)))),
     ]),
-    belt("mean-friction", "mean friction force, over k", Computation::Response, &[
+    belt("mean-friction", "mean friction force divided by k", Computation::Response, &[
         variable(("mean_friction", "⟨f⟩"), "mean friction force", FORCE, OF_RESPONSE, |r| Ok(steady(r)?.mean_friction)),
     ]),
-    belt("dither-power", "mean power that tangential dither feeds in", Computation::ResponseWithCost, &[
+    belt("dither-power", "mean power supplied by tangential dither", Computation::ResponseWithCost, &[
         variable(("dither_power", "P"), "mean power of the dither", VariableKind::Number(units::Quantity::Power), OF_COST, |r| steady(r)?.dither_power.ok_or(Status::OnlyNormalDither)),
     ]),
-    belt("dither-stroke", "peak-to-peak displacement that the actuator must follow", Computation::ResponseWithCost, &[
+    belt("dither-stroke", "peak-to-peak displacement of the dither's actuator", Computation::ResponseWithCost, &[
         variable(("dither_stroke", ""), "stroke of the dither's actuator", LENGTH, OF_COST, |r| steady(r)?.dither_stroke.ok_or(Status::OnlyNormalDither)),
     ]),
-    belt("minimum-normal-load", "smallest normal load, over k", Computation::Response, &[
+    belt("minimum-normal-load", "smallest normal load divided by k", Computation::Response, &[
         variable(("minimum_normal_load", "N_{min}"), "smallest normal load", FORCE, OF_RESPONSE, |r| Ok(steady(r)?.minimum_normal_load)),
     ]),
     belt("verdict", "averaged verdict on steady sliding (2.26): stable or unstable", Computation::Criterion, &[
@@ -165,14 +165,14 @@ pub(super) const QUANTITIES: &[Quantity] = &[
     belt("growth", "growth rate of small slow motions by averaging, per unit τ", Computation::Criterion, &[
         variable(("growth", "Re ρ"), "averaged growth rate of small slow motions", VariableKind::Rate, OF_AVERAGING, |r| Ok(growth_rate(limit(r)?.value))),
     ]),
-    belt("verdict-sharper", "the verdict with the oscillator's own response to the dither", Computation::CriterionSharper, &[
-        variable(("verdict_sharper", ""), "sharper averaged verdict on steady sliding", VERDICTS, OF_VERDICT, |r| verdict(sharper(r)?)),
+    belt("verdict-sharper", "the verdict of finite-R averaging, with the oscillator's own response to the dither", Computation::CriterionSharper, &[
+        variable(("verdict_sharper", ""), "verdict of finite-R averaging on steady sliding", VERDICTS, OF_VERDICT, |r| verdict(sharper(r)?)),
     ]),
-    belt("criterion-sharper", "the criterion with the oscillator's own response to the dither", Computation::CriterionSharper, &[
-        variable(("criterion_sharper", "2ζ + F\\bar{μ}′"), "sharper criterion of averaged stability", RATIO, OF_FINITE_R, |r| Ok(sharper(r)?.value)),
+    belt("criterion-sharper", "the criterion of finite-R averaging, with the oscillator's own response to the dither", Computation::CriterionSharper, &[
+        variable(("criterion_sharper", "2ζ + F\\bar{μ}′"), "criterion of stability by finite-R averaging", RATIO, OF_FINITE_R, |r| Ok(sharper(r)?.value)),
     ]),
-    belt("growth-sharper", "the growth rate with the oscillator's own response to the dither", Computation::CriterionSharper, &[
-        variable(("growth_sharper", "Re ρ"), "sharper averaged growth rate", VariableKind::Rate, OF_FINITE_R, |r| Ok(growth_rate(sharper(r)?.value))),
+    belt("growth-sharper", "the growth rate of finite-R averaging, with the oscillator's own response to the dither", Computation::CriterionSharper, &[
+        variable(("growth_sharper", "Re ρ"), "growth rate by finite-R averaging", VariableKind::Rate, OF_FINITE_R, |r| Ok(growth_rate(sharper(r)?.value))),
     ]),
     belt("critical-amplitude", "smallest and largest amplitude ratio α = D/R of the first dither at which averaged stability changes", Computation::CriticalAmplitudes, &[
         variable(("critical_amplitude", "α_c"), "smallest critical amplitude ratio of the first dither", VELOCITY, OF_CRITICAL, |r| critical(r, false)),
@@ -228,5 +228,5 @@ const fn belt(
     Quantity { name, about, kind: KIND, computation, variables }
 }
 
-/// Whether a response has settled: it comes with every number of one.
+/// Whether a response has settled; added to every quantity of a response.
 pub(super) const SETTLED_NAME: &str = "settled";

@@ -1,10 +1,10 @@
 //! Chunks of a grid: the boxes in which a map is computed and stored.
 //!
-//! Chunks lie as Zarr's regular grid has them: all of one shape, the last of an axis cut off
-//! by the end of the axis. Their shape depends on the study alone, never on the number of
-//! threads, so that a map may be resumed on another machine.
+//! Chunks form a regular grid as in Zarr: all have the same shape, and the last along an axis is cut off
+//! at the end of the axis. Their shape depends on the study alone, never on the number of
+//! threads, so that a map can be resumed on another machine.
 
-/// How a grid is cut into chunks.
+/// The division of a grid into chunks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Chunks {
     shape: Vec<usize>,
@@ -12,8 +12,8 @@ pub struct Chunks {
 }
 
 impl Chunks {
-    /// Chunks of at most `most` points (at least one), nearly as many along every axis:
-    /// neighbours of a plane are alike, which serves readers and lanes.
+    /// Chunks of at most `most` points (at least one), of nearly the same length along every axis:
+    /// neighbouring points are similar, which benefits readers and SIMD lanes.
     pub fn new(shape: &[usize], most: usize) -> Self {
         let mut chunk = shape.to_vec();
         while chunk.iter().product::<usize>() > most.max(1) {
@@ -40,12 +40,12 @@ impl Chunks {
         self.counts().product()
     }
 
-    /// Whether there is none; never so.
+    /// Whether the number is zero; never true.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Where chunk `number` lies among the chunks, axis by axis.
+    /// Position of chunk `number` among the chunks along each axis.
     pub fn place(&self, number: usize) -> Vec<usize> {
         let mut after = self.len();
         self.counts()
@@ -57,7 +57,7 @@ impl Chunks {
     }
 
     /// The points of chunk `number`: position in a whole chunk and index in the grid, both in
-    /// row-major order. Positions beyond the end of an axis are left out.
+    /// row-major order. Positions beyond the end of an axis are omitted.
     pub fn points(&self, number: usize) -> Vec<(usize, usize)> {
         let mut points = vec![(0, 0)];
         let axes = self.place(number).into_iter().zip(self.shape.iter().zip(&self.chunk));

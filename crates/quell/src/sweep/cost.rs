@@ -1,7 +1,7 @@
-//! What a point of a map costs, roughly, to choose the size of a chunk.
+//! A rough estimate of the cost of a point of a map, which determines the size of a chunk.
 //!
-//! An estimate from the study alone: times measured on one core of a common machine, scaled by
-//! what the work grows with. It need not be right, only the same for everyone.
+//! The estimate depends on the study alone: times measured on one core of a common machine, scaled
+//! with the amount of work. It need not be accurate, but it must be the same on every machine.
 
 use quell_model::Direction;
 
@@ -14,38 +14,38 @@ const PERIOD: f64 = 1e-6;
 /// Seconds of one slow period without dither.
 const SLOW_PERIOD: f64 = 3e-6;
 
-/// Cost of a response with the end of its run, over that of the response alone.
+/// Cost of a response including the end of its run, relative to the response alone.
 const SETTLING: f64 = 2.0;
 
-/// Seconds of one sample of a record, heard and forgotten.
+/// Seconds of one sample of a record that is observed but not stored.
 const SAMPLE: f64 = 5e-8;
 
 /// Seconds of one averaged criterion in closed form.
 const CLOSED_FORM: f64 = 1e-6;
 
-/// Seconds of one by quadrature.
+/// Seconds of one averaged criterion by quadrature.
 const QUADRATURE: f64 = 4e-4;
 
 /// Evaluations of the criterion in a search for critical amplitudes.
 const SEARCH: f64 = 100.0;
 
-/// Seconds that a point takes to be made and stored at least.
+/// Minimum seconds to set up and store a point.
 const POINT: f64 = 2e-5;
 
-/// Chunks that a map should have at least: four for each of 32 threads.
+/// Minimum number of chunks that a map should have: four for each of 32 threads.
 const CHUNKS: f64 = 128.0;
 
-/// Seconds of a chunk, at most: what an interruption may lose.
+/// Maximum seconds of a chunk: the work that an interruption may lose.
 const LONGEST: f64 = 2.0;
 
-/// Seconds of a chunk, at least: below them files cost more than points.
+/// Minimum seconds of a chunk: below, files cost more than points.
 const SHORTEST: f64 = 0.05;
 
-/// Points of a chunk that fill the lanes of the engine; fewer where they take longer than a
+/// Number of points of a chunk that fills the SIMD lanes of the engine; fewer if they would take longer than a
 /// chunk should.
 const LANES_FULL: f64 = 64.0;
 
-/// Points of a chunk, at most.
+/// Maximum number of points of a chunk.
 const MOST: f64 = 65_536.0;
 
 /// Seconds of one point of a map of belts.
@@ -66,7 +66,7 @@ pub(super) fn of_disc(study: &DiscStudy, wanted: &[Computation]) -> f64 {
     POINT + wanted.len() as f64 * exponents(study)
 }
 
-/// Exponents of a disc: 25 µs for ten states, growing a little slower than with their cube.
+/// Seconds of the exponents of a disc: 25 µs for ten states, growing slightly slower than their cube.
 fn exponents(study: &DiscStudy) -> f64 {
     let states = 2.0 * study.disc().coordinates() as f64;
     2.5e-5 * (states / 10.0).powi(2).max(0.1)
@@ -96,7 +96,7 @@ fn criterion(study: &BeltStudy, sharper: bool) -> f64 {
     }
 }
 
-/// Points of a chunk of a map of `points` points that take `seconds` each.
+/// Number of points of a chunk, for a map of `points` points that take `seconds` each.
 pub(super) fn points_per_chunk(points: usize, seconds: f64) -> usize {
     let chunk = (points as f64 * seconds / CHUNKS).clamp(SHORTEST, LONGEST);
     #[expect(
@@ -116,11 +116,11 @@ mod tests {
     fn chunks_are_many_where_points_are_dear_and_few_where_they_are_cheap() {
         // 40 000 points of 10 ms: 200 points take two seconds.
         assert_eq!(points_per_chunk(40_000, 0.01), 200);
-        // 1000 points of 10 ms: as many as fill the lanes, although that makes few chunks.
+        // 1000 points of 10 ms: enough to fill the lanes, although that gives few chunks.
         assert_eq!(points_per_chunk(1000, 0.01), 64);
         // 1000 points of 0.1 s: two seconds.
         assert_eq!(points_per_chunk(1000, 0.1), 20);
-        // Points that take longer than a chunk should.
+        // Points that each take longer than a chunk should.
         assert_eq!(points_per_chunk(10, 100.0), 1);
         // 1000 points of 20 µs: one chunk.
         assert!(points_per_chunk(1000, 2e-5) >= 1000);

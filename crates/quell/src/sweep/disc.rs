@@ -1,7 +1,7 @@
-//! What a map computes of discs: growth rates, with the work that neighbours share, and the quantities read from them.
+//! Maps of discs: growth rates, with the work that neighbours share, and the quantities read from them.
 //!
-//! Points that differ in the friction of the one load alone share the constant flow or the assembled equations. Every point
-//! is computed through the same arithmetic whether it has such neighbours or not, so that its bits do not depend on them.
+//! Points that differ only in the friction of a single load share the constant flow or the assembled equations. Every point
+//! goes through the same arithmetic with or without such neighbours, so that its bits do not depend on them.
 
 use quell_disc::dithered;
 use quell_disc::equations::linearised;
@@ -25,7 +25,7 @@ use crate::study::{DiscStudy, Sweep};
 /// Name of the kind.
 const KIND: &str = "disc";
 
-/// A study of a disc as a map sees it.
+/// Maps of disc studies.
 pub(super) struct DiscPoints(DiscStudy);
 
 impl DiscPoints {
@@ -61,13 +61,13 @@ impl Mapped for DiscPoints {
     }
 }
 
-/// What a map of discs can show.
+/// The quantities of a map of discs.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[Quantity] = &[
     disc("growth", "largest growth rate of the disc, its verdict and the bound on its error", Computation::DiscGrowth, &[
         variable(("growth", "Re ρ"), "largest growth rate", VariableKind::DiscRate, &[], |r| Ok(grown(r)?.rate)),
         variable(("growth_error", ""), "bound on the error of the growth rate", VariableKind::DiscRate, &[], |r| Ok(grown(r)?.error)),
-        variable(("growth_verdict", ""), "whether the growth rate has a sign within its error", VERDICTS, OF_DISC, |r| decided(grown(r)?)),
+        variable(("growth_verdict", ""), "whether the sign of the growth rate is certain within its error", VERDICTS, OF_DISC, |r| decided(grown(r)?)),
     ]),
     disc("frequency", "frequency of the fastest growing motion; under dither up to multiples of R", Computation::DiscGrowth, &[
         variable(("frequency", "Im ρ"), "frequency of the fastest growing motion", VariableKind::DiscRate, &[], |r| Ok(grown(r)?.frequency)),
@@ -77,11 +77,11 @@ pub(super) const QUANTITIES: &[Quantity] = &[
     ]),
     disc("growth-undithered", "the growth rate without dither", Computation::DiscGrowthUndithered, &[
         variable(("growth_undithered", "Re ρ_0"), "largest growth rate without dither", VariableKind::DiscRate, &[], |r| Ok(grown_undithered(r)?.rate)),
-        variable(("growth_undithered_error", ""), "bound on the error of that", VariableKind::DiscRate, &[], |r| Ok(grown_undithered(r)?.error)),
+        variable(("growth_undithered_error", ""), "bound on the error of the growth rate without dither", VariableKind::DiscRate, &[], |r| Ok(grown_undithered(r)?.error)),
     ]),
 ];
 
-/// What a disc's verdict can be instead of known.
+/// Statuses of a disc's verdict other than known.
 const OF_DISC: &[Status] = &[Status::WithinError];
 
 const fn disc(
@@ -109,7 +109,7 @@ fn decided(growth: Growth) -> Result<f64, Status> {
     }
 }
 
-/// A disc of unit friction, and what it was prepared for.
+/// A disc of unit friction, and what was prepared for it.
 struct Prepared {
     disc: Disc,
     equations: Equations,
@@ -120,7 +120,7 @@ enum Equations {
     Constant(Box<Linearised>),
 }
 
-/// Computes at every point; `None` where there is no valid disc.
+/// Computes every point; `None` without a valid disc.
 fn evaluate(
     points: &[Option<Disc>],
     parts: Contributions,
@@ -147,7 +147,7 @@ fn evaluate(
     points.iter().map(|disc| disc.as_ref().map(&mut one)).collect()
 }
 
-/// Largest growth rate of a disc. What `prepared` holds is used where it is for this disc but for the friction of its load.
+/// Largest growth rate of a disc. Uses `prepared` if it fits this disc except for the friction of its load.
 fn growth(
     disc: &Disc,
     parts: Contributions,

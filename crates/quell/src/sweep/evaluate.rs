@@ -1,7 +1,7 @@
-//! What a map computes at its points: a whole chunk in, its results out.
+//! Computation of the points of a map, a whole chunk at a time.
 //!
-//! This is the one place that calls the engines for a map. Steady responses are computed for the
-//! whole chunk side by side; a point's result depends on its own study alone all the same.
+//! This is the only place that calls the engines for a map. Steady responses are computed for the
+//! whole chunk in one batch; the result of a point still depends on its own study alone.
 
 use quell_dynamics::response::{
     Compared, Effect, Observables, ResponseCase, RunEnding, Undefined, compare_many, effect,
@@ -23,24 +23,24 @@ use crate::study::BeltStudy;
 pub enum Computation {
     /// The steady response with and without dither.
     Response,
-    /// The same with the power and the stroke of the dither.
+    /// The steady response with the power and the stroke of the dither.
     ResponseWithCost,
-    /// The same with the effect of the dither: where runs end with and without it.
+    /// The steady response with the effect of the dither: where runs end with and without it.
     ResponseWithEffect,
     /// The criterion of averaged stability.
     Criterion,
-    /// The same by the sharper averaging.
+    /// The criterion by finite-R averaging.
     CriterionSharper,
     /// Every critical amplitude of the first dither.
     CriticalAmplitudes,
     /// The largest growth rate of a disc.
     DiscGrowth,
-    /// The same without dither.
+    /// The largest growth rate of a disc without dither.
     DiscGrowthUndithered,
 }
 
 impl Computation {
-    /// Whether it is about a belt, whose friction law may have a range.
+    /// Whether it applies to a belt, whose friction law may have a range.
     pub fn meets_friction(self) -> bool {
         !matches!(self, Self::DiscGrowth | Self::DiscGrowthUndithered)
     }
@@ -60,9 +60,9 @@ pub struct Steady {
     pub amplitude: f64,
     /// M of the undithered run: a length.
     pub undithered_amplitude: f64,
-    /// Share of the record spent in stick.
+    /// Fraction of the record spent sticking.
     pub stick_fraction: f64,
-    /// Whether both runs settled, as far as E needs them to.
+    /// Whether both runs settled, as far as E requires.
     pub settled: bool,
     /// Mean friction force over k: a length.
     pub mean_friction: f64,
@@ -95,7 +95,7 @@ impl From<&Compared> for Steady {
     }
 }
 
-/// What was computed at one point; `None` what was not asked for.
+/// Results at one point; `None` for computations that were not requested.
 #[derive(Clone, Debug, Default)]
 pub struct Results {
     /// The steady response.
@@ -104,24 +104,24 @@ pub struct Results {
     pub effect: Option<Result<Effect, Status>>,
     /// The criterion of averaged stability.
     pub criterion: Option<Result<Criterion, Status>>,
-    /// The same by the sharper averaging.
+    /// The criterion by finite-R averaging.
     pub criterion_sharper: Option<Result<Criterion, Status>>,
     /// Every critical amplitude of the first dither, in order.
     pub critical_amplitudes: Option<Result<Vec<CriticalAmplitude>, Status>>,
     /// The largest growth rate of a disc.
     pub disc: Option<Result<Growth, Status>>,
-    /// The same without dither.
+    /// The largest growth rate of a disc without dither.
     pub disc_undithered: Option<Result<Growth, Status>>,
-    /// The range of the friction law beside what averages meet, where the law has a range.
+    /// The range of the friction law and the slip that averages reach, if the law has a range.
     pub reach: Option<Reach>,
 }
 
-/// The fastest slip that a law holds for, beside the slip that averages meet.
+/// The upper end of the range of a law, and the slip that averages reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
     /// End of the law's range.
     upper: f64,
-    /// Slip at v₀ with every dither but the first.
+    /// Slip at v₀ with every dither except the first.
     without_first: f64,
     /// Fast velocity of the first dither per amplitude ratio α.
     per_ratio: f64,
@@ -150,7 +150,7 @@ impl Reach {
 }
 
 impl Results {
-    /// Whether slip leaves the range of the friction law where `value` comes from.
+    /// Whether slip leaves the range of the friction law in the computation of `value`.
     pub(super) fn leaves_range(&self, computation: Computation, value: f64) -> bool {
         let Some(reach) = self.reach else { return false };
         match computation {
@@ -176,17 +176,17 @@ pub(super) fn evaluate(points: &[BeltStudy], wanted: &[Computation]) -> Vec<Resu
         let with_effect = wanted.contains(&Computation::ResponseWithEffect);
         let found = responses(points, Observables { dither_cost }, with_effect);
         for (result, outcome) in results.iter_mut().zip(found) {
-            result.steady = Some(outcome.map(|it| it.0));
-            result.effect = Some(outcome.and_then(|it| it.1.ok_or(Status::Missing)));
+            result.steady = Some(outcome.map(|(steady, _)| steady));
+            result.effect = Some(outcome.and_then(|(_, effect)| effect.ok_or(Status::Missing)));
         }
     }
     results
 }
 
-/// A steady response, and the effect of the dither where it was wanted.
+/// A steady response, and the effect of the dither if requested.
 type Responded = (Steady, Option<Effect>);
 
-/// The steady responses, side by side where the points share their solver.
+/// The steady responses, in one batch if the points share their solver settings.
 fn responses(
     points: &[BeltStudy],
     wanted: Observables,
@@ -229,11 +229,11 @@ fn responses(
     outcomes
 }
 
-/// What averaging says at a point.
+/// The results of averaging at a point.
 fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
     let belt = study.belt();
     let mut results = Results { reach: Reach::of(belt), ..Results::default() };
-    let told = |why: AveragingError| Status::from(&why);
+    let status = |why: AveragingError| Status::from(&why);
     for computation in wanted {
         match computation {
             Computation::Response
@@ -243,20 +243,20 @@ fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
             | Computation::DiscGrowthUndithered => {}
             Computation::Criterion => {
                 let found = criterion(belt, AveragingOptions::default());
-                results.criterion = Some(found.map_err(told));
+                results.criterion = Some(found.map_err(status));
             }
             Computation::CriterionSharper => {
                 let slow = belt.dithers().iter().any(|dither| dither.frequency_ratio <= 1.0);
                 results.criterion_sharper = Some(match belt.dithers() {
                     [] => Err(Status::NoDither),
                     _ if slow => Err(Status::NotFast),
-                    _ => criterion(belt, AveragingOptions::FINITE_R).map_err(told),
+                    _ => criterion(belt, AveragingOptions::FINITE_R).map_err(status),
                 });
             }
             Computation::CriticalAmplitudes => {
                 results.critical_amplitudes = Some(match belt.dithers() {
                     [] => Err(Status::NoDither),
-                    _ => critical_amplitudes(belt, AveragingOptions::default()).map_err(told),
+                    _ => critical_amplitudes(belt, AveragingOptions::default()).map_err(status),
                 });
             }
         }

@@ -9,10 +9,10 @@ use crate::complaint::{Complaint, Complaints, Fault, Origin};
 use crate::study::vocabulary::{Address, Role};
 use crate::study::{Axis, Study, Sweep};
 
-/// Most points a map may have: their values are kept in memory until the map is done.
+/// Largest number of points of a map: their values are kept in memory until the map is done.
 pub const MOST_POINTS: usize = 100_000_000;
 
-/// What a study without axes is told.
+/// The message for a study without axes.
 const EXAMPLE: &str = "at least one axis in the study, such as\n\
      \n\
      [[sweep]]\n\
@@ -27,19 +27,19 @@ const EXAMPLE: &str = "at least one axis in the study, such as\n\
 #[derive(Clone, Debug, PartialEq)]
 pub struct GridAxis {
     /// Name in datasets: the path with its dots as underscores, such as `dither_amplitude`,
-    /// and without a table that the key repeats (`belt_velocity`).
+    /// and without a table name that the key repeats (`belt_velocity`).
     pub name: String,
     /// Path of the number that is varied, such as `dither.amplitude`.
     pub path: String,
-    /// What is varied, in one line.
+    /// Description of the varied number in one line.
     pub about: &'static str,
-    /// Symbol of the number in the equations, where it has one.
+    /// Symbol of the number in the equations, if any.
     pub symbol: Option<&'static str>,
     /// Unit of the values.
     pub unit: &'static str,
     /// The values in order.
     pub values: Vec<f64>,
-    /// Whether they lie in equal ratios.
+    /// Whether they are spaced at equal ratios.
     pub logarithmic: bool,
 }
 
@@ -54,7 +54,7 @@ impl Grid {
     /// The grid of a study.
     ///
     /// # Errors
-    /// A complaint where the study has no axis, two axes that set the same number, or more
+    /// A complaint if the study has no axis, two axes that set the same number, or more
     /// than [`MOST_POINTS`] points.
     pub fn of(study: impl Into<Study>) -> Result<Self, Box<Complaint>> {
         let study = study.into();
@@ -101,7 +101,7 @@ impl Grid {
         Ok(Self { study, axes })
     }
 
-    /// The study whose axes these are.
+    /// The study of the grid.
     pub fn study(&self) -> &Study {
         &self.study
     }
@@ -121,7 +121,7 @@ impl Grid {
         self.axes.iter().map(|axis| axis.values.len()).product()
     }
 
-    /// Whether there is none; never so.
+    /// Whether the number is zero; never true.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -139,14 +139,14 @@ impl Grid {
     /// The study at point `index`.
     ///
     /// # Errors
-    /// Every complaint, where these values together make no valid study.
+    /// Every complaint, if these values together do not form a valid study.
     pub fn study_at(&self, index: usize) -> Result<Study, Complaints> {
         self.study_with(&self.values_at(index))
     }
 
-    /// The study at the points whose values are the first or the last of every axis.
+    /// The study at the corners of the grid.
     pub(super) fn corner_studies(&self) -> Vec<Study> {
-        // More than six axes: the lowest and the highest corner stand for all.
+        // More than six axes: use only the lowest and the highest corner.
         let all = 1_usize << self.axes.len().min(6);
         let corners = (0..all).map(|corner| {
             let values: Vec<f64> = self
@@ -175,7 +175,7 @@ impl Grid {
     }
 }
 
-/// Whether two axes set the same number: a parameter and its SI twin do. Named constants share one key and differ by
+/// Whether two axes set the same number, as a parameter and its SI key do. Named constants share one key and differ in
 /// their paths.
 fn same(first: &Sweep, second: &Sweep) -> bool {
     let (one, other) = (&first.address, &second.address);
@@ -257,18 +257,18 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_no_grid_is_told() {
-        let told = grid("").expect_err("no axis");
-        assert!(told.allowed.contains("[[sweep]]\nparameter = "), "{told}");
-        let told = grid(
+    fn invalid_grids_are_refused() {
+        let refused = grid("").expect_err("no axis");
+        assert!(refused.allowed.contains("[[sweep]]\nparameter = "), "{refused}");
+        let valid = grid(
             "[[sweep]]\nparameter = \"dither[0].amplitude\"\nvalues = [0.1]\n\
              [[sweep]]\nparameter = \"dither[1].amplitude\"\nvalues = [0.1]\n",
         );
-        assert!(told.is_ok());
+        assert!(valid.is_ok());
         let axis = |path| {
             format!("[[sweep]]\nparameter = \"{path}\"\nfrom = 0.1\nto = 0.2\npoints = 100000\n")
         };
-        let told = grid(&(axis("belt.damping_ratio") + &axis("belt.belt_velocity")));
-        assert!(told.expect_err("too many").allowed.contains("at most"));
+        let refused = grid(&(axis("belt.damping_ratio") + &axis("belt.belt_velocity")));
+        assert!(refused.expect_err("too many").allowed.contains("at most"));
     }
 }

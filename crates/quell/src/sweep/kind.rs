@@ -1,4 +1,4 @@
-//! What a map needs of a kind of study: its quantities, its axes, the cost of a point, and the computation.
+//! The interface of a kind of study to maps: its quantities, its axes, the cost of a point, and the computation.
 
 use quell_model::units::Scales;
 
@@ -9,12 +9,12 @@ use super::grid::Grid;
 use super::quantity::Quantity;
 use crate::study::{Study, Sweep};
 
-/// What was computed at a point, with the scales of its study.
+/// Results at a point, with the scales of its study.
 pub(super) type Point = (Option<Scales>, Results);
 
-/// A kind of study as a map sees it.
+/// A kind of study that maps can compute.
 pub(crate) trait Mapped: Send + Sync {
-    /// What a map of this kind can show.
+    /// The quantities of this kind.
     fn quantities(&self) -> &'static [Quantity];
 
     /// The values of an axis.
@@ -22,10 +22,10 @@ pub(crate) trait Mapped: Send + Sync {
         sweep.axis.values().collect()
     }
 
-    /// Seconds that one point takes, as an estimate.
+    /// Estimated seconds of one point.
     fn seconds(&self, wanted: &[Computation]) -> f64;
 
-    /// Computes some points, by their index in the grid; `None` where the values together make no valid study.
+    /// Computes some points, by their index in the grid; `None` where the axis values do not form a valid study.
     fn compute(&self, grid: &Grid, indices: &[usize], wanted: &[Computation])
     -> Vec<Option<Point>>;
 }
@@ -47,7 +47,7 @@ impl Mapped for Unmapped {
     }
 }
 
-/// The kind of a study as a map sees it.
+/// The implementation of maps for the kind of a study.
 pub(crate) fn of(study: &Study) -> Box<dyn Mapped> {
     match (study.belt(), study.disc()) {
         (Ok(study), _) => Box::new(BeltPoints::of(study)),

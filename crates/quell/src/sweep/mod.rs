@@ -5,10 +5,10 @@
 //! names of quantities  → Sheet (arrays) ┴→ Plan (chunks) → runner → arrays, store
 //! ```
 //!
-//! An axis of a disc's speed has more points than it asks for: `refine` says why.
+//! An axis of a disc's speed gets more points than it specifies: see `refine`.
 //!
-//! A point is the study with its numbers set as `--set` sets them, and its result depends on
-//! nothing else: it has the same bits alone, in any chunk, with any number of threads.
+//! A point is the study with its numbers set as by `--set`, and its result depends on
+//! nothing else: it has the same bits alone, in any chunk and with any number of threads.
 
 mod belt;
 mod chunks;

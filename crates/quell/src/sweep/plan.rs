@@ -1,4 +1,4 @@
-//! What is to be computed: the grid, the quantities, the arrays, the chunks.
+//! The plan of a map: the grid, the quantities, the arrays and the chunks.
 
 use super::belt::SETTLED_NAME;
 use super::chunks::Chunks;
@@ -11,7 +11,7 @@ use super::sheet::{Data, Sheet};
 use crate::complaint::Complaint;
 use crate::study::Study;
 
-/// A map that is to be computed.
+/// A map to be computed.
 #[derive(Clone, Debug)]
 pub struct Plan {
     grid: Grid,
@@ -22,7 +22,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// A plan for the axes of a study. With any number of a steady response comes whether it
+    /// A plan for the axes of a study. Any quantity of a steady response adds whether it
     /// has settled.
     ///
     /// # Errors
@@ -68,12 +68,12 @@ impl Plan {
         &self.grid
     }
 
-    /// What is shown.
+    /// The quantities shown.
     pub fn quantities(&self) -> &[&'static Quantity] {
         &self.quantities
     }
 
-    /// What is computed for it.
+    /// The computations that they need.
     pub fn computations(&self) -> &[Computation] {
         &self.computations
     }
@@ -136,7 +136,7 @@ mod tests {
                 assert!(array.same_bits(point, backwards, plan.grid().len() - 1 - point));
             }
         }
-        // 0.45 of dither on 0.42 of load pulls the contact apart; its neighbours know nothing of it.
+        // Dither of 0.45 on a load of 0.42 opens the contact; neighbouring points are unaffected.
         let Data::Codes(states) = &all[status] else {
             panic!("states are codes");
         };

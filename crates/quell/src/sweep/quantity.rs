@@ -1,7 +1,7 @@
-//! What a map can show: quantities, each one value in the file of its kind of study (`belt.rs`, `disc.rs`).
+//! The quantities that a map can show, each a value in the file of its kind of study (`belt.rs`, `disc.rs`).
 //!
-//! A quantity is requested by its name; it has the computation that it needs and the variables that it gives. Quantities
-//! with the same computation share it.
+//! A quantity is requested by its name; it lists the computation that it needs and the variables that it provides.
+//! Quantities with the same computation share it.
 
 use quell_model::units;
 
@@ -11,7 +11,7 @@ use super::{belt, disc};
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::suggest;
 
-/// What the numbers of a variable are.
+/// The kind of the values of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VariableKind {
     /// Numbers of a quantity.
@@ -20,11 +20,11 @@ pub enum VariableKind {
     Rate,
     /// Rates of a disc per unit τ = ω_ref t.
     DiscRate,
-    /// One of these words, stored as its place in the list.
+    /// One of these words, stored as its index in the list.
     Word {
         /// The words.
         words: &'static [&'static str],
-        /// The word where it is not known.
+        /// The word for an unknown value.
         unknown: &'static str,
     },
 }
@@ -34,26 +34,26 @@ pub enum VariableKind {
 pub struct Variable {
     /// Its name in stores, JSON and CSV.
     pub name: &'static str,
-    /// What it is, in one line.
+    /// Description in one line.
     pub about: &'static str,
-    /// Its symbol in the equations; empty where it has none.
+    /// Its symbol in the equations; empty without one.
     pub symbol: &'static str,
-    /// What its numbers are.
+    /// The kind of its values.
     pub kind: VariableKind,
-    /// What its status can be besides the common ones.
+    /// Further statuses besides the common ones.
     pub statuses: &'static [Status],
-    /// Takes its number out of what was computed.
+    /// Reads its number from the results.
     pub(super) read: fn(&Results) -> Result<f64, Status>,
 }
 
 impl Variable {
-    /// Its number at a point, or why there is none.
+    /// Its number at a point, or why it is unknown.
     pub(super) fn read(&self, results: &Results) -> Result<f64, Status> {
         let value = (self.read)(results)?;
         if value.is_finite() { Ok(value) } else { Err(Status::NotFinite) }
     }
 
-    /// Every state it can have, in the order of their codes.
+    /// Every status it can have, in the order of the codes.
     pub fn all_statuses(&self, computation: Computation) -> Vec<Status> {
         let common = [Status::Known, Status::InvalidStudy, Status::NotFinite, Status::Missing];
         let friction = computation.meets_friction().then_some(Status::BeyondRange);
@@ -65,18 +65,18 @@ impl Variable {
     }
 }
 
-/// One thing that a map can show.
+/// One quantity that a map can show.
 #[derive(Clone, Copy, Debug)]
 pub struct Quantity {
     /// Its name on the command line.
     pub name: &'static str,
-    /// What it is, in one line.
+    /// Description in one line.
     pub about: &'static str,
     /// The kind of study it is for, as [`crate::study::Kind::name`] gives it.
     pub kind: &'static str,
-    /// What it is computed from.
+    /// The computation that it needs.
     pub computation: Computation,
-    /// What it gives.
+    /// The variables that it provides.
     pub variables: &'static [Variable],
 }
 
@@ -87,7 +87,7 @@ impl PartialEq for Quantity {
 }
 
 impl Quantity {
-    /// The quantity of a belt of this name.
+    /// The quantity of a belt with this name.
     ///
     /// # Errors
     /// A complaint about `option` with the nearest name.
@@ -95,7 +95,7 @@ impl Quantity {
         Self::named_for(belt::KIND, name, option)
     }
 
-    /// The quantity of a name for a kind of study, which is named as by [`crate::study::Kind::name`].
+    /// The quantity with this name for a kind of study, itself named as by [`crate::study::Kind::name`].
     ///
     /// # Errors
     /// A complaint about `option` with the nearest name.
@@ -118,10 +118,10 @@ impl Quantity {
     }
 }
 
-/// Everything that a map can show, kind by kind.
+/// All quantities, by kind of study.
 pub const QUANTITIES: &[&[Quantity]] = &[belt::QUANTITIES, disc::QUANTITIES];
 
-/// Words of a verdict; the first is 0, so that a verdict is 1 where sliding is stable.
+/// Words of a verdict; the first is 0, so that a verdict is 1 if sliding is stable.
 pub(super) const VERDICTS: VariableKind =
     VariableKind::Word { words: &["unstable", "stable"], unknown: "undecided" };
 
@@ -154,7 +154,7 @@ mod tests {
             let found = Quantity::named_for(quantity.kind, quantity.name, "--quantity");
             assert_eq!(found, Ok(quantity));
         }
-        let told = Quantity::named("stick_fraction", "--quantity").expect_err("an underscore");
-        assert_eq!(told.suggestion.as_deref(), Some("stick-fraction"));
+        let refused = Quantity::named("stick_fraction", "--quantity").expect_err("an underscore");
+        assert_eq!(refused.suggestion.as_deref(), Some("stick-fraction"));
     }
 }

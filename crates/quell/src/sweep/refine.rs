@@ -1,8 +1,8 @@
-//! Values of an axis, with further ones beside every predicted resonance of a disc.
+//! Values of an axis, with additional values near every predicted resonance of a disc.
 //!
-//! Tongues are as narrow as 10⁻⁵ in Ω, far below the steps of any map, and at ξ = 0 their edges are exactly marginal. An axis of
-//! the speed given by its ends gets, beside each place where waves meet, points on both sides at rising distances, and one at the peak
-//! of the predicted tongue. An axis given by its values is left as it is.
+//! Tongues are as narrow as 10⁻⁵ in Ω, far below the steps of any map, and at ξ = 0 their edges are exactly marginal. A
+//! speed axis given by its ends gets additional points on both sides of each meeting of waves, at increasing distances, and one at
+//! the peak of the predicted tongue. An axis given by its values is left unchanged.
 
 use quell_disc::resonance::{Resonance, Tongue, Waves};
 
@@ -11,7 +11,7 @@ use crate::study::{Axis, DiscStudy, Sweep};
 /// Distances from a meeting of waves, in Ω.
 const BESIDE: [f64; 4] = [1e-5, 1e-4, 1e-3, 4e-3];
 
-/// Points across a predicted tongue.
+/// Number of points across a predicted tongue.
 const ACROSS: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// The values of an axis.
@@ -32,7 +32,7 @@ pub(super) fn values(study: &DiscStudy, sweep: &Sweep) -> Vec<f64> {
     values
 }
 
-/// Points beside the resonances strictly between two speeds.
+/// Points near the resonances strictly between two speeds.
 fn beside(study: &DiscStudy, (from, to): (f64, f64)) -> Vec<f64> {
     let (low, high) = (from.min(to), from.max(to));
     let mut points = Vec::new();
@@ -48,7 +48,7 @@ fn beside(study: &DiscStudy, (from, to): (f64, f64)) -> Vec<f64> {
     points
 }
 
-/// Places where waves meet and something can come of it; none where the theory does not apply.
+/// Meetings of waves that can be unstable; none if the theory does not apply.
 fn resonances(study: &DiscStudy, low: f64, high: f64) -> Vec<Resonance> {
     let Ok(waves) = Waves::new(study.disc()) else { return Vec::new() };
     let mut found = waves.undithered(low..=high);

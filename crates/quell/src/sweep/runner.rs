@@ -1,4 +1,4 @@
-//! Computes chunks on threads, and can be stopped between them.
+//! Computes chunks on threads; can be stopped between chunks.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -9,34 +9,34 @@ use super::plan::Plan;
 use super::sheet::Data;
 use crate::complaint::Failure;
 
-/// Most threads that can be asked for.
+/// Largest number of threads that can be requested.
 pub const MOST_THREADS: usize = 1024;
 
-/// Who is told how far a map is.
+/// Receives the progress of a map.
 pub trait Progress: Sync {
-    /// The work begins: `points` in all, `there` of them from an earlier run.
+    /// The work begins: `points` in total, `there` of them from an earlier run.
     fn begin(&self, points: usize, there: usize);
-    /// So many more points are there.
+    /// More points are done.
     fn advance(&self, points: usize);
-    /// The work ends, done or not.
+    /// The work ends, complete or not.
     fn end(&self);
 }
 
-/// Nobody is told.
+/// Ignores progress.
 impl Progress for () {
     fn begin(&self, _points: usize, _there: usize) {}
     fn advance(&self, _points: usize) {}
     fn end(&self) {}
 }
 
-/// How a map is computed.
+/// Execution settings of a map.
 #[derive(Clone, Copy)]
 pub struct Running<'a> {
-    /// Number of threads; all there are where it is `None`.
+    /// Number of threads; `None` for all cores.
     pub threads: Option<usize>,
-    /// Set from outside to stop: chunks that run are finished, no other is begun.
+    /// Set from outside to stop: running chunks are finished, and no other is begun.
     pub stop: &'a AtomicBool,
-    /// Who is told how far it is.
+    /// Receives the progress.
     pub progress: &'a dyn Progress,
 }
 
@@ -57,11 +57,11 @@ impl Running<'_> {
     }
 }
 
-/// Computes the chunks `todo` of a plan in any order and hands each to `keep`, until it is
+/// Computes the chunks `todo` of a plan in any order and passes each to `keep`, until
 /// stopped.
 ///
 /// # Errors
-/// The first failure of `keep`, after which no other chunk is begun; or no threads.
+/// The first failure of `keep`, after which no other chunk is begun; or no thread could be started.
 pub(crate) fn run(
     plan: &Plan,
     todo: &[usize],
@@ -70,7 +70,7 @@ pub(crate) fn run(
 ) -> Result<(), Failure> {
     let pool = running.pool()?;
     pool.install(|| {
-        // One chunk at a time: whoever is free takes the next.
+        // One chunk at a time: the next free thread takes the next chunk.
         todo.par_iter().with_max_len(1).try_for_each(|&number| {
             if running.stop.load(Ordering::Relaxed) {
                 return Ok(());

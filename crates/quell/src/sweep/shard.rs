@@ -1,15 +1,15 @@
 //! One of several equal parts of a map.
 //!
-//! Shard k of n is the chunks k − 1, k − 1 + n, k − 1 + 2n, …: neighbours of a plane take about
-//! as long, so that every shard has its share of the slow ones. The chunks depend on the study
-//! alone, and so does what a shard is.
+//! Shard k of n consists of the chunks k − 1, k − 1 + n, k − 1 + 2n, …: neighbouring chunks take about
+//! the same time, so that every shard gets its share of the slow ones. Chunks depend on the study
+//! alone, and so do shards.
 
 use std::fmt;
 
 use super::chunks::Chunks;
 use crate::complaint::Complaint;
 
-/// Most shards of a map.
+/// Largest number of shards of a map.
 const MOST_SHARDS: usize = 1_000_000;
 
 /// Part `number` of `of` parts, counted from 1.
@@ -20,10 +20,10 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// Reads `3/16`, which the option `option` gave.
+    /// Parses the value `k/n` of the option `option`, such as `3/16`.
     ///
     /// # Errors
-    /// The complaint about anything else.
+    /// A complaint about any other text.
     pub fn parse(text: &str, option: &'static str) -> Result<Self, Box<Complaint>> {
         let parts = text.split_once('/').and_then(|(number, of)| {
             Some((number.trim().parse::<usize>().ok()?, of.trim().parse::<usize>().ok()?))
@@ -41,22 +41,22 @@ impl Shard {
         }
     }
 
-    /// Which one, from 1.
+    /// Its number, from 1.
     pub fn number(self) -> usize {
         self.number
     }
 
-    /// Of how many.
+    /// Number of shards.
     pub fn of(self) -> usize {
         self.of
     }
 
-    /// Its chunks, in order; none where there are more shards than chunks.
+    /// Its chunks in order; may be empty if there are more shards than chunks.
     pub fn chunks(self, chunks: &Chunks) -> Vec<usize> {
         (self.number - 1..chunks.len()).step_by(self.of).collect()
     }
 
-    /// The number of the shard, of as many as this one is of, that has chunk `chunk`.
+    /// The number of the shard that contains chunk `chunk`, for the same number of shards.
     pub fn number_of(self, chunk: usize) -> usize {
         chunk % self.of + 1
     }
@@ -93,6 +93,9 @@ mod tests {
         for text in ["", "3", "0/4", "5/4", "1/0", "-1/4", "1.5/4", "a/b", "1/2/3", "1/1000001"] {
             assert!(Shard::parse(text, "--shard").is_err(), "{text}");
         }
-        assert_eq!(Shard::parse(" 3/16 ", "--shard").map(|it| it.to_string()), Ok("3/16".into()));
+        assert_eq!(
+            Shard::parse(" 3/16 ", "--shard").map(|shard| shard.to_string()),
+            Ok("3/16".into())
+        );
     }
 }

@@ -1,8 +1,8 @@
-//! The arrays of a map: what each holds, and its values.
+//! The arrays of a map: their contents and values.
 //!
-//! Every variable gives an array of values, in a study in SI its twin in SI, and an array of
-//! states. Where a number is not known its state says why; the value is then a NaN that carries
-//! the code of the state, or the word for "unknown". The fill values (the plain NaN, 255) mean
+//! Every variable gives an array of values, in a study in SI a second one in SI, and an array of
+//! statuses. If a number is unknown, its status gives the reason, and the value is a NaN that carries
+//! the code of the status, or the word for "unknown". The fill values (the plain NaN, 255) mean
 //! "missing" and nothing else.
 
 use quell_model::units::{self, Scales};
@@ -13,10 +13,10 @@ use super::status::Status;
 use crate::quantity::unit_of;
 use crate::study::Study;
 
-/// Bits of the NaN that stands for an unknown number; the code of its state is added.
+/// Bits of the NaN for an unknown number, to which the code of its status is added.
 const UNKNOWN: u64 = 0x7ff8_0000_0000_0000;
 
-/// Code that stands for a word or state that is not computed yet.
+/// Code of a word or status that is not computed yet.
 pub const MISSING: u8 = Status::Missing.code();
 
 /// One array of a map.
@@ -24,17 +24,17 @@ pub const MISSING: u8 = Status::Missing.code();
 pub struct Field {
     /// Its name.
     pub name: String,
-    /// What it is, in one line.
+    /// Description in one line.
     pub about: String,
-    /// Unit; empty for words and states.
+    /// Unit; empty for words and statuses.
     pub unit: String,
-    /// What it holds.
+    /// Its contents.
     pub content: Content,
-    /// The array that holds the states of its values; none of an array of states.
+    /// The array with the statuses of its values; `None` for an array of statuses.
     pub status: Option<String>,
 }
 
-/// What an array holds.
+/// Contents of an array.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Content {
     /// Numbers.
@@ -48,7 +48,7 @@ pub enum Content {
 pub enum Data {
     /// Numbers.
     Numbers(Vec<f64>),
-    /// Codes of words or states.
+    /// Codes of words or statuses.
     Codes(Vec<u8>),
 }
 
@@ -61,7 +61,7 @@ impl Data {
         }
     }
 
-    /// Takes over value `from` of another array of the same kind as value `to`.
+    /// Copies value `from` of another array of the same kind to value `to`.
     pub fn take(&mut self, to: usize, other: &Self, from: usize) {
         match (self, other) {
             (Self::Numbers(values), Self::Numbers(others)) => values[to] = others[from],
@@ -89,18 +89,18 @@ impl Data {
     }
 }
 
-/// A variable with the places of its arrays.
+/// A variable with the indices of its arrays.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
     /// The variable.
     pub variable: Variable,
-    /// What it is computed from.
+    /// The computation that it needs.
     pub computation: Computation,
     /// Its values.
     pub value: usize,
     /// Its values in SI.
     pub twin: Option<usize>,
-    /// Its states.
+    /// Its statuses.
     pub status: usize,
 }
 
@@ -141,7 +141,7 @@ impl Sheet {
             });
             let states = variable.all_statuses(computation);
             let states = states.iter().map(|status| (status.code(), status.name())).collect();
-            let about = format!("state of {name}: known, or why it is not");
+            let about = format!("status of {name}: known, or why it is unknown");
             let content = Content::Codes(states);
             let name = format!("{name}_status");
             let status = sheet.add(name, &about, String::new(), content, None);
@@ -177,7 +177,7 @@ impl Sheet {
         self.fields.iter().map(|field| Data::missing(&field.content, points)).collect()
     }
 
-    /// The arrays of some points; `None` where the values of the axes make no valid study.
+    /// The arrays of some points; `None` where the axis values do not form a valid study.
     pub(super) fn fill(&self, points: &[Option<(Option<Scales>, Results)>]) -> Vec<Data> {
         let mut arrays = self.missing(0);
         for point in points {
@@ -200,7 +200,7 @@ impl Sheet {
                 arrays[entry.status].push(0.0, status.code());
                 if let Some(twin) = entry.twin {
                     let factor = scales.map_or(1.0, |scales| factor(entry.variable.kind, scales));
-                    // A NaN times a factor need not keep its code.
+                    // A NaN times a factor may lose its code.
                     let number = if status.has_number() { number * factor } else { number };
                     arrays[twin].push(number, 0);
                 }
@@ -210,12 +210,12 @@ impl Sheet {
     }
 }
 
-/// The number that stands for an unknown one.
+/// The NaN for an unknown number.
 fn unknown(status: Status) -> f64 {
     f64::from_bits(UNKNOWN | u64::from(status.code()))
 }
 
-/// The code that stands for an unknown word.
+/// The code of an unknown word.
 fn unknown_word(kind: VariableKind) -> u8 {
     match kind {
         VariableKind::Word { words, .. } => u8::try_from(words.len()).unwrap_or(MISSING),
@@ -227,7 +227,7 @@ fn unknown_word(kind: VariableKind) -> u8 {
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "words are few; of a number that is no word this code is not used"
+    reason = "there are few words; the code of a number that is not a word is not used"
 )]
 fn whole(value: f64) -> u8 {
     value as u8
@@ -246,7 +246,7 @@ fn unit(kind: VariableKind, si: bool) -> String {
 /// SI unit of a variable and the suffix for it.
 fn twin(kind: VariableKind) -> Option<(&'static str, &'static str)> {
     match kind {
-        // A displacement is in metres already.
+        // A displacement is already in metres.
         VariableKind::Number(units::Quantity::Displacement)
         | VariableKind::DiscRate
         | VariableKind::Word { .. } => None,
@@ -269,7 +269,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_unknown_is_not_what_is_missing() {
+    fn unknown_and_missing_numbers_differ() {
         for status in Status::ALL.iter().filter(|status| !status.has_number()) {
             let number = unknown(*status);
             assert!(number.is_nan() && number.to_bits() != f64::NAN.to_bits());

@@ -1,24 +1,24 @@
-//! Why a number of a map is there or not: the codes of `<quantity>_status`.
+//! Why a number of a map is known or unknown: the codes of `<quantity>_status`.
 //!
-//! Codes are fixed once published: stores keep them.
+//! Published codes never change, because stores keep them.
 
 use quell_dynamics::response::{Uncertain, Undefined};
 use quell_dynamics::start::NoSquealingStart;
 use quell_linear::averaging::AveragingError;
 
-/// State of one number of a map.
+/// Status of one number of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum Status {
-    /// The number is there.
+    /// The number is known.
     Known = 0,
-    /// The values of the axes make no valid study together.
+    /// The axis values together do not form a valid study.
     InvalidStudy = 1,
     /// The engine stopped.
     Stalled = 2,
-    /// A squealing start is asked for and there is no limit cycle.
+    /// A squealing start is requested, but no limit cycle exists.
     NoSquealingStart = 3,
-    /// The number came out infinite or not at all.
+    /// The number is infinite or NaN.
     NotFinite = 4,
     /// E: the undithered run settles to steady sliding.
     UnditheredSettles = 10,
@@ -26,9 +26,9 @@ pub enum Status {
     UnditheredAtRest = 11,
     /// Power and stroke: all dither is normal.
     OnlyNormalDither = 12,
-    /// E: where the undithered run ends is unknown.
+    /// E: the outcome of the undithered run is unknown.
     UnditheredUnknown = 13,
-    /// The effect: the vibration still changes within the record, and where the run ends does not decide.
+    /// The effect: the vibration still changes within the record, and the end of the run does not decide.
     StillChanging = 14,
     /// The effect: the record does not resolve what the dither changes.
     Unresolved = 15,
@@ -44,20 +44,20 @@ pub enum Status {
     NotFast = 24,
     /// A quadrature did not converge.
     NotConverged = 25,
-    /// There is no dither.
+    /// The study has no dither.
     NoDither = 26,
     /// No amplitude changes averaged stability.
     NeverChanges = 27,
     /// Averaged stability changes at one amplitude only.
     ChangesOnce = 28,
-    /// The number is there, but slip left the range of the friction law.
+    /// The number is known, but slip left the range of the friction law.
     BeyondRange = 29,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
 }
 
 impl Status {
-    /// Every state, in the order of their codes.
+    /// Every status, in the order of the codes.
     pub const ALL: &'static [Self] = &[
         Self::Known,
         Self::InvalidStudy,
@@ -88,12 +88,12 @@ impl Status {
         self as u8
     }
 
-    /// Whether the number is there.
+    /// Whether the number is known.
     pub const fn has_number(self) -> bool {
         matches!(self, Self::Known | Self::BeyondRange)
     }
 
-    /// The state with a code.
+    /// The status with a code.
     pub fn of_code(code: u8) -> Option<Self> {
         Self::ALL.iter().copied().find(|status| status.code() == code)
     }
@@ -126,16 +126,14 @@ impl Status {
         }
     }
 
-    /// What it means, in one sentence without its end.
+    /// Its meaning, in one sentence without the full stop.
     pub fn about(self) -> &'static str {
         match self {
-            Self::Known => "the value is there",
-            Self::InvalidStudy => "the values of the axes make no valid study together",
-            Self::Stalled => {
-                "the engine stopped: its steps became too small, or too many, to go on"
-            }
+            Self::Known => "the value is known",
+            Self::InvalidStudy => "the axis values together do not form a valid study",
+            Self::Stalled => "the integration stopped: its steps became too small or too many",
             Self::NoSquealingStart => {
-                "the start is to be squealing, and the undithered belt has no limit cycle here"
+                "the start is squealing, but the undithered belt has no limit cycle here"
             }
             Self::NotFinite => "the value is not finite",
             Self::UnditheredSettles => {
@@ -147,30 +145,29 @@ impl Status {
             }
             Self::UnditheredUnknown => "where the undithered run from this start ends is unknown",
             Self::StillChanging => {
-                "the vibration still changes within the record: settle for longer"
+                "the vibration still changes within the record: raise solver.settle"
             }
-            Self::Unresolved => "the dither changes the vibration by less than its record resolves",
+            Self::Unresolved => "the dither changes the vibration by less than the record resolves",
             Self::OnlyNormalDither => {
-                "all dither is normal: the model has no normal motion on which it could work"
+                "all dither is normal, and the model has no motion in the normal direction"
             }
             Self::WithinError => "the criterion is zero within its error",
             Self::AtCorner => {
-                "the belt is exactly as fast as the fast motion: stable for slower belts, unstable for \
-                 faster ones"
+                "the belt is exactly as fast as the fast motion: slower belts are stable, faster ones unstable"
             }
             Self::SetValued => {
-                "without slip and without fast motion friction takes any value up to the static level"
+                "without slip and fast motion, friction can take any value up to the static level"
             }
             Self::TooManyGroups => "too many incommensurate dithers for averaging",
             Self::NotFast => {
-                "the dither is not above resonance (R ≤ 1), as this averaging presumes"
+                "the dither is not above resonance (R ≤ 1), as this averaging requires"
             }
             Self::NotConverged => "an integral of the averaging did not reach its tolerance",
             Self::NoDither => "there is no dither",
             Self::NeverChanges => "no amplitude of the first dither changes averaged stability",
             Self::ChangesOnce => "averaged stability changes at one amplitude only, the lower one",
             Self::BeyondRange => {
-                "the value is there, but slip leaves the range of the friction law"
+                "the value is known, but slip leaves the range of the friction law"
             }
             Self::Missing => "not computed yet",
         }

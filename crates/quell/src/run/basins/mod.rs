@@ -1,16 +1,16 @@
-//! `basins`: the attractors that starts of a window of states end on, the share of each, and its curve over a parameter.
+//! `basins`: the attractors on which starts from a window of states end, the share of each, and the shares versus a parameter.
 //!
-//! | file | what |
+//! | file | contents |
 //! |---|---|
 //! | `starts` | the window and its starts: a grid or a random sample |
-//! | `share` | how large a basin is, and how sure that is |
-//! | `tell` | the outcome as sentence, JSON, datasets |
+//! | `share` | the size of a basin and its uncertainty |
+//! | `answer` | the outcome as sentences, JSON and datasets |
 
+mod answer;
 mod share;
 mod starts;
-mod tell;
 
-pub use tell::quiescence;
+pub use answer::quiescence;
 #[cfg(test)]
 mod tests;
 
@@ -37,40 +37,40 @@ use crate::sweep::Running;
 pub use share::Share;
 pub use starts::{Layout, MOST_STARTS, Starts, Window};
 
-/// Starts of one piece of work: enough to fill the lanes of a processor several times.
+/// Number of starts in a work item: enough to fill the SIMD lanes of a processor several times.
 const CHUNK: usize = 128;
 
-/// What is asked.
+/// Options of `basins`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BasinsRequest {
-    /// Displacements x of the window; from the belt where there is none.
+    /// Displacements x of the window; derived from the belt if `None`.
     pub displacement: Option<(f64, f64)>,
-    /// Velocities x′ of the window; from the belt where there is none.
+    /// Velocities x′ of the window; derived from the belt if `None`.
     pub velocity: Option<(f64, f64)>,
-    /// How starts are laid out.
+    /// Layout of the starts.
     pub layout: Layout,
-    /// A parameter over which the shares are followed.
+    /// A parameter to vary.
     pub over: Option<Range>,
 }
 
 /// The basins at one value of the parameter, or of the study as it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Portrait {
-    /// The parameter, where one is followed.
+    /// Value of the parameter, if one is varied.
     pub value: Option<f64>,
     /// Period of the section, τ.
     pub period: f64,
-    /// Whether the response of sliding is stable, whoever reaches it; or why that is not known.
+    /// Whether the base response is stable, whether or not any start reaches it; or why this is unknown.
     pub local: Result<OrbitVerdict, String>,
-    /// Attractors and where each start ends.
+    /// Attractors, and the attractor of each start.
     pub gathered: Gathered,
     /// The share of each attractor.
     pub shares: Vec<Share>,
-    /// Mass and stiffness there, of a study in SI: they may be what is followed.
+    /// Scales at this value, of a study in SI: mass and stiffness may be varied.
     pub scales: Option<Scales>,
     /// Whether responses of the dither's own period may vibrate in the band of slow vibration (R ≤ 1.9).
     pub in_band: bool,
-    /// The share of starts that end without a slow motion; none where no outcome is known. Its upper bound includes the starts
+    /// The share of starts that end without slow motion; `None` if no outcome is known. Its upper bound includes the starts
     /// of unknown outcome.
     pub quiet: Option<Share>,
     /// The share of starts of unknown outcome.
@@ -82,18 +82,18 @@ pub struct Portrait {
 pub struct Basins {
     /// The starts.
     pub starts: Starts,
-    /// The parameter that is followed.
+    /// The varied parameter.
     pub varied: Option<Varied>,
-    /// One for each value; one alone where no parameter is followed.
+    /// One portrait for each value; a single one without a parameter.
     pub portraits: Vec<Portrait>,
-    /// The slip that the starts meet in their first slow period and the attractors later.
+    /// The slip reached by the starts in their first slow period, and by the attractors.
     pub slip: SlipMet,
 }
 
-/// Runs every start until it has settled and gathers the ends.
+/// Runs every start until it has settled and groups the starts by attractor.
 ///
 /// # Errors
-/// Complaints about the question; [`Failure::Failed`] if there are no threads or the work is stopped.
+/// Complaints about the request; [`Failure::Failed`] if no thread can be started or the work is interrupted.
 pub fn run(
     study: &BeltStudy,
     question: &BasinsRequest,
@@ -121,8 +121,8 @@ pub fn run(
         }
     };
     for (_, study) in &studies {
-        let why = "on a belt at rest the mass may stay anywhere within the reach of friction, and these ends are \
-                   no separate attractors";
+        let why = "on a belt at rest any position inside the stick band is an equilibrium, so there are no \
+                   isolated attractors";
         moves(study, why)?;
     }
     let pool = running.pool()?;
@@ -134,7 +134,7 @@ pub fn run(
     Ok(Basins { starts, varied, portraits, slip })
 }
 
-/// The slip of the starts, side by side, and of the attractors.
+/// The slip reached by the starts, in one batch, and by the attractors.
 fn slip_met(
     studies: &[(Option<f64>, BeltStudy)],
     starts: &Starts,
@@ -154,17 +154,19 @@ fn slip_met(
     slip
 }
 
-/// Every value has every start, and all of them are kept.
+/// Limits the number of values times starts, because all outcomes are kept.
 fn all_of(varied: &Varied, starts: &Starts) -> Result<(), Failure> {
     let (values, starts) = (varied.values.len(), starts.states().len());
     if values.checked_mul(starts).is_some_and(|all| all <= MOST_STARTS) {
         return Ok(());
     }
-    let allowed = format!("such that values times starts ({starts}) are at most {MOST_STARTS}");
+    let allowed = format!(
+        "such that the number of values times the number of starts ({starts}) is at most {MOST_STARTS}"
+    );
     Err(Complaint::option("--points", values, allowed).into())
 }
 
-/// The portrait of each study. Chunks of starts are handed to whoever is free; each run depends on itself alone.
+/// The portrait of each study. Chunks of starts go to any free thread; the result of a run is independent of all others.
 fn portraits(
     studies: &[(Option<f64>, BeltStudy)],
     starts: &Starts,
@@ -245,7 +247,7 @@ impl Portrait {
         }
     }
 
-    /// Whether a start is known to end elsewhere than on the response of sliding.
+    /// Whether at least one start is known not to fall quiet.
     fn leaves(&self) -> bool {
         self.quiet
             .is_some_and(|share| share.starts + self.unknown.starts < self.gathered.labels.len())

@@ -1,9 +1,9 @@
-//! How large a share of the window a basin is, and between which bounds it lies.
+//! The share of the window that a basin covers, with bounds.
 //!
-//! A random sample of n starts of which k lie inside: k/n with the interval of Wilson (1927) at 95 %. A grid is no sample: each start
-//! stands for the cell about it, and the border of the basin runs somewhere between a start inside and its neighbour
-//! outside. A cell beside the border may lose or gain up to half of itself, and the bounds are the sums of
-//! these halves. A part of the basin that is smaller than a cell is not seen, and not bounded.
+//! For a random sample of n starts of which k are inside: k/n with the interval of Wilson (1927) at 95 %. A grid is not a
+//! sample: each start represents the cell around it, and the basin boundary runs somewhere between a start inside and its
+//! neighbour outside. A cell next to the boundary may lose or gain up to half of itself, and the bounds are the sums of
+//! these halves. A part of the basin that is smaller than a cell is missed, and not covered by the bounds.
 
 use super::starts::Layout;
 
@@ -26,7 +26,7 @@ pub struct Share {
 impl Share {
     /// The share of the starts for which `inside` holds.
     pub(super) fn of(layout: Layout, inside: &[bool]) -> Self {
-        let starts = inside.iter().filter(|it| **it).count();
+        let starts = inside.iter().filter(|holds| **holds).count();
         let count = inside.len().max(1) as f64;
         let fraction = starts as f64 / count;
         let (low, high) = match layout {
@@ -39,13 +39,13 @@ impl Share {
         Self { starts, fraction, low, high }
     }
 
-    /// The share of the starts that are `surely` inside, where others are only `perhaps`: the upper bound counts them in.
+    /// The share of the starts that are `surely` inside; the upper bound also counts those that are `perhaps` inside.
     pub(super) fn between(layout: Layout, surely: &[bool], perhaps: &[bool]) -> Self {
         let all: Vec<bool> = surely.iter().zip(perhaps).map(|(a, b)| *a || *b).collect();
         Self { high: Self::of(layout, &all).high, ..Self::of(layout, surely) }
     }
 
-    /// Half the distance of the bounds.
+    /// Half the distance between the bounds.
     pub fn error(self) -> f64 {
         0.5 * (self.high - self.low)
     }

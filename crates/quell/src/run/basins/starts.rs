@@ -6,24 +6,24 @@ use quell_model::Belt;
 use super::super::evenly;
 use crate::complaint::{Complaint, Complaints};
 
-/// Most starts of one portrait.
+/// Largest number of starts of one portrait.
 pub const MOST_STARTS: usize = 10_000_000;
 
-/// How starts are laid out in the window.
+/// Layout of the starts in the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
-    /// A grid from edge to edge, displacement running fastest: so many displacements and velocities.
+    /// A grid from edge to edge, displacement running fastest.
     Grid {
-        /// Displacements.
+        /// Number of displacements.
         columns: usize,
-        /// Velocities.
+        /// Number of velocities.
         rows: usize,
     },
-    /// So many states drawn evenly and independently.
+    /// States drawn uniformly and independently.
     Sample {
-        /// States.
+        /// Number of states.
         count: usize,
-        /// Which sample: the same seed gives the same states.
+        /// Seed of the sample: the same seed gives the same states.
         seed: u64,
     },
 }
@@ -34,7 +34,7 @@ impl Default for Layout {
     }
 }
 
-/// Displacements and velocities between which starts lie, in the numbers of the equations.
+/// Ranges of displacement and velocity of the starts, in the numbers of the equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     /// Least and largest displacement x, a length.
@@ -44,7 +44,8 @@ pub struct Window {
 }
 
 impl Window {
-    /// The window of a belt: about steady sliding, as far as friction holds the spring and half as fast again as the belt.
+    /// The window of a belt: centred on steady sliding, with a reach in x and x′ of the static friction force plus
+    /// 1.5 times the belt velocity.
     pub fn of(belt: &Belt) -> Self {
         let hold = belt.friction().static_coefficient() * belt.normal_load();
         let reach = 1.5f64.mul_add(belt.belt_velocity(), hold);
@@ -86,7 +87,7 @@ impl Starts {
                 let count = columns.checked_mul(rows);
                 if columns < 2 || rows < 2 || count.is_none_or(|count| count > MOST_STARTS) {
                     let allowed = format!(
-                        "NxM, two whole numbers from 2, at most {MOST_STARTS} starts, such as 41x31"
+                        "NxM, two whole numbers of at least 2 and at most {MOST_STARTS} starts in total, such as 41x31"
                     );
                     complaints.push(Complaint::option(
                         "--grid",
@@ -118,7 +119,7 @@ impl Starts {
         self.window
     }
 
-    /// How they are laid out.
+    /// The layout.
     pub fn layout(&self) -> Layout {
         self.layout
     }
@@ -156,8 +157,8 @@ fn states(window: Window, layout: Layout) -> Vec<Start> {
     }
 }
 
-/// A number of [0, 1) by SplitMix64 (Steele, Lea, Flood, 2014): a handful of lines whose bits no release of another package
-/// changes, so that a seed means the same starts for ever.
+/// A number in [0, 1) by SplitMix64 (Steele, Lea, Flood, 2014). Its few lines live here, so that no release of another
+/// package can change its bits and a seed always gives the same starts.
 fn uniform(state: &mut u64) -> f64 {
     *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
     let mut mixed = *state;
@@ -186,7 +187,7 @@ mod tests {
         let window = Window { displacement: (0.0, 1.0), velocity: (2.0, 3.0) };
         let states = states(window, Layout::Grid { columns: 3, rows: 2 });
         let pairs: Vec<(f64, f64)> =
-            states.iter().map(|it| (it.displacement, it.velocity)).collect();
+            states.iter().map(|start| (start.displacement, start.velocity)).collect();
         assert_eq!(pairs, [(0.0, 2.0), (0.5, 2.0), (1.0, 2.0), (0.0, 3.0), (0.5, 3.0), (1.0, 3.0)]);
     }
 }

@@ -1,4 +1,4 @@
-//! What is told where ends are not known.
+//! Answers where the outcome of starts is unknown.
 
 use quell_dynamics::attractor::{BasinsOfAttraction as Gathered, Unsettled};
 
@@ -7,7 +7,7 @@ use super::*;
 const STUDY: &str = "schema = 1\n[belt]\ndamping_ratio = 0.1\nnormal_load = 1\nbelt_velocity = 1\n\
     [friction]\nlaw = \"decreasing\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.3\nreference_velocity = 0.2\n";
 
-/// Where no end is known nothing is said about whether starts reach the quiet response.
+/// If no outcome is known, nothing is stated about whether starts reach the base response.
 #[test]
 fn unknown_ends_reach_nothing() {
     let labels = vec![BasinLabel::Unsettled(Unsettled::Moving); 3];
@@ -26,7 +26,7 @@ fn unknown_ends_reach_nothing() {
     };
     assert_eq!(
         portrait.sentence(),
-        "The base response is stable; the outcome of 3 starts is unknown."
+        "The outcome of 3 starts is unknown. The base response is stable."
     );
     let at = |value: f64| Portrait { value: Some(value), ..portrait.clone() };
     let range = Range { parameter: "belt.belt_velocity".into(), from: 1.0, to: 2.0, points: 2 };
@@ -39,8 +39,8 @@ fn unknown_ends_reach_nothing() {
         portraits: vec![at(1.0), at(2.0)],
         slip: SlipMet::default(),
     };
-    let told = found.sentence(&study);
-    assert!(told.ends_with(" the outcome of no start is known."), "{told}");
+    let sentence = found.sentence(&study);
+    assert!(sentence.ends_with(", the outcome of every start is unknown."), "{sentence}");
     let json = found.json(&study);
     for name in ["quiet_fraction", "quiet_fraction_low", "quiet_fraction_high"] {
         assert!(json["portraits"][0][name].is_null(), "{json}");
@@ -48,10 +48,10 @@ fn unknown_ends_reach_nothing() {
     }
     assert!(!found.dataset(&study).csv().contains("NaN"));
     portrait.local = Err("it was not found".to_owned());
-    assert_eq!(portrait.sentence(), "The outcome of 3 starts is unknown; it was not found.");
+    assert_eq!(portrait.sentence(), "The outcome of 3 starts is unknown. It was not found.");
 }
 
-/// Starts that may end anywhere are in the upper bound alone.
+/// Starts of unknown outcome count only towards the upper bound.
 #[test]
 fn unknown_ends_widen_the_share() {
     let layout = Layout::Sample { count: 4, seed: 1 };

@@ -1,9 +1,9 @@
 //! `bifurcation`: the response along a parameter, swept up and down with the state carried over.
 //!
-//! At each value the run goes on from where the last one ended (on a closed orbit from its exact state), until a growth rate says
-//! that it has settled. Sweeping down begins where sweeping up ended. Where the two differ, responses coexist.
+//! At each value the run continues from the end of the last one (on a closed orbit from its exact state) until a growth rate
+//! shows that it has settled. The downward sweep begins where the upward sweep ended. Where the two differ, responses coexist.
 
-mod tell;
+mod answer;
 
 use std::sync::atomic::Ordering;
 
@@ -24,13 +24,14 @@ use crate::sweep::Running;
 /// Relative difference of size beyond which the two directions show different responses.
 const APART: f64 = 0.02;
 
-/// The same relative to F, for responses without slow motion.
+/// The same limit relative to F, for responses without slow motion.
 const APART_AT_LEAST: f64 = 1e-4;
 
-/// Turns a period by which two closed curves differ at most to count as one: ten times what a steady record allows.
+/// Largest difference of rotation numbers (revolutions per period) of two closed curves that count as one: ten times the
+/// tolerance within a steady record.
 const TURN_ALIKE: f64 = 1e-4;
 
-/// What is asked.
+/// Options of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepRequest {
     /// The parameter and its values.
@@ -41,7 +42,7 @@ pub struct SweepRequest {
     pub down: bool,
 }
 
-/// Which way a parameter is swept.
+/// Direction of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Direction {
     /// To larger values.
@@ -65,15 +66,15 @@ impl Direction {
 pub struct Point {
     /// The parameter.
     pub value: f64,
-    /// Mass and stiffness there, of a study in SI: they may be what is varied.
+    /// Scales at this value, of a study in SI: mass and stiffness may be varied.
     pub scales: Option<Scales>,
     /// Period of the section, τ.
     pub period: f64,
     /// Whether responses of the dither's own period may vibrate in the band of slow vibration (R ≤ 1.9).
     pub in_band: bool,
-    /// Whether the response of sliding is stable here, whether or not the sweep is on it; or why that is not known.
+    /// Whether the base response is stable here, whether or not the sweep is on it; or why this is unknown.
     pub local: Result<OrbitVerdict, String>,
-    /// What the sweep is on; or why it has not settled.
+    /// The response that the sweep is on, or why it has not settled.
     pub response: Result<Attractor, Unsettled>,
     /// Periods until it had settled.
     pub periods: u64,
@@ -82,20 +83,20 @@ pub struct Point {
 /// A sweep in one direction, in the order of the sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Branch {
-    /// Which way.
+    /// Direction.
     pub direction: Direction,
     /// Its points.
     pub points: Vec<Point>,
 }
 
-/// Two neighbouring values of a branch at which the response is known, between which the quiet response is left or reached.
+/// Two neighbouring values of a branch with known responses, between which the sweep leaves or reaches quiescence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jump {
     /// The last value before.
     pub before: f64,
     /// The first value after.
     pub after: f64,
-    /// Whether the sweep is on the quiet response afterwards.
+    /// Whether the response is quiet afterwards.
     pub to_quiet: bool,
     /// Whether the dither lies in the band of slow vibration there.
     pub in_band: bool,
@@ -106,31 +107,31 @@ pub struct Jump {
 pub struct Bifurcation {
     /// The parameter and its values.
     pub varied: Varied,
-    /// The sweeps that were asked for, up before down.
+    /// The requested sweeps, up before down.
     pub branches: Vec<Branch>,
-    /// First and last value of each stretch in which the two directions show different responses; nothing is said where one of
-    /// them has not settled.
+    /// First and last value of each range in which the two directions show different responses. Values at which one of them
+    /// has not settled do not count.
     pub hysteresis: Vec<(f64, f64)>,
-    /// The slip that the responses meet.
+    /// The slip reached by the responses.
     pub slip: SlipMet,
 }
 
 /// Sweeps the belt of a study.
 ///
 /// # Errors
-/// Complaints about the question or the start; [`Failure::Failed`] if the engine stops or the work is stopped.
+/// Complaints about the request or the start; [`Failure::Failed`] if the engine stops or the work is interrupted.
 pub fn run(
     study: &BeltStudy,
     question: &SweepRequest,
     running: Running<'_>,
 ) -> Result<Bifurcation, Failure> {
     let varied = Varied::new(study, "--parameter", &question.range)?;
-    // Both where none is asked for.
+    // Both directions by default.
     let (up, down) =
         if question.up || question.down { (question.up, question.down) } else { (true, true) };
     let count = varied.values.len();
-    let asked = [(up, Direction::Up), (down, Direction::Down)].into_iter().filter(|it| it.0);
-    let directions: Vec<Direction> = asked.map(|it| it.1).collect();
+    let asked = [(up, Direction::Up), (down, Direction::Down)].into_iter().filter(|(on, _)| *on);
+    let directions: Vec<Direction> = asked.map(|(_, direction)| direction).collect();
     running.progress.begin(count * directions.len(), 0);
     let mut branches: Vec<Branch> = Vec::new();
     let mut state: Option<Start> = None;
@@ -165,7 +166,7 @@ pub fn run(
     Ok(Bifurcation { varied, branches, hysteresis, slip })
 }
 
-/// The response at one value, and the state with which the next one begins.
+/// The response at one value, and the state from which the next one starts.
 fn point(study: &BeltStudy, value: f64, begun: Start) -> Result<(Point, Start), Failure> {
     let scene = scene(study.belt())?;
     let patience = Patience { tolerance: study.solver().tolerance, ..Patience::SWEEP };
@@ -180,11 +181,11 @@ fn point(study: &BeltStudy, value: f64, begun: Start) -> Result<(Point, Start), 
     Ok((Point { value, scales, period, in_band, local, response, periods: settled.periods }, end))
 }
 
-/// Stretches in which both directions were swept and show different responses.
+/// Ranges in which both directions were swept and show different responses.
 fn hysteresis(study: &BeltStudy, branches: &[Branch]) -> Vec<(f64, f64)> {
     let [up, down] = branches else { return Vec::new() };
     let scale = study.belt().normal_load();
-    let mut stretches: Vec<(f64, f64)> = Vec::new();
+    let mut ranges: Vec<(f64, f64)> = Vec::new();
     let mut open = false;
     for (one, other) in up.points.iter().zip(down.points.iter().rev()) {
         let apart = match (&one.response, &other.response) {
@@ -196,20 +197,21 @@ fn hysteresis(study: &BeltStudy, branches: &[Branch]) -> Vec<(f64, f64)> {
             }
             _ => false,
         };
-        match (apart, stretches.last_mut()) {
+        match (apart, ranges.last_mut()) {
             (true, Some(last)) if open => last.1 = one.value,
-            (true, _) => stretches.push((one.value, one.value)),
+            (true, _) => ranges.push((one.value, one.value)),
             (false, _) => {}
         }
         open = apart;
     }
-    stretches
+    ranges
 }
 
-/// Whether two responses may be the same although their records have other sizes: closed curves that turn alike, or what is
-/// no closed orbit and no curve, whose record shows only a part of it.
+/// Whether two responses may be the same although their records differ in size: closed curves with the same rotation, or
+/// responses that are neither a closed orbit nor a curve, of which a record shows only a part.
 fn is_one_torus(one: &Attractor, other: &Attractor) -> bool {
-    let turns = |it: &Attractor| it.rotation.map(|rotation| rotation.turns_per_period);
+    let turns =
+        |attractor: &Attractor| attractor.rotation.map(|rotation| rotation.turns_per_period);
     match (one.kind, other.kind) {
         (AttractorKind::Unclassified, _) | (_, AttractorKind::Unclassified) => true,
         (AttractorKind::QuasiPeriodic, AttractorKind::QuasiPeriodic) => turns(one)
@@ -220,14 +222,14 @@ fn is_one_torus(one: &Attractor, other: &Attractor) -> bool {
 }
 
 impl Point {
-    /// Whether the sweep is on the response of sliding; none where it has not settled.
+    /// Whether the response is quiet; `None` if it has not settled.
     pub fn quiet(&self) -> Option<bool> {
         self.response.as_ref().ok().map(|attractor| attractor.quiet)
     }
 }
 
 impl Branch {
-    /// Where the quiet response is left or reached.
+    /// The jumps at which the sweep leaves or reaches quiescence.
     pub fn jumps(&self) -> Vec<Jump> {
         let known: Vec<(&Point, bool)> =
             self.points.iter().filter_map(|point| Some((point, point.quiet()?))).collect();

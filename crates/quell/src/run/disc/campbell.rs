@@ -9,13 +9,13 @@ use super::overflowed;
 use crate::complaint::Failure;
 use crate::study::DiscStudy;
 
-/// Speeds of the diagram.
+/// Number of speeds of the diagram.
 const SPEEDS: usize = 401;
 
-/// The diagram goes at least so far.
+/// Smallest upper end of the diagram.
 const LEAST_END: f64 = 1.0;
 
-/// Where the diagram of a study ends, so that its own speed is well inside.
+/// Upper end of the diagram of a study, so that its own speed is well inside.
 pub fn usual_end(study: &DiscStudy) -> f64 {
     LEAST_END.max(1.25 * study.disc().speed().abs())
 }
@@ -23,18 +23,18 @@ pub fn usual_end(study: &DiscStudy) -> f64 {
 /// Frequency and growth against speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Campbell {
-    /// Speeds Ω in ω_ref, rising.
+    /// Speeds Ω in ω_ref, ascending.
     pub speeds: Vec<f64>,
-    /// For each speed, (|Im ρ|, Re ρ) in ω_ref of every motion, no conjugates.
+    /// For each speed, (|Im ρ|, Re ρ) in ω_ref of every motion, without conjugates.
     pub motions: Vec<Vec<(f64, f64)>>,
-    /// For each speed, the largest growth rate under dither, in ω_ref; where there is dither.
+    /// For each speed, the largest growth rate under dither, in ω_ref; `None` without dither.
     pub dithered: Option<Vec<f64>>,
 }
 
-/// The diagram over 0 ≤ Ω ≤ `last`. Contributions that are switched off are on here.
+/// The diagram over 0 ≤ Ω ≤ `last`. Contributions that the study leaves out are included.
 ///
 /// # Errors
-/// [`Failure::Failed`] where numbers are so large that a matrix overflows.
+/// [`Failure::Failed`] if a matrix overflows.
 pub fn run(study: &DiscStudy, last: f64) -> Result<Campbell, Failure> {
     let failed = |why| overflowed("campbell", why);
     let speeds: Vec<f64> = (0..SPEEDS).map(|k| last * (k as f64 / (SPEEDS - 1) as f64)).collect();

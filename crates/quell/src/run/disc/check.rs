@@ -1,4 +1,4 @@
-//! `check` of a disc study: the study in numbers, once everything about it is right.
+//! `check` of a disc study: the numbers of a valid study.
 
 use quell_model::Direction;
 use quell_model::disc::DiscDither;
@@ -71,12 +71,12 @@ pub fn json(study: &DiscStudy) -> Json {
         put_both(&mut object["dither"], DITHER_FREQUENCY_RATIO, ratio, scales);
     }
     if study.title().is_none() {
-        object["why"] = json!({ "title": "the study gives none" });
+        object["why"] = json!({ "title": "the study has no title" });
     }
     object
 }
 
-/// Adds a number of the equations, and the same in SI under each key for that, where its size is known.
+/// Adds a number of the equations, and its value in SI under each SI key if its scale is known.
 fn put_both(object: &mut Json, parameter: Parameter, value: f64, scales: Option<DiscScales>) {
     object[parameter.key()] = value.into();
     let per_unit = scales.and_then(|scales| scales.si_per_unit(parameter.quantity));
@@ -87,7 +87,7 @@ fn put_both(object: &mut Json, parameter: Parameter, value: f64, scales: Option<
     }
 }
 
-/// Where the modes come from, in words.
+/// The source of the modes, as text.
 pub fn source(study: &DiscStudy) -> String {
     match study.source() {
         ModeSource::Plate(_) => "plate".to_owned(),

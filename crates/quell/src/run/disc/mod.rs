@@ -8,7 +8,7 @@ pub mod stability;
 
 use crate::complaint::Failure;
 
-/// A computation that the arithmetic could not carry through.
+/// The failure of a computation that overflowed.
 fn overflowed(key: &str, why: impl std::fmt::Display) -> Failure {
     Failure::Failed { key: key.to_owned(), why: why.to_string() }
 }

@@ -1,4 +1,4 @@
-//! `modes`: natural frequencies and shapes of the disc, and what critical speeds they make.
+//! `modes`: natural frequencies and shapes of the disc, and the critical speeds.
 
 use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
@@ -14,25 +14,25 @@ pub struct ModeRow {
     pub radial: usize,
     /// Nodal diameters q.
     pub diameters: usize,
-    /// k², where it is computed.
+    /// k², if computed.
     pub frequency_parameter: Option<f64>,
     /// β = ω/ω_ref.
     pub ratio: f64,
-    /// φ at the first load; where there is no load, at the edge.
+    /// φ at the first load; without a load, at the outer edge.
     pub shape_at_load: f64,
     /// ξ.
     pub damping: f64,
-    /// Frequency in hertz, where the study tells it.
+    /// Frequency in hertz, if the study defines ω_ref.
     pub frequency_hz: Option<f64>,
 }
 
 impl ModeRow {
-    /// Critical speed β/q in ω_ref; none without nodal diameters.
+    /// Critical speed β/q in ω_ref; `None` without nodal diameters.
     pub fn critical_speed(&self) -> Option<f64> {
         (self.diameters > 0).then(|| self.ratio / self.diameters as f64)
     }
 
-    /// The same in revolutions per minute.
+    /// Critical speed in revolutions per minute.
     pub fn critical_speed_rpm(&self) -> Option<f64> {
         let hertz = self.frequency_hz?;
         (self.diameters > 0).then(|| 60.0 * hertz / self.diameters as f64)
@@ -46,11 +46,11 @@ pub struct Modes {
     pub rows: Vec<ModeRow>,
     /// The mode with the lowest critical speed β/q.
     pub critical: Option<usize>,
-    /// k² of ω_ref, where modes are computed.
+    /// k² of ω_ref, if modes are computed.
     pub reference: Option<f64>,
-    /// ω_ref in hertz, where the study tells it.
+    /// ω_ref in hertz, if the study defines it.
     pub reference_hz: Option<f64>,
-    /// M_p in kg, where the study gives material and size.
+    /// M_p in kg, if the study gives material and size.
     pub plate_mass: Option<f64>,
 }
 
@@ -123,26 +123,25 @@ impl Modes {
             json!({ "radial": row.radial, "diameters": row.diameters })
         });
         let mut why = Map::new();
-        let mut told = |null: bool, key: &str, reason: &str| {
+        let mut explain = |null: bool, key: &str, reason: &str| {
             if null {
                 why.insert(key.to_owned(), reason.into());
             }
         };
-        let unlisted = "modes are given, not computed: no plate is known";
-        told(self.reference.is_none(), "modes[].frequency_parameter", unlisted);
-        told(self.reference.is_none(), "reference_frequency", unlisted);
-        let metal =
-            "the study gives no youngs_modulus_pa, density_kg_per_m3, thickness_m, outer_radius_m";
-        told(self.reference_hz.is_none(), "modes[].frequency_hz", metal);
-        told(self.reference_hz.is_none(), "modes[].critical_speed_rpm", metal);
-        told(self.reference_hz.is_none(), "reference_hz", metal);
-        told(self.plate_mass.is_none(), "plate_mass_kg", metal);
-        told(
+        let unlisted = "the modes are given, not computed from a plate";
+        explain(self.reference.is_none(), "modes[].frequency_parameter", unlisted);
+        explain(self.reference.is_none(), "reference_frequency", unlisted);
+        let metal = "the study does not give youngs_modulus_pa, density_kg_per_m3, thickness_m and outer_radius_m";
+        explain(self.reference_hz.is_none(), "modes[].frequency_hz", metal);
+        explain(self.reference_hz.is_none(), "modes[].critical_speed_rpm", metal);
+        explain(self.reference_hz.is_none(), "reference_hz", metal);
+        explain(self.plate_mass.is_none(), "plate_mass_kg", metal);
+        explain(
             self.rows.iter().any(|row| row.diameters == 0),
             "modes[].critical_speed",
-            "without nodal diameters there is no critical speed",
+            "a mode without nodal diameters has no critical speed",
         );
-        told(critical.is_none(), "critical_mode", "no mode has a nodal diameter");
+        explain(critical.is_none(), "critical_mode", "no mode has a nodal diameter");
         let mut object = json!({
             "ok": true,
             "modes": modes,
@@ -164,12 +163,12 @@ impl Modes {
         });
         if study.disc().loads().is_empty() {
             object["why"]["modes[].shape_at_load"] =
-                "without a load: shapes at the outer edge".into();
+                "the disc has no load, so the shape is given at the outer edge".into();
         }
         object
     }
 
-    /// As a dataset, one row a mode; as CSV it can be read back as a study's `modes_file`.
+    /// As a dataset, one row per mode; the CSV can be read back as `modes_file` of a study.
     pub fn dataset(&self, study: &DiscStudy) -> Dataset {
         let column = |of: &dyn Fn(&ModeRow) -> f64| self.rows.iter().map(of).collect::<Vec<f64>>();
         let number = (1..=self.rows.len()).map(|index| index as f64).collect();

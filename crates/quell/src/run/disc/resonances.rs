@@ -18,19 +18,19 @@ use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::dataset::{Array, Dataset};
 use crate::study::DiscStudy;
 
-/// What is asked of the resonances.
+/// Options of `resonances`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResonancesRequest {
-    /// Speeds between which meetings are listed.
+    /// Range of speeds in which meetings are listed.
     pub speeds: RangeInclusive<f64>,
-    /// How far the expansion goes.
+    /// Order of the expansion.
     pub order: Order,
-    /// A range of speeds to be kept clear, and the dither frequencies that may do it.
+    /// A range of speeds to be kept clear, and the range of dither frequencies to search.
     pub clear: Option<(RangeInclusive<f64>, RangeInclusive<f64>)>,
 }
 
 impl ResonancesRequest {
-    /// Checks what is asked: ends of ranges of speeds and of dither frequencies.
+    /// Checks the ends of the ranges of speeds and dither frequencies.
     ///
     /// # Errors
     /// Every complaint at once.
@@ -42,27 +42,27 @@ impl ResonancesRequest {
     ) -> Result<Self, Complaints> {
         let mut wrong = Vec::new();
         let mut range = |option, bounds: Bounds, (from, to): (f64, f64)| {
-            let told = || format!("{from}:{to}");
+            let given = || format!("{from}:{to}");
             if !(from.is_finite() && to.is_finite() && from <= to) {
-                let allowed = "two numbers of which the first is not larger";
-                wrong.push(Complaint::option(option, told(), allowed));
+                let allowed = "FROM:TO, two finite numbers, the first at most the second";
+                wrong.push(Complaint::option(option, given(), allowed));
             } else if !(bounds.contains(from) && bounds.contains(to)) {
-                let allowed = format!("a range whose ends are each {bounds}");
-                wrong.push(Complaint::option(option, told(), allowed));
+                let allowed = format!("a range with both ends {bounds}");
+                wrong.push(Complaint::option(option, given(), allowed));
             }
             from..=to
         };
         let speeds = range("--speeds", Bounds::FINITE, speeds);
-        let wanted = clear.map(|it| range("--clear", Bounds::FINITE, it));
+        let wanted = clear.map(|ends| range("--clear", Bounds::FINITE, ends));
         let frequencies =
-            frequency.map(|it| range("--frequency", DITHER_FREQUENCY_RATIO.bounds, it));
+            frequency.map(|ends| range("--frequency", DITHER_FREQUENCY_RATIO.bounds, ends));
         for (option, one, other) in
             [("--clear", clear, frequency.is_none()), ("--frequency", frequency, clear.is_none())]
         {
             if let Some((from, to)) = one
                 && other
             {
-                let allowed = "--clear and --frequency are given together";
+                let allowed = "--clear and --frequency must be given together";
                 let (origin, given) = (Origin::Argument(option), format!("{from}:{to}"));
                 wrong.push(Complaint::new(Fault::Conflict, option, origin, given, allowed));
             }
@@ -87,10 +87,10 @@ pub struct Clear {
     pub speeds: RangeInclusive<f64>,
     /// The frequencies searched.
     pub frequencies: RangeInclusive<f64>,
-    /// Intervals, and what blocks the rest.
+    /// Clear intervals, and the resonances that block the rest.
     pub clearance: Clearance,
-    /// The best frequency by the exact exponents, or where they cannot be computed the middle of the widest interval; and what
-    /// lies in the range of speeds there, original tongues as the second order has them.
+    /// The best frequency by the exact exponents, or the middle of the widest interval if they cannot be computed; and the
+    /// resonances in the range of speeds there, with the original tongues to second order.
     pub suggestion: Option<(f64, Vec<Nearby>)>,
     /// The largest growth rate of the exact equations at that frequency over the range of speeds.
     pub verified: Option<Verified>,
@@ -99,11 +99,11 @@ pub struct Clear {
 /// Resonances of a study's disc.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resonances {
-    /// What was asked.
+    /// The request.
     pub question: ResonancesRequest,
-    /// Meetings that need no dither.
+    /// Meetings without dither.
     pub undithered: Vec<Resonance>,
-    /// Meetings that the dither makes.
+    /// Meetings induced by dither.
     pub dithered: Vec<Resonance>,
     /// The answer about clear frequencies.
     pub clear: Option<Clear>,
@@ -112,16 +112,16 @@ pub struct Resonances {
 /// Resonances of a study's disc.
 ///
 /// # Errors
-/// A complaint where the theory does not apply (other than one load, negative friction, parts left out), where there is no dither
-/// whose frequency could be chosen, or where a wave grows by itself whatever the frequency.
+/// A complaint if the theory does not apply (not exactly one load, negative friction, parts left out), if the disc has no dither
+/// whose frequency could be chosen, or if a wave grows on its own at any frequency.
 pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances, Failure> {
     let refuse = |key: &str, why: String| {
         Failure::from(Complaint::new(Fault::Conflict, key, Origin::Whole, Json::Null, why))
     };
     if study.parts() != Contributions::ALL {
-        let told = study.without();
-        let allowed = "nothing: resonance theory is about the whole disc";
-        let complaint = Complaint::new(Fault::Value, "disc.without", Origin::Whole, told, allowed);
+        let given = study.without();
+        let allowed = "empty: resonance theory applies to the whole disc only";
+        let complaint = Complaint::new(Fault::Value, "disc.without", Origin::Whole, given, allowed);
         return Err(complaint.into());
     }
     let waves = Waves::new(study.disc()).map_err(|why| {
@@ -149,7 +149,7 @@ pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances,
                 clearance.clear.iter().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
             let verified = verified_frequency(study.disc(), &clearance, speeds.clone());
             let suggestion = widest.map(|[from, to]| {
-                let ratio = verified.map_or(0.5 * (from + to), |it| it.frequency_ratio);
+                let ratio = verified.map_or(0.5 * (from + to), |best| best.frequency_ratio);
                 let there = waves
                     .with_dither_frequency(ratio)
                     .map_err(|why| refuse("--frequency", why.to_string()))?;
@@ -169,7 +169,7 @@ pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances,
     })
 }
 
-/// Adds numbers in ω_ref of an object in hertz, under their names with `_hz`.
+/// Adds to an object its numbers in ω_ref converted to hertz, under their names with `_hz`.
 fn put_hertz(object: &mut Json, hertz: Option<f64>, names: &[&str]) {
     fn times(value: &Json, hertz: f64) -> Json {
         match value {
@@ -191,18 +191,18 @@ fn meeting(resonance: &Resonance, hertz: Option<f64>) -> Json {
     let edges = resonance.tongue.edges();
     if edges.is_none() {
         let reason = match resonance.tongue {
-            Tongue::WaveUnstable { .. } => "a wave of the pair grows, or is undamped, by itself",
-            _ => "there is no tongue at this friction",
+            Tongue::WaveUnstable { .. } => "one wave of the pair grows, or is undamped, on its own",
+            _ => "no tongue exists at this friction",
         };
         why.insert("edges".to_owned(), reason.into());
     }
     if resonance.tongue.peak_growth().is_none() {
-        let reason = "there is no tongue at this friction";
+        let reason = "no tongue exists at this friction";
         why.insert("peak_growth".to_owned(), reason.into());
     }
     if resonance.threshold.is_none() {
         let reason = if resonance.can_be_unstable() {
-            "no friction gives a tongue before a wave grows by itself"
+            "as friction rises, a wave grows on its own before a tongue appears"
         } else {
             "this meeting cannot be unstable at this order"
         };
@@ -241,13 +241,14 @@ fn blocked(block: &Blocked) -> Json {
 }
 
 impl Resonances {
-    /// As a dataset: one row a meeting; one that is induced by dither has a harmonic that is not 0.
+    /// As a dataset: one row per meeting; meetings induced by dither have a nonzero harmonic.
     pub fn dataset(&self, study: &DiscStudy) -> Dataset {
         let all: Vec<&Resonance> = self.undithered.iter().chain(&self.dithered).collect();
-        let column =
-            |of: &dyn Fn(&Resonance) -> f64| all.iter().map(|it| of(it)).collect::<Vec<_>>();
+        let column = |of: &dyn Fn(&Resonance) -> f64| {
+            all.iter().map(|resonance| of(resonance)).collect::<Vec<_>>()
+        };
         let edge = |side: usize| {
-            column(&move |it| it.tongue.edges().map_or(f64::NAN, |edges| edges[side]))
+            column(&move |resonance| resonance.tongue.edges().map_or(f64::NAN, |edges| edges[side]))
         };
         let none = f64::NAN;
         let number = (1..=all.len()).map(|index| index as f64).collect();
@@ -257,20 +258,24 @@ impl Resonances {
         }
         dataset
             .axis("meeting", Quantity::Count, number)
-            .with(Array::new("speed", "ω_ref", column(&|it| it.speed)))
-            .with(Array::new("harmonic", "1", column(&|it| f64::from(it.harmonic))))
+            .with(Array::new("speed", "ω_ref", column(&|resonance| resonance.speed)))
+            .with(Array::new("harmonic", "1", column(&|resonance| f64::from(resonance.harmonic))))
             .with(Array::new(
                 "can_be_unstable",
                 "1",
-                column(&|it| f64::from(u8::from(it.can_be_unstable()))),
+                column(&|resonance| f64::from(u8::from(resonance.can_be_unstable()))),
             ))
-            .with(Array::new("threshold", "1", column(&|it| it.threshold.unwrap_or(none))))
+            .with(Array::new(
+                "threshold",
+                "1",
+                column(&|resonance| resonance.threshold.unwrap_or(none)),
+            ))
             .with(Array::new("lower_edge", "ω_ref", edge(0)))
             .with(Array::new("upper_edge", "ω_ref", edge(1)))
             .with(Array::new(
                 "peak_growth",
                 "ω_ref",
-                column(&|it| it.tongue.peak_growth().unwrap_or(none)),
+                column(&|resonance| resonance.tongue.peak_growth().unwrap_or(none)),
             ))
     }
 
@@ -282,8 +287,8 @@ impl Resonances {
             "ok": true,
             "speeds": [start, end],
             "order": if self.question.order == Order::First { "first" } else { "second" },
-            "undithered": self.undithered.iter().map(|it| meeting(it, hertz)).collect::<Vec<_>>(),
-            "dithered": self.dithered.iter().map(|it| meeting(it, hertz)).collect::<Vec<_>>(),
+            "undithered": self.undithered.iter().map(|resonance| meeting(resonance, hertz)).collect::<Vec<_>>(),
+            "dithered": self.dithered.iter().map(|resonance| meeting(resonance, hertz)).collect::<Vec<_>>(),
             "units": {
                 "speed": "ω_ref", "edges": "ω_ref", "width": "ω_ref", "peak_growth": "ω_ref", "threshold": "1 (f*)",
             },
@@ -298,12 +303,12 @@ impl Resonances {
                 "blocked": clear.clearance.blocked.iter().map(blocked).collect::<Vec<_>>(),
                 "original_suppressed": clear.clearance.original_suppressed,
                 "suggestion": clear.suggestion.as_ref().map(|(ratio, _)| *ratio),
-                "verified_growth_rate": clear.verified.map(|it| it.growth.rate),
-                "verified": clear.verified.map(|it| json!({
-                    "verdict": it.growth.verdict().name(),
-                    "growth_rate": it.growth.rate,
-                    "growth_rate_error": it.growth.error,
-                    "speed": it.speed,
+                "verified_growth_rate": clear.verified.map(|verified| verified.growth.rate),
+                "verified": clear.verified.map(|verified| json!({
+                    "verdict": verified.growth.verdict().name(),
+                    "growth_rate": verified.growth.rate,
+                    "growth_rate_error": verified.growth.error,
+                    "speed": verified.speed,
                 })),
                 "units": {
                     "speeds": "ω_ref", "frequencies": "ω_ref", "clear": "ω_ref", "suggestion": "ω_ref",
@@ -313,13 +318,13 @@ impl Resonances {
             put_hertz(&mut inner, hertz, &["speeds", "frequencies", "clear", "suggestion"]);
             let mut why = Map::new();
             if clear.suggestion.is_none() {
-                why.insert("suggestion".to_owned(), "no frequency of the range is clear".into());
+                why.insert("suggestion".to_owned(), "no frequency in the range is clear".into());
             }
             if clear.verified.is_none() {
                 let reason = if clear.suggestion.is_none() {
-                    "no frequency of the range is clear"
+                    "no frequency in the range is clear"
                 } else {
-                    "exponents cannot be computed with such numbers"
+                    "the Floquet exponents could not be computed"
                 };
                 for name in ["verified_growth_rate", "verified"] {
                     why.insert(name.to_owned(), reason.into());

@@ -1,4 +1,4 @@
-//! `stability` of a disc: the largest growth rate with its error, the verdict they allow, and the frictions at which it changes.
+//! `stability` of a disc: the largest growth rate with its error, the verdict, and the frictions at which it changes.
 
 use quell_disc::boundaries::{Marginal, NoBoundary, boundaries};
 use quell_disc::dithered;
@@ -28,23 +28,23 @@ pub struct Change {
 /// Stability of a disc.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stability {
-    /// Of the disc as it is.
+    /// Growth of the disc as given.
     pub growth: Growth,
-    /// Of the same without dither.
+    /// Growth of the disc without dither.
     pub undithered: Growth,
     /// Every motion that grows by more than its error, the fastest first.
     pub unstable: Vec<Growth>,
-    /// Frictions of the load's own sign, ≥ 0 where it has none, at which a motion is marginal, the rest as given, ascending; or why
-    /// they are not known.
+    /// Frictions at which a motion is marginal, with everything else as given, ascending; or why they are unknown. They have the
+    /// sign of the load's own friction, and are ≥ 0 if that is zero.
     pub changes: Result<Vec<Change>, String>,
-    /// Whether a motion is out of the load's reach, and marginal at any friction.
+    /// Whether the load cannot reach some motion, which is then marginal at any friction.
     pub out_of_reach: bool,
 }
 
 /// Stability of a study's disc.
 ///
 /// # Errors
-/// [`Failure::Failed`] where numbers are so large that a matrix overflows.
+/// [`Failure::Failed`] if a matrix overflows.
 pub fn run(study: &DiscStudy) -> Result<Stability, Failure> {
     let (disc, parts) = (study.disc(), study.parts());
     let failed = |why| overflowed("stability", why);
@@ -58,7 +58,7 @@ pub fn run(study: &DiscStudy) -> Result<Stability, Failure> {
     };
     let (changes, out_of_reach) = match disc.dither() {
         _ if parts != Contributions::ALL => (
-            Err("they are reported for a whole disc, and parts of this one are left out".to_owned()),
+            Err("marginal frictions are computed for the whole disc only, and this study leaves parts out".to_owned()),
             false,
         ),
         DiscDither::None => still(study),
@@ -94,14 +94,15 @@ fn still(study: &DiscStudy) -> (Result<Vec<Change>, String>, bool) {
     }
 }
 
-/// What shows the boundaries that have no exact way.
-const MAP: &str = "`quell map` over disc.load.friction shows them for any";
+/// The alternative where no exact method gives the boundaries.
+const MAP: &str = "`quell map` over disc.load.friction shows the boundaries in every case";
 
 /// Boundaries under dither.
 fn shaken(study: &DiscStudy) -> Result<Vec<Change>, String> {
     let disc = study.disc();
-    // The partition tells factors on the friction: of one, not of none.
-    let unit = disc.with("disc.load.friction", 1.0).map_err(|_| "there is no load".to_owned())?;
+    // The partition gives factors of the friction, so start from 1, not from 0.
+    let unit =
+        disc.with("disc.load.friction", 1.0).map_err(|_| "the disc has no load".to_owned())?;
     let sign = sign_of_friction(study);
     let unit = if sign < 0.0 { unit.with_friction_times(-1.0).unwrap_or(unit) } else { unit };
     let found = crossings(&unit).map_err(|why| match why {
@@ -115,7 +116,7 @@ fn shaken(study: &DiscStudy) -> Result<Vec<Change>, String> {
     Ok(ascending(found.iter().map(change).collect()))
 }
 
-/// −1 where the first load's friction is negative, else 1.
+/// −1 if the first load's friction is negative, else 1.
 fn sign_of_friction(study: &DiscStudy) -> f64 {
     let friction = study.disc().loads().first().map_or(0.0, |load| load.friction);
     if friction < 0.0 { -1.0 } else { 1.0 }
@@ -135,7 +136,7 @@ fn put_si(object: &mut Json, hertz: f64, growth: &Growth) {
 }
 
 impl Stability {
-    /// What was found, in one sentence.
+    /// The result in one or two sentences.
     pub fn sentence(&self, study: &DiscStudy) -> String {
         let speed = study.disc().speed();
         let under = match study.disc().dither() {
@@ -146,14 +147,16 @@ impl Stability {
         let Growth { rate, error, .. } = self.growth;
         match self.growth.verdict() {
             Verdict::Stable => {
-                format!("at Ω = {speed} the disc is stable {under}: every motion decays")
+                format!("At Ω = {speed} ω_ref the disc is stable {under}: every motion decays.")
             }
             Verdict::Unstable => {
-                format!("at Ω = {speed} the disc is unstable {under}: some motion grows")
+                format!(
+                    "At Ω = {speed} ω_ref the disc is unstable {under}: at least one motion grows."
+                )
             }
             Verdict::Undecided => format!(
-                "at Ω = {speed} nothing can be decided {under}: the growth rate {rate:.1e} is zero within its error {error:.1e}; \
-                 such are whole lines of the map where the disc has no damping of its own"
+                "At Ω = {speed} ω_ref the stability of the disc {under} is undecided: the growth rate {rate:.1e} ω_ref is zero \
+                 within its error {error:.1e} ω_ref. Without damping of its own, a disc is undecided along whole lines of a map."
             ),
         }
     }
@@ -217,7 +220,7 @@ impl Stability {
                 object["speed_at_load_km_per_h"] = (3.6 * velocity).into();
             }
             if let Some(force) =
-                study.scales(0).and_then(|it| it.si_per_unit(Quantity::LoadFriction))
+                study.scales(0).and_then(|scales| scales.si_per_unit(Quantity::LoadFriction))
                 && let Some(changes) = object["changes"].as_array_mut()
             {
                 for change in changes {

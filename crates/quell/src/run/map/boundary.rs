@@ -1,7 +1,7 @@
-//! Where averaging says that a map's dither begins to quench, or to destabilise.
+//! The boundaries at which the dither of a map begins to quench, or to destabilise, according to averaging.
 //!
-//! Along a map with an axis `dither.amplitude`, the critical amplitudes of averaging at each value of the other
-//! axis, exact, not traced on the grid: D = αR with α from [`critical_amplitudes`].
+//! For a map with an axis `dither.amplitude`: the critical amplitudes of averaging at each value of the other
+//! axis. They are exact, not traced on the grid: D = αR with α from [`critical_amplitudes`].
 
 use quell_linear::averaging::{
     AveragingOptions, Becomes, CriticalAmplitude, FastResponse, critical_amplitudes,
@@ -16,17 +16,17 @@ const AMPLITUDE: &str = "dither.amplitude";
 /// One boundary of averaging in the plane of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundary {
-    /// αG, or the oscillator's own response ("sharper").
+    /// Model of the fast motion: αG, or the oscillator's own response ("sharper").
     pub response: FastResponse,
-    /// What sliding becomes when the amplitude grows through it.
+    /// The stability of sliding above this amplitude.
     pub becomes: Becomes,
     /// (value of the other axis, amplitude), in the order of that axis.
     pub points: Vec<(f64, f64)>,
 }
 
-/// The boundaries of averaging in a plane of two axes, the amplitude of the first dither one of
-/// them; empty for other planes. For each way of averaging the smallest positive amplitude that quenches,
-/// and the smallest that destabilises. Places where averaging says nothing are left out.
+/// The boundaries of averaging in a plane of two axes, one of which is the amplitude of the first dither;
+/// empty for other planes. For each averaging method, the smallest positive amplitude that quenches and
+/// the smallest that destabilises. Points without a result are left out.
 pub fn boundaries(grid: &Grid) -> Vec<Boundary> {
     let [first, second] = grid.axes() else {
         return Vec::new();
@@ -58,8 +58,8 @@ pub fn boundaries(grid: &Grid) -> Vec<Boundary> {
                 .filter_map(|(value, ratio, critical)| {
                     let alpha = critical
                         .iter()
-                        .map(|it| (it.amplitude_ratio, it.becomes))
-                        .find(|(alpha, it)| *alpha > 0.0 && *it == becomes)?
+                        .map(|critical| (critical.amplitude_ratio, critical.becomes))
+                        .find(|(alpha, change)| *alpha > 0.0 && *change == becomes)?
                         .0;
                     Some((*value, alpha * ratio))
                 })

@@ -1,4 +1,4 @@
-//! `map`: quantities over the axes of a study, computed, kept in a store, resumed.
+//! `map`: quantities over the axes of a study, computed, stored and resumed.
 
 mod boundary;
 mod outcome;
@@ -15,12 +15,12 @@ pub use boundary::{Boundary, boundaries};
 pub use outcome::{Extreme, Map, Summary};
 pub use shared::{Part, Sharded, Shared};
 
-/// Computes a map. With a store every finished chunk is kept there, and what it has already is
+/// Computes a map. With a store, every finished chunk is kept there, and chunks that it already has are
 /// not computed again.
 ///
 /// # Errors
-/// [`Failure::Failed`] where it was stopped, where the store could not be written, or where the
-/// store holds other bits than this program gives; the message says what is left.
+/// [`Failure::Failed`] if it was stopped, if the store could not be written, or if the
+/// store holds other bits than this program computes; the message states how much is left.
 pub fn run(plan: Plan, store: Option<&Store>, running: Running<'_>) -> Result<Map, Failure> {
     let begun = Instant::now();
     let points = plan.grid().len();
@@ -32,7 +32,7 @@ pub fn run(plan: Plan, store: Option<&Store>, running: Running<'_>) -> Result<Ma
         if let Some(store) = store {
             store.write(&plan, number, &values)?;
         }
-        // A thread that panicked here ends the program; what it left is not used.
+        // A panic of a thread here ends the program, so a poisoned lock holds no data in use.
         let mut shared = arrays.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         put(&plan, number, &values, &mut shared.0);
         shared.1 += 1;
@@ -49,17 +49,17 @@ pub fn run(plan: Plan, store: Option<&Store>, running: Running<'_>) -> Result<Ma
     }
 }
 
-/// What a store has of a map.
+/// The part of a map that a store already has.
 struct Earlier {
-    /// Chunks that are still to be computed.
+    /// Chunks still to be computed.
     todo: Vec<usize>,
-    /// Points that are there.
+    /// Points found in the store.
     resumed: usize,
-    /// Chunks that were there and are not what they were.
+    /// Damaged chunks found in the store.
     damaged: usize,
 }
 
-/// Reads what the store has.
+/// Reads the chunks of the store.
 fn earlier(plan: &Plan, store: Option<&Store>, arrays: &mut [Data]) -> Result<Earlier, Failure> {
     let mut earlier = Earlier { todo: Vec::new(), resumed: 0, damaged: 0 };
     for number in 0..plan.chunks().len() {
@@ -81,8 +81,8 @@ fn earlier(plan: &Plan, store: Option<&Store>, arrays: &mut [Data]) -> Result<Ea
     Ok(earlier)
 }
 
-/// Whether this program gives the bits that the store holds: one point of it is computed
-/// again. Versions are compared when a store is opened; this finds what has no version.
+/// Checks that this program gives the bits that the store holds, by computing one stored point
+/// again. Versions are compared when a store is opened; this finds differences without a version.
 fn same_program(plan: &Plan, store: &Store, number: usize, values: &[Data]) -> Result<(), Failure> {
     let first = plan.chunks().points(number).into_iter().take(1).map(|(_, index)| index);
     let again = plan.compute_points(first);
@@ -91,8 +91,8 @@ fn same_program(plan: &Plan, store: &Store, number: usize, values: &[Data]) -> R
     }
     Err(Failure::Failed {
         key: store.path().display().to_string(),
-        why: "this program gives other bits at a point than the store holds (another build of \
-              Quell made it): choose another name"
+        why: "this build of Quell computes a stored point with different bits (the store was made by another \
+              build): choose another name"
             .to_owned(),
     })
 }
@@ -111,13 +111,12 @@ fn stopped(store: Option<&Store>, left: usize, chunks: usize) -> Failure {
         Some(store) => Failure::Failed {
             key: store.path().display().to_string(),
             why: format!(
-                "stopped; {done} of {chunks} chunks are kept, {left} are left: the same command with \
-                 --resume goes on"
+                "stopped; {done} of {chunks} chunks kept, {left} left: the same command with --resume continues"
             ),
         },
         None => Failure::Failed {
             key: "map".to_owned(),
-            why: "stopped; nothing is kept: --save FILE.zarr keeps what is done, and --resume goes on"
+            why: "stopped; nothing was kept: --save FILE.zarr keeps finished chunks, and --resume continues"
                 .to_owned(),
         },
     }
@@ -128,8 +127,8 @@ fn interrupted(failure: Failure, store: Option<&Store>, left: usize, chunks: usi
         (Failure::Failed { key, why }, Some(_)) => Failure::Failed {
             key,
             why: format!(
-                "{why}; {} of {chunks} chunks are kept, {left} are left: once that is mended, the same \
-                 command with --resume goes on",
+                "{why}; {} of {chunks} chunks kept, {left} left: once the cause is fixed, the same command \
+                 with --resume continues",
                 chunks - left
             ),
         },

@@ -1,4 +1,4 @@
-//! A finished map: its numbers, what they come to, as JSON and as a dataset.
+//! A finished map: its numbers and their summary, as JSON and as a dataset.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -15,33 +15,33 @@ use crate::words::{in_words, plural};
 pub struct Map {
     pub(super) plan: Plan,
     pub(super) arrays: Vec<Data>,
-    /// Points that were in the store already.
+    /// Points that were already in the store.
     pub resumed: usize,
-    /// Chunks of the store that were damaged and done again.
+    /// Damaged chunks of the store that were recomputed.
     pub damaged: usize,
     /// How long it took.
     pub elapsed: Duration,
 }
 
-/// A value and the point where it is.
+/// A value and its point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {
-    /// The value, in SI where the study is.
+    /// The value, in SI if the study is in SI.
     pub value: f64,
     /// Values of the axes there.
     pub place: Vec<f64>,
 }
 
-/// What a variable comes to over the map.
+/// Summary of a variable over the map.
 #[derive(Clone, Debug)]
 pub struct Summary {
-    /// Smallest value; of equal ones the first. None of words, or where none is known.
+    /// Smallest value, the first of equal ones; `None` for words, or if no value is known.
     pub least: Option<Extreme>,
     /// Largest value.
     pub most: Option<Extreme>,
-    /// Points of each word, in the order of their codes; empty of numbers.
+    /// Number of points of each word, in the order of the codes; empty for numbers.
     pub words: Vec<(&'static str, usize)>,
-    /// Points of each state.
+    /// Number of points of each status.
     pub states: BTreeMap<Status, usize>,
 }
 
@@ -51,7 +51,7 @@ impl Map {
         &self.plan
     }
 
-    /// State of a variable at a point.
+    /// Status of a variable at a point.
     pub fn status(&self, entry: &Entry, point: usize) -> Status {
         match &self.arrays[entry.status] {
             Data::Codes(codes) => Status::of_code(codes[point]).unwrap_or(Status::Missing),
@@ -59,12 +59,12 @@ impl Map {
         }
     }
 
-    /// Number of a variable at a point, in the numbers of the equations; of a word its code.
+    /// Value of a variable at a point, in the numbers of the equations; for a word its code.
     pub fn number(&self, entry: &Entry, point: usize) -> Option<f64> {
         self.value(entry.value, entry, point)
     }
 
-    /// The same in SI, where the variable has a twin.
+    /// [`Map::number`] in SI, if the variable has an SI array.
     pub fn number_in_si(&self, entry: &Entry, point: usize) -> Option<f64> {
         self.value(entry.twin?, entry, point)
     }
@@ -77,12 +77,12 @@ impl Map {
         })
     }
 
-    /// The array whose numbers are told: in SI where the study is.
-    pub fn told(&self, entry: &Entry) -> usize {
+    /// The array of numbers to show: in SI if the study is in SI.
+    pub fn shown(&self, entry: &Entry) -> usize {
         entry.twin.unwrap_or(entry.value)
     }
 
-    /// What each variable comes to, in the order of the sheet's entries.
+    /// Summary of each variable, in the order of the sheet's entries.
     pub fn summaries(&self) -> Vec<Summary> {
         self.plan.sheet().entries().iter().map(|entry| self.summary(entry)).collect()
     }
@@ -92,11 +92,11 @@ impl Map {
         let mut states: BTreeMap<Status, usize> = BTreeMap::new();
         let mut least: Option<(f64, usize)> = None;
         let mut most = least;
-        let told = self.told(entry);
+        let shown = self.shown(entry);
         let numbers = self.plan.sheet().fields()[entry.value].content == Content::Numbers;
         for point in 0..grid.len() {
             *states.entry(self.status(entry, point)).or_default() += 1;
-            let Some(value) = self.value(told, entry, point).filter(|_| numbers) else {
+            let Some(value) = self.value(shown, entry, point).filter(|_| numbers) else {
                 continue;
             };
             if least.is_none_or(|(lowest, _)| value < lowest) {
@@ -125,7 +125,7 @@ impl Map {
         Summary { least: extreme(least), most: extreme(most), words, states }
     }
 
-    /// What a reader of the numbers should know.
+    /// Warnings about the result.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         let entries = self.plan.sheet().entries();
@@ -133,8 +133,9 @@ impl Map {
             let points = 0..self.plan.grid().len();
             let not = points.filter(|point| self.number(settled, *point) == Some(0.0)).count();
             if not > 0 {
+                let have = if not == 1 { "has" } else { "have" };
                 warnings.push(format!(
-                    "{not} of {} points have not settled (see `settled`): raise solver.settle or \
+                    "{not} of {} points {have} not settled (see `settled`): raise solver.settle or \
                      solver.record_periods",
                     self.plan.grid().len()
                 ));
@@ -142,16 +143,12 @@ impl Map {
         }
         warnings.extend(self.beyond_range());
         if self.damaged > 0 {
-            warnings.push(format!(
-                "{} chunks of the store were cut short or changed since they were written; they were \
-                 computed again",
-                self.damaged
-            ));
+            warnings.push(recomputed(self.damaged));
         }
         warnings
     }
 
-    /// Points at which slip leaves the range of the friction law.
+    /// A warning if slip leaves the range of the friction law at some points.
     fn beyond_range(&self) -> Option<String> {
         let entries = self.plan.sheet().entries();
         let points = 0..self.plan.grid().len();
@@ -162,9 +159,10 @@ impl Map {
         let study = self.plan.grid().study().belt().ok()?;
         let range = study.belt().friction().range().filter(|_| count > 0)?;
         let upper = in_words(&study, Quantity::Velocity, range.upper);
+        let have = if count == 1 { "has" } else { "have" };
         Some(format!(
-            "{count} of {} points have slip outside the range of the {} law, up to {upper} in the study itself ({}): \
-             their status is {}",
+            "{count} of {} points {have} slip outside the range of the {} law, up to {upper} for the study's own values \
+             ({}); the status there is {}",
             self.plan.grid().len(),
             study.belt().friction().kind().name(),
             range.limit,
@@ -237,7 +235,7 @@ impl Map {
         object.into()
     }
 
-    /// One value in JSON: a number, a word, or null where it is not known.
+    /// One value in JSON: a number, a word, or null if unknown.
     fn cell(&self, entry: &Entry, array: usize, point: usize, states: bool) -> Json {
         if states {
             return self.status(entry, point).name().into();
@@ -251,7 +249,7 @@ impl Map {
         }
     }
 
-    /// As a dataset: one row a point.
+    /// As a dataset: one row per point.
     pub fn dataset(&self) -> Dataset {
         let mut dataset = Dataset::of(self.plan.grid().study(), "map");
         for axis in self.plan.grid().axes() {
@@ -283,6 +281,15 @@ impl Map {
         }
         dataset
     }
+}
+
+/// The warning about damaged chunks of a store that were recomputed.
+pub(super) fn recomputed(chunks: usize) -> String {
+    let were = if chunks == 1 { "was" } else { "were" };
+    format!(
+        "recomputed {chunks} chunk{} of the store that {were} truncated or changed",
+        plural(chunks)
+    )
 }
 
 /// Why numbers of a variable are null, one sentence for all of them.

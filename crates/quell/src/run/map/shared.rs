@@ -1,13 +1,13 @@
-//! A map that several processes compute, on this or on other machines, into one store.
+//! A map that several processes, on one or more machines, compute into one store.
 //!
 //! ```text
 //! study, quantities → Plan ┐
 //! path of the store        ┴→ Shared: missing → compute some chunks → … → read the whole map
 //! ```
 //!
-//! The processes know of each other only by the store. Whoever hands out the chunks (shards of a
-//! Slurm array, a scheduler in Python) may hand out one twice, in any order, and lose workers: a
-//! chunk counts when its completion record is there, and has the same bytes whoever wrote it.
+//! The processes share nothing but the store. A scheduler (shards of a Slurm array, a scheduler in Python) may hand out
+//! chunks in any order, hand one out twice, and lose workers: a chunk counts once its completion record exists, and it
+//! has the same bytes for any writer.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -15,6 +15,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value as Json, json};
 
+use super::outcome::recomputed;
 use super::{Map, put, same_program};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::store::{Found, Store};
@@ -27,40 +28,40 @@ pub struct Shared {
     store: Store,
 }
 
-/// What a call of [`Shared::compute`] did.
+/// Result of a call of [`Shared::compute`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part {
-    /// Chunks that it computed.
+    /// Chunks computed.
     pub computed: usize,
-    /// Chunks that were in the store already, proven whole.
+    /// Chunks that were already in the store, verified.
     pub there: usize,
-    /// Of those computed, chunks that were in the store but damaged.
+    /// Number of computed chunks that were in the store but damaged.
     pub damaged: usize,
-    /// Points of the chunks that it computed.
+    /// Points of the computed chunks.
     pub points: usize,
-    /// How long it took.
+    /// Elapsed time.
     pub elapsed: Duration,
 }
 
-/// A shard that was computed, and what is left of the map.
+/// A computed shard, and the rest of the map.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sharded {
-    /// Which one.
+    /// The shard.
     pub shard: Shard,
     /// Number of its chunks.
     pub chunks: usize,
-    /// What was done.
+    /// Result of the computation.
     pub part: Part,
     /// Number of chunks of the whole map.
     pub map_chunks: usize,
-    /// Chunks of the whole map that are not there yet.
+    /// Chunks of the whole map that are not computed yet.
     pub left: usize,
-    /// The shards, of as many, that have them, rising.
+    /// Numbers of the shards that contain them, ascending.
     pub left_shards: Vec<usize>,
 }
 
 impl Sharded {
-    /// As JSON, beside the path of the store.
+    /// As JSON, with the path of the store.
     pub fn json(&self, path: &Path) -> Json {
         json!({
             "ok": true,
@@ -78,26 +79,24 @@ impl Sharded {
         })
     }
 
-    /// What a reader should know.
+    /// Warnings about the store.
     pub fn warnings(&self) -> Vec<String> {
         let damaged = self.part.damaged;
-        let told =
-            format!("{damaged} chunks of the store were cut short or changed, and done again");
-        if damaged > 0 { vec![told] } else { Vec::new() }
+        if damaged > 0 { vec![recomputed(damaged)] } else { Vec::new() }
     }
 }
 
 impl Shared {
-    /// Opens the store at `path`, or makes it. Any number of processes may do so at once.
+    /// Opens the store at `path`, or creates it. Any number of processes may do so at once.
     ///
     /// # Errors
-    /// The failures of [`Store::open_shared`]; [`Failure::Failed`] where the store holds other bits
-    /// at a point than this program gives.
+    /// The failures of [`Store::open_shared`]; [`Failure::Failed`] if the store holds other bits
+    /// at a point than this program computes.
     pub fn open(path: &Path, plan: Plan) -> Result<Self, Failure> {
         let store = Store::open_shared(path, &plan)?;
         let shared = Self { plan, store };
         let unrecorded = shared.store.unrecorded(&shared.plan)?;
-        // The first chunk that is not in this list of ascending numbers.
+        // The first chunk that is missing from this ascending list.
         let first = unrecorded.iter().enumerate().position(|(at, &chunk)| at != chunk);
         let first = first.unwrap_or(unrecorded.len());
         if first < shared.plan.chunks().len()
@@ -108,34 +107,34 @@ impl Shared {
         Ok(shared)
     }
 
-    /// What is computed; its chunks have the numbers from 0 to `plan().chunks().len()` − 1.
+    /// The plan; its chunks are numbered from 0 to `plan().chunks().len()` − 1.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// Chunks that the store does not have whole: every one that is recorded is read and proven.
-    /// On a network file system a chunk that another machine has just written may still be missing
-    /// here; to compute it again does no harm.
+    /// Chunks that are missing or damaged: every recorded chunk is read and verified.
+    /// On a network file system a chunk that another machine has just written may still appear missing;
+    /// computing it again does no harm.
     pub fn missing(&self) -> Vec<usize> {
         let whole = |&chunk: &usize| matches!(self.store.read(&self.plan, chunk), Found::Whole(_));
         (0..self.plan.chunks().len()).filter(|chunk| !whole(chunk)).collect()
     }
 
-    /// Chunks that have no completion record yet. Quick, for nothing is read; a chunk that was
-    /// damaged later is not noticed.
+    /// Chunks that have no completion record yet. Fast, because no chunk is read; later damage to a chunk
+    /// is not noticed.
     ///
     /// # Errors
-    /// [`Failure::Wrong`] where the records cannot be listed.
+    /// [`Failure::Wrong`] if the records cannot be listed.
     pub fn unrecorded(&self) -> Result<Vec<usize>, Failure> {
         self.store.unrecorded(&self.plan)
     }
 
-    /// Computes those of the given chunks that the store does not have whole, and keeps each as it
-    /// is done.
+    /// Computes the given chunks that are missing or damaged, and stores each as soon as it is
+    /// done.
     ///
     /// # Errors
-    /// [`Failure::Wrong`] where there is no chunk of a number; [`Failure::Failed`] where it was
-    /// stopped or the store could not be written. Chunks that were done by then are kept.
+    /// [`Failure::Wrong`] for an invalid chunk number; [`Failure::Failed`] if it was
+    /// stopped or the store could not be written. Chunks finished by then are kept.
     pub fn compute(&self, chunks: &[usize], running: Running<'_>) -> Result<Part, Failure> {
         self.known(chunks)?;
         let begun = Instant::now();
@@ -179,7 +178,7 @@ impl Shared {
         }
     }
 
-    /// Computes a shard: [`Shared::compute`] of its chunks, and a look at what is left.
+    /// Computes the chunks of a shard with [`Shared::compute`], and lists the rest of the map.
     ///
     /// # Errors
     /// Those of [`Shared::compute`] and [`Shared::unrecorded`].
@@ -198,7 +197,7 @@ impl Shared {
     /// Reads the whole map back.
     ///
     /// # Errors
-    /// [`Failure::Failed`] where chunks are missing; the message says how many.
+    /// [`Failure::Failed`] if chunks are missing; the message states how many.
     pub fn read(&self) -> Result<Map, Failure> {
         let begun = Instant::now();
         let points = self.plan.grid().len();
@@ -218,12 +217,12 @@ impl Shared {
         let chunks = self.plan.chunks().len();
         let changed = match damaged {
             0 => String::new(),
-            damaged => format!(", and {damaged} were cut short or changed"),
+            damaged => format!(", and {damaged} are truncated or changed"),
         };
         Err(self.failed(format!("{missing} of {chunks} chunks are not computed yet{changed}")))
     }
 
-    /// Where the store is.
+    /// Path of the store.
     pub fn path(&self) -> &Path {
         self.store.path()
     }
@@ -233,7 +232,7 @@ impl Shared {
         let unknown = chunks.iter().filter(|&&chunk| chunk >= count);
         let complaints: Vec<Complaint> = unknown
             .map(|&chunk| {
-                let allowed = format!("the number of a chunk, 0 to {}", count - 1);
+                let allowed = format!("a chunk number from 0 to {}", count - 1);
                 Complaint::new(Fault::Value, "chunk", Origin::Whole, chunk, allowed)
             })
             .collect();
@@ -243,8 +242,7 @@ impl Shared {
     fn incomplete(&self, why: &str, left: usize, chunks: usize) -> Failure {
         let done = chunks - left;
         self.failed(format!(
-            "{why}; {done} of the {chunks} chunks asked for are kept, {left} are left: the same \
-             command again goes on"
+            "{why}; {done} of the {chunks} requested chunks kept, {left} left: run it again to continue"
         ))
     }
 
@@ -322,7 +320,7 @@ mod tests {
         fs::write(path.join("growth/c/0/0"), "short").expect("damaged");
         assert!(shared.missing().contains(&0) && !shared.missing().contains(&1));
         let stopped = shared.compute(&[0, 1, 2], running(&stop)).expect_err("stopped").to_string();
-        assert!(stopped.contains("1 of the 3 chunks asked for are kept, 2 are left"), "{stopped}");
+        assert!(stopped.contains("1 of the 3 requested chunks kept, 2 left"), "{stopped}");
         assert_eq!(shared.compute(&[0], running(&go)).expect("computed").damaged, 1);
         let wrong = shared.compute(&[0, 1_000_000], running(&go)).expect_err("no such chunk");
         assert!(wrong.to_string().contains("1000000"), "{wrong}");

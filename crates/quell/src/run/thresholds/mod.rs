@@ -1,5 +1,5 @@
-//! `thresholds`: values of a parameter at which the response changes: local ones by Floquet multipliers, and for runs
-//! from given starts the values at which dither begins or ceases to quench. `tell` says it in sentences.
+//! `thresholds`: values of a parameter at which the response changes: local thresholds by Floquet multipliers, and for runs
+//! from given starts the values at which dither begins or ceases to quench. `answer` puts them into sentences.
 
 use quell_dynamics::attractor::{
     AttractorSettings, Reached, StroboscopicSection, Switches, ramped, switches,
@@ -17,7 +17,7 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::attractor::unknown;
-use super::orbit::refused;
+use super::orbit;
 use super::protocol::Protocol;
 use super::varied::{Named, ascending, key_of};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
@@ -27,77 +27,77 @@ use crate::quantity::bearable;
 use crate::range::SlipMet;
 use crate::study::document::given_number;
 use crate::study::{BeltStudy, InitialState};
-use crate::words::{digits, in_words};
+use crate::words::{digits, in_words, plural};
 
-mod tell;
+mod answer;
 
-/// Least number of values between which an orbit is followed.
+/// Minimum number of continuation steps over the range.
 const STEPS: u32 = 40;
 
-/// Equal steps between values that are tried of a start; changes between two of them that cancel each other are not seen.
+/// Equal steps between the values tried for a start; two changes between neighbouring values that cancel are missed.
 pub const TRIED: u32 = 40;
 
-/// Relative closeness of a protocol's threshold.
+/// Relative tolerance of the threshold of a protocol.
 const CLOSENESS: f64 = 1e-5;
 
-/// What is asked.
+/// Options of `thresholds`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ThresholdsRequest {
-    /// Path of the parameter; its key in SI in a study in SI too.
+    /// Path of the parameter; an SI key is allowed in a study in SI.
     pub parameter: String,
     /// First value, in the unit of that key.
     pub from: f64,
     /// Last value, above the first.
     pub to: f64,
-    /// Protocols besides the local thresholds.
+    /// Protocols to run in addition to the local thresholds.
     pub protocols: Vec<Protocol>,
-    /// Time τ over which the dither of a protocol grows from nothing, in steps of its period; 0 switches it on.
+    /// Time τ over which the dither of a protocol is ramped up from zero, in steps of its period; 0 switches it on at once.
     pub ramp: f64,
 }
 
 /// The thresholds of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thresholds {
-    /// What was asked, in numbers of the equations.
+    /// The request, in numbers of the equations.
     pub question: ThresholdsRequest,
-    /// By multipliers, with the branch of responses on which they lie.
+    /// Thresholds by multipliers, with the branch of responses that contains them.
     pub local: Local,
-    /// Why there is no base response at the first value, where runs alone are judged.
+    /// Why no base response exists at the first value, if only runs are judged.
     pub no_base: Option<NoOrbit>,
-    /// Whether a base response exists at the last value although this branch ends before it.
+    /// Whether a base response exists at the last value although the branch ends before it.
     pub resumes: bool,
-    /// By runs from a start.
+    /// Thresholds by runs from each start.
     pub protocols: Vec<(Protocol, Switches)>,
-    /// The slip that the responses meet at both ends and at the thresholds, and the runs at their beginning.
+    /// The slip reached by the responses at both ends and at the thresholds, and by the runs at their beginning.
     pub slip: SlipMet,
     /// Whether responses of the dither's own period may vibrate in the band of slow vibration (R ≤ 1.9), somewhere in the range.
     pub in_band: bool,
 }
 
-/// The key of a number of the equations, in SI where the study is.
+/// The key of a number of the equations, in SI if the study is in SI.
 pub fn path_in_words(study: &BeltStudy, path: &str) -> String {
     key_of(study, path)
 }
 
-/// A value of a number of the equations, in SI where the study is.
+/// A value of a number of the equations, in SI if the study is in SI.
 pub fn value_in_words(study: &BeltStudy, path: &str, value: f64) -> String {
     if study.scales().is_none() {
         return value.to_string();
     }
     match quantity_of(study, path) {
-        // Its path says ζ, whatever key the study has.
+        // The path names ζ for any key that the study uses.
         Quantity::DampingRatio => digits(value),
         quantity => in_words(study, quantity, value),
     }
 }
 
-/// What a number of the equations measures.
+/// The quantity of a number of the equations.
 pub fn quantity_of(study: &BeltStudy, path: &str) -> Quantity {
     study.belt().parameter(path).map_or(Quantity::Ratio, |parameter| parameter.quantity)
 }
 
-/// Why there are no thresholds, as it is told.
-pub(super) fn told(
+/// The failure that reports why there are no thresholds.
+pub(super) fn refused(
     study: &BeltStudy,
     why: NoThresholds,
     path: &str,
@@ -107,24 +107,24 @@ pub(super) fn told(
     let words = |value: f64| value_in_words(study, path, value);
     match why {
         NoThresholds::Invalid { value } => {
-            Complaint::option(option, words(value), format!("values that {key} can take")).into()
+            Complaint::option(option, words(value), format!("a value that {key} can take")).into()
         }
         NoThresholds::Start(why) if why.is_absence() || is_lost(why) => Failure::Failed {
             key: "thresholds".to_owned(),
             why: format!(
-                "{} at the first value: begin where there is a base response, or ask for runs (--from-rest, --from-squeal, …)",
+                "{} at the first value: begin where a base response exists, or request runs (--from-rest, --from-squeal, …)",
                 unknown(&why)
             ),
         },
-        NoThresholds::Start(why) => refused(why),
+        NoThresholds::Start(why) => orbit::refused(why),
         NoThresholds::Lost { at } => Failure::Failed {
             key: "thresholds".to_owned(),
-            why: format!("the response was lost beyond {key} = {}", words(at)),
+            why: format!("the continuation lost the response beyond {key} = {}", words(at)),
         },
     }
 }
 
-/// The question in numbers of the equations.
+/// The request in numbers of the equations.
 ///
 /// # Errors
 /// Every complaint about it at once.
@@ -140,7 +140,7 @@ fn understood(
     wrong.extend(ascending(from, to).err().map(|complaint| *complaint));
     wrong.extend(bearable(ramp, given_number(ramp), "--ramp").err().map(|complaint| *complaint));
     if ramp > 0.0 && question.protocols.is_empty() {
-        let allowed = "given together with --from-rest, --from-sliding, --from-squeal or --start: it is the dither of their runs";
+        let allowed = "requires --from-rest, --from-sliding, --from-squeal or --start: it ramps up the dither of those runs";
         let origin = Origin::Argument("--ramp");
         wrong.push(Complaint::new(Fault::Conflict, "--ramp", origin, ramp, allowed));
     }
@@ -152,14 +152,14 @@ fn understood(
     Ok(ThresholdsRequest { parameter: named.path, from, to, ..question })
 }
 
-/// Refuses a first value at which the belt is at rest: there is no steady sliding to continue from.
+/// Rejects a first value at which the belt is at rest: no steady sliding exists to continue from.
 fn slides(study: &BeltStudy, named: &Named, from: f64) -> Result<(), Box<Complaint>> {
     let belt = study.belt();
     let at_rest = |belt: &quell_model::Belt| belt.belt_velocity() == 0.0;
     if !belt.with(&named.path, named.of(from)).is_ok_and(|first| at_rest(&first)) {
         return Ok(());
     }
-    let why = "thresholds are those of the response that is continued from steady sliding, and a belt at rest has none; \
+    let why = "thresholds are computed for the response continued from steady sliding, which a belt at rest does not have; \
                `orbit`, `response` and `bifurcation` start from rest";
     let allowed = format!("such that the belt moves: {why}");
     Err(Box::new(if at_rest(belt) {
@@ -173,7 +173,7 @@ fn slides(study: &BeltStudy, named: &Named, from: f64) -> Result<(), Box<Complai
 /// Thresholds of a study's belt.
 ///
 /// # Errors
-/// A complaint about the parameter or its range; [`Failure::Failed`] where there is no response to begin with.
+/// A complaint about the parameter or its range; [`Failure::Failed`] if no response exists at the beginning.
 pub fn run(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, Failure> {
     within(STEPS_OF_MANY_SEARCHES, || found(study, question))
 }
@@ -185,13 +185,13 @@ fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, F
     let (from, to) = (question.from, question.to);
     let (local, no_base) = match local(belt, path, from, to, STEPS) {
         Ok(local) => (local, None),
-        // Runs have ends without a base response too.
+        // Runs have an outcome even without a base response.
         Err(NoThresholds::Start(why))
             if !question.protocols.is_empty() && (why.is_absence() || is_lost(why)) =>
         {
             (Local::nowhere(from), Some(why))
         }
-        Err(why) => return Err(told(study, why, path, "--from")),
+        Err(why) => return Err(refused(study, why, path, "--from")),
     };
     let last = belt.with(path, to).ok();
     let resumes = local.ending != BranchEnding::Covered
@@ -209,33 +209,33 @@ fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, F
                 }
                 Err(NoSquealingStart::Stalled(why)) => return Err(NoOrbit::Stalled(why)),
             };
-            // Without dither there is nothing to grow.
+            // Without dither there is nothing to ramp up.
             match ramped(belt, start, question.ramp) {
                 Err(NoOrbit::NoDither) => Ok(Some(start)),
                 ramped => ramped.map(Some),
             }
         };
         let found = switches(belt, path, (from, to), TRIED, CLOSENESS, start)
-            .map_err(|why| told(study, why, path, "--from"))?;
+            .map_err(|why| refused(study, why, path, "--from"))?;
         protocols.push((protocol, found));
     }
     let slip = slip_met(study, &question, &local, &protocols);
     let reaches = |value: f64| {
         let belt = belt.with(path, value).ok();
         belt.and_then(|belt| StroboscopicSection::of(&belt).ok())
-            .is_some_and(|it| it.reaches_the_band())
+            .is_some_and(|section| section.reaches_the_band())
     };
     let in_band = reaches(from) || reaches(to);
     Ok(Thresholds { question, local, no_base, resumes, protocols, slip, in_band })
 }
 
-/// Whether the base response could not be followed, rather than that it does not exist.
+/// Whether the continuation lost the base response, as opposed to its not existing.
 fn is_lost(why: NoOrbit) -> bool {
     matches!(why, NoOrbit::LostOnTheWay { .. })
 }
 
-/// The slip of the responses at the thresholds, of steady sliding at both ends, and of the runs of protocols there and at
-/// their switches.
+/// The slip reached by the responses at the thresholds, by steady sliding at both ends, and by the runs of protocols there and
+/// at their switches.
 fn slip_met(
     study: &BeltStudy,
     question: &ThresholdsRequest,
@@ -267,7 +267,8 @@ fn slip_met(
     slip
 }
 
-/// What runs do beyond a switch. A dither in the band of the vibration itself is no end of it: runs fall into step with it or not.
+/// The outcome of runs beyond a switch. A dither in the band of the vibration itself cannot quench it: runs fall into step with
+/// the dither or not.
 pub fn becomes(reached: Reached, in_band: bool) -> &'static str {
     match (reached, in_band) {
         (Reached::Base | Reached::Forced, false) => "quenched",
@@ -279,7 +280,7 @@ pub fn becomes(reached: Reached, in_band: bool) -> &'static str {
     }
 }
 
-/// The verdict on one side of a threshold; "none" where this response does not exist there.
+/// The verdict on one side of a threshold; "none" if this response does not exist there.
 pub fn side(verdict: Option<quell_dynamics::orbit::OrbitVerdict>) -> &'static str {
     verdict.map_or("none", quell_dynamics::orbit::OrbitVerdict::name)
 }
@@ -290,27 +291,27 @@ impl Thresholds {
         let question = &self.question;
         let quantity = quantity_of(study, &question.parameter);
         let object = || Fields::new(study.scales());
-        let local = self.local.thresholds.iter().map(|it| {
+        let local = self.local.thresholds.iter().map(|threshold| {
             let mut inner = object();
             inner
-                .number("value", quantity, it.value)
-                .number("error", quantity, it.error)
-                .plain("kind", it.kind.name())
-                .plain("was", side(it.was))
-                .plain("becomes", side(it.becomes))
-                .number("displacement", Quantity::Displacement, it.state.displacement)
-                .number("velocity", Quantity::Velocity, it.state.velocity);
+                .number("value", quantity, threshold.value)
+                .number("error", quantity, threshold.error)
+                .plain("kind", threshold.kind.name())
+                .plain("was", side(threshold.was))
+                .plain("becomes", side(threshold.becomes))
+                .number("displacement", Quantity::Displacement, threshold.state.displacement)
+                .number("velocity", Quantity::Velocity, threshold.state.velocity);
             inner
         });
         let words = |signature: Option<&Signature>| {
             signature.map_or_else(|| "none".to_owned(), Signature::words)
         };
-        let changes = self.local.changes.iter().map(|it| {
+        let changes = self.local.changes.iter().map(|change| {
             let mut inner = object();
             inner
-                .number("value", quantity, it.value)
-                .plain("below", words(it.below.as_ref()))
-                .plain("above", words(it.above.as_ref()));
+                .number("value", quantity, change.value)
+                .plain("below", words(change.below.as_ref()))
+                .plain("above", words(change.above.as_ref()));
             inner
         });
         let mut fields = object();
@@ -330,12 +331,12 @@ impl Thresholds {
         let mut first = object();
         for (protocol, switches) in &self.protocols {
             first.plain(protocol.name(), becomes(switches.first, self.in_band));
-            let switches = switches.changes.iter().map(|it| {
+            let switches = switches.changes.iter().map(|switch| {
                 let mut inner = object();
                 inner
-                    .number("value", quantity, it.value)
-                    .number("error", quantity, it.error)
-                    .plain("becomes", becomes(it.becomes, self.in_band));
+                    .number("value", quantity, switch.value)
+                    .number("error", quantity, switch.error)
+                    .plain("becomes", becomes(switch.becomes, self.in_band));
                 inner
             });
             fields.list(protocol.name(), switches);
@@ -347,35 +348,35 @@ impl Thresholds {
         fields.finish()
     }
 
-    /// Values at which it is not known where runs end, in words.
+    /// Warnings, among them values at which the outcome of runs is unknown.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let given = &self.question.parameter;
         let path = path_in_words(study, given);
-        let told = |(protocol, switches): &(Protocol, Switches)| {
+        let warning = |(protocol, switches): &(Protocol, Switches)| {
             let (value, why) = switches.unknown.first()?;
             let value = value_in_words(study, given, *value);
             let runs = protocol.name().replace('_', " ");
             let count = switches.unknown.len();
             let others = if count > 1 {
-                format!("; so at {} more values", count - 1)
+                format!("; it is also unknown at {} more value{}", count - 1, plural(count - 1))
             } else {
                 String::new()
             };
             Some(format!(
-                "where the run {runs} ends at {path} = {value} is not known: {why}{others}"
+                "the outcome of the run {runs} at {path} = {value} is unknown: {why}{others}"
             ))
         };
         let in_band = (self.in_band && !self.protocols.is_empty()).then(|| {
             format!(
-                "dither acts at or below {BAND_END} ω₀, in the band of the vibration itself: a run in step with it \
-                 still vibrates there; `response` says how much remains"
+                "the dither acts at or below {BAND_END} ω₀, in the band of the vibration itself: a run in step with it \
+                 still vibrates; `response` gives the remaining amplitude"
             )
         });
         self.slip
             .warnings(study)
             .into_iter()
             .chain(in_band)
-            .chain(self.protocols.iter().filter_map(told))
+            .chain(self.protocols.iter().filter_map(warning))
             .collect()
     }
 }

@@ -1,4 +1,4 @@
-//! Sweeps as sentence, JSON, dataset.
+//! Sweeps as sentences, JSON and dataset.
 
 use quell_dynamics::attractor::{Attractor, AttractorKind};
 use quell_model::units::Quantity;
@@ -11,10 +11,10 @@ use super::{Bifurcation, Direction, Point};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::study::BeltStudy;
-use crate::words::start_in_words;
+use crate::words::{plural, start_in_words};
 
 impl Bifurcation {
-    /// What happens, in one sentence a direction and one for both.
+    /// One sentence for each direction and one that compares both.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         let value = |value: f64| number(study, self.varied.unit, value);
         let path = &self.varied.path;
@@ -30,12 +30,18 @@ impl Bifurcation {
                 Some(false) => "vibrating",
                 None => "unsettled",
             };
-            let mut parts = vec![format!(
-                "Sweeping {path} {way}, the response is {} at {}",
-                quiet(first),
-                value(first.value)
-            )];
-            for jump in branch.jumps() {
+            let (start, end) = (value(first.value), value(last.value));
+            let jumps = branch.jumps();
+            if jumps.is_empty() && quiet(first) == quiet(last) {
+                let state = quiet(first);
+                sentences.push(format!(
+                    "Sweeping {path} {way}, the response is {state} at both {start} and {end}."
+                ));
+                continue;
+            }
+            let mut parts =
+                vec![format!("Sweeping {path} {way}, the response is {} at {start}", quiet(first))];
+            for jump in jumps {
                 let word = match (jump.to_quiet, jump.in_band) {
                     (true, false) => "falls quiet",
                     (true, true) => "falls into step with the dither",
@@ -47,8 +53,8 @@ impl Bifurcation {
                     value(jump.after)
                 ));
             }
-            parts.push(format!("ends {} at {}", quiet(last), value(last.value)));
-            sentences.push(format!("{}.", parts.join(", ")));
+            let parts = parts.join(", ");
+            sentences.push(format!("{parts}, and is {} at {end}.", quiet(last)));
         }
         if self.branches.len() == 2 {
             sentences.push(match self.hysteresis.as_slice() {
@@ -59,43 +65,47 @@ impl Bifurcation {
                     "Both directions show responses of the same size wherever both have settled."
                         .to_owned()
                 }
-                [] => "At no value have both directions settled.".to_owned(),
-                stretches => {
-                    let parts: Vec<String> = stretches
+                [] => "The two directions have not both settled at any value.".to_owned(),
+                ranges => {
+                    let parts: Vec<String> = ranges
                         .iter()
                         .map(|(from, to)| format!("from {} to {}", value(*from), value(*to)))
                         .collect();
-                    format!("Up and down differ {}: responses coexist there.", parts.join(" and "))
+                    format!(
+                        "The two directions differ {}, where responses coexist.",
+                        parts.join(" and ")
+                    )
                 }
             });
         }
         sentences.join(" ")
     }
 
-    /// Whether every point has.
+    /// Whether every point has settled.
     fn has_settled(&self) -> bool {
         self.branches.iter().flat_map(|branch| &branch.points).all(|point| point.response.is_ok())
     }
 
-    /// Whether there is a value at which both directions have.
+    /// Whether both directions have settled at any one value.
     fn both_settle(&self) -> bool {
         let [up, down] = self.branches.as_slice() else { return false };
         let mut pairs = up.points.iter().zip(down.points.iter().rev());
         pairs.any(|(one, other)| one.response.is_ok() && other.response.is_ok())
     }
 
-    /// Points that have not settled, in words.
+    /// Warnings about points that have not settled.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let mut warnings = self.slip.warnings(study);
         for branch in &self.branches {
             for point in &branch.points {
                 if let Err(why) = &point.response {
                     warnings.push(format!(
-                        "{} at {} = {} has not settled after {} periods: {}",
+                        "sweeping {}, the response at {} = {} has not settled after {} period{}: {}",
                         branch.direction.name(),
                         self.varied.path,
                         point.value,
                         point.periods,
+                        plural(point.periods),
                         why.about()
                     ));
                 }
@@ -111,7 +121,7 @@ impl Bifurcation {
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
-            .plain("protocol", "the state is carried over from value to value; up first, then down from where that ended")
+            .plain("protocol", "the state is carried over from value to value; upward first, then downward from the final state")
             .plain("parameter", self.varied.path.as_str())
             .plain("unit", self.varied.unit)
             .plain("start", start_in_words(study));
@@ -156,7 +166,7 @@ impl Bifurcation {
                 self.hysteresis.iter().map(|(from, to)| vec![*from, *to].into()).collect();
             fields.plain("hysteresis", pairs);
         } else {
-            fields.unknown("hysteresis", "it takes both directions to show it");
+            fields.unknown("hysteresis", "hysteresis requires sweeps in both directions");
         }
         fields.plain("warnings", self.warnings(study));
         fields.finish()
@@ -170,11 +180,11 @@ impl Bifurcation {
             for point in &branch.points {
                 let attractor = point.response.as_ref().ok();
                 let none = [(f64::NAN, f64::NAN)];
-                let section = attractor.map_or(&none[..], |it| it.section.as_slice());
-                let rotation = attractor.and_then(|it| it.rotation);
-                let ratio = rotation.and_then(|it| it.ratio);
+                let section = attractor.map_or(&none[..], |attractor| attractor.section.as_slice());
+                let rotation = attractor.and_then(|attractor| attractor.rotation);
+                let ratio = rotation.and_then(|rotation| rotation.ratio);
                 let of = |value: Option<f64>| value.unwrap_or(f64::NAN);
-                // Columns are scaled by the study as it is; where mass or stiffness vary, that is made good here.
+                // Columns use the scales of the unmodified study; this corrects for a varied mass or stiffness.
                 let other = |quantity: Quantity| match (point.scales, study.scales()) {
                     (Some(own), Some(all)) => own.si_per_unit(quantity) / all.si_per_unit(quantity),
                     _ => 1.0,
@@ -187,13 +197,14 @@ impl Bifurcation {
                         *x,
                         *v * velocity,
                         of(attractor.map(Attractor::size)),
-                        of(attractor.map(|it| it.stick_fraction)),
+                        of(attractor.map(|attractor| attractor.stick_fraction)),
                         of(attractor.and_then(periods)),
-                        of(rotation.map(|it| it.turns_per_period)),
-                        of(rotation.map(|it| it.error)),
-                        of(ratio.map(|it| it.turns as f64)),
-                        of(ratio.map(|it| f64::from(it.periods))),
-                        of(attractor.and_then(|it| it.frequency(point.period))) * hertz,
+                        of(rotation.map(|rotation| rotation.turns_per_period)),
+                        of(rotation.map(|rotation| rotation.error)),
+                        of(ratio.map(|ratio| ratio.turns as f64)),
+                        of(ratio.map(|ratio| f64::from(ratio.periods))),
+                        of(attractor.and_then(|attractor| attractor.frequency(point.period)))
+                            * hertz,
                         point.periods as f64,
                     ];
                     numbers.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
@@ -236,7 +247,7 @@ impl Bifurcation {
     }
 }
 
-/// Periods of a closed orbit.
+/// Number of periods of a closed orbit.
 fn periods(attractor: &Attractor) -> Option<f64> {
     match attractor.kind {
         AttractorKind::Periodic { periods, .. } => Some(f64::from(periods)),
@@ -258,9 +269,9 @@ mod tests {
         [friction]\nlaw = \"decreasing\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.3\nreference_velocity = 0.2\n\
         [[dither]]\ndirection = \"tangential\"\nwaveform = \"sine\"\namplitude = 1\nfrequency_ratio = 10\n";
 
-    /// A point that has not settled is neither quiet nor not: no jump begins or ends there, and no hysteresis is denied.
+    /// A point that has not settled is neither quiet nor vibrating: no jump begins or ends there, and hysteresis is not ruled out.
     #[test]
-    fn what_has_not_settled_says_nothing() {
+    fn unsettled_points_give_no_jumps() {
         let study = BeltStudy::parse(STUDY, &[]).expect("valid");
         let range = Range { parameter: "dither.amplitude".into(), from: 1.0, to: 2.0, points: 2 };
         let varied = Varied::new(&study, "--parameter", &range).expect("valid");
@@ -278,9 +289,12 @@ mod tests {
         let branches = vec![branch(Direction::Up, [1.0, 2.0]), branch(Direction::Down, [2.0, 1.0])];
         let found =
             Bifurcation { varied, branches, hysteresis: Vec::new(), slip: SlipMet::default() };
-        let told = found.sentence(&study);
-        assert!(told.contains("the response is unsettled at 1"), "{told}");
-        assert!(told.ends_with("At no value have both directions settled."), "{told}");
+        let sentence = found.sentence(&study);
+        assert!(sentence.contains("the response is unsettled at both 1 and 2"), "{sentence}");
+        assert!(
+            sentence.ends_with("The two directions have not both settled at any value."),
+            "{sentence}"
+        );
         let json = found.json(&study);
         assert_eq!(json["jumps"].as_array().map(Vec::len), Some(0));
         assert!(json["up"][0]["kind"].is_null() && json["why"]["up[0].kind"].is_string());

@@ -1,4 +1,4 @@
-//! Basins as sentences, JSON, datasets.
+//! Basins as sentences, JSON and datasets.
 
 use std::fmt::Write as _;
 
@@ -12,9 +12,9 @@ use super::{Basins, Layout, Portrait, Share};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::study::BeltStudy;
-use crate::words::{in_words, plural};
+use crate::words::{capital, in_words, plural};
 
-/// A share in words: 62 %, with the bounds.
+/// A share as a percentage with its bounds.
 fn percent(share: Share) -> String {
     let digits = |value: f64| {
         let text = format!("{:.1}", 100.0 * value);
@@ -23,8 +23,8 @@ fn percent(share: Share) -> String {
     format!("{} % ({} to {} %)", digits(share.fraction), digits(share.low), digits(share.high))
 }
 
-/// What a start does that ends without a slow motion, singular and plural. A dither in the band of the vibration itself leaves
-/// nothing quiet.
+/// The verb for a start that ends without slow motion, singular and plural. Under a dither in the band of the vibration
+/// itself no response is quiet.
 pub fn quiescence(in_band: bool) -> [&'static str; 2] {
     if in_band {
         ["falls into step with the dither", "fall into step with the dither"]
@@ -34,78 +34,82 @@ pub fn quiescence(in_band: bool) -> [&'static str; 2] {
 }
 
 impl Portrait {
-    /// What a quiet attractor is called; `None` of one that vibrates.
+    /// The word for a quiet attractor; `None` for one that vibrates.
     pub fn quiet_word(&self, attractor: &Attractor) -> Option<&'static str> {
         attractor.quiet.then_some(if self.in_band { "in step with the dither" } else { "quiet" })
     }
 
-    /// Whether starts end on the response of sliding, in one sentence.
+    /// How many starts fall quiet, and whether the base response is stable.
     pub fn sentence(&self) -> String {
         let count = self.gathered.labels.len();
         let unknown = self.gathered.unknown();
         let known = count - unknown;
         if known == 0 {
-            let nowhere = match count {
-                1 => "the outcome of the start is unknown".to_owned(),
-                _ => format!("the outcome of {count} starts is unknown"),
+            let outcome = match count {
+                1 => "The outcome of the start is unknown".to_owned(),
+                _ => format!("The outcome of {count} starts is unknown"),
             };
-            return match &self.local {
-                Ok(verdict) => format!("The base response is {}; {nowhere}.", verdict.name()),
-                Err(why) => format!("T{}; {why}.", &nowhere[1..]),
-            };
+            return format!("{outcome}. {}", self.local_sentence());
         }
         let starts = if unknown == 0 {
-            format!("{count} start{}", plural(count))
+            format!("{count} starts")
         } else {
-            format!("{known} start{} with a known outcome", plural(known))
-        };
-        let local = match &self.local {
-            Ok(verdict) => format!("the base response is {}", verdict.name()),
-            Err(why) => why.clone(),
+            format!("{known} starts with a known outcome")
         };
         let [falls, fall] = quiescence(self.in_band);
-        let told = match self.quiet.filter(|share| share.starts > 0) {
-            Some(share) if share.starts == known => {
-                let every = match known {
-                    1 => "The start".to_owned(),
-                    _ => format!("Every one of {starts}"),
-                };
-                format!("{every} {falls}; {local}.")
-            }
+        let outcome = match self.quiet.filter(|share| share.starts > 0) {
+            Some(share) if share.starts == known => match (known, unknown) {
+                (1, 0) => format!("The start {falls}."),
+                (1, _) => format!("The only start with a known outcome {falls}."),
+                _ => format!("All {starts} {fall}."),
+            },
             Some(share) => {
                 let elsewhere = self.elsewhere();
-                format!("Only {} of {count} starts {fall}{elsewhere}; {local}.", percent(share))
+                format!("Only {} of {count} starts {fall}{elsewhere}.", percent(share))
             }
             None => {
                 let basins = self.gathered.basins.len();
-                let none = match known {
-                    1 => format!("The start does not {fall}: it ends"),
-                    _ => format!("None of {starts} {falls}: they end"),
-                };
-                format!("{none} on {basins} attractor{}; {local}.", plural(basins))
+                match (known, unknown) {
+                    (1, 0) => format!("The start does not {fall}."),
+                    (1, _) => format!("The only start with a known outcome does not {fall}."),
+                    _ => format!(
+                        "None of {starts} {falls}; they end on {basins} attractor{}.",
+                        plural(basins)
+                    ),
+                }
             }
         };
+        let local = self.local_sentence();
         match unknown {
-            0 => told,
-            unknown => {
-                format!("{told} The outcome of {unknown} start{} is unknown.", plural(unknown))
-            }
+            0 => format!("{outcome} {local}"),
+            _ => format!(
+                "{outcome} The outcome of {unknown} start{} is unknown. {local}",
+                plural(unknown)
+            ),
         }
     }
 
-    /// What other attractors starts end on, where some fall quiet.
+    /// The verdict on the base response.
+    fn local_sentence(&self) -> String {
+        match &self.local {
+            Ok(verdict) => format!("The base response is {}.", verdict.name()),
+            Err(why) => format!("{}.", capital(why)),
+        }
+    }
+
+    /// The other attractors on which starts end, if some fall quiet.
     fn elsewhere(&self) -> String {
         let others = self.gathered.basins.iter().filter(|basin| !basin.attractor.quiet).count();
         match (others, self.gathered.unknown()) {
             (0, _) => String::new(),
-            (1, 0) => ", the others end on one more attractor".to_owned(),
-            (1, _) => "; one more attractor was met".to_owned(),
-            (_, 0) => format!(", the others end on {others} more attractors"),
-            _ => format!("; {others} more attractors were met"),
+            (1, 0) => "; the others end on another attractor".to_owned(),
+            (1, _) => "; one other attractor was found".to_owned(),
+            (_, 0) => format!("; the others end on {others} other attractors"),
+            _ => format!("; {others} other attractors were found"),
         }
     }
 
-    /// Place of the attractor on which each start ends, null where that is not known.
+    /// Index of the attractor on which each start ends; null if unknown.
     fn ends(&self) -> Json {
         let end = |label: &BasinLabel| match label {
             BasinLabel::Attractor(place) => Json::from(*place),
@@ -125,21 +129,22 @@ fn put_share(fields: &mut Fields, share: Share) {
 }
 
 impl Basins {
-    /// What the shares and their bounds mean.
+    /// The meaning of the shares and their bounds.
     pub fn meaning(&self) -> &'static str {
         match self.starts.layout() {
             Layout::Grid { .. } => {
-                "a grid: each start stands for its cell of the window; the bounds give or take half of each cell beside the border, and \
-                 parts of a basin smaller than a cell are not seen; starts of unknown outcome are in the upper bound of the quiet fraction"
+                "each start represents its cell of the window; the bounds add or subtract half of each cell next to a basin boundary, \
+                 and miss parts of a basin smaller than a cell; starts of unknown outcome count only towards the upper bound of the quiet \
+                 fraction"
             }
             Layout::Sample { .. } => {
-                "a random sample of the window, evenly spread: the bounds are Wilson's 95 % interval; starts of unknown outcome are in \
-                 the upper bound of the quiet fraction"
+                "the starts are a uniform random sample of the window, and the bounds are Wilson's 95 % interval; starts of unknown \
+                 outcome count only towards the upper bound of the quiet fraction"
             }
         }
     }
 
-    /// The window and its starts, in words.
+    /// The window and its starts as text.
     pub fn starts_in_words(&self, study: &BeltStudy) -> String {
         let window = self.starts.window();
         let x = |value| in_words(study, Quantity::Displacement, value);
@@ -163,7 +168,7 @@ impl Basins {
         self.portraits.iter().any(|portrait| portrait.in_band)
     }
 
-    /// What was found, in one sentence or a few.
+    /// The result in a few sentences.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         match (&self.varied, self.portraits.as_slice()) {
             (None, [portrait]) => portrait.sentence(),
@@ -178,36 +183,41 @@ impl Basins {
                 let ends: Vec<String> =
                     portraits.first().into_iter().chain(portraits.last()).map(value).collect();
                 let mut text = format!("Over {path} from {}", ends.join(" to "));
-                let known =
-                    || portraits.iter().filter_map(|it| Some((it, 100.0 * it.quiet?.fraction)));
+                let known = || {
+                    portraits
+                        .iter()
+                        .filter_map(|portrait| Some((portrait, 100.0 * portrait.quiet?.fraction)))
+                };
                 let least = known().min_by(|a, b| a.1.total_cmp(&b.1));
                 let most = known().max_by(|a, b| a.1.total_cmp(&b.1));
                 if let (Some((least, low)), Some((most, high))) = (least, most) {
                     let _ = write!(
                         text,
-                        " the share of starts that {fall} lies between {low:.1} % (at {}) and {high:.1} % (at {})",
+                        ", the share of starts that {fall} ranges from {low:.1} % (at {}) to {high:.1} % (at {})",
                         value(least),
                         value(most)
                     );
                 } else {
-                    text.push_str(" the outcome of no start is known");
+                    text.push_str(", the outcome of every start is unknown");
                 }
                 let only_local = portraits
                     .iter()
-                    .filter(|it| it.local == Ok(OrbitVerdict::Stable) && it.leaves())
+                    .filter(|portrait| {
+                        portrait.local == Ok(OrbitVerdict::Stable) && portrait.leaves()
+                    })
                     .count();
-                let open = portraits.iter().filter(|it| it.unknown.starts > 0).count();
+                let open = portraits.iter().filter(|portrait| portrait.unknown.starts > 0).count();
                 if open > 0 && least.is_some() {
                     let _ = write!(
                         text,
-                        "; at {open} of {} values some outcomes are unknown",
+                        ". Some outcomes are unknown at {open} of {} values",
                         portraits.len()
                     );
                 }
                 if only_local > 0 {
                     let _ = write!(
                         text,
-                        "; at {only_local} of {} values the base response is stable, but not every start {falls}",
+                        ". At {only_local} of {} values the base response is stable, but not every start {falls}",
                         portraits.len()
                     );
                 }
@@ -217,7 +227,7 @@ impl Basins {
         }
     }
 
-    /// What a reader of the numbers should know.
+    /// Warnings about the result.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let mut warnings = self.slip.warnings(study);
         for portrait in &self.portraits {
@@ -232,21 +242,19 @@ impl Basins {
                     BasinLabel::Unsettled(why) => why.about(),
                     BasinLabel::Stalled(stalled) => stalled.why,
                 };
-                match reasons.iter_mut().find(|it| it.0 == why) {
+                match reasons.iter_mut().find(|reason| reason.0 == why) {
                     Some(reason) => reason.1 += 1,
                     None => reasons.push((why, 1)),
                 }
             }
-            warnings.extend(
-                reasons.into_iter().map(|(why, count)| {
-                    format!("the end of {count} starts{at} is not known: {why}")
-                }),
-            );
+            warnings.extend(reasons.into_iter().map(|(why, count)| {
+                format!("the outcome of {count} start{}{at} is unknown: {why}", plural(count))
+            }));
         }
         warnings
     }
 
-    /// As JSON: with one portrait its fields, with several a list of them.
+    /// As JSON: the fields of a single portrait, or a list of portraits.
     pub fn json(&self, study: &BeltStudy) -> Json {
         let scales = study.scales();
         let mut fields = Fields::new(scales);
@@ -255,7 +263,7 @@ impl Basins {
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
-            .plain("protocol", "each start at τ = 0, run until a growth rate says where it ends")
+            .plain("protocol", "each start at τ = 0 is run until a growth rate determines on which attractor it ends")
             .plain("error_meaning", self.meaning())
             .numbers("window_displacement", Quantity::Displacement, &pair(window.displacement))
             .numbers("window_velocity", Quantity::Velocity, &pair(window.velocity))
@@ -282,7 +290,7 @@ impl Basins {
         fields.finish()
     }
 
-    /// Where each start ends; with a parameter the shares over it.
+    /// The attractor of each start; with a parameter, the shares versus the parameter.
     pub fn dataset(&self, study: &BeltStudy) -> Dataset {
         let facts = format!("{}; {}", self.starts_in_words(study), self.meaning());
         match (&self.varied, self.portraits.as_slice()) {
@@ -291,26 +299,40 @@ impl Basins {
                 let of = |value: &dyn Fn(&Portrait) -> f64| {
                     portraits.iter().map(value).collect::<Vec<f64>>()
                 };
-                let quiet = |which: fn(Share) -> f64| of(&|it| it.quiet.map_or(f64::NAN, which));
+                let quiet = |which: fn(Share) -> f64| {
+                    of(&|portrait| portrait.quiet.map_or(f64::NAN, which))
+                };
                 let verdicts: Vec<u8> =
-                    portraits.iter().map(|it| verdict_code(&it.local)).collect();
+                    portraits.iter().map(|portrait| verdict_code(&portrait.local)).collect();
                 let (name, unit) = varied
                     .as_ref()
                     .map_or((String::new(), ""), |varied| (varied.name(), varied.unit));
                 Dataset::new(study, "basins")
                     .fact(facts)
-                    .with_axis(Array::new(name, unit, of(&|it| it.value.unwrap_or(f64::NAN))))
+                    .with_axis(Array::new(
+                        name,
+                        unit,
+                        of(&|portrait| portrait.value.unwrap_or(f64::NAN)),
+                    ))
                     .with(Array::of_words("local_verdict", VERDICTS.to_vec(), &verdicts))
                     .array("quiet_fraction", Quantity::Ratio, quiet(|share| share.fraction))
                     .array("quiet_fraction_low", Quantity::Ratio, quiet(|share| share.low))
                     .array("quiet_fraction_high", Quantity::Ratio, quiet(|share| share.high))
-                    .array("unknown_fraction", Quantity::Ratio, of(&|it| it.unknown.fraction))
-                    .array("attractors", Quantity::Count, of(&|it| it.gathered.basins.len() as f64))
+                    .array(
+                        "unknown_fraction",
+                        Quantity::Ratio,
+                        of(&|portrait| portrait.unknown.fraction),
+                    )
+                    .array(
+                        "attractors",
+                        Quantity::Count,
+                        of(&|portrait| portrait.gathered.basins.len() as f64),
+                    )
             }
         }
     }
 
-    /// Where each start ends: over the grid, or a row a start.
+    /// The attractor of each start: over the grid, or one row per start.
     fn map(&self, study: &BeltStudy, portrait: &Portrait) -> Dataset {
         let labels = &portrait.gathered.labels;
         let place = |label: &BasinLabel| match label {
@@ -334,7 +356,7 @@ impl Basins {
         }
         let words = vec![(0, "no"), (1, "yes"), (2, "unknown")];
         let dataset = if let Some((x, v)) = self.starts.axes() {
-            // The axis that runs fastest is the last.
+            // The last axis runs fastest.
             dataset.axis("velocity", Quantity::Velocity, v).axis(
                 "displacement",
                 Quantity::Displacement,
@@ -348,12 +370,12 @@ impl Basins {
                 .array(
                     "displacement",
                     Quantity::Displacement,
-                    states.iter().map(|it| it.displacement).collect(),
+                    states.iter().map(|start| start.displacement).collect(),
                 )
                 .array(
                     "velocity",
                     Quantity::Velocity,
-                    states.iter().map(|it| it.velocity).collect(),
+                    states.iter().map(|start| start.velocity).collect(),
                 )
         };
         dataset
@@ -376,7 +398,7 @@ fn put_portrait(fields: &mut Fields, portrait: &Portrait, section: bool) {
         ("quiet_fraction_high", |share| share.high),
     ];
     for (name, which) in shares {
-        let unknown = || "the outcome of its starts is unknown".to_owned();
+        let unknown = || "the outcome of every start is unknown".to_owned();
         fields.known(name, Quantity::Ratio, portrait.quiet.map(which).ok_or_else(unknown));
     }
     let scales = portrait.scales;

@@ -1,4 +1,4 @@
-//! What `thresholds` answers, in sentences: where the base response is stable, and from where on each start is quenched.
+//! The answer of `thresholds` in sentences: where the base response is stable, and where runs from each start are quenched.
 
 use quell_dynamics::attractor::{Switch, Switches};
 use quell_dynamics::orbit::OrbitVerdict;
@@ -9,17 +9,17 @@ use super::{BranchEnding, Threshold, ThresholdKind, Thresholds, path_in_words, q
 use crate::run::attractor::unknown;
 use crate::run::protocol::Protocol;
 use crate::study::BeltStudy;
-use crate::words::in_words;
+use crate::words::{capital, in_words};
 
 /// One end of an interval of the parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Limit {
     value: f64,
-    /// How uncertain it is, where that is to be said.
+    /// Its error, if it is to be shown.
     error: Option<f64>,
-    /// What happens there; nothing at an end of the range.
+    /// The kind of threshold; `None` at an end of the range.
     kind: Option<ThresholdKind>,
-    /// Whether it is the end of what was asked, or of what could be answered.
+    /// Whether it is an end of the requested range, or of the part that could be answered.
     of_range: bool,
 }
 
@@ -37,7 +37,7 @@ impl Limit {
     }
 }
 
-/// Neighbouring intervals with the same answer as one.
+/// Merges neighbouring intervals with the same answer.
 fn merged<T: PartialEq>(intervals: Vec<Interval<T>>) -> Vec<Interval<T>> {
     let mut merged: Vec<Interval<T>> = Vec::new();
     for interval in intervals {
@@ -57,7 +57,7 @@ struct Parameter<'a> {
 }
 
 impl<'a> Parameter<'a> {
-    /// The symbol, where it is clear; else the key.
+    /// The symbol if it is unambiguous, else the key.
     fn of(study: &'a BeltStudy, path: &str) -> Self {
         let belt = study.belt();
         let one_of_many = path.starts_with("dither") && belt.dithers().len() > 1;
@@ -105,7 +105,7 @@ impl<'a> Parameter<'a> {
         listed(&each, "and")
     }
 
-    /// All of them together: "D from 1 to 2".
+    /// The range that all intervals cover: "D from 1 to 2".
     fn whole<T>(&self, intervals: &[Interval<T>]) -> String {
         let ends = intervals.first().zip(intervals.last());
         ends.map_or_else(String::new, |(first, last)| {
@@ -115,14 +115,14 @@ impl<'a> Parameter<'a> {
 }
 
 impl Thresholds {
-    /// Where the base response is stable, and from where on the dither quenches from each start.
+    /// Where the base response is stable, and where the dither quenches runs from each start.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         let parameter = Parameter::of(study, &self.question.parameter);
         let acts = |dither: &Dither| dither.amplitude > 0.0;
         let is_varied = self.question.parameter.starts_with("dither");
         let dithered = is_varied || study.belt().dithers().iter().any(acts);
         let mut sentences = vec![self.of_the_base_response(&parameter, dithered)];
-        // Starts with the same answer are said together.
+        // Starts with the same answer share a sentence.
         let mut answers: Vec<(Vec<String>, String)> = Vec::new();
         for (protocol, switches) in &self.protocols {
             let answer = self.of_runs(&parameter, switches, dithered);
@@ -134,12 +134,12 @@ impl Thresholds {
         }
         for (starts, answer) in answers {
             let (starts, ramp) = (listed(&starts, "or"), self.ramp_in_words(study));
-            sentences.push(format!("Started {starts}{ramp}, {answer}."));
+            sentences.push(format!("For runs started {starts}{ramp}, {answer}."));
         }
         sentences.join(" ")
     }
 
-    /// The intervals of the base response, from the first value on until it turns back or ends; and the threshold there.
+    /// The intervals of the base response from the first value until it turns back or ends, and the threshold there.
     fn base_response(&self) -> (Vec<Interval<OrbitVerdict>>, Option<&Threshold>) {
         let Some(first) = self.local.branch.first() else { return (Vec::new(), None) };
         let mut intervals = Vec::new();
@@ -149,7 +149,7 @@ impl Thresholds {
             let Threshold { value, kind, becomes, was, .. } = *threshold;
             let limit = Limit { value, error: None, kind: Some(kind), of_range: false };
             intervals.push(Interval { from, to: limit, answer });
-            // A side without a response: the branch ends or turns back there.
+            // No response on one side: the branch ends or turns back there.
             let (Some(_), Some(next)) = (was, becomes) else {
                 return (merged(intervals), Some(threshold));
             };
@@ -172,7 +172,7 @@ impl Thresholds {
             let last = parameter.value(Limit::of_range(self.question.to));
             let again = if self.resumes {
                 format!(
-                    "; at {last} there is one, and a range that begins beyond finds its thresholds"
+                    "; at {last} a base response exists again (begin the range beyond the gap to find its thresholds)"
                 )
             } else {
                 String::new()
@@ -181,11 +181,12 @@ impl Thresholds {
         }
         let subject = if dithered { "the base response" } else { "steady sliding" };
         let (intervals, end) = self.base_response();
-        let is_stable = |it: &&Interval<OrbitVerdict>| it.answer == OrbitVerdict::Stable;
+        let is_stable =
+            |interval: &&Interval<OrbitVerdict>| interval.answer == OrbitVerdict::Stable;
         let stable: Vec<&Interval<OrbitVerdict>> = intervals.iter().filter(is_stable).collect();
-        let told = match (stable.len(), intervals.as_slice()) {
+        let statement = match (stable.len(), intervals.as_slice()) {
             (0, all) => {
-                let unstable = all.iter().all(|it| it.answer == OrbitVerdict::Unstable);
+                let unstable = all.iter().all(|interval| interval.answer == OrbitVerdict::Unstable);
                 let covered = end.is_none() && self.local.ending == BranchEnding::Covered;
                 let none = if covered { " (no threshold in this range)" } else { "" };
                 if unstable {
@@ -202,29 +203,29 @@ impl Thresholds {
             (1, all) => {
                 let only = stable[0];
                 let interval = parameter.interval(only);
-                // Undecided lies at thresholds alone, and is said by the table.
-                let unstable = all.iter().filter(|it| it.answer == OrbitVerdict::Unstable).count();
+                let statement = format!("{subject} is stable {interval}");
+                // Undecided values occur only at thresholds, and are listed in the table.
+                let unstable =
+                    all.iter().filter(|interval| interval.answer == OrbitVerdict::Unstable).count();
                 match (only.from.of_range, only.to.of_range) {
-                    _ if unstable + 1 < all.len() || all.len() == 1 => {
-                        format!("{interval} {subject} is stable")
-                    }
+                    _ if unstable + 1 < all.len() || all.len() == 1 => statement,
                     (false, true) => {
-                        format!("{interval} {subject} is stable; below, it is unstable")
+                        format!("{statement} and unstable below")
                     }
                     (true, false) => {
-                        format!("{interval} {subject} is stable; above, it is unstable")
+                        format!("{statement} and unstable above")
                     }
-                    _ => format!("{interval} {subject} is stable; outside, it is unstable"),
+                    _ => format!("{statement} and unstable outside this interval"),
                 }
             }
             _ => format!("{subject} is stable {}", parameter.intervals(stable)),
         };
         let stable_until_then = intervals.last().as_ref().is_some_and(is_stable);
         let ends = self.of_the_end(parameter, end, stable_until_then);
-        format!("{}.{ends}", capital(&told))
+        format!("{}.{ends}", capital(&statement))
     }
 
-    /// Where and why the base response ends before the range does.
+    /// Where and why the base response ends within the range.
     fn of_the_end(
         &self,
         parameter: &Parameter<'_>,
@@ -235,7 +236,7 @@ impl Thresholds {
         let beyond = if self.resumes {
             let last = at(self.question.to);
             format!(
-                "at {last} a base response exists again, and a range that begins beyond finds its thresholds"
+                "at {last} a base response exists again (begin the range beyond the gap to find its thresholds)"
             )
         } else {
             "beyond, runs end on another response".to_owned()
@@ -263,10 +264,11 @@ impl Thresholds {
                 format!(" It turns back at {}; {beyond}.", at(value))
             }
             (None, BranchEnding::Touch { at: value }) => {
-                format!(" It ends at {}, where it touches v_r = 0; {beyond}.", at(value))
+                format!(" It ends at {}, where it grazes v_r = 0; {beyond}.", at(value))
             }
             (None, BranchEnding::Lost { at: value }) => {
-                let then = if self.resumes { beyond.as_str() } else { "what follows is unknown" };
+                let then =
+                    if self.resumes { beyond.as_str() } else { "the rest of the range is unknown" };
                 format!(" It could not be continued beyond {}; {then}.", at(value))
             }
         }
@@ -275,17 +277,17 @@ impl Thresholds {
     fn ramp_in_words(&self, study: &BeltStudy) -> String {
         if self.question.ramp > 0.0 {
             let time = in_words(study, Quantity::Time, self.question.ramp);
-            format!(" with the dither raised over {time}")
+            format!(" with the dither ramped up over {time}")
         } else {
             String::new()
         }
     }
 
-    /// From where on runs of a start are quenched.
+    /// The intervals in which runs from a start are quenched.
     fn of_runs(&self, parameter: &Parameter<'_>, switches: &Switches, dithered: bool) -> String {
         let intervals = runs(self.question.from, self.question.to, switches);
         let of = |wanted: Option<bool>| -> Vec<&Interval<Option<bool>>> {
-            intervals.iter().filter(|it| it.answer == wanted).collect()
+            intervals.iter().filter(|interval| interval.answer == wanted).collect()
         };
         let verb = match (dithered, self.in_band) {
             (false, _) => "the run ends in steady sliding",
@@ -293,20 +295,20 @@ impl Thresholds {
             (true, false) => "the dither quenches",
         };
         let quenched = of(Some(true));
-        let told = if quenched.is_empty() {
-            format!("{verb} nowhere for {}", parameter.whole(&intervals))
+        let answer = if quenched.is_empty() {
+            format!("{verb} at no {}", parameter.whole(&intervals))
         } else {
             format!("{verb} {}", parameter.intervals(quenched))
         };
         let open = of(None);
         if open.is_empty() {
-            return told;
+            return answer;
         }
-        format!("{told}; the outcome is unknown {}", parameter.intervals(open))
+        format!("{answer}; the outcome is unknown {}", parameter.intervals(open))
     }
 }
 
-/// A start, as it follows "started".
+/// A start as text that follows "started".
 fn start_in_words(study: &BeltStudy, protocol: Protocol) -> String {
     match protocol {
         Protocol::Rest => "from rest".to_owned(),
@@ -345,10 +347,4 @@ fn runs(from: f64, to: f64, switches: &Switches) -> Vec<Interval<Option<bool>>> 
         Interval { from, to, answer }
     });
     merged(each.collect())
-}
-
-/// A sentence with its first letter as it begins one; symbols stay as they are.
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
