@@ -1,18 +1,10 @@
-//! The canvas on which a figure is drawn: takes shapes in pixels, collects a kuva scene, returns SVG text.
+//! The canvas on which a figure is drawn: takes shapes in pixels, returns SVG text.
 
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 
-use kuva::backend::svg::SvgBackend;
-use kuva::render::color::Color;
-use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
-
-use super::fonts::FAMILY;
 use super::palette::{Colour, FRAME};
-use super::tspan::Tags;
+use super::svg::{Document, FIGURE_NAME, Hex, Number, TextAnchor};
 use super::typeset::RichText;
-
-/// Placeholder for the figure's own name in identifiers until its contents are known.
-const PICTURE_NAME: &str = "quell-picture";
 
 /// A rectangle in pixels, y downwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,58 +71,58 @@ impl TextStyle {
 }
 
 pub(super) struct Canvas {
-    scene: Scene,
-    tags: Tags,
+    document: Document,
     clips: usize,
     hatches: Vec<(Colour, usize)>,
-    images: Vec<String>,
+    images: usize,
 }
 
 impl Canvas {
     pub(super) fn new(width: f64, height: f64) -> Self {
-        let mut scene = Scene::new(width.ceil(), height.ceil()).with_background(Some("#ffffff"));
-        scene.font_family = Some(FAMILY.to_string());
-        Self { scene, tags: Tags::default(), clips: 0, hatches: Vec::new(), images: Vec::new() }
+        let document = Document::new(width.ceil(), height.ceil());
+        Self { document, clips: 0, hatches: Vec::new(), images: 0 }
     }
 
     pub(super) fn text(&mut self, label: &RichText, (x, y): (f64, f64), setting: TextStyle) {
         if label.is_empty() {
             return;
         }
-        self.scene.add(Primitive::Text {
-            x,
-            y,
-            content: label.encode(&mut self.tags),
-            size: setting.size,
-            anchor: setting.anchor,
-            rotate: (setting.rotation != 0.0).then_some(setting.rotation),
-            bold: setting.bold,
-            color: Some(paint(setting.colour)),
-        });
+        let TextStyle { size, anchor, bold, colour, rotation } = setting;
+        let (x, y, colour) = (Number(x), Number(y), Hex(colour));
+        let weight = if bold { " font-weight=\"bold\"" } else { "" };
+        self.document.write(format_args!(
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\"{weight} fill=\"{colour}\""
+        ));
+        if rotation != 0.0 {
+            let rotation = Number(rotation);
+            self.document.write(format_args!(" transform=\"rotate({rotation},{x},{y})\""));
+        }
+        self.document.write(format_args!(">{}</text>", label.svg()));
     }
 
     /// Strokes an SVG path.
-    pub(super) fn stroke(&mut self, path: String, stroke: &Stroke) {
+    pub(super) fn stroke(&mut self, path: &str, stroke: &Stroke) {
         if path.is_empty() {
             return;
         }
-        self.scene.add(Primitive::Path(Box::new(PathData {
-            d: path,
-            fill: None,
-            stroke: paint(stroke.colour),
-            stroke_width: stroke.width,
-            opacity: None,
-            stroke_dasharray: stroke.dashes.clone(),
-        })));
+        let (colour, width) = (Hex(stroke.colour), Number(stroke.width));
+        self.document.write(format_args!(
+            "<path d=\"{path}\" stroke=\"{colour}\" stroke-width=\"{width}\" fill=\"none\""
+        ));
+        if let Some(dashes) = &stroke.dashes {
+            self.document.write(format_args!(" stroke-dasharray=\"{dashes}\""));
+        }
+        self.document.write(format_args!(" />"));
     }
 
     /// Fills an SVG path.
-    pub(super) fn fill(&mut self, path: String, colour: Colour, opacity: f64) {
-        self.fill_with(path, paint(colour), Some(opacity));
+    pub(super) fn fill(&mut self, path: &str, colour: Colour, opacity: f64) {
+        let (colour, opacity) = (Hex(colour), Number(opacity));
+        self.fill_with(path, format_args!("\"{colour}\" fill-opacity=\"{opacity}\""));
     }
 
     /// Fills an SVG path with a hatch: falling, rising or crossed strokes, depending on the style.
-    pub(super) fn hatch(&mut self, path: String, colour: Colour, style: usize) {
+    pub(super) fn hatch(&mut self, path: &str, colour: Colour, style: usize) {
         let style = style % 3;
         let known = self.hatches.iter().position(|hatch| *hatch == (colour, style));
         let number = known.unwrap_or_else(|| {
@@ -138,30 +130,24 @@ impl Canvas {
             let number = self.hatches.len() - 1;
             let rotation = if style == 1 { -45 } else { 45 };
             let strokes = if style == 2 { "M3.5 -1V8M-1 3.5H8" } else { "M3.5 -1V8" };
-            self.scene.defs.push(format!(
-                "<pattern id=\"{PICTURE_NAME}-hatch{number}\" patternUnits=\"userSpaceOnUse\" \
+            self.document.define(format_args!(
+                "<pattern id=\"{FIGURE_NAME}-hatch{number}\" patternUnits=\"userSpaceOnUse\" \
                  width=\"7\" height=\"7\" patternTransform=\"rotate({rotation})\"><path d=\"{strokes}\" \
                  stroke=\"{}\" stroke-width=\"0.8\" stroke-opacity=\"0.6\" /></pattern>",
-                paint(colour).to_svg_string()
+                Hex(colour)
             ));
             number
         });
-        let url = format!("url(#{PICTURE_NAME}-hatch{number})");
-        self.fill_with(path, Color::Css(url.into_boxed_str()), None);
+        self.fill_with(path, format_args!("\"url(#{FIGURE_NAME}-hatch{number})\""));
     }
 
-    fn fill_with(&mut self, path: String, fill: Color, opacity: Option<f64>) {
-        if path.is_empty() {
-            return;
+    /// Writes a path without a stroke; `fill` is the value of its attribute, and others after it.
+    fn fill_with(&mut self, path: &str, fill: fmt::Arguments<'_>) {
+        if !path.is_empty() {
+            self.document.write(format_args!(
+                "<path d=\"{path}\" stroke=\"none\" stroke-width=\"0\" fill={fill} />"
+            ));
         }
-        self.scene.add(Primitive::Path(Box::new(PathData {
-            d: path,
-            fill: Some(fill),
-            stroke: Color::None,
-            stroke_width: 0.0,
-            opacity,
-            stroke_dasharray: None,
-        })));
     }
 
     pub(super) fn rectangle(
@@ -170,16 +156,22 @@ impl Canvas {
         fill: Option<(Colour, f64)>,
         edge: Option<(Colour, f64)>,
     ) {
-        self.scene.add(Primitive::Rect {
-            x: area.left,
-            y: area.top,
-            width: area.width().max(0.0),
-            height: area.height().max(0.0),
-            fill: fill.map_or(Color::None, |(colour, _)| paint(colour)),
-            stroke: edge.map(|(colour, _)| paint(colour)),
-            stroke_width: edge.map(|(_, width)| width),
-            opacity: fill.map(|(_, opacity)| opacity),
-        });
+        let (x, y) = (Number(area.left), Number(area.top));
+        let (width, height) = (Number(area.width().max(0.0)), Number(area.height().max(0.0)));
+        self.document
+            .write(format_args!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\""));
+        match fill {
+            Some((colour, _)) => self.document.write(format_args!(" fill=\"{}\"", Hex(colour))),
+            None => self.document.write(format_args!(" fill=\"none\"")),
+        }
+        if let Some((colour, width)) = edge {
+            let (colour, width) = (Hex(colour), Number(width));
+            self.document.write(format_args!(" stroke=\"{colour}\" stroke-width=\"{width}\""));
+        }
+        if let Some((_, opacity)) = fill {
+            self.document.write(format_args!(" fill-opacity=\"{}\"", Number(opacity)));
+        }
+        self.document.write(format_args!(" />"));
     }
 
     /// Draws an image (a `data:` address) into a rectangle, without interpolation of its pixels.
@@ -187,88 +179,49 @@ impl Canvas {
         let Some(address) = address else {
             return;
         };
-        self.begin_group(&image_name(self.images.len()));
-        self.end_group();
-        self.images.push(format!(
-            "<image x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" \
-             preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" href=\"{address}\" />",
+        self.document.write(format_args!(
+            "<g id=\"{FIGURE_NAME}-image{}\"><image x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" \
+             preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" href=\"{address}\" /></g>",
+            self.images,
             area.left,
             area.top,
             area.width().max(0.0),
             area.height().max(0.0)
         ));
+        self.images += 1;
     }
 
     /// Clips everything up to [`Canvas::end_clip`] to this rectangle.
     pub(super) fn begin_clip(&mut self, area: Rectangle) {
-        let id = format!("{PICTURE_NAME}-clip{}", self.clips);
+        let id = format!("{FIGURE_NAME}-clip{}", self.clips);
         self.clips += 1;
-        self.scene.defs.push(format!(
+        self.document.define(format_args!(
             "<clipPath id=\"{id}\"><rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" /></clipPath>",
             area.left,
             area.top,
             area.width(),
             area.height()
         ));
-        self.scene.add(Primitive::ClipStart {
-            x: area.left,
-            y: area.top,
-            width: area.width(),
-            height: area.height(),
-            id,
-        });
+        self.begin_group(&format!("clip-path=\"url(#{id})\""));
     }
 
     pub(super) fn end_clip(&mut self) {
-        self.scene.add(Primitive::ClipEnd);
+        self.end_group();
     }
 
     /// Opens a group with these SVG attributes.
     pub(super) fn begin_group(&mut self, attributes: &str) {
-        self.scene.add(Primitive::GroupStart {
-            transform: None,
-            title: None,
-            extra_attrs: Some(attributes.to_string()),
-        });
+        self.document.write(format_args!("<g {attributes}>"));
     }
 
     pub(super) fn end_group(&mut self) {
-        self.scene.add(Primitive::GroupEnd);
+        self.document.write(format_args!("</g>"));
     }
 
     /// The finished SVG.
-    ///
-    /// Identifiers contain a hash of the contents, so that several figures can be embedded in one page.
     pub(super) fn into_svg(self) -> String {
-        let drawn = SvgBackend::new().render_scene(&self.scene);
-        let mut svg = self.tags.resolve(&drawn);
-        // kuva has no image primitive: images are inserted into their placeholder groups.
-        for (number, image) in self.images.iter().enumerate() {
-            let name = format!("{}>", image_name(number));
-            svg = svg.replacen(&name, &format!("{name}{image}"), 1);
-        }
-        let svg = svg.replace(PICTURE_NAME, &format!("q{:016x}", fingerprint(svg.as_bytes())));
-        // kuva writes no view box, without which a figure does not scale in a page.
-        let view_box =
-            format!("<svg viewBox=\"0 0 {} {}\" role=\"img\"", self.scene.width, self.scene.height);
-        svg.replacen("<svg", &view_box, 1)
+        self.document.finish()
     }
-}
-
-/// Fowler–Noll–Vo hash (FNV-1a, 64 bits): the same in every build, unlike the standard hasher.
-fn fingerprint(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
-    })
-}
-
-/// Attribute of the placeholder group of an image.
-fn image_name(number: usize) -> String {
-    format!("id=\"{PICTURE_NAME}-image{number}\"")
-}
-
-fn paint((red, green, blue): Colour) -> Color {
-    Color::Rgb(red, green, blue)
 }
 
 /// Paths with more points than this are written in tenths of a pixel.

@@ -1,7 +1,5 @@
 //! The colour bar of a heatmap: to the right of the frame and as tall as it, with tick labels and an axis label.
 
-use kuva::render::render::TextAnchor;
-
 use super::canvas::{Canvas, Rectangle, Stroke, TextStyle, path};
 use super::colouring::{ColourMap, SHADES, Spread};
 use super::figure::Panel;
@@ -9,6 +7,7 @@ use super::font_sizes::FontSizes;
 use super::layer::Layer;
 use super::palette::{Colour, FRAME};
 use super::raster::Raster;
+use super::svg::TextAnchor;
 use super::ticks::{Room, Ticks};
 use super::typeset::{RichText, wrap};
 
@@ -104,11 +103,11 @@ impl ColourBar {
         let middle = 0.5 * (left + right);
         if self.overflows.1 {
             let point = vec![(left, bar.top), (middle, frame.top), (right, bar.top)];
-            canvas.fill(path(&[point], true), self.colours[SHADES - 1], 1.0);
+            canvas.fill(&path(&[point], true), self.colours[SHADES - 1], 1.0);
         }
         if self.overflows.0 {
             let point = vec![(left, bar.bottom), (middle, frame.bottom), (right, bar.bottom)];
-            canvas.fill(path(&[point], true), self.colours[0], 1.0);
+            canvas.fill(&path(&[point], true), self.colours[0], 1.0);
         }
         let mut outline = vec![(left, bar.top)];
         outline.extend(self.overflows.1.then_some((middle, frame.top)));
@@ -123,9 +122,9 @@ impl ColourBar {
         };
         let minor = marks(&mut self.minor.iter().copied(), 0.55 * TICK);
         let major = marks(&mut self.major.iter().map(|(share, _)| *share), TICK);
-        canvas.stroke(path(&minor, false), &Stroke::solid(FRAME, 0.6));
-        canvas.stroke(path(&major, false), &Stroke::solid(FRAME, 0.8));
-        canvas.stroke(path(&[outline], true), &Stroke::solid(FRAME, 0.8));
+        canvas.stroke(&path(&minor, false), &Stroke::solid(FRAME, 0.6));
+        canvas.stroke(&path(&major, false), &Stroke::solid(FRAME, 0.8));
+        canvas.stroke(&path(&[outline], true), &Stroke::solid(FRAME, 0.8));
         self.draw_texts(canvas, (bar, frame), position, sizes);
     }
 

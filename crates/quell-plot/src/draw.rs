@@ -1,7 +1,5 @@
 //! Drawing: renders a figure and its layout as strokes, fills and texts on a canvas.
 
-use kuva::render::render::TextAnchor;
-
 use super::arrange::arrange;
 use super::axis::Mapping;
 use super::canvas::{Canvas, Rectangle, Stroke, TextStyle, path};
@@ -12,6 +10,7 @@ use super::layout::{FigureLayout, LABEL_GAP, LegendLayout, NUMBER_GAP, PanelLayo
 use super::obstacles::Obstacles;
 use super::palette::{Colour, FAINT, FRAME, PlotRole};
 use super::projection::{self, reference_line_ends};
+use super::svg::TextAnchor;
 use super::typeset::RichText;
 use super::{legend, maps, marks, reference_line_labels, thin};
 
@@ -78,7 +77,7 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, layout: &PanelLayout, sizes: F
             let dashes = rule.style.unwrap_or(rule.role.style()).dashes(width);
             let stroke = Stroke { colour: rule.role.colour(), width, dashes };
             let ends = reference_line_ends(rule.orientation, rule.value, &x, &y, layout.frame);
-            canvas.stroke(path(ends.as_slice(), false), &stroke);
+            canvas.stroke(&path(ends.as_slice(), false), &stroke);
         }
     }
     let isolines = maps::Isolines::of(panel, layout, sizes);
@@ -86,7 +85,7 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, layout: &PanelLayout, sizes: F
     for layer in &panel.layers {
         if let Layer::Polyline(line) = layer {
             let pieces = projection::pixels(&line.pieces, &x, &y, layout.frame);
-            canvas.stroke(path(&pieces, false), &legend::stroke_of(line));
+            canvas.stroke(&path(&pieces, false), &legend::stroke_of(line));
         }
     }
     canvas.end_group();
@@ -147,7 +146,7 @@ fn draw_region(canvas: &mut Canvas, region: &Region, x: &Mapping, y: &Mapping, f
             marks::outline(Rectangle { top, bottom, ..frame })
         }
     };
-    marks::fill(canvas, path, region.role, region.fill);
+    marks::fill(canvas, &path, region.role, region.fill);
 }
 
 fn draw_frame(
@@ -184,8 +183,8 @@ fn draw_frame(
     for value in &layout.y_ticks.minor {
         minor_marks.extend(y.pixel(*value).map(|at| level(at, MINOR_TICK)).into_iter().flatten());
     }
-    canvas.stroke(path(&minor_marks, false), &Stroke::solid(FRAME, 0.6));
-    canvas.stroke(path(&marks, false), &Stroke::solid(FRAME, FRAME_WIDTH));
+    canvas.stroke(&path(&minor_marks, false), &Stroke::solid(FRAME, 0.6));
+    canvas.stroke(&path(&marks, false), &Stroke::solid(FRAME, FRAME_WIDTH));
     canvas.rectangle(frame, None, Some((FRAME, FRAME_WIDTH)));
     draw_numbers(canvas, layout, sizes, x, y);
     draw_labels(canvas, layout, sizes);

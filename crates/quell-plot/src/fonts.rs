@@ -1,13 +1,9 @@
-//! The fonts of all figures: DejaVu Sans as bundled with kuva, never a system font.
-//!
-//! kuva exposes its fonts only inside an SVG with embedded faces; they are extracted from there once.
+//! The fonts of all figures: the DejaVu Sans of the folder `assets`, never a system font.
 
+use std::io::Read as _;
 use std::sync::{Arc, OnceLock};
 
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
-use kuva::backend::svg::SvgBackend;
-use kuva::render::render::Scene;
+use flate2::read::GzDecoder;
 use resvg::usvg::fontdb::Database;
 use ttf_parser::Face as Table;
 
@@ -16,7 +12,7 @@ pub(super) const FAMILY: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, sans
 /// Font family requested when rasterising an SVG.
 pub(super) const BUNDLED_FAMILY: &str = "DejaVu Sans";
 
-/// A face of the family, in the order in which kuva embeds them.
+/// A face of the family, in the order of [`COMPRESSED`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Face {
     Regular,
@@ -24,16 +20,20 @@ pub(super) enum Face {
     Oblique,
 }
 
+const COMPRESSED: [&[u8]; 3] = [
+    include_bytes!("../assets/DejaVuSans.ttf.gz"),
+    include_bytes!("../assets/DejaVuSans-Bold.ttf.gz"),
+    include_bytes!("../assets/DejaVuSans-Oblique.ttf.gz"),
+];
+
 fn files() -> &'static [Vec<u8>] {
     static FILES: OnceLock<Vec<Vec<u8>>> = OnceLock::new();
     FILES.get_or_init(|| {
-        let scene = Scene::new(1.0, 1.0);
-        let svg = SvgBackend::new().with_embedded_font(true).render_scene(&scene);
-        svg.split(";base64,")
-            .skip(1)
-            .filter_map(|rest| rest.split('\'').next())
-            .filter_map(|encoded| STANDARD.decode(encoded).ok())
-            .collect()
+        let inflated = |file: &[u8]| {
+            let mut font = Vec::new();
+            GzDecoder::new(file).read_to_end(&mut font).map(|_| font)
+        };
+        COMPRESSED.iter().filter_map(|file| inflated(file).ok()).collect()
     })
 }
 
@@ -79,7 +79,7 @@ mod tests {
 
     #[test]
     fn the_bundled_faces_contain_the_required_symbols() {
-        assert!(tables().len() >= 3);
+        assert_eq!(tables().len(), COMPRESSED.len());
         for face in [Face::Regular, Face::Bold, Face::Oblique] {
             for letter in "τωαζμκγξβΩφθ−×⁻²₀ρ≤∞".chars() {
                 assert!(

@@ -1,7 +1,5 @@
 //! Legends: one entry per label with its keys, in a box or in rows.
 
-use kuva::render::render::TextAnchor;
-
 use super::canvas::{Canvas, Rectangle, Stroke, TextStyle, path};
 use super::colouring::{Colouring, Shading, Tint};
 use super::figure::{LegendPosition, Panel};
@@ -10,6 +8,7 @@ use super::layer::{Fill, Layer, Marker, Polyline};
 use super::map_layers::Heatmap;
 use super::marks;
 use super::palette::{Colour, FRAME, GAP, LEGEND_EDGE, PAPER, PlotRole};
+use super::svg::TextAnchor;
 use super::typeset::RichText;
 
 const SAMPLE: f64 = 26.0;
@@ -215,7 +214,7 @@ fn draw_entry(canvas: &mut Canvas, entry: &LegendEntry, (left, top): (f64, f64),
         match sample {
             LegendKey::Stroke(stroke) => {
                 let ends = vec![(left, middle), (left + SAMPLE, middle)];
-                canvas.stroke(path(&[ends], false), stroke);
+                canvas.stroke(&path(&[ends], false), stroke);
             }
             LegendKey::Point(role, marker, diameter) => {
                 let at = [(left + 0.5 * SAMPLE, middle)];
@@ -225,12 +224,12 @@ fn draw_entry(canvas: &mut Canvas, entry: &LegendEntry, (left, top): (f64, f64),
                 canvas.rectangle(patch, Some((*colour, 1.0)), Some((GREY_EDGE, 0.6)));
             }
             LegendKey::Hatch(style) => {
-                canvas.fill(marks::outline(patch), GAP, 1.0);
-                canvas.hatch(marks::outline(patch), FRAME, *style);
+                canvas.fill(&marks::outline(patch), GAP, 1.0);
+                canvas.hatch(&marks::outline(patch), FRAME, *style);
                 canvas.rectangle(patch, None, Some((FRAME, 0.6)));
             }
             LegendKey::Patch(role, fill) => {
-                marks::fill(canvas, marks::outline(patch), *role, *fill);
+                marks::fill(canvas, &marks::outline(patch), *role, *fill);
                 canvas.rectangle(patch, None, Some((role.colour(), 0.6)));
             }
         }

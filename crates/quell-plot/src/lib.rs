@@ -22,9 +22,7 @@
 //!
 //! Labels are plain text with `$…$` for symbols; the module `typeset` documents the syntax between the dollars.
 //!
-//! kuva writes the SVG (primitives, escaping, bundled DejaVu fonts) and resvg converts it to PNG.
-//! Axes, panel grids, legends and clipping are laid out here, because kuva's own figure type
-//! supports neither subscripts nor polygons nor broken curves, and does not clip at the axes.
+//! The crate lays out the figure and writes the SVG itself; resvg converts it to PNG with the bundled DejaVu fonts.
 
 mod arrange;
 mod axis;
@@ -55,6 +53,7 @@ mod projection;
 mod raster;
 mod reference_line_labels;
 mod shades;
+mod svg;
 mod thin;
 mod ticks;
 mod tspan;

@@ -1,7 +1,5 @@
 //! Drawing of maps: the image of a field, hatched gaps, isolines with their labels.
 
-use kuva::render::render::TextAnchor;
-
 use super::axis::{Mapping, PlotAxis};
 use super::canvas::{Canvas, Rectangle, Stroke, TextStyle, path};
 use super::field::borders;
@@ -14,6 +12,7 @@ use super::map_layers::Heatmap;
 use super::palette::{Colour, FRAME, GAP};
 use super::projection::{self, reference_line_ends};
 use super::raster::raster;
+use super::svg::TextAnchor;
 use super::{marks, thin};
 
 /// Draws the image of a field and hatches the cells without a value.
@@ -35,8 +34,8 @@ pub(super) fn draw_grid(
     let rows = ends(&panel.y, grid.field.y(), y);
     for (style, _, cells) in gaps {
         let outline = marks::union(&cells, &columns, &rows);
-        canvas.fill(outline.clone(), GAP, 1.0);
-        canvas.hatch(outline, FRAME, style);
+        canvas.fill(&outline, GAP, 1.0);
+        canvas.hatch(&outline, FRAME, style);
     }
 }
 
@@ -90,7 +89,7 @@ impl Isolines {
                 .iter()
                 .map(|piece| thin::polyline(piece))
                 .collect();
-            canvas.stroke(path(&pieces, false), &Stroke::solid(stroke.0, stroke.1));
+            canvas.stroke(&path(&pieces, false), &Stroke::solid(stroke.0, stroke.1));
         }
     }
 

@@ -31,16 +31,16 @@ pub(super) fn markers(
             // A stroke of zero length with round ends is a disc, and the shortest path for one.
             let dots = path(&shape(&[(0.0, 0.0)]), false);
             canvas.begin_group("stroke-linecap=\"round\"");
-            canvas.stroke(dots.clone(), &Stroke::solid(colour, size));
+            canvas.stroke(&dots, &Stroke::solid(colour, size));
             if marker == Marker::Circle {
-                canvas.stroke(dots, &Stroke::solid(PAPER, size - 2.0 * outline.width));
+                canvas.stroke(&dots, &Stroke::solid(PAPER, size - 2.0 * outline.width));
             }
             canvas.end_group();
         }
         Marker::Cross => {
             let mut strokes = shape(&[(-0.85, -0.85), (0.85, 0.85)]);
             strokes.extend(shape(&[(-0.85, 0.85), (0.85, -0.85)]));
-            canvas.stroke(path(&strokes, false), &outline);
+            canvas.stroke(&path(&strokes, false), &outline);
         }
     }
 }
@@ -89,7 +89,7 @@ pub(super) fn union(cells: &[bool], columns: &[(f64, f64)], rows: &[(f64, f64)])
 }
 
 /// Fills an outline in the colour of a role.
-pub(super) fn fill(canvas: &mut Canvas, outline: String, role: PlotRole, fill: Fill) {
+pub(super) fn fill(canvas: &mut Canvas, outline: &str, role: PlotRole, fill: Fill) {
     match fill.opacity() {
         Some(opacity) => canvas.fill(outline, role.colour(), opacity),
         None => canvas.hatch(outline, role.colour(), 0),

@@ -1,7 +1,5 @@
 //! Ticks: positions of the marks of an axis, and their labels.
 
-use kuva::render::render_utils::generate_ticks_with_step;
-
 use super::axis::{PlotAxis, Scale};
 use super::typeset::{RichText, number};
 
@@ -57,7 +55,7 @@ impl Ticks {
 
     fn evenly(limits: (f64, f64), count: usize) -> Self {
         let step = step_for((limits.1 - limits.0) / count as f64);
-        let values = generate_ticks_with_step(limits.0, limits.1, step);
+        let values = multiples(limits, step);
         let leading = step / 10f64.powf((step.log10() + 1e-9).floor());
         let parts = if (leading - 2.0).abs() < 0.1 { 4 } else { 5 };
         let minor = values
@@ -149,6 +147,37 @@ fn step_for(wanted: f64) -> f64 {
         .unwrap_or(wanted)
 }
 
+/// The multiples of `step` within the limits.
+///
+/// `step` is that of [`step_for`], which leaves about 15 of them at most.
+fn multiples((lower, upper): (f64, f64), step: f64) -> Vec<f64> {
+    // The range of the limits overflows.
+    if !step.is_finite() {
+        return Vec::new();
+    }
+    let first = (lower / step).floor();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+    let last = ((upper / step).ceil() - first) as u8;
+    let mut values: Vec<f64> = (0..=last)
+        .map(|index| (first + f64::from(index)) * step)
+        .filter(|value| (lower..=upper).contains(value))
+        .map(|value| {
+            let rounded = rounded(value);
+            let is_close = (rounded - value).abs() <= 1e-6 * step;
+            if is_close && (lower..=upper).contains(&rounded) { rounded } else { value }
+        })
+        .collect();
+    values.dedup();
+    values
+}
+
+/// The value without the rounding error of a product, to nine decimals: 0.3 for 3 × 0.1.
+fn rounded(value: f64) -> f64 {
+    const NINE: f64 = 1e9;
+    let scaled = value * NINE;
+    if scaled.fract() == 0.0 { value } else { scaled.round() / NINE }
+}
+
 fn power(digit: i32, exponent: i32, plain: bool) -> String {
     if plain {
         let decimals = usize::try_from(-exponent).unwrap_or(0);
@@ -183,6 +212,17 @@ mod tests {
         assert!(ticks.major.len() >= 4);
         assert_eq!(decimals(0.25), 2);
         assert_eq!(decimals(20.0), 0);
+    }
+
+    #[test]
+    fn multiples_are_within_the_limits_and_without_rounding_errors() {
+        assert_eq!(multiples((0.0, 0.3), 0.1), [0.0, 0.1, 0.2]);
+        assert_eq!(multiples((0.0, 0.35), 0.1), [0.0, 0.1, 0.2, 0.3]);
+        assert_eq!(multiples((-0.2, 0.21), 0.1), [-0.2, -0.1, 0.0, 0.1, 0.2]);
+        assert_eq!(multiples((1.0, 1.7), 0.2), [1.0, 1.2, 1.4, 1.6]);
+        assert_eq!(multiples((2.5e-12, 6e-12), 1e-12), [3e-12, 4e-12, 5e-12, 6e-12]);
+        assert!(multiples((0.31, 0.39), 0.1).is_empty());
+        assert!(multiples((f64::MIN, f64::MAX), f64::INFINITY).is_empty());
     }
 
     #[test]

@@ -9,7 +9,7 @@
 
 use super::fonts::{self, Face};
 use super::letter_style::{LetterStyle, ScriptLevel};
-use super::tspan::{Pen, Tags};
+use super::tspan::Pen;
 
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct TextRun {
@@ -60,16 +60,14 @@ impl RichText {
             .sum()
     }
 
-    /// The text for kuva, with styles encoded as private-use characters.
-    pub(super) fn encode(&self, tags: &mut Tags) -> String {
-        let mut pen = Pen::new(tags);
+    /// The text as contents of an SVG `<text>` element.
+    pub(super) fn svg(&self) -> String {
+        let mut pen = Pen::default();
         for run in &self.runs {
-            // kuva interprets `$…$` and `\$` itself; a dollar that is left here is literal.
-            let printed = run.text.replace('$', "\\$");
             if run.look.barred {
                 run.text.chars().for_each(|letter| pen.put_barred(letter, run.look));
             } else {
-                pen.put(&printed, run.look, run.look.level.depth());
+                pen.put(&run.text, run.look, run.look.level.depth());
             }
         }
         pen.into_text()
@@ -275,8 +273,7 @@ mod tests {
     fn a_bar_does_not_change_the_width() {
         let (plain, barred) = (RichText::parse("$μ(v)$"), RichText::parse("$\\bar{μ}(v)$"));
         assert_eq!(plain.width(10.0, false), barred.width(10.0, false));
-        let mut tags = Tags::default();
-        let svg = tags_of(&barred, &mut tags);
+        let svg = barred.svg();
         let moves: f64 = svg
             .split("dx=\"")
             .skip(1)
@@ -285,29 +282,20 @@ mod tests {
         assert!((moves + fonts::width(BAR, Face::Regular)).abs() < 2e-3, "{svg}");
     }
 
-    fn tags_of(label: &RichText, tags: &mut Tags) -> String {
-        let text = label.encode(tags);
-        tags.resolve(&text)
-    }
-
     #[test]
     fn an_unpaired_dollar_is_printed_literally() {
         assert_eq!(runs_of("5 $ each"), vec![("5 $ each".into(), LetterStyle::default())]);
-        assert_eq!(RichText::parse("5 $ each").encode(&mut Tags::default()), "5 \\$ each");
+        assert_eq!(RichText::parse("5 $ each").svg(), "5 $ each");
     }
 
     #[test]
     fn private_use_characters_of_a_label_are_removed() {
-        let mut tags = Tags::default();
-        let text = RichText::parse("a\u{E000}b\u{F8FF}\u{1}").encode(&mut tags);
-        assert_eq!(tags.resolve(&text), "ab ");
+        assert_eq!(RichText::parse("a\u{E000}b\u{F8FF}\u{1}").svg(), "ab ");
     }
 
     #[test]
     fn the_baseline_shift_is_undone_after_a_subscript() {
-        let mut tags = Tags::default();
-        let text = RichText::parse("$x_1y$").encode(&mut tags);
-        let svg = tags.resolve(&text);
+        let svg = RichText::parse("$x_1y$").svg();
         assert!(svg.contains("dy=\"0.278em\"") && svg.contains("dy=\"-0.200em\""), "{svg}");
         assert_eq!(svg.matches("<tspan").count(), svg.matches("</tspan>").count());
     }

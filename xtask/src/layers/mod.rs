@@ -136,7 +136,6 @@ mod tests {
             ("quell-dynamics", "rayon"),
             ("quell-model", "toml"),
             ("quell-dynamics", "zarrs"),
-            ("quell-cli", "kuva"),
             ("quell-cli", "resvg"),
             ("quell", "clap"),
             ("quell", "indicatif"),

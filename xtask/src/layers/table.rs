@@ -85,7 +85,6 @@ pub(crate) const CONFINED: &[Confined] = &[
     confined("rayon",      &["quell", "quell-reproduce"],            false, "the engines are single-threaded, so that no result depends on scheduling"),
     confined("toml",       &["quell-study", "xtask"],    false, "study files are read by one crate; xtask reads manifests"),
     confined("zarrs",      &["quell"],              false, "stores are written by one crate, atomically"),
-    confined("kuva",       &["quell-plot"],         false, "pictures are drawn by one crate"),
     confined("png",        &["quell-plot"],         true,  "pictures are drawn by one crate; tests decode them"),
     confined("resvg",      &["quell-plot"],         false, "pictures are drawn by one crate"),
     confined("rustix",     &["quell", "quell-study"], false, "untrusted files are opened by two crates: studies and stores"),
