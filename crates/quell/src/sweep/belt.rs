@@ -8,7 +8,7 @@ use quell_model::units;
 use super::cost;
 use super::evaluate::{Computation, Results, Steady, evaluate};
 use super::grid::Grid;
-use super::kind::{Mapped, Point};
+use super::mapped::{Mapped, Point};
 use super::quantity::{Quantity, VERDICTS, Variable, VariableKind, variable};
 use super::status::Status;
 use crate::study::BeltStudy;

@@ -16,7 +16,7 @@ use quell_numerics::floquet::Effort;
 
 use super::evaluate::{Computation, Results};
 use super::grid::Grid;
-use super::kind::{Mapped, Point};
+use super::mapped::{Mapped, Point};
 use super::quantity::{Quantity, VERDICTS, Variable, VariableKind, variable};
 use super::status::Status;
 use super::{cost, refine};

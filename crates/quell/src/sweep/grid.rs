@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 
 use serde_json::Value as Json;
 
-use super::kind;
 use crate::complaint::{Complaint, Complaints, Fault, Origin};
 use crate::study::vocabulary::{Address, Role};
 use crate::study::{Axis, Study, Sweep};
@@ -51,13 +50,15 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The grid of a study.
+    /// The grid of a study whose axes have these values.
     ///
     /// # Errors
     /// A complaint if the study has no axis, two axes that set the same number, or more
     /// than [`MOST_POINTS`] points.
-    pub fn of(study: impl Into<Study>) -> Result<Self, Box<Complaint>> {
-        let study = study.into();
+    pub(super) fn with_values(
+        study: Study,
+        values: impl Fn(&Sweep) -> Vec<f64>,
+    ) -> Result<Self, Box<Complaint>> {
         let sweeps = study.sweeps();
         if sweeps.is_empty() {
             let complaint =
@@ -87,14 +88,13 @@ impl Grid {
                 Complaint::new(Fault::Value, "[[sweep]]", Origin::Whole, lengths, allowed);
             return Err(Box::new(complaint));
         }
-        let mapped = kind::of(&study);
         let axes = sweeps.iter().map(|sweep| GridAxis {
             name: name_of(&sweep.path),
             path: sweep.path.clone(),
             about: sweep.address.key.about,
             symbol: sweep.address.key.parameter().map(|parameter| parameter.symbol),
             unit: sweep.address.key.unit_in_words(),
-            values: mapped.values(sweep),
+            values: values(sweep),
             logarithmic: matches!(sweep.axis, Axis::Logarithmic { .. }),
         });
         let axes = axes.collect();

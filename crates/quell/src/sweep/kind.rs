@@ -1,33 +1,24 @@
-//! The interface of a kind of study to maps: its quantities, its axes, the cost of a point, and the computation.
-
-use quell_model::units::Scales;
+//! The implementation of maps for each kind of study.
 
 use super::belt::BeltPoints;
 use super::disc::DiscPoints;
-use super::evaluate::{Computation, Results};
+use super::evaluate::Computation;
 use super::grid::Grid;
+use super::mapped::{Mapped, Point};
 use super::quantity::Quantity;
-use crate::study::{Study, Sweep};
+use crate::complaint::Complaint;
+use crate::study::Study;
 
-/// Results at a point, with the scales of its study.
-pub(super) type Point = (Option<Scales>, Results);
-
-/// A kind of study that maps can compute.
-pub(crate) trait Mapped: Send + Sync {
-    /// The quantities of this kind.
-    fn quantities(&self) -> &'static [Quantity];
-
-    /// The values of an axis.
-    fn values(&self, sweep: &Sweep) -> Vec<f64> {
-        sweep.axis.values().collect()
+impl Grid {
+    /// The grid of a study.
+    ///
+    /// # Errors
+    /// A complaint if the study has no axis, two axes that set the same number, or too many points.
+    pub fn of(study: impl Into<Study>) -> Result<Self, Box<Complaint>> {
+        let study = study.into();
+        let mapped = of(&study);
+        Self::with_values(study, |sweep| mapped.values(sweep))
     }
-
-    /// Estimated seconds of one point.
-    fn seconds(&self, wanted: &[Computation]) -> f64;
-
-    /// Computes some points, by their index in the grid; `None` where the axis values do not form a valid study.
-    fn compute(&self, grid: &Grid, indices: &[usize], wanted: &[Computation])
-    -> Vec<Option<Point>>;
 }
 
 /// A study of a kind that has no maps.

@@ -11,12 +11,14 @@
 //! nothing else: it has the same bits alone, in any chunk and with any number of threads.
 
 mod belt;
+mod catalogue;
 mod chunks;
 mod cost;
 mod disc;
 mod evaluate;
 mod grid;
 mod kind;
+mod mapped;
 mod plan;
 mod quantity;
 mod refine;
@@ -29,7 +31,8 @@ pub use chunks::Chunks;
 pub use evaluate::{Computation, Results, Steady};
 pub use grid::{Grid, GridAxis, MOST_POINTS};
 pub use plan::Plan;
-pub use quantity::{QUANTITIES, Quantity, Variable, VariableKind};
+pub use catalogue::QUANTITIES;
+pub use quantity::{Quantity, Variable, VariableKind};
 pub(crate) use runner::run;
 pub use runner::{MOST_THREADS, Progress, Running};
 pub use shard::Shard;

@@ -7,9 +7,6 @@ use quell_model::units;
 
 use super::evaluate::{Computation, Results};
 use super::status::Status;
-use super::{belt, disc};
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::suggest;
 
 /// The kind of the values of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,41 +83,6 @@ impl PartialEq for Quantity {
     }
 }
 
-impl Quantity {
-    /// The quantity of a belt with this name.
-    ///
-    /// # Errors
-    /// A complaint about `option` with the nearest name.
-    pub fn named(name: &str, option: &'static str) -> Result<&'static Self, Box<Complaint>> {
-        Self::named_for(belt::KIND, name, option)
-    }
-
-    /// The quantity with this name for a kind of study, itself named as by [`crate::study::Kind::name`].
-    ///
-    /// # Errors
-    /// A complaint about `option` with the nearest name.
-    pub fn named_for(
-        kind: &str,
-        name: &str,
-        option: &'static str,
-    ) -> Result<&'static Self, Box<Complaint>> {
-        let there =
-            || QUANTITIES.iter().copied().flatten().filter(|quantity| quantity.kind == kind);
-        if let Some(found) = there().find(|quantity| quantity.name == name) {
-            return Ok(found);
-        }
-        let names: Vec<&str> = there().map(|quantity| quantity.name).collect();
-        let allowed = format!("one of {}", names.join(", "));
-        let complaint =
-            Complaint::new(Fault::Value, option, Origin::Argument(option), name, allowed);
-        let nearest = suggest::word(&name.replace('_', "-"), names);
-        Err(Box::new(complaint.suggesting(nearest)))
-    }
-}
-
-/// All quantities, by kind of study.
-pub const QUANTITIES: &[&[Quantity]] = &[belt::QUANTITIES, disc::QUANTITIES];
-
 /// Words of a verdict; the first is 0, so that a verdict is 1 if sliding is stable.
 pub(super) const VERDICTS: VariableKind =
     VariableKind::Word { words: &["unstable", "stable"], unknown: "undecided" };
@@ -133,28 +95,4 @@ pub(super) const fn variable(
     read: fn(&Results) -> Result<f64, Status>,
 ) -> Variable {
     Variable { name, about, symbol, kind, statuses, read }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_are_unique_and_variables_follow_them() {
-        for of_kind in QUANTITIES {
-            let mut names: Vec<&str> = of_kind.iter().map(|quantity| quantity.name).collect();
-            let count = names.len();
-            names.sort_unstable();
-            names.dedup();
-            assert_eq!(names.len(), count);
-        }
-        for quantity in QUANTITIES.iter().copied().flatten() {
-            let first = quantity.variables.first().expect("a variable");
-            assert_eq!(first.name, quantity.name.replace('-', "_"));
-            let found = Quantity::named_for(quantity.kind, quantity.name, "--quantity");
-            assert_eq!(found, Ok(quantity));
-        }
-        let refused = Quantity::named("stick_fraction", "--quantity").expect_err("an underscore");
-        assert_eq!(refused.suggestion.as_deref(), Some("stick-fraction"));
-    }
 }
