@@ -22,7 +22,7 @@ pub(crate) struct StudyArguments {
     /// Changes a value of the study, such as dither[1].amplitude=0.3
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
-    /// Replaces the tolerance in [solver]
+    /// Replaces the tolerance of [solver]
     #[arg(long, value_name = "ε", allow_hyphen_values = true)]
     tolerance: Option<String>,
     /// Prints one JSON object on standard output and nothing else
@@ -56,7 +56,7 @@ pub(crate) fn inputs(study: Option<&Study>) -> Inputs {
 /// Where the picture goes.
 #[derive(Debug, Args)]
 pub(crate) struct PlotArguments {
-    /// Draws a picture
+    /// Draws the answer into a picture file
     #[arg(long, value_name = "FILE.svg|.png")]
     plot: Option<PathBuf>,
 }
@@ -96,7 +96,7 @@ impl Plot {
     pub(crate) fn write(self, outcome: &dyn Outcome, object: &mut Json) -> Result<(), Failure> {
         let Some(output) = self.output else { return Ok(()) };
         let figure = outcome.figure().unwrap_or_else(|| {
-            let allowed = "there is no picture of this answer";
+            let allowed = "this answer has no picture";
             Err(Complaint::option("--plot", Json::Null, allowed).into())
         });
         object["plotted"] = picture::write(&figure?, output)?.into();
@@ -107,7 +107,7 @@ impl Plot {
 /// Where the numbers go besides standard output.
 #[derive(Debug, Args)]
 pub(crate) struct OutputArguments {
-    /// Saves the numbers
+    /// Saves the computed numbers as a table
     #[arg(long, value_name = "FILE.csv")]
     save: Option<PathBuf>,
 }

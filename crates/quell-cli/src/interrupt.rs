@@ -43,7 +43,9 @@ pub(crate) fn handle() {
         if STOP.swap(true, Ordering::Relaxed) || !HEARD.load(Ordering::Relaxed) {
             end();
         }
-        answer::tell("\nstopping after what is running; once more ends at once\n");
+        answer::tell(
+            "\nstopping after the work in progress; press Ctrl-C again to stop immediately\n",
+        );
         let _ = thread::Builder::new().spawn(|| {
             thread::sleep(PATIENCE);
             end();

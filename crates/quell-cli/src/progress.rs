@@ -11,10 +11,10 @@ use crate::answer::tell;
 
 /// What the bar shows.
 const TEMPLATE: &str =
-    "{bar:32} {human_pos}/{human_len} points  {per_sec}  {elapsed} gone, {eta} left";
+    "{bar:32} {human_pos}/{human_len} points  {per_sec}  {elapsed} elapsed, {eta} left";
 
 /// What the bar of a reproduction shows.
-const ENTRIES: &str = "{bar:32} {pos}/{len}  {elapsed} gone  {msg}";
+const ENTRIES: &str = "{bar:32} {pos}/{len}  {elapsed} elapsed  {msg}";
 
 /// A bar.
 #[derive(Debug)]

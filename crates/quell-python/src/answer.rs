@@ -26,7 +26,7 @@ impl NativeAnswer {
 
     fn figure(&self) -> Result<Figure, Failure> {
         self.inner.figure().unwrap_or_else(|| {
-            let allowed = "there is no picture of this result";
+            let allowed = "this result has no picture";
             Err(Complaint::new(Fault::Usage, "plot", Origin::Whole, Json::Null, allowed).into())
         })
     }
@@ -77,7 +77,7 @@ impl NativeAnswer {
             let first = Output::prepare(&path, "path", &["csv"], &inputs)?;
             let datasets = inner.datasets();
             if datasets.is_empty() {
-                let allowed = "there is no table of this result";
+                let allowed = "this result has no table";
                 let origin = Origin::Whole;
                 return Err(
                     Complaint::new(Fault::Usage, "save", origin, Json::Null, allowed).into()

@@ -6,7 +6,9 @@
 /// Ways of the command line, and what they are in Python.
 const WAYS: &[(&str, &str)] = &[
     ("the same command with --resume goes on", "the same call with resume=True goes on"),
+    ("the same command with --resume continues", "the same call with resume=True continues"),
     ("--resume goes on", "resume=True goes on"),
+    ("--resume continues", "resume=True continues"),
     ("--save FILE.zarr keeps what is done", "store=\"FILE.zarr\" keeps what is done"),
     (
         "or on the command line: --set sweep[0].parameter=dither.amplitude --set 'sweep[0].values=[0.1, 0.2]'",

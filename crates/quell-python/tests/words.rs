@@ -27,8 +27,8 @@ fn options_are_named_as_arguments() {
 fn ways_are_those_of_python() {
     for (text, told) in [
         (
-            "exists already: --resume goes on with it; or choose another name",
-            "exists already: resume=True goes on with it; or choose another name",
+            "already exists: --resume continues it; or choose another name",
+            "already exists: resume=True continues it; or choose another name",
         ),
         (
             "stopped; 3 of 4 chunks are kept, 1 are left: the same command with --resume goes on",

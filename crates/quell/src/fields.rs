@@ -56,7 +56,7 @@ impl Fields {
         value: Result<f64, String>,
     ) -> &mut Self {
         let value = value.and_then(|value| {
-            if value.is_finite() { Ok(value) } else { Err(format!("it is {value}")) }
+            if value.is_finite() { Ok(value) } else { Err(format!("the value is {value}")) }
         });
         let twin = self.twin(name, quantity);
         self.name_units(name, quantity, twin.as_ref());

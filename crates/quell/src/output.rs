@@ -100,7 +100,7 @@ impl Output {
         if fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
             let (given, origin) = (path.display().to_string(), Origin::Argument(option));
             let allowed =
-                "is there already, and is not a regular file: remove it, or choose another name";
+                "already exists and is not a regular file; remove it, or choose another name";
             return Err(Box::new(Complaint::new(Fault::Path, option, origin, given, allowed)));
         }
         Self::prepare(path, option, extensions, inputs)
@@ -171,7 +171,7 @@ impl Output {
             return Ok(());
         }
         if self.path.is_dir() {
-            return Err(io::Error::other("it is a directory"));
+            return Err(io::Error::other("the path is a directory"));
         }
         if self.path.exists() {
             self.path = self.path.canonicalize()?;

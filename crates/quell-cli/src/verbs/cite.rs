@@ -7,7 +7,7 @@ use quell::kind::verbs;
 use crate::answer::Answer;
 use crate::arguments::StudyArguments;
 
-/// Lists the equations and papers that a study's computations use, and corrections of the print
+/// Lists the equations and papers that a study's computations use, and corrections of the printed text
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]

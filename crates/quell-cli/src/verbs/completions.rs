@@ -11,7 +11,7 @@ use crate::help;
 /// Prints a script that completes verbs and options in a shell
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// The shell
+    /// Name of the shell
     #[arg(value_name = "SHELL")]
     shell: Shell,
 }

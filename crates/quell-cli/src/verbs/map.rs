@@ -133,9 +133,9 @@ fn keep(arguments: &Arguments, inputs: &Inputs) -> Result<Keep, Box<Complaint>> 
         Some(path) if zarr(path) => Ok(Keep::Zarr(path.clone())),
         _ if arguments.resume || arguments.shard.is_some() => {
             let (option, allowed) = if arguments.resume {
-                ("--resume", "--resume goes on with a store: name it by --save FILE.zarr")
+                ("--resume", "--resume continues a store: name it by --save FILE.zarr")
             } else {
-                ("--shard", "--shard computes into a store: name it by --save FILE.zarr")
+                ("--shard", "--shard writes into a store: name it by --save FILE.zarr")
             };
             Err(Box::new(Complaint::new(Fault::Usage, option, Origin::Whole, option, allowed)))
         }
@@ -152,7 +152,8 @@ fn drawable(grid: &Grid) -> Result<(), Box<Complaint>> {
         return Ok(());
     }
     let allowed = format!(
-        "--plot draws one panel for each point of the axes before the last two, at most {}; this study has {panels}: save the map and draw it from there",
+        "--plot draws one panel for each point of the axes before the last two, at most {}; this study has {panels}: \
+         save the map and plot it from the saved file",
         picture::MOST_PANELS
     );
     let origin = Origin::Argument("--plot");

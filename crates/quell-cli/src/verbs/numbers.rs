@@ -15,7 +15,7 @@ pub(crate) struct VariedArguments {
     /// Smallest value, in the unit of the key or with a unit, such as 5kN
     #[arg(long, value_name = "A", allow_hyphen_values = true)]
     from: String,
-    /// Largest value, likewise
+    /// Largest value, in the unit of the key or with a unit, such as 5kN
     #[arg(long, value_name = "B", allow_hyphen_values = true)]
     to: String,
 }

@@ -14,7 +14,7 @@ use crate::progress::Entries;
 #[derive(Debug, Args)]
 #[command(after_help = list())]
 pub(crate) struct Arguments {
-    /// Figures such as 2.3, or claims [default: everything]
+    /// Names of figures such as 2.3, or of claims [default: everything]
     #[arg(value_name = "NAME")]
     names: Vec<String>,
     /// Directory for the report, pictures, data and tables, created if it is missing

@@ -14,10 +14,10 @@ use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments,
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Range of speeds, in ω_ref or with units such as 0rpm:900rpm [default: 0:1]
+    /// Range of speeds, in units of ω_ref or with units such as 0rpm:900rpm [default: 0:1]
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     speeds: Option<String>,
-    /// Order of the expansion: second counts friction twice (f of the order of the root of m, c, k)
+    /// Order of the expansion; second takes friction to second order (f of the order of √m, √c, √k)
     #[arg(long, value_name = "ORDER", default_value = "first")]
     order: Expansion,
     /// Range of speeds to keep clear; needs --frequency

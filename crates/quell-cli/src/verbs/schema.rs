@@ -8,7 +8,7 @@ use crate::answer::Answer;
 /// Prints the JSON Schema of a study file
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// On one line
+    /// Prints the schema on one line
     #[arg(long)]
     json: bool,
 }

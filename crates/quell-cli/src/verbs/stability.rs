@@ -7,7 +7,7 @@ use quell::kind::verbs;
 use crate::answer::Answer;
 use crate::arguments::{Gathered, Outputs, PlotArguments, StudyArguments, answer, inputs};
 
-/// Decides whether steady sliding (by averaging) or a disc (by eigenvalues) is stable, and what changes that
+/// Decides whether steady sliding (by averaging) or a disc (by eigenvalues) is stable, and what would change that
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]

@@ -11,23 +11,23 @@ use super::numbers::{VariedArguments, duration, state, window};
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 
-/// Finds the values of a parameter at which dither begins or ceases to quench
+/// Finds the values of a parameter at which dither starts or stops quenching
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
     #[command(flatten)]
     varied: VariedArguments,
-    /// Also finds them for runs from rest
+    /// Also finds the thresholds of runs from rest
     #[arg(long)]
     from_rest: bool,
-    /// Also finds them for runs from steady sliding without dither
+    /// Also finds the thresholds of runs from steady sliding without dither
     #[arg(long)]
     from_sliding: bool,
-    /// Also finds them for runs in full squeal when the dither is switched on
+    /// Also finds the thresholds of runs that squeal fully when the dither is switched on
     #[arg(long)]
     from_squeal: bool,
-    /// Also finds them for runs from this state; in a study in SI metres and m/s, or with units such as 1um,50mm/s
+    /// Also finds the thresholds of runs from this state; in a study in SI metres and m/s, or with units such as 1um,50mm/s
     #[arg(long, value_name = "X,V", allow_hyphen_values = true)]
     start: Option<String>,
     /// Raises the dither of these runs over this time τ, in steps of its period, instead of switching it on; in a study in SI

@@ -186,14 +186,14 @@ fn a_store_of_another_study_is_refused_and_left_alone() {
         assert!(told.errors.contains(word), "{arguments:?}: {told:?}");
         same(&place.store("m.zarr"), &reference);
     };
-    refused(&ask("efficiency", &[]), "exists already");
+    refused(&ask("efficiency", &[]), "already exists");
     refused(&ask("verdict", &["--resume"]), "the quantities are verdict");
     for (from, to, word) in [
-        ("= 0.005", "= 0.0051", "belt.damping_ratio is 0.0051 here and 0.005 there"),
+        ("= 0.005", "= 0.0051", "belt.damping_ratio is 0.0051 here and 0.005 in the store"),
         ("settle = 5", "settle = 6", "solver.settle"),
-        ("points = 3", "points = 4", "dither.amplitude runs over"),
+        ("points = 3", "points = 4", "dither.amplitude has the values"),
         ("\"sine\"", "\"square\"", "dither.waveform"),
-        ("values = [0.05", "values = [0.0500000000000001", "belt.belt_velocity runs over"),
+        ("values = [0.05", "values = [0.0500000000000001", "belt.belt_velocity has the values"),
     ] {
         assert!(small.contains(from));
         place.write("small.toml", small.replace(from, to));

@@ -128,7 +128,7 @@ fn a_shard_that_cannot_be_is_refused_at_once() {
         (&["--shard", "1/2", "--save", "m.csv"], "name it by --save FILE.zarr"),
         (&["--shard", "3/2", "--save", "m.zarr"], "k from 1 to n"),
         (&["--shard", "-1/2", "--save", "m.zarr"], "k from 1 to n"),
-        (&["--shard", "1/2", "--save", "m.zarr", "--plot", "m.svg"], "no whole map"),
+        (&["--shard", "1/2", "--save", "m.zarr", "--plot", "m.svg"], "not the whole map"),
         (&["--shard", "1/1", "--resume", "--save", "m.zarr"], "cannot be used with '--resume'"),
     ];
     for (arguments, word) in cases {

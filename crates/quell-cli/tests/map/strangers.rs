@@ -101,14 +101,14 @@ fn links_in_a_store_lead_nowhere() {
         symlink(&outside, &path).expect("a link");
         let before = if outside.is_dir() { files(&outside) } else { BTreeMap::new() };
         let bytes = fs::read(&outside).ok();
-        refused(&place, &["holds a symbolic link at", name]);
+        refused(&place, &["contains a symbolic link at", name]);
         if outside.is_dir() {
             same(&files(&outside), &before);
         }
         assert_eq!(fs::read(&outside).ok(), bytes, "{name}");
         // A link to nowhere: nothing is made there.
         remove(&outside);
-        refused(&place, &["holds a symbolic link at", name]);
+        refused(&place, &["contains a symbolic link at", name]);
         assert!(fs::symlink_metadata(&outside).is_err(), "{name}: something was made outside");
     }
 }
@@ -158,7 +158,7 @@ fn metadata_are_proven() {
         let path = place.folder.join("m.zarr").join(name);
         let Some(bytes) = store.get(name) else { panic!("{name} is not in {:?}", store.keys()) };
         fs::write(&path, change(bytes)).expect("changed");
-        refused(&place, &[name, "is not what the store was begun with"]);
+        refused(&place, &[name, "differs from what this map must contain"]);
         // As the message says: without the file it is written again.
         fs::remove_file(&path).expect("removed");
         place.good(&[&ASK[..], &["--resume"]].concat());

@@ -22,7 +22,7 @@ use crate::study::BeltStudy;
 const STATES: usize = 400;
 
 /// Why an end has no colour.
-const UNKNOWN: &str = "end not known";
+const UNKNOWN: &str = "outcome unknown";
 
 /// The picture of basins: the plane of starts, or the share over a parameter.
 ///
@@ -76,7 +76,7 @@ pub(crate) fn plane(
         let points =
             Points::new(if single { PlotRole::Exact } else { role(basins, place) }, states);
         let marker = if single { Marker::Cross } else { Marker::Disc };
-        let label = if place == 0 { "sections of the responses" } else { "" };
+        let label = if place == 0 { "stroboscopic sections of the responses" } else { "" };
         over.push(points.marker(marker).size(if single { 8.0 } else { 2.4 }).label(label).into());
     }
     let (across, up) = (x.axis("displacement", "x"), v.axis("velocity", "x′"));
@@ -104,7 +104,7 @@ pub(crate) fn plane(
             MapAxis { axis: across, values: columns.iter().map(|it| x.place(*it)).collect() },
             MapAxis { axis: up, values: rows.iter().map(|it| v.place(*it)).collect() },
         ],
-        quantity: PlotAxis::new("end"),
+        quantity: PlotAxis::new("outcome"),
         kind: MapKind::Outcome((0..basins.len()).map(outcome).collect()),
         reasons: vec![UNKNOWN.to_owned()],
         over,

@@ -118,7 +118,9 @@ fn panels(
 ) -> Result<Figure, PlotError> {
     let count: usize = others.iter().map(|axis| axis.values.len()).product();
     if count > MOST_PANELS {
-        return Err(PlotError::Field { why: format!("{count} panels are no picture") });
+        return Err(PlotError::Field {
+            why: format!("{count} panels; at most {MOST_PANELS} fit in a picture"),
+        });
     }
     let columns = if count <= 4 { count.min(2) } else { 3 };
     let size = x.values.len() * y.values.len();

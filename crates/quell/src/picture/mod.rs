@@ -58,7 +58,7 @@ fn undrawable(why: PlotError) -> Failure {
 /// A panel with the stretches of a parameter in which the quiet response is unstable.
 fn with_unstable(panel: Panel, stretches: Vec<(f64, f64)>) -> Panel {
     stretches.into_iter().enumerate().fold(panel, |panel, (number, (from, to))| {
-        let label = if number == 0 { "quiet response unstable" } else { "" };
+        let label = if number == 0 { "base response unstable" } else { "" };
         panel.with(Region::across_x(PlotRole::Undecided, from, to).label(label))
     })
 }

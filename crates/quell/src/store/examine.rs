@@ -66,8 +66,8 @@ fn holds_no_stranger(
         entry => Err(complaint(
             path,
             format!(
-                "holds {} at {key}, where a store has {}; nothing is read, written or removed through it: \
-                 remove it, or choose another name",
+                "contains {} at {key}, where a store has only {}; Quell does not follow, write or remove it: \
+                 remove it yourself, or choose another name",
                 entry.words(),
                 if depth > 0 { "folders and files" } else { "files" },
             ),

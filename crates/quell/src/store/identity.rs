@@ -77,10 +77,12 @@ pub(super) fn identity(plan: &Plan) -> Json {
 /// Names what differs between the store and the plan; empty where nothing does.
 pub(super) fn differences(store: &Json, plan: &Json) -> Vec<String> {
     let mut found = Vec::new();
-    for (field, name) in [("format", "the layout of stores"), ("quell", "Quell")] {
+    for (field, name) in
+        [("format", "the version of the store format"), ("quell", "the version of Quell")]
+    {
         if store[field] != plan[field] {
             found.push(format!(
-                "{name} is {} here and was {} there: bits may differ",
+                "{name} is {} here and {} in the store: bits may differ",
                 plain(&plan[field]),
                 plain(&store[field])
             ));
@@ -90,13 +92,16 @@ pub(super) fn differences(store: &Json, plan: &Json) -> Vec<String> {
     axes(&store["axes"], &plan["axes"], &mut found);
     if store["quantities"] != plan["quantities"] {
         found.push(format!(
-            "the quantities are {} here and {} there",
+            "the quantities are {} here and {} in the store",
             list(&plan["quantities"]),
             list(&store["quantities"])
         ));
     }
     if found.is_empty() && store["chunk"] != plan["chunk"] {
-        found.push(format!("chunks are {} here and {} there", plan["chunk"], store["chunk"]));
+        found.push(format!(
+            "the chunk shape is {} here and {} in the store",
+            plan["chunk"], store["chunk"]
+        ));
     }
     if found.len() > NAMED {
         let more = found.len() - NAMED;
@@ -113,13 +118,17 @@ fn settings(store: &Json, plan: &Json, found: &mut Vec<String>) {
         match there.get(path) {
             Some(other) if other == value => {}
             Some(other) => {
-                found.push(format!("{path} is {} here and {} there", plain(value), plain(other)));
+                found.push(format!(
+                    "{path} is {} here and {} in the store",
+                    plain(value),
+                    plain(other)
+                ));
             }
-            None => found.push(format!("{path} = {} is here only", plain(value))),
+            None => found.push(format!("{path} = {} is missing in the store", plain(value))),
         }
     }
     for (path, value) in there.iter().filter(|(path, _)| !here.contains_key(*path)) {
-        found.push(format!("{path} = {} is there only", plain(value)));
+        found.push(format!("{path} = {} is only in the store", plain(value)));
     }
 }
 
@@ -128,14 +137,14 @@ fn axes(store: &Json, plan: &Json, found: &mut Vec<String>) {
     let (there, here) = (store.as_object().unwrap_or(&empty), plan.as_object().unwrap_or(&empty));
     if !here.keys().eq(there.keys()) {
         let names = |axes: &Map<String, Json>| axes.keys().cloned().collect::<Vec<_>>().join(", ");
-        found.push(format!("the axes are {} here and {} there", names(here), names(there)));
+        found.push(format!("the axes are {} here and {} in the store", names(here), names(there)));
         return;
     }
     for (path, values) in here {
         if there.get(path) != Some(values) {
             let other = there.get(path).unwrap_or(&Json::Null);
             found.push(format!(
-                "{path} runs over {} here and {} there",
+                "{path} has the values {} here and {} in the store",
                 range(values),
                 range(other)
             ));
@@ -150,7 +159,7 @@ fn range(values: &Json) -> String {
             let count = values.as_array().map_or(0, Vec::len);
             format!("{} … {} ({count} values)", plain(first), plain(last))
         }
-        _ => "nothing".to_owned(),
+        _ => "none".to_owned(),
     }
 }
 

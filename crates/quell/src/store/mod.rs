@@ -331,7 +331,7 @@ fn prepare(path: &Path, plan: &Plan, resume: bool) -> Result<bool, Failure> {
         Err(error) => return Err(unwritable(path, &error)),
     }
     if !path.is_dir() {
-        return Err(complaint(path, "is a file; a store is a folder"));
+        return Err(complaint(path, "is a file; expected a folder (a Zarr store)"));
     }
     // One listing: another process may make its store meanwhile, and its folder comes first.
     let entries = fs::read_dir(path).map_err(|error| unwritable(path, &error))?;
@@ -343,7 +343,10 @@ fn prepare(path: &Path, plan: &Plan, resume: bool) -> Result<bool, Failure> {
     if names.is_empty() {
         return Ok(false);
     }
-    Err(complaint(path, "is a folder with other things in it; choose another name"))
+    Err(complaint(
+        path,
+        "is a folder that contains other files and is not a store; choose another name",
+    ))
 }
 
 /// Takes away what was just made: nothing half-made stays. If it cannot be removed, the first error
@@ -357,7 +360,7 @@ impl Refused {
         match self {
             Self::Busy => failed(
                 path,
-                "another process is writing this store; wait for it, or choose another name"
+                "another process is writing this store; wait until it finishes, or choose another name"
                     .to_owned(),
             ),
             Self::Io(error) => unwritable(path, &error),
@@ -375,22 +378,22 @@ fn complaint(path: &Path, allowed: impl Into<String>) -> Failure {
 }
 
 fn exists(path: &Path) -> Failure {
-    complaint(path, "exists already: --resume goes on with it; or choose another name")
+    complaint(path, "already exists: --resume continues it; or choose another name")
 }
 
 fn changed(path: &Path, key: &str) -> Failure {
     complaint(
         path,
         format!(
-            "{key} is not what the store was begun with: it was cut short or changed, and a reader would take wrong \
-             numbers from the store; remove that file, which is written again then, or choose another name"
+            "{key} differs from what this map must contain: the file was truncated or changed, and readers of the store \
+             would get wrong numbers; remove the file (it is then written again), or choose another name"
         ),
     )
 }
 
 fn another(path: &Path, differences: &[String]) -> Failure {
     let list = differences.join("; ");
-    complaint(path, format!("is the store of another map: {list}; choose another name"))
+    complaint(path, format!("is the store of another map ({list}); choose another name"))
 }
 
 /// A path that cannot be written: wrong input, unless the disk is full.
