@@ -130,7 +130,7 @@ impl OutputArguments {
         if let Some(path) = &self.save {
             let first = Output::prepare(path, "--save", &["csv"], inputs)?;
             for part in parts {
-                save.push(first.beside(part, "--save", inputs)?);
+                save.push(first.sibling(part, "--save", inputs)?);
             }
             save.insert(0, first);
         }

@@ -85,7 +85,7 @@ impl NativeAnswer {
             }
             let mut outputs = Vec::new();
             for (name, _) in datasets.iter().skip(1) {
-                outputs.push(first.beside(name, "path", &inputs)?);
+                outputs.push(first.sibling(name, "path", &inputs)?);
             }
             outputs.insert(0, first);
             for (output, (_, dataset)) in outputs.into_iter().zip(datasets) {
