@@ -1,6 +1,6 @@
-//! The help: verbs in groups, and examples of each.
+//! The help: verbs in groups, with examples of each.
 //!
-//! Examples name the files that `quell new NAME --save NAME.toml` makes, so that each can be run as it is; a test does.
+//! Examples use the files that `quell new NAME --save NAME.toml` creates, so that each can be run unchanged; a test does that.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use clap::{Command, CommandFactory};
 
 use crate::cli::Cli;
 
-/// A verb, and commands that show its use.
+/// A verb and its examples.
 type Verb = (&'static str, &'static [&'static str]);
 
 /// Headings with their verbs, in the order of the help.
@@ -143,14 +143,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_verb_stands_in_one_group_with_examples_that_parse() {
+    fn every_verb_is_in_one_group_with_examples_that_parse() {
         let command = command();
         let mut grouped: Vec<&str> =
             GROUPS.iter().flat_map(|(_, verbs)| verbs.iter().map(|(verb, _)| *verb)).collect();
-        let mut there: Vec<&str> = command.get_subcommands().map(Command::get_name).collect();
+        let mut existing: Vec<&str> = command.get_subcommands().map(Command::get_name).collect();
         grouped.sort_unstable();
-        there.sort_unstable();
-        assert_eq!(grouped, there);
+        existing.sort_unstable();
+        assert_eq!(grouped, existing);
         for (verb, examples) in GROUPS.iter().flat_map(|(_, verbs)| *verbs) {
             assert!((1..=2).contains(&examples.len()), "{verb}");
             for example in *examples {

@@ -1,4 +1,4 @@
-//! `quell basins`: which starts end on which response.
+//! `quell basins`: which starts converge to which response.
 
 use clap::Args;
 use quell::kind::verbs;
@@ -62,7 +62,7 @@ pub(crate) struct Arguments {
     plot: PlotArguments,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());

@@ -1,4 +1,4 @@
-//! `quell cite`: what a study's computations rest on.
+//! `quell cite`: sources of a study's computations.
 
 use clap::Args;
 use quell::Failure;
@@ -17,7 +17,7 @@ pub(crate) struct Arguments {
     bibtex: bool,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = arguments.study.read()?;
     let verbs = verbs(&study)?;

@@ -1,4 +1,4 @@
-//! `quell completions`: scripts by which shells complete verbs and options.
+//! `quell completions`: shell scripts that complete verbs and options.
 
 use clap::Args;
 use clap_complete::{Shell, generate};
@@ -16,7 +16,7 @@ pub(crate) struct Arguments {
     shell: Shell,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut script = Vec::new();
     generate(arguments.shell, &mut help::command(), "quell", &mut script);

@@ -28,12 +28,12 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let entries = find(&arguments.names)?;
     let pace = if arguments.quick { Resolution::Quick } else { Resolution::Full };
     let bar = Entries::new(entries.len());
-    let done = reproduce(&entries, &arguments.out, pace, |step| bar.hear(step));
+    let done = reproduce(&entries, &arguments.out, pace, |step| bar.update(step));
     bar.end();
     let done = done?;
     let object = done.json(&arguments.out, pace);

@@ -1,4 +1,4 @@
-//! `quell resonances`: where waves of a disc meet, and which dither frequency keeps speeds clear.
+//! `quell resonances`: speeds at which waves of a disc meet, and dither frequencies that keep a range of speeds clear.
 
 use clap::{Args, ValueEnum};
 use quell::kind::verbs;
@@ -38,7 +38,7 @@ enum Expansion {
     Second,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());

@@ -13,7 +13,7 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Answer {
     Answer::new(arguments.json, &schema(), || format!("{:#}\n", schema()))
 }

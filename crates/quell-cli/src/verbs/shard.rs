@@ -8,7 +8,7 @@ use quell::{Complaint, Failure, Fault, Origin};
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Reads the option; a picture needs the whole map.
+/// Parses the option; `--plot` is rejected because a picture requires the whole map.
 pub(super) fn read(text: &str, plot: bool) -> Result<Shard, Box<Complaint>> {
     let shard = Shard::parse(text, "--shard")?;
     if plot {
@@ -20,7 +20,7 @@ pub(super) fn read(text: &str, plot: bool) -> Result<Shard, Box<Complaint>> {
     Ok(shard)
 }
 
-/// Computes a shard and tells what is left of the map.
+/// Computes a shard and reports which chunks of the map are left.
 pub(super) fn run(
     shard: Shard,
     path: &Path,

@@ -14,7 +14,7 @@ use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments,
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Duration τ; in a study in SI seconds, or a time such as 50ms
+    /// Duration τ; in a study in SI in seconds, or a time such as 50ms
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: String,
     /// Lists every event; with --save also writes them to a second file, such as run_events.csv next to run.csv
@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
     output: OutputArguments,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
