@@ -1,5 +1,5 @@
-//! If one file of a store is replaced by arbitrary bytes, the store is rejected, or the chunk is found damaged, or it is read with
-//! its original values.
+//! If one file of a store is replaced by arbitrary bytes, the store is rejected, the chunk is found damaged, or it is read
+//! with its original values.
 #![no_main]
 
 use std::fs;

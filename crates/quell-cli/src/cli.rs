@@ -7,7 +7,7 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{FromArgMatches, Parser, Subcommand};
+use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
@@ -49,6 +49,11 @@ enum Verb {
     Reproduce(reproduce::Arguments),
 }
 
+/// The command line with its help.
+pub(crate) fn command() -> Command {
+    help::with_help(Cli::command())
+}
+
 /// Runs the command line `arguments`, program name first.
 pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
@@ -56,14 +61,14 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         .iter()
         .take_while(|argument| *argument != "--")
         .any(|argument| argument == "--json");
-    let parsed = help::command().try_get_matches_from(&arguments);
+    let parsed = command().try_get_matches_from(&arguments);
     let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => return usage_error(&error, json),
     };
     let outcome = match &cli.verb {
         Verb::New(arguments) => new::run(arguments),
-        Verb::Completions(arguments) => completions::run(arguments),
+        Verb::Completions(arguments) => completions::run(arguments, &mut command()),
         Verb::Check(arguments) => check::run(arguments),
         Verb::Schema(arguments) => Ok(schema::run(arguments)),
         Verb::Cite(arguments) => cite::run(arguments),

@@ -4,9 +4,7 @@
 
 use std::fmt::Write as _;
 
-use clap::{Command, CommandFactory};
-
-use crate::cli::Cli;
+use clap::Command;
 
 /// A verb and its examples.
 type Verb = (&'static str, &'static [&'static str]);
@@ -106,9 +104,8 @@ const GROUPS: &[(&str, &[Verb])] = &[
     ),
 ];
 
-/// The command line with its help.
-pub(crate) fn command() -> Command {
-    let mut command = Cli::command();
+/// Adds the groups of verbs and the examples to the help of the command line.
+pub(crate) fn with_help(mut command: Command) -> Command {
     let mut listing = String::new();
     let verbs = || GROUPS.iter().flat_map(|(_, verbs)| *verbs);
     let width = verbs().map(|(verb, _)| verb.len()).max().unwrap_or(0);
@@ -141,6 +138,7 @@ pub(crate) fn command() -> Command {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli::command;
 
     #[test]
     fn every_verb_is_in_one_group_with_examples_that_parse() {

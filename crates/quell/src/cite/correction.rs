@@ -3,7 +3,7 @@
 use quell_model::disc::DiscDither;
 use quell_model::{Belt, Direction, LawKind, Waveform};
 
-use super::{Task, has};
+use super::citation::Task;
 use crate::study::DiscStudy;
 use crate::study::disc::ModeSource;
 
@@ -69,6 +69,12 @@ pub enum Proof {
     },
     /// Reading the derivation is enough: nothing is computed with it.
     Reading,
+}
+
+/// Whether a belt has dither along a direction, and of a waveform if one is given.
+pub(super) fn has(belt: &Belt, direction: Direction, waveform: Option<Waveform>) -> bool {
+    belt.dithers_along(direction)
+        .any(|dither| waveform.is_none_or(|waveform| dither.waveform == waveform))
 }
 
 impl Bears {

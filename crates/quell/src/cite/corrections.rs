@@ -8,7 +8,7 @@
 
 use quell_model::{Direction, LawKind, Waveform};
 
-use super::Task;
+use super::citation::Task;
 use super::correction::{Bears, Correction, DiscKind, Proof};
 
 const STABILITY: &[Task] = &[Task::Stability];

@@ -2,9 +2,10 @@
 
 use quell_model::disc::DiscDither;
 
-use super::{
-    CHAN_1994, Citation, IWAN_STAHL_1973, MICHAUX_2005, NAYFEH_MOOK_1979, TAKAHASHI_IMADA_1984,
-    Task, VOGEL_SKINNER_1965,
+use super::citation::{Citation, Task};
+use super::references::{
+    CHAN_1994, IWAN_STAHL_1973, MICHAUX_2005, NAYFEH_MOOK_1979, TAKAHASHI_IMADA_1984,
+    VOGEL_SKINNER_1965,
 };
 use crate::study::DiscStudy;
 use crate::study::disc::ModeSource;

@@ -3,9 +3,10 @@
 
 use std::fmt::Write as _;
 
+use super::citation::Task;
 use super::correction::{Bears, Correction, Proof};
 use super::corrections::CORRECTIONS;
-use super::{MICHAUX_2005, Task};
+use super::references::MICHAUX_2005;
 
 const OPENING: &str = "\
 Every place where the print was found wrong, in its order, with what is right. A formula or number that enters a computation \

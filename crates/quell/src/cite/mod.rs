@@ -3,18 +3,22 @@
 //! Equation numbers are those of Michaux (2005). Each correction was found by comparing the
 //! printed formula with quadrature of its definition; the numbers are in `reference/`.
 
-use quell_model::{Belt, Direction, LawKind, Waveform};
+use quell_model::{Belt, Direction, LawKind};
 use serde_json::{Value as Json, json};
 
 use crate::study::{BeltStudy, DiscStudy, Study};
 
 pub mod bibliography;
+mod citation;
 mod correction;
 mod corrections;
 mod disc;
 pub mod errata;
 mod references;
 
+use correction::has;
+
+pub use citation::{Citation, Task};
 pub use correction::{Bears, Correction, DiscKind, Proof};
 pub use corrections::CORRECTIONS;
 pub use references::{
@@ -23,64 +27,6 @@ pub use references::{
     NAYFEH_MOOK_1979, SOURCES, Source, TAKAHASHI_IMADA_1984, THOMSEN_1999, THOMSEN_FIDLIN_2003,
     VOGEL_SKINNER_1965, WILSON_1927,
 };
-
-/// A computation, named after its verb.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Task {
-    /// Effective friction.
-    Friction,
-    /// Averaged stability of steady sliding.
-    Stability,
-    /// A trajectory with its events.
-    Simulate,
-    /// The steady response.
-    Response,
-    /// Sweeps of a parameter up and down.
-    Bifurcation,
-    /// Which starts end on which response.
-    Basins,
-    /// Modes of a disc.
-    Modes,
-    /// Resonances of a disc.
-    Resonances,
-}
-
-impl Task {
-    /// Every task of a belt.
-    pub const ALL: &'static [Self] = &[
-        Self::Friction,
-        Self::Stability,
-        Self::Simulate,
-        Self::Response,
-        Self::Bifurcation,
-        Self::Basins,
-    ];
-
-    /// Name of the verb.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Friction => "friction",
-            Self::Stability => "stability",
-            Self::Simulate => "simulate",
-            Self::Response => "response",
-            Self::Bifurcation => "bifurcation",
-            Self::Basins => "basins",
-            Self::Modes => "modes",
-            Self::Resonances => "resonances",
-        }
-    }
-}
-
-/// A source with what is used of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Citation {
-    /// The source.
-    pub source: Source,
-    /// The computation that uses it.
-    pub task: Task,
-    /// The equations used, or what it is used for.
-    pub used: &'static str,
-}
 
 /// What a study's computations rest on.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -220,11 +166,6 @@ fn attractors(task: Task, cite: &mut impl FnMut(Task, Source, &'static str)) {
         cite(task, MENCK_2013, "the share of starts that reach a response");
         cite(task, WILSON_1927, "interval of a share that was sampled");
     }
-}
-
-fn has(belt: &Belt, direction: Direction, waveform: Option<Waveform>) -> bool {
-    belt.dithers_along(direction)
-        .any(|dither| waveform.is_none_or(|waveform| dither.waveform == waveform))
 }
 
 impl Sources {

@@ -8,9 +8,11 @@ use std::time::Duration;
 
 use serde_json::Value as Json;
 
+use super::failures::{another, complaint, unwritable};
 use super::folder::{Entry, Folder};
+use super::identity;
 use super::layout::{self, Layout};
-use super::{IDENTITY, LONGEST, METADATA, OWN, another, complaint, identity, unwritable};
+use super::names::{IDENTITY, LONGEST, METADATA, OWN};
 use crate::complaint::Failure;
 
 /// Number of attempts to read an incomplete identity, and the time between them.

@@ -30,10 +30,12 @@
 
 mod codec;
 mod examine;
+mod failures;
 mod folder;
 mod identity;
 mod layout;
 mod lock;
+mod names;
 mod record;
 mod whole;
 
@@ -44,37 +46,17 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value as Json;
 
-use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::complaint::Failure;
 use crate::sweep::{Content, Data, Field, MISSING, Plan};
 use examine::{compared, examined, known};
+use failures::{changed, complaint, exists, failed, unwritable};
 use folder::Folder;
 use identity::Provenance;
 use layout::{Described, Layout};
 use lock::{Refused, Writers, lock};
+use names::{DONE, IDENTITY, LONGEST, METADATA, OWN, UNFINISHED};
 use record::{Record, Seal};
 use whole::Unfinished;
-
-/// Folder of files that readers of Zarr do not need.
-const OWN: &str = ".quell";
-
-/// Folder of completion records inside [`OWN`].
-const DONE: &str = "done";
-
-/// Folder of unfinished files inside [`OWN`].
-const UNFINISHED: &str = "unfinished";
-
-/// File inside [`OWN`] that identifies the map.
-const IDENTITY: &str = "map.json";
-
-/// Metadata of the group, and of an array in its folder.
-const METADATA: &str = "zarr.json";
-
-/// The longest record or identity that is read (bytes): the text of a study has at most 16 MiB, more than ten times as much
-/// as everything else in them.
-const LONGEST: u64 = 64 << 20;
-
-/// The option that names a store.
-const OPTION: &str = "--save";
 
 /// A store that is open for writing.
 #[derive(Debug)]
@@ -349,56 +331,4 @@ fn prepare(path: &Path, plan: &Plan, resume: bool) -> Result<bool, Failure> {
 /// Removes a store that was just created. If that fails, the original error is still the one that is reported.
 fn discard(path: &Path) {
     let _ = fs::remove_dir_all(path);
-}
-
-impl Refused {
-    fn into_failure(self, path: &Path) -> Failure {
-        match self {
-            Self::Busy => failed(
-                path,
-                "another process is writing this store; wait until it finishes, or choose another name"
-                    .to_owned(),
-            ),
-            Self::Io(error) => unwritable(path, &error),
-        }
-    }
-}
-
-fn failed(path: &Path, why: String) -> Failure {
-    Failure::Failed { key: path.display().to_string(), why }
-}
-
-fn complaint(path: &Path, allowed: impl Into<String>) -> Failure {
-    let given = path.display().to_string();
-    Complaint::new(Fault::Path, OPTION, Origin::Argument(OPTION), given, allowed).into()
-}
-
-fn exists(path: &Path) -> Failure {
-    complaint(path, "already exists: --resume continues it; or choose another name")
-}
-
-fn changed(path: &Path, key: &str) -> Failure {
-    complaint(
-        path,
-        format!(
-            "{key} differs from what this map must contain: the file was truncated or changed, and readers of the store \
-             would get wrong numbers; remove the file (it is then written again), or choose another name"
-        ),
-    )
-}
-
-fn another(path: &Path, differences: &[String]) -> Failure {
-    let list = differences.join("; ");
-    complaint(path, format!("is the store of another map ({list}); choose another name"))
-}
-
-/// A failure for a path that cannot be written: invalid input, unless the disk is full.
-fn unwritable(path: &Path, error: &io::Error) -> Failure {
-    let why = format!("cannot be written: {error}");
-    match error.kind() {
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
-            failed(path, why)
-        }
-        _ => complaint(path, why),
-    }
 }
