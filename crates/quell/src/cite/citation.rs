@@ -7,7 +7,7 @@ use super::references::Source;
 pub enum Task {
     /// Effective friction.
     Friction,
-    /// Averaged stability of steady sliding.
+    /// Stability of steady sliding by averaging.
     Stability,
     /// A trajectory with its events.
     Simulate,
@@ -15,7 +15,7 @@ pub enum Task {
     Response,
     /// Sweeps of a parameter up and down.
     Bifurcation,
-    /// Which starts end on which response.
+    /// Which starts converge to which response.
     Basins,
     /// Modes of a disc.
     Modes,
@@ -49,13 +49,13 @@ impl Task {
     }
 }
 
-/// A source with what is used of it.
+/// A source with its use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Citation {
     /// The source.
     pub source: Source,
     /// The computation that uses it.
     pub task: Task,
-    /// The equations used, or what it is used for.
+    /// The equations used, or the purpose.
     pub used: &'static str,
 }
