@@ -397,7 +397,7 @@ pub const CORRECTIONS: &[Correction] = &[
     Correction {
         equations: "axes of figures 5.3–5.15",
         printed: "f of order 10⁻⁵",
-        right: "10⁻⁴ of the f that (5.18) uses beside m, c, k: the threshold c(1 + Ω) to 2c depends on nothing else",
+        right: "10⁻⁴ of the f that (5.18) uses together with m, c, k: the threshold c(1 + Ω) to 2c depends on nothing else",
         tasks: STABILITY,
         bears: Bears::Disc(DiscKind::Any),
         proof: disc("unit_of_the_friction_axis"),
