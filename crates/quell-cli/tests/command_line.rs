@@ -1,4 +1,4 @@
-//! The real binary: exit statuses, one JSON object and nothing else, nothing left behind.
+//! Tests of the binary: exit statuses, exactly one JSON object, no files left behind.
 
 mod place;
 
@@ -63,9 +63,11 @@ const VERBS: &[&[&str]] = &[
     &["response"],
 ];
 
-/// A verb about a study: times of the one in SI are seconds.
+/// The command of a verb for a study; times are in seconds for the study in SI.
 fn about(study: &'static str, verb: &[&'static str]) -> Vec<&'static str> {
-    let seconds = |it: &'static str| if it == "20" && study == "si.toml" { "30ms" } else { it };
+    let seconds = |duration: &'static str| {
+        if duration == "20" && study == "si.toml" { "30ms" } else { duration }
+    };
     verb.iter().copied().map(seconds).chain([study]).collect()
 }
 
@@ -80,7 +82,7 @@ fn nulls_have_reasons(object: &Json) {
         match value {
             Json::Null => {
                 let named = |path: &str| why.get(path).is_some_and(Json::is_string);
-                // An SI twin is null for the reason of its field.
+                // An SI field is null for the reason of its dimensionless field.
                 let of_twin =
                     why.as_object().is_some_and(|why| why.keys().any(|key| path.starts_with(key)));
                 assert!(named(path) || of_twin, "null without a reason: {path}");
@@ -196,7 +198,7 @@ fn bad_arguments_are_refused() {
         let errors = place.refused(arguments);
         assert!(errors.iter().any(|error| error["key"] == *key), "{arguments:?}: {errors:?}");
     }
-    // Everything wrong is told at once, wherever it stands.
+    // All errors are reported at once, regardless of where they are.
     place.write("bad.toml", STUDY.replace("= 0.005", "= -1").as_bytes());
     let errors = place.refused(&[
         "simulate", "bad.toml", "--until", "-3", "--save", "no/x.csv", "--set", "belt.x=1",
@@ -218,7 +220,7 @@ fn bad_arguments_are_refused() {
 fn nothing_is_computed_before_the_output_is_tried() {
     let place = place("unwritable");
     fs::create_dir(place.folder.join("folder.csv")).expect("a folder");
-    // A run of this length would not end today.
+    // A run of this length would take days.
     let errors =
         place.refused(&["simulate", "study.toml", "--until", "1e9", "--save", "folder.csv"]);
     assert_eq!(errors[0]["key"], "--save");
@@ -278,7 +280,7 @@ fn pictures_are_drawn_whole_or_not_at_all() {
     place.good(&["friction", "study.toml", "--plot", "picture.PNG"]);
     let picture = fs::read(place.folder.join("picture.PNG")).expect("drawn");
     assert!(picture.starts_with(b"\x89PNG"));
-    // Without dither there is one curve, and it is not called dithered.
+    // Without dither there is one curve, and its label does not say "with dither".
     place.write("bare.toml", STUDY.split("[dither]").next().expect("a part").as_bytes());
     for verb in &VERBS[2..] {
         let mut arguments = verb.to_vec();
@@ -319,11 +321,11 @@ fn devices_are_written_not_replaced() {
         assert_eq!(output.status.code(), Some(1));
         assert!(String::from_utf8_lossy(&output.stderr).contains("standard output"));
     }
-    // Endless files are no studies.
+    // Endless files are rejected as studies.
     place.refused(&["check", "/dev/zero"]);
 }
 
-/// Whoever reads the pipe sees one stream with both tables, and its end.
+/// The reader of a pipe receives one stream with both tables, and its end.
 #[cfg(unix)]
 #[test]
 fn named_pipes_are_opened_once() {
@@ -459,7 +461,7 @@ fn fields_have_the_names_scripts_rely_on() {
 }
 
 /// The dissertation's belt with the decreasing law at v₀ = 1: exact thresholds of the dither are
-/// 4.322392624 and 9.900214849; sharper averaging is within 4·10⁻⁵ of them, plain averaging within 1 %.
+/// 4.322392624 and 9.900214849; finite-R averaging is within 4·10⁻⁵ of them, averaging in the limit R → ∞ within 1 %.
 #[test]
 fn averaging_finds_the_known_thresholds() {
     let place = place("thresholds");

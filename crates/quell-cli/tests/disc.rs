@@ -1,4 +1,4 @@
-//! The real binary on studies of a disc: names in JSON, exit statuses, files that read back.
+//! Tests of the binary with studies of a disc: names in JSON, exit statuses, files that read back.
 
 mod place;
 
@@ -48,7 +48,7 @@ fn quell(place: &Place, arguments: &[&str]) -> (String, String, i32) {
     (text(output.stdout), text(output.stderr), output.status.code().expect("a status"))
 }
 
-/// The answer of a verb, which it has for people too.
+/// The answer of a verb; the text answer is checked to exist too.
 fn good(place: &Place, arguments: &[&str]) -> Json {
     let object = place.good(arguments);
     let (words, _, status) = quell(place, arguments);
@@ -101,11 +101,11 @@ fn a_clear_frequency_is_found_and_kept() {
         })
     };
     assert!(inside(&clear["clear"]), "{clear}");
-    // What is left there is told: nothing, by theory and by the exact exponents; where the range begins at 0.2 a frequency
-    // is chosen under which the undithered tongue that is revived there does not reach in.
+    // The remaining instabilities are reported: none, by theory and by the exact exponents. If the range begins at 0.2, a
+    // frequency is chosen for which the reappearing undithered tongue does not reach into the range.
     let left = |clear: &Json| {
         let there = clear["there"].as_array().expect("a list");
-        there.iter().filter(|it| it["reaches_in"] == true).count()
+        there.iter().filter(|item| item["reaches_in"] == true).count()
     };
     assert_eq!(left(clear), 0, "{clear}");
     let mut wider = asked.clone();
@@ -137,7 +137,7 @@ fn a_clear_frequency_is_found_and_kept() {
     assert_eq!(errors[0]["key"], "dither");
 }
 
-/// What no choice of the frequency takes away is told: tongues that reach into the range, and where it cannot be kept clear.
+/// Instabilities that no frequency removes are reported: tongues that reach into the range, and where it cannot be kept clear.
 #[test]
 fn what_a_clear_frequency_leaves_is_told() {
     let place = place("disc-left");
@@ -152,19 +152,19 @@ fn what_a_clear_frequency_leaves_is_told() {
     };
     let reaching = |clear: &Json| -> Vec<Json> {
         let there = clear["there"].as_array().expect("a list");
-        there.iter().filter(|it| it["reaches_in"] == true).cloned().collect()
+        there.iter().filter(|item| item["reaches_in"] == true).cloned().collect()
     };
     let left = |words: &str| -> Vec<String> {
         words.lines().filter(|line| line.contains("left there:")).map(str::to_owned).collect()
     };
-    // Tangential dither takes this tongue away at first order alone: revived at second order it ends at 0.27, and by the exact
-    // equations nothing grows beyond 0.25.
+    // Tangential dither removes this tongue at first order only: it reappears at second order and ends at 0.27, and by the exact
+    // equations no motion grows beyond 0.25.
     let (clear, words) = ask("0.25:0.6", "0.6");
     let found = reaching(&clear);
     assert_eq!(found.len(), 1, "{clear}");
     assert!(clear["there"].as_array().is_some_and(|there| there.len() > 1), "{clear}");
     assert_eq!((&found[0]["harmonic"], &found[0]["can_be_unstable"]), (&0.into(), &true.into()));
-    let number = |it: &Json| it.as_f64().expect("a number");
+    let number = |item: &Json| item.as_f64().expect("a number");
     assert!(number(&found[0]["speed"]) < 0.25 && number(&found[0]["edges"][1]) > 0.25, "{clear}");
     assert!(number(&clear["verified_growth_rate"]) < 0.0, "{clear}");
     assert!(words.contains("verified: by the exact equations nothing grows there"), "{words}");
@@ -172,12 +172,12 @@ fn what_a_clear_frequency_leaves_is_told() {
     assert_eq!(told.len(), 1, "{words}");
     let line = "left there: Ω = 0.1923353, forward (1,1) with forward (1,2), growth up to 0.00";
     assert!(told[0].trim_start().starts_with(line), "{told:?}");
-    // Nearer to it something grows at whatever frequency.
+    // Closer to it some motion grows at any frequency.
     let (clear, words) = ask("0.2:0.9", "0.6");
     assert!(number(&clear["verified_growth_rate"]) > 0.0, "{clear}");
     assert!(words.contains("not clear by the exact equations"), "{words}");
     assert_eq!(left(&words).len(), reaching(&clear).len(), "{words}");
-    // Over all speeds theory has no frequency either.
+    // Over all speeds the theory finds no frequency either.
     let (clear, words) = ask("0.02:0.9", "0.4");
     assert!(clear["suggestion"].is_null() && clear["why"]["suggestion"].is_string(), "{clear}");
     assert!(words.contains("tongues that dither makes:\n  none\n"), "{words}");
@@ -356,7 +356,10 @@ fn a_disc_may_be_in_si() {
     let twice = STEEL.replace("speed_rpm = 600", "speed_rpm = 600\nspeed = 0.1");
     place.write("twice.toml", twice);
     let errors = place.refused(&["check", "twice.toml"]);
-    assert!(errors[0]["allowed"].as_str().is_some_and(|it| it.contains("not both")), "{errors:?}");
+    assert!(
+        errors[0]["allowed"].as_str().is_some_and(|item| item.contains("not both")),
+        "{errors:?}"
+    );
     place.write("bare.toml", STUDY.replace("speed = 0.3", "speed_rpm = 600"));
     let errors = place.refused(&["check", "bare.toml"]);
     let allowed = errors[0]["allowed"].as_str().unwrap_or_default();

@@ -1,5 +1,5 @@
-//! Files of strangers by the real binary: inputs are never outputs, nothing of other files is shown, permissions stay, and
-//! limits and signals leave nothing half-written.
+//! Tests of the binary with untrusted files: inputs are never outputs, no content of other files is printed, permissions are
+//! kept, and limits and signals leave no partial files.
 #![cfg(unix)]
 
 mod place;
@@ -125,7 +125,10 @@ fn a_study_on_standard_input_is_an_input_and_a_store_may_not_hold_one() {
     place.write("study.toml", MEASURED.replace("data.csv", "m.zarr/data.csv"));
     let ask = ["map", "study.toml", "--quantity", "growth", "--save", "m.zarr", "--resume"];
     let errors = place.refused(&ask);
-    assert!(errors[0]["message"].as_str().is_some_and(|it| it.contains("read from")), "{errors:?}");
+    assert!(
+        errors[0]["message"].as_str().is_some_and(|item| item.contains("read from")),
+        "{errors:?}"
+    );
 }
 
 /// The second table of a response has a name that the user has not given.
@@ -159,7 +162,7 @@ fn of_a_file_that_is_no_data_nothing_is_shown() {
             secret.replace(':', ","),
             format!("slip_velocity,hunter2\n{secret}"),
             format!("diameters,hunter2\n{secret}"),
-            // A file of data with one line that is none: not more than a part of the cell.
+            // A data file with one invalid line: only a part of the cell is printed.
             format!(
                 "slip_velocity,coefficient,diameters,ratio,shape_at_load\n{long},hunter2,{long},1,hunter2\n"
             ),
@@ -170,7 +173,7 @@ fn of_a_file_that_is_no_data_nothing_is_shown() {
             assert!(!told.contains("hunter") && !told.contains("root"), "{told}");
             assert!(told.contains("a CSV file with") || told.contains("line 2"), "{told}");
         }
-        // Files that are none are named, and do not hang.
+        // Paths that are not regular files are reported, and do not block.
         fs::remove_file(place.folder.join("data.csv")).expect("removed");
         let made = Command::new("mkfifo").arg(place.folder.join("data.csv")).status();
         assert!(made.expect("mkfifo").success());
@@ -225,13 +228,13 @@ fn a_file_that_may_not_grow_is_an_error_like_any_other() {
     }
 }
 
-/// Sends a signal to a process that is ours.
+/// Sends a signal to a child process.
 fn signal(child: &Child, name: &str) {
     let sent = Command::new("kill").args([name, &child.id().to_string()]).status();
     assert!(sent.expect("kill").success());
 }
 
-/// Waits for the end; how it was, and how long it took.
+/// Waits for the end of a process; returns its status and the time.
 fn ended(mut child: Child) -> (Option<i32>, Duration) {
     let begun = Instant::now();
     loop {
@@ -256,7 +259,7 @@ fn signals_end_every_verb() {
         std::thread::sleep(Duration::from_millis(700));
         child
     };
-    // A verb that does not stop by itself ends at once, whatever it does.
+    // A verb that cannot stop by itself is ended immediately.
     for (name, arguments) in [
         ("-INT", &["simulate", "study.toml", "--until", "1e8", "--save", "s.csv"][..]),
         ("-TERM", &["response", "study.toml", "--set", "solver.settle=1e8"]),
@@ -268,7 +271,7 @@ fn signals_end_every_verb() {
         assert!(after < Duration::from_secs(5), "{arguments:?}: {after:?}");
     }
     assert_eq!(place.files(), ["data.csv", "study.toml"]);
-    // One that does is asked first, and ends at once after the second.
+    // A verb that can is asked to stop first, and is ended immediately after the second signal.
     let long = [
         "map",
         "study.toml",

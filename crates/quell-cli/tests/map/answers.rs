@@ -1,4 +1,4 @@
-//! What `quell map` answers.
+//! Answers of `quell map`.
 
 use std::fs;
 
@@ -33,7 +33,7 @@ fn a_point_of_a_map_has_the_bits_it_has_alone() {
             let critical = averaged["critical_amplitudes"].as_array().expect("a list");
             let lowest = critical.first().map_or(&Json::Null, |first| &first["amplitude_ratio"]);
             assert_eq!(&map["critical_amplitude"][i][j], lowest);
-            // The undithered belt at v₀ = 0.5 settles to sliding: E is unknown and says so.
+            // The undithered belt at v₀ = 0.5 settles to sliding: E is reported as unknown.
             let known = map["efficiency_status"][i][j] == "known";
             assert_eq!(known, map["efficiency"][i][j].is_number());
         }
@@ -98,7 +98,7 @@ fn a_store_describes_itself() {
     ];
     assert_eq!(arrays.keys().map(String::as_str).collect::<Vec<_>>(), expected);
     for (name, described) in arrays {
-        // What is consolidated is what stands beside the array.
+        // The consolidated metadata equal those of the array.
         assert_eq!(described, &read(&format!("{name}/zarr.json")));
     }
     let efficiency = &arrays["efficiency"];

@@ -1,4 +1,4 @@
-//! What stores survive: whatever happens, a resumed store has the bytes of an undisturbed one.
+//! Faults that stores survive: after any of them, a resumed store has the bytes of an uninterrupted one.
 
 use std::collections::BTreeMap;
 use std::fs::{self, OpenOptions};
@@ -10,7 +10,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use crate::place::{Place, STUDY, Told, files, same};
 
-/// The store of a run that nothing disturbed, and how long it took; made once for all tests.
+/// The store of an uninterrupted run, and its duration; computed once for all tests.
 pub(crate) fn undisturbed() -> &'static (BTreeMap<String, Vec<u8>>, Duration) {
     static STORE: OnceLock<(BTreeMap<String, Vec<u8>>, Duration)> = OnceLock::new();
     STORE.get_or_init(|| {
@@ -25,7 +25,7 @@ pub(crate) fn undisturbed() -> &'static (BTreeMap<String, Vec<u8>>, Duration) {
 const LARGE: &str = "[[sweep]]\nparameter = \"dither.amplitude\"\nfrom = 0.05\nto = 1.0\n\
     points = 20\n[[sweep]]\nparameter = \"belt.belt_velocity\"\nfrom = 0.02\nto = 0.15\npoints = 20\n";
 
-/// How the large map is asked for.
+/// Arguments of the large map.
 const ASK: &[&str] =
     &["map", "large.toml", "--quantity", "efficiency,verdict", "--threads", "1", "--save"];
 
@@ -41,7 +41,7 @@ pub(crate) fn ask<'a>(save: &'a str, more: &[&'a str]) -> Vec<&'a str> {
 }
 
 impl Place {
-    /// Begins the large map and does not wait for it.
+    /// Starts the large map and does not wait for it.
     fn begin(&self, save: &str) -> Child {
         let arguments = ask(save, &["--resume"]);
         let mut command = self.command(&arguments);
@@ -65,7 +65,7 @@ fn killed_at_ten_random_moments_it_resumes_to_the_same_bytes() {
     for _ in 0..10 {
         let mut child = place.begin("killed.zarr");
         random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        // Ten such stretches together are about as long as the whole.
+        // Ten such intervals together are about as long as the whole run.
         sleep(duration.mul_f64(0.25 * (random >> 33) as f64 / f64::from(u32::MAX >> 1)));
         child.kill().expect("it is ours");
         child.wait().expect("it ends");
@@ -88,7 +88,7 @@ fn killed_at_ten_random_moments_it_resumes_to_the_same_bytes() {
     same(&place.store("killed.zarr"), reference);
 }
 
-/// Warnings that are about points, not about the store.
+/// Warnings about points, not about the store.
 fn warnings_of_points(map: &serde_json::Value) -> usize {
     let warnings = map["warnings"].as_array().map(Vec::as_slice).unwrap_or_default();
     warnings
@@ -130,7 +130,7 @@ fn two_processes_on_one_store_do_no_harm() {
     let first = Told::of(&first.wait_with_output().expect("it ends"));
     assert_eq!(first.status, Some(0), "{first:?}");
     same(&place.store("two.zarr"), reference);
-    // Both at once from nothing: whoever comes late is refused, nobody destroys anything.
+    // Two processes start at once without a store: the later one is rejected, and no file is destroyed.
     let (one, other) = (place.begin("race.zarr"), place.begin("race.zarr"));
     let ends: Vec<Option<i32>> = [one, other]
         .map(|child| Told::of(&child.wait_with_output().expect("it ends")).status)
@@ -199,7 +199,7 @@ fn a_store_of_another_study_is_refused_and_left_alone() {
         place.write("small.toml", small.replace(from, to));
         refused(&ask("efficiency", &["--resume"]), word);
     }
-    // What decides no number may change: comments, the title, a value that an axis replaces.
+    // Changes that do not affect any number are allowed: comments, the title, a value that an axis replaces.
     let edited = small
         .replace("Stribeck belt", "The same belt")
         .replace("amplitude = 0.4\n", "amplitude = 0.7 # an axis\n");
@@ -223,7 +223,7 @@ fn a_full_disk_is_told_and_survived() {
     let Some(disk) = Disk::mount(&place.folder.join("disk"), "size=256k") else {
         return limited(&place, reference);
     };
-    // Room for the frame and some chunks.
+    // Space for the metadata and some chunks.
     let told = place.told(&ask("disk/full.zarr", &[]));
     assert_eq!(told.status, Some(1), "{told:?}");
     assert!(told.errors.contains("No space left on device"), "{told:?}");
@@ -239,7 +239,7 @@ fn a_full_disk_is_told_and_survived() {
     let map = place.good(&ask("disk/full.zarr", &["--resume"]));
     assert!(map["resumed_points"].as_u64().is_some_and(|points| points > 0));
     same(&files(&disk.path.join("full.zarr")), reference);
-    // No room even to begin: nothing is left.
+    // Not enough space to create the store: no file remains.
     let tiny = Disk::mount(&place.folder.join("tiny"), "size=8k").expect("mounted before");
     let told = place.told(&ask("tiny/full.zarr", &[]));
     assert_eq!(told.status, Some(1), "{told:?}");
@@ -247,7 +247,7 @@ fn a_full_disk_is_told_and_survived() {
     assert_eq!(fs::read_dir(&tiny.path).expect("a disk").count(), 0, "something half-made is left");
 }
 
-/// Where nothing can be mounted: a limit on the size of files stands for the full disk.
+/// If no file system can be mounted, a limit on the size of files replaces the full disk.
 fn limited(place: &Place, reference: &BTreeMap<String, Vec<u8>>) {
     println!("no file system can be mounted here: files are limited to 512 bytes instead");
     let program = env!("CARGO_BIN_EXE_quell");
@@ -301,13 +301,13 @@ fn signal(child: &Child, name: &str) {
     assert!(told.expect("kill").success());
 }
 
-/// A small file system of its own, gone when it is dropped.
+/// A small file system that is unmounted when it is dropped.
 struct Disk {
     path: PathBuf,
 }
 
 impl Disk {
-    /// None where mounting is not allowed.
+    /// `None` if mounting is not allowed.
     fn mount(path: &Path, options: &str) -> Option<Self> {
         fs::create_dir_all(path).expect("a place for a disk");
         let arguments = ["-t", "tmpfs", "-o", options, "quell-test"];

@@ -9,7 +9,7 @@ use crate::faults::{ask, large, undisturbed, wait_for};
 use crate::place::{Place, Told, same};
 
 impl Place {
-    /// Begins a shard of the large map.
+    /// Starts a shard of the large map.
     fn shard(&self, save: &str, shard: &str) -> Child {
         let arguments = ask(save, &["--json", "--shard", shard]);
         let mut command = self.command(&arguments);
@@ -34,7 +34,7 @@ fn three_shards_at_once_from_nothing_make_the_map() {
     let (chunks, computed): (u64, u64) = (count("chunks"), count("computed_chunks"));
     assert_eq!((chunks, computed), (all, all), "every chunk is in one shard");
     assert!(told.iter().any(|told| told["left_chunks"] == 0), "who ends last sees the whole map");
-    // Nothing had to be put together: the store is that of one process.
+    // No merging is needed: the store equals that of one process.
     same(&place.store("three.zarr"), reference);
     let map = place.good(&ask("three.zarr", &["--resume"]));
     assert_eq!(map["resumed_points"], map["points"]);
@@ -49,10 +49,10 @@ fn a_killed_shard_is_run_again_beside_another() {
     wait_for("a chunk", || place.records("k.zarr") > 1);
     other.kill().expect("it is ours");
     other.wait().expect("it ends");
-    // What the kill left unfinished is somebody else's until nobody else writes.
+    // Unfinished files of the killed process remain while other processes may be writing.
     fs::write(place.folder.join("k.zarr/.quell/unfinished/1.0.0"), "half").expect("a file");
     let again = place.shard("k.zarr", "2/2");
-    // While shards write, nobody else may write alone.
+    // While shards are written, no process may write exclusively.
     let alone = place.told(&ask("k.zarr", &["--resume"]));
     assert!(
         alone.status == Some(1) && alone.errors.contains("another process is writing"),
@@ -79,7 +79,7 @@ fn a_shard_says_what_is_left_and_a_later_run_computes_it() {
     let own = told["chunks"].as_u64().expect("a count");
     let all = told["map_chunks"].as_u64().expect("a count");
     assert_eq!(told["left_chunks"], all - own);
-    // The same shard again finds its chunks; one that was cut short is done again.
+    // Running the same shard again finds its chunks; a truncated one is recomputed.
     let path = place.folder.join("left.zarr/efficiency/c");
     let first = fs::read_dir(&path).expect("chunks").next().expect("a chunk").expect("a chunk");
     let chunk = fs::read_dir(first.path()).expect("chunks").next().expect("a chunk").expect("one");
@@ -137,7 +137,7 @@ fn a_shard_that_cannot_be_is_refused_at_once() {
         assert!(told.errors.contains(word), "{arguments:?}: {told:?}");
     }
     assert_eq!(fs::read_dir(&place.folder).expect("a folder").count(), 2, "nothing is left behind");
-    // More shards than chunks: those without say so, and do no harm.
+    // More shards than chunks: shards without chunks report that and do no harm.
     let told = ask(&["--shard", "9/9", "--save", "m.zarr"]);
     assert_eq!(told.status, Some(0), "{told:?}");
     assert!(told.output.contains("0 of the map's"), "{told:?}");

@@ -1,4 +1,4 @@
-//! Stores that a stranger has prepared: nothing outside the store is touched, nothing hangs, and no changed file passes.
+//! Stores with untrusted content: no file outside the store is touched, no call blocks, and no changed file is accepted.
 #![cfg(unix)]
 
 use std::collections::BTreeMap;
@@ -12,10 +12,10 @@ use crate::place::{Place, Told, files, same};
 
 const ASK: [&str; 6] = ["map", "small.toml", "--quantity", "efficiency", "--save", "m.zarr"];
 
-/// How a store is opened again.
+/// Arguments that open a store again.
 const AGAIN: [&[&str]; 2] = [&["--resume"], &["--shard", "1/1"]];
 
-/// A place with a whole store, and the store.
+/// A folder with a complete store, and the files of the store.
 fn whole(name: &str) -> (Place, BTreeMap<String, Vec<u8>>) {
     let place = Place::new(name);
     place.good(&ASK);
@@ -41,7 +41,7 @@ fn remove(path: &Path) {
     }
 }
 
-/// Opens the store both ways; each is refused in time, and says these words.
+/// Opens the store exclusively and shared; both are rejected in time with these words.
 #[track_caller]
 fn refused(place: &Place, words: &[&str]) {
     for again in AGAIN {
@@ -88,7 +88,7 @@ fn links_in_a_store_lead_nowhere() {
         restore(&place, &store);
         remove(&outside);
         let path = place.folder.join("m.zarr").join(name);
-        // What was there is outside now: all of it is right, and nothing may be changed.
+        // The original files are now outside the store: all are valid, and none may be changed.
         if path.exists() {
             fs::rename(&path, &outside).expect("moved");
         } else {
@@ -106,7 +106,7 @@ fn links_in_a_store_lead_nowhere() {
             same(&files(&outside), &before);
         }
         assert_eq!(fs::read(&outside).ok(), bytes, "{name}");
-        // A link to nowhere: nothing is made there.
+        // A dangling link: its target is not created.
         remove(&outside);
         refused(&place, &["contains a symbolic link at", name]);
         assert!(fs::symlink_metadata(&outside).is_err(), "{name}: something was made outside");
@@ -129,7 +129,7 @@ fn a_store_of_another_map_is_left_as_it_is() {
     );
 }
 
-/// What a stranger makes of the bytes of a file.
+/// A change of the bytes of a file.
 type Changed<'c> = &'c dyn Fn(&[u8]) -> Vec<u8>;
 
 #[test]

@@ -1,4 +1,4 @@
-//! The real binary in a fresh folder, for several files of tests.
+//! The binary in a fresh folder, for several test files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,10 +12,10 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// With these files in it.
+    /// A fresh folder with these files.
     pub(crate) fn with(name: &str, files: &[(&str, &str)]) -> Self {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-        // A run before this one may have left it.
+        // The folder may remain from an earlier run.
         let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(&folder).expect("a folder for tests");
         let place = Self { folder };
@@ -39,8 +39,8 @@ impl Place {
         command
     }
 
-    /// Runs a verb with `--json`: the object and the exit status. What goes wrong is told in the object, and standard
-    /// error is silent then; beside an answer there may be warnings.
+    /// Runs a verb with `--json` and returns the object and the exit status. Errors are reported in the object, and standard
+    /// error is empty then; an answer may be accompanied by warnings.
     pub(crate) fn json(&self, arguments: &[&str]) -> (Json, i32) {
         let mut with = arguments.to_vec();
         with.push("--json");
@@ -60,7 +60,7 @@ impl Place {
         object
     }
 
-    /// Runs a verb that must be refused, both ways; the complaints.
+    /// Runs a verb that must be rejected, with and without `--json`, and returns the complaints.
     pub(crate) fn refused(&self, arguments: &[&str]) -> Vec<Json> {
         let before = self.files();
         let output = self.quell(arguments);
