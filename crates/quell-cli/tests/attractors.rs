@@ -51,7 +51,7 @@ fn sweeps_up_and_down_differ_where_responses_coexist() {
 }
 
 #[test]
-fn the_quiet_response_is_lost_just_above_its_threshold() {
+fn the_quiescent_response_is_lost_just_above_its_threshold() {
     let found = swept(STUDY, ["0", "4.8", "49"], &["--up"]);
     let jump = &found["jumps"][0];
     assert!((jump["before"].as_f64().expect("before") - 4.3).abs() < 1e-9, "{jump}");
@@ -194,7 +194,7 @@ fn numbers_and_pictures_are_written() {
 }
 
 #[test]
-fn what_is_wrong_is_said_at_once() {
+fn all_errors_are_reported_at_once() {
     let keys = |arguments: &[&str]| -> Vec<String> {
         let (told, status) = quell(arguments);
         assert_eq!(status, 2, "{told}");

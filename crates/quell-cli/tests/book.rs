@@ -243,7 +243,7 @@ fn drawing(svg: &str) -> (String, Vec<f64>) {
 }
 
 #[test]
-fn what_a_drawing_says_is_held_to_the_letter() {
+fn texts_of_a_drawing_are_compared_exactly() {
     let svg = r#"<g x="1.25"><text>E = 0.26</text><image href="data:image/png;base64,ML1"/></g>"#;
     let (words, numbers) = drawing(svg);
     assert_eq!(numbers, [1.25]);
@@ -291,7 +291,7 @@ fn pictures_are_those_of_reproduce() {
 
 /// Every link to a file is valid, and every page is in the table of contents.
 #[test]
-fn links_lead_somewhere() {
+fn links_are_valid() {
     let book = root().join("docs/book/src");
     let contents = fs::read_to_string(book.join("SUMMARY.md")).expect("contents");
     for path in pages() {
@@ -314,7 +314,7 @@ fn links_lead_somewhere() {
 
 /// Examples and benches named in a page exist: `--package NAME … --example NAME`.
 #[test]
-fn programs_that_pages_name_are_there() {
+fn programs_named_in_pages_exist() {
     let mut files = pages();
     files.extend(
         ["docs/speed.md", "docs/many-machines.md", "benches/peers/README.md"]
@@ -348,7 +348,7 @@ fn programs_that_pages_name_are_there() {
 
 /// The page of errata is generated from the list of corrections.
 #[test]
-fn errata_are_those_of_the_registry() {
+fn errata_equal_the_list_of_corrections() {
     let path = root().join("docs/book/src/errata.md");
     let now = quell::cite::errata::markdown("../../..");
     if std::env::var_os("QUELL_BLESS").is_some() {

@@ -121,7 +121,7 @@ fn every_verb_answers_with_one_object() {
 }
 
 #[test]
-fn bad_studies_are_refused_by_every_verb() {
+fn invalid_studies_are_rejected_by_every_verb() {
     let place = place("bad_studies");
     let with = |from: &str, to: &str| STUDY.replace(from, to).into_bytes();
     let cases: Vec<(&str, Vec<u8>, &str)> = vec![
@@ -166,7 +166,7 @@ fn bad_studies_are_refused_by_every_verb() {
 }
 
 #[test]
-fn bad_arguments_are_refused() {
+fn invalid_arguments_are_rejected() {
     let place = place("bad_arguments");
     let cases: &[(&[&str], &str)] = &[
         (&["simulate", "study.toml", "--until", "-1"], "--until"),
@@ -217,7 +217,7 @@ fn bad_arguments_are_refused() {
 }
 
 #[test]
-fn nothing_is_computed_before_the_output_is_tried() {
+fn outputs_are_checked_before_anything_is_computed() {
     let place = place("unwritable");
     fs::create_dir(place.folder.join("folder.csv")).expect("a folder");
     // A run of this length would take days.
@@ -228,7 +228,7 @@ fn nothing_is_computed_before_the_output_is_tried() {
 }
 
 #[test]
-fn a_saved_trajectory_is_whole_and_reads_back() {
+fn a_saved_trajectory_is_complete_and_reads_back() {
     let place = place("save");
     place.write("x.csv", b"what was there before");
     let object = place.good(&["simulate", "study.toml", "--until", "20", "--save", "x.csv"]);
@@ -259,7 +259,7 @@ fn a_saved_trajectory_is_whole_and_reads_back() {
 }
 
 #[test]
-fn pictures_are_drawn_whole_or_not_at_all() {
+fn pictures_are_complete_or_absent() {
     let place = place("pictures");
     let before = place.files();
     for verb in &VERBS[2..] {
@@ -355,7 +355,7 @@ fn links_are_followed_not_replaced() {
 }
 
 #[test]
-fn a_closed_pipe_is_no_panic() {
+fn a_closed_pipe_causes_no_panic() {
     let place = place("pipe");
     let mut child = place
         .command(&["friction", "study.toml", "--json"])
@@ -371,7 +371,7 @@ fn a_closed_pipe_is_no_panic() {
 }
 
 #[test]
-fn a_study_comes_from_standard_input() {
+fn a_study_is_read_from_standard_input() {
     let place = place("stdin");
     let file = fs::File::open(place.folder.join("study.toml")).expect("there");
     let output = place.command(&["check", "-", "--json"]).stdin(file).output().expect("quell runs");
@@ -379,7 +379,7 @@ fn a_study_comes_from_standard_input() {
 }
 
 #[test]
-fn changes_and_units_reach_the_engine() {
+fn changes_and_units_are_applied() {
     let place = place("changes");
     let changed = place.good(&[
         "check",
@@ -422,7 +422,7 @@ fn changes_and_units_reach_the_engine() {
 }
 
 #[test]
-fn fields_have_the_names_scripts_rely_on() {
+fn fields_have_documented_names() {
     let place = place("names");
     let friction = place.good(&["friction", "study.toml", "--at", "0,0.1"]);
     for name in ["slip_velocity", "coefficient", "effective_coefficient", "effective_slope"] {
@@ -536,7 +536,7 @@ fn dither_past_its_threshold_quenches() {
 }
 
 #[test]
-fn help_version_and_schema_are_answers() {
+fn help_version_and_schema_succeed() {
     let place = place("help");
     for arguments in [&["--help"][..], &["--version"], &["simulate", "--help"]] {
         let output = place.quell(arguments);

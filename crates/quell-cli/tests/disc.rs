@@ -57,7 +57,7 @@ fn good(place: &Place, arguments: &[&str]) -> Json {
 }
 
 #[test]
-fn every_verb_answers_with_its_names() {
+fn every_verb_has_its_documented_fields() {
     let place = place("disc-verbs");
     assert_eq!(good(&place, &["check", "disc.toml"])["disc"]["modes"], 3);
     assert!(
@@ -85,7 +85,7 @@ fn every_verb_answers_with_its_names() {
 }
 
 #[test]
-fn a_clear_frequency_is_found_and_kept() {
+fn a_clear_frequency_is_found_and_verified() {
     let place = place("disc-clear");
     let set = ["--set", "disc.load.friction=0.25"];
     let asked =
@@ -139,7 +139,7 @@ fn a_clear_frequency_is_found_and_kept() {
 
 /// Instabilities that no frequency removes are reported: tongues that reach into the range, and where it cannot be kept clear.
 #[test]
-fn what_a_clear_frequency_leaves_is_told() {
+fn remaining_instabilities_at_a_clear_frequency_are_reported() {
     let place = place("disc-left");
     let ask = |speeds: &str, friction: &str| {
         let set = format!("disc.load.friction={friction}");
@@ -206,7 +206,7 @@ fn modes_written_and_read_back_give_the_same_exponent() {
 }
 
 #[test]
-fn maps_of_a_disc_are_kept_and_drawn() {
+fn maps_of_a_disc_are_saved_and_drawn() {
     let place = place("disc-map");
     let map = good(
         &place,
@@ -237,7 +237,7 @@ fn maps_of_a_disc_are_kept_and_drawn() {
 }
 
 #[test]
-fn what_cannot_be_is_refused_and_the_clamp_is_warned_of() {
+fn invalid_discs_are_rejected_and_the_clamp_causes_a_warning() {
     let place = place("disc-bad");
     for (change, key) in [
         ("disc.inner_radius_ratio=1", "disc.inner_radius_ratio"),

@@ -84,7 +84,7 @@ fn every_example_runs() {
 }
 
 #[test]
-fn a_new_study_is_printed_or_saved_once() {
+fn a_new_study_is_printed_or_saved_without_overwriting() {
     let place = Place::with("doors-new", &[]);
     let list = said(&place, "quell new");
     for template in TEMPLATES {
@@ -108,7 +108,7 @@ fn a_new_study_is_printed_or_saved_once() {
 }
 
 #[test]
-fn shells_get_their_completion() {
+fn completions_are_printed_for_shells() {
     let place = Place::with("doors-completions", &[]);
     for (shell, word) in [
         ("bash", "complete "),

@@ -172,7 +172,7 @@ fn place(name: &str) -> Place {
 }
 
 #[test]
-fn what_once_ran_on_ends() {
+fn cases_that_once_did_not_terminate_end() {
     let place = place("extremes/known");
     for (verb, changes) in ONCE_ENDLESS {
         let changes: Vec<String> = changes.iter().map(|&change| change.to_owned()).collect();
@@ -181,7 +181,7 @@ fn what_once_ran_on_ends() {
 }
 
 #[test]
-fn random_extremes_end() {
+fn random_extreme_cases_end() {
     let place = place("extremes/random");
     let count = std::env::var("QUELL_EXTREMES").ok().and_then(|count| count.parse().ok());
     let mut dice = Dice(14);

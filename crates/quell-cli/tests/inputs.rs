@@ -109,7 +109,7 @@ fn inputs_are_never_outputs() {
 }
 
 #[test]
-fn a_study_on_standard_input_is_an_input_and_a_store_may_not_hold_one() {
+fn a_study_on_standard_input_is_an_input_and_a_store_must_not_contain_one() {
     let place = Place::with("inputs/stdin", &[("study.toml", MEASURED), ("data.csv", SAMPLES)]);
     symlink("study.toml", place.folder.join("out.csv")).expect("a link");
     let file = fs::File::open(place.folder.join("study.toml")).expect("there");
@@ -133,7 +133,7 @@ fn a_study_on_standard_input_is_an_input_and_a_store_may_not_hold_one() {
 
 /// The second table of a response has a name that the user has not given.
 #[test]
-fn what_stands_in_the_place_of_a_second_file_is_left_alone() {
+fn existing_special_files_are_not_replaced_by_a_second_output() {
     let place = Place::with(
         "second",
         &[("study.toml", MEASURED), ("data.csv", SAMPLES), ("theirs", "theirs")],
@@ -151,7 +151,7 @@ fn what_stands_in_the_place_of_a_second_file_is_left_alone() {
 }
 
 #[test]
-fn of_a_file_that_is_no_data_nothing_is_shown() {
+fn the_content_of_files_that_are_not_data_is_not_printed() {
     let secret = "root:x:0:0:hunter2:/root:/bin/sh\ndaemon:x:1:1:hunter3:/usr\n";
     for (name, study) in [("belt", MEASURED), ("disc", DISC)] {
         let place =
@@ -183,7 +183,7 @@ fn of_a_file_that_is_no_data_nothing_is_shown() {
 }
 
 #[test]
-fn an_output_keeps_its_permissions_and_a_new_one_has_those_of_the_process() {
+fn replaced_outputs_keep_their_permissions_and_new_ones_have_the_default() {
     let place = Place::with("permissions", &[("study.toml", MEASURED), ("data.csv", SAMPLES)]);
     let mode = |name: &str| {
         fs::metadata(place.folder.join(name)).expect("there").permissions().mode() & 0o7777
@@ -209,7 +209,7 @@ fn an_output_keeps_its_permissions_and_a_new_one_has_those_of_the_process() {
 }
 
 #[test]
-fn a_file_that_may_not_grow_is_an_error_like_any_other() {
+fn exceeding_a_file_size_limit_is_an_ordinary_error() {
     let place = Place::with("limit", &[("study.toml", MEASURED), ("data.csv", SAMPLES)]);
     place.write("old.csv", "old");
     let before = place.files();

@@ -24,7 +24,7 @@ fn thresholds(study: &str, parameter: &str, [from, to]: [&str; 2], more: &[&str]
 const PAD: &str = "studies/squealing-pad-si.toml";
 
 #[test]
-fn an_orbit_has_its_names() {
+fn the_fields_of_an_orbit_have_documented_names() {
     let (found, status) = quell(&["orbit", STUDY]);
     assert_eq!(status, 0);
     assert_eq!(found["verdict"], "unstable");
@@ -68,7 +68,7 @@ fn without_dither_the_limit_cycle_is_the_orbit() {
 }
 
 #[test]
-fn the_orbit_on_which_a_run_ends() {
+fn the_orbit_that_a_run_reaches_is_found() {
     let set = ["orbit", STUDY, "--set", "dither.amplitude=2.5"];
     let (quiet, _) = quell(&[&set[..], &["--from-rest"]].concat());
     let (loud, status) = quell(&[&set[..], &["--from-squeal"]].concat());
@@ -102,7 +102,7 @@ fn thresholds_tell_each_protocol_apart() {
 }
 
 #[test]
-fn curves_of_thresholds_are_followed_and_saved() {
+fn threshold_curves_are_followed_and_saved() {
     let directory = tempfile::tempdir().expect("a directory");
     let (csv, svg) = (directory.path().join("curves.csv"), directory.path().join("curves.svg"));
     let (found, status) = quell(&[
@@ -161,7 +161,7 @@ fn steady_sliding_has_a_hopf_bifurcation() {
 
 /// Two responses coexist without dither: the one that the run reaches is reported, and not the largest cycle.
 #[test]
-fn an_undithered_run_ends_where_its_start_leads() {
+fn an_undithered_run_reaches_the_response_of_its_start() {
     let study = "studies/can-it-squeal-although-stable.toml";
     let ask = |arguments: &[&str]| quell(&[&["orbit", study], arguments].concat());
     for (start, cycle) in [
@@ -227,7 +227,7 @@ fn runs_from_rest_have_both_thresholds_in_any_window() {
 /// If the base response is lost, thresholds found before are kept, and runs still report their outcomes: without slow vibration,
 /// as `response` reports for the same runs, on orbits of one and of three periods of the dither.
 #[test]
-fn what_cannot_be_followed_does_not_take_the_rest_along() {
+fn a_lost_branch_does_not_discard_other_results() {
     const OWN: &str = "studies/own-friction-law.toml";
     let found = thresholds(OWN, "dither.amplitude", ["0.8", "2"], &["--from-rest"]);
     assert_eq!(found["covered"], false);
@@ -248,7 +248,7 @@ fn what_cannot_be_followed_does_not_take_the_rest_along() {
 
 /// If a branch ends inside the range, but a base response exists at the other end of the range, that is reported.
 #[test]
-fn a_base_response_beyond_the_end_of_a_branch_is_announced() {
+fn a_base_response_beyond_the_end_of_a_branch_is_reported() {
     let ask = |from: &str| thresholds(STUDY, "belt.belt_velocity", [from, "3"], &[]);
     let found = ask("0.3");
     assert_eq!((&found["covered"], &found["resumes"]), (&false.into(), &true.into()));
@@ -262,7 +262,7 @@ fn a_base_response_beyond_the_end_of_a_branch_is_announced() {
 
 /// In a study in SI, options in newtons and seconds are equivalent to dimensionless ones.
 #[test]
-fn thresholds_are_asked_in_si() {
+fn thresholds_accept_si_units() {
     let ask = |ends: [&str; 2], ramp: &str| {
         thresholds(PAD, "dither.amplitude_n", ends, &["--from-rest", "--ramp", ramp])
     };
@@ -308,7 +308,7 @@ fn thresholds_are_asked_in_si() {
 }
 
 #[test]
-fn wrong_questions_are_told() {
+fn invalid_requests_are_reported() {
     for (arguments, key) in [
         (&["--parameter", "belt.colour", "--from", "1", "--to", "2"][..], "--parameter"),
         (&["--parameter", "dither.amplitude", "--from", "2", "--to", "1"], "--to"),
@@ -369,7 +369,7 @@ fn wrong_questions_are_told() {
 
 /// No request is silently ignored, and every rejected value is printed in the message.
 #[test]
-fn options_that_say_nothing_together_are_refused() {
+fn contradictory_options_are_rejected() {
     let range = ["--parameter", "dither.amplitude", "--from", "1", "--to", "2"];
     let below = ["--parameter", "dither.amplitude", "--from=-1", "--to", "2"];
     for (arguments, key, told) in [

@@ -46,7 +46,7 @@ fn same(place: &Place, verb: &[&str], one: &[&str], other: &[&str]) -> Json {
 }
 
 #[test]
-fn plain_numbers_of_options_are_in_si() {
+fn options_without_units_are_in_si() {
     let place = place("si_options");
     let at = same(
         &place,
@@ -199,7 +199,7 @@ fn a_dither_just_above_the_band_does_not_leak_into_it() {
 
 /// Outcomes of runs are reported if no base response exists at the beginning of the range.
 #[test]
-fn runs_are_judged_without_a_base_response() {
+fn runs_are_classified_without_a_base_response() {
     let place = place("si_no_base");
     place.write("drive.toml", DRIVE);
     let ask = |from: &'static str, more: &[&'static str]| {
@@ -234,7 +234,7 @@ fn neutral_friction_is_not_unstable() {
 
 /// A dither inside the band of slow vibration does not quench a response that follows it.
 #[test]
-fn a_slow_dither_is_no_end_of_vibration() {
+fn a_slow_dither_does_not_end_the_vibration() {
     let place = place("si_slow");
     let slow = ["--set", "dither.frequency_ratio=0.9", "--set", "dither.amplitude=0.6"];
     let response = place.good(&[&["response", "scaled.toml"][..], &slow].concat());
@@ -249,7 +249,7 @@ fn a_slow_dither_is_no_end_of_vibration() {
 
 /// The level in a band is that of the lines between its ends; it is given with its root mean squares, in hertz too.
 #[test]
-fn a_band_has_its_level() {
+fn the_level_of_a_band_is_reported() {
     let place = place("si_band");
     place.write("drive.toml", DRIVE);
     let reduced = ["response", "drive.toml", "--set", "dither.amplitude_n=20"];
@@ -286,7 +286,7 @@ fn a_band_has_its_level() {
 }
 
 #[test]
-fn wrong_units_are_refused_with_what_is_expected() {
+fn wrong_units_are_rejected_with_the_expected_ones() {
     let place = place("si_wrong");
     let range = |from: &'static str| {
         [
@@ -339,7 +339,7 @@ fn wrong_units_are_refused_with_what_is_expected() {
 
 /// Ranges reject the same values as `--set`: the key of the other system of units, a value out of bounds.
 #[test]
-fn ranges_refuse_what_changes_refuse() {
+fn ranges_reject_the_same_values_as_changes() {
     let place = place("si_ranges");
     for (study, path, from, to, hint) in [
         ("pad.toml", "dither.amplitude", "1", "2", Some("dither.amplitude_n")),
@@ -373,7 +373,7 @@ fn ranges_refuse_what_changes_refuse() {
 }
 
 #[test]
-fn tables_are_in_si_with_units_that_programs_read() {
+fn tables_are_in_si_with_machine_readable_units() {
     let place = place("si_tables");
     let read = |name: &str| fs::read_to_string(place.folder.join(name)).expect("saved");
     let column = |text: &str, name: &str| -> Vec<String> {
@@ -493,7 +493,7 @@ fn an_orbit_has_extremes_and_a_table() {
 }
 
 #[test]
-fn stability_says_growth_and_forces() {
+fn stability_reports_growth_and_forces() {
     let place = place("si_stability");
     let found = place.good(&["stability", "pad.toml"]);
     let finite = &found["sharper"];

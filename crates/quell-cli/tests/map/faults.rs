@@ -55,7 +55,7 @@ impl Place {
 }
 
 #[test]
-fn killed_at_ten_random_moments_it_resumes_to_the_same_bytes() {
+fn a_run_killed_at_ten_random_moments_resumes_to_the_same_bytes() {
     let place = large("killed");
     let (reference, duration) = undisturbed();
     let now = SystemTime::now().duration_since(UNIX_EPOCH).expect("after 1970");
@@ -98,7 +98,7 @@ fn warnings_of_points(map: &serde_json::Value) -> usize {
 }
 
 #[test]
-fn stopped_by_ctrl_c_it_says_what_is_left_and_resumes() {
+fn a_run_stopped_by_ctrl_c_reports_the_remaining_chunks_and_resumes() {
     let place = large("stopped");
     let (reference, _) = undisturbed();
     let child = place.begin("stopped.zarr");
@@ -140,7 +140,7 @@ fn two_processes_on_one_store_do_no_harm() {
 }
 
 #[test]
-fn damaged_chunks_are_found_and_done_again() {
+fn damaged_chunks_are_found_and_recomputed() {
     let place = large("damaged");
     let (reference, _) = undisturbed();
     let at = |name: &str| place.folder.join("damaged.zarr").join(name);
@@ -172,7 +172,7 @@ fn damaged_chunks_are_found_and_done_again() {
 }
 
 #[test]
-fn a_store_of_another_study_is_refused_and_left_alone() {
+fn a_store_of_another_study_is_rejected_and_left_unchanged() {
     let place = Place::new("another");
     let small = fs::read_to_string(place.folder.join("small.toml")).expect("a study");
     let ask = |quantity, more: &[&'static str]| {
@@ -217,7 +217,7 @@ fn a_store_of_another_study_is_refused_and_left_alone() {
 }
 
 #[test]
-fn a_full_disk_is_told_and_survived() {
+fn a_full_disk_is_reported_and_survived() {
     let place = large("full");
     let (reference, _) = undisturbed();
     let Some(disk) = Disk::mount(&place.folder.join("disk"), "size=256k") else {
@@ -262,7 +262,7 @@ fn limited(place: &Place, reference: &BTreeMap<String, Vec<u8>>) {
 }
 
 #[test]
-fn a_store_that_cannot_be_written_is_told_at_once() {
+fn an_unwritable_store_is_reported_at_once() {
     let place = large("read_only");
     let below = place.told(&ask("study.toml/below.zarr", &[]));
     assert_eq!(below.status, Some(2), "{below:?}");

@@ -24,7 +24,7 @@ fn ends(child: Child) -> Json {
 }
 
 #[test]
-fn three_shards_at_once_from_nothing_make_the_map() {
+fn three_concurrent_shards_create_the_map() {
     let place = large("three");
     let (reference, _) = undisturbed();
     let shards = ["1/3", "2/3", "3/3"].map(|shard| place.shard("three.zarr", shard));
@@ -42,7 +42,7 @@ fn three_shards_at_once_from_nothing_make_the_map() {
 }
 
 #[test]
-fn a_killed_shard_is_run_again_beside_another() {
+fn a_killed_shard_is_repeated_while_another_runs() {
     let place = large("killed_shard");
     let (reference, _) = undisturbed();
     let (one, mut other) = (place.shard("k.zarr", "1/2"), place.shard("k.zarr", "2/2"));
@@ -70,7 +70,7 @@ fn a_killed_shard_is_run_again_beside_another() {
 }
 
 #[test]
-fn a_shard_says_what_is_left_and_a_later_run_computes_it() {
+fn a_shard_reports_the_remaining_chunks_and_a_later_run_computes_them() {
     let place = large("left");
     let (reference, _) = undisturbed();
     let told = ends(place.shard("left.zarr", "2/4"));
@@ -95,7 +95,7 @@ fn a_shard_says_what_is_left_and_a_later_run_computes_it() {
 }
 
 #[test]
-fn shards_of_another_map_are_refused_whoever_comes_first() {
+fn shards_of_another_map_are_rejected_in_either_order() {
     let place = Place::new("strangers");
     let small = fs::read_to_string(place.folder.join("small.toml")).expect("a study");
     place.write("other.toml", small.replace("= 0.005", "= 0.006"));
@@ -116,7 +116,7 @@ fn shards_of_another_map_are_refused_whoever_comes_first() {
 }
 
 #[test]
-fn a_shard_that_cannot_be_is_refused_at_once() {
+fn an_invalid_shard_is_rejected_at_once() {
     let place = Place::new("no_shard");
     let ask = |more: &[&'static str]| {
         let mut arguments = vec!["map", "small.toml", "--quantity", "verdict"];

@@ -66,7 +66,7 @@ fn refused(place: &Place, words: &[&str]) {
 }
 
 #[test]
-fn links_in_a_store_lead_nowhere() {
+fn links_in_a_store_are_not_followed() {
     let (place, store) = whole("links");
     let outside = place.folder.join("outside");
     for name in [
@@ -133,7 +133,7 @@ fn a_store_of_another_map_is_left_as_it_is() {
 type Changed<'c> = &'c dyn Fn(&[u8]) -> Vec<u8>;
 
 #[test]
-fn metadata_are_proven() {
+fn metadata_are_verified() {
     let (place, store) = whole("metadata");
     let changes: [(&str, Changed<'_>); 6] = [
         ("efficiency/zarr.json", &|bytes| {
@@ -167,7 +167,7 @@ fn metadata_are_proven() {
 }
 
 #[test]
-fn pipes_and_folders_in_place_of_files_are_refused() {
+fn pipes_and_folders_in_place_of_files_are_rejected() {
     let (place, store) = whole("pipes");
     for name in [
         "efficiency/c/0/0",
