@@ -196,9 +196,9 @@ fn numbers_and_pictures_are_written() {
 #[test]
 fn all_errors_are_reported_at_once() {
     let keys = |arguments: &[&str]| -> Vec<String> {
-        let (told, status) = quell(arguments);
-        assert_eq!(status, 2, "{told}");
-        let errors = told["errors"].as_array().expect("errors");
+        let (printed, status) = quell(arguments);
+        assert_eq!(status, 2, "{printed}");
+        let errors = printed["errors"].as_array().expect("errors");
         errors.iter().map(|item| item["key"].as_str().expect("a key").to_owned()).collect()
     };
     let sweep = |range: [&'static str; 4]| {
@@ -238,10 +238,10 @@ fn all_errors_are_reported_at_once() {
     let over = ["--over", "dither.amplitude", "--from", "0", "--to", "1", "--points", "100000"];
     let many = [&["basins", STUDY, "--grid", "3000x3000"], &over[..]].concat();
     assert_eq!(keys(&many), ["--points"]);
-    let (told, status) = quell(&["basins", STUDY, "--points", "5"]);
-    assert!(status == 2 && told.to_string().contains("--over <PATH>"), "{told}");
-    let (told, _) = quell(&without);
-    let message = told["errors"][0]["message"].as_str().expect("a message");
+    let (printed, status) = quell(&["basins", STUDY, "--points", "5"]);
+    assert!(status == 2 && printed.to_string().contains("--over <PATH>"), "{printed}");
+    let (printed, _) = quell(&without);
+    let message = printed["errors"][0]["message"].as_str().expect("a message");
     assert!(message.contains("dither") && !message.contains("change:"), "{message}");
     assert_eq!(keys(&["basins", STUDY, "--sample", "0"]), ["--sample"]);
     // For a missing study it is unknown whether it is in SI.

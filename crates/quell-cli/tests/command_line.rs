@@ -337,9 +337,9 @@ fn named_pipes_are_opened_once() {
     let before = place.files();
     let answer = place.good(&["response", "study.toml", "--save", "numbers"]);
     assert_eq!(answer["saved"].as_array().map(Vec::len), Some(2), "{answer}");
-    let told = reader.join().expect("read");
-    let names = told.lines().filter(|line| line.starts_with(char::is_alphabetic));
-    assert_eq!(names.count(), 2, "{told}");
+    let printed = reader.join().expect("read");
+    let names = printed.lines().filter(|line| line.starts_with(char::is_alphabetic));
+    assert_eq!(names.count(), 2, "{printed}");
     assert_eq!(place.files(), before);
 }
 
@@ -364,10 +364,10 @@ fn a_closed_pipe_causes_no_panic() {
         .spawn()
         .expect("quell runs");
     drop(child.stdout.take());
-    let mut told = String::new();
-    child.stderr.take().expect("piped").read_to_string(&mut told).expect("text");
-    assert_eq!(child.wait().expect("ends").code(), Some(0), "{told}");
-    assert_eq!(told, "");
+    let mut printed = String::new();
+    child.stderr.take().expect("piped").read_to_string(&mut printed).expect("text");
+    assert_eq!(child.wait().expect("ends").code(), Some(0), "{printed}");
+    assert_eq!(printed, "");
 }
 
 #[test]

@@ -168,10 +168,10 @@ fn remaining_instabilities_at_a_clear_frequency_are_reported() {
     assert!(number(&found[0]["speed"]) < 0.25 && number(&found[0]["edges"][1]) > 0.25, "{clear}");
     assert!(number(&clear["verified_growth_rate"]) < 0.0, "{clear}");
     assert!(words.contains("verified: by the exact equations nothing grows there"), "{words}");
-    let told = left(&words);
-    assert_eq!(told.len(), 1, "{words}");
+    let printed = left(&words);
+    assert_eq!(printed.len(), 1, "{words}");
     let line = "left there: Ω = 0.1923353, forward (1,1) with forward (1,2), growth up to 0.00";
-    assert!(told[0].trim_start().starts_with(line), "{told:?}");
+    assert!(printed[0].trim_start().starts_with(line), "{printed:?}");
     // Closer to it some motion grows at any frequency.
     let (clear, words) = ask("0.2:0.9", "0.6");
     assert!(number(&clear["verified_growth_rate"]) > 0.0, "{clear}");
@@ -228,10 +228,10 @@ fn maps_of_a_disc_are_saved_and_drawn() {
     assert!(errors[0]["allowed"].as_str().expect("text").contains("growth"), "{errors:?}");
     let store = ["map", "map.toml", "--quantity", "growth", "--save", "map.zarr"];
     let first = good(&place, &store[..4]);
-    let (_, told, status) = quell(&place, &store);
-    assert_eq!(status, 0, "{told}");
-    let (text, told, status) = quell(&place, &[&store[..], &["--resume", "--json"]].concat());
-    assert_eq!(status, 0, "{told}");
+    let (_, printed, status) = quell(&place, &store);
+    assert_eq!(status, 0, "{printed}");
+    let (text, printed, status) = quell(&place, &[&store[..], &["--resume", "--json"]].concat());
+    assert_eq!(status, 0, "{printed}");
     let again: Json = serde_json::from_str(&text).expect("one object");
     assert_eq!(again["growth"], first["growth"]);
 }
@@ -257,9 +257,12 @@ fn invalid_discs_are_rejected_and_the_clamp_causes_a_warning() {
     let normal = ["--set", "dither.direction=normal", "--set", "dither.amplitude=1.2"];
     let errors = place.refused(&[&["stability", "disc.toml"], &normal[..]].concat());
     assert_eq!(errors[0]["key"], "dither.amplitude");
-    let (_, told, status) =
+    let (_, printed, status) =
         quell(&place, &["stability", "disc.toml", "--set", "disc.load.radius_ratio=0.5"]);
-    assert!(status == 0 && told.contains("warning") && told.contains("nothing couples"), "{told}");
+    assert!(
+        status == 0 && printed.contains("warning") && printed.contains("nothing couples"),
+        "{printed}"
+    );
     for verb in [&["friction"][..], &["response"], &["simulate", "--until", "10"]] {
         let errors = place.refused(&[verb, &["disc.toml"]].concat());
         assert_eq!(errors[0]["key"], "disc", "{errors:?}");

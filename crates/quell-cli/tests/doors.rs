@@ -20,8 +20,8 @@ fn place(name: &str) -> Place {
 fn said(place: &Place, command: &str) -> String {
     let words: Vec<&str> = command.split_whitespace().skip(1).collect();
     let output = place.quell(&words);
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success(), "{command}: {told}");
+    let printed = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{command}: {printed}");
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 

@@ -155,11 +155,11 @@ fn end(place: &Place, study: &str, verb: &str, changes: &[String]) -> Option<i32
         std::thread::sleep(Duration::from_millis(2));
     }
     let done = child.wait_with_output().expect("it ended");
-    let told = String::from_utf8_lossy(&done.stderr).into_owned();
-    assert!(!told.contains("panicked"), "{study} {verb} {changes:?}: {told}");
+    let printed = String::from_utf8_lossy(&done.stderr).into_owned();
+    assert!(!printed.contains("panicked"), "{study} {verb} {changes:?}: {printed}");
     let status = done.status.code().unwrap_or(-1);
-    assert!([0, 1, 2].contains(&status), "{study} {verb} {changes:?}: {status} {told}");
-    assert!(status == 0 || !told.is_empty(), "{study} {verb} {changes:?}: no reason");
+    assert!([0, 1, 2].contains(&status), "{study} {verb} {changes:?}: {status} {printed}");
+    assert!(status == 0 || !printed.is_empty(), "{study} {verb} {changes:?}: no reason");
     Some(status)
 }
 

@@ -97,8 +97,11 @@ fn inputs_are_never_outputs() {
                     continue;
                 }
                 let errors = place.refused(&arguments);
-                let told = errors[0]["message"].as_str().unwrap_or_default();
-                assert!(told.contains("which the study is read from"), "{arguments:?}: {told}");
+                let printed = errors[0]["message"].as_str().unwrap_or_default();
+                assert!(
+                    printed.contains("which the study is read from"),
+                    "{arguments:?}: {printed}"
+                );
                 for (file, text) in files {
                     let there = fs::read_to_string(place.folder.join(file)).expect("there");
                     assert_eq!(there, text, "{arguments:?}");
@@ -115,9 +118,9 @@ fn a_study_on_standard_input_is_an_input_and_a_store_must_not_contain_one() {
     let file = fs::File::open(place.folder.join("study.toml")).expect("there");
     let mut command = place.command(&["friction", "-", "--save", "out.csv"]);
     let output = command.stdin(file).output().expect("quell runs");
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{told}");
-    assert!(told.contains("standard input"), "{told}");
+    let printed = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{printed}");
+    assert!(printed.contains("standard input"), "{printed}");
     assert_eq!(fs::read_to_string(place.folder.join("study.toml")).expect("there"), MEASURED);
     // The data inside a store, and the store around the study.
     fs::create_dir_all(place.folder.join("m.zarr/.quell")).expect("a folder");
@@ -141,13 +144,16 @@ fn existing_special_files_are_not_replaced_by_a_second_output() {
     let second = place.folder.join("out_spectrum.csv");
     symlink("theirs", &second).expect("a link");
     let ask = ["response", "study.toml", "--save", "out.csv"];
-    let told = format!("{:?}", place.refused(&ask));
-    assert!(told.contains("out_spectrum.csv") && told.contains("not a regular file"), "{told}");
+    let printed = format!("{:?}", place.refused(&ask));
+    assert!(
+        printed.contains("out_spectrum.csv") && printed.contains("not a regular file"),
+        "{printed}"
+    );
     assert_eq!(fs::read_to_string(place.folder.join("theirs")).expect("there"), "theirs");
     fs::remove_file(&second).expect("removed");
     assert!(Command::new("mkfifo").arg(&second).status().expect("mkfifo").success());
-    let told = format!("{:?}", place.refused(&ask));
-    assert!(told.contains("not a regular file"), "{told}");
+    let printed = format!("{:?}", place.refused(&ask));
+    assert!(printed.contains("not a regular file"), "{printed}");
 }
 
 #[test]
@@ -169,16 +175,16 @@ fn the_content_of_files_that_are_not_data_is_not_printed() {
         ] {
             place.write("data.csv", &text);
             let errors = place.refused(&["check", "study.toml"]);
-            let told = format!("{errors:?}");
-            assert!(!told.contains("hunter") && !told.contains("root"), "{told}");
-            assert!(told.contains("a CSV file with") || told.contains("line 2"), "{told}");
+            let printed = format!("{errors:?}");
+            assert!(!printed.contains("hunter") && !printed.contains("root"), "{printed}");
+            assert!(printed.contains("a CSV file with") || printed.contains("line 2"), "{printed}");
         }
         // Paths that are not regular files are reported, and do not block.
         fs::remove_file(place.folder.join("data.csv")).expect("removed");
         let made = Command::new("mkfifo").arg(place.folder.join("data.csv")).status();
         assert!(made.expect("mkfifo").success());
-        let told = format!("{:?}", place.refused(&["check", "study.toml"]));
-        assert!(told.contains("not a regular file"), "{told}");
+        let printed = format!("{:?}", place.refused(&["check", "study.toml"]));
+        assert!(printed.contains("not a regular file"), "{printed}");
     }
 }
 
@@ -220,9 +226,9 @@ fn exceeding_a_file_size_limit_is_an_ordinary_error() {
         );
         let done = Command::new("sh").current_dir(&place.folder).args(["-c", &line]).output();
         let done = done.expect("a shell");
-        let told = String::from_utf8_lossy(&done.stdout);
+        let printed = String::from_utf8_lossy(&done.stdout);
         assert_eq!(done.status.code(), Some(1), "{output}: {done:?}");
-        assert!(told.contains("File too large"), "{told}");
+        assert!(printed.contains("File too large"), "{printed}");
         assert_eq!(place.files(), before, "{output}");
         assert_eq!(fs::read_to_string(place.folder.join("old.csv")).expect("there"), "old");
     }

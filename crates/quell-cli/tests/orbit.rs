@@ -252,9 +252,9 @@ fn a_base_response_beyond_the_end_of_a_branch_is_reported() {
     let ask = |from: &str| thresholds(STUDY, "belt.belt_velocity", [from, "3"], &[]);
     let found = ask("0.3");
     assert_eq!((&found["covered"], &found["resumes"]), (&false.into(), &true.into()));
-    let told = found["sentence"].as_str().expect("words");
-    assert!(told.contains("at v₀ = 3 a base response exists again"), "{told}");
-    assert!(!told.contains("no threshold in this range"), "{told}");
+    let printed = found["sentence"].as_str().expect("words");
+    assert!(printed.contains("at v₀ = 3 a base response exists again"), "{printed}");
+    assert!(!printed.contains("no threshold in this range"), "{printed}");
     let rest = ask("0.7");
     assert_eq!((&rest["covered"], &rest["resumes"]), (&true.into(), &false.into()));
     assert!(rest["local"].as_array().is_some_and(|found| !found.is_empty()), "{rest}");
@@ -289,7 +289,7 @@ fn thresholds_accept_si_units() {
     close(&found["from_n"], range[0]);
     close(&found["to_n"], range[1]);
     close(&found["ramp_s"], 0.05);
-    let told = words(&[
+    let printed = words(&[
         "thresholds",
         PAD,
         "--parameter",
@@ -299,9 +299,9 @@ fn thresholds_accept_si_units() {
         "--to",
         "6500",
     ]);
-    assert!(told.contains("\ndither.amplitude_n from 5000 N to 6500 N,"), "{told}");
+    assert!(printed.contains("\ndither.amplitude_n from 5000 N to 6500 N,"), "{printed}");
     let newtons = format!("{:.3} N", number(&local["value_n"]));
-    assert!(told.contains(&newtons), "{newtons}: {told}");
+    assert!(printed.contains(&newtons), "{newtons}: {printed}");
     for (name, unit) in [("value_n", "N"), ("from_n", "N"), ("displacement_m", "m")] {
         assert_eq!(found["units"][name], unit);
     }
@@ -357,14 +357,14 @@ fn invalid_requests_are_reported() {
             "--along",
         ),
     ] {
-        let (told, status) = quell(&[&["thresholds", STUDY], arguments].concat());
-        assert_eq!((status, told["errors"][0]["key"].as_str()), (2, Some(key)), "{told}");
+        let (printed, status) = quell(&[&["thresholds", STUDY], arguments].concat());
+        assert_eq!((status, printed["errors"][0]["key"].as_str()), (2, Some(key)), "{printed}");
     }
     // For a missing study it is unknown whether it is in SI.
     let nowhere = ["thresholds", "studies/nowhere.toml", "--parameter", "dither.amplitude"];
-    let (told, status) =
+    let (printed, status) =
         quell(&[&nowhere[..], &["--from", "1", "--to", "2", "--ramp", "0.5s"]].concat());
-    assert_eq!((status, told["errors"].as_array().map(Vec::len)), (2, Some(1)), "{told}");
+    assert_eq!((status, printed["errors"].as_array().map(Vec::len)), (2, Some(1)), "{printed}");
 }
 
 /// No request is silently ignored, and every rejected value is printed in the message.
@@ -372,7 +372,7 @@ fn invalid_requests_are_reported() {
 fn contradictory_options_are_rejected() {
     let range = ["--parameter", "dither.amplitude", "--from", "1", "--to", "2"];
     let below = ["--parameter", "dither.amplitude", "--from=-1", "--to", "2"];
-    for (arguments, key, told) in [
+    for (arguments, key, printed) in [
         ([&["thresholds", STUDY], &range[..], &["--ramp", "5"]].concat(), "--ramp", "--from-rest"),
         ([&["thresholds", STUDY], &range[..], &["--ramp", "nan"]].concat(), "--ramp", "nan"),
         ([&["thresholds", STUDY], &range[..], &["--ramp", "1e308"]].concat(), "--ramp", "1e308"),
@@ -409,6 +409,6 @@ fn contradictory_options_are_rejected() {
         let error = &object["errors"][0];
         let message = error["message"].as_str().unwrap_or_default();
         assert_eq!((status, error["key"].as_str()), (2, Some(key)), "{object}");
-        assert!(message.contains(told) && !message.contains("null"), "{message}");
+        assert!(message.contains(printed) && !message.contains("null"), "{message}");
     }
 }

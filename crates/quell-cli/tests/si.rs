@@ -130,10 +130,10 @@ fn quenched_means_the_same_in_every_verb() {
         (&basins["quiet_fraction"], &basins["attractors"][0]["base_response"]),
         (&1.0.into(), &false.into())
     );
-    let told = basins["sentence"].as_str().expect("words");
+    let printed = basins["sentence"].as_str().expect("words");
     assert!(
-        told.starts_with("Every one of 20 starts falls quiet; the base response ends at 0.829"),
-        "{told}"
+        printed.starts_with("Every one of 20 starts falls quiet; the base response ends at 0.829"),
+        "{printed}"
     );
 }
 
@@ -210,8 +210,8 @@ fn runs_are_classified_without_a_base_response() {
     let without = place.good(&ask("38", &["--from-rest"]));
     let with = place.good(&ask("35", &["--from-rest"]));
     assert!((value(&without) / value(&with) - 1.0).abs() < 1e-4);
-    let told = without["sentence"].as_str().expect("words");
-    assert!(told.starts_with("At D = 38 N the base response ends at 0.98"), "{told}");
+    let printed = without["sentence"].as_str().expect("words");
+    assert!(printed.starts_with("At D = 38 N the base response ends at 0.98"), "{printed}");
     let (found, status) = place.json(&ask("38", &[]));
     assert_eq!((status, &found["errors"][0]["key"]), (1, &"thresholds".into()));
     assert!(found.to_string().contains("--from-rest"), "{found}");
@@ -242,8 +242,11 @@ fn a_slow_dither_does_not_end_the_vibration() {
     let range =
         ["--parameter", "dither.amplitude", "--from", "0.01", "--to", "0.04", "--from-rest"];
     let found = place.good(&[&["thresholds", "scaled.toml"][..], &slow, &range].concat());
-    let told = found["sentence"].as_str().expect("words");
-    assert!(!told.contains("quench") && told.contains("into step with the dither"), "{told}");
+    let printed = found["sentence"].as_str().expect("words");
+    assert!(
+        !printed.contains("quench") && printed.contains("into step with the dither"),
+        "{printed}"
+    );
     assert!(found["warnings"].to_string().contains("`response` says how much remains"), "{found}");
 }
 
@@ -329,11 +332,11 @@ fn wrong_units_are_rejected_with_the_expected_ones() {
             "units need a study in SI",
         ),
     ];
-    for (arguments, key, told) in cases {
+    for (arguments, key, printed) in cases {
         let errors = place.refused(arguments);
         let found = errors.iter().find(|error| error["key"] == *key);
         let allowed = found.and_then(|error| error["allowed"].as_str()).unwrap_or_default();
-        assert!(allowed.contains(told), "{arguments:?}: {errors:?}");
+        assert!(allowed.contains(printed), "{arguments:?}: {errors:?}");
     }
 }
 

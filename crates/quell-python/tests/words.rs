@@ -7,7 +7,7 @@ use words::{in_python, key_in_python};
 
 #[test]
 fn options_are_named_as_arguments() {
-    for (text, told) in [
+    for (text, expected) in [
         ("a number above --from 2", "a number above from_ 2"),
         (
             "given together with --from-rest, --from-sliding, --from-squeal or --start: it is",
@@ -19,13 +19,13 @@ fn options_are_named_as_arguments() {
         ("--ramp-", "ramp-"),
         ("", ""),
     ] {
-        assert_eq!(in_python(text), told);
+        assert_eq!(in_python(text), expected);
     }
 }
 
 #[test]
 fn ways_are_those_of_python() {
-    for (text, told) in [
+    for (text, expected) in [
         (
             "already exists: --resume continues it; or choose another name",
             "already exists: resume=True continues it; or choose another name",
@@ -44,7 +44,7 @@ fn ways_are_those_of_python() {
             "several loads; `stability()` and `map(\"growth\")` take any number of loads",
         ),
     ] {
-        assert_eq!(in_python(text), told);
+        assert_eq!(in_python(text), expected);
     }
 }
 
@@ -65,7 +65,7 @@ fn code_paths_and_dashes_stay() {
 
 #[test]
 fn keys_that_are_options_are_arguments() {
-    for (key, told) in [
+    for (key, expected) in [
         ("--from", "from_"),
         ("--from-rest", "from_rest"),
         ("--threads", "threads"),
@@ -75,6 +75,6 @@ fn keys_that_are_options_are_arguments() {
         ("--", "--"),
         ("--m.zarr", "--m.zarr"),
     ] {
-        assert_eq!(key_in_python(key), told);
+        assert_eq!(key_in_python(key), expected);
     }
 }

@@ -246,6 +246,6 @@ fn invalid_requests_are_rejected_at_once() {
         let errors = place.refused(arguments);
         assert!(errors.iter().any(|error| error["key"] == *key), "{arguments:?}: {errors:?}");
     }
-    let told = place.told(&["map", "study.toml", "--quantity", "efficiency"]);
-    assert!(told.errors.contains("    parameter = \"dither.amplitude\""), "{}", told.errors);
+    let printed = place.printed(&["map", "study.toml", "--quantity", "efficiency"]);
+    assert!(printed.errors.contains("    parameter = \"dither.amplitude\""), "{}", printed.errors);
 }

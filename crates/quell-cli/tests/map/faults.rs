@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 use std::thread::sleep;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use crate::place::{Place, STUDY, Told, files, same};
+use crate::place::{Place, Printed, STUDY, files, same};
 
 /// The store of an uninterrupted run, and its duration; computed once for all tests.
 pub(crate) fn undisturbed() -> &'static (BTreeMap<String, Vec<u8>>, Duration) {
@@ -104,14 +104,14 @@ fn a_run_stopped_by_ctrl_c_reports_the_remaining_chunks_and_resumes() {
     let child = place.begin("stopped.zarr");
     wait_for("a chunk", || place.records("stopped.zarr") > 0);
     signal(&child, "-INT");
-    let told = Told::of(&child.wait_with_output().expect("it ends"));
-    assert_eq!(told.status, Some(1), "{told:?}");
+    let printed = Printed::of(&child.wait_with_output().expect("it ends"));
+    assert_eq!(printed.status, Some(1), "{printed:?}");
     assert!(
-        told.errors.contains("are left") && told.errors.contains("--resume"),
+        printed.errors.contains("are left") && printed.errors.contains("--resume"),
         "{}",
-        told.errors
+        printed.errors
     );
-    assert!(told.output.is_empty());
+    assert!(printed.output.is_empty());
     let kept = place.records("stopped.zarr");
     place.good(&ask("stopped.zarr", &["--resume"]));
     assert!(kept < place.records("stopped.zarr"));
@@ -124,16 +124,16 @@ fn two_processes_on_one_store_do_no_harm() {
     let (reference, _) = undisturbed();
     let first = place.begin("two.zarr");
     wait_for("a chunk", || place.records("two.zarr") > 0);
-    let second = place.told(&ask("two.zarr", &["--resume"]));
+    let second = place.printed(&ask("two.zarr", &["--resume"]));
     assert_eq!(second.status, Some(1), "{second:?}");
     assert!(second.errors.contains("another process is writing this store"), "{second:?}");
-    let first = Told::of(&first.wait_with_output().expect("it ends"));
+    let first = Printed::of(&first.wait_with_output().expect("it ends"));
     assert_eq!(first.status, Some(0), "{first:?}");
     same(&place.store("two.zarr"), reference);
     // Two processes start at once without a store: the later one is rejected, and no file is destroyed.
     let (one, other) = (place.begin("race.zarr"), place.begin("race.zarr"));
     let ends: Vec<Option<i32>> = [one, other]
-        .map(|child| Told::of(&child.wait_with_output().expect("it ends")).status)
+        .map(|child| Printed::of(&child.wait_with_output().expect("it ends")).status)
         .to_vec();
     assert!(ends.contains(&Some(0)), "{ends:?}");
     same(&place.store("race.zarr"), reference);
@@ -165,9 +165,12 @@ fn damaged_chunks_are_found_and_recomputed() {
     let record = reference.keys().filter(|name| name.starts_with(".quell/done/")).nth(3);
     let record = at(record.expect("records enough"));
     fs::write(&record, "{\"files\":{").expect("a record cut short");
-    let told = place.told(&ask("damaged.zarr", &["--resume"]));
-    assert_eq!(told.status, Some(0), "{told:?}");
-    assert!(told.errors.contains("4 chunks of the store were cut short or changed"), "{told:?}");
+    let printed = place.printed(&ask("damaged.zarr", &["--resume"]));
+    assert_eq!(printed.status, Some(0), "{printed:?}");
+    assert!(
+        printed.errors.contains("4 chunks of the store were cut short or changed"),
+        "{printed:?}"
+    );
     same(&place.store("damaged.zarr"), reference);
 }
 
@@ -181,9 +184,9 @@ fn a_store_of_another_study_is_rejected_and_left_unchanged() {
     place.good(&ask("efficiency", &[]));
     let reference = place.store("m.zarr");
     let refused = |arguments: &[&str], word: &str| {
-        let told = place.told(arguments);
-        assert_eq!(told.status, Some(2), "{arguments:?}: {told:?}");
-        assert!(told.errors.contains(word), "{arguments:?}: {told:?}");
+        let printed = place.printed(arguments);
+        assert_eq!(printed.status, Some(2), "{arguments:?}: {printed:?}");
+        assert!(printed.errors.contains(word), "{arguments:?}: {printed:?}");
         same(&place.store("m.zarr"), &reference);
     };
     refused(&ask("efficiency", &[]), "already exists");
@@ -211,9 +214,9 @@ fn a_store_of_another_study_is_rejected_and_left_unchanged() {
     let text = fs::read_to_string(&identity).expect("what the store is of");
     let version = concat!("\"", env!("CARGO_PKG_VERSION"), "\"");
     fs::write(&identity, text.replacen(version, "\"0.0.9\"", 1)).expect("another version");
-    let told = place.told(&ask("efficiency", &["--resume"]));
-    assert_eq!(told.status, Some(2));
-    assert!(told.errors.contains("bits may differ"), "{told:?}");
+    let printed = place.printed(&ask("efficiency", &["--resume"]));
+    assert_eq!(printed.status, Some(2));
+    assert!(printed.errors.contains("bits may differ"), "{printed:?}");
 }
 
 #[test]
@@ -224,12 +227,12 @@ fn a_full_disk_is_reported_and_survived() {
         return limited(&place, reference);
     };
     // Space for the metadata and some chunks.
-    let told = place.told(&ask("disk/full.zarr", &[]));
-    assert_eq!(told.status, Some(1), "{told:?}");
-    assert!(told.errors.contains("No space left on device"), "{told:?}");
-    assert!(told.errors.contains("--resume"), "{told:?}");
+    let printed = place.printed(&ask("disk/full.zarr", &[]));
+    assert_eq!(printed.status, Some(1), "{printed:?}");
+    assert!(printed.errors.contains("No space left on device"), "{printed:?}");
+    assert!(printed.errors.contains("--resume"), "{printed:?}");
     let kept = place.records("disk/full.zarr");
-    assert!(kept > 0, "no room for a single chunk: {told:?}");
+    assert!(kept > 0, "no room for a single chunk: {printed:?}");
     let left = files(&disk.path.join("full.zarr"));
     assert!(!left.keys().any(|name| name.starts_with(".quell/unfinished/")), "half a file is left");
     for (name, bytes) in &left {
@@ -241,9 +244,9 @@ fn a_full_disk_is_reported_and_survived() {
     same(&files(&disk.path.join("full.zarr")), reference);
     // Not enough space to create the store: no file remains.
     let tiny = Disk::mount(&place.folder.join("tiny"), "size=8k").expect("mounted before");
-    let told = place.told(&ask("tiny/full.zarr", &[]));
-    assert_eq!(told.status, Some(1), "{told:?}");
-    assert!(told.errors.contains("No space left on device"), "{told:?}");
+    let printed = place.printed(&ask("tiny/full.zarr", &[]));
+    assert_eq!(printed.status, Some(1), "{printed:?}");
+    assert!(printed.errors.contains("No space left on device"), "{printed:?}");
     assert_eq!(fs::read_dir(&tiny.path).expect("a disk").count(), 0, "something half-made is left");
 }
 
@@ -254,9 +257,9 @@ fn limited(place: &Place, reference: &BTreeMap<String, Vec<u8>>) {
     let line =
         format!("trap '' XFSZ; ulimit -f 1; exec {program} {}", ask("full.zarr", &[]).join(" "));
     let output = Command::new("sh").current_dir(&place.folder).args(["-c", &line]).output();
-    let told = Told::of(&output.expect("a shell"));
-    assert_eq!(told.status, Some(1), "{told:?}");
-    assert!(told.errors.contains("cannot be written: File too large"), "{told:?}");
+    let printed = Printed::of(&output.expect("a shell"));
+    assert_eq!(printed.status, Some(1), "{printed:?}");
+    assert!(printed.errors.contains("cannot be written: File too large"), "{printed:?}");
     place.good(&ask("full.zarr", &["--resume"]));
     same(&place.store("full.zarr"), reference);
 }
@@ -264,7 +267,7 @@ fn limited(place: &Place, reference: &BTreeMap<String, Vec<u8>>) {
 #[test]
 fn an_unwritable_store_is_reported_at_once() {
     let place = large("read_only");
-    let below = place.told(&ask("study.toml/below.zarr", &[]));
+    let below = place.printed(&ask("study.toml/below.zarr", &[]));
     assert_eq!(below.status, Some(2), "{below:?}");
     assert!(below.errors.contains("cannot be written: Not a directory"), "{below:?}");
     let Some(disk) = Disk::mount(&place.folder.join("disk"), "size=16m") else {
@@ -278,9 +281,9 @@ fn an_unwritable_store_is_reported_at_once() {
     let before = files(&disk.path);
     disk.remount("ro");
     for save in ["disk/new.zarr", "disk/begun.zarr"] {
-        let told = place.told(&ask(save, &["--resume"]));
-        assert_eq!(told.status, Some(2), "{told:?}");
-        assert!(told.errors.contains("Read-only file system"), "{told:?}");
+        let printed = place.printed(&ask(save, &["--resume"]));
+        assert_eq!(printed.status, Some(2), "{printed:?}");
+        assert!(printed.errors.contains("Read-only file system"), "{printed:?}");
     }
     same(&files(&disk.path), &before);
     disk.remount("rw");
@@ -297,8 +300,8 @@ pub(crate) fn wait_for(what: &str, there: impl Fn() -> bool) {
 }
 
 fn signal(child: &Child, name: &str) {
-    let told = Command::new("kill").args([name, &child.id().to_string()]).status();
-    assert!(told.expect("kill").success());
+    let printed = Command::new("kill").args([name, &child.id().to_string()]).status();
+    assert!(printed.expect("kill").success());
 }
 
 /// A small file system that is unmounted when it is dropped.
@@ -317,8 +320,8 @@ impl Disk {
 
     fn remount(&self, options: &str) {
         let options = format!("remount,{options}");
-        let told = Command::new("mount").args(["-o", &options]).arg(&self.path).status();
-        assert!(told.expect("mount").success());
+        let printed = Command::new("mount").args(["-o", &options]).arg(&self.path).status();
+        assert!(printed.expect("mount").success());
     }
 }
 

@@ -44,8 +44,8 @@ impl Place {
     }
 
     /// Runs a verb and returns its text output.
-    pub(crate) fn told(&self, arguments: &[&str]) -> Told {
-        Told::of(&self.quell(arguments))
+    pub(crate) fn printed(&self, arguments: &[&str]) -> Printed {
+        Printed::of(&self.quell(arguments))
     }
 
     /// Every file of a store except its lock.
@@ -85,21 +85,21 @@ pub(crate) fn same(one: &BTreeMap<String, Vec<u8>>, other: &BTreeMap<String, Vec
 
 /// The output of a process.
 #[derive(Debug)]
-pub(crate) struct Told {
+pub(crate) struct Printed {
     pub(crate) status: Option<i32>,
     pub(crate) output: String,
     pub(crate) errors: String,
 }
 
-impl Told {
+impl Printed {
     pub(crate) fn of(output: &Output) -> Self {
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-        let told = Self {
+        let printed = Self {
             status: output.status.code(),
             output: text(&output.stdout),
             errors: text(&output.stderr),
         };
-        assert!(!told.errors.contains("panicked"), "{told:?}");
-        told
+        assert!(!printed.errors.contains("panicked"), "{printed:?}");
+        printed
     }
 }

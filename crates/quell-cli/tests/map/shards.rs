@@ -6,7 +6,7 @@ use std::process::{Child, Stdio};
 use serde_json::Value as Json;
 
 use crate::faults::{ask, large, undisturbed, wait_for};
-use crate::place::{Place, Told, same};
+use crate::place::{Place, Printed, same};
 
 impl Place {
     /// Starts a shard of the large map.
@@ -18,9 +18,9 @@ impl Place {
 }
 
 fn ends(child: Child) -> Json {
-    let told = Told::of(&child.wait_with_output().expect("it ends"));
-    assert_eq!(told.status, Some(0), "{told:?}");
-    serde_json::from_str(&told.output).expect("one JSON object")
+    let printed = Printed::of(&child.wait_with_output().expect("it ends"));
+    assert_eq!(printed.status, Some(0), "{printed:?}");
+    serde_json::from_str(&printed.output).expect("one JSON object")
 }
 
 #[test]
@@ -28,12 +28,16 @@ fn three_concurrent_shards_create_the_map() {
     let place = large("three");
     let (reference, _) = undisturbed();
     let shards = ["1/3", "2/3", "3/3"].map(|shard| place.shard("three.zarr", shard));
-    let told = shards.map(ends);
-    let count = |name: &str| told.iter().map(|told| told[name].as_u64().expect("a count")).sum();
-    let all = told[0]["map_chunks"].as_u64().expect("a count");
+    let printed = shards.map(ends);
+    let count =
+        |name: &str| printed.iter().map(|printed| printed[name].as_u64().expect("a count")).sum();
+    let all = printed[0]["map_chunks"].as_u64().expect("a count");
     let (chunks, computed): (u64, u64) = (count("chunks"), count("computed_chunks"));
     assert_eq!((chunks, computed), (all, all), "every chunk is in one shard");
-    assert!(told.iter().any(|told| told["left_chunks"] == 0), "who ends last sees the whole map");
+    assert!(
+        printed.iter().any(|printed| printed["left_chunks"] == 0),
+        "who ends last sees the whole map"
+    );
     // No merging is needed: the store equals that of one process.
     same(&place.store("three.zarr"), reference);
     let map = place.good(&ask("three.zarr", &["--resume"]));
@@ -53,14 +57,14 @@ fn a_killed_shard_is_repeated_while_another_runs() {
     fs::write(place.folder.join("k.zarr/.quell/unfinished/1.0.0"), "half").expect("a file");
     let again = place.shard("k.zarr", "2/2");
     // While shards are written, no process may write exclusively.
-    let alone = place.told(&ask("k.zarr", &["--resume"]));
+    let alone = place.printed(&ask("k.zarr", &["--resume"]));
     assert!(
         alone.status == Some(1) && alone.errors.contains("another process is writing"),
         "{alone:?}"
     );
     let (one, again) = (ends(one), ends(again));
-    for told in [&one, &again] {
-        let own = |name: &str| told[name].as_u64().expect("a count");
+    for printed in [&one, &again] {
+        let own = |name: &str| printed[name].as_u64().expect("a count");
         assert_eq!(own("chunks"), own("computed_chunks") + own("there_chunks"));
     }
     assert!(place.folder.join("k.zarr/.quell/unfinished/1.0.0").exists());
@@ -73,22 +77,25 @@ fn a_killed_shard_is_repeated_while_another_runs() {
 fn a_shard_reports_the_remaining_chunks_and_a_later_run_computes_them() {
     let place = large("left");
     let (reference, _) = undisturbed();
-    let told = ends(place.shard("left.zarr", "2/4"));
-    assert_eq!(told["left_shards"], serde_json::json!([1, 3, 4]));
-    assert_eq!(told["saved"][0], "left.zarr");
-    let own = told["chunks"].as_u64().expect("a count");
-    let all = told["map_chunks"].as_u64().expect("a count");
-    assert_eq!(told["left_chunks"], all - own);
+    let printed = ends(place.shard("left.zarr", "2/4"));
+    assert_eq!(printed["left_shards"], serde_json::json!([1, 3, 4]));
+    assert_eq!(printed["saved"][0], "left.zarr");
+    let own = printed["chunks"].as_u64().expect("a count");
+    let all = printed["map_chunks"].as_u64().expect("a count");
+    assert_eq!(printed["left_chunks"], all - own);
     // Running the same shard again finds its chunks; a truncated one is recomputed.
     let path = place.folder.join("left.zarr/efficiency/c");
     let first = fs::read_dir(&path).expect("chunks").next().expect("a chunk").expect("a chunk");
     let chunk = fs::read_dir(first.path()).expect("chunks").next().expect("a chunk").expect("one");
     fs::write(chunk.path(), "short").expect("cut short");
-    let told = place.told(&ask("left.zarr", &["--shard", "2/4"]));
-    assert_eq!(told.status, Some(0), "{told:?}");
-    assert!(told.output.contains("Shard 2 of 4 of left.zarr"), "{told:?}");
-    assert!(told.output.contains("1 computed") && told.output.contains("shards 1,3,4"), "{told:?}");
-    assert!(told.errors.contains("1 chunks of the store were cut short"), "{told:?}");
+    let printed = place.printed(&ask("left.zarr", &["--shard", "2/4"]));
+    assert_eq!(printed.status, Some(0), "{printed:?}");
+    assert!(printed.output.contains("Shard 2 of 4 of left.zarr"), "{printed:?}");
+    assert!(
+        printed.output.contains("1 computed") && printed.output.contains("shards 1,3,4"),
+        "{printed:?}"
+    );
+    assert!(printed.errors.contains("1 chunks of the store were cut short"), "{printed:?}");
     let map = place.good(&ask("left.zarr", &["--resume"]));
     assert!(map["resumed_points"].as_u64().is_some_and(|points| points > 0));
     same(&place.store("left.zarr"), reference);
@@ -108,10 +115,11 @@ fn shards_of_another_map_are_rejected_in_either_order() {
             command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("quell runs")
         };
         let both = [begin("small.toml", "1/1"), begin("other.toml", "1/1")];
-        let told = both.map(|child| Told::of(&child.wait_with_output().expect("it ends")));
-        let (good, bad): (Vec<_>, Vec<_>) = told.iter().partition(|told| told.status == Some(0));
-        assert_eq!((good.len(), bad[0].status), (1, Some(2)), "{told:?}");
-        assert!(bad[0].errors.contains("belt.damping_ratio is"), "{told:?}");
+        let printed = both.map(|child| Printed::of(&child.wait_with_output().expect("it ends")));
+        let (good, bad): (Vec<_>, Vec<_>) =
+            printed.iter().partition(|printed| printed.status == Some(0));
+        assert_eq!((good.len(), bad[0].status), (1, Some(2)), "{printed:?}");
+        assert!(bad[0].errors.contains("belt.damping_ratio is"), "{printed:?}");
     }
 }
 
@@ -121,7 +129,7 @@ fn an_invalid_shard_is_rejected_at_once() {
     let ask = |more: &[&'static str]| {
         let mut arguments = vec!["map", "small.toml", "--quantity", "verdict"];
         arguments.extend(more);
-        place.told(&arguments)
+        place.printed(&arguments)
     };
     let cases: &[(&[&str], &str)] = &[
         (&["--shard", "1/2"], "name it by --save FILE.zarr"),
@@ -132,13 +140,17 @@ fn an_invalid_shard_is_rejected_at_once() {
         (&["--shard", "1/1", "--resume", "--save", "m.zarr"], "cannot be used with '--resume'"),
     ];
     for (arguments, word) in cases {
-        let told = ask(arguments);
-        assert_eq!((told.status, told.output.as_str()), (Some(2), ""), "{arguments:?}: {told:?}");
-        assert!(told.errors.contains(word), "{arguments:?}: {told:?}");
+        let printed = ask(arguments);
+        assert_eq!(
+            (printed.status, printed.output.as_str()),
+            (Some(2), ""),
+            "{arguments:?}: {printed:?}"
+        );
+        assert!(printed.errors.contains(word), "{arguments:?}: {printed:?}");
     }
     assert_eq!(fs::read_dir(&place.folder).expect("a folder").count(), 2, "nothing is left behind");
     // More shards than chunks: shards without chunks report that and do no harm.
-    let told = ask(&["--shard", "9/9", "--save", "m.zarr"]);
-    assert_eq!(told.status, Some(0), "{told:?}");
-    assert!(told.output.contains("0 of the map's"), "{told:?}");
+    let printed = ask(&["--shard", "9/9", "--save", "m.zarr"]);
+    assert_eq!(printed.status, Some(0), "{printed:?}");
+    assert!(printed.output.contains("0 of the map's"), "{printed:?}");
 }

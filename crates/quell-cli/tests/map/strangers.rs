@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::place::{Place, Told, files, same};
+use crate::place::{Place, Printed, files, same};
 
 const ASK: [&str; 6] = ["map", "small.toml", "--quantity", "efficiency", "--save", "m.zarr"];
 
@@ -57,10 +57,10 @@ fn refused(place: &Place, words: &[&str]) {
             }
             std::thread::sleep(Duration::from_millis(2));
         }
-        let told = Told::of(&child.wait_with_output().expect("it ended"));
-        assert_eq!(told.status, Some(2), "{words:?} {again:?}: {told:?}");
+        let printed = Printed::of(&child.wait_with_output().expect("it ended"));
+        assert_eq!(printed.status, Some(2), "{words:?} {again:?}: {printed:?}");
         for word in words {
-            assert!(told.errors.contains(word), "{word}: {told:?}");
+            assert!(printed.errors.contains(word), "{word}: {printed:?}");
         }
     }
 }

@@ -64,11 +64,11 @@ impl Place {
     pub(crate) fn refused(&self, arguments: &[&str]) -> Vec<Json> {
         let before = self.files();
         let output = self.quell(arguments);
-        let told = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {told}");
+        let printed = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {printed}");
         assert!(output.stdout.is_empty(), "{arguments:?}");
-        assert!(told.contains("error"), "{arguments:?}: {told}");
-        assert!(!told.contains("panicked"), "{told}");
+        assert!(printed.contains("error"), "{arguments:?}: {printed}");
+        assert!(!printed.contains("panicked"), "{printed}");
         let (object, status) = self.json(arguments);
         assert_eq!((status, &object["ok"]), (2, &Json::Bool(false)), "{arguments:?}");
         assert_eq!(self.files(), before, "{arguments:?}");
