@@ -55,8 +55,10 @@ fn text(done: &Sharded, path: &Path) -> String {
             "  the map is complete: the same command with --resume instead of --shard reads it\n";
     } else {
         let numbers: Vec<String> = done.left_shards.iter().map(usize::to_string).collect();
+        let chunks = if done.left == 1 { "chunk is" } else { "chunks are" };
+        let shards = if numbers.len() == 1 { "shard" } else { "shards" };
         let (left, numbers) = (done.left, numbers.join(","));
-        let _ = writeln!(text, "  {left} chunks are left, of the shards {numbers}");
+        let _ = writeln!(text, "  {left} {chunks} left, of the {shards} {numbers}");
     }
     text
 }

@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 use std::thread::sleep;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use crate::place::{Place, Printed, STUDY, files, same};
+use crate::place::{Place, ProcessOutput, STUDY, files, same};
 
 /// The store of an uninterrupted run, and its duration; computed once for all tests.
 pub(crate) fn undisturbed() -> &'static (BTreeMap<String, Vec<u8>>, Duration) {
@@ -104,7 +104,7 @@ fn a_run_stopped_by_ctrl_c_reports_the_remaining_chunks_and_resumes() {
     let child = place.begin("stopped.zarr");
     wait_for("a chunk", || place.records("stopped.zarr") > 0);
     signal(&child, "-INT");
-    let printed = Printed::of(&child.wait_with_output().expect("it ends"));
+    let printed = ProcessOutput::of(&child.wait_with_output().expect("it ends"));
     assert_eq!(printed.status, Some(1), "{printed:?}");
     assert!(
         printed.errors.contains("are left") && printed.errors.contains("--resume"),
@@ -127,13 +127,13 @@ fn two_processes_on_one_store_do_no_harm() {
     let second = place.printed(&ask("two.zarr", &["--resume"]));
     assert_eq!(second.status, Some(1), "{second:?}");
     assert!(second.errors.contains("another process is writing this store"), "{second:?}");
-    let first = Printed::of(&first.wait_with_output().expect("it ends"));
+    let first = ProcessOutput::of(&first.wait_with_output().expect("it ends"));
     assert_eq!(first.status, Some(0), "{first:?}");
     same(&place.store("two.zarr"), reference);
     // Two processes start at once without a store: the later one is rejected, and no file is destroyed.
     let (one, other) = (place.begin("race.zarr"), place.begin("race.zarr"));
     let ends: Vec<Option<i32>> = [one, other]
-        .map(|child| Printed::of(&child.wait_with_output().expect("it ends")).status)
+        .map(|child| ProcessOutput::of(&child.wait_with_output().expect("it ends")).status)
         .to_vec();
     assert!(ends.contains(&Some(0)), "{ends:?}");
     same(&place.store("race.zarr"), reference);
@@ -257,7 +257,7 @@ fn limited(place: &Place, reference: &BTreeMap<String, Vec<u8>>) {
     let line =
         format!("trap '' XFSZ; ulimit -f 1; exec {program} {}", ask("full.zarr", &[]).join(" "));
     let output = Command::new("sh").current_dir(&place.folder).args(["-c", &line]).output();
-    let printed = Printed::of(&output.expect("a shell"));
+    let printed = ProcessOutput::of(&output.expect("a shell"));
     assert_eq!(printed.status, Some(1), "{printed:?}");
     assert!(printed.errors.contains("cannot be written: File too large"), "{printed:?}");
     place.good(&ask("full.zarr", &["--resume"]));

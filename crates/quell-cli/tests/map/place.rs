@@ -44,8 +44,8 @@ impl Place {
     }
 
     /// Runs a verb and returns its text output.
-    pub(crate) fn printed(&self, arguments: &[&str]) -> Printed {
-        Printed::of(&self.quell(arguments))
+    pub(crate) fn printed(&self, arguments: &[&str]) -> ProcessOutput {
+        ProcessOutput::of(&self.quell(arguments))
     }
 
     /// Every file of a store except its lock.
@@ -85,13 +85,13 @@ pub(crate) fn same(one: &BTreeMap<String, Vec<u8>>, other: &BTreeMap<String, Vec
 
 /// The output of a process.
 #[derive(Debug)]
-pub(crate) struct Printed {
+pub(crate) struct ProcessOutput {
     pub(crate) status: Option<i32>,
     pub(crate) output: String,
     pub(crate) errors: String,
 }
 
-impl Printed {
+impl ProcessOutput {
     pub(crate) fn of(output: &Output) -> Self {
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
         let printed = Self {

@@ -6,7 +6,7 @@ use std::process::{Child, Stdio};
 use serde_json::Value as Json;
 
 use crate::faults::{ask, large, undisturbed, wait_for};
-use crate::place::{Place, Printed, same};
+use crate::place::{Place, ProcessOutput, same};
 
 impl Place {
     /// Starts a shard of the large map.
@@ -18,7 +18,7 @@ impl Place {
 }
 
 fn ends(child: Child) -> Json {
-    let printed = Printed::of(&child.wait_with_output().expect("it ends"));
+    let printed = ProcessOutput::of(&child.wait_with_output().expect("it ends"));
     assert_eq!(printed.status, Some(0), "{printed:?}");
     serde_json::from_str(&printed.output).expect("one JSON object")
 }
@@ -115,7 +115,8 @@ fn shards_of_another_map_are_rejected_in_either_order() {
             command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("quell runs")
         };
         let both = [begin("small.toml", "1/1"), begin("other.toml", "1/1")];
-        let printed = both.map(|child| Printed::of(&child.wait_with_output().expect("it ends")));
+        let printed =
+            both.map(|child| ProcessOutput::of(&child.wait_with_output().expect("it ends")));
         let (good, bad): (Vec<_>, Vec<_>) =
             printed.iter().partition(|printed| printed.status == Some(0));
         assert_eq!((good.len(), bad[0].status), (1, Some(2)), "{printed:?}");

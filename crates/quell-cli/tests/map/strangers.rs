@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::place::{Place, Printed, files, same};
+use crate::place::{Place, ProcessOutput, files, same};
 
 const ASK: [&str; 6] = ["map", "small.toml", "--quantity", "efficiency", "--save", "m.zarr"];
 
@@ -57,7 +57,7 @@ fn refused(place: &Place, words: &[&str]) {
             }
             std::thread::sleep(Duration::from_millis(2));
         }
-        let printed = Printed::of(&child.wait_with_output().expect("it ended"));
+        let printed = ProcessOutput::of(&child.wait_with_output().expect("it ended"));
         assert_eq!(printed.status, Some(2), "{words:?} {again:?}: {printed:?}");
         for word in words {
             assert!(printed.errors.contains(word), "{word}: {printed:?}");
