@@ -1,4 +1,5 @@
-//! A store one of whose files holds any bytes is refused, or found damaged, or gives the values that it had.
+//! If one file of a store is replaced by arbitrary bytes, the store is rejected, the chunk is found damaged, or it is read
+//! with its original values.
 #![no_main]
 
 use std::fs;

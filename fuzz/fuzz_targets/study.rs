@@ -1,4 +1,4 @@
-//! Any text is a study, the same one when it is checked again from its mirror, or has complaints.
+//! Any text is either rejected with complaints, or is a study that remains the same when it is rebuilt from its document.
 #![no_main]
 
 use std::path::Path;

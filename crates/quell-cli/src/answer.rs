@@ -1,6 +1,6 @@
-//! What a verb answers, and how it leaves the process.
+//! Answers and failures of verbs, printed to standard output and standard error.
 //!
-//! A reader that closes standard output early is no error: the rest is not written.
+//! It is not an error if the reader closes standard output early; the rest of the answer is then not written.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use quell::Failure;
 use serde_json::Value as Json;
 
-/// The answer of a verb: text for people or one JSON object.
+/// The answer of a verb: text or one JSON object.
 #[derive(Debug)]
 pub(crate) struct Answer {
     output: String,
@@ -16,44 +16,45 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    /// One of the two, as asked for. The warnings of the object go to standard error.
+    /// An answer as JSON if `json` is true, else as text. The warnings of the object are printed to standard error.
     pub(crate) fn new(json: bool, object: &Json, text: impl FnOnce() -> String) -> Self {
-        let told = object["warnings"].as_array().map_or(&[][..], Vec::as_slice);
-        let warnings = told.iter().filter_map(|it| Some(it.as_str()?.to_owned())).collect();
+        let warnings = object["warnings"].as_array().map_or(&[][..], Vec::as_slice);
+        let warnings =
+            warnings.iter().filter_map(|warning| Some(warning.as_str()?.to_owned())).collect();
         let output = if json { format!("{object}\n") } else { text() };
         Self { output, warnings }
     }
 
-    /// Writes it.
+    /// Prints the warnings and the answer.
     pub(crate) fn show(self) -> ExitCode {
         for warning in &self.warnings {
-            tell(&format!("warning: {warning}\n"));
+            print_error(&format!("warning: {warning}\n"));
         }
         print(&self.output)
     }
 }
 
-/// Tells what is wrong: in JSON on standard output, else on standard error.
+/// Prints a failure: with `json` as an object to standard output, else as text to standard error.
 pub(crate) fn refuse(failure: &Failure, json: bool) -> ExitCode {
     if json {
-        // Should standard output fail too, the exit status still tells.
+        // If standard output fails too, the exit status still reports the failure.
         print(&format!("{}\n", failure.json()));
     } else {
-        tell(&lines(failure));
+        print_error(&lines(failure));
     }
     ExitCode::from(failure.exit_status())
 }
 
-/// One line a complaint; what follows on further lines, such as an example, is indented.
+/// One line per complaint; further lines of a complaint, such as an example, are indented.
 fn lines(failure: &Failure) -> String {
-    let told: Vec<String> = match failure {
+    let texts: Vec<String> = match failure {
         Failure::Wrong(complaints) => complaints.iter().map(ToString::to_string).collect(),
         Failure::Failed { .. } => vec![failure.to_string()],
     };
     let mut lines: Vec<String> =
-        told.iter().map(|text| format!("error: {}\n", text.replace('\n', "\n    "))).collect();
+        texts.iter().map(|text| format!("error: {}\n", text.replace('\n', "\n    "))).collect();
     if lines.len() > 1 {
-        lines.push(format!("{} complaints; nothing was computed\n", lines.len()));
+        lines.push(format!("{} errors; nothing was computed\n", lines.len()));
     }
     lines.concat()
 }
@@ -65,13 +66,13 @@ pub(crate) fn print(text: &str) -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
-            tell(&format!("error: standard output cannot be written: {error}\n"));
+            print_error(&format!("error: standard output cannot be written: {error}\n"));
             ExitCode::from(1)
         }
     }
 }
 
-/// Writes to standard error; where that is closed nobody listens.
-pub(crate) fn tell(text: &str) {
+/// Writes to standard error; failures are ignored.
+pub(crate) fn print_error(text: &str) {
     let _ = io::stderr().write_all(text.as_bytes());
 }

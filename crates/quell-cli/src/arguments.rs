@@ -1,4 +1,4 @@
-//! Arguments that several verbs share, and complaints gathered from all of them.
+//! Arguments shared by several verbs, and the collection of their complaints.
 
 use std::path::PathBuf;
 
@@ -16,13 +16,13 @@ use crate::answer::Answer;
 /// The study and its changes.
 #[derive(Debug, Args)]
 pub(crate) struct StudyArguments {
-    /// Study file (TOML); - is standard input
+    /// Study file (TOML); - reads standard input
     #[arg(value_name = "STUDY")]
     study: PathBuf,
     /// Changes a value of the study, such as dither[1].amplitude=0.3
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
-    /// Replaces the tolerance in [solver]
+    /// Replaces the tolerance of [solver]
     #[arg(long, value_name = "ε", allow_hyphen_values = true)]
     tolerance: Option<String>,
     /// Prints one JSON object on standard output and nothing else
@@ -48,26 +48,26 @@ impl StudyArguments {
     }
 }
 
-/// The files that a study was read from: none where it could not be read, which ends the work anyway.
+/// The files that a study was read from; none if it could not be read, in which case nothing is computed anyway.
 pub(crate) fn inputs(study: Option<&Study>) -> Inputs {
     study.map_or(Inputs::NONE, Study::inputs)
 }
 
-/// Where the picture goes.
+/// The option for the picture.
 #[derive(Debug, Args)]
 pub(crate) struct PlotArguments {
-    /// Draws a picture
+    /// Draws the answer into a picture file
     #[arg(long, value_name = "FILE.svg|.png")]
     plot: Option<PathBuf>,
 }
 
 impl PlotArguments {
-    /// Whether a picture is asked for.
+    /// Whether a picture is requested.
     pub(crate) fn asked(&self) -> bool {
         self.plot.is_some()
     }
 
-    /// Tries whether the picture can be written, and is not one of the inputs.
+    /// Checks that the picture can be written and does not replace one of the inputs.
     pub(crate) fn prepare(&self, inputs: &Inputs) -> Result<Plot, Failure> {
         let prepare = |path| Output::prepare(path, "--plot", EXTENSIONS, inputs);
         let output = self.plot.as_deref().map(prepare);
@@ -75,14 +75,14 @@ impl PlotArguments {
     }
 }
 
-/// A picture to be drawn, or none.
+/// The output of a picture, if one is requested.
 #[derive(Debug)]
 pub(crate) struct Plot {
     output: Option<Output>,
 }
 
 impl Plot {
-    /// Whether there is one to be drawn.
+    /// Whether a picture is requested.
     pub(crate) fn wanted(&self) -> bool {
         self.output.is_some()
     }
@@ -96,7 +96,7 @@ impl Plot {
     pub(crate) fn write(self, outcome: &dyn Outcome, object: &mut Json) -> Result<(), Failure> {
         let Some(output) = self.output else { return Ok(()) };
         let figure = outcome.figure().unwrap_or_else(|| {
-            let allowed = "there is no picture of this answer";
+            let allowed = "this answer has no picture";
             Err(Complaint::option("--plot", Json::Null, allowed).into())
         });
         object["plotted"] = picture::write(&figure?, output)?.into();
@@ -104,33 +104,34 @@ impl Plot {
     }
 }
 
-/// Where the numbers go besides standard output.
+/// The option for the table of numbers.
 #[derive(Debug, Args)]
 pub(crate) struct OutputArguments {
-    /// Saves the numbers
+    /// Saves the computed numbers as a table
     #[arg(long, value_name = "FILE.csv")]
     save: Option<PathBuf>,
 }
 
-/// Outputs that were proven to be writable.
+/// Output files that have been checked to be writable.
 #[derive(Debug)]
 pub(crate) struct Outputs {
     save: Vec<Output>,
 }
 
 impl OutputArguments {
-    /// Whether numbers are to be saved.
+    /// Whether the numbers are to be saved.
     pub(crate) fn saves(&self) -> bool {
         self.save.is_some()
     }
 
-    /// Tries every output, none of which is one of the inputs; `parts` name further files beside the first.
+    /// Checks that every output can be written and does not replace one of the inputs; `parts` name further files in the folder
+    /// of the first.
     pub(crate) fn prepare(&self, parts: &[&str], inputs: &Inputs) -> Result<Outputs, Failure> {
         let mut save = Vec::new();
         if let Some(path) = &self.save {
             let first = Output::prepare(path, "--save", &["csv"], inputs)?;
             for part in parts {
-                save.push(first.beside(part, "--save", inputs)?);
+                save.push(first.sibling(part, "--save", inputs)?);
             }
             save.insert(0, first);
         }
@@ -144,7 +145,7 @@ impl Outputs {
         Self { save: Vec::new() }
     }
 
-    /// Writes the datasets of an outcome, one a file, and adds their paths to the object.
+    /// Writes the datasets of an outcome, one per file, and adds their paths to the object.
     fn write(self, outcome: &dyn Outcome, object: &mut Json) -> Result<(), Failure> {
         if self.save.is_empty() {
             return Ok(());
@@ -158,7 +159,7 @@ impl Outputs {
     }
 }
 
-/// The answer with its files: datasets saved, picture drawn.
+/// Writes the datasets and the picture of an outcome and returns its answer.
 pub(crate) fn answer(
     json: bool,
     outcome: &dyn Outcome,
@@ -171,7 +172,7 @@ pub(crate) fn answer(
     Ok(Answer::new(json, &object, || outcome.text()))
 }
 
-/// Complaints gathered from several places, reported together.
+/// Complaints collected from several arguments, to be reported together.
 #[derive(Debug, Default)]
 pub(crate) struct Gathered {
     wrong: Vec<Complaint>,
@@ -179,7 +180,7 @@ pub(crate) struct Gathered {
 }
 
 impl Gathered {
-    /// The value, or nothing and one more thing to complain about.
+    /// The value of a result, or `None` after recording its failure.
     pub(crate) fn take<T>(&mut self, result: Result<T, impl Into<Failure>>) -> Option<T> {
         match result.map_err(Into::into) {
             Ok(value) => return Some(value),
@@ -189,7 +190,7 @@ impl Gathered {
         None
     }
 
-    /// The value where there is nothing to complain about.
+    /// The value if no failure was recorded.
     pub(crate) fn finish<T>(self, value: Option<T>) -> Result<T, Failure> {
         match (value, self.failed) {
             (Some(value), None) if self.wrong.is_empty() => Ok(value),

@@ -1,13 +1,13 @@
-//! The verbs, and what becomes of their answers.
+//! The verbs, and the dispatch of a command line to them.
 //!
-//! Exit status: 0 done, 2 the input is wrong (usage errors too), 1 it failed, 130 it was interrupted. With `--json`
-//! one object stands on standard output, also where something is wrong.
+//! Exit status: 0 done, 2 invalid input (usage errors too), 1 failed, 130 interrupted. With `--json`, standard output contains
+//! exactly one object, also in case of an error.
 
 use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{FromArgMatches, Parser, Subcommand};
+use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
@@ -49,6 +49,11 @@ enum Verb {
     Reproduce(reproduce::Arguments),
 }
 
+/// The command line with its help.
+pub(crate) fn command() -> Command {
+    help::with_help(Cli::command())
+}
+
 /// Runs the command line `arguments`, program name first.
 pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
@@ -56,14 +61,14 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         .iter()
         .take_while(|argument| *argument != "--")
         .any(|argument| argument == "--json");
-    let parsed = help::command().try_get_matches_from(&arguments);
+    let parsed = command().try_get_matches_from(&arguments);
     let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
-        Err(error) => return misunderstood(&error, json),
+        Err(error) => return usage_error(&error, json),
     };
     let outcome = match &cli.verb {
         Verb::New(arguments) => new::run(arguments),
-        Verb::Completions(arguments) => completions::run(arguments),
+        Verb::Completions(arguments) => completions::run(arguments, &mut command()),
         Verb::Check(arguments) => check::run(arguments),
         Verb::Schema(arguments) => Ok(schema::run(arguments)),
         Verb::Cite(arguments) => cite::run(arguments),
@@ -86,14 +91,14 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
-/// Shows help, or what was not understood.
-fn misunderstood(error: &clap::Error, json: bool) -> ExitCode {
-    let asked = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
-    if asked {
+/// Prints the requested help, or a usage error.
+fn usage_error(error: &clap::Error, json: bool) -> ExitCode {
+    let requested = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
+    if requested {
         return answer::print(&error.render().to_string());
     }
     if !json {
-        answer::tell(&error.render().to_string());
+        answer::print_error(&error.render().to_string());
         return ExitCode::from(2);
     }
     answer::refuse(&Failure::from(complaint(error)), json)
@@ -101,12 +106,13 @@ fn misunderstood(error: &clap::Error, json: bool) -> ExitCode {
 
 /// A usage error as a complaint.
 fn complaint(error: &clap::Error) -> Complaint {
-    let told = |kind| match error.get(kind) {
+    let context = |kind| match error.get(kind) {
         Some(ContextValue::String(text)) => Some(text.clone()),
         Some(ContextValue::Strings(texts)) => texts.first().cloned(),
         _ => None,
     };
-    let argument = told(ContextKind::InvalidArg).or_else(|| told(ContextKind::InvalidSubcommand));
+    let argument =
+        context(ContextKind::InvalidArg).or_else(|| context(ContextKind::InvalidSubcommand));
     // "--until <T>" and "<STUDY>" are named without their placeholders.
     let key = argument
         .as_deref()
@@ -114,7 +120,7 @@ fn complaint(error: &clap::Error) -> Complaint {
         .unwrap_or("command line");
     let text = error.render().to_string();
     let first = text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_owned();
-    // The names of missing arguments follow, one a line.
+    // The names of missing arguments follow, one per line.
     let message = if first.ends_with(':') {
         let names = text.lines().skip(1).take_while(|line| !line.trim().is_empty());
         let names: Vec<&str> = names.map(str::trim).collect();
@@ -122,9 +128,9 @@ fn complaint(error: &clap::Error) -> Complaint {
     } else {
         first
     };
-    let value = told(ContextKind::InvalidValue).map_or(Json::Null, Json::from);
-    let suggestion = told(ContextKind::SuggestedArg)
-        .or_else(|| told(ContextKind::SuggestedSubcommand))
-        .or_else(|| told(ContextKind::SuggestedValue));
+    let value = context(ContextKind::InvalidValue).map_or(Json::Null, Json::from);
+    let suggestion = context(ContextKind::SuggestedArg)
+        .or_else(|| context(ContextKind::SuggestedSubcommand))
+        .or_else(|| context(ContextKind::SuggestedValue));
     Complaint::new(Fault::Usage, key, Origin::Whole, value, message).suggesting(suggestion)
 }

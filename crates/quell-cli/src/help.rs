@@ -1,14 +1,12 @@
-//! The help: verbs in groups, and examples of each.
+//! The help: verbs in groups, with examples of each.
 //!
-//! Examples name the files that `quell new NAME --save NAME.toml` makes, so that each can be run as it is; a test does.
+//! Examples use the files that `quell new NAME --save NAME.toml` creates, so that each can be run unchanged; a test does that.
 
 use std::fmt::Write as _;
 
-use clap::{Command, CommandFactory};
+use clap::Command;
 
-use crate::cli::Cli;
-
-/// A verb, and commands that show its use.
+/// A verb and its examples.
 type Verb = (&'static str, &'static [&'static str]);
 
 /// Headings with their verbs, in the order of the help.
@@ -106,9 +104,8 @@ const GROUPS: &[(&str, &[Verb])] = &[
     ),
 ];
 
-/// The command line with its help.
-pub(crate) fn command() -> Command {
-    let mut command = Cli::command();
+/// Adds the groups of verbs and the examples to the help of the command line.
+pub(crate) fn with_help(mut command: Command) -> Command {
     let mut listing = String::new();
     let verbs = || GROUPS.iter().flat_map(|(_, verbs)| *verbs);
     let width = verbs().map(|(verb, _)| verb.len()).max().unwrap_or(0);
@@ -141,16 +138,17 @@ pub(crate) fn command() -> Command {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli::command;
 
     #[test]
-    fn every_verb_stands_in_one_group_with_examples_that_parse() {
+    fn every_verb_is_in_one_group_with_examples_that_parse() {
         let command = command();
         let mut grouped: Vec<&str> =
             GROUPS.iter().flat_map(|(_, verbs)| verbs.iter().map(|(verb, _)| *verb)).collect();
-        let mut there: Vec<&str> = command.get_subcommands().map(Command::get_name).collect();
+        let mut existing: Vec<&str> = command.get_subcommands().map(Command::get_name).collect();
         grouped.sort_unstable();
-        there.sort_unstable();
-        assert_eq!(grouped, there);
+        existing.sort_unstable();
+        assert_eq!(grouped, existing);
         for (verb, examples) in GROUPS.iter().flat_map(|(_, verbs)| *verbs) {
             assert!((1..=2).contains(&examples.len()), "{verb}");
             for example in *examples {

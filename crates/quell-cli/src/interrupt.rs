@@ -1,10 +1,10 @@
-//! Signals: Ctrl-C ends the process, and a file that may not grow is an error like any other.
+//! Signals: Ctrl-C ends the process, and exceeding a file size limit is an ordinary error.
 //!
-//! A verb that can stop by itself, so that nothing that is done is lost, is asked to by the first Ctrl-C; where it does not
-//! within [`PATIENCE`], or after a second one, the process ends. Any other verb ends at once. A file is never half-written
-//! then: what is being written is finished first.
+//! A verb that can stop without losing finished work is asked to do so by the first Ctrl-C. If it does not stop within
+//! [`PATIENCE`], or after a second Ctrl-C, the process exits. Any other verb exits immediately. In all cases a file that is
+//! being written is completed first.
 //!
-//! SIGTERM and SIGHUP are as Ctrl-C.
+//! SIGTERM and SIGHUP are handled like Ctrl-C.
 
 use std::fs;
 use std::process;
@@ -16,34 +16,36 @@ use quell::output;
 
 use crate::answer;
 
-/// Exit status of a process that was interrupted: 128 and the number of SIGINT, as a shell says it.
+/// Exit status of an interrupted process: 128 plus the number of SIGINT, as in shells.
 const INTERRUPTED: i32 = 130;
 
-/// How long a verb that can stop by itself has for it.
+/// Time that a verb has to stop after the first signal.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// How long a file that is being written has to be finished.
+/// Time to complete a file that is being written.
 const LAST_FILE: Duration = Duration::from_secs(2);
 
-/// Raised by the first signal.
+/// Set by the first signal.
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// Whether the verb looks at the flag.
-static HEARD: AtomicBool = AtomicBool::new(false);
+/// Whether the verb checks [`STOP`].
+static CHECKED: AtomicBool = AtomicBool::new(false);
 
-/// Handles signals from now on.
+/// Installs the signal handlers.
 pub(crate) fn handle() {
-    refuse_growth_softly();
-    // Under nohup a hang-up must not end the process. Without a handler signals do what they ever do, which loses no
-    // finished chunk either.
+    block_file_size_signal();
+    // Under nohup, a hang-up must not end the process. Without a handler, signals have their default action, which does not
+    // lose finished chunks either.
     if hangups_are_ignored() {
         return;
     }
     let _ = ctrlc::set_handler(|| {
-        if STOP.swap(true, Ordering::Relaxed) || !HEARD.load(Ordering::Relaxed) {
+        if STOP.swap(true, Ordering::Relaxed) || !CHECKED.load(Ordering::Relaxed) {
             end();
         }
-        answer::tell("\nstopping after what is running; once more ends at once\n");
+        answer::print_error(
+            "\nstopping after the work in progress; press Ctrl-C again to stop immediately\n",
+        );
         let _ = thread::Builder::new().spawn(|| {
             thread::sleep(PATIENCE);
             end();
@@ -51,17 +53,18 @@ pub(crate) fn handle() {
     });
 }
 
-/// The flag that a signal raises, for a verb that stops when it is.
+/// The flag that is set by a signal, for a verb that stops when it is set.
 pub(crate) fn flag() -> &'static AtomicBool {
-    HEARD.store(true, Ordering::Relaxed);
+    CHECKED.store(true, Ordering::Relaxed);
     &STOP
 }
 
-/// Whether whoever started the process asked for SIGHUP, signal 1, to be ignored. Where the system does not say, it is not.
+/// Whether the process was started with SIGHUP, signal 1, ignored; false on systems that do not provide this information.
 fn hangups_are_ignored() -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    ignored.and_then(|bits| u64::from_str_radix(bits.trim(), 16).ok()).is_some_and(|it| it & 1 == 1)
+    let mask = ignored.and_then(|bits| u64::from_str_radix(bits.trim(), 16).ok());
+    mask.is_some_and(|mask| mask & 1 == 1)
 }
 
 fn end() -> ! {
@@ -69,16 +72,16 @@ fn end() -> ! {
     process::exit(INTERRUPTED);
 }
 
-/// Where a limit (`ulimit -f`) keeps a file from growing, the write fails and is told, in place of SIGXFSZ, which ends the
-/// process amidst it: the signal is blocked, here and so in every thread.
+/// Blocks SIGXFSZ in this thread and all later ones. If a file exceeds the limit (`ulimit -f`), the write then fails with an
+/// error, instead of the signal ending the process during the write.
 #[cfg(unix)]
-fn refuse_growth_softly() {
+fn block_file_size_signal() {
     use nix::sys::signal::{SigSet, Signal};
     let mut signals = SigSet::empty();
     signals.add(Signal::SIGXFSZ);
-    // Where it cannot be blocked, the signal does what it ever does.
+    // If it cannot be blocked, the signal keeps its default action.
     let _ = signals.thread_block();
 }
 
 #[cfg(not(unix))]
-fn refuse_growth_softly() {}
+fn block_file_size_signal() {}

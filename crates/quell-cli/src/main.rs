@@ -1,4 +1,4 @@
-//! The command line of Quell: parse, hand to the front door, show. No physics.
+//! The command line of Quell: parses arguments, calls the library `quell`, and prints answers. It contains no physics.
 
 use std::process::ExitCode;
 

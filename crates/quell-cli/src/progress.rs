@@ -1,4 +1,4 @@
-//! How far a map or a reproduction is: a bar on standard error where that is a terminal.
+//! Progress bars of maps and reproductions, on standard error if that is a terminal.
 
 use std::sync::Mutex;
 use std::time::Duration;
@@ -7,29 +7,29 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use quell::sweep::Progress;
 use quell_reproduce::EntryProgress;
 
-use crate::answer::tell;
+use crate::answer::print_error;
 
-/// What the bar shows.
+/// Template of the bar of a computation.
 const TEMPLATE: &str =
-    "{bar:32} {human_pos}/{human_len} points  {per_sec}  {elapsed} gone, {eta} left";
+    "{bar:32} {human_pos}/{human_len} points  {per_sec}  {elapsed} elapsed, {eta} left";
 
-/// What the bar of a reproduction shows.
-const ENTRIES: &str = "{bar:32} {pos}/{len}  {elapsed} gone  {msg}";
+/// Template of the bar of a reproduction.
+const ENTRIES: &str = "{bar:32} {pos}/{len}  {elapsed} elapsed  {msg}";
 
-/// A bar.
+/// The bar of a computation.
 #[derive(Debug)]
 pub(crate) struct Bar {
     bar: ProgressBar,
 }
 
 impl Bar {
-    /// A bar that is not shown yet; never where standard error is no terminal.
+    /// A bar that is not shown yet; it is never shown if standard error is not a terminal.
     pub(crate) fn new() -> Self {
         Self { bar: bar(0, TEMPLATE) }
     }
 }
 
-/// Hidden by itself where standard error is no terminal.
+/// A progress bar, which `indicatif` hides if standard error is not a terminal.
 fn bar(length: u64, template: &str) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr());
     if let Ok(style) = ProgressStyle::with_template(template) {
@@ -42,7 +42,7 @@ impl Progress for Bar {
     fn begin(&self, points: usize, there: usize) {
         self.bar.set_length(points as u64);
         self.bar.set_position(there as u64);
-        // The rate counts what is computed now, not what was there.
+        // The rate counts points computed now, not those already in the store.
         self.bar.reset_eta();
         self.bar.enable_steady_tick(Duration::from_millis(500));
     }
@@ -56,43 +56,43 @@ impl Progress for Bar {
     }
 }
 
-/// A bar over the entries of a reproduction, with what is being made; a line for each where there is no terminal.
+/// A bar over the entries of a reproduction with the names of those in progress; one line per entry if there is no terminal.
 #[derive(Debug)]
 pub(crate) struct Entries {
     bar: ProgressBar,
-    /// Names of those begun and not done.
-    making: Mutex<Vec<&'static str>>,
+    /// Names of the entries in progress.
+    in_progress: Mutex<Vec<&'static str>>,
 }
 
 impl Entries {
-    /// A bar over so many.
+    /// A bar over `count` entries.
     pub(crate) fn new(count: usize) -> Self {
         let bar = bar(count as u64, ENTRIES);
         bar.enable_steady_tick(Duration::from_millis(500));
-        Self { bar, making: Mutex::default() }
+        Self { bar, in_progress: Mutex::default() }
     }
 
-    /// Hears of one begun or done.
-    pub(crate) fn hear(&self, step: EntryProgress) {
-        let Ok(mut making) = self.making.lock() else { return };
+    /// Records that an entry was started or finished.
+    pub(crate) fn update(&self, step: EntryProgress) {
+        let Ok(mut in_progress) = self.in_progress.lock() else { return };
         match step {
-            EntryProgress::Begun(entry) => making.push(entry.name),
+            EntryProgress::Begun(entry) => in_progress.push(entry.name),
             EntryProgress::Done(done) => {
-                making.retain(|name| *name != done.entry.name);
+                in_progress.retain(|name| *name != done.entry.name);
                 self.bar.inc(1);
                 if self.bar.is_hidden() {
                     let seconds = done.elapsed.as_secs_f64();
-                    tell(&format!(
+                    print_error(&format!(
                         "{:>9}  {:6.2} s  {}\n",
                         done.entry.name, seconds, done.entry.about
                     ));
                 }
             }
         }
-        self.bar.set_message(making.join(", "));
+        self.bar.set_message(in_progress.join(", "));
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub(crate) fn end(&self) {
         self.bar.finish_and_clear();
     }

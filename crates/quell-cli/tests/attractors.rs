@@ -1,4 +1,4 @@
-//! The real binary: bifurcation diagrams and basins.
+//! Tests of the binary: bifurcation diagrams and basins.
 
 #[path = "place/repository.rs"]
 mod repository;
@@ -23,7 +23,8 @@ fn pair(it: &Json) -> (f64, f64) {
     (it[0].as_f64().expect("from"), it[1].as_f64().expect("to"))
 }
 
-/// Up, quiet is kept to 4.3 and lost at 4.4 (local threshold 4.3224); down, the vibration is born below 9.9002 and kept to 0.
+/// Swept up, the response is quiescent up to 4.3 and no longer at 4.4 (local threshold 4.3224); swept down, the vibration starts
+/// below 9.9002 and persists down to 0.
 #[test]
 fn sweeps_up_and_down_differ_where_responses_coexist() {
     let found = swept(STUDY, ["0", "11", "12"], &[]);
@@ -38,19 +39,19 @@ fn sweeps_up_and_down_differ_where_responses_coexist() {
         assert_eq!(point["quiet"], k <= 4 || k >= 10, "{point}");
         let stable = if k <= 4 || k >= 10 { "stable" } else { "unstable" };
         assert_eq!(point["local_verdict"], stable);
-        // Down: quiet only above 9.9.
+        // Swept down: quiescent only above 9.9.
         assert_eq!(down[11 - k]["value"], k as f64);
         assert_eq!(down[11 - k]["quiet"], k >= 10);
     }
     assert_eq!(found["jumps"].as_array().expect("jumps").len(), 3);
-    // The vibration keeps its size of 2.09 without dither.
+    // Without dither, the peak-to-peak vibration is 2.09.
     let last = down[11]["peak_to_peak"].as_f64().expect("a size");
     assert!((last - 2.09).abs() < 0.01, "{last}");
     assert!(found["sentence"].as_str().expect("words").contains("from 0 to 4"));
 }
 
 #[test]
-fn the_quiet_response_is_lost_just_above_its_threshold() {
+fn the_quiescent_response_is_lost_just_above_its_threshold() {
     let found = swept(STUDY, ["0", "4.8", "49"], &["--up"]);
     let jump = &found["jumps"][0];
     assert!((jump["before"].as_f64().expect("before") - 4.3).abs() < 1e-9, "{jump}");
@@ -63,7 +64,7 @@ fn the_quiet_response_is_lost_just_above_its_threshold() {
         (Some("down"), Some("not quiet"))
     );
     assert!((jump["before"].as_f64().expect("before") - 9.91).abs() < 1e-9, "{jump}");
-    // Born small, and growing with the distance from the threshold.
+    // Small at the threshold, and growing with the distance from it.
     let size = |k: usize| found["down"][k]["peak_to_peak"].as_f64().expect("a size");
     let quiet = size(1);
     assert!(size(2) - quiet < 0.05 && size(3) > size(2), "{} {} {quiet}", size(2), size(3));
@@ -83,7 +84,7 @@ fn the_stribeck_law_has_no_hysteresis_and_locks() {
     assert_eq!((&last["kind"], &last["quiet"]), (&"period-1".into(), &true.into()));
 }
 
-/// At D = 2.5 the quiet response is stable and only a part of all starts reaches it; threads change no bit.
+/// At D = 2.5 the base response is stable, and only a part of all starts reaches it; the number of threads changes no bit.
 #[test]
 fn basins_have_shares_with_bounds() {
     let window = ["--displacement", "-1.5:2", "--velocity", "-1.5:1.5", "--grid", "21x15"];
@@ -97,7 +98,7 @@ fn basins_have_shares_with_bounds() {
     assert_eq!(found, again);
     let attractors = found["attractors"].as_array().expect("attractors");
     assert_eq!(attractors.len(), 2, "{found}");
-    let number = |it: &Json, name: &str| it[name].as_f64().expect("a number");
+    let number = |item: &Json, name: &str| item[name].as_f64().expect("a number");
     let quiet = &attractors[0];
     assert_eq!((&quiet["quiet"], &quiet["kind"]), (&true.into(), &"period-1".into()));
     assert_eq!(found["local_verdict"], "stable");
@@ -106,11 +107,11 @@ fn basins_have_shares_with_bounds() {
     let within = number(quiet, "fraction_low")..number(quiet, "fraction_high");
     assert!(within.contains(&0.042), "{within:?}");
     assert!(number(quiet, "fraction_low") < fraction && fraction < number(quiet, "fraction_high"));
-    let sum: f64 = attractors.iter().map(|it| number(it, "fraction")).sum();
+    let sum: f64 = attractors.iter().map(|item| number(item, "fraction")).sum();
     assert!((sum - 1.0).abs() < 1e-12 && number(&found["unknown"], "starts") == 0.0, "{found}");
     let ends = found["ends"].as_array().expect("ends");
     assert_eq!(ends.len(), 21 * 15);
-    assert_eq!(ends.iter().filter(|it| **it == 0).count() as f64, number(quiet, "starts"));
+    assert_eq!(ends.iter().filter(|item| **item == 0).count() as f64, number(quiet, "starts"));
     assert!(found["sentence"].as_str().expect("words").starts_with("Only "));
     // A random sample of the same window agrees within its own interval and the grid's.
     let mut arguments = vec!["basins", STUDY, "--sample", "300", "--seed", "7"];
@@ -124,7 +125,7 @@ fn basins_have_shares_with_bounds() {
 
 #[test]
 fn basins_without_dither_and_over_a_parameter() {
-    // Above the critical velocity sliding is stable, and beside it lives a squeal.
+    // Above the critical velocity sliding is stable, and coexists with squeal.
     let (found, status) =
         quell(&["basins", "studies/can-it-squeal-although-stable.toml", "--grid", "9x7"]);
     assert_eq!(status, 0, "{found}");
@@ -132,25 +133,25 @@ fn basins_without_dither_and_over_a_parameter() {
         .as_array()
         .expect("attractors")
         .iter()
-        .filter_map(|it| it["kind"].as_str())
+        .filter_map(|item| item["kind"].as_str())
         .collect();
     assert_eq!(kinds, ["period-1", "limit-cycle"]);
-    // Between the local thresholds no start falls quiet, above the upper one every start does.
+    // Between the local thresholds no start becomes quiescent; above the upper one every start does.
     let mut arguments = vec!["basins", STUDY, "--grid", "5x4", "--over", "dither.amplitude"];
     arguments.extend(["--from", "2", "--to", "10", "--points", "3"]);
     let (found, status) = quell(&arguments);
     assert_eq!(status, 0, "{found}");
     let portraits = found["portraits"].as_array().expect("portraits");
     let shares: Vec<f64> =
-        portraits.iter().map(|it| it["quiet_fraction"].as_f64().expect("a share")).collect();
+        portraits.iter().map(|item| item["quiet_fraction"].as_f64().expect("a share")).collect();
     assert!(
         0.0 < shares[0] && shares[0] < 1.0 && shares[1] == 0.0 && shares[2] == 1.0,
         "{shares:?}"
     );
     let verdicts: Vec<&str> =
-        portraits.iter().filter_map(|it| it["local_verdict"].as_str()).collect();
+        portraits.iter().filter_map(|item| item["local_verdict"].as_str()).collect();
     assert_eq!(verdicts, ["stable", "unstable", "stable"]);
-    // The table for people has the same rows.
+    // The printed table has the same rows.
     let rows: Vec<Vec<String>> = words(&arguments)
         .lines()
         .skip_while(|line| !line.contains("base response   share of starts"))
@@ -173,7 +174,7 @@ fn numbers_and_pictures_are_written() {
     let found = swept(STUDY, ["9.6", "10.2", "4"], &["--up", "--save", &csv, "--plot", &svg]);
     let points = found["up"].as_array().expect("points");
     let states: usize =
-        points.iter().map(|it| it["section_velocity"].as_array().map_or(0, Vec::len)).sum();
+        points.iter().map(|item| item["section_velocity"].as_array().map_or(0, Vec::len)).sum();
     let text = std::fs::read_to_string(&csv).expect("saved");
     let rows: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
     assert_eq!(rows.len(), states + 1);
@@ -193,12 +194,12 @@ fn numbers_and_pictures_are_written() {
 }
 
 #[test]
-fn what_is_wrong_is_said_at_once() {
+fn all_errors_are_reported_at_once() {
     let keys = |arguments: &[&str]| -> Vec<String> {
-        let (told, status) = quell(arguments);
-        assert_eq!(status, 2, "{told}");
-        let errors = told["errors"].as_array().expect("errors");
-        errors.iter().map(|it| it["key"].as_str().expect("a key").to_owned()).collect()
+        let (printed, status) = quell(arguments);
+        assert_eq!(status, 2, "{printed}");
+        let errors = printed["errors"].as_array().expect("errors");
+        errors.iter().map(|item| item["key"].as_str().expect("a key").to_owned()).collect()
     };
     let sweep = |range: [&'static str; 4]| {
         let [path, from, to, points] = range;
@@ -237,13 +238,13 @@ fn what_is_wrong_is_said_at_once() {
     let over = ["--over", "dither.amplitude", "--from", "0", "--to", "1", "--points", "100000"];
     let many = [&["basins", STUDY, "--grid", "3000x3000"], &over[..]].concat();
     assert_eq!(keys(&many), ["--points"]);
-    let (told, status) = quell(&["basins", STUDY, "--points", "5"]);
-    assert!(status == 2 && told.to_string().contains("--over <PATH>"), "{told}");
-    let (told, _) = quell(&without);
-    let message = told["errors"][0]["message"].as_str().expect("a message");
+    let (printed, status) = quell(&["basins", STUDY, "--points", "5"]);
+    assert!(status == 2 && printed.to_string().contains("--over <PATH>"), "{printed}");
+    let (printed, _) = quell(&without);
+    let message = printed["errors"][0]["message"].as_str().expect("a message");
     assert!(message.contains("dither") && !message.contains("change:"), "{message}");
     assert_eq!(keys(&["basins", STUDY, "--sample", "0"]), ["--sample"]);
-    // Of a study that is not there nobody knows whether it is in SI.
+    // For a missing study it is unknown whether it is in SI.
     assert_eq!(keys(&["basins", "studies/nowhere.toml", "--displacement", "0mm:2mm"]).len(), 1);
     assert_eq!(keys(&["basins", STUDY, "--set", "belt.belt_velocity=0"]), ["belt.belt_velocity"]);
 }

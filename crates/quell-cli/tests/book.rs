@@ -1,13 +1,13 @@
-//! The book tells the truth: every study in it is valid, every command in it runs, and what it shows is what is answered.
+//! The book is correct: every study in it is valid, every command in it runs, and the outputs shown are the actual ones.
 //!
-//! A page is read from top to bottom in a folder of its own, with the studies of the project beside it:
+//! A page is processed from top to bottom in its own folder, which also contains the studies of the project:
 //!
-//! | block | what is done |
+//! | block | action |
 //! |---|---|
 //! | `toml` | saved under the name in its first line, `# NAME.toml`, and checked |
-//! | `toml` that begins with `[friction]` | takes the place of `[friction]` in the last belt, and is checked (unless it names a data file) |
+//! | `toml` that begins with `[friction]` | replaces `[friction]` in the last belt; checked unless it names a data file |
 //! | `sh` | every line that begins with `quell` is run and must succeed |
-//! | `text` after `sh` | must be what the last command said |
+//! | `text` after `sh` | must equal the output of the last command |
 //!
 //! `QUELL_BLESS=1 cargo test -p quell-cli --test book` writes the answers into the pages.
 
@@ -67,13 +67,13 @@ fn blocks(text: &str) -> Vec<Block> {
     blocks
 }
 
-/// Commands of a block: lines that end in a backslash go on.
+/// Commands of a block; a backslash at the end of a line continues the command on the next line.
 fn commands(block: &Block) -> Vec<String> {
     let joined = block.lines.join("\n").replace("\\\n", " ");
     joined.lines().filter(|line| line.starts_with("quell ")).map(str::to_owned).collect()
 }
 
-/// Runs one in `folder`; its standard output.
+/// Runs a command in `folder` and returns its standard output.
 fn run(command: &str, folder: &Path, page: &Path) -> String {
     let words: Vec<&str> = command.split_whitespace().skip(1).collect();
     let output = Command::new(env!("CARGO_BIN_EXE_quell"))
@@ -102,14 +102,14 @@ fn workplace() -> tempfile::TempDir {
     folder
 }
 
-/// A study with another `[friction]`.
+/// A study with its `[friction]` replaced.
 fn with_friction(study: &str, friction: &str) -> String {
     let (before, rest) = study.split_once("[friction]").expect("a belt before");
     let after = rest.split_once("\n[").map_or("", |(_, after)| after);
     format!("{before}{friction}\n[{after}")
 }
 
-/// Goes through a page; the page with the answers as they are.
+/// Processes a page and returns it with the actual outputs.
 fn page(path: &Path) -> String {
     let text = fs::read_to_string(path).expect("a page");
     let folder = workplace();
@@ -117,7 +117,7 @@ fn page(path: &Path) -> String {
     // The last complete study of a belt on the page.
     let mut belt = String::new();
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
-    // From the last block to the first, so that line numbers before it stay.
+    // From the last block to the first, so that the line numbers of earlier blocks remain valid.
     let mut answers: Vec<(usize, usize, String)> = Vec::new();
     for block in blocks(&text) {
         match block.language.as_str() {
@@ -136,7 +136,7 @@ fn page(path: &Path) -> String {
                 }
                 let name = block.lines.first().and_then(|line| line.strip_prefix("# "));
                 let named =
-                    |name: &&str| Path::new(name).extension().is_some_and(|it| it == "toml");
+                    |name: &&str| Path::new(name).extension().is_some_and(|item| item == "toml");
                 let name = name.filter(named).unwrap_or("study.toml");
                 fs::write(folder.path().join(name), block.lines.join("\n")).expect("written");
                 run(&format!("quell check {name}"), folder.path(), path);
@@ -163,7 +163,7 @@ fn page(path: &Path) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Are two texts the same but for the last digits of numbers? Spectra may differ in them from one processor to another.
+/// Whether two texts are equal except for the last digits of numbers, in which spectra may differ between processors.
 fn alike(one: &str, other: &str) -> bool {
     let words =
         |text: &str| -> Vec<String> { text.split_whitespace().map(str::to_owned).collect() };
@@ -217,7 +217,7 @@ fn studies_commands_and_answers_are_true() {
     );
 }
 
-/// The numbers in the tags of a drawing, and everything else: what is written, and pictures within it, to the letter.
+/// The numbers in the tags of a drawing, and everything else (texts and embedded pictures) unchanged.
 fn drawing(svg: &str) -> (String, Vec<f64>) {
     let (mut words, mut numbers) = (String::new(), Vec::new());
     for part in svg.split('<') {
@@ -243,15 +243,15 @@ fn drawing(svg: &str) -> (String, Vec<f64>) {
 }
 
 #[test]
-fn what_a_drawing_says_is_held_to_the_letter() {
+fn texts_of_a_drawing_are_compared_exactly() {
     let svg = r#"<g x="1.25"><text>E = 0.26</text><image href="data:image/png;base64,ML1"/></g>"#;
     let (words, numbers) = drawing(svg);
     assert_eq!(numbers, [1.25]);
     assert!(words.contains("E = 0.26") && words.contains("base64,ML1"), "{words}");
 }
 
-/// Every picture in the book and the README is that of `reproduce`: what it says to the letter, and its lines to two hundredths of a
-/// point, twice what a coordinate is rounded to, for spectra differ in last digits from one processor to another.
+/// Every picture in the book and the README is that of `reproduce`: texts are equal, and lines agree within two hundredths of a
+/// point, twice the rounding of a coordinate, because spectra differ in their last digits between processors.
 /// `QUELL_BLESS=1` writes them.
 #[test]
 fn pictures_are_those_of_reproduce() {
@@ -289,9 +289,9 @@ fn pictures_are_those_of_reproduce() {
     assert!(count > 8);
 }
 
-/// Every link to a file leads somewhere, and every page is in the table of contents.
+/// Every link to a file is valid, and every page is in the table of contents.
 #[test]
-fn links_lead_somewhere() {
+fn links_are_valid() {
     let book = root().join("docs/book/src");
     let contents = fs::read_to_string(book.join("SUMMARY.md")).expect("contents");
     for path in pages() {
@@ -312,17 +312,17 @@ fn links_lead_somewhere() {
     }
 }
 
-/// Examples and benches that a page says to run are there: `--package NAME … --example NAME`.
+/// Examples and benches named in a page exist: `--package NAME … --example NAME`.
 #[test]
-fn programs_that_pages_name_are_there() {
+fn programs_named_in_pages_exist() {
     let mut files = pages();
     files.extend(
         ["docs/speed.md", "docs/many-machines.md", "benches/peers/README.md"]
-            .map(|it| root().join(it)),
+            .map(|item| root().join(item)),
     );
     files.extend(
         ["compare.py", "compare_disc.py", "plot_cost.py"]
-            .map(|it| root().join("benches/peers").join(it)),
+            .map(|item| root().join("benches/peers").join(item)),
     );
     let mut count = 0;
     for file in files {
@@ -346,9 +346,9 @@ fn programs_that_pages_name_are_there() {
     assert!(count >= 5, "{count}");
 }
 
-/// The page of errata is the registry's.
+/// The page of errata is generated from the list of corrections.
 #[test]
-fn errata_are_those_of_the_registry() {
+fn errata_equal_the_list_of_corrections() {
     let path = root().join("docs/book/src/errata.md");
     let now = quell::cite::errata::markdown("../../..");
     if std::env::var_os("QUELL_BLESS").is_some() {

@@ -1,4 +1,4 @@
-//! The real binary: exit statuses, one JSON object and nothing else, nothing left behind.
+//! Tests of the binary: exit statuses, exactly one JSON object, no files left behind.
 
 mod place;
 
@@ -63,9 +63,11 @@ const VERBS: &[&[&str]] = &[
     &["response"],
 ];
 
-/// A verb about a study: times of the one in SI are seconds.
+/// The command of a verb for a study; times are in seconds for the study in SI.
 fn about(study: &'static str, verb: &[&'static str]) -> Vec<&'static str> {
-    let seconds = |it: &'static str| if it == "20" && study == "si.toml" { "30ms" } else { it };
+    let seconds = |duration: &'static str| {
+        if duration == "20" && study == "si.toml" { "30ms" } else { duration }
+    };
     verb.iter().copied().map(seconds).chain([study]).collect()
 }
 
@@ -80,7 +82,7 @@ fn nulls_have_reasons(object: &Json) {
         match value {
             Json::Null => {
                 let named = |path: &str| why.get(path).is_some_and(Json::is_string);
-                // An SI twin is null for the reason of its field.
+                // An SI field is null for the reason of its dimensionless field.
                 let of_twin =
                     why.as_object().is_some_and(|why| why.keys().any(|key| path.starts_with(key)));
                 assert!(named(path) || of_twin, "null without a reason: {path}");
@@ -119,7 +121,7 @@ fn every_verb_answers_with_one_object() {
 }
 
 #[test]
-fn bad_studies_are_refused_by_every_verb() {
+fn invalid_studies_are_rejected_by_every_verb() {
     let place = place("bad_studies");
     let with = |from: &str, to: &str| STUDY.replace(from, to).into_bytes();
     let cases: Vec<(&str, Vec<u8>, &str)> = vec![
@@ -164,7 +166,7 @@ fn bad_studies_are_refused_by_every_verb() {
 }
 
 #[test]
-fn bad_arguments_are_refused() {
+fn invalid_arguments_are_rejected() {
     let place = place("bad_arguments");
     let cases: &[(&[&str], &str)] = &[
         (&["simulate", "study.toml", "--until", "-1"], "--until"),
@@ -196,7 +198,7 @@ fn bad_arguments_are_refused() {
         let errors = place.refused(arguments);
         assert!(errors.iter().any(|error| error["key"] == *key), "{arguments:?}: {errors:?}");
     }
-    // Everything wrong is told at once, wherever it stands.
+    // All errors are reported at once, regardless of where they are.
     place.write("bad.toml", STUDY.replace("= 0.005", "= -1").as_bytes());
     let errors = place.refused(&[
         "simulate", "bad.toml", "--until", "-3", "--save", "no/x.csv", "--set", "belt.x=1",
@@ -215,10 +217,10 @@ fn bad_arguments_are_refused() {
 }
 
 #[test]
-fn nothing_is_computed_before_the_output_is_tried() {
+fn outputs_are_checked_before_anything_is_computed() {
     let place = place("unwritable");
     fs::create_dir(place.folder.join("folder.csv")).expect("a folder");
-    // A run of this length would not end today.
+    // A run of this length would take days.
     let errors =
         place.refused(&["simulate", "study.toml", "--until", "1e9", "--save", "folder.csv"]);
     assert_eq!(errors[0]["key"], "--save");
@@ -226,7 +228,7 @@ fn nothing_is_computed_before_the_output_is_tried() {
 }
 
 #[test]
-fn a_saved_trajectory_is_whole_and_reads_back() {
+fn a_saved_trajectory_is_complete_and_reads_back() {
     let place = place("save");
     place.write("x.csv", b"what was there before");
     let object = place.good(&["simulate", "study.toml", "--until", "20", "--save", "x.csv"]);
@@ -257,7 +259,7 @@ fn a_saved_trajectory_is_whole_and_reads_back() {
 }
 
 #[test]
-fn pictures_are_drawn_whole_or_not_at_all() {
+fn pictures_are_complete_or_absent() {
     let place = place("pictures");
     let before = place.files();
     for verb in &VERBS[2..] {
@@ -278,7 +280,7 @@ fn pictures_are_drawn_whole_or_not_at_all() {
     place.good(&["friction", "study.toml", "--plot", "picture.PNG"]);
     let picture = fs::read(place.folder.join("picture.PNG")).expect("drawn");
     assert!(picture.starts_with(b"\x89PNG"));
-    // Without dither there is one curve, and it is not called dithered.
+    // Without dither there is one curve, and its label does not say "with dither".
     place.write("bare.toml", STUDY.split("[dither]").next().expect("a part").as_bytes());
     for verb in &VERBS[2..] {
         let mut arguments = verb.to_vec();
@@ -319,11 +321,11 @@ fn devices_are_written_not_replaced() {
         assert_eq!(output.status.code(), Some(1));
         assert!(String::from_utf8_lossy(&output.stderr).contains("standard output"));
     }
-    // Endless files are no studies.
+    // Endless files are rejected as studies.
     place.refused(&["check", "/dev/zero"]);
 }
 
-/// Whoever reads the pipe sees one stream with both tables, and its end.
+/// The reader of a pipe receives one stream with both tables, and its end.
 #[cfg(unix)]
 #[test]
 fn named_pipes_are_opened_once() {
@@ -335,9 +337,9 @@ fn named_pipes_are_opened_once() {
     let before = place.files();
     let answer = place.good(&["response", "study.toml", "--save", "numbers"]);
     assert_eq!(answer["saved"].as_array().map(Vec::len), Some(2), "{answer}");
-    let told = reader.join().expect("read");
-    let names = told.lines().filter(|line| line.starts_with(char::is_alphabetic));
-    assert_eq!(names.count(), 2, "{told}");
+    let printed = reader.join().expect("read");
+    let names = printed.lines().filter(|line| line.starts_with(char::is_alphabetic));
+    assert_eq!(names.count(), 2, "{printed}");
     assert_eq!(place.files(), before);
 }
 
@@ -353,7 +355,7 @@ fn links_are_followed_not_replaced() {
 }
 
 #[test]
-fn a_closed_pipe_is_no_panic() {
+fn a_closed_pipe_causes_no_panic() {
     let place = place("pipe");
     let mut child = place
         .command(&["friction", "study.toml", "--json"])
@@ -362,14 +364,14 @@ fn a_closed_pipe_is_no_panic() {
         .spawn()
         .expect("quell runs");
     drop(child.stdout.take());
-    let mut told = String::new();
-    child.stderr.take().expect("piped").read_to_string(&mut told).expect("text");
-    assert_eq!(child.wait().expect("ends").code(), Some(0), "{told}");
-    assert_eq!(told, "");
+    let mut printed = String::new();
+    child.stderr.take().expect("piped").read_to_string(&mut printed).expect("text");
+    assert_eq!(child.wait().expect("ends").code(), Some(0), "{printed}");
+    assert_eq!(printed, "");
 }
 
 #[test]
-fn a_study_comes_from_standard_input() {
+fn a_study_is_read_from_standard_input() {
     let place = place("stdin");
     let file = fs::File::open(place.folder.join("study.toml")).expect("there");
     let output = place.command(&["check", "-", "--json"]).stdin(file).output().expect("quell runs");
@@ -377,7 +379,7 @@ fn a_study_comes_from_standard_input() {
 }
 
 #[test]
-fn changes_and_units_reach_the_engine() {
+fn changes_and_units_are_applied() {
     let place = place("changes");
     let changed = place.good(&[
         "check",
@@ -420,7 +422,7 @@ fn changes_and_units_reach_the_engine() {
 }
 
 #[test]
-fn fields_have_the_names_scripts_rely_on() {
+fn fields_have_documented_names() {
     let place = place("names");
     let friction = place.good(&["friction", "study.toml", "--at", "0,0.1"]);
     for name in ["slip_velocity", "coefficient", "effective_coefficient", "effective_slope"] {
@@ -459,7 +461,7 @@ fn fields_have_the_names_scripts_rely_on() {
 }
 
 /// The dissertation's belt with the decreasing law at v₀ = 1: exact thresholds of the dither are
-/// 4.322392624 and 9.900214849; sharper averaging is within 4·10⁻⁵ of them, plain averaging within 1 %.
+/// 4.322392624 and 9.900214849; finite-R averaging is within 4·10⁻⁵ of them, averaging in the limit R → ∞ within 1 %.
 #[test]
 fn averaging_finds_the_known_thresholds() {
     let place = place("thresholds");
@@ -534,7 +536,7 @@ fn dither_past_its_threshold_quenches() {
 }
 
 #[test]
-fn help_version_and_schema_are_answers() {
+fn help_version_and_schema_succeed() {
     let place = place("help");
     for arguments in [&["--help"][..], &["--version"], &["simulate", "--help"]] {
         let output = place.quell(arguments);

@@ -1,4 +1,4 @@
-//! The real binary on studies of a disc: names in JSON, exit statuses, files that read back.
+//! Tests of the binary with studies of a disc: names in JSON, exit statuses, files that read back.
 
 mod place;
 
@@ -48,7 +48,7 @@ fn quell(place: &Place, arguments: &[&str]) -> (String, String, i32) {
     (text(output.stdout), text(output.stderr), output.status.code().expect("a status"))
 }
 
-/// The answer of a verb, which it has for people too.
+/// The answer of a verb; the text answer is checked to exist too.
 fn good(place: &Place, arguments: &[&str]) -> Json {
     let object = place.good(arguments);
     let (words, _, status) = quell(place, arguments);
@@ -57,7 +57,7 @@ fn good(place: &Place, arguments: &[&str]) -> Json {
 }
 
 #[test]
-fn every_verb_answers_with_its_names() {
+fn every_verb_has_its_documented_fields() {
     let place = place("disc-verbs");
     assert_eq!(good(&place, &["check", "disc.toml"])["disc"]["modes"], 3);
     assert!(
@@ -85,7 +85,7 @@ fn every_verb_answers_with_its_names() {
 }
 
 #[test]
-fn a_clear_frequency_is_found_and_kept() {
+fn a_clear_frequency_is_found_and_verified() {
     let place = place("disc-clear");
     let set = ["--set", "disc.load.friction=0.25"];
     let asked =
@@ -101,11 +101,11 @@ fn a_clear_frequency_is_found_and_kept() {
         })
     };
     assert!(inside(&clear["clear"]), "{clear}");
-    // What is left there is told: nothing, by theory and by the exact exponents; where the range begins at 0.2 a frequency
-    // is chosen under which the undithered tongue that is revived there does not reach in.
+    // The remaining instabilities are reported: none, by theory and by the exact exponents. If the range begins at 0.2, a
+    // frequency is chosen for which the reappearing undithered tongue does not reach into the range.
     let left = |clear: &Json| {
         let there = clear["there"].as_array().expect("a list");
-        there.iter().filter(|it| it["reaches_in"] == true).count()
+        there.iter().filter(|item| item["reaches_in"] == true).count()
     };
     assert_eq!(left(clear), 0, "{clear}");
     let mut wider = asked.clone();
@@ -137,9 +137,9 @@ fn a_clear_frequency_is_found_and_kept() {
     assert_eq!(errors[0]["key"], "dither");
 }
 
-/// What no choice of the frequency takes away is told: tongues that reach into the range, and where it cannot be kept clear.
+/// Instabilities that no frequency removes are reported: tongues that reach into the range, and where it cannot be kept clear.
 #[test]
-fn what_a_clear_frequency_leaves_is_told() {
+fn remaining_instabilities_at_a_clear_frequency_are_reported() {
     let place = place("disc-left");
     let ask = |speeds: &str, friction: &str| {
         let set = format!("disc.load.friction={friction}");
@@ -152,33 +152,33 @@ fn what_a_clear_frequency_leaves_is_told() {
     };
     let reaching = |clear: &Json| -> Vec<Json> {
         let there = clear["there"].as_array().expect("a list");
-        there.iter().filter(|it| it["reaches_in"] == true).cloned().collect()
+        there.iter().filter(|item| item["reaches_in"] == true).cloned().collect()
     };
     let left = |words: &str| -> Vec<String> {
         words.lines().filter(|line| line.contains("remaining there:")).map(str::to_owned).collect()
     };
-    // Tangential dither takes this tongue away at first order alone: revived at second order it ends at 0.27, and by the exact
-    // equations nothing grows beyond 0.25.
+    // Tangential dither removes this tongue at first order only: it reappears at second order and ends at 0.27, and by the exact
+    // equations no motion grows beyond 0.25.
     let (clear, words) = ask("0.25:0.6", "0.6");
     let found = reaching(&clear);
     assert_eq!(found.len(), 1, "{clear}");
     assert!(clear["there"].as_array().is_some_and(|there| there.len() > 1), "{clear}");
     assert_eq!((&found[0]["harmonic"], &found[0]["can_be_unstable"]), (&0.into(), &true.into()));
-    let number = |it: &Json| it.as_f64().expect("a number");
+    let number = |item: &Json| item.as_f64().expect("a number");
     assert!(number(&found[0]["speed"]) < 0.25 && number(&found[0]["edges"][1]) > 0.25, "{clear}");
     assert!(number(&clear["verified_growth_rate"]) < 0.0, "{clear}");
     assert!(words.contains("verified: in the exact equations nothing grows there"), "{words}");
-    let told = left(&words);
-    assert_eq!(told.len(), 1, "{words}");
+    let printed = left(&words);
+    assert_eq!(printed.len(), 1, "{words}");
     let line =
         "remaining there: Ω = 0.1923353, forward (1,1) with forward (1,2), growth up to 0.00";
-    assert!(told[0].trim_start().starts_with(line), "{told:?}");
-    // Nearer to it something grows at whatever frequency.
+    assert!(printed[0].trim_start().starts_with(line), "{printed:?}");
+    // Closer to it some motion grows at any frequency.
     let (clear, words) = ask("0.2:0.9", "0.6");
     assert!(number(&clear["verified_growth_rate"]) > 0.0, "{clear}");
     assert!(words.contains("not clear: in the exact equations"), "{words}");
     assert_eq!(left(&words).len(), reaching(&clear).len(), "{words}");
-    // Over all speeds theory has no frequency either.
+    // Over all speeds the theory finds no frequency either.
     let (clear, words) = ask("0.02:0.9", "0.4");
     assert!(clear["suggestion"].is_null() && clear["why"]["suggestion"].is_string(), "{clear}");
     assert!(words.contains("clear of dither-induced tongues:\n  none\n"), "{words}");
@@ -207,7 +207,7 @@ fn modes_written_and_read_back_give_the_same_exponent() {
 }
 
 #[test]
-fn maps_of_a_disc_are_kept_and_drawn() {
+fn maps_of_a_disc_are_saved_and_drawn() {
     let place = place("disc-map");
     let map = good(
         &place,
@@ -229,16 +229,16 @@ fn maps_of_a_disc_are_kept_and_drawn() {
     assert!(errors[0]["allowed"].as_str().expect("text").contains("growth"), "{errors:?}");
     let store = ["map", "map.toml", "--quantity", "growth", "--save", "map.zarr"];
     let first = good(&place, &store[..4]);
-    let (_, told, status) = quell(&place, &store);
-    assert_eq!(status, 0, "{told}");
-    let (text, told, status) = quell(&place, &[&store[..], &["--resume", "--json"]].concat());
-    assert_eq!(status, 0, "{told}");
+    let (_, printed, status) = quell(&place, &store);
+    assert_eq!(status, 0, "{printed}");
+    let (text, printed, status) = quell(&place, &[&store[..], &["--resume", "--json"]].concat());
+    assert_eq!(status, 0, "{printed}");
     let again: Json = serde_json::from_str(&text).expect("one object");
     assert_eq!(again["growth"], first["growth"]);
 }
 
 #[test]
-fn what_cannot_be_is_refused_and_the_clamp_is_warned_of() {
+fn invalid_discs_are_rejected_and_the_clamp_causes_a_warning() {
     let place = place("disc-bad");
     for (change, key) in [
         ("disc.inner_radius_ratio=1", "disc.inner_radius_ratio"),
@@ -258,9 +258,12 @@ fn what_cannot_be_is_refused_and_the_clamp_is_warned_of() {
     let normal = ["--set", "dither.direction=normal", "--set", "dither.amplitude=1.2"];
     let errors = place.refused(&[&["stability", "disc.toml"], &normal[..]].concat());
     assert_eq!(errors[0]["key"], "dither.amplitude");
-    let (_, told, status) =
+    let (_, printed, status) =
         quell(&place, &["stability", "disc.toml", "--set", "disc.load.radius_ratio=0.5"]);
-    assert!(status == 0 && told.contains("warning") && told.contains("nothing couples"), "{told}");
+    assert!(
+        status == 0 && printed.contains("warning") && printed.contains("nothing couples"),
+        "{printed}"
+    );
     for verb in [&["friction"][..], &["response"], &["simulate", "--until", "10"]] {
         let errors = place.refused(&[verb, &["disc.toml"]].concat());
         assert_eq!(errors[0]["key"], "disc", "{errors:?}");
@@ -357,7 +360,10 @@ fn a_disc_may_be_in_si() {
     let twice = STEEL.replace("speed_rpm = 600", "speed_rpm = 600\nspeed = 0.1");
     place.write("twice.toml", twice);
     let errors = place.refused(&["check", "twice.toml"]);
-    assert!(errors[0]["allowed"].as_str().is_some_and(|it| it.contains("not both")), "{errors:?}");
+    assert!(
+        errors[0]["allowed"].as_str().is_some_and(|item| item.contains("not both")),
+        "{errors:?}"
+    );
     place.write("bare.toml", STUDY.replace("speed = 0.3", "speed_rpm = 600"));
     let errors = place.refused(&["check", "bare.toml"]);
     let allowed = errors[0]["allowed"].as_str().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The ways in: new studies, help with its examples, completion, BibTeX; and answers to what was asked.
+//! New studies, help with its examples, completions, BibTeX; and sentences that answer the question.
 
 mod place;
 
@@ -10,7 +10,7 @@ use quell::template::TEMPLATES;
 /// A folder with a file of every template.
 fn place(name: &str) -> Place {
     let files: Vec<(String, &str)> =
-        TEMPLATES.iter().map(|it| (format!("{}.toml", it.name), it.text)).collect();
+        TEMPLATES.iter().map(|item| (format!("{}.toml", item.name), item.text)).collect();
     let files: Vec<(&str, &str)> =
         files.iter().map(|(name, text)| (name.as_str(), *text)).collect();
     Place::with(name, &files)
@@ -20,8 +20,8 @@ fn place(name: &str) -> Place {
 fn said(place: &Place, command: &str) -> String {
     let words: Vec<&str> = command.split_whitespace().skip(1).collect();
     let output = place.quell(&words);
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success(), "{command}: {told}");
+    let printed = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{command}: {printed}");
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 
@@ -45,7 +45,7 @@ fn the_help_lists_every_verb_in_its_group() {
     assert_eq!(said(&place, "quell help orbit"), said(&place, "quell orbit --help"));
 }
 
-/// Every command that a template or the help of a verb shows, but `reproduce`, which takes a minute.
+/// Every command in a template or in the help of a verb, except `reproduce`, which takes a minute.
 #[test]
 fn every_example_runs() {
     let place = place("doors-examples");
@@ -64,7 +64,7 @@ fn every_example_runs() {
         commands.extend(found.into_iter().filter(|_| verb != "reproduce"));
     }
     assert!(count >= 17 && commands.len() > 40, "{count} {commands:?}");
-    // One makes a file that is there already.
+    // One example creates a file that already exists.
     std::fs::remove_file(place.folder.join("quench.toml")).expect("there");
     said(&place, "quell new quench --save quench.toml");
     commands.remove("quell new quench --save quench.toml");
@@ -84,7 +84,7 @@ fn every_example_runs() {
 }
 
 #[test]
-fn a_new_study_is_printed_or_saved_once() {
+fn a_new_study_is_printed_or_saved_without_overwriting() {
     let place = Place::with("doors-new", &[]);
     let list = said(&place, "quell new");
     for template in TEMPLATES {
@@ -108,7 +108,7 @@ fn a_new_study_is_printed_or_saved_once() {
 }
 
 #[test]
-fn shells_get_their_completion() {
+fn completions_are_printed_for_shells() {
     let place = Place::with("doors-completions", &[]);
     for (shell, word) in [
         ("bash", "complete "),
@@ -146,7 +146,7 @@ fn cite_prints_the_entries_that_a_study_uses() {
 /// A belt beyond its critical velocity.
 const DECREASING: [&str; 2] = ["friction.law=decreasing", "belt.belt_velocity=1"];
 
-/// The sentence of `thresholds` is the answer: the number, its condition, and every start that was asked for.
+/// The sentence of `thresholds` contains the number, its condition, and every requested start.
 #[test]
 fn thresholds_answer_with_the_number() {
     let place = place("doors-thresholds");
@@ -203,7 +203,7 @@ fn thresholds_answer_with_the_number() {
     );
 }
 
-/// v₀ = 0: an oscillator with dry friction under a force, from rest.
+/// v₀ = 0: an oscillator with dry friction driven by a force, from rest.
 #[test]
 fn a_support_at_rest_has_orbits_from_rest() {
     let place = place("doors-driven");
@@ -216,7 +216,7 @@ fn a_support_at_rest_has_orbits_from_rest() {
     assert!(!run["sentence"].as_str().expect("text").contains("run from rest"), "{run}");
     let errors = place.refused(&["orbit", file, "--periods", "2"]);
     assert_eq!(errors[0]["key"], "--periods");
-    // A dither on a support at rest that is weaker than stiction moves nothing.
+    // With a support at rest, a dither weaker than stiction causes no motion.
     let weak = place.good(&["orbit", file, "--set", "dither.amplitude=0.2"]);
     assert_eq!(weak["stick_fraction"], 1.0);
     let range = ["--from", "1", "--to", "2"];

@@ -1,7 +1,7 @@
 //! Extreme but valid studies: every verb ends in time, with an answer or a reason, and does not panic.
 //!
-//! A generator puts one to three parameters at their smallest or largest values and asks one verb. The test runs a few of
-//! them with a fixed seed, and those that once ran on without end; `QUELL_EXTREMES=2000` runs so many.
+//! A generator sets one to three parameters to their smallest or largest values and runs one verb. The test runs a few such
+//! cases with a fixed seed, and cases that once did not terminate; `QUELL_EXTREMES=2000` runs 2000 random cases.
 
 #[expect(dead_code, reason = "other files of tests use the rest of it")]
 mod place;
@@ -90,18 +90,18 @@ const BELT_VERBS: &[&str] = &[
 const DISC_VERBS: &[&str] =
     &["check", "modes", "stability", "resonances", "resonances --clear 0.2:0.9 --frequency 2:6"];
 
-/// What once ran on without end: each a cause of its own, or a verb of its own.
+/// Cases that once did not terminate, each with a different cause or verb.
 const ONCE_ENDLESS: &[(&str, &[&str])] = &[
     // A loop that advances by a factor does not advance from the smallest number.
     ("stability", &["belt.belt_velocity=5e-324"]),
     ("stability", &["friction.reference_velocity=5e-324"]),
-    // The tolerance is relative to F, and F is nothing beside the other forces.
+    // The tolerance is relative to F, and F is negligible compared with the other forces.
     ("simulate --until 10", &["belt.normal_load=1e-300"]),
     ("response", &["belt.normal_load=1e-15"]),
     ("orbit --from-rest", &["belt.normal_load=5e-324"]),
     ("simulate --until 10", &["dither.amplitude=1e15"]),
     ("response", &["belt.initial.displacement=1e15"]),
-    // An equation so stiff that a period takes more steps than there is time for.
+    // An equation so stiff that a period takes more steps than the time limit permits.
     ("simulate --until 10", &["belt.damping_ratio=1e15"]),
     ("response", &["belt.damping_ratio=1e15"]),
     ("orbit", &["belt.normal_load=1e15"]),
@@ -110,7 +110,7 @@ const ONCE_ENDLESS: &[(&str, &[&str])] = &[
         &["friction.static_coefficient=1e15"],
     ),
     ("basins --grid 2x2", &["friction.static_coefficient=1e15"]),
-    // A period of the dither is 10¹⁵ of the oscillator's.
+    // A period of the dither is 10¹⁵ periods of the oscillator.
     ("orbit", &["dither.frequency_ratio=1e-15"]),
     (
         "bifurcation --parameter dither.amplitude --from 0.1 --to 1 --points 2",
@@ -120,7 +120,7 @@ const ONCE_ENDLESS: &[(&str, &[&str])] = &[
     ("simulate --until 1e9", &["dither.frequency_ratio=1e5"]),
 ];
 
-/// The chance of a linear congruential generator.
+/// Random numbers of a linear congruential generator.
 struct Dice(u64);
 
 impl Dice {
@@ -135,7 +135,7 @@ impl Dice {
     }
 }
 
-/// Runs a verb; its exit status, or `None` where it does not end in time. Panics where it panics.
+/// Runs a verb and returns its exit status, or `None` if it does not end in time. Panics if the verb panics.
 fn end(place: &Place, study: &str, verb: &str, changes: &[String]) -> Option<i32> {
     let mut words = verb.split(' ');
     let mut arguments: Vec<&str> = words.next().into_iter().chain([study]).chain(words).collect();
@@ -155,11 +155,11 @@ fn end(place: &Place, study: &str, verb: &str, changes: &[String]) -> Option<i32
         std::thread::sleep(Duration::from_millis(2));
     }
     let done = child.wait_with_output().expect("it ended");
-    let told = String::from_utf8_lossy(&done.stderr).into_owned();
-    assert!(!told.contains("panicked"), "{study} {verb} {changes:?}: {told}");
+    let printed = String::from_utf8_lossy(&done.stderr).into_owned();
+    assert!(!printed.contains("panicked"), "{study} {verb} {changes:?}: {printed}");
     let status = done.status.code().unwrap_or(-1);
-    assert!([0, 1, 2].contains(&status), "{study} {verb} {changes:?}: {status} {told}");
-    assert!(status == 0 || !told.is_empty(), "{study} {verb} {changes:?}: no reason");
+    assert!([0, 1, 2].contains(&status), "{study} {verb} {changes:?}: {status} {printed}");
+    assert!(status == 0 || !printed.is_empty(), "{study} {verb} {changes:?}: no reason");
     Some(status)
 }
 
@@ -172,7 +172,7 @@ fn place(name: &str) -> Place {
 }
 
 #[test]
-fn what_once_ran_on_ends() {
+fn cases_that_once_did_not_terminate_end() {
     let place = place("extremes/known");
     for (verb, changes) in ONCE_ENDLESS {
         let changes: Vec<String> = changes.iter().map(|&change| change.to_owned()).collect();
@@ -181,7 +181,7 @@ fn what_once_ran_on_ends() {
 }
 
 #[test]
-fn random_extremes_end() {
+fn random_extreme_cases_end() {
     let place = place("extremes/random");
     let count = std::env::var("QUELL_EXTREMES").ok().and_then(|count| count.parse().ok());
     let mut dice = Dice(14);

@@ -1,5 +1,5 @@
-//! Files of strangers by the real binary: inputs are never outputs, nothing of other files is shown, permissions stay, and
-//! limits and signals leave nothing half-written.
+//! Tests of the binary with untrusted files: inputs are never outputs, no content of other files is printed, permissions are
+//! kept, and limits and signals leave no partial files.
 #![cfg(unix)]
 
 mod place;
@@ -97,8 +97,11 @@ fn inputs_are_never_outputs() {
                     continue;
                 }
                 let errors = place.refused(&arguments);
-                let told = errors[0]["message"].as_str().unwrap_or_default();
-                assert!(told.contains("which the study is read from"), "{arguments:?}: {told}");
+                let printed = errors[0]["message"].as_str().unwrap_or_default();
+                assert!(
+                    printed.contains("which the study is read from"),
+                    "{arguments:?}: {printed}"
+                );
                 for (file, text) in files {
                     let there = fs::read_to_string(place.folder.join(file)).expect("there");
                     assert_eq!(there, text, "{arguments:?}");
@@ -109,15 +112,15 @@ fn inputs_are_never_outputs() {
 }
 
 #[test]
-fn a_study_on_standard_input_is_an_input_and_a_store_may_not_hold_one() {
+fn a_study_on_standard_input_is_an_input_and_a_store_must_not_contain_one() {
     let place = Place::with("inputs/stdin", &[("study.toml", MEASURED), ("data.csv", SAMPLES)]);
     symlink("study.toml", place.folder.join("out.csv")).expect("a link");
     let file = fs::File::open(place.folder.join("study.toml")).expect("there");
     let mut command = place.command(&["friction", "-", "--save", "out.csv"]);
     let output = command.stdin(file).output().expect("quell runs");
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{told}");
-    assert!(told.contains("standard input"), "{told}");
+    let printed = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{printed}");
+    assert!(printed.contains("standard input"), "{printed}");
     assert_eq!(fs::read_to_string(place.folder.join("study.toml")).expect("there"), MEASURED);
     // The data inside a store, and the store around the study.
     fs::create_dir_all(place.folder.join("m.zarr/.quell")).expect("a folder");
@@ -125,12 +128,15 @@ fn a_study_on_standard_input_is_an_input_and_a_store_may_not_hold_one() {
     place.write("study.toml", MEASURED.replace("data.csv", "m.zarr/data.csv"));
     let ask = ["map", "study.toml", "--quantity", "growth", "--save", "m.zarr", "--resume"];
     let errors = place.refused(&ask);
-    assert!(errors[0]["message"].as_str().is_some_and(|it| it.contains("read from")), "{errors:?}");
+    assert!(
+        errors[0]["message"].as_str().is_some_and(|item| item.contains("read from")),
+        "{errors:?}"
+    );
 }
 
 /// The second table of a response has a name that the user has not given.
 #[test]
-fn what_stands_in_the_place_of_a_second_file_is_left_alone() {
+fn existing_special_files_are_not_replaced_by_a_second_output() {
     let place = Place::with(
         "second",
         &[("study.toml", MEASURED), ("data.csv", SAMPLES), ("theirs", "theirs")],
@@ -138,17 +144,20 @@ fn what_stands_in_the_place_of_a_second_file_is_left_alone() {
     let second = place.folder.join("out_spectrum.csv");
     symlink("theirs", &second).expect("a link");
     let ask = ["response", "study.toml", "--save", "out.csv"];
-    let told = format!("{:?}", place.refused(&ask));
-    assert!(told.contains("out_spectrum.csv") && told.contains("not a regular file"), "{told}");
+    let printed = format!("{:?}", place.refused(&ask));
+    assert!(
+        printed.contains("out_spectrum.csv") && printed.contains("not a regular file"),
+        "{printed}"
+    );
     assert_eq!(fs::read_to_string(place.folder.join("theirs")).expect("there"), "theirs");
     fs::remove_file(&second).expect("removed");
     assert!(Command::new("mkfifo").arg(&second).status().expect("mkfifo").success());
-    let told = format!("{:?}", place.refused(&ask));
-    assert!(told.contains("not a regular file"), "{told}");
+    let printed = format!("{:?}", place.refused(&ask));
+    assert!(printed.contains("not a regular file"), "{printed}");
 }
 
 #[test]
-fn of_a_file_that_is_no_data_nothing_is_shown() {
+fn the_content_of_files_that_are_not_data_is_not_printed() {
     let secret = "root:x:0:0:hunter2:/root:/bin/sh\ndaemon:x:1:1:hunter3:/usr\n";
     for (name, study) in [("belt", MEASURED), ("disc", DISC)] {
         let place =
@@ -159,28 +168,28 @@ fn of_a_file_that_is_no_data_nothing_is_shown() {
             secret.replace(':', ","),
             format!("slip_velocity,hunter2\n{secret}"),
             format!("diameters,hunter2\n{secret}"),
-            // A file of data with one line that is none: not more than a part of the cell.
+            // A data file with one invalid line: only a part of the cell is printed.
             format!(
                 "slip_velocity,coefficient,diameters,ratio,shape_at_load\n{long},hunter2,{long},1,hunter2\n"
             ),
         ] {
             place.write("data.csv", &text);
             let errors = place.refused(&["check", "study.toml"]);
-            let told = format!("{errors:?}");
-            assert!(!told.contains("hunter") && !told.contains("root"), "{told}");
-            assert!(told.contains("a CSV file with") || told.contains("line 2"), "{told}");
+            let printed = format!("{errors:?}");
+            assert!(!printed.contains("hunter") && !printed.contains("root"), "{printed}");
+            assert!(printed.contains("a CSV file with") || printed.contains("line 2"), "{printed}");
         }
-        // Files that are none are named, and do not hang.
+        // Paths that are not regular files are reported, and do not block.
         fs::remove_file(place.folder.join("data.csv")).expect("removed");
         let made = Command::new("mkfifo").arg(place.folder.join("data.csv")).status();
         assert!(made.expect("mkfifo").success());
-        let told = format!("{:?}", place.refused(&["check", "study.toml"]));
-        assert!(told.contains("not a regular file"), "{told}");
+        let printed = format!("{:?}", place.refused(&["check", "study.toml"]));
+        assert!(printed.contains("not a regular file"), "{printed}");
     }
 }
 
 #[test]
-fn an_output_keeps_its_permissions_and_a_new_one_has_those_of_the_process() {
+fn replaced_outputs_keep_their_permissions_and_new_ones_have_the_default() {
     let place = Place::with("permissions", &[("study.toml", MEASURED), ("data.csv", SAMPLES)]);
     let mode = |name: &str| {
         fs::metadata(place.folder.join(name)).expect("there").permissions().mode() & 0o7777
@@ -206,7 +215,7 @@ fn an_output_keeps_its_permissions_and_a_new_one_has_those_of_the_process() {
 }
 
 #[test]
-fn a_file_that_may_not_grow_is_an_error_like_any_other() {
+fn exceeding_a_file_size_limit_is_an_ordinary_error() {
     let place = Place::with("limit", &[("study.toml", MEASURED), ("data.csv", SAMPLES)]);
     place.write("old.csv", "old");
     let before = place.files();
@@ -217,21 +226,21 @@ fn a_file_that_may_not_grow_is_an_error_like_any_other() {
         );
         let done = Command::new("sh").current_dir(&place.folder).args(["-c", &line]).output();
         let done = done.expect("a shell");
-        let told = String::from_utf8_lossy(&done.stdout);
+        let printed = String::from_utf8_lossy(&done.stdout);
         assert_eq!(done.status.code(), Some(1), "{output}: {done:?}");
-        assert!(told.contains("File too large"), "{told}");
+        assert!(printed.contains("File too large"), "{printed}");
         assert_eq!(place.files(), before, "{output}");
         assert_eq!(fs::read_to_string(place.folder.join("old.csv")).expect("there"), "old");
     }
 }
 
-/// Sends a signal to a process that is ours.
+/// Sends a signal to a child process.
 fn signal(child: &Child, name: &str) {
     let sent = Command::new("kill").args([name, &child.id().to_string()]).status();
     assert!(sent.expect("kill").success());
 }
 
-/// Waits for the end; how it was, and how long it took.
+/// Waits for the end of a process; returns its status and the time.
 fn ended(mut child: Child) -> (Option<i32>, Duration) {
     let begun = Instant::now();
     loop {
@@ -256,7 +265,7 @@ fn signals_end_every_verb() {
         std::thread::sleep(Duration::from_millis(700));
         child
     };
-    // A verb that does not stop by itself ends at once, whatever it does.
+    // A verb that cannot stop by itself is ended immediately.
     for (name, arguments) in [
         ("-INT", &["simulate", "study.toml", "--until", "1e8", "--save", "s.csv"][..]),
         ("-TERM", &["response", "study.toml", "--set", "solver.settle=1e8"]),
@@ -268,7 +277,7 @@ fn signals_end_every_verb() {
         assert!(after < Duration::from_secs(5), "{arguments:?}: {after:?}");
     }
     assert_eq!(place.files(), ["data.csv", "study.toml"]);
-    // One that does is asked first, and ends at once after the second.
+    // A verb that can is asked to stop first, and is ended immediately after the second signal.
     let long = [
         "map",
         "study.toml",

@@ -1,4 +1,4 @@
-//! The real binary: periodic responses and thresholds.
+//! Tests of the binary: periodic responses and thresholds.
 
 #[path = "place/repository.rs"]
 mod repository;
@@ -24,12 +24,12 @@ fn thresholds(study: &str, parameter: &str, [from, to]: [&str; 2], more: &[&str]
 const PAD: &str = "studies/squealing-pad-si.toml";
 
 #[test]
-fn an_orbit_has_its_names() {
+fn the_fields_of_an_orbit_have_documented_names() {
     let (found, status) = quell(&["orbit", STUDY]);
     assert_eq!(status, 0);
     assert_eq!(found["verdict"], "unstable");
     assert_eq!((&found["stick_episodes"], &found["reversals"]), (&0.into(), &0.into()));
-    let modulus = |it: &Json| it[0].as_f64().expect("re").hypot(it[1].as_f64().expect("im"));
+    let modulus = |item: &Json| item[0].as_f64().expect("re").hypot(item[1].as_f64().expect("im"));
     assert!(modulus(&found["multipliers"][0]) > 1.0);
     for name in ["displacement", "velocity", "residual", "period", "sentence"] {
         assert!(!found[name].is_null(), "{name}");
@@ -47,19 +47,20 @@ fn without_dither_the_limit_cycle_is_the_orbit() {
     assert_eq!(status, 0, "{found}");
     assert_eq!((&found["verdict"], &found["free_phase"]), (&"stable".into(), &true.into()));
     assert!((found["period"].as_f64().expect("a period") - 9.600_930_182_576).abs() < 1e-10);
-    let off = |it: &Json| (it[0].as_f64().expect("re") - 1.0).hypot(it[1].as_f64().expect("im"));
+    let off =
+        |item: &Json| (item[0].as_f64().expect("re") - 1.0).hypot(item[1].as_f64().expect("im"));
     let multipliers = found["multipliers"].as_array().expect("multipliers");
     assert!(multipliers.iter().map(off).fold(f64::INFINITY, f64::min) < 1e-9);
-    // Where nothing squeals there is none, and it is said why.
+    // Without squeal there is no limit cycle, and the reason is given.
     let (found, status) = quell(&[&study[..], &["--set", "belt.belt_velocity=3"]].concat());
     assert_eq!((status, found["verdict"].as_str()), (0, Some("stable")));
     assert!(found["period"].is_null() && found["why"]["period"].is_string());
     assert_eq!(found["cycles"], Json::Array(Vec::new()));
-    // Beside the squeal lies the unstable cycle that bounds its basin.
+    // In addition to the squeal there is the unstable cycle that bounds its basin.
     let study = ["orbit", "studies/can-it-squeal-although-stable.toml"];
     let (found, _) = quell(&study);
     let cycles = found["cycles"].as_array().expect("cycles");
-    let verdicts: Vec<_> = cycles.iter().map(|it| it["verdict"].as_str()).collect();
+    let verdicts: Vec<_> = cycles.iter().map(|item| item["verdict"].as_str()).collect();
     assert_eq!(verdicts, [Some("stable"), Some("unstable")], "{found}");
     let near = format!("{},0", cycles[1]["displacement"]);
     let (found, _) = quell(&[&study[..], &["--near", &near]].concat());
@@ -67,7 +68,7 @@ fn without_dither_the_limit_cycle_is_the_orbit() {
 }
 
 #[test]
-fn the_orbit_on_which_a_run_ends() {
+fn the_orbit_that_a_run_reaches_is_found() {
     let set = ["orbit", STUDY, "--set", "dither.amplitude=2.5"];
     let (quiet, _) = quell(&[&set[..], &["--from-rest"]].concat());
     let (loud, status) = quell(&[&set[..], &["--from-squeal"]].concat());
@@ -82,7 +83,7 @@ fn the_orbit_on_which_a_run_ends() {
 fn thresholds_tell_each_protocol_apart() {
     let protocols = ["--from-rest", "--from-squeal", "--start", "0,0"];
     let found = thresholds(STUDY, "dither.amplitude", ["2", "10.5"], &protocols);
-    let value = |it: &Json| it["value"].as_f64().expect("a value");
+    let value = |item: &Json| item["value"].as_f64().expect("a value");
     let local = found["local"].as_array().expect("local");
     assert_eq!(local.len(), 2);
     assert!((value(&local[0]) / 4.322_392_624 - 1.0).abs() < 1e-8);
@@ -94,14 +95,14 @@ fn thresholds_tell_each_protocol_apart() {
     assert_eq!((&local[1]["kind"], &local[1]["becomes"]), (&"grazing".into(), &"stable".into()));
     assert!((value(&found["from_rest"][0]) - 2.868).abs() < 5e-3);
     assert_eq!(found["from_rest"], found["from_start"]);
-    // What squeals stays so up to the upper local threshold.
+    // A squealing run continues to squeal up to the upper local threshold.
     let squeal = found["from_squeal"].as_array().expect("from squeal");
     assert_eq!((squeal.len(), &squeal[0]["becomes"]), (1, &"quenched".into()));
     assert!((value(&squeal[0]) / 9.900_214_849 - 1.0).abs() < 2e-5, "{squeal:?}");
 }
 
 #[test]
-fn curves_of_thresholds_are_followed_and_saved() {
+fn threshold_curves_are_followed_and_saved() {
     let directory = tempfile::tempdir().expect("a directory");
     let (csv, svg) = (directory.path().join("curves.csv"), directory.path().join("curves.svg"));
     let (found, status) = quell(&[
@@ -124,10 +125,11 @@ fn curves_of_thresholds_are_followed_and_saved() {
     ]);
     assert_eq!(status, 0, "{found}");
     let curves = found["curves"].as_array().expect("curves");
-    let kinds: Vec<_> = curves.iter().filter_map(|it| it["kind"].as_str()).collect();
+    let kinds: Vec<_> = curves.iter().filter_map(|item| item["kind"].as_str()).collect();
     assert!(kinds.contains(&"neimark-sacker") && kinds.contains(&"grazing"), "{kinds:?}");
     assert_eq!(found["averaged"].as_array().map(Vec::len), Some(2));
-    let points: usize = curves.iter().map(|it| it["value"].as_array().expect("values").len()).sum();
+    let points: usize =
+        curves.iter().map(|item| item["value"].as_array().expect("values").len()).sum();
     let text = std::fs::read_to_string(csv).expect("saved");
     let rows = text.lines().filter(|line| !line.starts_with('#')).count();
     assert_eq!(rows, points + 1);
@@ -152,14 +154,14 @@ fn steady_sliding_has_a_hopf_bifurcation() {
     let local = &found["local"][0];
     assert_eq!((&local["kind"], &local["becomes"]), (&"hopf".into(), &"stable".into()));
     assert!((local["value"].as_f64().expect("a value") - 0.809_135_878_048).abs() < 1e-9);
-    // What squeals goes on far beyond, as long as the cycle exists.
+    // A squealing run continues to squeal far beyond, as long as the cycle exists.
     let squeal = found["from_squeal"][0]["value"].as_f64().expect("a value");
     assert!((squeal - 2.4999).abs() < 2e-3, "{squeal}");
 }
 
-/// Two states live side by side without dither: what a run from a start ends on is told, not the largest cycle.
+/// Two responses coexist without dither: the one that the run reaches is reported, and not the largest cycle.
 #[test]
-fn an_undithered_run_ends_where_its_start_leads() {
+fn an_undithered_run_reaches_the_response_of_its_start() {
     let study = "studies/can-it-squeal-although-stable.toml";
     let ask = |arguments: &[&str]| quell(&[&["orbit", study], arguments].concat());
     for (start, cycle) in [
@@ -173,7 +175,7 @@ fn an_undithered_run_ends_where_its_start_leads() {
         let (found, status) = ask(start);
         assert_eq!(status, 0, "{found}");
         assert_eq!(found["multipliers"].is_array(), cycle, "{start:?} {found}");
-        // As a run has it.
+        // As in a run.
         if let ["--start", state] = start {
             let (x, v) = state.split_once(',').expect("two numbers");
             let (x, v) =
@@ -205,27 +207,27 @@ fn an_undithered_run_ends_where_its_start_leads() {
     );
 }
 
-/// Whatever the values that are tried first, every change is found.
+/// Every change is found, regardless of the values tried first.
 #[test]
 fn runs_from_rest_have_both_thresholds_in_any_window() {
     for range in [["0.1", "10.1"], ["2.1", "12.1"]] {
         let found = thresholds(STUDY, "dither.amplitude", range, &["--from-rest"]);
         let changes = found["from_rest"].as_array().expect("changes");
-        let values: Vec<f64> = changes.iter().filter_map(|it| it["value"].as_f64()).collect();
+        let values: Vec<f64> = changes.iter().filter_map(|item| item["value"].as_f64()).collect();
         assert!(
             (values[0] - 2.868).abs() < 5e-3 && (values[1] / 9.900_214_849 - 1.0).abs() < 2e-5,
             "{found}"
         );
-        let ends: Vec<&str> = changes.iter().filter_map(|it| it["becomes"].as_str()).collect();
+        let ends: Vec<&str> = changes.iter().filter_map(|item| item["becomes"].as_str()).collect();
         assert_eq!(ends, ["not quenched", "quenched"]);
         assert_eq!(found["warnings"].as_array().map(Vec::len), Some(0));
     }
 }
 
-/// Where the base response is lost, thresholds that were found stay, and runs still say where they end: without slow vibration, as
-/// `response` says of the same runs, on orbits of one and of three periods of the dither.
+/// If the base response is lost, thresholds found before are kept, and runs still report their outcomes: without slow vibration,
+/// as `response` reports for the same runs, on orbits of one and of three periods of the dither.
 #[test]
-fn what_cannot_be_followed_does_not_take_the_rest_along() {
+fn a_lost_branch_does_not_discard_other_results() {
     const OWN: &str = "studies/own-friction-law.toml";
     let found = thresholds(OWN, "dither.amplitude", ["0.8", "2"], &["--from-rest"]);
     assert_eq!(found["covered"], false);
@@ -233,7 +235,7 @@ fn what_cannot_be_followed_does_not_take_the_rest_along() {
     assert!((local - 0.990_450_5).abs() < 1e-6, "{local}");
     assert_eq!(found["at_from"]["from_rest"], "not quenched");
     let changes = found["from_rest"].as_array().expect("changes");
-    let becomes: Vec<_> = changes.iter().filter_map(|it| it["becomes"].as_str()).collect();
+    let becomes: Vec<_> = changes.iter().filter_map(|item| item["becomes"].as_str()).collect();
     assert_eq!((becomes, found["warnings"].as_array().map(Vec::len)), (vec!["quenched"], Some(0)));
     for (amplitude, ends) in
         [("1.05", "base response"), ("1.13807", "another response without slow motion of its own")]
@@ -244,23 +246,23 @@ fn what_cannot_be_followed_does_not_take_the_rest_along() {
     }
 }
 
-/// A branch that ends before the range does is not the last word: at the other end a base response exists, and is announced.
+/// If a branch ends inside the range, but a base response exists at the other end of the range, that is reported.
 #[test]
-fn a_base_response_beyond_the_end_of_a_branch_is_announced() {
+fn a_base_response_beyond_the_end_of_a_branch_is_reported() {
     let ask = |from: &str| thresholds(STUDY, "belt.belt_velocity", [from, "3"], &[]);
     let found = ask("0.3");
     assert_eq!((&found["covered"], &found["resumes"]), (&false.into(), &true.into()));
-    let told = found["sentence"].as_str().expect("words");
-    assert!(told.contains("at v₀ = 3 a base response exists again"), "{told}");
-    assert!(!told.contains("no threshold in this range"), "{told}");
+    let printed = found["sentence"].as_str().expect("words");
+    assert!(printed.contains("at v₀ = 3 a base response exists again"), "{printed}");
+    assert!(!printed.contains("no threshold in this range"), "{printed}");
     let rest = ask("0.7");
     assert_eq!((&rest["covered"], &rest["resumes"]), (&true.into(), &false.into()));
     assert!(rest["local"].as_array().is_some_and(|found| !found.is_empty()), "{rest}");
 }
 
-/// In a study in SI a question in newtons and seconds is the one in numbers of the equations.
+/// In a study in SI, options in newtons and seconds are equivalent to dimensionless ones.
 #[test]
-fn thresholds_are_asked_in_si() {
+fn thresholds_accept_si_units() {
     let ask = |ends: [&str; 2], ramp: &str| {
         thresholds(PAD, "dither.amplitude_n", ends, &["--from-rest", "--ramp", ramp])
     };
@@ -269,13 +271,13 @@ fn thresholds_are_asked_in_si() {
     let range = [5000.0, 6500.0];
     let found = ask(["5000", "6500"], "0.05");
     assert_eq!(found, ask(["5kN", "6.5 kN"], "50ms"));
-    let number = |it: &Json| it.as_f64().expect("a number");
+    let number = |item: &Json| item.as_f64().expect("a number");
     let local = &found["local"][0];
-    // Sharper averaging has it at 5790.585 N.
+    // Finite-R averaging gives 5790.585 N.
     assert!((number(&local["value_n"]) / 5790.585 - 1.0).abs() < 1e-4, "{local}");
     assert_eq!(local["becomes"], "stable");
     assert_eq!(found["from_rest"].as_array().map(Vec::len), Some(1), "{found}");
-    // A quotient and a product, each rounded, of numbers that were read to their last digit or the one beside it.
+    // A rounded quotient and a rounded product of numbers that were read to within one unit in the last place.
     let close = |si: &Json, value: f64| {
         assert!((number(si) - value).abs() <= 4.0 * f64::EPSILON * value.abs(), "{si} {value}");
     };
@@ -287,7 +289,7 @@ fn thresholds_are_asked_in_si() {
     close(&found["from_n"], range[0]);
     close(&found["to_n"], range[1]);
     close(&found["ramp_s"], 0.05);
-    let told = words(&[
+    let printed = words(&[
         "thresholds",
         PAD,
         "--parameter",
@@ -297,16 +299,16 @@ fn thresholds_are_asked_in_si() {
         "--to",
         "6500",
     ]);
-    assert!(told.contains("\ndither.amplitude_n from 5000 N to 6500 N,"), "{told}");
+    assert!(printed.contains("\ndither.amplitude_n from 5000 N to 6500 N,"), "{printed}");
     let newtons = format!("{:.3} N", number(&local["value_n"]));
-    assert!(told.contains(&newtons), "{newtons}: {told}");
+    assert!(printed.contains(&newtons), "{newtons}: {printed}");
     for (name, unit) in [("value_n", "N"), ("from_n", "N"), ("displacement_m", "m")] {
         assert_eq!(found["units"][name], unit);
     }
 }
 
 #[test]
-fn wrong_questions_are_told() {
+fn invalid_requests_are_reported() {
     for (arguments, key) in [
         (&["--parameter", "belt.colour", "--from", "1", "--to", "2"][..], "--parameter"),
         (&["--parameter", "dither.amplitude", "--from", "2", "--to", "1"], "--to"),
@@ -355,22 +357,22 @@ fn wrong_questions_are_told() {
             "--along",
         ),
     ] {
-        let (told, status) = quell(&[&["thresholds", STUDY], arguments].concat());
-        assert_eq!((status, told["errors"][0]["key"].as_str()), (2, Some(key)), "{told}");
+        let (printed, status) = quell(&[&["thresholds", STUDY], arguments].concat());
+        assert_eq!((status, printed["errors"][0]["key"].as_str()), (2, Some(key)), "{printed}");
     }
-    // Of a study that is not there nobody knows whether it is in SI.
+    // For a missing study it is unknown whether it is in SI.
     let nowhere = ["thresholds", "studies/nowhere.toml", "--parameter", "dither.amplitude"];
-    let (told, status) =
+    let (printed, status) =
         quell(&[&nowhere[..], &["--from", "1", "--to", "2", "--ramp", "0.5s"]].concat());
-    assert_eq!((status, told["errors"].as_array().map(Vec::len)), (2, Some(1)), "{told}");
+    assert_eq!((status, printed["errors"].as_array().map(Vec::len)), (2, Some(1)), "{printed}");
 }
 
-/// Nothing that is asked is silently left out, and what is refused is told with its value.
+/// No request is silently ignored, and every rejected value is printed in the message.
 #[test]
-fn options_that_say_nothing_together_are_refused() {
+fn contradictory_options_are_rejected() {
     let range = ["--parameter", "dither.amplitude", "--from", "1", "--to", "2"];
     let below = ["--parameter", "dither.amplitude", "--from=-1", "--to", "2"];
-    for (arguments, key, told) in [
+    for (arguments, key, printed) in [
         ([&["thresholds", STUDY], &range[..], &["--ramp", "5"]].concat(), "--ramp", "--from-rest"),
         ([&["thresholds", STUDY], &range[..], &["--ramp", "nan"]].concat(), "--ramp", "nan"),
         ([&["thresholds", STUDY], &range[..], &["--ramp", "1e308"]].concat(), "--ramp", "1e308"),
@@ -407,6 +409,6 @@ fn options_that_say_nothing_together_are_refused() {
         let error = &object["errors"][0];
         let message = error["message"].as_str().unwrap_or_default();
         assert_eq!((status, error["key"].as_str()), (2, Some(key)), "{object}");
-        assert!(message.contains(told) && !message.contains("null"), "{message}");
+        assert!(message.contains(printed) && !message.contains("null"), "{message}");
     }
 }

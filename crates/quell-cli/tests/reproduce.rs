@@ -29,7 +29,7 @@ fn figures_and_claims_are_written() {
 }
 
 #[test]
-fn unknown_names_and_unwritable_directories_are_refused() {
+fn unknown_names_and_unwritable_directories_are_rejected() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("file");
     std::fs::write(&file, "").expect("written");

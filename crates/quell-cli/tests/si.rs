@@ -1,4 +1,4 @@
-//! A study in SI: plain numbers of options are in SI, units are taken wherever a number has a dimension, tables are in SI.
+//! A study in SI: options without units are in SI, units are accepted for every number with a dimension, tables are in SI.
 
 mod place;
 
@@ -37,7 +37,7 @@ fn place(name: &str) -> Place {
     Place::with(name, &[("pad.toml", PAD), ("scaled.toml", scaled)])
 }
 
-/// Answers that two ways to ask must share, whatever the words of the question.
+/// The parts of answers that must be equal for two equivalent commands.
 fn same(place: &Place, verb: &[&str], one: &[&str], other: &[&str]) -> Json {
     let ask = |more: &[&str]| place.good(&[verb, more].concat());
     let found = ask(one);
@@ -46,7 +46,7 @@ fn same(place: &Place, verb: &[&str], one: &[&str], other: &[&str]) -> Json {
 }
 
 #[test]
-fn plain_numbers_of_options_are_in_si() {
+fn options_without_units_are_in_si() {
     let place = place("si_options");
     let at = same(
         &place,
@@ -123,18 +123,18 @@ fn quenched_means_the_same_in_every_verb() {
     let swept = ["bifurcation", "drive.toml", "--points", "4", "--up"];
     let swept = place.good(&[&swept[..], &range].concat());
     let quiet: Vec<_> =
-        swept["up"].as_array().expect("points").iter().map(|it| it["quiet"].clone()).collect();
+        swept["up"].as_array().expect("points").iter().map(|item| item["quiet"].clone()).collect();
     assert_eq!(quiet, [false, true, true, true]);
     let basins = place.good(&["basins", "drive.toml", "--sample", "20"]);
     assert_eq!(
         (&basins["quiet_fraction"], &basins["attractors"][0]["base_response"]),
         (&1.0.into(), &false.into())
     );
-    let told = basins["sentence"].as_str().expect("words");
-    assert!(told.starts_with("All 20 starts fall quiet. The base response ends at 82.9"), "{told}");
+    let printed = basins["sentence"].as_str().expect("words");
+    assert!(printed.starts_with("All 20 starts fall quiet. The base response ends at 82.9"), "{printed}");
 }
 
-/// Where mass or stiffness are swept, frequencies and velocities are those of each value, as `--set` has them.
+/// If mass or stiffness are swept, frequencies and velocities are those of each value, as with `--set`.
 #[test]
 fn swept_scales_are_those_of_each_value() {
     let place = place("si_scales");
@@ -162,7 +162,7 @@ fn swept_scales_are_those_of_each_value() {
     let text = String::from_utf8(output.stdout).expect("UTF-8");
     let number = |word: &str| -> f64 {
         let line = text.lines().find(|line| line.trim_start().starts_with(word)).expect("a line");
-        line.split_whitespace().nth(1).and_then(|it| it.parse().ok()).expect("a number")
+        line.split_whitespace().nth(1).and_then(|item| item.parse().ok()).expect("a number")
     };
     let csv = fs::read_to_string(place.folder.join("map.csv")).expect("saved");
     let mut rows = csv.lines().filter(|line| !line.starts_with('#')).map(|row| row.split(','));
@@ -173,7 +173,7 @@ fn swept_scales_are_those_of_each_value() {
     assert!((number("max") / most - 1.0).abs() < 1e-6, "{text}{all:?}");
 }
 
-/// Just above the band the window would spread the line of the dither into it: that is no vibration.
+/// Just above the band, the window spreads the line of the dither into it; that does not count as vibration.
 #[test]
 fn a_dither_just_above_the_band_does_not_leak_into_it() {
     let place = place("si_leak");
@@ -183,7 +183,7 @@ fn a_dither_just_above_the_band_does_not_leak_into_it() {
         assert_eq!((&found["effect"], &found["settled"]), (&"quenches".into(), &true.into()));
         assert!(found["efficiency"].as_f64().is_some_and(|ratio| ratio < 0.01), "{found}");
     }
-    // However short the record, the band that is looked at holds the vibration: this dither leaves it as it is.
+    // For any length of the record, the band contains the vibration: this dither does not change it.
     for periods in ["2", "4", "8", "60"] {
         let periods = format!("solver.record_periods={periods}");
         let set = ["--set", "dither.frequency_ratio=2", "--set", "dither.amplitude=0.001"];
@@ -194,9 +194,9 @@ fn a_dither_just_above_the_band_does_not_leak_into_it() {
     }
 }
 
-/// Runs have ends where no base response begins the range.
+/// Outcomes of runs are reported if no base response exists at the beginning of the range.
 #[test]
-fn runs_are_judged_without_a_base_response() {
+fn runs_are_classified_without_a_base_response() {
     let place = place("si_no_base");
     place.write("drive.toml", DRIVE);
     let ask = |from: &'static str, more: &[&'static str]| {
@@ -207,14 +207,14 @@ fn runs_are_judged_without_a_base_response() {
     let without = place.good(&ask("38", &["--from-rest"]));
     let with = place.good(&ask("35", &["--from-rest"]));
     assert!((value(&without) / value(&with) - 1.0).abs() < 1e-4);
-    let told = without["sentence"].as_str().expect("words");
-    assert!(told.starts_with("At D = 38 N the base response ends at 98"), "{told}");
+    let printed = without["sentence"].as_str().expect("words");
+    assert!(printed.starts_with("At D = 38 N the base response ends at 98"), "{printed}");
     let (found, status) = place.json(&ask("38", &[]));
     assert_eq!((status, &found["errors"][0]["key"]), (1, &"thresholds".into()));
     assert!(found.to_string().contains("--from-rest"), "{found}");
 }
 
-/// Without damping and without a slope of the law nothing grows: no belt velocity is unstable.
+/// Without damping and with a law of zero slope no vibration grows: no belt velocity is unstable.
 #[test]
 fn neutral_friction_is_not_unstable() {
     let place = place("si_neutral");
@@ -229,9 +229,9 @@ fn neutral_friction_is_not_unstable() {
     assert!(!text.contains("stable at every v₀ from α  0"), "{text}");
 }
 
-/// A dither within the band of the vibration itself quenches nothing by being followed.
+/// A dither inside the band of slow vibration does not quench a response that follows it.
 #[test]
-fn a_slow_dither_is_no_end_of_vibration() {
+fn a_slow_dither_does_not_end_the_vibration() {
     let place = place("si_slow");
     let slow = ["--set", "dither.frequency_ratio=0.9", "--set", "dither.amplitude=0.6"];
     let response = place.good(&[&["response", "scaled.toml"][..], &slow].concat());
@@ -239,8 +239,8 @@ fn a_slow_dither_is_no_end_of_vibration() {
     let range =
         ["--parameter", "dither.amplitude", "--from", "0.01", "--to", "0.04", "--from-rest"];
     let found = place.good(&[&["thresholds", "scaled.toml"][..], &slow, &range].concat());
-    let told = found["sentence"].as_str().expect("words");
-    assert!(!told.contains("quench") && told.contains("into step with the dither"), "{told}");
+    let printed = found["sentence"].as_str().expect("words");
+    assert!(!printed.contains("quench") && printed.contains("into step with the dither"), "{printed}");
     assert!(
         found["warnings"].to_string().contains("`response` gives the remaining amplitude"),
         "{found}"
@@ -249,7 +249,7 @@ fn a_slow_dither_is_no_end_of_vibration() {
 
 /// The level in a band is that of the lines between its ends; it is given with its root mean squares, in hertz too.
 #[test]
-fn a_band_has_its_level() {
+fn the_level_of_a_band_is_reported() {
     let place = place("si_band");
     place.write("drive.toml", DRIVE);
     let reduced = ["response", "drive.toml", "--set", "dither.amplitude_n=20"];
@@ -291,7 +291,7 @@ fn a_band_has_its_level() {
 }
 
 #[test]
-fn wrong_units_are_refused_with_what_is_expected() {
+fn wrong_units_are_rejected_with_the_expected_ones() {
     let place = place("si_wrong");
     let range = |from: &'static str| {
         [
@@ -334,17 +334,17 @@ fn wrong_units_are_refused_with_what_is_expected() {
             "units need a study in SI",
         ),
     ];
-    for (arguments, key, told) in cases {
+    for (arguments, key, printed) in cases {
         let errors = place.refused(arguments);
         let found = errors.iter().find(|error| error["key"] == *key);
         let allowed = found.and_then(|error| error["allowed"].as_str()).unwrap_or_default();
-        assert!(allowed.contains(told), "{arguments:?}: {errors:?}");
+        assert!(allowed.contains(printed), "{arguments:?}: {errors:?}");
     }
 }
 
-/// What `--set` refuses, ranges refuse: the key of the other system, a value out of bounds.
+/// Ranges reject the same values as `--set`: the key of the other system of units, a value out of bounds.
 #[test]
-fn ranges_refuse_what_changes_refuse() {
+fn ranges_reject_the_same_values_as_changes() {
     let place = place("si_ranges");
     for (study, path, from, to, hint) in [
         ("pad.toml", "dither.amplitude", "1", "2", Some("dither.amplitude_n")),
@@ -366,26 +366,28 @@ fn ranges_refuse_what_changes_refuse() {
                 assert_eq!(errors[0]["suggestion"], hint, "{verb} {path}: {errors:?}");
             }
             let text = Json::from(errors.clone()).to_string();
-            // A study in SI is told of keys in SI.
+            // Messages for a study in SI name keys in SI.
             let foreign = study == "pad.toml" && text.contains("such as dither.amplitude or");
             assert!(!foreign, "{text}");
         }
     }
-    // What thresholds find is a peak: a root mean square depends on the waveform.
+    // Thresholds are peak values: the root mean square depends on the waveform.
     let rms = ["--parameter", "dither.amplitude_n_rms", "--from", "1", "--to", "2"];
     let errors = place.refused(&[&["thresholds", "pad.toml"][..], &rms].concat());
     assert_eq!(errors[0]["suggestion"], "dither.amplitude_n");
 }
 
 #[test]
-fn tables_are_in_si_with_units_that_programs_read() {
+fn tables_are_in_si_with_machine_readable_units() {
     let place = place("si_tables");
     let read = |name: &str| fs::read_to_string(place.folder.join(name)).expect("saved");
     let column = |text: &str, name: &str| -> Vec<String> {
         let mut rows = text.lines().filter(|line| !line.starts_with('#'));
         let names: Vec<&str> = rows.next().expect("names").split(',').collect();
-        let at =
-            names.iter().position(|it| *it == name).unwrap_or_else(|| panic!("{name}: {names:?}"));
+        let at = names
+            .iter()
+            .position(|item| *item == name)
+            .unwrap_or_else(|| panic!("{name}: {names:?}"));
         rows.map(|row| row.split(',').nth(at).expect("a cell").to_owned()).collect()
     };
     let number = |cell: &String| cell.parse::<f64>().expect("a number");
@@ -400,7 +402,7 @@ fn tables_are_in_si_with_units_that_programs_read() {
     );
     let last = number(column(&run_csv, "time").last().expect("rows"));
     assert!((last - 0.002).abs() < 1e-17, "{last}");
-    // Events: time, kind, sign, state, a row each, as in JSON.
+    // Events: time, kind, sign and state, one row each, as in JSON.
     let listed = run["events"].as_array().expect("events");
     assert!(!listed.is_empty());
     let times = column(&events, "time");
@@ -464,7 +466,7 @@ fn an_orbit_has_extremes_and_a_table() {
     );
     let names: Vec<&str> = rows[0].split(',').collect();
     let column = |name: &str| -> Vec<f64> {
-        let at = names.iter().position(|it| *it == name).expect(name);
+        let at = names.iter().position(|item| *item == name).expect(name);
         rows[1..]
             .iter()
             .map(|row| row.split(',').nth(at).expect("a cell").parse().expect("a number"))
@@ -483,7 +485,7 @@ fn an_orbit_has_extremes_and_a_table() {
         let (least, most) = values
             .iter()
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
-        // Samples come near the extremes and never beyond them.
+        // Samples approach the extremes and never exceed them.
         let span = high - low;
         assert!(low <= least && most <= high && span > 0.0, "{name}: {low} {least} {most} {high}");
         assert!(least - low < 1e-4 * span && high - most < 1e-4 * span, "{name}");
@@ -496,7 +498,7 @@ fn an_orbit_has_extremes_and_a_table() {
 }
 
 #[test]
-fn stability_says_growth_and_forces() {
+fn stability_reports_growth_and_forces() {
     let place = place("si_stability");
     let found = place.good(&["stability", "pad.toml"]);
     let finite = &found["sharper"];
@@ -517,7 +519,7 @@ fn stability_says_growth_and_forces() {
     let scaled =
         String::from_utf8(place.quell(&["stability", "scaled.toml"]).stdout).expect("UTF-8");
     assert!(scaled.contains("per unit τ") && !scaled.contains("dB/s"), "{scaled}");
-    // Where finite R has no averaging, the limit answers, and says so.
+    // If finite-R averaging does not apply, the limit R → ∞ is used, and the answer states that.
     let slow = place.good(&["stability", "scaled.toml", "--set", "dither.frequency_ratio=0.9"]);
     let sentence = slow["sentence"].as_str().expect("a sentence");
     assert!(

@@ -26,7 +26,7 @@ impl NativeAnswer {
 
     fn figure(&self) -> Result<Figure, Failure> {
         self.inner.figure().unwrap_or_else(|| {
-            let allowed = "there is no picture of this result";
+            let allowed = "this result has no picture";
             Err(Complaint::new(Fault::Usage, "plot", Origin::Whole, Json::Null, allowed).into())
         })
     }
@@ -34,7 +34,7 @@ impl NativeAnswer {
 
 #[pymethods]
 impl NativeAnswer {
-    /// What `--json` gives, as a dict.
+    /// The facts of the answer, as a dict.
     fn facts(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         convert::to_python(py, &self.inner.facts())
     }
@@ -43,10 +43,13 @@ impl NativeAnswer {
     fn datasets(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, Py<PyAny>)>> {
         let inner = Arc::clone(&self.inner);
         let found = py.detach(move || inner.datasets());
-        found.into_iter().map(|(name, it)| Ok((name, convert::dataset(py, it)?))).collect()
+        found
+            .into_iter()
+            .map(|(name, dataset)| Ok((name, convert::dataset(py, dataset)?)))
+            .collect()
     }
 
-    /// The picture as plain data, for matplotlib.
+    /// The picture as data, for matplotlib.
     fn description(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         let inner = Self { inner: Arc::clone(&self.inner) };
         let data = call::run(py, move || Ok(inner.figure()?.described()))?;
@@ -68,7 +71,7 @@ impl NativeAnswer {
         })
     }
 
-    /// Writes the datasets as CSV, those after the first beside it.
+    /// Writes the datasets as CSV; those after the first go to further files in the same folder.
     fn csv(&self, py: Python<'_>, path: PathBuf) -> PyResult<Vec<String>> {
         let inner = Arc::clone(&self.inner);
         call::run(py, move || {
@@ -77,7 +80,7 @@ impl NativeAnswer {
             let first = Output::prepare(&path, "path", &["csv"], &inputs)?;
             let datasets = inner.datasets();
             if datasets.is_empty() {
-                let allowed = "there is no table of this result";
+                let allowed = "this result has no table";
                 let origin = Origin::Whole;
                 return Err(
                     Complaint::new(Fault::Usage, "save", origin, Json::Null, allowed).into()
@@ -85,7 +88,7 @@ impl NativeAnswer {
             }
             let mut outputs = Vec::new();
             for (name, _) in datasets.iter().skip(1) {
-                outputs.push(first.beside(name, "path", &inputs)?);
+                outputs.push(first.sibling(name, "path", &inputs)?);
             }
             outputs.insert(0, first);
             for (output, (_, dataset)) in outputs.into_iter().zip(datasets) {

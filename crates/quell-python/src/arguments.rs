@@ -1,4 +1,4 @@
-//! Arguments that several verbs take: pairs of numbers, states, ends of a range.
+//! Arguments shared by several verbs: pairs of numbers, states, ends of a range.
 
 use quell::{Failure, quantity};
 use quell_model::units::{Quantity, Scales};
@@ -6,7 +6,7 @@ use quell_model::units::{Quantity, Scales};
 /// Two numbers in the system of the study, or with units.
 pub(crate) type Pair = (String, String);
 
-/// Two quantities in the numbers of the equations.
+/// Two quantities as dimensionless numbers of the equations.
 pub(crate) fn both(
     (first, second): &Pair,
     quantity: Quantity,
@@ -17,7 +17,7 @@ pub(crate) fn both(
     Ok((read(first)?, read(second)?))
 }
 
-/// A state: displacement and velocity in the numbers of the equations.
+/// A state: displacement and velocity as dimensionless numbers of the equations.
 pub(crate) fn state(
     (x, v): &Pair,
     scales: Option<Scales>,

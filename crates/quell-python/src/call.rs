@@ -1,8 +1,8 @@
-//! Work without the interpreter's lock, on a thread of its own, so that Ctrl-C is heard meanwhile.
+//! Computations that release the interpreter's lock and run on a separate thread, so that Ctrl-C is handled in the meantime.
 //!
-//! Python delivers signals to its main thread alone. There the work goes to another thread and the
-//! main thread looks for signals twenty times a second; elsewhere nobody can interrupt, and the work
-//! is done where it was called for. A panic ends neither: it becomes a failure that says so.
+//! Python delivers signals to its main thread only. A call from the main thread therefore runs on another thread, and the
+//! main thread checks for signals twenty times per second. A call from any other thread cannot be interrupted and runs on
+//! that thread. A panic does not end the process; it is converted to a failure.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -16,27 +16,27 @@ use quell::Failure;
 
 use crate::errors;
 
-/// How often signals are looked for.
+/// Interval between checks for signals.
 const TICK: Duration = Duration::from_millis(50);
 
-/// Stack of the thread that works: as large as that of a main thread.
+/// Stack size of the working thread (bytes): that of a main thread.
 const STACK: usize = 8 << 20;
 
-/// What is told meanwhile, and what is asked to stop.
+/// An observer of running work, which can also ask it to stop.
 pub(crate) trait Watch {
-    /// Called now and then while the work goes on.
+    /// Called repeatedly while the work is running.
     ///
     /// # Errors
-    /// Whatever shall end the work.
+    /// Any error that shall end the work.
     fn tick(&mut self, py: Python<'_>) -> PyResult<()>;
-    /// The work shall stop; whether it will, soon.
+    /// Asks the work to stop; returns whether it will stop soon.
     fn stop(&self) -> bool;
 }
 
-/// Nobody watches: what cannot be stopped goes on unheard until it ends, and its result is dropped.
-struct Nobody;
+/// No observer: after a signal the work continues in the background until it ends, and its result is dropped.
+struct Unwatched;
 
-impl Watch for Nobody {
+impl Watch for Unwatched {
     fn tick(&mut self, _py: Python<'_>) -> PyResult<()> {
         Ok(())
     }
@@ -46,22 +46,22 @@ impl Watch for Nobody {
     }
 }
 
-/// Does `work` without the interpreter's lock.
+/// Runs `work` without the interpreter's lock.
 ///
 /// # Errors
-/// What the work complains about, or a signal such as `KeyboardInterrupt`.
+/// The failure of the work, or a signal such as `KeyboardInterrupt`.
 pub(crate) fn run<T, W>(py: Python<'_>, work: W) -> PyResult<T>
 where
     T: Send + 'static,
     W: FnOnce() -> Result<T, Failure> + Send + 'static,
 {
-    watched(py, work, Nobody)
+    watched(py, work, Unwatched)
 }
 
-/// Does short `work` on this thread, without the interpreter's lock.
+/// Runs short `work` on this thread, without the interpreter's lock.
 ///
 /// # Errors
-/// What the work complains about.
+/// The failure of the work.
 pub(crate) fn here<T, W>(py: Python<'_>, work: W) -> PyResult<T>
 where
     T: Send,
@@ -70,11 +70,11 @@ where
     py.detach(|| guarded(work)).map_err(|failure| errors::raised(py, failure))
 }
 
-/// The same as [`run`], watched. After a signal the work is asked to stop, and waited for where it will, until there is
-/// another signal.
+/// As [`run`], with an observer. After a signal the work is asked to stop; if it will stop soon, this function waits for it
+/// until a second signal arrives.
 ///
 /// # Errors
-/// As [`run`], or what the watch refuses with.
+/// As [`run`], or an error of the observer.
 pub(crate) fn watched<T, W>(py: Python<'_>, work: W, mut watch: impl Watch) -> PyResult<T>
 where
     T: Send + 'static,
@@ -88,7 +88,7 @@ where
     let (sender, mut receiver) = sync_channel(1);
     let thread = thread::Builder::new().name("quell".to_owned()).stack_size(STACK);
     let started = thread.spawn(move || {
-        // Nobody listens any more after a signal.
+        // After a signal the receiver may no longer exist.
         let _ = sender.send(guarded(work));
     });
     started.map_err(|why| {
@@ -106,7 +106,7 @@ where
                 return done.map_err(|failure| errors::raised(py, failure));
             }
             Err(RecvTimeoutError::Disconnected) => {
-                return Err(errors::raised(py, internal("the work ended without an answer")));
+                return Err(errors::raised(py, internal("the computation ended without a result")));
             }
             Err(RecvTimeoutError::Timeout) => {
                 if let Err(signal) = py.check_signals().and_then(|()| watch.tick(py)) {
@@ -120,8 +120,8 @@ where
     }
 }
 
-/// Waits for work that was asked to stop, until it has or there is another signal. What it says at the end is said by
-/// the signal.
+/// Waits for work that was asked to stop, until it has stopped or another signal arrives. Its result is dropped; the caller
+/// returns the signal.
 fn wait<T: Send>(py: Python<'_>, mut receiver: Receiver<T>) {
     loop {
         let (back, got) = py.detach(move || {
@@ -129,19 +129,19 @@ fn wait<T: Send>(py: Python<'_>, mut receiver: Receiver<T>) {
             (receiver, got)
         });
         receiver = back;
-        let goes_on = matches!(got, Err(RecvTimeoutError::Timeout));
-        if !goes_on || py.check_signals().is_err() {
+        let is_running = matches!(got, Err(RecvTimeoutError::Timeout));
+        if !is_running || py.check_signals().is_err() {
             return;
         }
     }
 }
 
-/// Does the work; a panic becomes a failure.
+/// Runs the work; a panic is converted to a failure.
 fn guarded<T>(work: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
-    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(internal(&told(&*panic))))
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(internal(&message(&*panic))))
 }
 
-fn told(panic: &(dyn Any + Send)) -> String {
+fn message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
 }
@@ -149,11 +149,11 @@ fn told(panic: &(dyn Any + Send)) -> String {
 fn internal(why: &str) -> Failure {
     Failure::Failed {
         key: "quell".to_owned(),
-        why: format!("a fault of Quell, not of the study; please report it: {why}"),
+        why: format!("internal error of Quell, not of the study; please report it: {why}"),
     }
 }
 
-/// Whether this is the thread that Python gives signals to.
+/// Whether this is the thread to which Python delivers signals.
 fn on_main_thread(py: Python<'_>) -> PyResult<bool> {
     static MAIN: OnceLock<ThreadId> = OnceLock::new();
     if let Some(main) = MAIN.get() {

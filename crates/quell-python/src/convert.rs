@@ -1,4 +1,4 @@
-//! JSON and datasets as Python knows them.
+//! Conversion of JSON and datasets to Python objects.
 
 use numpy::IntoPyArray;
 use pyo3::IntoPyObjectExt;
@@ -7,7 +7,7 @@ use pyo3::types::{PyDict, PyList};
 use quell::dataset::{Array, Dataset};
 use serde_json::Value as Json;
 
-/// JSON as dicts, lists, numbers and words.
+/// JSON as dicts, lists, numbers and strings.
 pub(crate) fn to_python(py: Python<'_>, json: &Json) -> PyResult<Py<PyAny>> {
     match json {
         Json::Null => Ok(py.None()),
@@ -32,19 +32,19 @@ pub(crate) fn to_python(py: Python<'_>, json: &Json) -> PyResult<Py<PyAny>> {
     }
 }
 
-/// A dataset: where it comes from, its axes, its arrays. The numbers change hands, they are not copied.
+/// A dataset: provenance, axes, arrays. The numbers are moved, not copied.
 pub(crate) fn dataset(py: Python<'_>, dataset: Dataset) -> PyResult<Py<PyAny>> {
     let (provenance, axes, arrays) = dataset.into_parts();
-    let told = PyDict::new(py);
-    told.set_item("verb", provenance.verb)?;
-    told.set_item("title", provenance.title)?;
-    told.set_item("study", provenance.text)?;
-    told.set_item("changes", provenance.changes)?;
-    told.set_item("facts", provenance.facts)?;
+    let origin = PyDict::new(py);
+    origin.set_item("verb", provenance.verb)?;
+    origin.set_item("title", provenance.title)?;
+    origin.set_item("study", provenance.text)?;
+    origin.set_item("changes", provenance.changes)?;
+    origin.set_item("facts", provenance.facts)?;
     let list = |arrays: Vec<Array>| -> PyResult<Vec<Py<PyAny>>> {
-        arrays.into_iter().map(|it| array(py, it)).collect()
+        arrays.into_iter().map(|one| array(py, one)).collect()
     };
-    (told, list(axes)?, list(arrays)?).into_py_any(py)
+    (origin, list(axes)?, list(arrays)?).into_py_any(py)
 }
 
 /// (name, (unit, scaling), values, words): codes of words are bytes.

@@ -1,7 +1,7 @@
-//! Failures as exceptions: `quell.StudyError` with every complaint, `quell.RunError` where the work failed.
+//! Failures as exceptions: `quell.StudyError` with every complaint, `quell.RunError` if a computation failed.
 //!
-//! The classes are Python's (`quell._errors`). What names an option of the command line names the argument of the
-//! method instead (`words`); complaints have no line where there was no file.
+//! The classes are defined in Python (`quell._errors`). Names of command line options are replaced by names of arguments
+//! (`words`); complaints have no line number if the study was not read from a file.
 
 use pyo3::prelude::*;
 use pyo3::types::PyList;
@@ -32,7 +32,7 @@ fn exception(py: Python<'_>, failure: Failure) -> PyResult<PyErr> {
     Ok(PyErr::from_value(value))
 }
 
-/// A complaint in the words of Python.
+/// A complaint in terms of the Python API.
 fn pythonic(mut complaint: Complaint) -> Complaint {
     if let Origin::Argument(_) = complaint.origin {
         complaint.origin = Origin::Whole;
@@ -42,7 +42,7 @@ fn pythonic(mut complaint: Complaint) -> Complaint {
     complaint
 }
 
-/// Complaints of a study that was not read from a file: lines of its text mean nothing to who made it.
+/// Complaints of a study that was not read from a file, whose line numbers have no meaning for the user.
 pub(crate) fn without_lines(complaints: Complaints) -> Complaints {
     let without = |complaint| Complaint { origin: Origin::Whole, ..complaint };
     Complaints::from(complaints.into_iter().map(without).collect::<Vec<_>>())

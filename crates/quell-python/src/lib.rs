@@ -1,18 +1,17 @@
-//! The native part of the Python package `quell`: studies, their verbs, and what they answer.
+//! The native part of the Python package `quell`: studies, their verbs, and the answers.
 //!
-//! A door like the command line: it turns arguments into the front door's, runs without the lock of
-//! the interpreter, and hands numbers over. What a study may say is judged by the front door alone;
-//! classes, plots and datasets are Python's (`python/quell`).
+//! Like the command line, it converts arguments, calls the library `quell` without the interpreter's lock, and converts the
+//! numbers. Studies are validated by the library only; classes, plots and datasets are written in Python (`python/quell`).
 //!
-//! | file | what |
+//! | file | content |
 //! |---|---|
 //! | `study` | a checked study and its verbs |
-//! | `verbs` | one file per verb: arguments in, an answer out |
-//! | `answer` | facts, arrays and the picture of what was computed |
+//! | `verbs` | one file per verb: arguments in, answer out |
+//! | `answer` | facts, arrays and the picture of an answer |
 //! | `reference` | reference numbers for a self-test |
 //! | `shared` | maps that several processes compute into one store |
-//! | `call` | work without the interpreter's lock; Ctrl-C; panics become errors |
-//! | `convert`, `errors`, `words` | JSON, arrays and complaints as Python knows them |
+//! | `call` | computations without the interpreter's lock; Ctrl-C; panics become errors |
+//! | `convert`, `errors`, `words` | JSON, arrays and complaints as Python objects |
 
 mod answer;
 mod arguments;

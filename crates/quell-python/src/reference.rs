@@ -1,8 +1,8 @@
-//! Reference numbers: what `python -m quell.selftest` holds an installation to.
+//! Reference numbers with which `python -m quell.selftest` compares an installation.
 
 use pyo3::prelude::*;
 
-/// Files of `reference/`, which says where they come from.
+/// Files of `reference/`, which also documents their origin.
 const FILES: &[(&str, &str)] = &[
     ("averaging", include_str!("../../../reference/averaging.json")),
     ("trajectories", include_str!("../../../reference/trajectories.json")),
@@ -12,13 +12,13 @@ const FILES: &[(&str, &str)] = &[
     ("disc_modes", include_str!("../../../reference/disc_modes.json")),
 ];
 
-/// A unit as unit packages read it, and what the numbers are scaled by.
+/// A unit in the notation of unit packages such as pint, and the scale of the numbers.
 #[pyfunction]
 pub(crate) fn readable_unit(unit: &str) -> (String, String) {
     quell::dataset::readable(unit)
 }
 
-/// The text of a reference file; none where there is none of that name.
+/// The text of a reference file; `None` if no file has that name.
 #[pyfunction]
 pub(crate) fn reference(name: &str) -> Option<&'static str> {
     FILES.iter().find(|(file, _)| *file == name).map(|(_, text)| *text)

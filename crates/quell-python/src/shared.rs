@@ -1,4 +1,4 @@
-//! A map that several processes compute into one store: what a scheduler in Python hands out.
+//! A map that several processes compute into one store, for schedulers in Python.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ pub(crate) struct NativeShared {
 
 #[pymethods]
 impl NativeShared {
-    /// Opens the store, or makes it.
+    /// Opens the store, or creates it.
     #[staticmethod]
     fn open(
         py: Python<'_>,
@@ -45,13 +45,13 @@ impl NativeShared {
         call::run(py, move || inner.unrecorded())
     }
 
-    /// Chunks that the store does not have whole; every one is read.
+    /// Chunks that are missing or damaged; all chunks are read to find them.
     fn missing(&self, py: Python<'_>) -> PyResult<Vec<usize>> {
         let inner = Arc::clone(&self.inner);
         call::run(py, move || Ok(inner.missing()))
     }
 
-    /// Refuses what is no shard `k/n`, before there is a store.
+    /// Rejects a text that is not a shard `k/n`, before a store is created.
     #[staticmethod]
     fn check_shard(py: Python<'_>, text: &str) -> PyResult<()> {
         read(py, text).map(drop)
@@ -75,7 +75,7 @@ impl NativeShared {
         Ok((facts, done.part.elapsed.as_secs_f64()))
     }
 
-    /// Computes those of the chunks that the store does not have: (computed, there, damaged, points, seconds).
+    /// Computes those of the chunks that are not in the store: (computed, there, damaged, points, seconds).
     #[pyo3(signature = (chunks, threads, progress))]
     fn compute(
         &self,

@@ -25,21 +25,21 @@ use crate::{call, errors};
 #[pyclass(name = "NativeStudy", module = "quell._quell", frozen)]
 pub(crate) struct NativeStudy {
     inner: Arc<Study>,
-    /// Where a file of modes is looked for.
+    /// Folder in which a file of modes is searched.
     folder: PathBuf,
     changes: Vec<(String, String)>,
     /// Axes in place of those of the text, each as (key, value).
     axes: Option<Vec<Axis>>,
-    /// Whether its lines mean something to who made it.
+    /// Whether line numbers are meaningful to the user.
     has_lines: bool,
-    /// The file that it was read from, which is no output.
+    /// The file from which it was read, which must not be an output.
     file: Option<PathBuf>,
 }
 
 /// Keys and values of an axis.
 type Axis = Vec<(String, String)>;
 
-/// What makes a study again: text, folder, changes, axes, whether it has lines, and the file that it was read from.
+/// Everything needed to rebuild a study: text, folder, changes, axes, whether it has lines, and the file from which it was read.
 type Parts = (String, PathBuf, Vec<(String, String)>, Option<Vec<Axis>>, bool, Option<PathBuf>);
 
 impl NativeStudy {
@@ -89,7 +89,7 @@ fn change((path, value): &(String, String)) -> Change {
 
 #[pymethods]
 impl NativeStudy {
-    /// Checks a study made of its parts.
+    /// Builds and checks a study from its parts.
     #[staticmethod]
     fn parse(py: Python<'_>, parts: Parts) -> PyResult<Self> {
         Self::made(py, parts)
@@ -99,7 +99,7 @@ impl NativeStudy {
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf, changes: Vec<(String, String)>) -> PyResult<Self> {
         let made = changes.clone();
-        // Whoever changes it may have gone elsewhere.
+        // The working directory may differ when the study is changed later.
         let file = std::path::absolute(&path).ok();
         let folder = file.as_deref().unwrap_or(&path).parent().unwrap_or(Path::new("")).to_owned();
         let study = call::here(py, move || {
@@ -109,7 +109,7 @@ impl NativeStudy {
         Ok(Self { inner: Arc::new(study), folder, changes, axes: None, has_lines: true, file })
     }
 
-    /// The same study with values changed, as `--set path=value` changes them.
+    /// The same study with values changed as by `--set path=value`.
     fn changed(&self, py: Python<'_>, changes: Vec<(String, String)>) -> PyResult<Self> {
         let (text, folder, mut all, axes, has_lines, file) = self.parts();
         all.extend(changes);
@@ -122,10 +122,11 @@ impl NativeStudy {
         Self::made(py, (text, folder, changes, Some(axes), has_lines, file))
     }
 
-    /// What makes this study again: text, folder, changes, axes, whether it has lines, and the file that it was read from.
+    /// Everything needed to rebuild this study: text, folder, changes, axes, whether it has lines, and the file from which it
+    /// was read.
     fn parts(&self) -> Parts {
         let text = self.inner.text().to_owned();
-        // Whoever makes it again may run elsewhere.
+        // The study may be rebuilt in another working directory.
         let folder = std::env::current_dir()
             .map_or_else(|_| self.folder.clone(), |here| here.join(&self.folder));
         let file = self.file.clone();
@@ -138,7 +139,7 @@ impl NativeStudy {
         self.inner.kind().name()
     }
 
-    /// The title, where there is one.
+    /// The title, if any.
     #[getter]
     fn title(&self) -> Option<&str> {
         self.inner.title()
@@ -160,7 +161,7 @@ impl NativeStudy {
         call::here(py, move || cite::run(&study))
     }
 
-    /// `at`: slip velocities in the system of the study, `texts`: such with units; a grid of them where there are none.
+    /// `at`: slip velocities in the units of the study; `texts`: slip velocities with units. If both are empty, a grid is used.
     #[pyo3(signature = (at, texts))]
     fn friction(
         &self,
@@ -195,7 +196,7 @@ impl NativeStudy {
         call::run(py, move || response::run(&study))
     }
 
-    /// `after`: the name of a start, or `start`, whose run is followed to its response.
+    /// `after`: name of a start; or `start`: a state. The run from there is followed to its response.
     #[pyo3(signature = (near, periods, after, start))]
     fn orbit(
         &self,
@@ -209,7 +210,7 @@ impl NativeStudy {
         call::run(py, move || orbit::run(&study, near.as_ref(), periods, &after, start.as_ref()))
     }
 
-    /// `protocols`: names of starts, and a start of its own.
+    /// `protocols`: names of starts; `start`: a further start as a state.
     #[pyo3(signature = (parameter, range, protocols, start, ramp))]
     fn thresholds(
         &self,
@@ -226,7 +227,7 @@ impl NativeStudy {
         })
     }
 
-    /// Curves of thresholds in the plane of two parameters.
+    /// Threshold curves in the plane of two parameters.
     fn threshold_curves(
         &self,
         py: Python<'_>,
@@ -239,7 +240,7 @@ impl NativeStudy {
         call::run(py, move || thresholds::run_along(&study, parameter, &range, along, &between))
     }
 
-    /// `ways`: whether up and whether down is asked for.
+    /// `ways`: whether the sweep up and the sweep down are requested.
     #[pyo3(signature = (parameter, range, points, ways, progress))]
     fn bifurcation(
         &self,
@@ -259,8 +260,8 @@ impl NativeStudy {
         bifurcation::run(py, self.study(), request, progress)
     }
 
-    /// `window`: displacements and velocities; `layout`: a grid, or states and seed in place of it; `over`: a
-    /// parameter with its ends and points.
+    /// `window`: displacements and velocities; `layout`: a grid, or instead a number of random states and a seed; `over`: a
+    /// parameter with the ends of its range and the number of values.
     #[pyo3(signature = (window, layout, over, threads, progress))]
     fn basins(
         &self,
@@ -314,7 +315,7 @@ impl NativeStudy {
         call::run(py, move || resonances::run(&study, &order, [speeds, clear, frequency]))
     }
 
-    /// `progress`: called with the points that are there and all points.
+    /// `progress`: called with the number of finished points and the number of all points.
     #[pyo3(signature = (quantities, store, resume, threads, progress))]
     fn map(
         &self,

@@ -1,10 +1,10 @@
-//! Words of the command line in those of Python.
+//! Translation of messages from the command line to the Python API.
 //!
-//! What is done in another way in Python is listed; any other option is named as the argument that it is. Code between
-//! backticks stays as it is, and so do dashes within a word or a path.
+//! Phrases that differ in Python are listed; any other option is replaced by the name of the corresponding argument. Code
+//! between backticks and dashes within a word or a path are left unchanged.
 
-/// Ways of the command line, and what they are in Python.
-const WAYS: &[(&str, &str)] = &[
+/// Phrases of the command line, and their replacements in Python.
+const PHRASES: &[(&str, &str)] = &[
     ("the same command with --resume goes on", "the same call with resume=True goes on"),
     ("the same command with --resume continues", "the same call with resume=True continues"),
     ("--resume goes on", "resume=True goes on"),
@@ -18,18 +18,19 @@ const WAYS: &[(&str, &str)] = &[
     ("`quell stability` and `quell map --quantity growth`", "`stability()` and `map(\"growth\")`"),
 ];
 
-/// A text in the words of Python.
+/// A message in terms of the Python API.
 pub(crate) fn in_python(text: &str) -> String {
-    let text = WAYS.iter().fold(text.to_owned(), |text, (way, word)| text.replace(way, word));
+    let text =
+        PHRASES.iter().fold(text.to_owned(), |text, (phrase, new)| text.replace(phrase, new));
     let parts = text.split('`').enumerate();
     // Every second part is code.
-    let told: Vec<String> = parts
+    let translated: Vec<String> = parts
         .map(|(number, part)| if number % 2 == 0 { without_options(part) } else { part.to_owned() })
         .collect();
-    told.join("`")
+    translated.join("`")
 }
 
-/// The argument that a key is where it is an option; else the key itself.
+/// The name of the argument if a key is an option, else the key itself.
 pub(crate) fn key_in_python(key: &str) -> String {
     match key.strip_prefix("--") {
         Some(name) if !name.is_empty() && name_length(name) == name.len() => argument(name),
@@ -37,7 +38,7 @@ pub(crate) fn key_in_python(key: &str) -> String {
     }
 }
 
-/// The argument that an option is, without its dashes.
+/// The name of the argument for an option without its dashes.
 fn argument(option: &str) -> String {
     match option {
         "from" => "from_".to_owned(),
@@ -46,28 +47,30 @@ fn argument(option: &str) -> String {
     }
 }
 
-/// A text without code, with arguments in place of options.
+/// A text without code, with names of arguments in place of options.
 fn without_options(text: &str) -> String {
-    let (mut told, mut rest) = (String::new(), text);
+    let (mut translated, mut rest) = (String::new(), text);
     while let Some(place) = rest.find("--") {
         let (before, behind) = (&rest[..place], &rest[place + 2..]);
-        told.push_str(before);
-        let within = told.ends_with(|it: char| it.is_alphanumeric() || "-_./\\".contains(it));
+        translated.push_str(before);
+        let within = translated
+            .ends_with(|letter: char| letter.is_alphanumeric() || "-_./\\".contains(letter));
         let (name, further) = behind.split_at(name_length(behind));
         if name.is_empty() || within {
-            told.push_str("--");
-            told.push_str(name);
+            translated.push_str("--");
+            translated.push_str(name);
         } else {
-            told.push_str(&argument(name));
+            translated.push_str(&argument(name));
         }
         rest = further;
     }
-    told + rest
+    translated + rest
 }
 
-/// Length of the name of an option with which a text begins: words of small letters with a dash between them.
+/// Length of the name of an option at the beginning of a text: words in lower case, separated by dashes.
 fn name_length(text: &str) -> usize {
-    let word = |text: &str| text.find(|it: char| !it.is_ascii_lowercase()).unwrap_or(text.len());
+    let word =
+        |text: &str| text.find(|letter: char| !letter.is_ascii_lowercase()).unwrap_or(text.len());
     let mut length = word(text);
     while length > 0 && text[length..].starts_with('-') {
         let next = word(&text[length + 1..]);

@@ -74,7 +74,7 @@ def test_ctrl_c_stops_a_map_and_keeps_what_is_done(tmp_path: Any) -> None:
     store = tmp_path / "m.zarr"
     seen: list[tuple[int, int]] = []
     interrupted(lambda: study.map("efficiency", store=store, progress=lambda *it: seen.append(it)))
-    with pytest.raises(quell.StudyError, match="resume=True goes on with it"):
+    with pytest.raises(quell.StudyError, match="resume=True continues it"):
         study.map("efficiency", store=store)
     small = study.sweeping({"dither.amplitude": [0.1, 0.4]})
     with pytest.raises(quell.StudyError, match="another map"):
@@ -223,7 +223,7 @@ def test_failures_name_arguments_not_options(key: str, words: str, call: Any, be
 def test_failures_of_stores_and_pictures_name_arguments(belt: quell.Belt, tmp_path: Any) -> None:
     axes = {"dither.amplitude": [0.1, 0.2]}
     belt.map("growth", axes, store=tmp_path / "m.zarr")
-    with pytest.raises(quell.StudyError, match="resume=True goes on with it") as refused:
+    with pytest.raises(quell.StudyError, match="resume=True continues it") as refused:
         belt.map("growth", axes, store=tmp_path / "m.zarr")
     assert [it["key"] for it in refused.value.errors] == ["store"] and "--" not in str(refused.value)
     sliding = quell.Belt(**{**BELT, "damping_ratio": 0.5}).orbit()

@@ -7,7 +7,7 @@ use words::{in_python, key_in_python};
 
 #[test]
 fn options_are_named_as_arguments() {
-    for (text, told) in [
+    for (text, expected) in [
         ("a number above --from 2", "a number above from_ 2"),
         (
             "requires --from-rest, --from-sliding, --from-squeal or --start: it ramps up",
@@ -22,16 +22,16 @@ fn options_are_named_as_arguments() {
         ("--ramp-", "ramp-"),
         ("", ""),
     ] {
-        assert_eq!(in_python(text), told);
+        assert_eq!(in_python(text), expected);
     }
 }
 
 #[test]
 fn ways_are_those_of_python() {
-    for (text, told) in [
+    for (text, expected) in [
         (
-            "exists already: --resume goes on with it; or choose another name",
-            "exists already: resume=True goes on with it; or choose another name",
+            "already exists: --resume continues it; or choose another name",
+            "already exists: resume=True continues it; or choose another name",
         ),
         (
             "stopped; 3 of 4 chunks kept, 1 left: the same command with --resume continues",
@@ -47,7 +47,7 @@ fn ways_are_those_of_python() {
             "several loads; `stability()` and `map(\"growth\")` take any number of loads",
         ),
     ] {
-        assert_eq!(in_python(text), told);
+        assert_eq!(in_python(text), expected);
     }
 }
 
@@ -68,7 +68,7 @@ fn code_paths_and_dashes_stay() {
 
 #[test]
 fn keys_that_are_options_are_arguments() {
-    for (key, told) in [
+    for (key, expected) in [
         ("--from", "from_"),
         ("--from-rest", "from_rest"),
         ("--threads", "threads"),
@@ -78,6 +78,6 @@ fn keys_that_are_options_are_arguments() {
         ("--", "--"),
         ("--m.zarr", "--m.zarr"),
     ] {
-        assert_eq!(key_in_python(key), told);
+        assert_eq!(key_in_python(key), expected);
     }
 }

@@ -1,10 +1,10 @@
-//! Labelled arrays with units and where they come from; CSV.
+//! Labelled arrays with units and provenance, and their CSV form.
 //!
-//! Arrays lie over the product of the axes, the last axis fastest. CSV is one row a point,
-//! axes first, after a header of comment lines (`pandas.read_csv(…, comment="#")`).
+//! Arrays have one value per point of the product of the axes, the last axis fastest. CSV has one row per point, axes first,
+//! after a header of comment lines (`pandas.read_csv(…, comment="#")`).
 //!
-//! Numbers are in the units of the study: in SI where the study is. Units are words that programs read (`m/s`,
-//! `dimensionless`); what a number without dimension is scaled by stands beside them.
+//! Numbers are in the units of the study: in SI if the study is in SI. Units are machine-readable (`m/s`, `dimensionless`);
+//! the scale of a dimensionless number is given separately.
 
 use std::fmt::Write as _;
 
@@ -20,28 +20,28 @@ pub struct Array {
     pub name: String,
     /// Unit, as unit packages such as pint read it.
     pub unit: String,
-    /// What a number of the equations is scaled by, such as `1/ω₀`; empty where there is nothing to say.
+    /// The scale of a dimensionless number of the equations, such as `1/ω₀`; empty if it has none.
     pub scaling: String,
-    /// Values; NaN only where there is none.
+    /// Values; NaN only where a value is missing.
     pub values: Vec<f64>,
-    /// Words that the values are codes of; empty where they are numbers.
+    /// Words with their codes if the values are codes; empty if they are numbers.
     pub words: Vec<(u8, &'static str)>,
 }
 
 impl Array {
-    /// Numbers.
+    /// An array of numbers.
     pub fn new(name: impl Into<String>, unit: impl Into<String>, values: Vec<f64>) -> Self {
         let (unit, scaling) = readable(&unit.into());
         Self { name: name.into(), unit, scaling, values, words: Vec::new() }
     }
 
-    /// Codes of words.
+    /// An array of codes of words.
     pub fn of_words(name: impl Into<String>, words: Vec<(u8, &'static str)>, codes: &[u8]) -> Self {
         let values = codes.iter().copied().map(f64::from).collect();
         Self { words, ..Self::new(name, "1", values) }
     }
 
-    /// A value as it stands in CSV; empty where there is none.
+    /// Appends a value in its CSV form; nothing if it is missing.
     fn write(&self, value: f64, text: &mut String) {
         if !self.words.is_empty() {
             let word = self.words.iter().find(|(code, _)| f64::from(*code) == value);
@@ -53,10 +53,10 @@ impl Array {
     }
 }
 
-/// Where a dataset comes from.
+/// Provenance of a dataset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Provenance {
-    /// What was computed, such as `simulate`.
+    /// The verb that computed it, such as `simulate`.
     pub verb: &'static str,
     /// Title of the study.
     pub title: Option<String>,
@@ -83,7 +83,7 @@ impl Dataset {
         Self::of(&Study::from(study), verb)
     }
 
-    /// An empty dataset of a study of whatever it is about.
+    /// An empty dataset of a study of any kind.
     pub fn of(study: &Study, verb: &'static str) -> Self {
         Self {
             provenance: Provenance {
@@ -106,13 +106,13 @@ impl Dataset {
         self
     }
 
-    /// Adds an axis of numbers of the equations: in SI in a study in SI; a single axis also under the name that carries
-    /// the unit, as an array.
+    /// Adds an axis of numbers of the equations, converted to SI in a study in SI. A single axis is also added as an array
+    /// under its name with the suffix of the unit.
     #[must_use]
     pub fn axis(mut self, name: &str, quantity: Quantity, values: Vec<f64>) -> Self {
         let (axis, suffix) = self.in_units(name, quantity, values);
         match self.axes.first().map(|first| format!("{}_", first.name)) {
-            // Over several axes an array of the length of one is none.
+            // With several axes, an array of the length of one axis would be invalid.
             Some(twin) => self.arrays.retain(|array| !array.name.starts_with(&twin)),
             None => self.arrays.extend(twin(&axis, suffix)),
         }
@@ -120,7 +120,8 @@ impl Dataset {
         self
     }
 
-    /// Adds an array of numbers of the equations: in SI in a study in SI, also under the name that carries the unit.
+    /// Adds an array of numbers of the equations; in a study in SI converted to SI, and also under its name with the suffix of
+    /// the unit.
     #[must_use]
     pub fn array(mut self, name: &str, quantity: Quantity, values: Vec<f64>) -> Self {
         let (array, suffix) = self.in_units(name, quantity, values);
@@ -128,7 +129,7 @@ impl Dataset {
         self
     }
 
-    /// Adds slopes per unit velocity: in a study in SI per m/s.
+    /// Adds slopes per unit velocity; per m/s in a study in SI.
     #[must_use]
     pub fn per_velocity(mut self, name: &str, mut values: Vec<f64>) -> Self {
         let (unit, si_unit, suffix) = PER_VELOCITY;
@@ -144,14 +145,14 @@ impl Dataset {
         self
     }
 
-    /// Adds an axis as it is.
+    /// Adds an axis without conversion.
     #[must_use]
     pub fn with_axis(mut self, axis: Array) -> Self {
         self.axes.push(axis);
         self
     }
 
-    /// Adds an array as it is.
+    /// Adds an array without conversion.
     #[must_use]
     pub fn with(mut self, array: Array) -> Self {
         self.arrays.push(array);
@@ -168,17 +169,17 @@ impl Dataset {
         &self.arrays
     }
 
-    /// Where it comes from, the axes, and the arrays: what hands them on without copying.
+    /// Consumes the dataset and returns provenance, axes and arrays without copying.
     pub fn into_parts(self) -> (Provenance, Vec<Array>, Vec<Array>) {
         (self.provenance, self.axes, self.arrays)
     }
 
-    /// Where it comes from.
+    /// The provenance.
     pub fn provenance(&self) -> &Provenance {
         &self.provenance
     }
 
-    /// An array in the units of the study, and the suffix that names its unit in SI.
+    /// An array in the units of the study, and the suffix of its SI unit.
     fn in_units(
         &self,
         name: &str,
@@ -195,14 +196,14 @@ impl Dataset {
         (Array::new(name, unit, values), Some(suffix))
     }
 
-    /// Adds an array, and the same under its name with the suffix.
+    /// Adds an array, and a copy under its name with the suffix.
     fn push_both(&mut self, array: Array, suffix: Option<&str>) {
         let twin = twin(&array, suffix);
         self.arrays.push(array);
         self.arrays.extend(twin);
     }
 
-    /// As CSV.
+    /// The dataset as CSV.
     pub fn csv(&self) -> String {
         let mut text = self.header();
         let names: Vec<&str> =
@@ -243,7 +244,7 @@ impl Dataset {
             .map(|array| format!("{} [{}]", array.name, array.unit))
             .collect();
         lines.push(format!("units: {}", units.join(", ")));
-        let scaled = self.axes.iter().chain(&self.arrays).filter(|it| !it.scaling.is_empty());
+        let scaled = self.axes.iter().chain(&self.arrays).filter(|array| !array.scaling.is_empty());
         let scalings: Vec<String> =
             scaled.map(|array| format!("{} [{}]", array.name, array.scaling)).collect();
         if !scalings.is_empty() {
@@ -261,19 +262,19 @@ impl Dataset {
     }
 }
 
-/// The same array under its name with the suffix of its unit.
+/// A copy of an array under its name with the suffix of its unit.
 fn twin(array: &Array, suffix: Option<&str>) -> Option<Array> {
     suffix.map(|suffix| Array { name: format!("{}_{suffix}", array.name), ..array.clone() })
 }
 
-/// A unit as unit packages read it, and what the numbers are scaled by.
+/// A unit in the notation of unit packages such as pint, and the scale of the numbers.
 pub fn readable(unit: &str) -> (String, String) {
     let (head, inner) = unit.split_once(" (").unwrap_or((unit, ""));
     let scaling = inner.strip_suffix(')').unwrap_or(inner);
     match head {
         "" | "1" => ("dimensionless".to_owned(), scaling.to_owned()),
         "degrees" => ("degree".to_owned(), scaling.to_owned()),
-        // Decibels are logarithms, which unit packages treat each in its own way.
+        // Decibels are logarithmic, and unit packages treat them differently.
         "dB/s" => ("1/s".to_owned(), "dB".to_owned()),
         _ if head.contains('ω') || head.contains("length") => {
             ("dimensionless".to_owned(), unit.to_owned())
@@ -294,7 +295,7 @@ mod tests {
         reference_velocity = 1\n";
 
     #[test]
-    fn rows_run_through_the_product_of_the_axes() {
+    fn rows_enumerate_the_product_of_the_axes() {
         let study = BeltStudy::parse(TEXT, &[]).expect("valid");
         let csv = Dataset::new(&study, "map")
             .axis("a", Quantity::Ratio, vec![1.0, 2.0])
@@ -312,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn a_study_in_si_has_its_numbers_in_si() {
+    fn the_numbers_of_a_study_in_si_are_in_si() {
         let text = TEXT
             .replace("damping_ratio = 0", "mass_kg = 2\nstiffness_n_per_m = 200\ndamping_ratio = 0")
             .replace("normal_load", "normal_force_n")
@@ -336,7 +337,7 @@ mod tests {
     }
 
     #[test]
-    fn units_are_words_that_programs_read() {
+    fn units_are_machine_readable() {
         for (unit, wanted, scaling) in [
             ("1", "dimensionless", ""),
             ("length (force/k)", "dimensionless", "length (force/k)"),

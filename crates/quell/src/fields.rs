@@ -1,14 +1,13 @@
-//! Fields of a result in JSON: names, units, SI twins, and why something is null.
+//! Fields of a result in JSON: names, units, SI values, and reasons for null values.
 //!
-//! In a study in SI each field `x` stands beside its twin with the suffix of its unit
-//! (`time`, `time_s`). `units` names the unit of every field; `why` says for every null why
-//! it is one.
+//! In a study in SI, each field is accompanied by a second one in SI, whose name has the unit as a suffix (`time`, `time_s`).
+//! `units` contains the unit of every field, and `why` the reason for every null.
 
 use crate::quantity::unit_of;
 use quell_model::units::{Quantity, Scales};
 use serde_json::{Map, Value as Json};
 
-/// A slope per unit velocity: its unit, its SI unit, and the suffix for that.
+/// A slope per unit velocity: its unit, its SI unit, and the suffix of the SI unit.
 pub(crate) const PER_VELOCITY: (&str, &str, &str) =
     ("1/length (per velocity/ω₀)", "s/m", "s_per_m");
 
@@ -32,23 +31,23 @@ impl Fields {
         self.scales
     }
 
-    /// A word, a flag, a count, or anything else without unit.
+    /// Adds a word, a flag, a count, or any other value without unit.
     pub fn plain(&mut self, name: &str, value: impl Into<Json>) -> &mut Self {
         self.object.insert(name.to_owned(), value.into());
         self
     }
 
-    /// Null, and why.
+    /// Adds null, with the reason.
     pub fn unknown(&mut self, name: &str, why: impl Into<String>) -> &mut Self {
         self.plain(name, Json::Null).why(name, why)
     }
 
-    /// A quantity, with its SI twin in a study in SI.
+    /// Adds a quantity, and in a study in SI also its SI value.
     pub fn number(&mut self, name: &str, quantity: Quantity, value: f64) -> &mut Self {
         self.known(name, quantity, Ok(value))
     }
 
-    /// A quantity, or null and why.
+    /// Adds a quantity, or null with the reason.
     pub fn known(
         &mut self,
         name: &str,
@@ -56,7 +55,7 @@ impl Fields {
         value: Result<f64, String>,
     ) -> &mut Self {
         let value = value.and_then(|value| {
-            if value.is_finite() { Ok(value) } else { Err(format!("it is {value}")) }
+            if value.is_finite() { Ok(value) } else { Err(format!("the value is {value}")) }
         });
         let twin = self.twin(name, quantity);
         self.name_units(name, quantity, twin.as_ref());
@@ -77,7 +76,7 @@ impl Fields {
         self
     }
 
-    /// An array of a quantity; what is not finite becomes null.
+    /// Adds an array of a quantity; values that are not finite become null.
     pub fn numbers(&mut self, name: &str, quantity: Quantity, values: &[f64]) -> &mut Self {
         let twin = self.twin(name, quantity);
         self.name_units(name, quantity, twin.as_ref());
@@ -89,7 +88,7 @@ impl Fields {
         self
     }
 
-    /// An array of slopes per unit velocity, in SI per m/s.
+    /// Adds an array of slopes per unit velocity, in SI per m/s.
     pub fn per_velocity(&mut self, name: &str, values: &[f64]) -> &mut Self {
         self.object.insert(name.to_owned(), values.into());
         self.units.insert(name.to_owned(), PER_VELOCITY.0.into());
@@ -103,7 +102,7 @@ impl Fields {
         self
     }
 
-    /// A growth rate per unit τ, in SI per second; or null and why.
+    /// Adds a growth rate per unit τ, in SI per second; or null with the reason.
     pub fn rate(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
         self.units.insert(name.to_owned(), "ω₀".into());
         let twin = self.scales.map(|scales| (format!("{name}_per_s"), scales.angular_frequency()));
@@ -127,7 +126,7 @@ impl Fields {
         self
     }
 
-    /// A growth in decibels per second, of a study in SI; or null and why.
+    /// Adds a growth rate in decibels per second, of a study in SI; or null with the reason.
     pub fn decibels(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
         self.units.insert(name.to_owned(), "dB/s".into());
         match value {
@@ -136,14 +135,14 @@ impl Fields {
         }
     }
 
-    /// An object inside this one.
+    /// Adds an object inside this one.
     pub fn nested(&mut self, name: &str, inner: Self) -> &mut Self {
         let object = self.take(name, inner);
         self.object.insert(name.to_owned(), Json::Object(object));
         self
     }
 
-    /// An array of objects.
+    /// Adds an array of objects.
     pub fn list(&mut self, name: &str, items: impl IntoIterator<Item = Self>) -> &mut Self {
         let items: Vec<Json> = items
             .into_iter()
@@ -154,7 +153,7 @@ impl Fields {
         self
     }
 
-    /// Says why an element of what was put, `name[index]`, is null; [`Fields::unknown`] is for a whole field.
+    /// Adds the reason why an element `name[index]` is null; for a whole field see [`Fields::unknown`].
     pub fn why(&mut self, name: &str, why: impl Into<String>) -> &mut Self {
         self.why.insert(name.to_owned(), why.into().into());
         self
@@ -190,7 +189,7 @@ impl Fields {
         }
     }
 
-    /// Takes over the units and reasons of an inner object.
+    /// Adopts the units and reasons of an inner object, and returns its fields.
     fn take(&mut self, path: &str, inner: Self) -> Map<String, Json> {
         for (name, unit) in inner.units {
             self.units.insert(name, unit);
@@ -207,7 +206,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_study_in_si_answers_in_both() {
+    fn a_study_in_si_has_dimensionless_and_si_fields() {
         let scales = Scales::new(2.0, 200.0).expect("valid");
         let mut fields = Fields::new(Some(scales));
         fields.number("time", Quantity::Time, 30.0).number("stick_fraction", Quantity::Ratio, 0.5);
@@ -225,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_finite_is_null_with_a_reason() {
+    fn values_that_are_not_finite_are_null_with_a_reason() {
         let mut fields = Fields::new(None);
         fields.number("growth", Quantity::Ratio, f64::NAN);
         let json = fields.finish();

@@ -1,8 +1,8 @@
-//! The front door of Quell: a study in, an answer out.
+//! The application layer of Quell: a study in, an answer out.
 //!
-//! A [`BeltStudy`] is a belt with its friction law and its dither, read from the text of a study file and valid once it exists. Each
-//! question is one function in [`run`]; its outcome has the numbers, a sentence (`sentence`), the same object that the command line
-//! prints with `--json` (`json`), warnings, and datasets where there are arrays. [`picture`] draws outcomes.
+//! A [`BeltStudy`] is a belt with its friction law and its dither, parsed from the text of a study file; an existing value is
+//! always valid. Each question is one function in [`run`]. Its outcome contains the numbers, a sentence (`sentence`), the object
+//! that the command line prints with `--json` (`json`), warnings, and datasets if it has arrays. [`picture`] draws outcomes.
 //!
 //! # Does this dither quench the vibration, and at what cost?
 //!
@@ -35,31 +35,32 @@
 //! # }
 //! ```
 //!
-//! # From which amplitude on?
+//! # Above which amplitude does it quench?
 //!
 //! ```
 //! # use quell::BeltStudy;
-//! use quell::run::thresholds::{self, Protocol, Question};
+//! use quell::run::protocol::Protocol;
+//! use quell::run::thresholds::{self, ThresholdsRequest};
 //!
 //! # fn main() -> Result<(), quell::Failure> {
 //! # let text = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.05\n[friction]\nlaw = \"stribeck\"\n\
 //! #     static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[dither]\n\
 //! #     direction = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.52\nfrequency_ratio = 10.0\n";
 //! # let study = BeltStudy::parse(text, &[])?;
-//! let question = Question {
+//! let request = ThresholdsRequest {
 //!     parameter: "dither.amplitude".to_owned(),
 //!     from: 0.4,
 //!     to: 0.6,
 //!     protocols: vec![Protocol::Rest],
-//!     ..Question::default()
+//!     ..ThresholdsRequest::default()
 //! };
-//! let found = thresholds::run(&study, question)?;
+//! let found = thresholds::run(&study, request)?;
 //! assert!((found.local.thresholds[0].value - 0.4965619).abs() < 1e-7);
 //! # Ok(())
 //! # }
 //! ```
 //!
-//! # Over a whole range of amplitudes?
+//! # How does the stability criterion vary with the amplitude?
 //!
 //! ```
 //! # use quell::BeltStudy;
@@ -110,9 +111,9 @@
 //! # }
 //! ```
 //!
-//! # With a friction law of my own?
+//! # How do I use my own friction law?
 //!
-//! A formula of the slip velocity `v`, proven finite and not negative up to the velocities that are met:
+//! Give a formula of the slip velocity `v`. It is proven finite and non-negative up to the velocities that occur:
 //!
 //! ```
 //! use quell::BeltStudy;
@@ -136,15 +137,15 @@
 //! # }
 //! ```
 //!
-//! # Where things are
+//! # Modules
 //!
-//! | module | what |
+//! | module | content |
 //! |---|---|
 //! | [`run`] | one function per question, with its outcome |
-//! | [`study`], [`complaint`], [`schema`] | studies and what is wrong with them (`quell-study`) |
+//! | [`study`], [`complaint`], [`schema`] | studies and complaints about invalid ones (`quell-study`) |
 //! | [`sweep`], [`store`] | maps: points, quantities, threads; stores that survive interruptions |
-//! | [`picture`], [`plot`] | the pictures of outcomes; figures as data (`quell-plot`) |
-//! | [`dataset`], [`fields`], [`output`] | labelled arrays, JSON objects, files written whole or not at all |
+//! | [`picture`], [`plot`] | pictures of outcomes; figures as data (`quell-plot`) |
+//! | [`dataset`], [`fields`], [`output`] | labelled arrays, JSON objects, files that are complete or absent |
 //! | [`cite`], [`template`] | sources of a study's computations; commented studies to start from |
 
 pub mod cite;

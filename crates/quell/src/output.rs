@@ -1,11 +1,11 @@
-//! Output files: tried before the work begins, whole or not there afterwards.
+//! Output files: checked before the computation starts, and either complete or absent afterwards.
 //!
-//! [`Output::prepare`] proves that the path can be written by making and removing a file
-//! beside it. [`Output::write`] writes such a file in full, then renames it, so that nobody
-//! ever sees half a file. Devices and pipes, which cannot be replaced, are written straight.
+//! [`Output::prepare`] verifies that the path can be written by creating and removing a temporary file in its folder.
+//! [`Output::write`] writes a complete temporary file and renames it, so that no reader ever sees a partial file. Devices and
+//! pipes, which cannot be replaced, are written directly.
 //!
-//! A file that is replaced keeps its permissions; a new one has those that the process gives to new files. A file that
-//! the study is read from is no output ([`Inputs`]).
+//! A replaced file keeps its permissions; a new one has the default permissions of the process. Files from which the study is
+//! read are rejected as outputs ([`Inputs`]).
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
@@ -19,22 +19,22 @@ use std::time::{Duration, Instant};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::input::Inputs;
 
-/// Held by every thread for as long as a file of it is half-written.
+/// Held for reading by every thread while one of its files is partially written.
 static WRITING: RwLock<()> = RwLock::new(());
 
-/// A file is half-written until this is dropped.
+/// Marks a file as partially written until the guard is dropped.
 pub(crate) fn writing() -> RwLockReadGuard<'static, ()> {
     WRITING.read().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Waits until no file is half-written, at most for a time, and lets none be begun then: for a process that is about
-/// to end. Whether it came to that.
+/// Waits at most `patience` until no file is partially written, and prevents new files from being started: for a process that
+/// is about to exit. Returns whether that succeeded.
 pub fn close(patience: Duration) -> bool {
     let begun = Instant::now();
     loop {
         match WRITING.try_write() {
             Ok(guard) => {
-                // Whoever would write from now on waits for the end of the process.
+                // Any thread that writes from now on blocks until the process exits.
                 std::mem::forget(guard);
                 return true;
             }
@@ -45,19 +45,19 @@ pub fn close(patience: Duration) -> bool {
     }
 }
 
-/// A place where a file can be written.
+/// A path at which a file can be written.
 #[derive(Debug)]
 pub struct Output {
-    /// The path as it was given.
+    /// The path as given by the user.
     given: PathBuf,
-    /// The file itself, links followed.
+    /// The path with links resolved.
     path: PathBuf,
-    /// A device or pipe, opened once: whoever reads a pipe sees its end when it is closed.
+    /// A device or pipe, opened only once: the reader of a pipe sees its end when it is closed.
     special: Option<File>,
 }
 
 impl Output {
-    /// Checks that `path` can be written, has one of the `extensions`, and is none of the `inputs`.
+    /// Checks that `path` can be written, has one of the `extensions`, and is not one of the `inputs`.
     ///
     /// # Errors
     /// A complaint that names `option` and the path.
@@ -86,8 +86,8 @@ impl Output {
         Ok(output)
     }
 
-    /// As [`Output::prepare`], for a name that the user has not given: a link, a device or a pipe of this name was put
-    /// there by someone else, and is not followed, opened or replaced.
+    /// As [`Output::prepare`], for a name that the user has not given: a link, a device or a pipe of this name belongs to
+    /// someone else, and is not followed, opened or replaced.
     ///
     /// # Errors
     /// A complaint that names `option` and the path.
@@ -100,17 +100,17 @@ impl Output {
         if fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
             let (given, origin) = (path.display().to_string(), Origin::Argument(option));
             let allowed =
-                "is there already, and is not a regular file: remove it, or choose another name";
+                "already exists and is not a regular file; remove it, or choose another name";
             return Err(Box::new(Complaint::new(Fault::Path, option, origin, given, allowed)));
         }
         Self::prepare(path, option, extensions, inputs)
     }
 
-    /// Another file beside this one: `name.csv` → `name_part.csv`. Beside a device or pipe there is none: it takes both.
+    /// A second file in the same folder: `name.csv` → `name_part.csv`. A device or pipe receives both files.
     ///
     /// # Errors
     /// A complaint that names `option` and the path.
-    pub fn beside(
+    pub fn sibling(
         &self,
         part: &str,
         option: &'static str,
@@ -138,10 +138,10 @@ impl Output {
         extension.unwrap_or_default().to_ascii_lowercase()
     }
 
-    /// Writes the whole file.
+    /// Writes the complete file.
     ///
     /// # Errors
-    /// [`Failure::Failed`] with the path; nothing is left behind then.
+    /// [`Failure::Failed`] with the path; no partial file remains.
     pub fn write(self, bytes: &[u8]) -> Result<PathBuf, Failure> {
         let written = if let Some(mut file) = self.special.as_ref() {
             file.write_all(bytes).and_then(|()| file.flush())
@@ -152,7 +152,7 @@ impl Output {
                     .and_then(|()| fill(file, bytes))
                     .and_then(|()| fs::rename(&temporary, &self.path));
                 if written.is_err() {
-                    // Nothing else to do about a file that cannot be removed either.
+                    // If removing the file fails too, nothing else can be done.
                     let _ = fs::remove_file(&temporary);
                 }
                 written
@@ -164,14 +164,14 @@ impl Output {
         })
     }
 
-    /// Tries what [`Output::write`] will do.
+    /// Checks that [`Output::write`] will be able to write.
     fn probe(&mut self, special: bool) -> io::Result<()> {
         if special {
             self.special = Some(OpenOptions::new().write(true).open(&self.path)?);
             return Ok(());
         }
         if self.path.is_dir() {
-            return Err(io::Error::other("it is a directory"));
+            return Err(io::Error::other("the path is a directory"));
         }
         if self.path.exists() {
             self.path = self.path.canonicalize()?;
@@ -181,8 +181,8 @@ impl Output {
         fs::remove_file(self.temporary()?.0)
     }
 
-    /// A new file beside the one to be written. No other thread writes it, nor another process, and names that a killed one has
-    /// left are passed over.
+    /// Creates a temporary file in the folder of the output. No other thread or process writes to it; names left by killed
+    /// processes are skipped.
     fn temporary(&self) -> io::Result<(PathBuf, File)> {
         static FILES: AtomicU64 = AtomicU64::new(0);
         let name = self.path.file_name().map(|name| name.to_string_lossy().into_owned());
@@ -199,7 +199,7 @@ impl Output {
     }
 }
 
-/// Gives a new file the permissions of the one that it will replace, where there is one: before anything is in it.
+/// Gives a new, still empty file the permissions of the file that it will replace, if any.
 fn keep_permissions(replaced: &Path, file: &File) -> io::Result<()> {
     match fs::metadata(replaced) {
         Ok(found) => file.set_permissions(found.permissions()),
@@ -208,7 +208,7 @@ fn keep_permissions(replaced: &Path, file: &File) -> io::Result<()> {
     }
 }
 
-/// Writes a new file in full, down to the disk.
+/// Writes a new file completely and syncs it to disk.
 fn fill(mut file: File, bytes: &[u8]) -> io::Result<()> {
     file.write_all(bytes)?;
     file.sync_all()
@@ -218,12 +218,12 @@ fn fill(mut file: File, bytes: &[u8]) -> io::Result<()> {
 mod tests {
     use super::*;
 
-    /// Threads that write one path at once do not disturb each other: one of them is last, and its file is whole.
+    /// Threads that write to the same path do not interfere: the file is a complete one of the last thread.
     #[test]
-    fn writers_of_one_path_leave_one_whole_file() {
+    fn concurrent_writers_of_a_path_leave_one_complete_file() {
         let folder = tempfile::tempdir().expect("folder");
         let path = folder.path().join("same.csv");
-        let texts: Vec<String> = (0..8).map(|it| it.to_string().repeat(100_000)).collect();
+        let texts: Vec<String> = (0..8).map(|number| number.to_string().repeat(100_000)).collect();
         thread::scope(|scope| {
             for text in &texts {
                 scope.spawn(|| {

@@ -1,7 +1,7 @@
 //! `new`: commented studies to start from, one per question, compiled in.
 //!
-//! A template is a whole study. Its first line is the question that it is for, and the commands that answer it stand below,
-//! the first of them the main one; a test runs every command of every template.
+//! A template is a complete study. Its first line is the question that it answers, and its comments contain the commands that
+//! give the answer, the main one first. A test runs every command of every template.
 
 use std::fs::OpenOptions;
 use std::io::{self, Write};
@@ -20,7 +20,7 @@ const SAVE: &str = "--save";
 /// A commented study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Template {
-    /// Name, that of its file without the extension.
+    /// Name of its file without the extension.
     pub name: &'static str,
     /// The study, with its comments.
     pub text: &'static str,
@@ -53,7 +53,7 @@ impl Template {
     /// The template of this name.
     ///
     /// # Errors
-    /// A complaint that lists the names, with the nearest one.
+    /// A complaint that lists the names and suggests the closest one.
     pub fn find(name: &str) -> Result<&'static Self, Box<Complaint>> {
         TEMPLATES.iter().find(|template| template.name == name).ok_or_else(|| {
             let names = || TEMPLATES.iter().map(|template| template.name);
@@ -64,12 +64,12 @@ impl Template {
         })
     }
 
-    /// The question that it is for.
+    /// The question that the template answers.
     pub fn question(&self) -> &'static str {
         self.text.lines().next().unwrap_or_default().trim_start_matches("# ")
     }
 
-    /// The commands that its comments show, the main one first.
+    /// The commands in its comments, the main one first.
     pub fn commands(&self) -> impl Iterator<Item = &'static str> {
         self.text
             .lines()
@@ -77,10 +77,10 @@ impl Template {
             .filter(|line| line.starts_with("quell "))
     }
 
-    /// Writes it into a new file, or over an old one where that is asked for.
+    /// Writes the study to a new file, or with `overwrite` also to an existing one.
     ///
     /// # Errors
-    /// A complaint where the file exists or its name does not end in `.toml`; [`Failure::Failed`] where it cannot be written.
+    /// A complaint if the file exists or its name does not end in `.toml`; [`Failure::Failed`] if it cannot be written.
     pub fn save(&self, path: &Path, overwrite: bool) -> Result<PathBuf, Failure> {
         if overwrite {
             return Output::prepare(path, SAVE, &["toml"], &Inputs::NONE)?
@@ -93,7 +93,7 @@ impl Template {
         if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
             return Err(complaint("the file name must end in .toml".to_owned()).into());
         }
-        // Creating it and finding that it did not exist is one step: nothing is overwritten.
+        // Creating the file and checking that it does not exist is one atomic step, so that nothing is overwritten.
         let mut file =
             OpenOptions::new().write(true).create_new(true).open(path).map_err(|error| {
                 complaint(match error.kind() {
@@ -104,7 +104,7 @@ impl Template {
                 })
             })?;
         if let Err(error) = file.write_all(self.text.as_bytes()).and_then(|()| file.sync_all()) {
-            // Nothing else can be done about a file that cannot be removed either.
+            // If removing the file fails too, nothing else can be done.
             let _ = std::fs::remove_file(path);
             let key = path.display().to_string();
             return Err(Failure::Failed { key, why: format!("cannot be written: {error}") });
@@ -112,7 +112,7 @@ impl Template {
         Ok(path.to_owned())
     }
 
-    /// As JSON, with the path of the file where it was saved.
+    /// The template as JSON, with the path of the file if it was saved.
     pub fn json(&self, saved: Option<&Path>) -> Json {
         let warnings: [&str; 0] = [];
         let mut object = json!({
@@ -152,7 +152,7 @@ mod tests {
             assert!(text.starts_with("# ") && text.contains("\ntitle = "), "{name}");
             let file = format!("{name}.toml");
             assert!(template.commands().count() >= 2, "{name}");
-            assert!(template.commands().all(|it| it.contains(&file)), "{name}");
+            assert!(template.commands().all(|command| command.contains(&file)), "{name}");
             assert!(text.lines().all(|line| line.chars().count() <= 130), "{name}");
             Study::parse_in(text, &[], Path::new(""))
                 .unwrap_or_else(|why| panic!("{name}: {why:?}"));
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_overwritten_only_where_that_is_asked_for() {
+    fn a_file_is_overwritten_only_on_request() {
         let folder = tempfile::tempdir().expect("folder");
         let path = folder.path().join("mine.toml");
         let [first, second] = [TEMPLATES[0], TEMPLATES[1]];

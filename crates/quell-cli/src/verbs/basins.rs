@@ -1,4 +1,4 @@
-//! `quell basins`: which starts end on which response.
+//! `quell basins`: which starts converge to which response.
 
 use clap::Args;
 use quell::kind::verbs;
@@ -15,7 +15,7 @@ use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments,
 use crate::interrupt;
 use crate::progress::Bar;
 
-/// Finds the responses that starts in a window end on, and the share of each
+/// Finds the responses that starts in a window converge to, and the share of each
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
     /// Velocities x′ of the window, SI in a study in SI [default: around 0]
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     velocity: Option<String>,
-    /// Numbers of displacements and velocities of a grid, from edge to edge [default: 41x31]
+    /// Numbers of displacements and velocities of the grid, edges included [default: 41x31]
     #[arg(long, value_name = "NxM", conflicts_with = "sample")]
     grid: Option<String>,
     /// Number of random states instead of a grid
@@ -38,13 +38,13 @@ pub(crate) struct Arguments {
     /// Follows the shares over this parameter, such as dither.amplitude; needs --from and --to
     #[arg(long, value_name = "PATH", requires = "from", requires = "to")]
     over: Option<String>,
-    /// Its smallest value
+    /// Smallest value of the parameter of --over
     #[arg(long, value_name = "A", requires = "over", allow_hyphen_values = true)]
     from: Option<String>,
-    /// Its largest value
+    /// Largest value of the parameter of --over
     #[arg(long, value_name = "B", requires = "over", allow_hyphen_values = true)]
     to: Option<String>,
-    /// Number of its values
+    /// Number of values of the parameter of --over
     #[arg(
         long,
         value_name = "N",
@@ -62,7 +62,7 @@ pub(crate) struct Arguments {
     plot: PlotArguments,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
@@ -124,7 +124,7 @@ fn layout(arguments: &Arguments) -> Result<Layout, Box<Complaint>> {
         Some((columns.trim().parse().ok()?, rows.trim().parse().ok()?))
     });
     sides.map(|(columns, rows)| Layout::Grid { columns, rows }).ok_or_else(|| {
-        let allowed = "NxM, a number of displacements and one of velocities, such as 41x31";
+        let allowed = "NxM, the numbers of displacements and of velocities, such as 41x31";
         let origin = Origin::Argument("--grid");
         Box::new(Complaint::new(Fault::Value, "--grid", origin, text.as_str(), allowed))
     })

@@ -13,20 +13,20 @@ use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments,
 use crate::interrupt;
 use crate::progress::Bar;
 
-/// Sweeps a parameter up and down and carries the state along: sections, locking, hysteresis
+/// Sweeps a parameter up and down, continuing from the last state: sections, locking, hysteresis
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
     #[command(flatten)]
     varied: VariedArguments,
-    /// Number of values
+    /// Number of values of the parameter
     #[arg(long, value_name = "N", default_value = "101", allow_hyphen_values = true)]
     points: String,
-    /// Sweeps up, from the start of the study [default: up, then down]
+    /// Sweeps up, from the initial state of the study [default: up, then down]
     #[arg(long)]
     up: bool,
-    /// Sweeps down, from the end of the sweep up; without --up, from the start of the study
+    /// Sweeps down, from the final state of the sweep up; without --up, from the initial state of the study
     #[arg(long)]
     down: bool,
     #[command(flatten)]
@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     plot: PlotArguments,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());

@@ -1,4 +1,4 @@
-//! `quell check`: is the study right?
+//! `quell check`: validation of a study.
 
 use clap::Args;
 use quell::Failure;
@@ -14,7 +14,7 @@ pub(crate) struct Arguments {
     study: StudyArguments,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = arguments.study.read()?;
     let done = verbs(&study)?.check();

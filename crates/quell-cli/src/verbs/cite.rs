@@ -1,4 +1,4 @@
-//! `quell cite`: what a study's computations rest on.
+//! `quell cite`: sources of a study's computations.
 
 use clap::Args;
 use quell::Failure;
@@ -7,7 +7,7 @@ use quell::kind::verbs;
 use crate::answer::Answer;
 use crate::arguments::StudyArguments;
 
-/// Lists the equations and papers that a study's computations use, and corrections of the print
+/// Lists the equations and papers that a study's computations use, and corrections of the printed text
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -17,7 +17,7 @@ pub(crate) struct Arguments {
     bibtex: bool,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = arguments.study.read()?;
     let verbs = verbs(&study)?;

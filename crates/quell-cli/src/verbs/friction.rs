@@ -1,4 +1,4 @@
-//! `quell friction`: the law and what the dither makes of it.
+//! `quell friction`: the friction law and the effective friction under the dither.
 
 use clap::Args;
 use quell::kind::verbs;
@@ -14,7 +14,7 @@ use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments,
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Slip velocities: numbers; m/s, or with a unit such as 20mm/s, in a study in SI
+    /// Slip velocities, separated by commas; in a study in SI in m/s, or with a unit such as 20mm/s
     #[arg(long, value_name = "V,…", value_delimiter = ',', allow_hyphen_values = true)]
     at: Vec<String>,
     #[command(flatten)]
@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
     output: OutputArguments,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());

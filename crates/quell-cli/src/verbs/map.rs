@@ -19,7 +19,7 @@ use crate::interrupt;
 use crate::progress::Bar;
 use crate::verbs::shard;
 
-/// Computes quantities over the axes ([[sweep]]) of a study, on all cores
+/// Computes quantities over the axes ([[sweep]]) of a study in parallel
 #[derive(Debug, Args)]
 #[command(after_help = quantities())]
 pub(crate) struct Arguments {
@@ -28,14 +28,14 @@ pub(crate) struct Arguments {
     /// Quantities to compute, separated by commas or as repeated options
     #[arg(long = "quantity", value_name = "NAME", required = true, value_delimiter = ',')]
     quantities: Vec<String>,
-    /// Saves the map: a Zarr store, written while it is computed, or a table at the end
+    /// Saves the map as a Zarr store, written during the computation, or as a table at the end
     #[arg(long, value_name = "FILE.zarr|.csv")]
     save: Option<PathBuf>,
-    /// Continues the store that --save names, if it exists
+    /// Continues the store of --save if it exists
     #[arg(long)]
     resume: bool,
-    /// Computes part K of N equal parts of the map into the store that --save names; other processes, on any machines,
-    /// compute the others
+    /// Computes part K of N equal parts of the map into the store of --save; other processes, on any machines, compute the
+    /// other parts
     #[arg(long, value_name = "K/N", allow_hyphen_values = true, conflicts_with = "resume")]
     shard: Option<String>,
     /// Number of threads [default: all cores]
@@ -58,19 +58,19 @@ fn quantities() -> String {
     text + "\nExit status: 0 done, 2 invalid input, 1 failed or stopped, 130 interrupted."
 }
 
-/// Where the map is kept.
+/// Where the map is saved.
 enum Keep {
     Nowhere,
     Csv(Output),
     Zarr(PathBuf),
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
-    // What there is depends on what the study is about.
+    // The quantities available depend on the kind of the study.
     let kind = study.as_ref().map_or("", |study| study.kind().name());
     let names = if study.is_some() { arguments.quantities.as_slice() } else { &[] };
     let asked: Vec<&'static Quantity> = names
@@ -133,9 +133,9 @@ fn keep(arguments: &Arguments, inputs: &Inputs) -> Result<Keep, Box<Complaint>> 
         Some(path) if zarr(path) => Ok(Keep::Zarr(path.clone())),
         _ if arguments.resume || arguments.shard.is_some() => {
             let (option, allowed) = if arguments.resume {
-                ("--resume", "--resume goes on with a store: name it by --save FILE.zarr")
+                ("--resume", "--resume continues a store: name it by --save FILE.zarr")
             } else {
-                ("--shard", "--shard computes into a store: name it by --save FILE.zarr")
+                ("--shard", "--shard writes into a store: name it by --save FILE.zarr")
             };
             Err(Box::new(Complaint::new(Fault::Usage, option, Origin::Whole, option, allowed)))
         }
@@ -144,7 +144,7 @@ fn keep(arguments: &Arguments, inputs: &Inputs) -> Result<Keep, Box<Complaint>> 
     }
 }
 
-/// Whether there is a picture of so many panels: one for each point of the axes before the last two.
+/// Rejects a picture with too many panels: one for each point of the axes before the last two.
 fn drawable(grid: &Grid) -> Result<(), Box<Complaint>> {
     let shape = grid.shape();
     let panels: usize = shape[..shape.len().saturating_sub(2)].iter().product();
@@ -152,7 +152,8 @@ fn drawable(grid: &Grid) -> Result<(), Box<Complaint>> {
         return Ok(());
     }
     let allowed = format!(
-        "--plot draws one panel for each point of the axes before the last two, at most {}; this study has {panels}: save the map and draw it from there",
+        "--plot draws one panel for each point of the axes before the last two, at most {}; this study has {panels}: \
+         save the map and plot it from the saved file",
         picture::MOST_PANELS
     );
     let origin = Origin::Argument("--plot");

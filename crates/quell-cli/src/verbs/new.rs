@@ -9,10 +9,10 @@ use quell::{Complaint, Failure, Fault, Origin};
 
 use crate::answer::Answer;
 
-/// Prints a commented study that answers a question, or lists the questions
+/// Prints a commented study for a question, or lists the questions
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Name of the question [default: list them all]
+    /// Name of the question [default: list all questions]
     #[arg(value_name = "QUESTION")]
     question: Option<String>,
     /// Saves the study to a new file instead of printing it
@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let Some(name) = &arguments.question else {
         if let Some(path) = &arguments.save {

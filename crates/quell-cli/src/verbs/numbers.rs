@@ -1,4 +1,4 @@
-//! Numbers and ranges that several verbs take: `--from`, `--to`, `--points`, `FROM:TO`, `X,V`, times.
+//! Numbers and ranges in the options of several verbs: `--from`, `--to`, `--points`, `FROM:TO`, `X,V`, times.
 
 use clap::Args;
 use quell::{Complaint, Study, quantity};
@@ -15,7 +15,7 @@ pub(crate) struct VariedArguments {
     /// Smallest value, in the unit of the key or with a unit, such as 5kN
     #[arg(long, value_name = "A", allow_hyphen_values = true)]
     from: String,
-    /// Largest value, likewise
+    /// Largest value, in the unit of the key or with a unit, such as 5kN
     #[arg(long, value_name = "B", allow_hyphen_values = true)]
     to: String,
 }
@@ -29,13 +29,13 @@ impl VariedArguments {
     }
 }
 
-/// Scales in which quantities of a study are read. Of one that could not be read it is not known whether it is in SI: units
-/// are no fault there.
+/// Scales with which quantities of a study are parsed. For a study that could not be read, it is unknown whether it is in SI,
+/// and so units are accepted.
 pub(super) fn scales(study: Option<&Study>) -> Option<Scales> {
     study.map_or_else(|| Scales::new(1.0, 1.0).ok(), Study::scales)
 }
 
-/// How long: τ, or a time with its unit in a study in SI.
+/// A duration: τ, or a time with its unit in a study in SI.
 pub(super) fn duration(
     option: &'static str,
     text: &str,
@@ -44,7 +44,7 @@ pub(super) fn duration(
     quantity::duration(text, scales(study), option)
 }
 
-/// A finite number in the unit of the key that is varied, or with a unit of its own.
+/// A finite number in the unit of the varied key, or with a unit of its own.
 pub(crate) fn number(
     option: &'static str,
     text: &str,
@@ -60,7 +60,7 @@ pub(crate) fn count(option: &'static str, text: &str) -> Result<usize, Box<Compl
         .map_err(|_| Box::new(Complaint::option(option, text, "a whole number, such as 101")))
 }
 
-/// `FROM:TO`, two quantities of which the first is smaller.
+/// `FROM:TO`, two quantities, the first below the second.
 pub(crate) fn range(
     option: &'static str,
     text: &str,
@@ -76,7 +76,7 @@ pub(crate) fn range(
     Err(Box::new(Complaint::option(option, text, allowed)))
 }
 
-/// `FROM:TO`, two values of the number that a path names.
+/// `FROM:TO`, two values of the parameter with a path.
 pub(crate) fn window(
     option: &'static str,
     text: &str,
@@ -85,7 +85,7 @@ pub(crate) fn window(
     pair(option, text, |text| quantity::value_of_key(text, parameter, option))
 }
 
-/// `FROM:TO`, each end as `read` reads it.
+/// `FROM:TO`, each end parsed by `read`.
 pub(crate) fn pair(
     option: &'static str,
     text: &str,

@@ -10,7 +10,7 @@ use super::numbers::state;
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 
-/// Options that ask for the response on which a run ends, which has its own state and number of periods.
+/// Options for the response that a run reaches, which determines the state and the number of periods.
 const STARTS: [&str; 4] = ["from_rest", "from_sliding", "from_squeal", "start"];
 
 /// Computes the periodic response and its stability by Floquet multipliers
@@ -18,15 +18,15 @@ const STARTS: [&str; 4] = ["from_rest", "from_sliding", "from_squeal", "start"];
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Searches near this state x,v at τ = 0; in a study in SI metres and m/s, or with units such as 1um,50mm/s [default: the
-    /// base response, continued from steady sliding; without dither the limit cycle; at v₀ = 0 the response that a run
+    /// Searches near this state x,v at τ = 0; in a study in SI in metres and m/s, or with units such as 1um,50mm/s [default:
+    /// the base response, continued from steady sliding; without dither the limit cycle; at v₀ = 0 the response that a run
     /// from rest reaches]
     #[arg(long, value_name = "X,V", conflicts_with_all = STARTS, allow_hyphen_values = true)]
     near: Option<String>,
-    /// Common periods of the dithers in one period of the response
+    /// Number of common periods of the dithers in one period of the response
     #[arg(long, value_name = "N", conflicts_with_all = STARTS, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     periods: u32,
-    /// Finds the response that a run from rest reaches, of any number of periods
+    /// Finds the response that a run from rest reaches, with any number of periods
     #[arg(long, group = "run")]
     from_rest: bool,
     /// Finds the response that a run from steady sliding without dither reaches
@@ -45,7 +45,7 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// The start of the run whose response is asked for.
+    /// The start of the run whose response is requested.
     fn after(&self, start: Option<(f64, f64)>) -> Option<Protocol> {
         let flags = [
             (self.from_rest, Protocol::Rest),
@@ -57,14 +57,14 @@ impl Arguments {
     }
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
-    let near = arguments.near.as_deref().map(|it| state("--near", it, study.as_ref()));
+    let near = arguments.near.as_deref().map(|text| state("--near", text, study.as_ref()));
     let near = complaints.take(near.transpose());
-    let start = arguments.start.as_deref().map(|it| state("--start", it, study.as_ref()));
+    let start = arguments.start.as_deref().map(|text| state("--start", text, study.as_ref()));
     let start = complaints.take(start.transpose());
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));

@@ -14,7 +14,7 @@ use crate::progress::Entries;
 #[derive(Debug, Args)]
 #[command(after_help = list())]
 pub(crate) struct Arguments {
-    /// Figures such as 2.3, or claims [default: everything]
+    /// Names of figures such as 2.3, or of claims [default: everything]
     #[arg(value_name = "NAME")]
     names: Vec<String>,
     /// Directory for the report, pictures, data and tables, created if it is missing
@@ -28,12 +28,12 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let entries = find(&arguments.names)?;
     let pace = if arguments.quick { Resolution::Quick } else { Resolution::Full };
     let bar = Entries::new(entries.len());
-    let done = reproduce(&entries, &arguments.out, pace, |step| bar.hear(step));
+    let done = reproduce(&entries, &arguments.out, pace, |step| bar.update(step));
     bar.end();
     let done = done?;
     let object = done.json(&arguments.out, pace);

@@ -1,4 +1,4 @@
-//! `quell resonances`: where waves of a disc meet, and which dither frequency keeps speeds clear.
+//! `quell resonances`: speeds at which waves of a disc meet, and dither frequencies that keep a range of speeds clear.
 
 use clap::{Args, ValueEnum};
 use quell::kind::verbs;
@@ -14,10 +14,10 @@ use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments,
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Range of speeds, in ω_ref or with units such as 0rpm:900rpm [default: 0:1]
+    /// Range of speeds, in units of ω_ref or with units such as 0rpm:900rpm [default: 0:1]
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     speeds: Option<String>,
-    /// Order of the expansion: second counts friction twice (f of the order of the root of m, c, k)
+    /// Order of the expansion; second takes friction to second order (f of the order of √m, √c, √k)
     #[arg(long, value_name = "ORDER", default_value = "first")]
     order: Expansion,
     /// Range of speeds to keep clear; needs --frequency
@@ -38,7 +38,7 @@ enum Expansion {
     Second,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());

@@ -1,4 +1,4 @@
-//! `quell response`: the steady response, what the dither does to it, and what it costs.
+//! `quell response`: the steady response, the effect of the dither on it, and the cost of the dither.
 
 use clap::Args;
 use quell::Failure;
@@ -18,7 +18,7 @@ pub(crate) struct Arguments {
     output: OutputArguments,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());

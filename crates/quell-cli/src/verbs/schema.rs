@@ -8,12 +8,12 @@ use crate::answer::Answer;
 /// Prints the JSON Schema of a study file
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// On one line
+    /// Prints the schema on one line
     #[arg(long)]
     json: bool,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Answer {
     Answer::new(arguments.json, &schema(), || format!("{:#}\n", schema()))
 }

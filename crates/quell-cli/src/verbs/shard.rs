@@ -8,11 +8,11 @@ use quell::{Complaint, Failure, Fault, Origin};
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Reads the option; a picture needs the whole map.
+/// Parses the option; `--plot` is rejected because a picture requires the whole map.
 pub(super) fn read(text: &str, plot: bool) -> Result<Shard, Box<Complaint>> {
     let shard = Shard::parse(text, "--shard")?;
     if plot {
-        let allowed = "a shard is no whole map: when all are done, the same command with --resume \
+        let allowed = "a shard is not the whole map: when all shards are done, the same command with --resume \
                        instead of --shard draws it";
         let origin = Origin::Argument("--plot");
         return Err(Box::new(Complaint::new(Fault::Usage, "--plot", origin, text, allowed)));
@@ -20,7 +20,7 @@ pub(super) fn read(text: &str, plot: bool) -> Result<Shard, Box<Complaint>> {
     Ok(shard)
 }
 
-/// Computes a shard and tells what is left of the map.
+/// Computes a shard and reports which chunks of the map are left.
 pub(super) fn run(
     shard: Shard,
     path: &Path,
@@ -43,19 +43,22 @@ fn text(done: &Sharded, path: &Path) -> String {
     let seconds = part.elapsed.as_secs_f64();
     let _ = write!(
         text,
-        "  {own} of the map's {all} chunks: {} computed in {seconds:.2} s",
+        "  {own} of {all} chunks of the map: {} computed in {seconds:.2} s",
         part.computed
     );
     if part.there > 0 {
-        let _ = write!(text, ", {} were there", part.there);
+        let _ = write!(text, ", {} already in the store", part.there);
     }
     text.push('\n');
     if done.left == 0 {
-        text += "  the map is whole: the same command with --resume instead of --shard reads it\n";
+        text +=
+            "  the map is complete: the same command with --resume instead of --shard reads it\n";
     } else {
         let numbers: Vec<String> = done.left_shards.iter().map(usize::to_string).collect();
+        let chunks = if done.left == 1 { "chunk is" } else { "chunks are" };
+        let shards = if numbers.len() == 1 { "shard" } else { "shards" };
         let (left, numbers) = (done.left, numbers.join(","));
-        let _ = writeln!(text, "  {left} chunks are left, of the shards {numbers}");
+        let _ = writeln!(text, "  {left} {chunks} left, of the {shards} {numbers}");
     }
     text
 }

@@ -9,15 +9,15 @@ use super::numbers::duration;
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 
-/// Simulates one run with every event at the contact
+/// Simulates one run and locates every event at the contact
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Duration τ; in a study in SI seconds, or a time such as 50ms
+    /// Duration τ; in a study in SI in seconds, or a time such as 50ms
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: String,
-    /// Lists every event; with --save also as a file of its own, such as run_events.csv beside run.csv
+    /// Lists every event; with --save also writes them to a second file, such as run_events.csv next to run.csv
     #[arg(long)]
     events: bool,
     #[command(flatten)]
@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
     output: OutputArguments,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());

@@ -1,4 +1,4 @@
-//! `quell stability`: averaged stability of steady sliding; eigenvalues or Floquet exponents of a disc.
+//! `quell stability`: stability of steady sliding by averaging, or of a disc by eigenvalues or Floquet exponents.
 
 use clap::Args;
 use quell::Failure;
@@ -7,7 +7,7 @@ use quell::kind::verbs;
 use crate::answer::Answer;
 use crate::arguments::{Gathered, Outputs, PlotArguments, StudyArguments, answer, inputs};
 
-/// Decides whether steady sliding (by averaging) or a disc (by eigenvalues) is stable, and what changes that
+/// Decides whether steady sliding (by averaging) or a disc (by eigenvalues) is stable, and what would change that
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -16,7 +16,7 @@ pub(crate) struct Arguments {
     plot: PlotArguments,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());

@@ -1,4 +1,4 @@
-//! `quell thresholds`: exact values of a parameter at which the response changes.
+//! `quell thresholds`: exact parameter values at which the response changes.
 
 use clap::Args;
 use quell::kind::verbs;
@@ -11,27 +11,27 @@ use super::numbers::{VariedArguments, duration, state, window};
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 
-/// Finds the values of a parameter at which dither begins or ceases to quench
+/// Finds the values of a parameter at which dither starts or stops quenching
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
     #[command(flatten)]
     varied: VariedArguments,
-    /// Also finds them for runs from rest
+    /// Also finds the thresholds of runs from rest
     #[arg(long)]
     from_rest: bool,
-    /// Also finds them for runs from steady sliding without dither
+    /// Also finds the thresholds of runs from steady sliding without dither
     #[arg(long)]
     from_sliding: bool,
-    /// Also finds them for runs in full squeal when the dither is switched on
+    /// Also finds the thresholds of runs that squeal fully when the dither is switched on
     #[arg(long)]
     from_squeal: bool,
-    /// Also finds them for runs from this state; in a study in SI metres and m/s, or with units such as 1um,50mm/s
+    /// Also finds the thresholds of runs from this state; in a study in SI metres and m/s, or with units such as 1um,50mm/s
     #[arg(long, value_name = "X,V", allow_hyphen_values = true)]
     start: Option<String>,
-    /// Raises the dither of these runs over this time τ, in steps of its period, instead of switching it on; in a study in SI
-    /// seconds, or a time such as 50ms
+    /// Ramps the dither of these runs up over this time τ, in steps of its period, instead of switching it on; in a study in SI
+    /// in seconds, or a time such as 50ms
     #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
     ramp: String,
     /// Follows each local threshold as a curve along a second parameter, such as belt.belt_velocity
@@ -46,28 +46,29 @@ pub(crate) struct Arguments {
     plot: PlotArguments,
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
     let range = arguments.varied.ends(&mut complaints);
     let along = arguments.along.as_deref().unwrap_or_default();
-    let between = arguments.between.as_deref().map(|it| window("--between", it, along));
+    let between = arguments.between.as_deref().map(|text| window("--between", text, along));
     let between = complaints.take(between.transpose());
-    let start = arguments.start.as_deref().map(|it| state("--start", it, study.as_ref()));
+    let start = arguments.start.as_deref().map(|text| state("--start", text, study.as_ref()));
     let start = complaints.take(start.transpose());
     let ramp = complaints.take(duration("--ramp", &arguments.ramp, study.as_ref()));
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     if arguments.output.saves() && arguments.along.is_none() {
-        let (key, allowed) = ("--save", "--save is for the curves of --along: give both");
+        let (key, allowed) =
+            ("--save", "--save saves the curves of --along, and requires that option");
         let complaint = Complaint::new(Fault::Usage, key, Origin::Whole, key, allowed);
         complaints.take::<()>(Err(complaint));
     }
-    let (begun, files) = (start.zip(ramp), outputs.zip(plot));
-    let (study, ((range, begun), (between, (outputs, plot)))) =
-        complaints.finish(study.zip(range.zip(begun).zip(between.zip(files))))?;
+    let (runs, files) = (start.zip(ramp), outputs.zip(plot));
+    let (study, ((range, runs), (between, (outputs, plot)))) =
+        complaints.finish(study.zip(range.zip(runs).zip(between.zip(files))))?;
     let parameter = arguments.varied.parameter.clone();
     let verbs = verbs(&study)?;
     let done = match arguments.along.clone().zip(between) {
@@ -75,7 +76,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             verbs.threshold_curves(&CurvesRequest { parameter, window: range, along, between })?
         }
         None => {
-            let ((from, to), (start, ramp)) = (range, begun);
+            let ((from, to), (start, ramp)) = (range, runs);
             let protocols = arguments.protocols(start);
             verbs.thresholds(ThresholdsRequest { parameter, from, to, protocols, ramp })?
         }
@@ -84,7 +85,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 }
 
 impl Arguments {
-    /// The protocols whose runs are followed.
+    /// The initial-condition protocols of the requested runs.
     fn protocols(&self, start: Option<(f64, f64)>) -> Vec<Protocol> {
         let flags = [
             (self.from_rest, Protocol::Rest),

@@ -1,4 +1,4 @@
-//! What `quell map` answers.
+//! Answers of `quell map`.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use crate::place::{Place, SMALL, STUDY, same};
 
 #[test]
-fn a_point_of_a_map_has_the_bits_it_has_alone() {
+fn a_point_of_a_map_has_the_same_bits_as_a_single_computation() {
     let place = Place::new("alone");
     let quantities = "efficiency,amplitude,stick-fraction,mean-friction,dither-power,criterion,\
                       growth,critical-amplitude,verdict";
@@ -33,7 +33,7 @@ fn a_point_of_a_map_has_the_bits_it_has_alone() {
             let critical = averaged["critical_amplitudes"].as_array().expect("a list");
             let lowest = critical.first().map_or(&Json::Null, |first| &first["amplitude_ratio"]);
             assert_eq!(&map["critical_amplitude"][i][j], lowest);
-            // The undithered belt at v₀ = 0.5 settles to sliding: E is unknown and says so.
+            // The undithered belt at v₀ = 0.5 settles to sliding: E is reported as unknown.
             let known = map["efficiency_status"][i][j] == "known";
             assert_eq!(known, map["efficiency"][i][j].is_number());
         }
@@ -98,7 +98,7 @@ fn a_store_describes_itself() {
     ];
     assert_eq!(arrays.keys().map(String::as_str).collect::<Vec<_>>(), expected);
     for (name, described) in arrays {
-        // What is consolidated is what stands beside the array.
+        // The consolidated metadata equal those of the array.
         assert_eq!(described, &read(&format!("{name}/zarr.json")));
     }
     let efficiency = &arrays["efficiency"];
@@ -118,7 +118,7 @@ fn a_store_describes_itself() {
 }
 
 #[test]
-fn a_table_has_a_row_a_point() {
+fn a_table_has_one_row_per_point() {
     let place = Place::new("table");
     let map =
         place.good(&["map", "small.toml", "--quantity", "efficiency,verdict", "--save", "m.csv"]);
@@ -187,7 +187,7 @@ values = [1, 2.5]
 }
 
 #[test]
-fn a_point_that_is_no_study_is_not_the_end_of_the_map() {
+fn an_invalid_point_does_not_end_the_map() {
     let place = Place::new("invalid");
     // Each axis alone is allowed, but together they pull the contact apart at one corner.
     let text = STUDY
@@ -208,7 +208,7 @@ fn a_point_that_is_no_study_is_not_the_end_of_the_map() {
 }
 
 #[test]
-fn one_axis_is_drawn_and_two_say_what_they_need() {
+fn a_map_over_one_axis_is_drawn_and_missing_requirements_are_reported() {
     let place = Place::new("drawn");
     let one: &[&str] =
         &["--set", "sweep[0].parameter=dither.amplitude", "--set", "sweep[0].values=[0, 0.3, 0.6]"];
@@ -221,7 +221,7 @@ fn one_axis_is_drawn_and_two_say_what_they_need() {
 }
 
 #[test]
-fn what_cannot_be_asked_is_refused_at_once() {
+fn invalid_requests_are_rejected_at_once() {
     let place = Place::new("refused");
     let cases: &[(&[&str], &str)] = &[
         (&["map", "study.toml", "--quantity", "efficiency"], "[[sweep]]"),
@@ -246,6 +246,6 @@ fn what_cannot_be_asked_is_refused_at_once() {
         let errors = place.refused(arguments);
         assert!(errors.iter().any(|error| error["key"] == *key), "{arguments:?}: {errors:?}");
     }
-    let told = place.told(&["map", "study.toml", "--quantity", "efficiency"]);
-    assert!(told.errors.contains("    parameter = \"dither.amplitude\""), "{}", told.errors);
+    let printed = place.printed(&["map", "study.toml", "--quantity", "efficiency"]);
+    assert!(printed.errors.contains("    parameter = \"dither.amplitude\""), "{}", printed.errors);
 }

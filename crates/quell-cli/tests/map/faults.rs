@@ -1,4 +1,4 @@
-//! What stores survive: whatever happens, a resumed store has the bytes of an undisturbed one.
+//! Faults that stores survive: after any of them, a resumed store has the bytes of an uninterrupted one.
 
 use std::collections::BTreeMap;
 use std::fs::{self, OpenOptions};
@@ -8,9 +8,9 @@ use std::sync::OnceLock;
 use std::thread::sleep;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use crate::place::{Place, STUDY, Told, files, same};
+use crate::place::{Place, ProcessOutput, STUDY, files, same};
 
-/// The store of a run that nothing disturbed, and how long it took; made once for all tests.
+/// The store of an uninterrupted run, and its duration; computed once for all tests.
 pub(crate) fn undisturbed() -> &'static (BTreeMap<String, Vec<u8>>, Duration) {
     static STORE: OnceLock<(BTreeMap<String, Vec<u8>>, Duration)> = OnceLock::new();
     STORE.get_or_init(|| {
@@ -25,7 +25,7 @@ pub(crate) fn undisturbed() -> &'static (BTreeMap<String, Vec<u8>>, Duration) {
 const LARGE: &str = "[[sweep]]\nparameter = \"dither.amplitude\"\nfrom = 0.05\nto = 1.0\n\
     points = 20\n[[sweep]]\nparameter = \"belt.belt_velocity\"\nfrom = 0.02\nto = 0.15\npoints = 20\n";
 
-/// How the large map is asked for.
+/// Arguments of the large map.
 const ASK: &[&str] =
     &["map", "large.toml", "--quantity", "efficiency,verdict", "--threads", "1", "--save"];
 
@@ -41,7 +41,7 @@ pub(crate) fn ask<'a>(save: &'a str, more: &[&'a str]) -> Vec<&'a str> {
 }
 
 impl Place {
-    /// Begins the large map and does not wait for it.
+    /// Starts the large map and does not wait for it.
     fn begin(&self, save: &str) -> Child {
         let arguments = ask(save, &["--resume"]);
         let mut command = self.command(&arguments);
@@ -55,7 +55,7 @@ impl Place {
 }
 
 #[test]
-fn killed_at_ten_random_moments_it_resumes_to_the_same_bytes() {
+fn a_run_killed_at_ten_random_moments_resumes_to_the_same_bytes() {
     let place = large("killed");
     let (reference, duration) = undisturbed();
     let now = SystemTime::now().duration_since(UNIX_EPOCH).expect("after 1970");
@@ -65,7 +65,7 @@ fn killed_at_ten_random_moments_it_resumes_to_the_same_bytes() {
     for _ in 0..10 {
         let mut child = place.begin("killed.zarr");
         random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        // Ten such stretches together are about as long as the whole.
+        // Ten such intervals together are about as long as the whole run.
         sleep(duration.mul_f64(0.25 * (random >> 33) as f64 / f64::from(u32::MAX >> 1)));
         child.kill().expect("it is ours");
         child.wait().expect("it ends");
@@ -88,7 +88,7 @@ fn killed_at_ten_random_moments_it_resumes_to_the_same_bytes() {
     same(&place.store("killed.zarr"), reference);
 }
 
-/// Warnings that are about points, not about the store.
+/// Warnings about points, not about the store.
 fn warnings_of_points(map: &serde_json::Value) -> usize {
     let warnings = map["warnings"].as_array().map(Vec::as_slice).unwrap_or_default();
     warnings
@@ -98,16 +98,16 @@ fn warnings_of_points(map: &serde_json::Value) -> usize {
 }
 
 #[test]
-fn stopped_by_ctrl_c_it_says_what_is_left_and_resumes() {
+fn a_run_stopped_by_ctrl_c_reports_the_remaining_chunks_and_resumes() {
     let place = large("stopped");
     let (reference, _) = undisturbed();
     let child = place.begin("stopped.zarr");
     wait_for("a chunk", || place.records("stopped.zarr") > 0);
     signal(&child, "-INT");
-    let told = Told::of(&child.wait_with_output().expect("it ends"));
-    assert_eq!(told.status, Some(1), "{told:?}");
-    assert!(told.errors.contains(" left: ") && told.errors.contains("--resume"), "{}", told.errors);
-    assert!(told.output.is_empty());
+    let printed = ProcessOutput::of(&child.wait_with_output().expect("it ends"));
+    assert_eq!(printed.status, Some(1), "{printed:?}");
+    assert!(printed.errors.contains(" left: ") && printed.errors.contains("--resume"), "{}", printed.errors);
+    assert!(printed.output.is_empty());
     let kept = place.records("stopped.zarr");
     place.good(&ask("stopped.zarr", &["--resume"]));
     assert!(kept < place.records("stopped.zarr"));
@@ -120,23 +120,23 @@ fn two_processes_on_one_store_do_no_harm() {
     let (reference, _) = undisturbed();
     let first = place.begin("two.zarr");
     wait_for("a chunk", || place.records("two.zarr") > 0);
-    let second = place.told(&ask("two.zarr", &["--resume"]));
+    let second = place.printed(&ask("two.zarr", &["--resume"]));
     assert_eq!(second.status, Some(1), "{second:?}");
     assert!(second.errors.contains("another process is writing this store"), "{second:?}");
-    let first = Told::of(&first.wait_with_output().expect("it ends"));
+    let first = ProcessOutput::of(&first.wait_with_output().expect("it ends"));
     assert_eq!(first.status, Some(0), "{first:?}");
     same(&place.store("two.zarr"), reference);
-    // Both at once from nothing: whoever comes late is refused, nobody destroys anything.
+    // Two processes start at once without a store: the later one is rejected, and no file is destroyed.
     let (one, other) = (place.begin("race.zarr"), place.begin("race.zarr"));
     let ends: Vec<Option<i32>> = [one, other]
-        .map(|child| Told::of(&child.wait_with_output().expect("it ends")).status)
+        .map(|child| ProcessOutput::of(&child.wait_with_output().expect("it ends")).status)
         .to_vec();
     assert!(ends.contains(&Some(0)), "{ends:?}");
     same(&place.store("race.zarr"), reference);
 }
 
 #[test]
-fn damaged_chunks_are_found_and_done_again() {
+fn damaged_chunks_are_found_and_recomputed() {
     let place = large("damaged");
     let (reference, _) = undisturbed();
     let at = |name: &str| place.folder.join("damaged.zarr").join(name);
@@ -161,17 +161,17 @@ fn damaged_chunks_are_found_and_done_again() {
     let record = reference.keys().filter(|name| name.starts_with(".quell/done/")).nth(3);
     let record = at(record.expect("records enough"));
     fs::write(&record, "{\"files\":{").expect("a record cut short");
-    let told = place.told(&ask("damaged.zarr", &["--resume"]));
-    assert_eq!(told.status, Some(0), "{told:?}");
+    let printed = place.printed(&ask("damaged.zarr", &["--resume"]));
+    assert_eq!(printed.status, Some(0), "{printed:?}");
     assert!(
-        told.errors.contains("recomputed 4 chunks of the store that were truncated or changed"),
-        "{told:?}"
+        printed.errors.contains("recomputed 4 chunks of the store that were truncated or changed"),
+        "{printed:?}"
     );
     same(&place.store("damaged.zarr"), reference);
 }
 
 #[test]
-fn a_store_of_another_study_is_refused_and_left_alone() {
+fn a_store_of_another_study_is_rejected_and_left_unchanged() {
     let place = Place::new("another");
     let small = fs::read_to_string(place.folder.join("small.toml")).expect("a study");
     let ask = |quantity, more: &[&'static str]| {
@@ -180,25 +180,25 @@ fn a_store_of_another_study_is_refused_and_left_alone() {
     place.good(&ask("efficiency", &[]));
     let reference = place.store("m.zarr");
     let refused = |arguments: &[&str], word: &str| {
-        let told = place.told(arguments);
-        assert_eq!(told.status, Some(2), "{arguments:?}: {told:?}");
-        assert!(told.errors.contains(word), "{arguments:?}: {told:?}");
+        let printed = place.printed(arguments);
+        assert_eq!(printed.status, Some(2), "{arguments:?}: {printed:?}");
+        assert!(printed.errors.contains(word), "{arguments:?}: {printed:?}");
         same(&place.store("m.zarr"), &reference);
     };
-    refused(&ask("efficiency", &[]), "exists already");
+    refused(&ask("efficiency", &[]), "already exists");
     refused(&ask("verdict", &["--resume"]), "the quantities are verdict");
     for (from, to, word) in [
-        ("= 0.005", "= 0.0051", "belt.damping_ratio is 0.0051 here and 0.005 there"),
+        ("= 0.005", "= 0.0051", "belt.damping_ratio is 0.0051 here and 0.005 in the store"),
         ("settle = 5", "settle = 6", "solver.settle"),
-        ("points = 3", "points = 4", "dither.amplitude runs over"),
+        ("points = 3", "points = 4", "dither.amplitude has the values"),
         ("\"sine\"", "\"square\"", "dither.waveform"),
-        ("values = [0.05", "values = [0.0500000000000001", "belt.belt_velocity runs over"),
+        ("values = [0.05", "values = [0.0500000000000001", "belt.belt_velocity has the values"),
     ] {
         assert!(small.contains(from));
         place.write("small.toml", small.replace(from, to));
         refused(&ask("efficiency", &["--resume"]), word);
     }
-    // What decides no number may change: comments, the title, a value that an axis replaces.
+    // Changes that do not affect any number are allowed: comments, the title, a value that an axis replaces.
     let edited = small
         .replace("Stribeck belt", "The same belt")
         .replace("amplitude = 0.4\n", "amplitude = 0.7 # an axis\n");
@@ -210,25 +210,25 @@ fn a_store_of_another_study_is_refused_and_left_alone() {
     let text = fs::read_to_string(&identity).expect("what the store is of");
     let version = concat!("\"", env!("CARGO_PKG_VERSION"), "\"");
     fs::write(&identity, text.replacen(version, "\"0.0.9\"", 1)).expect("another version");
-    let told = place.told(&ask("efficiency", &["--resume"]));
-    assert_eq!(told.status, Some(2));
-    assert!(told.errors.contains("bits may differ"), "{told:?}");
+    let printed = place.printed(&ask("efficiency", &["--resume"]));
+    assert_eq!(printed.status, Some(2));
+    assert!(printed.errors.contains("bits may differ"), "{printed:?}");
 }
 
 #[test]
-fn a_full_disk_is_told_and_survived() {
+fn a_full_disk_is_reported_and_survived() {
     let place = large("full");
     let (reference, _) = undisturbed();
     let Some(disk) = Disk::mount(&place.folder.join("disk"), "size=256k") else {
         return limited(&place, reference);
     };
-    // Room for the frame and some chunks.
-    let told = place.told(&ask("disk/full.zarr", &[]));
-    assert_eq!(told.status, Some(1), "{told:?}");
-    assert!(told.errors.contains("No space left on device"), "{told:?}");
-    assert!(told.errors.contains("--resume"), "{told:?}");
+    // Space for the metadata and some chunks.
+    let printed = place.printed(&ask("disk/full.zarr", &[]));
+    assert_eq!(printed.status, Some(1), "{printed:?}");
+    assert!(printed.errors.contains("No space left on device"), "{printed:?}");
+    assert!(printed.errors.contains("--resume"), "{printed:?}");
     let kept = place.records("disk/full.zarr");
-    assert!(kept > 0, "no room for a single chunk: {told:?}");
+    assert!(kept > 0, "no room for a single chunk: {printed:?}");
     let left = files(&disk.path.join("full.zarr"));
     assert!(!left.keys().any(|name| name.starts_with(".quell/unfinished/")), "half a file is left");
     for (name, bytes) in &left {
@@ -238,32 +238,32 @@ fn a_full_disk_is_told_and_survived() {
     let map = place.good(&ask("disk/full.zarr", &["--resume"]));
     assert!(map["resumed_points"].as_u64().is_some_and(|points| points > 0));
     same(&files(&disk.path.join("full.zarr")), reference);
-    // No room even to begin: nothing is left.
+    // Not enough space to create the store: no file remains.
     let tiny = Disk::mount(&place.folder.join("tiny"), "size=8k").expect("mounted before");
-    let told = place.told(&ask("tiny/full.zarr", &[]));
-    assert_eq!(told.status, Some(1), "{told:?}");
-    assert!(told.errors.contains("No space left on device"), "{told:?}");
+    let printed = place.printed(&ask("tiny/full.zarr", &[]));
+    assert_eq!(printed.status, Some(1), "{printed:?}");
+    assert!(printed.errors.contains("No space left on device"), "{printed:?}");
     assert_eq!(fs::read_dir(&tiny.path).expect("a disk").count(), 0, "something half-made is left");
 }
 
-/// Where nothing can be mounted: a limit on the size of files stands for the full disk.
+/// If no file system can be mounted, a limit on the size of files replaces the full disk.
 fn limited(place: &Place, reference: &BTreeMap<String, Vec<u8>>) {
     println!("no file system can be mounted here: files are limited to 512 bytes instead");
     let program = env!("CARGO_BIN_EXE_quell");
     let line =
         format!("trap '' XFSZ; ulimit -f 1; exec {program} {}", ask("full.zarr", &[]).join(" "));
     let output = Command::new("sh").current_dir(&place.folder).args(["-c", &line]).output();
-    let told = Told::of(&output.expect("a shell"));
-    assert_eq!(told.status, Some(1), "{told:?}");
-    assert!(told.errors.contains("cannot be written: File too large"), "{told:?}");
+    let printed = ProcessOutput::of(&output.expect("a shell"));
+    assert_eq!(printed.status, Some(1), "{printed:?}");
+    assert!(printed.errors.contains("cannot be written: File too large"), "{printed:?}");
     place.good(&ask("full.zarr", &["--resume"]));
     same(&place.store("full.zarr"), reference);
 }
 
 #[test]
-fn a_store_that_cannot_be_written_is_told_at_once() {
+fn an_unwritable_store_is_reported_at_once() {
     let place = large("read_only");
-    let below = place.told(&ask("study.toml/below.zarr", &[]));
+    let below = place.printed(&ask("study.toml/below.zarr", &[]));
     assert_eq!(below.status, Some(2), "{below:?}");
     assert!(below.errors.contains("cannot be written: Not a directory"), "{below:?}");
     let Some(disk) = Disk::mount(&place.folder.join("disk"), "size=16m") else {
@@ -277,9 +277,9 @@ fn a_store_that_cannot_be_written_is_told_at_once() {
     let before = files(&disk.path);
     disk.remount("ro");
     for save in ["disk/new.zarr", "disk/begun.zarr"] {
-        let told = place.told(&ask(save, &["--resume"]));
-        assert_eq!(told.status, Some(2), "{told:?}");
-        assert!(told.errors.contains("Read-only file system"), "{told:?}");
+        let printed = place.printed(&ask(save, &["--resume"]));
+        assert_eq!(printed.status, Some(2), "{printed:?}");
+        assert!(printed.errors.contains("Read-only file system"), "{printed:?}");
     }
     same(&files(&disk.path), &before);
     disk.remount("rw");
@@ -296,17 +296,17 @@ pub(crate) fn wait_for(what: &str, there: impl Fn() -> bool) {
 }
 
 fn signal(child: &Child, name: &str) {
-    let told = Command::new("kill").args([name, &child.id().to_string()]).status();
-    assert!(told.expect("kill").success());
+    let printed = Command::new("kill").args([name, &child.id().to_string()]).status();
+    assert!(printed.expect("kill").success());
 }
 
-/// A small file system of its own, gone when it is dropped.
+/// A small file system that is unmounted when it is dropped.
 struct Disk {
     path: PathBuf,
 }
 
 impl Disk {
-    /// None where mounting is not allowed.
+    /// `None` if mounting is not allowed.
     fn mount(path: &Path, options: &str) -> Option<Self> {
         fs::create_dir_all(path).expect("a place for a disk");
         let arguments = ["-t", "tmpfs", "-o", options, "quell-test"];
@@ -316,8 +316,8 @@ impl Disk {
 
     fn remount(&self, options: &str) {
         let options = format!("remount,{options}");
-        let told = Command::new("mount").args(["-o", &options]).arg(&self.path).status();
-        assert!(told.expect("mount").success());
+        let printed = Command::new("mount").args(["-o", &options]).arg(&self.path).status();
+        assert!(printed.expect("mount").success());
     }
 }
 

@@ -1,4 +1,4 @@
-//! `quell map` by the real binary: what it answers, and what its stores survive.
+//! Tests of the binary: answers of `quell map`, and faults that its stores survive.
 
 mod answers;
 mod faults;

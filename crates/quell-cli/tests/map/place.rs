@@ -43,18 +43,18 @@ impl Place {
         Self::with(&format!("map/{name}"), &[("study.toml", STUDY), ("small.toml", &small)])
     }
 
-    /// Runs a verb; what it tells people.
-    pub(crate) fn told(&self, arguments: &[&str]) -> Told {
-        Told::of(&self.quell(arguments))
+    /// Runs a verb and returns its text output.
+    pub(crate) fn printed(&self, arguments: &[&str]) -> ProcessOutput {
+        ProcessOutput::of(&self.quell(arguments))
     }
 
-    /// Every file of a store but its lock.
+    /// Every file of a store except its lock.
     pub(crate) fn store(&self, name: &str) -> BTreeMap<String, Vec<u8>> {
         files(&self.folder.join(name))
     }
 }
 
-/// Every file below a folder but the lock of a store.
+/// Every file below a folder except the lock of a store.
 pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     fn walk(folder: &Path, top: &Path, files: &mut BTreeMap<String, Vec<u8>>) {
         for entry in fs::read_dir(folder).expect("a folder") {
@@ -74,7 +74,7 @@ pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// Says which files differ, rather than showing their bytes.
+/// Reports which files differ, without printing their bytes.
 #[track_caller]
 pub(crate) fn same(one: &BTreeMap<String, Vec<u8>>, other: &BTreeMap<String, Vec<u8>>) {
     let names = |files: &BTreeMap<String, Vec<u8>>| files.keys().cloned().collect::<Vec<_>>();
@@ -83,23 +83,23 @@ pub(crate) fn same(one: &BTreeMap<String, Vec<u8>>, other: &BTreeMap<String, Vec
     assert!(differ.is_empty(), "{differ:?}");
 }
 
-/// What a process told.
+/// The output of a process.
 #[derive(Debug)]
-pub(crate) struct Told {
+pub(crate) struct ProcessOutput {
     pub(crate) status: Option<i32>,
     pub(crate) output: String,
     pub(crate) errors: String,
 }
 
-impl Told {
+impl ProcessOutput {
     pub(crate) fn of(output: &Output) -> Self {
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-        let told = Self {
+        let printed = Self {
             status: output.status.code(),
             output: text(&output.stdout),
             errors: text(&output.stderr),
         };
-        assert!(!told.errors.contains("panicked"), "{told:?}");
-        told
+        assert!(!printed.errors.contains("panicked"), "{printed:?}");
+        printed
     }
 }

@@ -1,4 +1,4 @@
-//! Stores that a stranger has prepared: nothing outside the store is touched, nothing hangs, and no changed file passes.
+//! Stores with untrusted content: no file outside the store is touched, no call blocks, and no changed file is accepted.
 #![cfg(unix)]
 
 use std::collections::BTreeMap;
@@ -8,14 +8,14 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::place::{Place, Told, files, same};
+use crate::place::{Place, ProcessOutput, files, same};
 
 const ASK: [&str; 6] = ["map", "small.toml", "--quantity", "efficiency", "--save", "m.zarr"];
 
-/// How a store is opened again.
+/// Arguments that open a store again.
 const AGAIN: [&[&str]; 2] = [&["--resume"], &["--shard", "1/1"]];
 
-/// A place with a whole store, and the store.
+/// A folder with a complete store, and the files of the store.
 fn whole(name: &str) -> (Place, BTreeMap<String, Vec<u8>>) {
     let place = Place::new(name);
     place.good(&ASK);
@@ -41,7 +41,7 @@ fn remove(path: &Path) {
     }
 }
 
-/// Opens the store both ways; each is refused in time, and says these words.
+/// Opens the store exclusively and shared; both are rejected in time with these words.
 #[track_caller]
 fn refused(place: &Place, words: &[&str]) {
     for again in AGAIN {
@@ -57,16 +57,16 @@ fn refused(place: &Place, words: &[&str]) {
             }
             std::thread::sleep(Duration::from_millis(2));
         }
-        let told = Told::of(&child.wait_with_output().expect("it ended"));
-        assert_eq!(told.status, Some(2), "{words:?} {again:?}: {told:?}");
+        let printed = ProcessOutput::of(&child.wait_with_output().expect("it ended"));
+        assert_eq!(printed.status, Some(2), "{words:?} {again:?}: {printed:?}");
         for word in words {
-            assert!(told.errors.contains(word), "{word}: {told:?}");
+            assert!(printed.errors.contains(word), "{word}: {printed:?}");
         }
     }
 }
 
 #[test]
-fn links_in_a_store_lead_nowhere() {
+fn links_in_a_store_are_not_followed() {
     let (place, store) = whole("links");
     let outside = place.folder.join("outside");
     for name in [
@@ -88,7 +88,7 @@ fn links_in_a_store_lead_nowhere() {
         restore(&place, &store);
         remove(&outside);
         let path = place.folder.join("m.zarr").join(name);
-        // What was there is outside now: all of it is right, and nothing may be changed.
+        // The original files are now outside the store: all are valid, and none may be changed.
         if path.exists() {
             fs::rename(&path, &outside).expect("moved");
         } else {
@@ -101,14 +101,14 @@ fn links_in_a_store_lead_nowhere() {
         symlink(&outside, &path).expect("a link");
         let before = if outside.is_dir() { files(&outside) } else { BTreeMap::new() };
         let bytes = fs::read(&outside).ok();
-        refused(&place, &["holds a symbolic link at", name]);
+        refused(&place, &["contains a symbolic link at", name]);
         if outside.is_dir() {
             same(&files(&outside), &before);
         }
         assert_eq!(fs::read(&outside).ok(), bytes, "{name}");
-        // A link to nowhere: nothing is made there.
+        // A dangling link: its target is not created.
         remove(&outside);
-        refused(&place, &["holds a symbolic link at", name]);
+        refused(&place, &["contains a symbolic link at", name]);
         assert!(fs::symlink_metadata(&outside).is_err(), "{name}: something was made outside");
     }
 }
@@ -129,11 +129,11 @@ fn a_store_of_another_map_is_left_as_it_is() {
     );
 }
 
-/// What a stranger makes of the bytes of a file.
+/// A change of the bytes of a file.
 type Changed<'c> = &'c dyn Fn(&[u8]) -> Vec<u8>;
 
 #[test]
-fn metadata_are_proven() {
+fn metadata_are_verified() {
     let (place, store) = whole("metadata");
     let changes: [(&str, Changed<'_>); 6] = [
         ("efficiency/zarr.json", &|bytes| {
@@ -158,7 +158,7 @@ fn metadata_are_proven() {
         let path = place.folder.join("m.zarr").join(name);
         let Some(bytes) = store.get(name) else { panic!("{name} is not in {:?}", store.keys()) };
         fs::write(&path, change(bytes)).expect("changed");
-        refused(&place, &[name, "is not what the store was begun with"]);
+        refused(&place, &[name, "differs from what this map must contain"]);
         // As the message says: without the file it is written again.
         fs::remove_file(&path).expect("removed");
         place.good(&[&ASK[..], &["--resume"]].concat());
@@ -167,7 +167,7 @@ fn metadata_are_proven() {
 }
 
 #[test]
-fn pipes_and_folders_in_place_of_files_are_refused() {
+fn pipes_and_folders_in_place_of_files_are_rejected() {
     let (place, store) = whole("pipes");
     for name in [
         "efficiency/c/0/0",

@@ -1,4 +1,4 @@
-//! The real binary in a fresh folder, for several files of tests.
+//! The binary in a fresh folder, for several test files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,10 +12,10 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// With these files in it.
+    /// A fresh folder with these files.
     pub(crate) fn with(name: &str, files: &[(&str, &str)]) -> Self {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-        // A run before this one may have left it.
+        // The folder may remain from an earlier run.
         let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(&folder).expect("a folder for tests");
         let place = Self { folder };
@@ -39,8 +39,8 @@ impl Place {
         command
     }
 
-    /// Runs a verb with `--json`: the object and the exit status. What goes wrong is told in the object, and standard
-    /// error is silent then; beside an answer there may be warnings.
+    /// Runs a verb with `--json` and returns the object and the exit status. Errors are reported in the object, and standard
+    /// error is empty then; an answer may be accompanied by warnings.
     pub(crate) fn json(&self, arguments: &[&str]) -> (Json, i32) {
         let mut with = arguments.to_vec();
         with.push("--json");
@@ -60,15 +60,15 @@ impl Place {
         object
     }
 
-    /// Runs a verb that must be refused, both ways; the complaints.
+    /// Runs a verb that must be rejected, with and without `--json`, and returns the complaints.
     pub(crate) fn refused(&self, arguments: &[&str]) -> Vec<Json> {
         let before = self.files();
         let output = self.quell(arguments);
-        let told = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {told}");
+        let printed = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {printed}");
         assert!(output.stdout.is_empty(), "{arguments:?}");
-        assert!(told.contains("error"), "{arguments:?}: {told}");
-        assert!(!told.contains("panicked"), "{told}");
+        assert!(printed.contains("error"), "{arguments:?}: {printed}");
+        assert!(!printed.contains("panicked"), "{printed}");
         let (object, status) = self.json(arguments);
         assert_eq!((status, &object["ok"]), (2, &Json::Bool(false)), "{arguments:?}");
         assert_eq!(self.files(), before, "{arguments:?}");

@@ -1,4 +1,4 @@
-//! The real binary in the repository, for tests of its studies.
+//! The binary in the repository, for tests of its studies.
 
 use std::path::Path;
 use std::process::Command;
@@ -21,7 +21,7 @@ pub(crate) fn quell(arguments: &[&str]) -> (Json, i32) {
     (serde_json::from_str(&text).expect("one object"), status)
 }
 
-/// Runs a verb: what it tells people.
+/// Runs a verb and returns its text output.
 pub(crate) fn words(arguments: &[&str]) -> String {
     let (text, status) = run(arguments);
     assert_eq!(status, 0, "{text}");

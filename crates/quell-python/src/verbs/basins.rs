@@ -1,4 +1,4 @@
-//! `basins`: which starts end on which response.
+//! `basins`: which starts converge to which response.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use super::map::{Counter, Watched};
 use crate::answer::NativeAnswer;
 use crate::call;
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(
     py: Python<'_>,
     study: Arc<Study>,

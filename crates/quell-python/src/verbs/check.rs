@@ -1,11 +1,11 @@
-//! `check`: the study in numbers.
+//! `check`: the values of a study.
 
 use quell::kind::verbs;
 use quell::{Failure, Study};
 
 use crate::answer::NativeAnswer;
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(study: &Study) -> Result<NativeAnswer, Failure> {
     Ok(NativeAnswer::new(verbs(study)?.check()))
 }

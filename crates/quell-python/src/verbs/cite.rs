@@ -5,7 +5,7 @@ use quell::{Failure, Study};
 
 use crate::answer::NativeAnswer;
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(study: &Study) -> Result<NativeAnswer, Failure> {
     Ok(NativeAnswer::new(verbs(study)?.cite()))
 }

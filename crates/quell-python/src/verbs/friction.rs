@@ -7,7 +7,7 @@ use quell_model::units::Quantity;
 use super::refused;
 use crate::answer::NativeAnswer;
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(
     study: &Study,
     at: Option<Vec<f64>>,

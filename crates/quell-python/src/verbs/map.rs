@@ -14,21 +14,21 @@ use super::refused;
 use crate::answer::NativeAnswer;
 use crate::call::{self, Watch};
 
-/// What is asked.
+/// The arguments of `map`.
 pub(crate) struct Asked {
     /// The study with its axes.
     pub(crate) study: Arc<Study>,
     /// Names of quantities.
     pub(crate) quantities: Vec<String>,
-    /// A Zarr store that keeps the map.
+    /// A Zarr store in which the map is saved.
     pub(crate) store: Option<PathBuf>,
-    /// Whether to go on with it.
+    /// Whether to continue an existing store.
     pub(crate) resume: bool,
     /// Number of threads.
     pub(crate) threads: Option<usize>,
 }
 
-/// How far it is, told between two threads.
+/// Progress, shared between two threads.
 #[derive(Default)]
 pub(crate) struct Counter {
     all: AtomicUsize,
@@ -37,7 +37,7 @@ pub(crate) struct Counter {
 }
 
 impl Counter {
-    /// How the work is run that this counts.
+    /// Settings of the run whose points are counted here.
     pub(crate) fn running(&self, threads: Option<usize>) -> Running<'_> {
         Running { threads, stop: &self.stop, progress: self }
     }
@@ -56,16 +56,16 @@ impl Progress for Counter {
     fn end(&self) {}
 }
 
-/// Tells Python how far it is; a signal stops the work after the chunks that are begun.
+/// Reports progress to Python; a signal stops the work after the chunks in progress.
 pub(crate) struct Watched {
     counter: Arc<Counter>,
     progress: Option<Py<PyAny>>,
-    told: Option<usize>,
+    reported: Option<usize>,
 }
 
 impl Watched {
     pub(crate) fn new(counter: &Arc<Counter>, progress: Option<Py<PyAny>>) -> Self {
-        Self { counter: Arc::clone(counter), progress, told: None }
+        Self { counter: Arc::clone(counter), progress, reported: None }
     }
 }
 
@@ -74,8 +74,8 @@ impl Watch for Watched {
         let all = self.counter.all.load(Ordering::Relaxed);
         let there = self.counter.there.load(Ordering::Relaxed);
         let Some(progress) = &self.progress else { return Ok(()) };
-        if all > 0 && self.told != Some(there) {
-            self.told = Some(there);
+        if all > 0 && self.reported != Some(there) {
+            self.reported = Some(there);
             progress.call1(py, (there, all))?;
         }
         Ok(())
@@ -107,7 +107,7 @@ pub(crate) fn plan(study: &Study, names: &[String]) -> Result<Plan, Failure> {
     }
 }
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(
     py: Python<'_>,
     asked: Asked,

@@ -1,4 +1,4 @@
-//! The verbs: arguments in, an answer out. One file each, as on the command line.
+//! The verbs: arguments in, answer out. There is one file per verb, as in the command line.
 
 pub(crate) mod basins;
 pub(crate) mod bifurcation;

@@ -7,7 +7,7 @@ use quell::template::{Template, list};
 
 use crate::{call, convert};
 
-/// A template, saved where that is asked for; without a name, the list of questions; the command line's object.
+/// A template, written to `save` if given; without a name, the list of questions. Returns the object of the command line.
 #[pyfunction]
 pub(crate) fn new(
     py: Python<'_>,

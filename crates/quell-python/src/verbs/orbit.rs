@@ -8,7 +8,7 @@ use super::thresholds::protocols;
 use crate::answer::NativeAnswer;
 use crate::arguments::{Pair, state};
 
-/// Answers; `after`: names of a start, or a start of its own, whose run is followed.
+/// Runs the verb. `after`: names of starts; `start`: a state. The run from the first one is followed.
 pub(crate) fn run(
     study: &Study,
     near: Option<&Pair>,

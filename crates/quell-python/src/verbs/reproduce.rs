@@ -7,7 +7,7 @@ use quell_reproduce::{ENTRIES, Resolution, find, run};
 
 use crate::{call, convert};
 
-/// Makes entries again and writes them into a folder; the command line's object.
+/// Reproduces entries and writes them into a folder. Returns the object of the command line.
 #[pyfunction]
 pub(crate) fn reproduce(
     py: Python<'_>,
@@ -24,7 +24,7 @@ pub(crate) fn reproduce(
     convert::to_python(py, &object)
 }
 
-/// (name, what it shows) of everything that can be reproduced.
+/// (name, description) of every entry that can be reproduced.
 #[pyfunction]
 pub(crate) fn reproduce_names() -> Vec<(&'static str, &'static str)> {
     ENTRIES.iter().map(|entry| (entry.name, entry.about)).collect()

@@ -1,4 +1,4 @@
-//! `resonances`: where waves of a disc meet, and which dither frequency keeps speeds clear.
+//! `resonances`: speeds at which waves of a disc meet, and dither frequencies that keep a range of speeds clear.
 
 use quell::kind::verbs;
 use quell::run::disc::resonances::{Order, ResonancesRequest};
@@ -8,7 +8,7 @@ use super::refused;
 use crate::answer::NativeAnswer;
 use crate::arguments::Pair;
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(
     study: &Study,
     order: &str,
@@ -26,7 +26,7 @@ pub(crate) fn run(
         let read = |text: &str| quantity::frequency(text, disc.as_ref(), option);
         Ok(Some((read(from)?, read(to)?)))
     };
-    // Without a range, those of the command line.
+    // The default range is that of the command line.
     let speeds = range(&speeds, "--speeds")?.unwrap_or((0.0, 1.0));
     let (clear, frequency) = (range(&clear, "--clear")?, range(&frequency, "--frequency")?);
     let request = ResonancesRequest::new(speeds, order, clear, frequency)?;

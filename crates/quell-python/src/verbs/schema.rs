@@ -1,4 +1,4 @@
-//! `schema`: the JSON Schema of a study file; the lists that classes and arguments are held to.
+//! `schema`: the JSON Schema of a study file, and the lists with which classes and arguments are compared.
 
 use pyo3::prelude::*;
 use quell::schema::schema as front_door;
@@ -13,14 +13,14 @@ pub(crate) fn schema(py: Python<'_>) -> PyResult<Py<PyAny>> {
     convert::to_python(py, &front_door())
 }
 
-/// (table, key, unit, what it is) of every key of a study file.
+/// (table, key, unit, description) of every key of a study file.
 #[pyfunction]
 pub(crate) fn keys() -> Vec<(&'static str, &'static str, &'static str, &'static str)> {
     let all = Section::ALL.iter().flat_map(|section| vocabulary::keys_of(*section));
     all.map(|key| (key.section.path(), key.name, key.unit_in_words(), key.about)).collect()
 }
 
-/// ("belt" or "disc", name, what it is) of everything that a map can show.
+/// ("belt" or "disc", name, description) of every quantity of a map.
 #[pyfunction]
 pub(crate) fn quantities() -> Vec<(&'static str, &'static str, &'static str)> {
     let all = QUANTITIES.iter().copied().flatten();

@@ -6,7 +6,7 @@ use quell::{Failure, Study, quantity};
 
 use crate::answer::NativeAnswer;
 
-/// Answers.
+/// Runs the verb.
 pub(crate) fn run(
     study: &Study,
     until: &str,

@@ -1,4 +1,4 @@
-//! `thresholds`: exact values of a parameter at which the response changes, and curves of them in two.
+//! `thresholds`: exact parameter values at which the response changes, and threshold curves in two parameters.
 
 use quell::kind::verbs;
 use quell::run::curves::CurvesRequest;
@@ -9,14 +9,14 @@ use quell::{Failure, Study, quantity};
 use crate::answer::NativeAnswer;
 use crate::arguments::{Pair, ends, state};
 
-/// Protocols by the names of their fields, and one from a state.
+/// Initial-condition protocols by the names of their fields, and one from a state.
 pub(crate) fn protocols(names: &[String], start: Option<(f64, f64)>) -> Vec<Protocol> {
     let known = [Protocol::Rest, Protocol::Sliding, Protocol::Squeal];
     let asked = known.into_iter().filter(|known| names.iter().any(|name| name == known.name()));
     asked.chain(start.map(|(x, v)| Protocol::From(x, v))).collect()
 }
 
-/// Answers; `range`: the values of the parameter that are searched.
+/// Runs the verb. `range`: the values of the parameter that are searched.
 pub(crate) fn run(
     study: &Study,
     parameter: String,
@@ -34,7 +34,7 @@ pub(crate) fn run(
     Ok(NativeAnswer::new(verbs.thresholds(request)?))
 }
 
-/// Answers; `between`: the window of the second parameter.
+/// Runs the verb. `between`: the range of the second parameter.
 pub(crate) fn run_along(
     study: &Study,
     parameter: String,

@@ -1,6 +1,6 @@
 //! The literature as BibTeX: `references.bib`, compiled in.
 //!
-//! The file beside this one is the source; the copy in the root of the repository is held to it by a test.
+//! The file in this folder is the original; a test compares the copy in the root of the repository with it.
 
 /// Every entry, with comments between groups of them.
 pub const BIBLIOGRAPHY: &str = include_str!("references.bib");
@@ -10,7 +10,7 @@ pub fn entry(key: &str) -> Option<&'static str> {
     let named = format!("{{{key},\n");
     let inside = BIBLIOGRAPHY.find(&named)?;
     let begin = BIBLIOGRAPHY[..inside].rfind('@')?;
-    // An entry ends with the first brace that begins a line.
+    // An entry ends with the first closing brace at the beginning of a line.
     let end = begin + BIBLIOGRAPHY[begin..].find("\n}")? + 2;
     BIBLIOGRAPHY.get(begin..end)
 }

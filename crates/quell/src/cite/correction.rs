@@ -1,34 +1,34 @@
-//! A correction of the print, as a value: what is printed, what is right, whom it concerns, where it is proved.
+//! A correction of the printed text: the printed form, the correct form, the studies that it concerns, and the proof.
 
 use quell_model::disc::DiscDither;
 use quell_model::{Belt, Direction, LawKind, Waveform};
 
-use super::{Task, has};
+use super::citation::Task;
 use crate::study::DiscStudy;
 use crate::study::disc::ModeSource;
 
-/// A place where the print was corrected.
+/// A correction of the printed text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Correction {
     /// Equations of the dissertation.
     pub equations: &'static str,
-    /// What is printed.
+    /// The printed form.
     pub printed: &'static str,
-    /// What it should be.
+    /// The correct form.
     pub right: &'static str,
-    /// The computations concerned; none where it is a slip that enters no computation.
+    /// The computations concerned; empty if the error does not enter any computation.
     pub tasks: &'static [Task],
     /// The studies concerned.
     pub bears: Bears,
-    /// How one knows.
+    /// The proof that the correction is right.
     pub proof: Proof,
 }
 
-/// On which studies a correction bears.
+/// The studies that a correction concerns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bears {
-    /// Belts with this law, dither along this direction, of this waveform; `None` is any, and without a direction
-    /// also belts without dither.
+    /// Belts with this law, and with dither of this waveform along this direction. `None` stands for any; without a direction,
+    /// belts without dither are included.
     Belt {
         /// The law.
         law: Option<LawKind>,
@@ -39,47 +39,52 @@ pub enum Bears {
     },
     /// Discs of this kind.
     Disc(DiscKind),
-    /// None: words, brackets, numbers of equations.
+    /// No study: words, brackets, numbers of equations.
     Nothing,
 }
 
-/// The discs that a correction bears on.
+/// The discs that a correction concerns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DiscKind {
     /// Every disc.
     Any,
-    /// Modes are computed from the plate.
+    /// Discs whose modes are computed from the plate.
     ComputedModes,
-    /// There is dither.
+    /// Discs with dither.
     Dithered,
-    /// There is tangential dither.
+    /// Discs with tangential dither.
     Tangential,
 }
 
-/// How one knows that a correction is right.
+/// How a correction was verified.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Proof {
-    /// A test computes the printed form and the right one and holds both against quadrature, exact eigenvalues or an
-    /// exact orbit.
+    /// A test computes the printed and the correct form and compares both with quadrature, exact eigenvalues or an exact orbit.
     Test {
         /// File, from the root of the project.
         file: &'static str,
         /// Name of its function.
         name: &'static str,
     },
-    /// Reading the derivation is enough: nothing is computed with it.
+    /// Reading the derivation is sufficient, because nothing is computed with it.
     Reading,
 }
 
+/// Whether a belt has dither along a direction, and of a waveform if one is given.
+pub(super) fn has(belt: &Belt, direction: Direction, waveform: Option<Waveform>) -> bool {
+    belt.dithers_along(direction)
+        .any(|dither| waveform.is_none_or(|waveform| dither.waveform == waveform))
+}
+
 impl Bears {
-    /// On this belt?
+    /// Whether this belt is concerned.
     pub(super) fn on_belt(self, belt: &Belt) -> bool {
         let Self::Belt { law, direction, waveform } = self else { return false };
         law.is_none_or(|law| belt.friction().kind() == law)
             && direction.is_none_or(|direction| has(belt, direction, waveform))
     }
 
-    /// On this disc?
+    /// Whether this disc is concerned.
     pub(super) fn on_disc(self, study: &DiscStudy) -> bool {
         match self {
             Self::Disc(kind) => kind.is(study),
@@ -89,7 +94,7 @@ impl Bears {
 }
 
 impl DiscKind {
-    /// Is the study of such a disc?
+    /// Whether the disc of a study is of this kind.
     fn is(self, study: &DiscStudy) -> bool {
         match self {
             Self::Any => true,

@@ -1,14 +1,13 @@
-//! Where the print is wrong: the one list behind `quell cite`, the report of `quell reproduce` and the book's page of
-//! errata.
+//! Errors of the printed text: the list behind `quell cite`, the report of `quell reproduce` and the errata of the book.
 //!
 //! Here |v_r| ≤ αG_max is "inside"; γ = πα/(4v_m), w = |v_r|/v_m, κ = 4v_mζ/(3FΔμ), Δμ = μ_s − μ_m.
 //!
-//! Each entry that enters a computation names the test that computes the printed form and the right one and holds both
-//! against the definition.
+//! Each entry that enters a computation names the test that computes the printed and the correct form and compares both with the
+//! definition.
 
 use quell_model::{Direction, LawKind, Waveform};
 
-use super::Task;
+use super::citation::Task;
 use super::correction::{Bears, Correction, DiscKind, Proof};
 
 const STABILITY: &[Task] = &[Task::Stability];
@@ -41,7 +40,7 @@ const fn belt(name: &'static str) -> Proof {
     Proof::Test { file: "crates/quell-dynamics/tests/averaging_errata.rs", name }
 }
 
-/// A test of what the belt does in time.
+/// A test of the motion of the belt.
 const fn motion(name: &'static str) -> Proof {
     Proof::Test { file: "crates/quell-dynamics/tests/motion_errata.rs", name }
 }
@@ -398,7 +397,7 @@ pub const CORRECTIONS: &[Correction] = &[
     Correction {
         equations: "axes of figures 5.3–5.15",
         printed: "f of order 10⁻⁵",
-        right: "10⁻⁴ of the f that (5.18) uses beside m, c, k: the threshold c(1 + Ω) to 2c depends on nothing else",
+        right: "10⁻⁴ of the f that (5.18) uses together with m, c, k: the threshold c(1 + Ω) to 2c depends on nothing else",
         tasks: STABILITY,
         bears: Bears::Disc(DiscKind::Any),
         proof: disc("unit_of_the_friction_axis"),

@@ -1,10 +1,11 @@
-//! What the computations of a disc rest on.
+//! Sources of the computations of a disc.
 
 use quell_model::disc::DiscDither;
 
-use super::{
-    CHAN_1994, Citation, IWAN_STAHL_1973, MICHAUX_2005, NAYFEH_MOOK_1979, TAKAHASHI_IMADA_1984,
-    Task, VOGEL_SKINNER_1965,
+use super::citation::{Citation, Task};
+use super::references::{
+    CHAN_1994, IWAN_STAHL_1973, MICHAUX_2005, NAYFEH_MOOK_1979, TAKAHASHI_IMADA_1984,
+    VOGEL_SKINNER_1965,
 };
 use crate::study::DiscStudy;
 use crate::study::disc::ModeSource;
@@ -30,20 +31,20 @@ pub(super) fn citations(study: &DiscStudy) -> Vec<Citation> {
         }
     };
     cite(Task::Stability, MICHAUX_2005, motion);
-    cite(Task::Stability, IWAN_STAHL_1973, "a disc under a load that goes round");
+    cite(Task::Stability, IWAN_STAHL_1973, "a disc under a rotating load");
     cite(Task::Stability, CHAN_1994, "friction as a follower force");
     if study.disc().dither() != DiscDither::None {
         cite(
             Task::Stability,
             TAKAHASHI_IMADA_1984,
-            "Floquet exponents of fourth order by a splitting",
+            "Floquet exponents by a fourth-order splitting",
         );
     }
     cite(Task::Resonances, NAYFEH_MOOK_1979, "multiple scales");
     cite(
         Task::Resonances,
         MICHAUX_2005,
-        "complex form (5.41), places (5.55), (5.56), slow equations (5.43)–(5.54), (5.57)–(5.66)",
+        "complex form (5.41), resonant speeds (5.55), (5.56), slow equations (5.43)–(5.54), (5.57)–(5.66)",
     );
     citations
 }

@@ -1,20 +1,24 @@
-//! Which equations and sources a study's computations use, and where the print was corrected.
+//! Equations and sources that a study's computations use, and corrections of the printed text.
 //!
-//! Equation numbers are those of Michaux (2005). Each correction was found by comparing the
-//! printed formula with quadrature of its definition; the numbers are in `reference/`.
+//! Equation numbers are those of Michaux (2005). Each correction was found by comparing the printed formula with quadrature of
+//! its definition; the numbers are in `reference/`.
 
-use quell_model::{Belt, Direction, LawKind, Waveform};
+use quell_model::{Belt, Direction, LawKind};
 use serde_json::{Value as Json, json};
 
 use crate::study::{BeltStudy, DiscStudy, Study};
 
 pub mod bibliography;
+mod citation;
 mod correction;
 mod corrections;
 mod disc;
 pub mod errata;
 mod references;
 
+use correction::has;
+
+pub use citation::{Citation, Task};
 pub use correction::{Bears, Correction, DiscKind, Proof};
 pub use corrections::CORRECTIONS;
 pub use references::{
@@ -24,84 +28,26 @@ pub use references::{
     VOGEL_SKINNER_1965, WILSON_1927,
 };
 
-/// A computation, named after its verb.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Task {
-    /// Effective friction.
-    Friction,
-    /// Averaged stability of steady sliding.
-    Stability,
-    /// A trajectory with its events.
-    Simulate,
-    /// The steady response.
-    Response,
-    /// Sweeps of a parameter up and down.
-    Bifurcation,
-    /// Which starts end on which response.
-    Basins,
-    /// Modes of a disc.
-    Modes,
-    /// Resonances of a disc.
-    Resonances,
-}
-
-impl Task {
-    /// Every task of a belt.
-    pub const ALL: &'static [Self] = &[
-        Self::Friction,
-        Self::Stability,
-        Self::Simulate,
-        Self::Response,
-        Self::Bifurcation,
-        Self::Basins,
-    ];
-
-    /// Name of the verb.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Friction => "friction",
-            Self::Stability => "stability",
-            Self::Simulate => "simulate",
-            Self::Response => "response",
-            Self::Bifurcation => "bifurcation",
-            Self::Basins => "basins",
-            Self::Modes => "modes",
-            Self::Resonances => "resonances",
-        }
-    }
-}
-
-/// A source with what is used of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Citation {
-    /// The source.
-    pub source: Source,
-    /// The computation that uses it.
-    pub task: Task,
-    /// The equations used, or what it is used for.
-    pub used: &'static str,
-}
-
-/// What a study's computations rest on.
+/// Sources of a study's computations.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sources {
     /// Citations, task by task.
     pub citations: Vec<Citation>,
-    /// Corrections that bear on this study.
+    /// Corrections that concern this study.
     pub corrections: Vec<Correction>,
 }
 
-/// What the computations of a belt's study rest on, with the corrections that bear on it.
+/// Sources of the computations of a belt study, and the corrections that concern it.
 pub fn sources(study: &BeltStudy) -> Sources {
     gather(citations(study), |bears| bears.on_belt(study.belt()))
 }
 
-/// The same of a disc's study.
+/// Sources and corrections of a disc study.
 pub fn sources_of_disc(study: &DiscStudy) -> Sources {
     gather(disc::citations(study), |bears| bears.on_disc(study))
 }
 
-/// The same of a study of any kind.
+/// Sources and corrections of a study of any kind.
 pub fn sources_of(study: &Study) -> Sources {
     match (study.belt(), study.disc()) {
         (Ok(study), _) => sources(&study),
@@ -110,7 +56,7 @@ pub fn sources_of(study: &Study) -> Sources {
     }
 }
 
-/// The citations with the corrections that bear and enter a computation.
+/// The citations with the corrections that concern the study and enter a computation.
 fn gather(citations: Vec<Citation>, bears: impl Fn(Bears) -> bool) -> Sources {
     let concerned =
         |correction: &&Correction| !correction.tasks.is_empty() && bears(correction.bears);
@@ -137,7 +83,7 @@ fn citations(study: &BeltStudy) -> Vec<Citation> {
     citations
 }
 
-/// Equations of motion and law.
+/// The equations of motion and of the friction law.
 fn model(belt: &Belt) -> &'static str {
     let normal = has(belt, Direction::Normal, None);
     match (belt.friction().kind(), normal) {
@@ -154,10 +100,10 @@ fn model(belt: &Belt) -> &'static str {
             "equation of motion (2.1), (3.1), (4.1)"
         }
         (LawKind::Expression | LawKind::Samples, false) => {
-            "equation of motion (2.1), (3.1); the law is the study's own"
+            "equation of motion (2.1), (3.1); the law is defined in the study"
         }
         (LawKind::Expression | LawKind::Samples, true) => {
-            "equation of motion (2.1), (3.1), (4.1); the law is the study's own"
+            "equation of motion (2.1), (3.1), (4.1); the law is defined in the study"
         }
     }
 }
@@ -194,7 +140,7 @@ fn closed_form(law: LawKind) -> Option<&'static str> {
     match law {
         LawKind::Stribeck => Some("closed forms (3.29)–(3.31)"),
         LawKind::Decreasing => Some("closed forms (3.36)–(3.39), (B.10), (C.7)"),
-        // Quadrature serves any other.
+        // Any other law is integrated by quadrature.
         LawKind::Coulomb
         | LawKind::StribeckExponential
         | LawKind::Expression
@@ -204,7 +150,7 @@ fn closed_form(law: LawKind) -> Option<&'static str> {
 
 fn simulation(task: Task, cite: &mut impl FnMut(Task, Source, &'static str)) {
     cite(task, JORBA_ZOU_2005, "Taylor steps and the choice of their length");
-    cite(task, FILIPPOV_1988, "what a solution is where the friction law is set-valued");
+    cite(task, FILIPPOV_1988, "definition of a solution for a set-valued friction law");
     if task == Task::Response {
         cite(task, MICHAUX_2005, "residual vibration E under dither (2.27)");
         cite(task, HARRIS_1978, "Hann window of the spectrum");
@@ -218,17 +164,12 @@ fn attractors(task: Task, cite: &mut impl FnMut(Task, Source, &'static str)) {
     cite(task, DAS_SAIKI_SANDER_YORKE_2017, "averages of a section and rotation numbers");
     if task == Task::Basins {
         cite(task, MENCK_2013, "the share of starts that reach a response");
-        cite(task, WILSON_1927, "interval of a share that was sampled");
+        cite(task, WILSON_1927, "confidence interval of a sampled share");
     }
 }
 
-fn has(belt: &Belt, direction: Direction, waveform: Option<Waveform>) -> bool {
-    belt.dithers_along(direction)
-        .any(|dither| waveform.is_none_or(|waveform| dither.waveform == waveform))
-}
-
 impl Sources {
-    /// What of it concerns these tasks.
+    /// The citations and corrections that concern these tasks.
     #[must_use]
     pub fn of_tasks(&self, tasks: &[Task]) -> Self {
         let concerned = |of: &[Task]| of.iter().any(|task| tasks.contains(task));
@@ -248,7 +189,7 @@ impl Sources {
         }
     }
 
-    /// Adds what is not there yet of another study's.
+    /// Adds the citations and corrections of another study that are not contained yet.
     pub fn extend(&mut self, other: &Self) {
         for citation in &other.citations {
             if !self.citations.contains(citation) {
@@ -276,7 +217,7 @@ impl Sources {
         entries.join("\n\n") + "\n"
     }
 
-    /// As JSON.
+    /// The sources as JSON.
     pub fn json(&self) -> Json {
         let sources: Vec<Json> = self
             .unique()
@@ -331,16 +272,16 @@ mod tests {
     }
 
     #[test]
-    fn only_corrections_that_bear_on_the_study_are_told() {
-        let told = |law, waveform, direction| {
+    fn only_corrections_that_concern_the_study_are_listed() {
+        let listed = |law, waveform, direction| {
             let found = sources(&study(law, waveform, direction)).corrections;
             found.iter().map(|correction| correction.equations).collect::<Vec<_>>().join("; ")
         };
-        assert!(told("decreasing", "triangle", "tangential").contains("(3.38a)"));
-        assert!(!told("decreasing", "sine", "tangential").contains("(3.38a)"));
-        assert!(!told("stribeck", "triangle", "tangential").contains("(3.53a)"));
-        assert!(told("stribeck", "sine", "normal").contains("(4.24), (4.28), (4.32)"));
-        assert!(!told("stribeck", "sine", "tangential").contains("(4.24), (4.28), (4.32)"));
+        assert!(listed("decreasing", "triangle", "tangential").contains("(3.38a)"));
+        assert!(!listed("decreasing", "sine", "tangential").contains("(3.38a)"));
+        assert!(!listed("stribeck", "triangle", "tangential").contains("(3.53a)"));
+        assert!(listed("stribeck", "sine", "normal").contains("(4.24), (4.28), (4.32)"));
+        assert!(!listed("stribeck", "sine", "tangential").contains("(4.24), (4.28), (4.32)"));
     }
 
     #[test]
@@ -355,9 +296,9 @@ mod tests {
         assert_eq!(keys.len(), SOURCES.len());
     }
 
-    /// Who reads that a test proves a correction finds it.
+    /// The tests named as proofs of corrections exist.
     #[test]
-    fn every_proof_is_there() {
+    fn every_proof_exists() {
         let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         for correction in CORRECTIONS {
             let Proof::Test { file, name } = correction.proof else {

@@ -1,4 +1,4 @@
-//! The published sources that can be cited; the same stand in `references.bib`.
+//! The published sources that can be cited; `references.bib` contains the same sources.
 
 /// A published source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,19 +27,19 @@ pub const THOMSEN_FIDLIN_2003: Source = Source {
     reference: "J. J. Thomsen, A. Fidlin: Analytical approximations for stick–slip vibration \
                 amplitudes. International Journal of Non-Linear Mechanics 38(3), 389–403, 2003",
 };
-/// Dither against brake squeal, on a brake.
+/// Experiments with dither against squeal of a disc brake.
 pub const CUNEFARE_GRAF_2002: Source = Source {
     key: "cunefare2002",
     reference: "K. A. Cunefare, A. J. Graf: Experimental active control of automotive disc brake \
                 rotor squeal using dither. Journal of Sound and Vibration 250(4), 579–590, 2002",
 };
-/// Friction with a Stribeck fall and a viscous part in machines.
+/// Friction in machines, with a decreasing (Stribeck) and a viscous part.
 pub const ARMSTRONG_HELOUVRY_1994: Source = Source {
     key: "armstrong1994",
     reference: "B. Armstrong-Hélouvry, P. Dupont, C. Canudas de Wit: A survey of models, analysis tools and \
                 compensation methods for the control of machines with friction. Automatica 30(7), 1083–1138, 1994",
 };
-/// Taylor steps and their control.
+/// Integration by Taylor series with step size control.
 pub const JORBA_ZOU_2005: Source = Source {
     key: "jorba2005",
     reference: "À. Jorba, M. Zou: A software package for the numerical integration of ODEs by \
@@ -51,7 +51,7 @@ pub const FILIPPOV_1988: Source = Source {
     reference: "A. F. Filippov: Differential Equations with Discontinuous Righthand Sides. \
                 Kluwer, Dordrecht, 1988",
 };
-/// The Hann window and its peers.
+/// The Hann window and other windows.
 pub const HARRIS_1978: Source = Source {
     key: "harris1978",
     reference: "F. J. Harris: On the use of windows for harmonic analysis with the discrete \
@@ -63,13 +63,13 @@ pub const DAS_SAIKI_SANDER_YORKE_2017: Source = Source {
     reference: "S. Das, Y. Saiki, E. Sander, J. A. Yorke: Quantitative quasiperiodicity. \
                 Nonlinearity 30(11), 4111–4140, 2017",
 };
-/// The share of starts that reach a state, beside its linear stability.
+/// Basin stability: the share of starts that reach a state, as a complement to linear stability.
 pub const MENCK_2013: Source = Source {
     key: "menck2013",
     reference: "P. J. Menck, J. Heitzig, N. Marwan, J. Kurths: How basin stability complements the \
                 linear-stability paradigm. Nature Physics 9(2), 89–92, 2013",
 };
-/// The interval of a share that was sampled.
+/// Confidence interval of a sampled share.
 pub const WILSON_1927: Source = Source {
     key: "wilson1927",
     reference: "E. B. Wilson: Probable inference, the law of succession, and statistical inference. \
@@ -87,19 +87,19 @@ pub const IWAN_STAHL_1973: Source = Source {
     reference: "W. D. Iwan, K. J. Stahl: The response of an elastic disk with a moving mass system. \
                 Journal of Applied Mechanics 40(2), 445–451, 1973",
 };
-/// The same with the follower force of friction.
+/// A disc under such a load with friction as a follower force.
 pub const CHAN_1994: Source = Source {
     key: "chan1994",
     reference: "S. N. Chan, J. E. Mottershead, M. P. Cartmell: Parametric resonances at subcritical \
                 speeds in discs with rotating frictional loads. Proceedings of the Institution of \
                 Mechanical Engineers, Part C 208(6), 417–425, 1994",
 };
-/// Multiple scales and parametric excitation.
+/// The method of multiple scales, and parametric excitation.
 pub const NAYFEH_MOOK_1979: Source = Source {
     key: "nayfeh1979",
     reference: "A. H. Nayfeh, D. T. Mook: Nonlinear Oscillations. Wiley, New York, 1979",
 };
-/// Splittings whose exponents are of fourth order.
+/// Fourth-order splitting of exponentials.
 pub const TAKAHASHI_IMADA_1984: Source = Source {
     key: "takahashi1984",
     reference: "M. Takahashi, M. Imada: Monte Carlo calculation of quantum systems. II. Higher order \

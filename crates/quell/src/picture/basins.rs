@@ -1,10 +1,10 @@
-//! Basins in the plane of starts, and the share of the quiet response over a parameter.
+//! Basins in the plane of starts, and the share of quiescent responses over a parameter.
 
 use quell_dynamics::attractor::{Basin, BasinLabel};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_model::units::Quantity;
 
-use super::bifurcation::{axis, stretches};
+use super::bifurcation::{axis, intervals};
 use super::caption::caption;
 use super::map::{Map, MapAxis, MapKind, map_panel};
 use super::ruler::Ruler;
@@ -18,16 +18,16 @@ use crate::run::attractor::words;
 use crate::run::basins::{Basins, Portrait, Share};
 use crate::study::BeltStudy;
 
-/// States of a section that are drawn.
+/// Maximum number of states of a section that are drawn.
 const STATES: usize = 400;
 
-/// Why an end has no colour.
-const UNKNOWN: &str = "end not known";
+/// Reason in the legend for a start without colour.
+const UNKNOWN: &str = "outcome unknown";
 
 /// The picture of basins: the plane of starts, or the share over a parameter.
 ///
 /// # Errors
-/// [`Failure::Failed`] where it cannot be drawn.
+/// [`Failure::Failed`] if it cannot be drawn.
 pub fn basins(study: &BeltStudy, done: &Basins) -> Result<Figure, Failure> {
     let figure = match (&done.varied, done.portraits.as_slice()) {
         (None, [portrait]) => {
@@ -38,15 +38,15 @@ pub fn basins(study: &BeltStudy, done: &Basins) -> Result<Figure, Failure> {
         }
     };
     let title = study.title().unwrap_or_default();
-    let told =
+    let text =
         format!("{} {}. {}.", done.sentence(study), done.starts_in_words(study), caption(study));
-    Ok(figure.title(title).caption(told))
+    Ok(figure.title(title).caption(text))
 }
 
 /// The plane of starts of one portrait.
 ///
 /// # Errors
-/// [`Failure::Failed`] where it cannot be drawn.
+/// [`Failure::Failed`] if it cannot be drawn.
 pub(crate) fn plane(
     study: &BeltStudy,
     done: &Basins,
@@ -76,7 +76,7 @@ pub(crate) fn plane(
         let points =
             Points::new(if single { PlotRole::Exact } else { role(basins, place) }, states);
         let marker = if single { Marker::Cross } else { Marker::Disc };
-        let label = if place == 0 { "sections of the responses" } else { "" };
+        let label = if place == 0 { "stroboscopic sections of the responses" } else { "" };
         over.push(points.marker(marker).size(if single { 8.0 } else { 2.4 }).label(label).into());
     }
     let (across, up) = (x.axis("displacement", "x"), v.axis("velocity", "x′"));
@@ -87,7 +87,8 @@ pub(crate) fn plane(
             let (role, label) = outcome(place);
             let states = done.starts.states().iter().zip(labels);
             let inside = states.filter(|(_, label)| **label == BasinLabel::Attractor(place));
-            let inside = inside.map(|(it, _)| (x.place(it.displacement), v.place(it.velocity)));
+            let inside =
+                inside.map(|(state, _)| (x.place(state.displacement), v.place(state.velocity)));
             panel = panel.with(Points::new(role, inside).size(3.0).label(label));
         }
         return Ok(panel.with_all(over).legend(Legend::Above));
@@ -101,10 +102,10 @@ pub(crate) fn plane(
     let picture = Map {
         values: values.map(|(column, row)| value(column, row)).collect(),
         axes: vec![
-            MapAxis { axis: across, values: columns.iter().map(|it| x.place(*it)).collect() },
-            MapAxis { axis: up, values: rows.iter().map(|it| v.place(*it)).collect() },
+            MapAxis { axis: across, values: columns.iter().map(|value| x.place(*value)).collect() },
+            MapAxis { axis: up, values: rows.iter().map(|value| v.place(*value)).collect() },
         ],
-        quantity: PlotAxis::new("end"),
+        quantity: PlotAxis::new("outcome"),
         kind: MapKind::Outcome((0..basins.len()).map(outcome).collect()),
         reasons: vec![UNKNOWN.to_owned()],
         over,
@@ -112,7 +113,7 @@ pub(crate) fn plane(
     Ok(map_panel(&picture, false).map_err(undrawable)?.legend(Legend::Above))
 }
 
-/// The quiet response is blue, the largest other one red.
+/// The quiescent response is blue, the largest other one red.
 fn role(basins: &[Basin], place: usize) -> PlotRole {
     let quiet_first = basins.first().is_some_and(|basin| basin.attractor.quiet);
     match (quiet_first, place) {
@@ -122,15 +123,17 @@ fn role(basins: &[Basin], place: usize) -> PlotRole {
     }
 }
 
-/// The share of the quiet response over the parameter.
+/// The share of starts that reach a quiescent response over the parameter.
 fn shares(done: &Basins) -> Panel {
     let Some(varied) = &done.varied else { return Panel::default() };
     let up = PlotAxis::new("share of starts that fall quiet").between(0.0, 1.0);
-    // Broken where no end is known.
+    // The curve has a gap where no outcome is known.
     let pieces: Vec<Vec<(f64, Share)>> = done
         .portraits
-        .split(|it| it.quiet.is_none())
-        .map(|piece| piece.iter().filter_map(|it| Some((it.value?, it.quiet?))).collect())
+        .split(|portrait| portrait.quiet.is_none())
+        .map(|piece| {
+            piece.iter().filter_map(|portrait| Some((portrait.value?, portrait.quiet?))).collect()
+        })
         .filter(|piece: &Vec<_>| !piece.is_empty())
         .collect();
     let points = |piece: &[(f64, Share)], which: fn(Share) -> f64| -> Vec<(f64, f64)> {
@@ -141,9 +144,11 @@ fn shares(done: &Basins) -> Panel {
     let local: Vec<(f64, bool)> = done
         .portraits
         .iter()
-        .filter_map(|it| Some((it.value?, it.local == Ok(OrbitVerdict::Unstable))))
+        .filter_map(|portrait| {
+            Some((portrait.value?, portrait.local == Ok(OrbitVerdict::Unstable)))
+        })
         .collect();
-    let mut panel = with_unstable(Panel::new(axis(varied), up), stretches(&local));
+    let mut panel = with_unstable(Panel::new(axis(varied), up), intervals(&local));
     for (number, piece) in pieces.iter().enumerate() {
         let (low, high) = (points(piece, |share| share.low), points(piece, |share| share.high));
         let label = if number == 0 { "bounds" } else { "" };

@@ -1,4 +1,4 @@
-//! Bifurcation diagrams: section, size and slow frequency over the parameter, up and down.
+//! Bifurcation diagrams: stroboscopic section, amplitude and slow frequency over the parameter, swept up and down.
 
 use quell_dynamics::attractor::Attractor;
 use quell_dynamics::orbit::OrbitVerdict;
@@ -15,25 +15,26 @@ use crate::run::bifurcation::{Bifurcation, Branch, Direction};
 use crate::run::varied::Varied;
 use crate::study::BeltStudy;
 
-/// States of all sections that are drawn: more is black and makes a picture of many megabytes.
+/// Maximum number of states of all sections that are drawn: more states overlap, and the file would have many megabytes.
 const MOST_STATES: usize = 16_000;
 
-/// States of one section that are always drawn.
+/// Number of states of each section that are always drawn.
 const STATES: usize = 12;
 
-/// The axis of a varied number.
+/// The axis of a varied parameter.
 pub(super) fn axis(varied: &Varied) -> PlotAxis {
     labelled(PlotAxis::new(varied.about), varied.symbol.unwrap_or(""), varied.unit)
 }
 
-/// Stretches in which something holds, each from the middle before it to the middle behind it.
-pub(super) fn stretches(values: &[(f64, bool)]) -> Vec<(f64, f64)> {
+/// Intervals in which a condition holds; their ends are midpoints between neighbouring values.
+pub(super) fn intervals(values: &[(f64, bool)]) -> Vec<(f64, f64)> {
     let mut found: Vec<(f64, f64)> = Vec::new();
     for (place, (value, holds)) in values.iter().enumerate() {
         if !holds {
             continue;
         }
-        let middle = |other: Option<&(f64, bool)>| other.map_or(*value, |it| 0.5 * (it.0 + value));
+        let middle =
+            |other: Option<&(f64, bool)>| other.map_or(*value, |other| 0.5 * (other.0 + value));
         let before = middle(place.checked_sub(1).and_then(|place| values.get(place)));
         let behind = middle(values.get(place + 1));
         match found.last_mut() {
@@ -50,12 +51,12 @@ pub fn bifurcation(study: &BeltStudy, done: &Bifurcation) -> Figure {
         done.branches
             .iter()
             .flat_map(|branch| &branch.points)
-            .filter_map(|it| it.response.as_ref().ok())
+            .filter_map(|point| point.response.as_ref().ok())
     };
     let ruler = Ruler::of(
         study,
         Quantity::Displacement,
-        attractors().flat_map(|it| [it.lowest, it.highest]),
+        attractors().flat_map(|attractor| [attractor.lowest, attractor.highest]),
     );
     let count = attractors().count().max(1);
     let each = (MOST_STATES / count).max(STATES);
@@ -66,8 +67,9 @@ pub fn bifurcation(study: &BeltStudy, done: &Bifurcation) -> Figure {
     for branch in &done.branches {
         let (role, marker, width) = look(branch.direction);
         let label = format!("swept {}", branch.direction.name());
-        let settled =
-            || branch.points.iter().filter_map(|it| Some((it, it.response.as_ref().ok()?)));
+        let settled = || {
+            branch.points.iter().filter_map(|point| Some((point, point.response.as_ref().ok()?)))
+        };
         let states = settled().flat_map(|(point, attractor)| {
             let step = attractor.section.len().div_ceil(each).max(1);
             let states = attractor.section.iter().step_by(step);
@@ -93,7 +95,7 @@ pub fn bifurcation(study: &BeltStudy, done: &Bifurcation) -> Figure {
         .caption(format!("{} {}", done.sentence(study), caption_of_run(study)))
 }
 
-/// Colour and mark of a direction: one below the other where both agree.
+/// Role, marker and size of a direction, such that both are visible where they coincide.
 fn look(direction: Direction) -> (PlotRole, Marker, f64) {
     match direction {
         Direction::Up => (PlotRole::Series(0), Marker::Disc, 2.2),
@@ -101,7 +103,7 @@ fn look(direction: Direction) -> (PlotRole, Marker, f64) {
     }
 }
 
-/// Stretches in which the quiet response is unstable.
+/// Intervals in which the base response is unstable.
 fn unstable(done: &Bifurcation) -> Vec<(f64, f64)> {
     let Some(branch) = done.branches.first() else { return Vec::new() };
     let mut values: Vec<(f64, bool)> = branch
@@ -110,10 +112,10 @@ fn unstable(done: &Bifurcation) -> Vec<(f64, f64)> {
         .map(|point| (point.value, point.local == Ok(OrbitVerdict::Unstable)))
         .collect();
     values.sort_by(|a, b| a.0.total_cmp(&b.0));
-    stretches(&values)
+    intervals(&values)
 }
 
-/// A quantity of a branch, broken where it jumps between the quiet response and another.
+/// A quantity of a branch, with a gap where it jumps between a quiescent response and another.
 fn line(branch: &Branch, value: impl Fn(&Attractor) -> Option<f64>) -> Vec<Vec<(f64, f64)>> {
     let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
     let mut before: Option<bool> = None;
@@ -133,11 +135,11 @@ fn line(branch: &Branch, value: impl Fn(&Attractor) -> Option<f64>) -> Vec<Vec<(
 
 #[cfg(test)]
 mod tests {
-    use super::stretches;
+    use super::intervals;
 
     #[test]
-    fn stretches_reach_half_way_to_their_neighbours() {
+    fn intervals_end_halfway_to_their_neighbours() {
         let values = [(0.0, true), (1.0, true), (2.0, false), (3.0, false), (4.0, true)];
-        assert_eq!(stretches(&values), [(0.0, 1.5), (3.5, 4.0)]);
+        assert_eq!(intervals(&values), [(0.0, 1.5), (3.5, 4.0)]);
     }
 }

@@ -1,4 +1,4 @@
-//! Captions: law, belt, dither and start of a study in one line.
+//! Captions: law, belt, dither and initial state of a study in one line.
 
 use quell_model::Direction;
 use quell_model::units::Quantity;
@@ -48,7 +48,7 @@ pub(super) fn caption(study: &BeltStudy) -> String {
     parts.join(", ")
 }
 
-/// The study and its start in one line.
+/// The study and its initial state in one line.
 pub(super) fn caption_of_run(study: &BeltStudy) -> String {
     format!("{}; {}.", caption(study), start_in_words(study))
 }

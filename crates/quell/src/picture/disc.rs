@@ -1,4 +1,4 @@
-//! Pictures of a disc: shapes of its modes, its Campbell diagram, tongues over speed and friction.
+//! Pictures of a disc: mode shapes, Campbell diagram, and instability tongues over speed and friction.
 
 use quell_disc::plate::PlateMode;
 use quell_disc::resonance::{Order, Waves};
@@ -20,19 +20,19 @@ use crate::run::disc::stability::Stability;
 use crate::study::DiscStudy;
 use crate::study::disc::ModeSource;
 
-/// Points across the plate.
+/// Number of points across the plate.
 const ACROSS: usize = 161;
-/// Most shapes in one picture.
+/// Maximum number of mode shapes in a picture.
 const MOST_SHAPES: usize = 12;
-/// Frictions at which edges of tongues are told.
+/// Number of friction coefficients at which the edges of tongues are computed.
 const EDGES: usize = 120;
-/// A predicted tongue further than this part of its speed from its place is none.
+/// A predicted edge counts only if its distance from the speed of the resonance is below this fraction of that speed.
 const FAR: f64 = 0.15;
 
-/// Shapes of the first modes; frequencies over nodal diameters where modes are given, not computed.
+/// Shapes of the first modes; frequencies over nodal diameters if the modes are given and not computed.
 ///
 /// # Errors
-/// [`Failure::Failed`] where it cannot be drawn.
+/// [`Failure::Failed`] if it cannot be drawn.
 pub fn modes(study: &DiscStudy, done: &Modes) -> Result<Figure, Failure> {
     let figure = match study.source() {
         ModeSource::Plate(plate) => {
@@ -71,10 +71,10 @@ pub fn modes(study: &DiscStudy, done: &Modes) -> Result<Figure, Failure> {
     Ok(figure.title(study.title().unwrap_or_default()).caption(caption))
 }
 
-/// The deflection φ(r) cos jθ of a mode over the plate: red up, blue down, lines at rest.
+/// The deflection φ(r) cos jθ of a mode over the plate: red up, blue down, with nodal lines.
 ///
 /// # Errors
-/// [`PlotError`] where there is no field.
+/// [`PlotError`] if the field is invalid.
 pub fn shape(mode: &PlateMode, inner: f64) -> Result<Panel, PlotError> {
     let places: Vec<f64> =
         (0..ACROSS).map(|k| 1.02 * (2.0 * (k as f64) / (ACROSS - 1) as f64 - 1.0)).collect();
@@ -94,7 +94,7 @@ pub fn shape(mode: &PlateMode, inner: f64) -> Result<Panel, PlotError> {
         let axis = PlotAxis::new("").symbol(format!("{symbol}/a")).between(-1.02, 1.02);
         axis.ticks([-1.0, -0.5, 0.0, 0.5, 1.0])
     };
-    // Outside the plate nothing moves: the colour of rest, not hatched as unknown.
+    // Outside the plate the deflection is drawn as zero, instead of hatched as unknown.
     let values = field.values().iter().map(|value| Some(value.unwrap_or(0.0))).collect();
     let shown = Field::new(places.clone(), places.clone(), values)?;
     let grid = Heatmap::new(shown, Colouring::Shaded(shading));
@@ -105,14 +105,14 @@ pub fn shape(mode: &PlateMode, inner: f64) -> Result<Panel, PlotError> {
         .legend(Legend::None))
 }
 
-/// Frequency and growth of every motion over speed, the study's own speed marked.
+/// Frequency and growth rate of every motion over speed, with the speed of the study marked.
 pub fn stability(study: &DiscStudy, done: &Stability, campbell: &Campbell) -> Figure {
     let last = campbell.speeds.last().copied().unwrap_or(1.0);
     let across = || PlotAxis::new("speed").symbol("Ω").between(0.0, last);
     let every = |pick: fn(&(f64, f64)) -> f64| {
         let columns = campbell.speeds.iter().zip(&campbell.motions);
         columns
-            .flat_map(|(speed, motions)| motions.iter().map(|it| (*speed, pick(it))))
+            .flat_map(|(speed, motions)| motions.iter().map(|motion| (*speed, pick(motion))))
             .collect::<Vec<_>>()
     };
     let dots = |points: Vec<(f64, f64)>, label: &str| {
@@ -145,7 +145,7 @@ pub fn stability(study: &DiscStudy, done: &Stability, campbell: &Campbell) -> Fi
         .caption(caption_of_disc(study))
 }
 
-/// Tongues over speed and friction, places of meetings that cannot be unstable as thin lines.
+/// Tongues over speed and friction; resonances that cannot be unstable are thin lines.
 pub fn resonances(study: &DiscStudy, done: &Resonances) -> Figure {
     let (from, to) = (*done.question.speeds.start(), *done.question.speeds.end());
     let load = study.disc().loads().first();
@@ -172,13 +172,13 @@ pub fn resonances(study: &DiscStudy, done: &Resonances) -> Figure {
         .size(Size::Frame(520.0, 320.0))
         .title(study.title().unwrap_or_default())
         .caption(format!(
-            "{} Dotted: meetings of waves that cannot be unstable at this order.",
+            "{} Dotted: resonances that cannot be unstable at this order.",
             caption_of_disc(study)
         ))
 }
 
-/// Edges of the predicted tongues at these frictions, as lines; `up` turns a friction into a place on the axis. Under tangential dither the
-/// tongues that need no dither are those revived at second order.
+/// Edges of the predicted tongues at these friction coefficients, as lines; `up` converts a friction coefficient to its position
+/// on the axis. Under tangential dither, the tongues of the undithered disc are those that reappear at second order.
 pub fn tongues(
     disc: &Disc,
     (from, to): (f64, f64),
@@ -192,8 +192,8 @@ pub fn tongues(
     };
     let count = waves.undithered(from..=to).len() + waves.dithered(from..=to).len();
     let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new(); 2 * count];
-    // The theory is about friction that is not negative.
-    for &friction in frictions.iter().filter(|it| **it >= 0.0) {
+    // The theory applies to non-negative friction.
+    for &friction in frictions.iter().filter(|friction| **friction >= 0.0) {
         let at = waves.with_friction(friction);
         let still = at.clone().with_order(order).undithered(from..=to);
         for (index, resonance) in still.iter().chain(&at.dithered(from..=to)).enumerate() {

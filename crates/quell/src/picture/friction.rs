@@ -16,7 +16,7 @@ pub fn friction(study: &BeltStudy, curve: &FrictionCurve) -> Figure {
         let mut points: Vec<(f64, f64)> =
             slip.iter().zip(values).map(|(&v, value)| (ruler.place(v), value)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        // The law jumps at rest.
+        // The law is discontinuous at zero slip velocity.
         let (left, right): (Vec<_>, Vec<_>) = points.into_iter().partition(|(v, _)| *v <= 0.0);
         Polyline::pieces(role, [left, right])
     };

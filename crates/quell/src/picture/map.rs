@@ -1,9 +1,9 @@
-//! Pictures of maps: one quantity over one axis, over two, or over two for each value of others.
+//! Pictures of maps: one quantity over one axis, over two axes, or over two axes for each value of the others.
 //!
-//! Two axes give a map: an efficiency as labelled isolines over light colour, a growth rate as
-//! blue (decay) and red (growth) with the line of zero, an outcome as flat colours, any other
-//! number as colour with isolines at round values. One axis gives a curve, open where nothing is
-//! known. What has no value is hatched, and the legend says why. Curves of a theory lie over all.
+//! Two axes give a map: an efficiency as labelled contour lines over light colours, a growth rate in blue (decay) and red
+//! (growth) with the zero contour, an outcome in flat colours, and any other number in colours with contour lines at round
+//! values. One axis gives a curve with gaps where the value is unknown. Points without a value are hatched, with the reason in
+//! the legend. Theoretical curves are drawn on top.
 
 use std::ops::Range;
 
@@ -14,65 +14,64 @@ use crate::plot::{
     Spread, Tint,
 };
 
-/// Isolines of an efficiency (per cent).
+/// Contour levels of an efficiency (per cent).
 const EFFICIENCY_LEVELS: &[f64] = &[5.0, 20.0, 40.0, 60.0, 80.0, 95.0];
-/// Round levels of a number, about this many.
+/// Approximate number of round contour levels of a number.
 const LEVELS: usize = 7;
-/// The line of zero growth is wider than an isoline (pixels).
+/// Width of the contour of zero growth, which is wider than other contour lines (pixels).
 const ZERO_WIDTH: f64 = 1.5;
 /// Frame of a map of two axes (pixels).
 const PLANE: Size = Size::Frame(400.0, 310.0);
 /// Frame of outcomes over one axis: a strip (pixels).
 const STRIP: Size = Size::Frame(440.0, 70.0);
-/// More panels than this are no picture.
+/// Maximum number of panels in a picture.
 pub const MOST_PANELS: usize = 24;
 
 /// An axis of a map with its values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapAxis {
-    /// Name, symbol, unit and scale. Its range is left to the values.
+    /// Name, symbol, unit and scale. The range follows from the values.
     pub axis: PlotAxis,
-    /// The values, each once, in any order.
+    /// The values, without repetition, in any order.
     pub values: Vec<f64>,
 }
 
-/// What the numbers of a map are, and so how they are drawn.
+/// Kind of the numbers of a map, which determines how they are drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MapKind {
-    /// A share of one: isolines at 5, 20, 40, 60, 80 and 95 per cent.
+    /// A fraction of one: contours at 5, 20, 40, 60, 80 and 95 per cent.
     Efficiency,
-    /// A rate whose sign decides: colours centred on zero, spread as told, the line of zero.
+    /// A rate whose sign determines stability: colours centred on zero with the given spread, and the zero contour.
     Growth(Spread),
-    /// The place (0, 1, …) of an outcome in this list of words.
+    /// The index (0, 1, …) of an outcome in this list of words.
     Outcome(Vec<(PlotRole, String)>),
-    /// Any number: colours spread as told, isolines at round values.
+    /// Any other number: colours with the given spread, and contours at round values.
     Number(Spread),
 }
 
-/// A quantity over one axis or more.
+/// A quantity over one or more axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Map {
-    /// The axes, slowest first. Of the last two the former is drawn from left to right, the latter
-    /// upwards; each value of those before has a panel of its own. A lone axis is drawn from left
-    /// to right.
+    /// The axes, slowest first. The second to last is drawn from left to right and the last one upwards; each combination of
+    /// the values of the other axes has its own panel. A single axis is drawn from left to right.
     pub axes: Vec<MapAxis>,
-    /// Name, symbol and unit of the quantity (no unit for an efficiency: it prints per cent).
+    /// Name, symbol and unit of the quantity (no unit for an efficiency, which is drawn in per cent).
     pub quantity: PlotAxis,
-    /// What its numbers are.
+    /// Kind of its numbers.
     pub kind: MapKind,
-    /// At each point, last axis fastest, the number, or the place in `reasons` of why there is none.
+    /// The number at each point, last axis fastest; or the index in `reasons` of why it is missing.
     pub values: Vec<Result<f64, usize>>,
-    /// Why there may be no number, as the legend says it.
+    /// Reasons for missing numbers, as shown in the legend.
     pub reasons: Vec<String>,
-    /// Curves and regions of a theory, drawn over each panel.
+    /// Theoretical curves and regions, drawn over each panel.
     pub over: Vec<Layer>,
 }
 
 /// The picture of a map.
 ///
 /// # Errors
-/// [`PlotError::Field`] where the axes are none, have doubled values or values that are not
-/// finite, have more than [two dozen panels](Map::axes), or do not fit the number of values.
+/// [`PlotError::Field`] if there are no axes, an axis has repeated values or values that are not finite, there would be more than
+/// [`MOST_PANELS`] panels, or the number of values does not match the axes.
 pub fn map(map: &Map) -> Result<Figure, PlotError> {
     let count: usize = map.axes.iter().map(|axis| axis.values.len()).product();
     if map.axes.is_empty() || count != map.values.len() {
@@ -94,11 +93,10 @@ pub fn map(map: &Map) -> Result<Figure, PlotError> {
     }
 }
 
-/// The picture of a map of two axes as one panel of a larger figure, with a bar of its colours or
-/// without.
+/// The picture of a map of two axes as one panel of a larger figure, with or without a colour bar.
 ///
 /// # Errors
-/// As [`map`], and where the axes are not two.
+/// As [`map`], and if the number of axes is not two.
 pub fn map_panel(map: &Map, bar: bool) -> Result<Panel, PlotError> {
     let count: usize = map.axes.iter().map(|axis| axis.values.len()).product();
     match map.axes.as_slice() {
@@ -118,12 +116,14 @@ fn panels(
 ) -> Result<Figure, PlotError> {
     let count: usize = others.iter().map(|axis| axis.values.len()).product();
     if count > MOST_PANELS {
-        return Err(PlotError::Field { why: format!("{count} panels are no picture") });
+        return Err(PlotError::Field {
+            why: format!("{count} panels; at most {MOST_PANELS} fit in a picture"),
+        });
     }
     let columns = if count <= 4 { count.min(2) } else { 3 };
     let size = x.values.len() * y.values.len();
     let panels = (0..count).map(|number| {
-        // All panels have the same colours: one bar at the end of each row is enough.
+        // All panels have the same colours, so that one colour bar at the end of each row is enough.
         let bar = number % columns == columns - 1 || number == count - 1;
         let panel = plane(map, (x, y), number * size..(number + 1) * size, bar)?;
         Ok(panel.title(heading(others, number)))
@@ -152,7 +152,7 @@ fn heading(others: &[MapAxis], number: usize) -> String {
     format!("({letter}) {}", parts.join(", "))
 }
 
-/// Places of the values in rising order, and the values in that order.
+/// Indices of the values in ascending order, and the sorted values.
 fn rising(axis: &MapAxis) -> (Vec<usize>, Vec<f64>) {
     let mut order: Vec<usize> = (0..axis.values.len()).collect();
     order.sort_by(|one, other| axis.values[*one].total_cmp(&axis.values[*other]));
@@ -201,7 +201,7 @@ fn plane(
     Ok(panel.with_all(map.over.iter().cloned()))
 }
 
-/// What a number is multiplied by before it is shown.
+/// Factor by which a number is multiplied for display.
 fn shown_scale(map: &Map) -> f64 {
     if map.kind == MapKind::Efficiency { 100.0 } else { 1.0 }
 }
@@ -239,7 +239,7 @@ fn colouring(map: &Map) -> Colouring {
     Colouring::Shaded(shading)
 }
 
-/// Powers of ten within a range, with twice and five times them where they are few.
+/// Powers of ten within a range; in a small range also 2 and 5 times these powers.
 fn round_ratios((least, most): (f64, f64)) -> Vec<f64> {
     let (least, most) = (least.max(1e-12 * most), most);
     if most <= least {
@@ -259,7 +259,7 @@ fn round_ratios((least, most): (f64, f64)) -> Vec<f64> {
 /// The quantity over one axis.
 fn sweep(map: &Map, x: &MapAxis) -> Result<Panel, PlotError> {
     let (order, at) = rising(x);
-    // The field refuses what is no axis.
+    // The constructor of the field rejects invalid axes.
     Field::from_fn(at.clone(), vec![0.0], |_, _| None)?;
     let values: Vec<Result<f64, usize>> = order.iter().map(|place| map.values[*place]).collect();
     let borders = borders(&at, &x.axis);
@@ -282,7 +282,7 @@ fn sweep(map: &Map, x: &MapAxis) -> Result<Panel, PlotError> {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "the cast saturates; an unknown place has no word"
+            reason = "the cast saturates; an unknown index has no word"
         )]
         let place = |value: Result<f64, usize>| value.ok().map(|value| value.round() as usize);
         for (number, from, to) in runs(&place) {
@@ -301,7 +301,7 @@ fn sweep(map: &Map, x: &MapAxis) -> Result<Panel, PlotError> {
         }
         let scale = shown_scale(map);
         let number = |value: &Result<f64, usize>| value.map_or(f64::NAN, |value| scale * value);
-        // A point that is not finite opens the curve.
+        // A point that is not finite leaves a gap in the curve.
         let points = at.iter().copied().zip(values.iter().map(number));
         panel = panel.with(Polyline::new(PlotRole::Exact, points));
     }
@@ -315,7 +315,7 @@ fn sweep(map: &Map, x: &MapAxis) -> Result<Panel, PlotError> {
     Ok(panel.with_all(map.over.iter().cloned()))
 }
 
-/// Borders halfway between neighbours along the axis, the first and the last value outermost.
+/// Cell borders halfway between neighbours along the axis; the outermost ones are the first and the last value.
 fn borders(values: &[f64], axis: &PlotAxis) -> Vec<f64> {
     let halfway = |pair: &[f64]| match axis.scale {
         crate::plot::Scale::Log if pair[0] > 0.0 => (pair[0] * pair[1]).sqrt(),

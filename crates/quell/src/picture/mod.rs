@@ -1,7 +1,7 @@
-//! Pictures of outcomes: one file per verb, the undithered case dashed beside the dithered one.
+//! Pictures of outcomes: one file per verb, with the undithered case dashed for comparison.
 //!
-//! A study in SI is drawn in SI, with the metric prefix that suits the values; any other in the
-//! numbers of the equations. The caption says what the picture cannot.
+//! A study in SI is drawn in SI with a suitable metric prefix; any other study is drawn in the dimensionless numbers of the
+//! equations. The caption states the law, the belt, the dither and the start.
 
 mod basins;
 mod bifurcation;
@@ -33,13 +33,13 @@ use crate::output::Output;
 use crate::plot::{Figure, Panel, PlotError, PlotRole, Polyline, Region};
 use crate::study::BeltStudy;
 
-/// Kinds of pictures that can be written.
+/// File name extensions of the supported picture formats.
 pub const EXTENSIONS: &[&str] = &["svg", "png"];
 
-/// Writes a figure as the output's extension says.
+/// Writes a figure in the format of the output's extension.
 ///
 /// # Errors
-/// [`Failure::Failed`] where it cannot be drawn or written.
+/// [`Failure::Failed`] if the figure cannot be drawn or written.
 pub fn write(figure: &Figure, output: Output) -> Result<String, Failure> {
     let bytes = if output.extension() == "png" {
         figure.to_png().map_err(undrawable)?
@@ -49,21 +49,21 @@ pub fn write(figure: &Figure, output: Output) -> Result<String, Failure> {
     output.write(&bytes).map(|path| path.display().to_string())
 }
 
-/// Why there is no picture.
-#[expect(clippy::needless_pass_by_value, reason = "the last word on an error, for `map_err`")]
+/// The failure for a figure that cannot be drawn.
+#[expect(clippy::needless_pass_by_value, reason = "consumes the error, for `map_err`")]
 fn undrawable(why: PlotError) -> Failure {
     Failure::Failed { key: "--plot".to_owned(), why: why.to_string() }
 }
 
-/// A panel with the stretches of a parameter in which the quiet response is unstable.
-fn with_unstable(panel: Panel, stretches: Vec<(f64, f64)>) -> Panel {
-    stretches.into_iter().enumerate().fold(panel, |panel, (number, (from, to))| {
-        let label = if number == 0 { "quiet response unstable" } else { "" };
+/// Adds the intervals of a parameter in which the base response is unstable to a panel.
+fn with_unstable(panel: Panel, intervals: Vec<(f64, f64)>) -> Panel {
+    intervals.into_iter().enumerate().fold(panel, |panel, (number, (from, to))| {
+        let label = if number == 0 { "base response unstable" } else { "" };
         panel.with(Region::across_x(PlotRole::Undecided, from, to).label(label))
     })
 }
 
-/// A panel with a curve without dither beside one with it, or of a study without dither its one curve.
+/// Adds the curves without and with dither to a panel, or the single curve of a study without dither.
 fn both(panel: Panel, study: &BeltStudy, curve: impl Fn(PlotRole, bool) -> Polyline) -> Panel {
     if study.belt().dithers().is_empty() {
         return panel.with(curve(PlotRole::Exact, true));

@@ -1,4 +1,4 @@
-//! A periodic response in the phase plane, and its multipliers beside the unit circle.
+//! A periodic response in the phase plane, and its multipliers with the unit circle.
 
 use std::f64::consts::TAU;
 
@@ -14,13 +14,13 @@ use crate::plot::{
 use crate::run::orbit::{Response, samples, sentence};
 use crate::study::BeltStudy;
 
-/// Points of a circle.
+/// Number of points of the unit circle.
 const CIRCLE: u32 = 180;
 
-/// The picture of what `orbit` found: its periodic response.
+/// The picture of the periodic response that `orbit` found.
 ///
 /// # Errors
-/// [`Failure::Failed`] where there is none.
+/// [`Failure::Failed`] if no periodic response was found.
 pub fn response(study: &BeltStudy, found: &Response) -> Result<Figure, Failure> {
     let why = || Failure::Failed { key: "--plot".to_owned(), why: found.sentence(study) };
     found.orbit.as_ref().map(|found| orbit(study, found)).ok_or_else(why)

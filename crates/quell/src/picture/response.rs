@@ -15,10 +15,10 @@ use crate::plot::{Figure, Panel, Polyline, ReferenceLine, SharedLegend};
 use crate::run::response::Steady;
 use crate::study::BeltStudy;
 
-/// Slow periods of the record that are shown.
+/// Number of slow periods of the record that are shown.
 const PERIODS: f64 = 6.0;
 
-/// Decades of the spectrum that are shown below its largest line.
+/// Number of decades of the spectrum that are shown below its largest line.
 const DECADES: i32 = 5;
 
 /// The picture of a steady response.
@@ -68,7 +68,7 @@ fn spectrum(study: &BeltStudy, done: &Steady) -> Panel {
     let curve = |spectrum: &Spectrum, role| {
         let lines = spectrum.frequencies().zip(spectrum.amplitudes().iter().copied());
         let shown = lines.skip(1).take_while(|(frequency, _)| *frequency <= end);
-        // What lies below the picture still leads into it.
+        // Points below the visible range are clipped slightly below it, so that the line continues to the edge.
         let points = shown.map(|(frequency, amplitude)| {
             (rate.place(frequency), size.place(amplitude.max(0.1 * floor)))
         });

@@ -1,4 +1,4 @@
-//! Axes of quantities: in a study in SI with unit and metric prefix.
+//! Axes of quantities, with unit and metric prefix in a study in SI.
 
 use quell_model::units::Quantity;
 
@@ -8,31 +8,31 @@ use crate::study::BeltStudy;
 /// Metric prefixes from large to small.
 const PREFIXES: &[(&str, f64)] = &[("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9)];
 
-/// How a quantity is measured along an axis.
+/// Scale and unit of a quantity along an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Ruler {
-    /// What one unit of the equations is along the axis.
+    /// Value along the axis of one dimensionless unit of the equations.
     factor: f64,
-    /// Unit; empty for the numbers of the equations.
+    /// Unit; empty for dimensionless numbers of the equations.
     unit: String,
 }
 
 impl Ruler {
-    /// A ruler for values up to `largest` in size (numbers of the equations).
+    /// A ruler for values up to `largest` in magnitude (dimensionless).
     pub(super) fn new(study: &BeltStudy, quantity: Quantity, largest: f64) -> Self {
         let Some((scales, (unit, _))) = study.scales().zip(quantity.si_unit()) else {
             return Self { factor: 1.0, unit: String::new() };
         };
         let si = scales.si_per_unit(quantity);
         let size = (largest * si).abs();
-        // Kilo is for forces and frequencies; nobody says kilosecond.
+        // The prefix kilo is used for forces and frequencies only, and not for seconds.
         let kilo = matches!(quantity, Quantity::Force | Quantity::FrequencyRatio);
         let fits = |(prefix, scale): &&(&str, f64)| size >= *scale && (kilo || *prefix != "k");
         let (prefix, scale) = PREFIXES.iter().find(fits).copied().unwrap_or(("", 1.0));
         Self { factor: si / scale, unit: format!("{prefix}{unit}") }
     }
 
-    /// A ruler for values.
+    /// A ruler for these values.
     pub(super) fn of(
         study: &BeltStudy,
         quantity: Quantity,
@@ -42,25 +42,25 @@ impl Ruler {
         Self::new(study, quantity, sizes.fold(0.0, f64::max))
     }
 
-    /// The axis of a quantity.
+    /// The plot axis of a quantity.
     pub(super) fn axis(&self, name: &str, symbol: &str) -> PlotAxis {
         let axis = PlotAxis::new(name).symbol(symbol);
         if self.unit.is_empty() { axis } else { axis.unit(self.unit.clone()) }
     }
 
-    /// A value along the axis.
+    /// Position of a value along the axis.
     pub(super) fn place(&self, value: f64) -> f64 {
         value * self.factor
     }
 
-    /// A value with its unit.
+    /// Text of a value with its unit.
     pub(super) fn words(&self, value: f64) -> String {
         let number = short(self.place(value));
         if self.unit.is_empty() { number } else { format!("{number} {}", self.unit) }
     }
 }
 
-/// Four significant digits.
+/// A number with four significant digits.
 pub(super) fn short(value: f64) -> String {
     let text = format!("{value:.3e}");
     text.parse::<f64>().map_or(text, |rounded| rounded.to_string())

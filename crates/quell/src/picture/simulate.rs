@@ -11,7 +11,7 @@ use crate::plot::{
 use crate::run::simulate::Simulation;
 use crate::study::BeltStudy;
 
-/// The picture of a trajectory that was sampled.
+/// The picture of a sampled trajectory.
 pub fn simulate(study: &BeltStudy, done: &Simulation) -> Figure {
     let with = done.samples.as_deref().unwrap_or_default();
     let without = done.undithered_samples.as_deref().unwrap_or_default();
@@ -58,7 +58,7 @@ pub(super) fn time_axis(study: &BeltStudy, ruler: &Ruler) -> PlotAxis {
     ruler.axis("time", if study.scales().is_some() { "t" } else { "τ" })
 }
 
-/// Symbols of the belt's and of the mass's velocity.
+/// Symbols of the velocities of the belt and of the mass.
 fn symbols(study: &BeltStudy) -> (&'static str, &'static str) {
     if study.scales().is_some() { ("$V_0$", "v") } else { ("$v_0$", "x′") }
 }

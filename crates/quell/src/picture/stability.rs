@@ -1,4 +1,4 @@
-//! The criterion of averaged stability over the amplitude of the first dither.
+//! The stability criterion by averaging over the amplitude of the first dither.
 
 use quell_linear::averaging::{AveragingOptions, criterion};
 use quell_model::units::Quantity;
@@ -12,11 +12,11 @@ use crate::plot::{
 use crate::run::stability::Stability;
 use crate::study::BeltStudy;
 
-/// Points of each stretch between critical amplitudes.
+/// Number of points of each interval between critical amplitudes.
 const POINTS: u32 = 160;
 
-/// The picture of averaged stability: one curve over the amplitude, open at its jumps.
-/// Without dither there is nothing to draw over, and the criterion is one line.
+/// The picture of stability by averaging: one curve over the amplitude, with gaps at its jumps. Without dither the criterion is
+/// a horizontal line.
 pub fn stability(study: &BeltStudy, done: &Stability) -> Figure {
     let belt = study.belt();
     let averaged = done.leading();
@@ -53,7 +53,7 @@ pub fn stability(study: &BeltStudy, done: &Stability) -> Figure {
         .caption(format!("{}; {by}.", caption(study)))
 }
 
-/// Where the picture ends, beyond the largest amplitude of which there is something to tell.
+/// Upper limit of the amplitude axis, beyond the largest relevant amplitude.
 fn last_amplitude(belt: &Belt, largest: f64) -> f64 {
     let dither = belt.dithers().first();
     let end = if largest > 0.0 {
@@ -68,7 +68,7 @@ fn last_amplitude(belt: &Belt, largest: f64) -> f64 {
     }
 }
 
-/// The curve in pieces, open at each critical amplitude.
+/// The curve in pieces, with a gap at each critical amplitude.
 fn between(
     critical: &[f64],
     end: f64,
@@ -78,7 +78,7 @@ fn between(
     let bounds: Vec<f64> = [0.0].into_iter().chain(inside).chain([end]).collect();
     let piece = |ends: &[f64]| {
         let inside = |k: u32| {
-            // Both ends lie just inside: at a jump the value belongs to one side.
+            // Both ends are slightly inside the interval: at a jump the value belongs to one side.
             let share = (f64::from(k) / f64::from(POINTS)).clamp(1e-9, 1.0 - 1e-9);
             ends[0] + (ends[1] - ends[0]) * share
         };
@@ -87,10 +87,10 @@ fn between(
     bounds.windows(2).map(piece).collect()
 }
 
-/// The axis of the criterion.
+/// The axis of the criterion, from the lowest to a multiple of the highest minimum of a piece.
 fn upwards(pieces: &[Vec<(f64, f64)>]) -> PlotAxis {
     let lowest = pieces.iter().flatten().map(|point| point.1).fold(0.0, f64::min);
-    // Beyond a jump the criterion falls from infinity: the picture shows where it comes to.
+    // Beyond a jump the criterion falls from infinity: the axis shows the levels to which it falls.
     let low_of =
         |piece: &Vec<(f64, f64)>| piece.iter().map(|point| point.1).fold(f64::INFINITY, f64::min);
     let levels = pieces.iter().map(low_of).filter(|level| level.is_finite());

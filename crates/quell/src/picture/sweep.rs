@@ -1,8 +1,8 @@
-//! The picture of a computed map: a curve for each variable over one axis, a map over two, a map for each
-//! value of the slower axes over more.
+//! The picture of a computed map: for each variable a curve over one axis, a map over two axes, or a map for each value of the
+//! slower axes.
 //!
-//! The boundaries of averaging are drawn over where the plane has them. Curves are broken and maps
-//! hatched where a number is not known; the legend says why.
+//! The stability boundaries by averaging are drawn on top if the plane contains them. Curves have gaps and maps are hatched
+//! where a number is unknown; the legend shows the reason.
 
 use quell_linear::averaging::{Becomes, FastResponse};
 
@@ -16,21 +16,21 @@ use crate::run::map::{Map, boundaries};
 use crate::study::DiscStudy;
 use crate::sweep::{Entry, Grid, GridAxis, Status, VariableKind};
 
-/// Whether a variable is drawn only where nothing else was asked for.
-fn is_beside(name: &str) -> bool {
+/// Whether a variable is drawn only if no other quantity was requested.
+fn is_secondary(name: &str) -> bool {
     ["settled", "growth_error", "growth_verdict", "growth_undithered_error"].contains(&name)
 }
 
 /// The picture of a computed map.
 ///
 /// # Errors
-/// [`Failure::Failed`] where it cannot be drawn: more panels than fit.
+/// [`Failure::Failed`] if it cannot be drawn because there are too many panels.
 pub fn sweep(done: &Map) -> Result<Figure, Failure> {
     let plan = done.plan();
     let axes = plan.grid().axes().len();
     let entries = plan.sheet().entries();
     let mut shown: Vec<&Entry> =
-        entries.iter().filter(|entry| !is_beside(entry.variable.name)).collect();
+        entries.iter().filter(|entry| !is_secondary(entry.variable.name)).collect();
     if shown.is_empty() {
         shown = entries.iter().collect();
     }
@@ -63,7 +63,7 @@ fn picture(done: &Map, entry: &Entry) -> Picture {
     unknown.dedup();
     let value = |point: usize| {
         number(done, entry, point)
-            .ok_or_else(|| unknown.iter().position(|it| *it == states[point]).unwrap_or(0))
+            .ok_or_else(|| unknown.iter().position(|status| *status == states[point]).unwrap_or(0))
     };
     let variable = &entry.variable;
     let array = entry.twin.unwrap_or(entry.value);
@@ -73,7 +73,7 @@ fn picture(done: &Map, entry: &Entry) -> Picture {
             MapKind::Outcome(words.iter().map(|&word| (role_of(word), word.to_owned())).collect())
         }
         VariableKind::Rate => MapKind::Growth(Spread::Linear),
-        // Tongues grow with 10⁻⁹ to 10⁻², beside decay with 10⁻².
+        // Growth rates in tongues are 10⁻⁹ to 10⁻², decay rates about 10⁻².
         VariableKind::DiscRate if variable.symbol.starts_with("Re") => {
             MapKind::Growth(Spread::SignedLog(1e-5))
         }
@@ -98,7 +98,7 @@ fn picture(done: &Map, entry: &Entry) -> Picture {
     }
 }
 
-/// The boundaries of averaging as lines, in the plane as it is drawn: the first axis to the right.
+/// The stability boundaries by averaging as lines, in the plane as it is drawn: the first axis to the right.
 fn over(done: &Map) -> Vec<Layer> {
     let grid = done.plan().grid();
     if let Ok(study) = grid.study().disc() {
@@ -142,7 +142,7 @@ fn over(done: &Map) -> Vec<Layer> {
     .collect()
 }
 
-/// The predicted tongues, where the plane is of speed and friction, speed to the right.
+/// The predicted tongues, if the plane is that of speed (to the right) and friction.
 fn over_disc(grid: &Grid, study: &DiscStudy) -> Vec<Layer> {
     let [speed, friction] = grid.axes() else { return Vec::new() };
     let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
@@ -198,7 +198,7 @@ fn panel(map: &Map, entry: &Entry) -> Panel {
     Panel::new(across, up).with(Polyline::pieces(PlotRole::Dithered, pieces))
 }
 
-/// An axis with symbol and unit; numbers of the equations carry none.
+/// An axis with symbol and unit; dimensionless numbers of the equations have no unit.
 pub(super) fn labelled(axis: PlotAxis, symbol: &str, unit: &str) -> PlotAxis {
     let axis = if symbol.is_empty() { axis } else { axis.symbol(symbol) };
     let scaled = unit.is_empty() || unit == "1" || unit.contains(['ω', '(']) || unit == "length";

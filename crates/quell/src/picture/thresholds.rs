@@ -1,5 +1,5 @@
-//! The modulus of the larger multiplier over a parameter, with its thresholds; and curves of thresholds in two parameters beside
-//! the boundaries of averaging.
+//! The modulus of the larger multiplier over a parameter, with its thresholds; and threshold curves in two parameters compared
+//! with the stability boundaries by averaging.
 
 use quell_dynamics::orbit::threshold::ThresholdKind;
 use quell_model::units::Quantity;
@@ -14,10 +14,10 @@ use crate::run::curves::Curves;
 use crate::run::thresholds::{Thresholds, becomes};
 use crate::study::BeltStudy;
 
-/// A jump of the multiplier between neighbouring points, at a touch.
+/// Minimum jump of the multiplier between neighbouring points that counts as grazing.
 const JUMP: f64 = 0.05;
 
-/// The axis of a parameter, and how its values are placed.
+/// The axis of a parameter, and its ruler.
 fn axis_of(study: &BeltStudy, path: &str, range: (f64, f64)) -> (PlotAxis, Ruler) {
     let largest = range.0.abs().max(range.1.abs());
     let Some(parameter) = study.belt().parameter(path) else {
@@ -35,7 +35,7 @@ fn axis_of(study: &BeltStudy, path: &str, range: (f64, f64)) -> (PlotAxis, Ruler
 pub fn thresholds(study: &BeltStudy, done: &Thresholds) -> Figure {
     let question = &done.question;
     let (axis, ruler) = axis_of(study, &question.parameter, (question.from, question.to));
-    // At a touch the multipliers jump: the curve is open there.
+    // The multipliers jump at grazing, and the curve has a gap there.
     let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
     for pair in done.local.branch.windows(2) {
         let (a, b) = (&pair[0], &pair[1]);
@@ -49,7 +49,7 @@ pub fn thresholds(study: &BeltStudy, done: &Thresholds) -> Figure {
     if let (Some(piece), Some(last)) = (pieces.last_mut(), done.local.branch.last()) {
         piece.push((ruler.place(last.value), last.radius));
     }
-    let radii = || pieces.iter().flatten().map(|it| it.1);
+    let radii = || pieces.iter().flatten().map(|point| point.1);
     let (low, high) = (radii().fold(1.0, f64::min), radii().fold(1.0, f64::max));
     let room = 0.15 * (high - low).max(1e-3);
     let modulus =
@@ -63,8 +63,8 @@ pub fn thresholds(study: &BeltStudy, done: &Thresholds) -> Figure {
             .local
             .thresholds
             .iter()
-            .filter(|it| it.kind == kind)
-            .map(|it| (ruler.place(it.value), 1.0))
+            .filter(|threshold| threshold.kind == kind)
+            .map(|threshold| (ruler.place(threshold.value), 1.0))
             .collect();
         if !places.is_empty() {
             let marker = if kind == ThresholdKind::Grazing { Marker::Circle } else { Marker::Disc };
@@ -89,7 +89,7 @@ pub fn thresholds(study: &BeltStudy, done: &Thresholds) -> Figure {
         .caption(format!("{} {}.", done.sentence(study), caption(study)))
 }
 
-/// A kind in a legend.
+/// Name of a kind in the legend.
 fn words(kind: ThresholdKind) -> &'static str {
     match kind {
         ThresholdKind::NeimarkSacker => "Neimark–Sacker",
@@ -102,7 +102,7 @@ fn words(kind: ThresholdKind) -> &'static str {
     }
 }
 
-/// The picture of curves of thresholds.
+/// The picture of threshold curves.
 pub fn curves(study: &BeltStudy, done: &Curves) -> Figure {
     let question = &done.question;
     let (x, across) = axis_of(study, &question.along, question.between);
@@ -111,7 +111,7 @@ pub fn curves(study: &BeltStudy, done: &Curves) -> Figure {
     let mut panel = Panel::new(x, y);
     for averaged in &done.averaged {
         let (label, style) = if averaged.sharper {
-            ("averaged, with the oscillator's own fast motion", LineStyle::Dashed)
+            ("averaged at finite R, with the oscillator's own response", LineStyle::Dashed)
         } else {
             ("averaged", LineStyle::Solid)
         };
@@ -127,10 +127,12 @@ pub fn curves(study: &BeltStudy, done: &Curves) -> Figure {
             .curves
             .iter()
             .filter(|curve| curve.kind == kind)
-            .map(|curve| curve.points.iter().map(|it| place((it.along, it.value))).collect())
+            .map(|curve| {
+                curve.points.iter().map(|point| place((point.along, point.value))).collect()
+            })
             .collect();
         if !pieces.is_empty() {
-            // Whatever else is in the picture, a kind has its colour.
+            // Each kind has the same colour in every picture.
             let role = if kind == ThresholdKind::NeimarkSacker {
                 PlotRole::Exact
             } else {

@@ -1,4 +1,4 @@
-//! Chunks as bytes: values into a whole chunk, padded with fill at the far edges, and back.
+//! Encoding of chunks: values into the bytes of a chunk of full size, padded with fill values at the far edges, and back.
 
 use std::borrow::Cow;
 use std::num::NonZeroU64;
@@ -7,7 +7,7 @@ use zarrs::array::{ArrayToBytesCodecTraits, CodecError, CodecOptions, Element, E
 
 use super::layout::Described;
 
-/// Encodes the values at `slots` of a chunk; the other places get `fill`.
+/// Encodes the values at `slots` of a chunk; the other elements are set to `fill`.
 pub(super) fn encode<T: Element + Copy>(
     array: &Described,
     slots: &[usize],
@@ -51,14 +51,14 @@ pub(super) fn decode<T: ElementOwned + Copy>(
     slots.iter().map(|&slot| whole.get(slot).copied().ok_or_else(missing)).collect()
 }
 
-/// The longest that an encoded chunk can be: numbers of eight bytes, and a checksum.
+/// Maximum length of an encoded chunk (bytes): numbers of eight bytes, and a checksum.
 pub(super) fn longest(array: &Described) -> u64 {
     let volume: u64 =
         shape(array).map_or(0, |shape| shape.iter().map(|length| length.get()).product());
     volume.saturating_mul(8).saturating_add(4)
 }
 
-/// Shape of a whole chunk.
+/// Shape of a chunk of full size.
 fn shape(array: &Described) -> Result<Vec<NonZeroU64>, CodecError> {
     array
         .chunk_shape(&vec![0; array.dimensionality()])

@@ -1,4 +1,4 @@
-//! A look at a store that is there, before anything in it is written or removed.
+//! Checks of an existing store before anything in it is written or removed.
 
 use std::collections::HashMap;
 use std::io;
@@ -8,20 +8,22 @@ use std::time::Duration;
 
 use serde_json::Value as Json;
 
+use super::failures::{another, complaint, unwritable};
 use super::folder::{Entry, Folder};
+use super::identity;
 use super::layout::{self, Layout};
-use super::{IDENTITY, LONGEST, METADATA, OWN, another, complaint, identity, unwritable};
+use super::names::{IDENTITY, LONGEST, METADATA, OWN};
 use crate::complaint::Failure;
 
-/// Times that an identity which is not whole is looked at, and the time between.
+/// Number of attempts to read an incomplete identity, and the time between them.
 const PATIENCE: u32 = 20;
 const MOMENT: Duration = Duration::from_millis(50);
 
-/// Looks at a store that is there, before anything in it is written or removed: whether every entry is what it must be,
-/// and whether it is the store of this map.
+/// Checks an existing store before anything in it is written or removed: every entry must be of the expected type, and the
+/// store must be that of this map.
 pub(super) fn examined(path: &Path, layout: &Layout, identity: &Json) -> Result<(), Failure> {
     let root = Folder::open(path).map_err(|error| unwritable(path, &error))?;
-    // That it is the store of another map is said first: its folders may be others for that reason.
+    // A store of another map is reported first, because its folders may differ for that reason.
     if matches!(root.entry(OWN), Ok(Entry::Folder)) {
         let own = root.folder(OWN).map_err(|error| unwritable(path, &error))?;
         if matches!(own.entry(IDENTITY), Ok(Entry::File))
@@ -30,24 +32,24 @@ pub(super) fn examined(path: &Path, layout: &Layout, identity: &Json) -> Result<
             compared(path, &there, identity)?;
         }
     }
-    // Folders below that of an array: c, and one an axis but for the last, which is in the names of chunks.
+    // Depth of folders below that of an array: c, and one per axis except the last, which is in the names of the chunks.
     let arrays = layout.arrays().map(|array| (layout::name(array), array.dimensionality()));
     let expected: HashMap<&str, usize> = arrays.chain([(OWN, 1)]).collect();
     let entries = root.entries().map_err(|error| unwritable(path, &error))?;
     for (name, entry) in entries {
         match expected.get(name.as_str()) {
-            Some(&depth) => holds_no_stranger(path, &root, (&name, entry), (&name, depth + 1))?,
-            None if name == METADATA => holds_no_stranger(path, &root, (&name, entry), (&name, 0))?,
-            // Not a store's, and left alone.
+            Some(&depth) => check_entry(path, &root, (&name, entry), (&name, depth + 1))?,
+            None if name == METADATA => check_entry(path, &root, (&name, entry), (&name, 0))?,
+            // Not part of a store, and left alone.
             None => {}
         }
     }
     Ok(())
 }
 
-/// Refuses links, pipes and whatever else is neither a file nor a folder; and a folder that is deeper than any of a store.
-/// The entry is in `folder`, its key is that from the store.
-fn holds_no_stranger(
+/// Rejects links, pipes and anything else that is neither a file nor a folder, and folders nested deeper than those of a
+/// store. The entry is in `folder`; its key is relative to the store.
+fn check_entry(
     path: &Path,
     folder: &Folder,
     (name, entry): (&str, Entry),
@@ -60,14 +62,14 @@ fn holds_no_stranger(
             let entries = inside.entries().map_err(|error| unwritable(path, &error))?;
             entries.into_iter().try_for_each(|(name, entry)| {
                 let key = format!("{key}/{name}");
-                holds_no_stranger(path, &inside, (&name, entry), (&key, depth - 1))
+                check_entry(path, &inside, (&name, entry), (&key, depth - 1))
             })
         }
         entry => Err(complaint(
             path,
             format!(
-                "holds {} at {key}, where a store has {}; nothing is read, written or removed through it: \
-                 remove it, or choose another name",
+                "contains {} at {key}, where a store has only {}; Quell does not follow, write or remove it: \
+                 remove it yourself, or choose another name",
                 entry.words(),
                 if depth > 0 { "folders and files" } else { "files" },
             ),
@@ -75,8 +77,8 @@ fn holds_no_stranger(
     }
 }
 
-/// What a store was begun with; `None` where that is not there yet. Where it is not whole it is waited for a moment: on
-/// a file system without second names, the process that was first may still be writing it.
+/// Identity of the map of a store; `None` if it does not exist yet. An incomplete one is read again after a moment: on a file
+/// system without hard links, the process that created it may still be writing.
 pub(super) fn known(path: &Path, own: &Folder) -> Result<Option<Json>, Failure> {
     for _ in 0..PATIENCE {
         match own.read(IDENTITY, LONGEST) {
@@ -93,7 +95,7 @@ pub(super) fn known(path: &Path, own: &Folder) -> Result<Option<Json>, Failure> 
     Ok(Some(Json::Null))
 }
 
-/// Whether a store was begun with the same map.
+/// Rejects the store of another map.
 pub(super) fn compared(path: &Path, there: &Json, identity: &Json) -> Result<(), Failure> {
     let differences = identity::differences(there, identity);
     if differences.is_empty() { Ok(()) } else { Err(another(path, &differences)) }

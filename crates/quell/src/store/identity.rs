@@ -1,27 +1,27 @@
-//! What a store holds, to tell whether a study is the one it was begun with.
+//! The identity of the map of a store, to check that a study computes the same map.
 //!
-//! Compared are the values of the study after its changes (not the text: comments and order do
-//! not matter), the axes, the quantities, the chunks, and the version of Quell, for another one
-//! may give other bits. Numbers are compared as the digits that read back as the same number.
+//! It contains the values of the study after its changes (not the text: comments and order do not matter), the axes, the
+//! quantities, the chunk shape, and the version of Quell, because another version may give other bits. Numbers are compared by
+//! the digits that read back as the same number.
 //!
-//! The words of the first study are kept beside ([`Provenance`]), not compared: the metadata of the store are made of
-//! them, so that every process knows the bytes that they must have.
+//! The texts of the first study ([`Provenance`]) are stored too, but not compared: the metadata of the store are built from
+//! them, so that every process knows the bytes that the metadata must have.
 
 use serde_json::{Map, Value as Json, json};
 
 use crate::sweep::Plan;
 
-/// Version of the layout of a store.
+/// Version of the store format.
 const FORMAT: u32 = 2;
 
-/// Most differences that are named.
+/// Maximum number of differences that are named.
 const NAMED: usize = 6;
 
-/// The words of the study that a store was begun with. They decide no number: a study with other words may go on with
-/// the store, whose metadata stay those of the first.
+/// The texts of the study that created a store. They do not affect any number: a study with other texts may continue the
+/// store, whose metadata remain those of the first study.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Provenance {
-    /// Title of the study, if it has one.
+    /// Title of the study, if any.
     pub(super) title: Option<String>,
     /// Text of the study.
     pub(super) study: String,
@@ -30,7 +30,7 @@ pub(super) struct Provenance {
 }
 
 impl Provenance {
-    /// As [`identity`] wrote it; what is not there is empty.
+    /// Reads the texts from an [`identity`]; missing ones are empty.
     pub(super) fn of(identity: &Json) -> Self {
         let text = |key: &str| identity["provenance"][key].as_str().map(str::to_owned);
         Self {
@@ -41,10 +41,10 @@ impl Provenance {
     }
 }
 
-/// What a store of this plan holds.
+/// The identity of the map of a plan.
 pub(super) fn identity(plan: &Plan) -> Json {
     let grid = plan.grid();
-    // The values of the first point stand for the numbers that the axes replace.
+    // Numbers that the axes replace have their values at the first point.
     let settings =
         grid.study_at(0).map_or_else(|_| grid.study().settings(), |study| study.settings());
     let settings: Map<String, Json> =
@@ -74,13 +74,15 @@ pub(super) fn identity(plan: &Plan) -> Json {
     })
 }
 
-/// Names what differs between the store and the plan; empty where nothing does.
+/// Descriptions of the differences between the store and the plan; empty if they agree.
 pub(super) fn differences(store: &Json, plan: &Json) -> Vec<String> {
     let mut found = Vec::new();
-    for (field, name) in [("format", "the layout of stores"), ("quell", "Quell")] {
+    for (field, name) in
+        [("format", "the version of the store format"), ("quell", "the version of Quell")]
+    {
         if store[field] != plan[field] {
             found.push(format!(
-                "{name} is {} here and was {} there: bits may differ",
+                "{name} is {} here and {} in the store: bits may differ",
                 plain(&plan[field]),
                 plain(&store[field])
             ));
@@ -90,13 +92,16 @@ pub(super) fn differences(store: &Json, plan: &Json) -> Vec<String> {
     axes(&store["axes"], &plan["axes"], &mut found);
     if store["quantities"] != plan["quantities"] {
         found.push(format!(
-            "the quantities are {} here and {} there",
+            "the quantities are {} here and {} in the store",
             list(&plan["quantities"]),
             list(&store["quantities"])
         ));
     }
     if found.is_empty() && store["chunk"] != plan["chunk"] {
-        found.push(format!("chunks are {} here and {} there", plan["chunk"], store["chunk"]));
+        found.push(format!(
+            "the chunk shape is {} here and {} in the store",
+            plan["chunk"], store["chunk"]
+        ));
     }
     if found.len() > NAMED {
         let more = found.len() - NAMED;
@@ -113,13 +118,17 @@ fn settings(store: &Json, plan: &Json, found: &mut Vec<String>) {
         match there.get(path) {
             Some(other) if other == value => {}
             Some(other) => {
-                found.push(format!("{path} is {} here and {} there", plain(value), plain(other)));
+                found.push(format!(
+                    "{path} is {} here and {} in the store",
+                    plain(value),
+                    plain(other)
+                ));
             }
-            None => found.push(format!("{path} = {} is here only", plain(value))),
+            None => found.push(format!("{path} = {} is missing in the store", plain(value))),
         }
     }
     for (path, value) in there.iter().filter(|(path, _)| !here.contains_key(*path)) {
-        found.push(format!("{path} = {} is there only", plain(value)));
+        found.push(format!("{path} = {} is only in the store", plain(value)));
     }
 }
 
@@ -128,14 +137,14 @@ fn axes(store: &Json, plan: &Json, found: &mut Vec<String>) {
     let (there, here) = (store.as_object().unwrap_or(&empty), plan.as_object().unwrap_or(&empty));
     if !here.keys().eq(there.keys()) {
         let names = |axes: &Map<String, Json>| axes.keys().cloned().collect::<Vec<_>>().join(", ");
-        found.push(format!("the axes are {} here and {} there", names(here), names(there)));
+        found.push(format!("the axes are {} here and {} in the store", names(here), names(there)));
         return;
     }
     for (path, values) in here {
         if there.get(path) != Some(values) {
             let other = there.get(path).unwrap_or(&Json::Null);
             found.push(format!(
-                "{path} runs over {} here and {} there",
+                "{path} has the values {} here and {} in the store",
                 range(values),
                 range(other)
             ));
@@ -150,7 +159,7 @@ fn range(values: &Json) -> String {
             let count = values.as_array().map_or(0, Vec::len);
             format!("{} … {} ({count} values)", plain(first), plain(last))
         }
-        _ => "nothing".to_owned(),
+        _ => "none".to_owned(),
     }
 }
 

@@ -1,10 +1,9 @@
-//! The arrays of a store as Zarr v3 describes them: names, shapes, fill values, attributes.
+//! The arrays of a store in terms of Zarr v3: names, shapes, fill values, attributes.
 //!
-//! A group with one coordinate array an axis and the arrays of the map, all chunked alike.
-//! `dimension_names` tie arrays to axes; consolidated metadata in the group lets a reader open it
-//! at once. Attributes follow the habits of CF: `long_name`, `units`, `flag_values`,
-//! `flag_meanings`, `ancillary_variables`. Nothing that depends on the run (time, threads,
-//! machine) is written: a map has the same bytes however it was made.
+//! A store is a group with one coordinate array per axis and the arrays of the map, which all have the same chunk shape.
+//! `dimension_names` relate arrays to axes; consolidated metadata in the group lets a reader open the store in one step.
+//! Attributes follow the CF conventions: `long_name`, `units`, `flag_values`, `flag_meanings`, `ancillary_variables`. Nothing
+//! that depends on the run (time, threads, machine) is written, so the bytes of a map do not depend on how it was computed.
 
 use std::sync::Arc;
 
@@ -24,11 +23,11 @@ pub(super) type Described = Array<()>;
 /// The arrays of a plan.
 #[derive(Debug)]
 pub(super) struct Layout {
-    /// One an axis.
+    /// One per axis.
     pub(super) coordinates: Vec<Described>,
-    /// One a field of the sheet, in its order.
+    /// One per field of the sheet, in its order.
     pub(super) fields: Vec<Described>,
-    /// What the quantities rest on, one source a line.
+    /// Sources of the quantities, one per line.
     references: String,
 }
 
@@ -41,7 +40,7 @@ impl Layout {
         Ok(Self { coordinates, fields, references: references(plan) })
     }
 
-    /// Metadata of the group as JSON: what the store was begun with, and the metadata of every array once more.
+    /// Metadata of the group as JSON: the study that created the store, and a copy of the metadata of every array.
     pub(super) fn group(&self, begun: &Provenance) -> Json {
         let mut attributes = Map::new();
         if let Some(title) = &begun.title {
@@ -109,7 +108,7 @@ fn coordinate(axis: &GridAxis) -> Result<Described, ArrayCreateError> {
     describe(&axis.name, (&length, &length), kind, vec![axis.name.clone()], attributes)
 }
 
-/// Adds a unit that programs read, and what the numbers are scaled by.
+/// Adds a machine-readable unit, and the scale of the numbers.
 fn put_unit(attributes: &mut Json, unit: &str) {
     let (unit, scaling) = readable(unit);
     attributes["units"] = unit.into();
@@ -145,7 +144,7 @@ fn field(plan: &Plan, field: &Field) -> Result<Described, ArrayCreateError> {
     describe(&field.name, shapes, kind, dimensions, attributes)
 }
 
-/// What each state means, one line each.
+/// The meaning of each status code, one per line.
 fn reasons(meanings: &[(u8, &str)]) -> String {
     let states = meanings.iter().filter_map(|(code, _)| Status::of_code(*code));
     let lines: Vec<String> =
@@ -153,7 +152,7 @@ fn reasons(meanings: &[(u8, &str)]) -> String {
     lines.join("\n")
 }
 
-/// The sources of what is computed, one a line.
+/// The sources of the computed quantities, one per line.
 fn references(plan: &Plan) -> String {
     let used = |task: Task| {
         plan.computations().iter().any(|computation| match computation {

@@ -1,29 +1,28 @@
-//! Who may write a store: one process alone, or several that share it.
+//! Locks of a store: one process writes alone, or several share it.
 //!
-//! The lock is one of the operating system, exclusive or shared, and goes away with the process
-//! however that ends, so that it is never stale. A file system without locks, or one whose locks
-//! other machines do not see, loses no chunk: what is written is whole and the same whoever
-//! writes it.
+//! The lock is an exclusive or shared lock of the operating system, which is released when the process ends in any way, and so
+//! is never stale. On a file system without locks, or with locks that other machines do not see, no chunk is lost: files
+//! are written completely, and their bytes do not depend on the process that writes them.
 
 use std::fs::{File, TryLockError};
 use std::io;
 
 use super::folder::Folder;
 
-/// With whom a store is written.
+/// Whether a store is written exclusively.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Writers {
-    /// With nobody.
+    /// By one process alone.
     One,
-    /// With processes that know of each other only by the store.
+    /// By several processes, which communicate only through the store.
     Several,
 }
 
-/// Why a store cannot be worked on.
+/// Why a store cannot be opened for writing.
 pub(super) enum Refused {
     /// Another process holds the lock.
     Busy,
-    /// Something cannot be read or written.
+    /// A file cannot be read or written.
     Io(io::Error),
 }
 
@@ -33,9 +32,9 @@ impl From<io::Error> for Refused {
     }
 }
 
-/// Takes the lock in a folder; and whether nobody else can write now.
+/// Acquires the lock in a folder. Also returns whether no other process can write now.
 pub(super) fn lock(folder: &Folder, writers: Writers) -> Result<(File, bool), Refused> {
-    // A network file system asks for reading where the lock is shared, for writing where not.
+    // On a network file system a shared lock requires a file open for reading, and an exclusive one a file open for writing.
     let lock = folder.lockable("lock")?;
     let taken = match writers {
         Writers::One => lock.try_lock(),

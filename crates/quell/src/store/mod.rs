@@ -1,39 +1,41 @@
-//! Stores of maps: Zarr v3 folders that survive whatever happens to the process.
+//! Stores of maps: Zarr v3 folders that stay consistent if the process is killed at any moment.
 //!
 //! ```text
 //! map.zarr/zarr.json                    group: study, sources, consolidated metadata; written last of the frame
-//!          dither_amplitude/…           coordinates, one an axis
+//!          dither_amplitude/…           coordinates, one array per axis
 //!          efficiency/c/0/1             values, chunk by chunk
-//!          efficiency_status/c/0/1      what is known about them
-//!          .quell/map.json              what the store was begun with; written first
-//!          .quell/done/0.1.json         completion record of a chunk; written last of the chunk
-//!          .quell/unfinished/           files until they are whole
-//!          .quell/lock                  held while a process writes, alone or with others
+//!          efficiency_status/c/0/1      status codes of these values
+//!          .quell/map.json              identity of the map; written first
+//!          .quell/done/0.1.json         completion record of a chunk; written after the chunk's files
+//!          .quell/unfinished/           files that are not complete yet
+//!          .quell/lock                  held while a process writes, exclusively or shared
 //! ```
 //!
-//! What holds at every moment, whoever is killed: a file is whole or not there; a record is
-//! there only after its chunk; what a record says is checked before it is believed. So a run
-//! resumes with the chunks that are not proven, and ends with the same bytes as one that was
-//! never disturbed. Metadata and coordinates are compared with the bytes that they must have,
-//! which follow from the study and from `map.json`: a store in which they differ is refused.
+//! Invariants that hold even if processes are killed: a file is complete or does not exist; a record exists only after its
+//! chunk is complete; the content of a record is verified before it is used. A resumed run therefore recomputes only the
+//! chunks that cannot be verified, and ends with the same bytes as an uninterrupted one. Metadata and coordinates are
+//! compared with the bytes that they must have, which follow from the study and from `map.json`; a store in which they differ
+//! is rejected.
 //!
-//! A store may come from a stranger. Nothing outside its folder is read, written or removed: no
-//! symbolic link inside is followed (`folder`), and a store that holds one, or a pipe in place of a
-//! file, is refused before anything in it is written or removed; so is the store of another map.
+//! A store may come from an untrusted source. Nothing outside its folder is read, written or removed: no symbolic link inside
+//! is followed (`folder`). A store that contains a link, or a pipe in place of a file, is rejected before anything in it is
+//! written or removed, and so is the store of another map.
 //!
-//! One process writes alone ([`Store::open`]), or several on any number of machines share the
-//! store ([`Store::open_shared`]). Sharing needs no word between them: which map the store is of
-//! is decided by the one whose `map.json` comes first, whole, and every other compares; what they
-//! write besides is the same bytes whoever writes it, and is renamed into place, whole. A chunk
-//! that two of them compute is computed twice, no more. Locks of the operating system keep one
-//! that writes alone from those that share; nothing depends on them.
+//! One process writes alone ([`Store::open`]), or several processes on any number of machines share the store
+//! ([`Store::open_shared`]). Sharing needs no communication between them: the first complete `map.json` determines the map
+//! of the store, and every other process compares its own map with that. Everything else has the same bytes regardless of
+//! the process that writes it, and is renamed into place when it is complete. If two processes compute the same chunk, the
+//! only loss is the time. Locks of the operating system prevent exclusive and shared writers from running at the same time,
+//! but correctness does not depend on them.
 
 mod codec;
 mod examine;
+mod failures;
 mod folder;
 mod identity;
 mod layout;
 mod lock;
+mod names;
 mod record;
 mod whole;
 
@@ -44,71 +46,49 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value as Json;
 
-use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::complaint::Failure;
 use crate::sweep::{Content, Data, Field, MISSING, Plan};
 use examine::{compared, examined, known};
+use failures::{changed, complaint, exists, failed, unwritable};
 use folder::Folder;
 use identity::Provenance;
 use layout::{Described, Layout};
 use lock::{Refused, Writers, lock};
+use names::{DONE, IDENTITY, LONGEST, METADATA, OWN, UNFINISHED};
 use record::{Record, Seal};
 use whole::Unfinished;
-
-/// Folder of what a reader of Zarr need not know.
-const OWN: &str = ".quell";
-
-/// Folder of completion records inside.
-const DONE: &str = "done";
-
-/// Folder of unfinished files inside.
-const UNFINISHED: &str = "unfinished";
-
-/// What the store was begun with, inside.
-const IDENTITY: &str = "map.json";
-
-/// Metadata of the group, and of an array in its folder.
-const METADATA: &str = "zarr.json";
-
-/// The longest record or identity that is read: the text of a study has at most 16 MiB, more than ten times as much as
-/// anything else in them.
-const LONGEST: u64 = 64 << 20;
-
-/// The option that names a store.
-const OPTION: &str = "--save";
 
 /// A store that is open for writing.
 #[derive(Debug)]
 pub struct Store {
     path: PathBuf,
-    /// The folder itself, held open where the platform can.
+    /// The folder itself, held open if the platform allows it.
     root: Folder,
     own: Folder,
     layout: Layout,
     unfinished: Unfinished,
-    /// Held while the store is open, exclusively or with others.
+    /// Held while the store is open, exclusively or shared.
     _lock: File,
 }
 
-/// What the store has of a chunk.
+/// State of a chunk in the store.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Found {
-    /// The chunk, proven whole.
+    /// The values of the chunk, verified to be complete.
     Whole(Vec<Data>),
-    /// A finished chunk that is not what it was: cut short, changed, or gone.
+    /// A chunk that was finished, but is now truncated, changed or missing.
     Damaged,
-    /// Nothing, or nothing finished.
+    /// No chunk, or an unfinished one.
     Nothing,
 }
 
 impl Store {
-    /// Opens the store of a plan at `path`: a new one, or with `resume` one that was begun
-    /// before, if there is one.
+    /// Opens the store of a plan at `path`. A new store is created; with `resume`, an existing one is continued.
     ///
     /// # Errors
-    /// [`Failure::Wrong`] where the path cannot be written, where something else is there, where
-    /// a store is there and `resume` is not asked for, or where it is a store of another map
-    /// (which names what differs). [`Failure::Failed`] where another process writes it or the
-    /// disk is full; a store that was begun just now is taken away then.
+    /// [`Failure::Wrong`] if the path cannot be written, contains something other than a store, contains a store and `resume`
+    /// is false, or contains the store of another map (the message names the differences). [`Failure::Failed`] if another
+    /// process is writing the store or the disk is full; a store created by this call is removed in that case.
     pub fn open(path: &Path, plan: &Plan, resume: bool) -> Result<Self, Failure> {
         let layout = Layout::new(plan).map_err(|error| failed(path, error.to_string()))?;
         let made = prepare(path, plan, resume)?;
@@ -122,7 +102,7 @@ impl Store {
                 if made && !matches!(refused, Refused::Busy) {
                     discard(path);
                 }
-                return Err(refused.told(path));
+                return Err(refused.into_failure(path));
             }
         };
         let begun = store.begin(plan, &identity, resume).and_then(|()| store.tidy(alone));
@@ -132,11 +112,11 @@ impl Store {
         begun.map(|()| store)
     }
 
-    /// Opens the store of a plan at `path` to write it together with other processes, on this or
-    /// other machines: a new one, or the one that is there.
+    /// Opens the store of a plan at `path` to write it together with other processes, on this or other machines. The store is
+    /// created if it does not exist.
     ///
     /// # Errors
-    /// As [`Store::open`] with `resume`; [`Failure::Failed`] while a process writes it alone.
+    /// As [`Store::open`] with `resume`; [`Failure::Failed`] while another process has opened the store exclusively.
     pub fn open_shared(path: &Path, plan: &Plan) -> Result<Self, Failure> {
         let layout = Layout::new(plan).map_err(|error| failed(path, error.to_string()))?;
         let made = prepare(path, plan, true)?;
@@ -145,14 +125,13 @@ impl Store {
             examined(path, &layout, &identity)?;
         }
         let locked = Self::locked(path, layout, Writers::Several);
-        let (store, alone) = locked.map_err(|refused| refused.told(path))?;
+        let (store, alone) = locked.map_err(|refused| refused.into_failure(path))?;
         store.begin(plan, &identity, true)?;
         store.tidy(alone)?;
         Ok(store)
     }
 
-    /// Takes the lock of the store, which is the first thing that is in it; and whether nobody
-    /// else writes.
+    /// Acquires the lock of the store, which is the first file in it. Also returns whether no other process can write.
     fn locked(path: &Path, layout: Layout, writers: Writers) -> Result<(Self, bool), Refused> {
         let root = Folder::open(path)?;
         let own = root.made(OWN)?;
@@ -162,14 +141,14 @@ impl Store {
         Ok((Self { path: path.to_owned(), root, own, layout, unfinished, _lock: lock }, alone))
     }
 
-    /// Removes what killed processes left.
+    /// Removes unfinished files of killed processes.
     fn tidy(&self, alone: bool) -> Result<(), Failure> {
         let tidied =
             if alone { self.unfinished.clear() } else { self.unfinished.clear_abandoned() };
         tidied.map_err(|error| unwritable(&self.path, &error))
     }
 
-    /// Compares what is there with the plan, and writes what is missing of all but the chunks.
+    /// Compares the store with the plan, and writes all missing files except the chunks.
     fn begin(&self, plan: &Plan, identity: &Json, resume: bool) -> Result<(), Failure> {
         let text = format!("{identity:#}\n");
         let mut there = known(&self.path, &self.own)?;
@@ -192,7 +171,7 @@ impl Store {
         self.frame(plan, &begun)
     }
 
-    /// Writes what is missing of everything but chunks, and proves the rest: every byte of it is known.
+    /// Writes missing metadata and coordinates, and verifies those that exist byte by byte.
     fn frame(&self, plan: &Plan, begun: &Provenance) -> Result<(), Failure> {
         let mut files = Vec::new();
         for array in self.layout.arrays() {
@@ -205,7 +184,7 @@ impl Store {
                 .map_err(|error| failed(&self.path, error.to_string()))?;
             files.push((key(array, &[0]), bytes));
         }
-        // The group comes last.
+        // The group is written last.
         let group = format!("{:#}\n", self.layout.group(begun)).into_bytes();
         files.push((METADATA.to_owned(), group));
         let mut missing = Vec::new();
@@ -219,10 +198,10 @@ impl Store {
         missing.into_iter().try_for_each(|(key, bytes)| self.put(key, bytes))
     }
 
-    /// Writes a finished chunk: its files, then its record. Again is as good as once.
+    /// Writes a finished chunk: its files, then its record. Writing a chunk again is harmless.
     ///
     /// # Errors
-    /// [`Failure::Failed`] with the reason; the chunk does not count then.
+    /// [`Failure::Failed`] with the reason; the chunk then counts as unfinished.
     pub fn write(&self, plan: &Plan, chunk: usize, values: &[Data]) -> Result<(), Failure> {
         let slots = slots(plan, chunk);
         let place = plan.chunks().place(chunk);
@@ -242,7 +221,7 @@ impl Store {
         self.put(&record_key(&place), record.text().as_bytes())
     }
 
-    /// Reads a chunk back, if it is proven whole.
+    /// Reads a chunk back and verifies it.
     pub fn read(&self, plan: &Plan, chunk: usize) -> Found {
         let place = plan.chunks().place(chunk);
         let bytes = match self.root.read_key(&record_key(&place), LONGEST) {
@@ -274,11 +253,11 @@ impl Store {
         self.layout.fields.iter().zip(plan.sheet().fields()).map(read).collect()
     }
 
-    /// Chunks that have no record: unfinished for certain. What is recorded is not read, so that
-    /// this is quick, and [`Store::read`] may still find a chunk damaged.
+    /// Chunks without a record, which are certainly unfinished. This is fast because recorded chunks are not read;
+    /// [`Store::read`] may still find one of them damaged.
     ///
     /// # Errors
-    /// [`Failure::Wrong`] where the records cannot be listed.
+    /// [`Failure::Wrong`] if the records cannot be listed.
     pub fn unrecorded(&self, plan: &Plan) -> Result<Vec<usize>, Failure> {
         let entries = self.own.folder(DONE).and_then(|done| done.entries());
         let entries = entries.map_err(|error| unwritable(&self.path, &error))?;
@@ -292,7 +271,7 @@ impl Store {
         written.map_err(|error| failed(&self.path, format!("cannot be written: {error}")))
     }
 
-    /// Where it is.
+    /// Path of the store.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -315,12 +294,12 @@ fn key(array: &Described, index: &[usize]) -> String {
     array.chunk_key(&index).as_str().to_owned()
 }
 
-/// Positions of the points of a chunk in a whole chunk.
+/// Positions of the points of a chunk in a chunk of full size.
 fn slots(plan: &Plan, chunk: usize) -> Vec<usize> {
     plan.chunks().points(chunk).into_iter().map(|(position, _)| position).collect()
 }
 
-/// Makes the folder, or sees what is there; whether it was made.
+/// Creates the folder, or checks an existing one. Returns whether it was created.
 fn prepare(path: &Path, plan: &Plan, resume: bool) -> Result<bool, Failure> {
     if let Some(input) = plan.grid().study().inputs().inside(path) {
         return Err(complaint(path, input.refusal()));
@@ -331,9 +310,9 @@ fn prepare(path: &Path, plan: &Plan, resume: bool) -> Result<bool, Failure> {
         Err(error) => return Err(unwritable(path, &error)),
     }
     if !path.is_dir() {
-        return Err(complaint(path, "is a file; a store is a folder"));
+        return Err(complaint(path, "is a file; expected a folder (a Zarr store)"));
     }
-    // One listing: another process may make its store meanwhile, and its folder comes first.
+    // The folder is listed once: another process may be creating its store, and creates its own folder in it first.
     let entries = fs::read_dir(path).map_err(|error| unwritable(path, &error))?;
     let names: Result<Vec<_>, _> = entries.map(|entry| Ok(entry?.file_name())).collect();
     let names = names.map_err(|error| unwritable(path, &error))?;
@@ -343,63 +322,13 @@ fn prepare(path: &Path, plan: &Plan, resume: bool) -> Result<bool, Failure> {
     if names.is_empty() {
         return Ok(false);
     }
-    Err(complaint(path, "is a folder with other things in it; choose another name"))
+    Err(complaint(
+        path,
+        "is a folder that contains other files and is not a store; choose another name",
+    ))
 }
 
-/// Takes away what was just made: nothing half-made stays. If it cannot be removed, the first error
-/// is still the one.
+/// Removes a store that was just created. If that fails, the original error is still the one that is reported.
 fn discard(path: &Path) {
     let _ = fs::remove_dir_all(path);
-}
-
-impl Refused {
-    fn told(self, path: &Path) -> Failure {
-        match self {
-            Self::Busy => failed(
-                path,
-                "another process is writing this store; wait for it, or choose another name"
-                    .to_owned(),
-            ),
-            Self::Io(error) => unwritable(path, &error),
-        }
-    }
-}
-
-fn failed(path: &Path, why: String) -> Failure {
-    Failure::Failed { key: path.display().to_string(), why }
-}
-
-fn complaint(path: &Path, allowed: impl Into<String>) -> Failure {
-    let given = path.display().to_string();
-    Complaint::new(Fault::Path, OPTION, Origin::Argument(OPTION), given, allowed).into()
-}
-
-fn exists(path: &Path) -> Failure {
-    complaint(path, "exists already: --resume goes on with it; or choose another name")
-}
-
-fn changed(path: &Path, key: &str) -> Failure {
-    complaint(
-        path,
-        format!(
-            "{key} is not what the store was begun with: it was cut short or changed, and a reader would take wrong \
-             numbers from the store; remove that file, which is written again then, or choose another name"
-        ),
-    )
-}
-
-fn another(path: &Path, differences: &[String]) -> Failure {
-    let list = differences.join("; ");
-    complaint(path, format!("is the store of another map: {list}; choose another name"))
-}
-
-/// A path that cannot be written: wrong input, unless the disk is full.
-fn unwritable(path: &Path, error: &io::Error) -> Failure {
-    let why = format!("cannot be written: {error}");
-    match error.kind() {
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
-            failed(path, why)
-        }
-        _ => complaint(path, why),
-    }
 }

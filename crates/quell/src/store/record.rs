@@ -1,8 +1,8 @@
-//! Completion records: the proof that a chunk is finished, and what its files must be.
+//! Completion records: the proof that a chunk is finished, with the lengths and checksums of its files.
 //!
-//! A reader of Zarr takes a missing chunk for fill values, silently; and a chunk may be cut short
-//! behind our back. So a chunk counts only if its record is there, written after its files, and
-//! every file has the length and the checksum (CRC-32C) that the record says.
+//! Readers of Zarr silently replace a missing chunk by fill values, and files may be truncated by other programs. A chunk
+//! therefore counts only if its record exists, which is written after its files, and every file has the length and the checksum
+//! (CRC-32C) given in the record.
 
 use serde_json::{Map, Value as Json, json};
 
@@ -14,8 +14,8 @@ pub(super) struct Seal {
 }
 
 impl Seal {
-    /// The sum runs from the last byte to the first: a chunk ends with its own CRC-32C, and
-    /// forwards the sum over both is the same number for every chunk.
+    /// The checksum is computed from the last byte to the first: a chunk ends with its own CRC-32C, and the forward checksum
+    /// of content and checksum together is the same number for every chunk.
     pub(super) fn of(bytes: &[u8]) -> Self {
         let backwards: Vec<u8> = bytes.iter().rev().copied().collect();
         Self { bytes: bytes.len() as u64, checksum: crc32c::crc32c(&backwards) }
@@ -50,7 +50,7 @@ impl Record {
         format!("{}\n", json!({ "files": files }))
     }
 
-    /// Reads a record; `None` where it is not a whole one.
+    /// Reads a record; `None` if it is incomplete or invalid.
     pub(super) fn parse(text: &str) -> Option<Self> {
         let json: Json = serde_json::from_str(text).ok()?;
         let mut record = Self::default();
@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_record_reads_back_and_half_of_it_does_not() {
+    fn a_record_reads_back_and_a_truncated_one_is_rejected() {
         let mut record = Record::default();
         record.add("efficiency/c/0/1", Seal::of(b"987654321"));
         record.add("efficiency_status/c/0/1", Seal::of(b""));
@@ -81,8 +81,8 @@ mod tests {
     }
 
     #[test]
-    fn chunks_of_one_length_have_seals_of_their_own() {
-        // As the codec writes them: the content, then its CRC-32C, least byte first.
+    fn chunks_of_equal_length_have_different_seals() {
+        // As the codec writes them: the content, then its CRC-32C, least significant byte first.
         let chunk = |content: &[u8]| [content, &crc32c::crc32c(content).to_le_bytes()].concat();
         assert_ne!(Seal::of(&chunk(b"one chunk")), Seal::of(&chunk(b"two chunk")));
         assert_ne!(Seal::of(&chunk(b"one chunk")), Seal::of(&chunk(b"one chunj")));

@@ -1,11 +1,10 @@
-//! Files that are whole or not there.
+//! Files that are either complete or absent.
 //!
-//! A file is written under a name of its own in a folder for unfinished ones, brought down to
-//! the disk, and renamed into its place: whoever looks, at whatever moment, sees the old file,
-//! the new one, or none. A process that is killed leaves at most an unfinished file there, which
-//! a later one takes away.
+//! A file is written under a unique name in a folder for unfinished files, synced to disk, and renamed to its final path. At
+//! any moment a reader sees the old file, the new file, or no file. A killed process leaves at most an unfinished file in that
+//! folder, which a later process removes.
 //!
-//! Names hold a random number beside the process's: processes of several machines that share the
+//! Names contain a random number in addition to the process identifier, so that processes on several machines that share the
 //! folder never write the same unfinished file.
 
 use std::fs::File;
@@ -18,31 +17,31 @@ use std::time::Duration;
 use super::folder::{Entry, Folder};
 use crate::output::writing;
 
-/// Age at which an unfinished file is nobody's any more: none takes minutes to write. Should
-/// its writer only have slept, it writes the file again.
+/// Age above which an unfinished file counts as abandoned: no file takes minutes to write. If its writer was only suspended,
+/// it writes the file again.
 const ABANDONED: Duration = Duration::from_hours(1);
 
-/// Times that a file is written when others keep taking its unfinished form away.
+/// Number of attempts to write a file while other processes remove its unfinished form.
 const ATTEMPTS: u32 = 5;
 
-/// Where files lie until they are whole.
+/// The folder of unfinished files.
 #[derive(Debug)]
 pub(super) struct Unfinished {
     folder: Folder,
-    /// Random, so that no other process on any machine has the same.
+    /// Random number that identifies this process among those of all machines.
     writer: u64,
     count: AtomicU64,
 }
 
 impl Unfinished {
-    /// In this folder.
+    /// Unfinished files in this folder.
     pub(super) fn new(folder: Folder) -> Self {
-        // Hash keys are random: the one source of chance in the standard library.
+        // Hash keys are the only source of randomness in the standard library.
         let writer = RandomState::new().hash_one(process::id());
         Self { folder, writer, count: AtomicU64::new(0) }
     }
 
-    /// Removes what killed processes left; only for a process that writes alone.
+    /// Removes all unfinished files; only for a process that writes alone.
     pub(super) fn clear(&self) -> io::Result<()> {
         for name in self.left()? {
             self.folder.remove(&name)?;
@@ -50,7 +49,7 @@ impl Unfinished {
         Ok(())
     }
 
-    /// Removes what killed processes left long ago, while others may write.
+    /// Removes abandoned unfinished files while other processes may be writing.
     pub(super) fn clear_abandoned(&self) -> io::Result<()> {
         // The age is measured by the clock of the file system, which all machines share.
         let probe = self.temporary();
@@ -59,7 +58,7 @@ impl Unfinished {
         self.folder.remove(&probe)?;
         let now = now?;
         for name in self.left()? {
-            // A file that is gone meanwhile was another's to remove.
+            // A file that has disappeared in the meantime was renamed or removed by another process.
             let Ok(written) = self.folder.modified(&name) else { continue };
             if now.duration_since(written).is_ok_and(|age| age > ABANDONED) {
                 let _ = self.folder.remove(&name);
@@ -74,7 +73,7 @@ impl Unfinished {
         Ok(entries.into_iter().filter(|(_, entry)| *entry == Entry::File).map(|(name, _)| name))
     }
 
-    /// Writes the whole file of a key in `root`; its folders are made where they are missing.
+    /// Writes the complete file of a key in `root`, and creates missing folders.
     pub(super) fn write(&self, root: &Folder, key: &str, bytes: &[u8]) -> io::Result<()> {
         let mut attempt = 1;
         loop {
@@ -83,7 +82,7 @@ impl Unfinished {
                 self.folder.rename(temporary, &folder, name)
             };
             match self.settle(bytes, put) {
-                // Another process took the unfinished file for an abandoned one.
+                // Another process considered the unfinished file abandoned and removed it.
                 Err(error) if error.kind() == io::ErrorKind::NotFound && attempt < ATTEMPTS => {
                     attempt += 1;
                 }
@@ -92,8 +91,8 @@ impl Unfinished {
         }
     }
 
-    /// Writes a whole file in a folder where none is; whether it was this one. Of several processes at once,
-    /// on whatever machines, one writes it.
+    /// Writes a complete file in a folder unless a file of that name exists; returns whether it was written. Of several
+    /// concurrent processes on any machines exactly one writes it.
     pub(super) fn write_first(
         &self,
         folder: &Folder,
@@ -108,21 +107,21 @@ impl Unfinished {
         }
     }
 
-    /// Writes an unfinished file and brings it to its place.
+    /// Writes an unfinished file and moves it to its final path.
     fn settle(&self, bytes: &[u8], place: impl Fn(&str) -> io::Result<()>) -> io::Result<()> {
         let _writing = writing();
         let temporary = self.temporary();
         let file = self.folder.create(&temporary);
         let written = file.and_then(|file| fill(file, bytes)).and_then(|()| place(&temporary));
         if written.is_err() {
-            // Nothing else to do about a file that cannot be removed either.
+            // If removing the file fails too, nothing else can be done.
             let _ = self.folder.remove(&temporary);
         }
         written
     }
 
-    /// A second name for the file, which is refused where the name is taken, also over a network; then
-    /// the first name goes.
+    /// Gives the file a second name by a hard link, which fails if the name exists, also on a network file system; then removes
+    /// the first name.
     fn put_first(
         &self,
         temporary: &str,
@@ -133,7 +132,7 @@ impl Unfinished {
         match self.folder.link(temporary, folder, name) {
             Ok(()) => {}
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => return Err(error),
-            // A file system without second names: the name is taken first, and the bytes follow.
+            // A file system without hard links: the file is created first, and then filled.
             Err(_) => fill(folder.create(name)?, bytes)?,
         }
         let _ = self.folder.remove(temporary);
@@ -158,7 +157,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn of_many_writers_one_is_the_first() {
+    fn exactly_one_of_many_writers_is_first() {
         let place = tempfile::tempdir().expect("a folder");
         let target = place.path().join("first");
         let root = Folder::open(place.path()).expect("a folder");
@@ -179,7 +178,7 @@ mod tests {
             u8::try_from(first.iter().position(|first| *first).expect("one")).expect("few");
         assert_eq!(fs::read(&target).expect("a file"), [winner; 4096]);
         let left = fs::read_dir(place.path().join("unfinished")).expect("a folder").count();
-        assert_eq!(left, 0, "unfinished files stay");
+        assert_eq!(left, 0, "unfinished files remain");
     }
 
     #[test]
@@ -197,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn a_writer_survives_that_its_unfinished_file_is_taken_away() {
+    fn a_writer_recovers_when_its_unfinished_file_is_removed() {
         let place = tempfile::tempdir().expect("a folder");
         let root = Folder::open(place.path()).expect("a folder");
         let unfinished = Unfinished::new(root.made("unfinished").expect("a folder"));

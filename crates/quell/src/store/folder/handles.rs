@@ -1,4 +1,4 @@
-//! [`Folder`] on Unix: an open folder, and its entries reached through it.
+//! [`Folder`] on Unix: an open folder, and access to its entries relative to it.
 
 use std::ffi::OsString;
 use std::fs::File;
@@ -15,7 +15,7 @@ use rustix::fs::{
 
 use super::{Entry, read_at_most};
 
-/// Rights of a new folder and of a new file, before the mask of the process.
+/// Permissions of a new folder and of a new file, before the umask of the process is applied.
 const FOLDER_MODE: Mode = Mode::from_bits_retain(0o777);
 const FILE_MODE: Mode = Mode::from_bits_retain(0o666);
 
@@ -37,46 +37,46 @@ impl From<FileType> for Entry {
 }
 
 impl Folder {
-    /// The folder that the user names.
+    /// Opens the folder given by the user.
     pub(in crate::store) fn open(path: &Path) -> io::Result<Self> {
         let flags = OFlags::RDONLY | OFlags::DIRECTORY | OFlags::CLOEXEC;
         Ok(Self { handle: openat(CWD, path, flags, Mode::empty())? })
     }
 
-    /// The same folder once more.
+    /// A second handle of the same folder.
     pub(super) fn same(&self) -> io::Result<Self> {
         Ok(Self { handle: self.handle.try_clone()? })
     }
 
-    /// A folder inside.
+    /// Opens a folder inside.
     pub(in crate::store) fn folder(&self, name: &str) -> io::Result<Self> {
         let flags = OFlags::RDONLY | OFlags::DIRECTORY | OFlags::NOFOLLOW | OFlags::CLOEXEC;
         match openat(&self.handle, name, flags, Mode::empty()) {
             Ok(handle) => Ok(Self { handle }),
             Err(error) => {
-                // Says what is there instead, where something is.
+                // Report the type of the entry if it is not a folder.
                 self.entry(name)?.expected(Entry::Folder, name)?;
                 Err(error.into())
             }
         }
     }
 
-    /// A folder inside, made where it is missing.
+    /// Opens a folder inside, and creates it if it is missing.
     pub(in crate::store) fn made(&self, name: &str) -> io::Result<Self> {
         match mkdirat(&self.handle, name, FOLDER_MODE) {
             Ok(()) | Err(rustix::io::Errno::EXIST) => self.folder(name),
-            // A folder that is there may be read where none can be made.
+            // An existing folder may be readable even if no folder can be created.
             Err(error) => self.folder(name).map_err(|_| error.into()),
         }
     }
 
-    /// What an entry is.
+    /// Type of an entry.
     pub(in crate::store) fn entry(&self, name: &str) -> io::Result<Entry> {
         let found = statat(&self.handle, name, AtFlags::SYMLINK_NOFOLLOW)?;
         Ok(FileType::from_raw_mode(found.st_mode).into())
     }
 
-    /// Every entry that has a name in UTF-8: all that a store has.
+    /// Every entry with a name in UTF-8; all entries of a store have such names.
     pub(in crate::store) fn entries(&self) -> io::Result<Vec<(String, Entry)>> {
         let mut found = Vec::new();
         for entry in Dir::read_from(&self.handle)? {
@@ -89,7 +89,7 @@ impl Folder {
             let kind = match entry.file_type() {
                 FileType::Unknown => match self.entry(&name) {
                     Ok(kind) => kind,
-                    // Gone meanwhile.
+                    // Removed in the meantime.
                     Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
                     Err(error) => return Err(error),
                 },
@@ -100,18 +100,18 @@ impl Folder {
         Ok(found)
     }
 
-    /// Reads a regular file that is at most so long.
+    /// Reads a regular file of at most `most` bytes.
     pub(in crate::store) fn read(&self, name: &str, most: u64) -> io::Result<Vec<u8>> {
         let file = self.regular(name, OFlags::RDONLY)?;
         read_at_most(file, most, name)
     }
 
-    /// A file that is locked: opened for both ways, made where it is missing, never written.
+    /// Opens a lock file for reading and writing, and creates it if it is missing; it is never written.
     pub(in crate::store) fn lockable(&self, name: &str) -> io::Result<File> {
         self.regular(name, OFlags::RDWR | OFlags::CREATE)
     }
 
-    /// Opens a regular file, and nothing else.
+    /// Opens a regular file; fails for any other type.
     fn regular(&self, name: &str, flags: OFlags) -> io::Result<File> {
         match self.entry(name) {
             Ok(entry) => entry.expected(Entry::File, name)?,
@@ -125,13 +125,13 @@ impl Folder {
         Ok(handle.into())
     }
 
-    /// A new file, for writing.
+    /// Creates a new file for writing.
     pub(in crate::store) fn create(&self, name: &str) -> io::Result<File> {
         let flags = OFlags::WRONLY | OFlags::CREATE | OFlags::EXCL | OFlags::CLOEXEC;
         Ok(openat(&self.handle, name, flags, FILE_MODE)?.into())
     }
 
-    /// When an entry was last written.
+    /// Time of the last modification of an entry.
     pub(in crate::store) fn modified(&self, name: &str) -> io::Result<SystemTime> {
         File::from(openat(
             &self.handle,
@@ -143,17 +143,17 @@ impl Folder {
         .modified()
     }
 
-    /// Takes a name away, and the file with its last one.
+    /// Removes a name, and the file itself with its last name.
     pub(in crate::store) fn remove(&self, name: &str) -> io::Result<()> {
         Ok(unlinkat(&self.handle, name, AtFlags::empty())?)
     }
 
-    /// Gives a file another name in another folder, in place of a file of that name.
+    /// Moves a file into another folder under a new name, and replaces a file of that name.
     pub(in crate::store) fn rename(&self, name: &str, to: &Self, new: &str) -> io::Result<()> {
         Ok(renameat(&self.handle, name, &to.handle, new)?)
     }
 
-    /// Gives a file a second name in another folder, where no entry has it.
+    /// Adds a hard link to a file in another folder; fails if an entry of that name exists.
     pub(in crate::store) fn link(&self, name: &str, to: &Self, new: &str) -> io::Result<()> {
         Ok(linkat(&self.handle, name, &to.handle, new, AtFlags::empty())?)
     }

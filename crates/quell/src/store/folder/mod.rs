@@ -1,13 +1,12 @@
-//! Folders of a store, whose content a stranger may have made: no symbolic link inside is ever followed, and nothing but
-//! regular files is opened.
+//! Folders of a store with untrusted content: no symbolic link inside is ever followed, and only regular files are opened.
 //!
-//! The folder that the user names is opened as it is, links included. Everything below is reached from there, one name
-//! at a time. On Unix each folder is held open and its entries are reached through the open folder (`openat` and its
-//! family, without following links), so that a folder that is exchanged for a link meanwhile makes no difference.
-//! Elsewhere the kind of every entry is looked up right before it is used.
+//! The folder given by the user is opened as it is, links included. Everything below it is reached from there, one name at a
+//! time. On Unix each folder is held open and its entries are accessed relative to the open folder (`openat` and related
+//! calls, without following links), so that replacing a folder by a link in the meantime has no effect. On other platforms
+//! the type of every entry is checked immediately before it is used.
 //!
-//! A named pipe or a device in place of a file would block whoever opens it, or do worse: what an entry is, is looked up
-//! before it is opened, it is opened without waiting, and looked up again.
+//! Opening a named pipe or a device in place of a file would block the process, or worse. The type of an entry is therefore
+//! checked before it is opened, it is opened without blocking, and its type is checked again.
 
 #[cfg(unix)]
 mod handles;
@@ -22,14 +21,14 @@ pub(super) use handles::Folder;
 #[cfg(not(unix))]
 pub(super) use paths::Folder;
 
-/// What an entry of a folder is.
+/// Type of an entry of a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Entry {
     /// A regular file.
     File,
     /// A folder.
     Folder,
-    /// A symbolic link, wherever it leads.
+    /// A symbolic link with any target.
     Link,
     /// A named pipe, a socket or a device.
     Special,
@@ -46,7 +45,7 @@ impl Entry {
         }
     }
 
-    /// Whether it is what it must be.
+    /// Fails unless the entry has the expected type.
     fn expected(self, expected: Self, name: &str) -> io::Result<()> {
         if self == expected {
             return Ok(());
@@ -56,7 +55,7 @@ impl Entry {
     }
 }
 
-/// Reads a file that is at most so long.
+/// Reads a file of at most `most` bytes.
 fn read_at_most(file: File, most: u64, name: &str) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     file.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
@@ -67,12 +66,12 @@ fn read_at_most(file: File, most: u64, name: &str) -> io::Result<Vec<u8>> {
 }
 
 impl Folder {
-    /// The folders and the last name of a key such as `efficiency/c/0/1`; the folders are made where they are missing.
+    /// The folder and the last name of a key such as `efficiency/c/0/1`; missing folders are created.
     pub(super) fn made_for<'k>(&self, key: &'k str) -> io::Result<(Self, &'k str)> {
         self.reached(key, Self::made)
     }
 
-    /// Reads the file of a key, which is at most so long.
+    /// Reads the file of a key, which has at most `most` bytes.
     pub(super) fn read_key(&self, key: &str, most: u64) -> io::Result<Vec<u8>> {
         let (folder, name) = self.reached(key, Self::folder)?;
         folder.read(name, most)

@@ -1,4 +1,4 @@
-//! [`Folder`] where folders cannot be held open: a path, and every entry looked up right before it is used.
+//! [`Folder`] on platforms where folders cannot be held open: a path; every entry is checked immediately before it is used.
 
 use std::fs::{self, File, FileType, OpenOptions};
 use std::io;
@@ -28,25 +28,25 @@ impl From<FileType> for Entry {
 }
 
 impl Folder {
-    /// The folder that the user names.
+    /// Opens the folder given by the user.
     pub(in crate::store) fn open(path: &Path) -> io::Result<Self> {
         Ok(Self { path: path.canonicalize()? })
     }
 
-    /// The same folder once more.
+    /// A second handle of the same folder.
     #[cfg(not(unix))]
     pub(super) fn same(&self) -> io::Result<Self> {
         self.itself()?;
         Ok(Self { path: self.path.clone() })
     }
 
-    /// A folder inside.
+    /// Opens a folder inside.
     pub(in crate::store) fn folder(&self, name: &str) -> io::Result<Self> {
         self.entry(name)?.expected(Entry::Folder, name)?;
         Ok(Self { path: self.path.join(name) })
     }
 
-    /// A folder inside, made where it is missing.
+    /// Opens a folder inside, and creates it if it is missing.
     pub(in crate::store) fn made(&self, name: &str) -> io::Result<Self> {
         match fs::create_dir(self.path.join(name)) {
             Ok(()) => self.folder(name),
@@ -57,13 +57,13 @@ impl Folder {
         }
     }
 
-    /// What an entry is.
+    /// Type of an entry.
     pub(in crate::store) fn entry(&self, name: &str) -> io::Result<Entry> {
         self.itself()?;
         Ok(fs::symlink_metadata(self.path.join(name))?.file_type().into())
     }
 
-    /// Every entry that has a name in UTF-8: all that a store has.
+    /// Every entry with a name in UTF-8; all entries of a store have such names.
     pub(in crate::store) fn entries(&self) -> io::Result<Vec<(String, Entry)>> {
         self.itself()?;
         let mut found = Vec::new();
@@ -72,7 +72,7 @@ impl Folder {
             let Ok(name) = entry.file_name().into_string() else { continue };
             match entry.file_type() {
                 Ok(kind) => found.push((name, kind.into())),
-                // Gone meanwhile.
+                // Removed in the meantime.
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {}
                 Err(error) => return Err(error),
             }
@@ -80,13 +80,13 @@ impl Folder {
         Ok(found)
     }
 
-    /// Reads a regular file that is at most so long.
+    /// Reads a regular file of at most `most` bytes.
     pub(in crate::store) fn read(&self, name: &str, most: u64) -> io::Result<Vec<u8>> {
         self.entry(name)?.expected(Entry::File, name)?;
         read_at_most(File::open(self.path.join(name))?, most, name)
     }
 
-    /// A file that is locked: opened for both ways, made where it is missing, never written.
+    /// Opens a lock file for reading and writing, and creates it if it is missing; it is never written.
     pub(in crate::store) fn lockable(&self, name: &str) -> io::Result<File> {
         match self.entry(name) {
             Ok(entry) => entry.expected(Entry::File, name)?,
@@ -99,39 +99,39 @@ impl Folder {
         OpenOptions::new().read(true).write(true).open(self.path.join(name))
     }
 
-    /// A new file, for writing.
+    /// Creates a new file for writing.
     pub(in crate::store) fn create(&self, name: &str) -> io::Result<File> {
         self.itself()?;
         OpenOptions::new().write(true).create_new(true).open(self.path.join(name))
     }
 
-    /// When an entry was last written.
+    /// Time of the last modification of an entry.
     pub(in crate::store) fn modified(&self, name: &str) -> io::Result<SystemTime> {
         self.itself()?;
         fs::symlink_metadata(self.path.join(name))?.modified()
     }
 
-    /// Takes a name away, and the file with its last one.
+    /// Removes a name, and the file itself with its last name.
     pub(in crate::store) fn remove(&self, name: &str) -> io::Result<()> {
         self.itself()?;
         fs::remove_file(self.path.join(name))
     }
 
-    /// Gives a file another name in another folder, in place of a file of that name.
+    /// Moves a file into another folder under a new name, and replaces a file of that name.
     pub(in crate::store) fn rename(&self, name: &str, to: &Self, new: &str) -> io::Result<()> {
         self.itself()?;
         to.itself()?;
         fs::rename(self.path.join(name), to.path.join(new))
     }
 
-    /// Gives a file a second name in another folder, where no entry has it.
+    /// Adds a hard link to a file in another folder; fails if an entry of that name exists.
     pub(in crate::store) fn link(&self, name: &str, to: &Self, new: &str) -> io::Result<()> {
         self.itself()?;
         to.itself()?;
         fs::hard_link(self.path.join(name), to.path.join(new))
     }
 
-    /// Whether it is a folder still: it may have been exchanged for a link.
+    /// Fails unless the path is still a folder: it may have been replaced by a link.
     fn itself(&self) -> io::Result<()> {
         let entry = Entry::from(fs::symlink_metadata(&self.path)?.file_type());
         entry.expected(Entry::Folder, &self.path.display().to_string())

@@ -1,4 +1,4 @@
-//! Both kinds of folder, tried alike.
+//! The same tests for both implementations of `Folder`.
 
 use std::fs;
 use std::io::{self, Write};
@@ -17,7 +17,7 @@ macro_rules! both {
             }
 
             #[test]
-            fn files_are_made_read_and_renamed_inside() {
+            fn files_are_created_read_and_renamed_inside() {
                 let place = tempfile::tempdir().expect("a folder");
                 let root = Folder::open(place.path()).expect("open");
                 let inner = root.made("inner").and_then(|_| root.made("inner")).expect("made");
@@ -39,7 +39,7 @@ macro_rules! both {
             }
 
             #[test]
-            fn links_and_pipes_are_named_and_left_alone() {
+            fn links_and_pipes_are_reported_and_left_alone() {
                 let place = tempfile::tempdir().expect("a folder");
                 let (inside, outside) = (place.path().join("in"), place.path().join("out"));
                 fs::create_dir(&inside).expect("a folder");
@@ -61,7 +61,7 @@ macro_rules! both {
                 }
                 assert!(text(root.read("pipe", 100)).contains("pipe is a pipe, a socket or a device"));
                 assert!(text(root.lockable("pipe")).contains("expected a file"));
-                // A link that takes a folder's place after it was opened is not followed either.
+                // A link that replaces a folder after it was opened is not followed either.
                 let late = root.made("late").expect("made");
                 fs::rename(inside.join("late"), inside.join("moved")).expect("moved");
                 symlink(&outside, inside.join("late")).expect("a link");

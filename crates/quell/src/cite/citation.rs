@@ -1,0 +1,61 @@
+//! Citations: which computation uses which source, and what for.
+
+use super::references::Source;
+
+/// A computation, named after its verb.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Task {
+    /// Effective friction.
+    Friction,
+    /// Stability of steady sliding by averaging.
+    Stability,
+    /// A trajectory with its events.
+    Simulate,
+    /// The steady response.
+    Response,
+    /// Sweeps of a parameter up and down.
+    Bifurcation,
+    /// Which starts converge to which response.
+    Basins,
+    /// Modes of a disc.
+    Modes,
+    /// Resonances of a disc.
+    Resonances,
+}
+
+impl Task {
+    /// Every task of a belt.
+    pub const ALL: &'static [Self] = &[
+        Self::Friction,
+        Self::Stability,
+        Self::Simulate,
+        Self::Response,
+        Self::Bifurcation,
+        Self::Basins,
+    ];
+
+    /// Name of the verb.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Friction => "friction",
+            Self::Stability => "stability",
+            Self::Simulate => "simulate",
+            Self::Response => "response",
+            Self::Bifurcation => "bifurcation",
+            Self::Basins => "basins",
+            Self::Modes => "modes",
+            Self::Resonances => "resonances",
+        }
+    }
+}
+
+/// A source with its use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Citation {
+    /// The source.
+    pub source: Source,
+    /// The computation that uses it.
+    pub task: Task,
+    /// The equations used, or the purpose.
+    pub used: &'static str,
+}
