@@ -131,7 +131,10 @@ fn quenched_means_the_same_in_every_verb() {
         (&1.0.into(), &false.into())
     );
     let printed = basins["sentence"].as_str().expect("words");
-    assert!(printed.starts_with("All 20 starts fall quiet. The base response ends at 82.9"), "{printed}");
+    assert!(
+        printed.starts_with("All 20 starts fall quiet. The base response ends at 82.9"),
+        "{printed}"
+    );
 }
 
 /// If mass or stiffness are swept, frequencies and velocities are those of each value, as with `--set`.
@@ -240,7 +243,10 @@ fn a_slow_dither_does_not_end_the_vibration() {
         ["--parameter", "dither.amplitude", "--from", "0.01", "--to", "0.04", "--from-rest"];
     let found = place.good(&[&["thresholds", "scaled.toml"][..], &slow, &range].concat());
     let printed = found["sentence"].as_str().expect("words");
-    assert!(!printed.contains("quench") && printed.contains("into step with the dither"), "{printed}");
+    assert!(
+        !printed.contains("quench") && printed.contains("into step with the dither"),
+        "{printed}"
+    );
     assert!(
         found["warnings"].to_string().contains("`response` gives the remaining amplitude"),
         "{found}"

@@ -9,7 +9,7 @@ use quell_disc::dithered;
 use quell_model::Disc;
 use quell_model::disc::{DiscDither, Load, Mode};
 use quell_numerics::floquet::Effort;
-use quell_zoo::disc::{self as zoo, ModeSet};
+use quell_zoo::disc::{self as zoo, ZooModes};
 
 const HARMONICS: i32 = 24;
 
@@ -76,7 +76,7 @@ fn the_hill_determinant_vanishes_at_the_exponents_of_the_splitting() {
     let mut checked = 0;
     for large in [false, true] {
         for damping in [0.0, 1e-3] {
-            let mut modes = ModeSet::N12.modes(damping);
+            let mut modes = ZooModes::N12.modes(damping);
             if large {
                 modes.push(mode(3, 2.524769, 0.930869, damping));
                 modes.push(mode(5, 4.859967, 0.890682, damping));

@@ -13,7 +13,7 @@ use quell_model::disc::{Contribution, Contributions};
 use quell_model::disc::{DiscDither, Load, Mode};
 use quell_numerics::floquet::Effort;
 use quell_zoo::DiscExt;
-use quell_zoo::disc::{self as zoo, ModeSet, NORMAL, TANGENTIAL, free, loaded};
+use quell_zoo::disc::{self as zoo, ZooModes, NORMAL, TANGENTIAL, free, loaded};
 
 fn of(disc: &Disc) -> Growth {
     dithered::growth(disc, Effort::default()).expect("finite")
@@ -29,7 +29,7 @@ fn size(z: Complex64) -> f64 {
 }
 
 /// Speeds up to 1 at which two free waves coincide (table 5.1, and Ω = 0).
-fn coincidences(set: ModeSet) -> Vec<f64> {
+fn coincidences(set: ZooModes) -> Vec<f64> {
     let waves: Vec<(f64, f64)> = set
         .modes(0.0)
         .iter()
@@ -54,7 +54,7 @@ fn coincidences(set: ModeSet) -> Vec<f64> {
 
 #[test]
 fn marginal_lines_are_undecided() {
-    let speeds = coincidences(ModeSet::N12);
+    let speeds = coincidences(ZooModes::N12);
     let printed = [0.0, 0.036, 0.064, 0.114, 0.192, 1.0];
     assert_eq!(speeds.len(), printed.len(), "{speeds:?}");
     for (speed, printed) in speeds.iter().zip(printed) {
@@ -63,7 +63,7 @@ fn marginal_lines_are_undecided() {
         for friction in [0.0, 0.003, 0.01] {
             for dither in [DiscDither::None, NORMAL, TANGENTIAL] {
                 let load = Load::new(0.1, 0.1, 0.1, friction);
-                let found = of(&loaded(ModeSet::N12, 0.0, load, dither, *speed));
+                let found = of(&loaded(ZooModes::N12, 0.0, load, dither, *speed));
                 let at = format!("Ω = {speed}, f = {friction}, {dither:?}: {found:?}");
                 assert_eq!(found.verdict(), Verdict::Undecided, "{at}");
                 // At Ω = 1 a wave meets its own conjugate at ω = 0: a defective double zero, known to the square root of the
@@ -74,14 +74,14 @@ fn marginal_lines_are_undecided() {
     }
     // Off the lines the same disc has a verdict.
     let found =
-        of(&loaded(ModeSet::N12, 0.0, Load::new(0.1, 0.1, 0.1, 0.01), DiscDither::None, 0.3));
+        of(&loaded(ZooModes::N12, 0.0, Load::new(0.1, 0.1, 0.1, 0.01), DiscDither::None, 0.3));
     assert_eq!(found.verdict(), Verdict::Stable);
 }
 
 #[test]
 fn a_free_disc_decays_with_the_damping_of_its_modes_at_any_speed() {
     let damping = 1e-3;
-    for set in ModeSet::ALL {
+    for set in ZooModes::ALL {
         for speed in [0.0, 0.3, 1.0, 1.3, 5.0] {
             let modes = set.modes(damping);
             let lowest = modes.iter().map(|mode| mode.ratio).fold(f64::INFINITY, f64::min);
@@ -103,7 +103,7 @@ fn a_free_disc_decays_with_the_damping_of_its_modes_at_any_speed() {
 #[test]
 fn damping_that_rotates_with_the_load_would_destabilise_a_free_disc() {
     // Why the circulatory pair is needed: Ω = 1.3, ξ = 10⁻³, no contact.
-    let free = free(ModeSet::N12, 1e-3, 1.3);
+    let free = free(ZooModes::N12, 1e-3, 1.3);
     let parts = Contributions::ALL.without(Contribution::CirculatoryDamping);
     let rotating = undithered::growth_with(&free, parts).expect("finite").rate;
     assert!((rotating - 6.0e-4).abs() < 1e-5, "{rotating}");
@@ -116,7 +116,7 @@ fn two_opposite_half_pads_split_into_even_and_odd_diameters() {
     let whole = Load::new(0.3, 0.2, 0.25, 0.4);
     let half = Load::new(0.15, 0.1, 0.125, 0.2);
     let pads = vec![half.clone(), half.at_angle(PI)];
-    for set in [ModeSet::N12, ModeSet::N25] {
+    for set in [ZooModes::N12, ZooModes::N25] {
         for speed in [0.05, 0.3, 0.85] {
             let split = |odd: usize| {
                 let chosen =
@@ -152,7 +152,7 @@ fn two_opposite_half_pads_split_into_even_and_odd_diameters() {
 
 #[test]
 fn exact_boundaries_are_marginal_and_linear_in_the_damper() {
-    for set in [ModeSet::N12, ModeSet::N25] {
+    for set in [ZooModes::N12, ZooModes::N25] {
         for speed in [0.05, 0.3, 0.77, 0.95] {
             let at = |damping: f64, friction: f64| {
                 loaded(set, 0.0, Load::new(0.2, damping, 0.3, friction), DiscDither::None, speed)
@@ -178,10 +178,10 @@ fn exact_boundaries_are_marginal_and_linear_in_the_damper() {
         }
     }
     // At standstill the two waves of each pair coincide: the load cannot reach one combination of each pair.
-    let rest = loaded(ModeSet::N12, 0.0, Load::new(0.1, 0.1, 0.1, 0.1), DiscDither::None, 0.0);
+    let rest = loaded(ZooModes::N12, 0.0, Load::new(0.1, 0.1, 0.1, 0.1), DiscDither::None, 0.0);
     let found = boundaries(&rest).expect("conservative");
     assert_eq!(found.iter().filter(|b| b.friction == Marginal::Always).count(), 2, "{found:?}");
-    let damped = loaded(ModeSet::N12, 1e-4, Load::new(0.1, 0.1, 0.1, 0.1), DiscDither::None, 0.3);
+    let damped = loaded(ZooModes::N12, 1e-4, Load::new(0.1, 0.1, 0.1, 0.1), DiscDither::None, 0.3);
     assert_eq!(boundaries(&damped), Err(NoBoundary::DampedModes));
 }
 
@@ -194,7 +194,7 @@ fn crossings_of_the_partition_are_marginal() {
     {
         for damping in [0.0, 1e-4] {
             let load = Load::new(strength, strength, strength, 1.0);
-            let disc = loaded(ModeSet::N12, damping, load, dither, speed);
+            let disc = loaded(ZooModes::N12, damping, load, dither, speed);
             let name = format!("{dither:?}, Ω = {speed}, ξ = {damping}");
             let prepared = dithered::prepared(&disc).expect("finite").expect("dithered");
             let at = |factor| prepared.growth(factor, Effort::default()).expect("finite");
@@ -219,14 +219,14 @@ fn crossings_of_the_partition_are_marginal() {
             }
         }
     }
-    let plain = loaded(ModeSet::N12, 0.0, Load::new(0.1, 0.1, 0.1, 1.0), DiscDither::None, 0.3);
+    let plain = loaded(ZooModes::N12, 0.0, Load::new(0.1, 0.1, 0.1, 1.0), DiscDither::None, 0.3);
     assert_eq!(crossings(&plain), Err(NoPartition::Undithered));
     // A dither a hundred times slower than the waves is rejected: it would take hours.
     let slow = DiscDither::Normal { amplitude: 0.8, frequency_ratio: 0.01 };
-    let slow = loaded(ModeSet::N12, 0.0, Load::new(0.1, 0.1, 0.1, 1.0), slow, 0.3);
+    let slow = loaded(ZooModes::N12, 0.0, Load::new(0.1, 0.1, 0.1, 1.0), slow, 0.3);
     assert!(matches!(crossings(&slow), Err(NoPartition::TooManyHarmonics { harmonics: 200.. })));
     // A friction whose square overflows has no computable eigenvalues at any frequency, which is not "no boundary".
-    let vast = loaded(ModeSet::N12, 0.0, Load::new(0.1, 0.1, 0.1, 1e200), NORMAL, 0.3);
+    let vast = loaded(ZooModes::N12, 0.0, Load::new(0.1, 0.1, 0.1, 1e200), NORMAL, 0.3);
     assert_eq!(crossings(&vast), Err(NoPartition::Eigenvalues));
 }
 

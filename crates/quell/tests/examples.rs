@@ -6,8 +6,8 @@ mod disc;
 mod map;
 #[path = "../examples/own_law.rs"]
 mod own_law;
-#[path = "../examples/quench.rs"]
-mod quench;
+#[path = "../examples/response.rs"]
+mod response;
 #[path = "../examples/thresholds.rs"]
 mod thresholds;
 
@@ -21,8 +21,8 @@ fn every_example_is_run() {
         .map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned())
         .collect();
     names.sort();
-    assert_eq!(names, ["disc.rs", "map.rs", "own_law.rs", "quench.rs", "thresholds.rs"]);
-    for main in [disc::main, map::main, own_law::main, quench::main, thresholds::main] {
+    assert_eq!(names, ["disc.rs", "map.rs", "own_law.rs", "response.rs", "thresholds.rs"]);
+    for main in [disc::main, map::main, own_law::main, response::main, thresholds::main] {
         main().expect("the example answers its question");
     }
 }

@@ -106,7 +106,11 @@ fn a_run_stopped_by_ctrl_c_reports_the_remaining_chunks_and_resumes() {
     signal(&child, "-INT");
     let printed = ProcessOutput::of(&child.wait_with_output().expect("it ends"));
     assert_eq!(printed.status, Some(1), "{printed:?}");
-    assert!(printed.errors.contains(" left: ") && printed.errors.contains("--resume"), "{}", printed.errors);
+    assert!(
+        printed.errors.contains(" left: ") && printed.errors.contains("--resume"),
+        "{}",
+        printed.errors
+    );
     assert!(printed.output.is_empty());
     let kept = place.records("stopped.zarr");
     place.good(&ask("stopped.zarr", &["--resume"]));

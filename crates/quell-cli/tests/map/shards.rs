@@ -91,8 +91,14 @@ fn a_shard_reports_the_remaining_chunks_and_a_later_run_computes_them() {
     let printed = place.printed(&ask("left.zarr", &["--shard", "2/4"]));
     assert_eq!(printed.status, Some(0), "{printed:?}");
     assert!(printed.output.contains("Shard 2 of 4 of left.zarr"), "{printed:?}");
-    assert!(printed.output.contains("1 computed") && printed.output.contains("shards 1,3,4"), "{printed:?}");
-    assert!(printed.errors.contains("recomputed 1 chunk of the store that was truncated"), "{printed:?}");
+    assert!(
+        printed.output.contains("1 computed") && printed.output.contains("shards 1,3,4"),
+        "{printed:?}"
+    );
+    assert!(
+        printed.errors.contains("recomputed 1 chunk of the store that was truncated"),
+        "{printed:?}"
+    );
     let map = place.good(&ask("left.zarr", &["--resume"]));
     assert!(map["resumed_points"].as_u64().is_some_and(|points| points > 0));
     same(&place.store("left.zarr"), reference);

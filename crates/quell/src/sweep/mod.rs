@@ -27,11 +27,11 @@ mod shard;
 mod sheet;
 mod status;
 
+pub use catalogue::QUANTITIES;
 pub use chunks::Chunks;
 pub use evaluate::{Computation, Results, Steady};
 pub use grid::{Grid, GridAxis, MOST_POINTS};
 pub use plan::Plan;
-pub use catalogue::QUANTITIES;
 pub use quantity::{Quantity, Variable, VariableKind};
 pub(crate) use runner::run;
 pub use runner::{MOST_THREADS, Progress, Running};

@@ -1,6 +1,6 @@
 //! Does this dither quench the vibration, and at what cost?
 //!
-//! `cargo run --release --package quell --example quench`
+//! `cargo run --release --package quell --example response`
 
 use quell::outcome::{Answered, Outcome};
 use quell::run::response;
