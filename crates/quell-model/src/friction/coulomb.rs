@@ -10,8 +10,7 @@ use quell_numerics::lane::Lane;
 use super::numeric::{checked, not_a_number_of, number_of, static_at_least_sliding};
 use super::series::side_by_side;
 use super::{
-    BranchSeries, Friction, LawParameters, LawSeries, NumericLaw, Otherwise, SlidingLaw,
-    Surroundings,
+    BranchSeries, LawParameters, LawSeries, NumericLaw, Otherwise, SlidingLaw, Surroundings,
 };
 use crate::InvalidValues;
 use crate::parameter::{COEFFICIENT, Parameter, STATIC_COEFFICIENT, VISCOUS};
@@ -132,10 +131,6 @@ impl LawSeries for Coulomb {
     ) -> CoulombSeries<V> {
         let CoulombConstants { coefficient, viscous } = *constants;
         CoulombSeries { first: w0.mul_add(viscous, sign * coefficient), slope: viscous }
-    }
-
-    fn of(friction: &Friction) -> Option<Self> {
-        if let Friction::Coulomb(law) = friction { Some(*law) } else { None }
     }
 }
 

@@ -3,10 +3,12 @@
 //! Three traits, one for each use: [`LawParameters`] for whoever reads and prints a law, [`SlidingLaw`] for its physics,
 //! [`LawSeries`] for the engines. The formula is written once, in the series; values and slopes are its first terms.
 
+use std::any::Any;
+
 use quell_numerics::lane::Lane;
 
 use super::series::BranchSeries;
-use super::{Friction, SlipRange, Surroundings};
+use super::{SlipRange, Surroundings};
 use crate::InvalidValues;
 use crate::parameter::Parameter;
 
@@ -137,7 +139,18 @@ pub trait LawSeries: Sized {
     ) -> Self::Series<'_, V, N>;
 
     /// The concrete law in `friction`, if it is of this kind.
-    fn of(friction: &Friction) -> Option<Self>;
+    fn of(friction: &impl AnyLaw) -> Option<Self>
+    where
+        Self: Clone + 'static,
+    {
+        friction.concrete().downcast_ref::<Self>().cloned()
+    }
+}
+
+/// A law of any kind, such as [`Friction`](super::Friction).
+pub trait AnyLaw {
+    /// The concrete law.
+    fn concrete(&self) -> &dyn Any;
 }
 
 /// Work on the concrete law, for code that is compiled per law.

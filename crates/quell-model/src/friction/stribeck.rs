@@ -11,7 +11,7 @@ use quell_numerics::lane::{Lane, half_inner_square, partial_product};
 use super::numeric::{checked, minimum_at_most_static, number_of, with_number};
 use super::series::side_by_side;
 use super::{
-    BranchSeries, Friction, LawParameters, LawSeries, NumericLaw, RangeLimit, SlidingLaw, SlipRange,
+    BranchSeries, LawParameters, LawSeries, NumericLaw, RangeLimit, SlidingLaw, SlipRange,
 };
 use crate::InvalidValues;
 use crate::parameter::{MINIMUM_COEFFICIENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT};
@@ -118,10 +118,6 @@ impl LawSeries for Stribeck {
             inner: V::splat(0.0),
             factor: [V::splat(0.0); N],
         }
-    }
-
-    fn of(friction: &Friction) -> Option<Self> {
-        if let Friction::Stribeck(law) = friction { Some(*law) } else { None }
     }
 }
 

@@ -10,7 +10,7 @@ use quell_numerics::lane::{Lane, half_inner_square, partial_product};
 
 use super::numeric::{checked, number_of, static_at_least_sliding, with_number};
 use super::series::{length_of_change, longest_change, side_by_side};
-use super::{BranchSeries, Friction, LawParameters, LawSeries, NumericLaw, Otherwise, SlidingLaw};
+use super::{BranchSeries, LawParameters, LawSeries, NumericLaw, Otherwise, SlidingLaw};
 use crate::InvalidValues;
 use crate::parameter::{
     COEFFICIENT, EXPONENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT, VISCOUS,
@@ -182,10 +182,6 @@ impl LawSeries for StribeckExponential {
             rate: [zero; N],
             partial: zero,
         }
-    }
-
-    fn of(friction: &Friction) -> Option<Self> {
-        if let Friction::StribeckExponential(law) = friction { Some(*law) } else { None }
     }
 }
 

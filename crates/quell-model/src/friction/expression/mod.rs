@@ -20,8 +20,7 @@ use quell_numerics::lane::Lane;
 use super::numeric::not_a_number_of;
 use super::series::side_by_side;
 use super::{
-    BranchSeries, Friction, LawParameters, LawSeries, RangeLimit, SlidingLaw, SlipRange,
-    Surroundings,
+    BranchSeries, LawParameters, LawSeries, RangeLimit, SlidingLaw, SlipRange, Surroundings,
 };
 use crate::parameter::{MAXIMUM_VELOCITY, Parameter, STATIC_COEFFICIENT};
 use crate::{Invalid, InvalidValues};
@@ -33,6 +32,7 @@ mod syntax;
 mod tree;
 
 use program::Program;
+use proof::Formula;
 pub use series::{ExpressionConstants, ExpressionSeries};
 pub use syntax::{LONGEST, SyntaxError, is_name, is_taken};
 use tree::Tree;
@@ -47,9 +47,6 @@ pub const CONSTANTS: &str = "friction.constants";
 /// velocity of its dither: stick–slip and transients stay far below. Of a belt at rest without dither, in units of the
 /// speed over which the formula varies.
 pub const MULTIPLE: f64 = 10.0;
-
-/// Coefficients beyond this are taken for infinite: exponentials are held before they overflow.
-const LARGEST: f64 = 1e100;
 
 /// Derivatives at v = 0⁺ of which the velocity scale is made.
 const DERIVATIVES: usize = 6;
@@ -223,7 +220,8 @@ impl Expression {
             return Ok(self.clone());
         }
         if self.proven.0.is_none_or(|proven| proven < speed) {
-            proof::prove(self, speed).map_err(|doubt| {
+            let formula = Formula { tree: &self.tree, named: &self.named };
+            proof::prove(&formula, |speed| self.at(speed), speed).map_err(|doubt| {
                 InvalidValues::from(Invalid::new(FORMULA, &self.text, doubt.to_string()))
             })?;
         }
@@ -394,9 +392,5 @@ impl LawSeries for Expression {
         w0: V,
     ) -> ExpressionSeries<'_, V, N> {
         constants.start(sign, w0)
-    }
-
-    fn of(friction: &Friction) -> Option<Self> {
-        if let Friction::Expression(law) = friction { Some(law.clone()) } else { None }
     }
 }

@@ -13,7 +13,9 @@ use std::fmt;
 use quell_numerics::interval::RealInterval;
 
 use super::tree::{Function, Tree};
-use super::{Expression, LARGEST};
+
+/// Coefficients beyond this are treated as infinite: exponentials are bounded before they overflow.
+const LARGEST: f64 = 1e100;
 
 /// Most intervals of a proof: 20 000 take tens of milliseconds, and a law that needs more falls by more than 10³ within
 /// a thousandth of its range.
@@ -65,15 +67,19 @@ fn digits(value: f64) -> String {
         .map_or(text, |rounded| format!("{rounded:?}").trim_end_matches(".0").to_owned())
 }
 
-/// Proves a formula from rest to `up_to`.
+/// Proves that a formula is finite, smooth and not negative from rest to `up_to`; `at` returns its coefficient and slope at
+/// a speed.
 ///
 /// # Errors
-/// Where it is negative or not finite, or could not be proven.
-pub(super) fn prove(law: &Expression, up_to: f64) -> Result<(), Doubt> {
+/// Where it is negative or not finite, or where the proof failed.
+pub(super) fn prove(
+    formula: &Formula<'_>,
+    at: impl Fn(f64) -> (f64, f64),
+    up_to: f64,
+) -> Result<(), Doubt> {
     let speeds = (0..=MEASURED).map(|k| up_to * f64::from(k) / f64::from(MEASURED));
-    let sizes = speeds.map(|speed| law.at(speed).0.abs()).filter(|size| size.is_finite());
+    let sizes = speeds.map(|speed| at(speed).0.abs()).filter(|size| size.is_finite());
     let allowed = -ROUNDING * sizes.fold(0.0, f64::max);
-    let formula = Formula { tree: &law.tree, named: &law.named };
     let doubt = |what, speed| Doubt { what, speed, up_to };
     let mut open = vec![(0.0, up_to)];
     let mut budget = MOST_INTERVALS;
@@ -87,9 +93,9 @@ pub(super) fn prove(law: &Expression, up_to: f64) -> Result<(), Doubt> {
             return Err(doubt(What::NotFinite, middle));
         };
         if there.value.upper < allowed {
-            return Err(doubt(What::Negative(law.at(middle).0), middle));
+            return Err(doubt(What::Negative(at(middle).0), middle));
         }
-        if there.value.lower > LARGEST || !law.at(middle).1.is_finite() {
+        if there.value.lower > LARGEST || !at(middle).1.is_finite() {
             return Err(doubt(What::NotFinite, middle));
         }
         budget -= 1;
@@ -104,9 +110,9 @@ pub(super) fn prove(law: &Expression, up_to: f64) -> Result<(), Doubt> {
 }
 
 /// A formula with the values of its constants.
-struct Formula<'f> {
-    tree: &'f Tree,
-    named: &'f [f64],
+pub(super) struct Formula<'f> {
+    pub(super) tree: &'f Tree,
+    pub(super) named: &'f [f64],
 }
 
 /// Bounds of a formula and of its slope in v.

@@ -14,7 +14,7 @@ use quell_numerics::lane::Lane;
 use super::expression::{ExpressionConstants, ExpressionSeries};
 use super::numeric::not_a_number_of;
 use super::{
-    Expression, Friction, LawParameters, LawSeries, RangeLimit, SlidingLaw, SlipRange, Surroundings,
+    Expression, LawParameters, LawSeries, RangeLimit, SlidingLaw, SlipRange, Surroundings,
 };
 use crate::parameter::{Parameter, STATIC_COEFFICIENT};
 use crate::{Invalid, InvalidValues};
@@ -214,9 +214,5 @@ impl LawSeries for Samples {
         w0: V,
     ) -> ExpressionSeries<'_, V, N> {
         Expression::series(constants, sign, w0)
-    }
-
-    fn of(friction: &Friction) -> Option<Self> {
-        if let Friction::Samples(law) = friction { Some(law.clone()) } else { None }
     }
 }
