@@ -5,39 +5,16 @@ use std::path::Path;
 use quell_model::units::Scales;
 use serde_json::Value as Json;
 
-use super::Study;
+use super::StudyOf;
 use super::belt::{BeltSetup, BeltStudy};
 use super::disc::{DiscSetup, DiscStudy};
 use super::document::Table;
 use super::reader::Reader;
+use super::study_kind::{Given, StudyKind, not_of_a_belt};
 use crate::complaint::{Complaint, Fault, Origin};
 
-/// What a kind of study reads besides what all kinds share.
-pub trait StudyKind: Clone {
-    /// A reader that knows the units of the document.
-    fn reader(document: &Table) -> Reader;
-
-    /// Names of the tables and keys outside any table that such a study has.
-    fn tables(document: &Table) -> &'static [&'static str];
-
-    /// Reads the tables of this kind; `None` where something is wrong, which the reader was told.
-    fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self>;
-
-    /// A file that the study names, read already.
-    fn data_file(&self) -> Option<&Path>;
-
-    /// What such files contribute to the settings, as `path = value`.
-    fn file_settings(&self) -> Vec<(String, String)>;
-}
-
-/// What is known before a document is read.
-#[derive(Clone, Copy, Debug)]
-pub struct Given<'a, K> {
-    /// Where files that the study names are looked for.
-    pub folder: &'a Path,
-    /// The same study before a change: its files are not read again, and what the change leaves as it was is kept.
-    pub known: Option<&'a K>,
-}
+/// A checked study of any kind.
+pub type Study = StudyOf<Kind>;
 
 /// The kinds of study.
 #[derive(Clone, Debug, PartialEq)]
@@ -144,13 +121,6 @@ impl Study {
             Kind::Disc(_) => None,
         }
     }
-}
-
-/// What a verb about belts reports of a study of a disc.
-pub(super) fn not_of_a_belt(origin: Origin) -> Complaint {
-    let allowed = "this verb is about a belt ([belt], [friction]), and the study is of a disc, which has the verbs check, cite, \
-                   modes, stability, resonances and map";
-    Complaint::new(Fault::Conflict, "disc", origin, Json::Null, allowed)
 }
 
 /// What a verb about discs reports of a study of a belt.

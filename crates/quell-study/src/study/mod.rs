@@ -25,6 +25,7 @@ mod kind;
 mod measures;
 mod reader;
 mod root;
+mod study_kind;
 pub mod suggest;
 mod sweep;
 pub mod vocabulary;
@@ -32,24 +33,22 @@ pub mod vocabulary;
 pub use belt::{BeltSetup, BeltStudy, Measured};
 pub use change::Change;
 pub use disc::{DiscSetup, DiscStudy};
-pub use kind::{Given, Kind, StudyKind};
+pub use kind::{Kind, Study};
 pub use quell_dynamics::response::Solver;
 pub use quell_dynamics::start::InitialState;
+pub use study_kind::{Given, StudyKind};
 pub use sweep::{Axis, Sweep};
-
-/// A checked study of any kind.
-pub type Study = StudyOf<Kind>;
 
 /// A checked study of the kind `K`: of any kind ([`Study`]), of a belt ([`BeltStudy`]), of a disc ([`DiscStudy`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyOf<K> {
     kind: K,
-    source: Arc<Source>,
+    source: Arc<StudySource>,
 }
 
 /// What every kind of study shares.
 #[derive(Clone, Debug, PartialEq)]
-struct Source {
+struct StudySource {
     title: Option<String>,
     sweeps: Vec<Sweep>,
     document: Table,
@@ -63,7 +62,7 @@ struct Source {
 
 /// Where a document comes from.
 #[derive(Clone, Debug)]
-struct Provenance {
+struct DocumentOrigin {
     text: Arc<str>,
     folder: PathBuf,
     file: Option<PathBuf>,
@@ -101,7 +100,7 @@ impl<K: StudyKind> StudyOf<K> {
             .map(|complaint| *complaint)
             .collect();
         measures::resolve(&mut document);
-        let from = Provenance {
+        let from = DocumentOrigin {
             text: text.into(),
             folder: folder.to_owned(),
             file: None,
@@ -117,13 +116,14 @@ impl<K: StudyKind> StudyOf<K> {
     /// The same study, which was read from this file.
     #[must_use]
     pub fn read_from(self, file: PathBuf) -> Self {
-        let source = Arc::new(Source { file: Some(file), ..Arc::unwrap_or_clone(self.source) });
+        let source =
+            Arc::new(StudySource { file: Some(file), ..Arc::unwrap_or_clone(self.source) });
         Self { source, ..self }
     }
 
     /// The files that it was read from: none of them is an output.
     pub fn inputs(&self) -> Inputs {
-        let Source { file, folder, .. } = &*self.source;
+        let StudySource { file, folder, .. } = &*self.source;
         file::inputs(file.as_deref(), folder, self.kind.data_file())
     }
 
@@ -172,12 +172,12 @@ impl<K: StudyKind> StudyOf<K> {
 
     /// Checks the changed document of this study; files are not read again.
     fn check_again(&self, document: Table, changes: Vec<String>) -> Result<Self, Complaints> {
-        let Source { text, folder, file, .. } = &*self.source;
+        let StudySource { text, folder, file, .. } = &*self.source;
         let (text, folder, file) = (Arc::clone(text), folder.clone(), file.clone());
-        Self::check(document, Provenance { text, folder, file, changes }, Some(&self.kind))
+        Self::check(document, DocumentOrigin { text, folder, file, changes }, Some(&self.kind))
     }
 
-    fn check(document: Table, from: Provenance, known: Option<&K>) -> Result<Self, Complaints> {
+    fn check(document: Table, from: DocumentOrigin, known: Option<&K>) -> Result<Self, Complaints> {
         let mut reader = K::reader(&document);
         let title = root::read(&mut reader, &document, K::tables(&document));
         let kind = K::read(&mut reader, &document, Given { folder: &from.folder, known });
@@ -187,8 +187,8 @@ impl<K: StudyKind> StudyOf<K> {
         if !complaints.is_empty() {
             return Err(complaints.into());
         }
-        let Provenance { text, folder, file, changes } = from;
-        let source = Source { title, sweeps, document, text, folder, file, changes };
+        let DocumentOrigin { text, folder, file, changes } = from;
+        let source = StudySource { title, sweeps, document, text, folder, file, changes };
         let study = Self { kind, source: Arc::new(source) };
         study.ends_are_valid()?;
         Ok(study)

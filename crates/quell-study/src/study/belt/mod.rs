@@ -15,10 +15,10 @@ use quell_model::parameter::NORMAL_LOAD;
 use quell_model::units::{Quantity, Scales};
 use quell_model::{Belt, Dither, Friction, LawKind};
 
+use super::StudyOf;
 use super::document::Table;
-use super::kind::not_of_a_belt;
 use super::reader::Reader;
-use super::{Given, StudyKind, StudyOf};
+use super::study_kind::{Given, StudyKind, not_of_a_belt};
 
 pub use friction::Measured;
 use table::BeltTable;
@@ -53,8 +53,9 @@ impl StudyKind for BeltSetup {
         }
         let mut belt = table::read(reader, document);
         let known = given.known.and_then(|setup| setup.measured.as_deref());
-        let place = friction::Given { folder: given.folder, known, normal_load: belt.normal_load };
-        let friction = friction::read(reader, document, place);
+        let context =
+            friction::LawContext { folder: given.folder, known, normal_load: belt.normal_load };
+        let friction = friction::read(reader, document, context);
         let dithers = dither::read(reader, document);
         if let Some(load) = friction.as_ref().and_then(|read| read.own_load) {
             belt.normal_load = Some(load);

@@ -1,11 +1,12 @@
 //! `[belt]` and `[belt.initial]`.
 
+use quell_dynamics::start::InitialState;
 use quell_model::parameter::{
     BELT_VELOCITY, DAMPING_RATIO, INITIAL_DISPLACEMENT, INITIAL_VELOCITY, NORMAL_LOAD,
 };
 use serde_json::Value as Json;
 
-use super::{InitialState, friction};
+use super::friction;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table};
 use crate::study::reader::{Found, Reader};

@@ -5,6 +5,7 @@
 
 mod body;
 mod loads;
+mod mode_line;
 mod modes;
 mod modes_file;
 mod plate;
@@ -20,10 +21,11 @@ use quell_model::units::DiscScales;
 use quell_model::{Direction, Disc};
 use serde_json::Value as Json;
 
+use super::StudyOf;
 use super::document::{Table, Value};
 use super::reader::{Found, Reader};
+use super::study_kind::{Given, StudyKind};
 use super::vocabulary::{self, Choice, Role, join};
-use super::{Given, StudyKind, StudyOf};
 use crate::complaint::{Complaint, Fault, Origin};
 
 pub use modes::{Listed, ModeSource};

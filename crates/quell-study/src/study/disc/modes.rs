@@ -10,6 +10,7 @@ use quell_model::parameter::disc::{
 use serde_json::Value as Json;
 
 use super::loads::Pad;
+use super::mode_line::ModeLine;
 use super::modes_file;
 use super::plate::{self, PlateModes};
 use crate::complaint::{Complaint, Fault, Origin};
@@ -63,16 +64,6 @@ pub struct ListedMode {
     pub shape_at_load: f64,
     /// Damping ratio; the disc's where it is not given.
     pub damping: Option<f64>,
-}
-
-/// One line of a list: frequency still as it was given.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
-    pub(super) diameters: f64,
-    pub(super) ratio: Option<f64>,
-    pub(super) hertz: Option<f64>,
-    pub(super) shape_at_load: f64,
-    pub(super) damping: Option<f64>,
 }
 
 /// Reads the modes from wherever the study has them.
@@ -139,12 +130,12 @@ fn listed(reader: &mut Reader, node: &Node) -> Option<Listed> {
         reader.wrong("disc.mode", node, "at least one mode");
         return None;
     }
-    let lines: Vec<Option<Line>> = list
+    let lines: Vec<Option<ModeLine>> = list
         .iter()
         .enumerate()
         .map(|(index, node)| line(reader, node, &format!("disc.mode[{index}]")))
         .collect();
-    let lines: Vec<Line> = lines.into_iter().collect::<Option<_>>()?;
+    let lines: Vec<ModeLine> = lines.into_iter().collect::<Option<_>>()?;
     match together(&lines) {
         Ok(listed) => Some(listed),
         Err(why) => {
@@ -155,7 +146,7 @@ fn listed(reader: &mut Reader, node: &Node) -> Option<Listed> {
     }
 }
 
-fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<Line> {
+fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<ModeLine> {
     let table = reader.table(path, node)?;
     reader.unknown_keys(table, Section::DiscMode, path, &[]);
     let mut maybe = |parameter| match reader.optional(table, path, parameter, None) {
@@ -180,7 +171,7 @@ fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<Line> {
         }
         None => Some(reader.number(table, path, node.origin, MODE_RATIO)?),
     };
-    Some(Line {
+    Some(ModeLine {
         diameters: diameters?,
         ratio,
         hertz,
@@ -190,7 +181,7 @@ fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<Line> {
 }
 
 /// Modes of the lines; frequencies in hertz are measured in the lowest critical speed of the list.
-fn together(lines: &[Line]) -> Result<Listed, String> {
+fn together(lines: &[ModeLine]) -> Result<Listed, String> {
     let in_hertz = lines.iter().filter(|line| line.ratio.is_none()).count();
     let reference_hz = match in_hertz {
         0 => None,

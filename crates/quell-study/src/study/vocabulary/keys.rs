@@ -1,12 +1,30 @@
 //! Every key, made from the registry of parameters and from lists of what takes no number of it.
 
+use std::sync::LazyLock;
+
 use quell_model::LawKind;
 use quell_model::parameter::{self, COEFFICIENT, Parameter, STATIC_COEFFICIENT, VISCOUS};
 
-use super::{Choice, Key, Role, SCHEMA_ABOUT, Section};
+use super::key::{Key, Role, SCHEMA_ABOUT, Section};
+use super::words::Choice;
 
 /// Every key, table by table.
-pub(super) fn all() -> Vec<Key> {
+pub fn keys() -> &'static [Key] {
+    static KEYS: LazyLock<Vec<Key>> = LazyLock::new(all);
+    &KEYS
+}
+
+/// Keys of one table.
+pub fn keys_of(section: Section) -> impl Iterator<Item = &'static Key> {
+    keys().iter().filter(move |key| key.section == section)
+}
+
+/// The key of a name in a table.
+pub fn key(section: Section, name: &str) -> Option<&'static Key> {
+    keys_of(section).find(|key| key.name == name)
+}
+
+fn all() -> Vec<Key> {
     let mut keys = words();
     keys.extend(numbers());
     keys.extend(own_law());

@@ -12,7 +12,7 @@ use quell_model::units::{Quantity, Scales};
 use quell_model::{Direction, Dither, Friction, LawKind};
 use serde_json::Value as Json;
 
-use super::Read;
+use super::read_law::ReadLaw;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table};
 use crate::study::reader::{Found, Reader};
@@ -66,7 +66,7 @@ pub(super) fn read(
     header: Origin,
     kind: LawKind,
     load: Option<f64>,
-) -> Option<Read> {
+) -> Option<ReadLaw> {
     if conflicts(reader, table, kind) {
         return None;
     }
@@ -112,9 +112,9 @@ pub(super) fn read(
     match kind.build(&values) {
         Ok(Friction::Coulomb(law)) if level.is_none() => {
             let law = Friction::Coulomb(law.without_static_level());
-            Some(Read { own_load, ..Read::of(law) })
+            Some(ReadLaw { own_load, ..ReadLaw::of(law) })
         }
-        Ok(law) => Some(Read { own_load, ..Read::of(law) }),
+        Ok(law) => Some(ReadLaw { own_load, ..ReadLaw::of(law) }),
         Err(invalid) => {
             reader.adopt(invalid);
             None

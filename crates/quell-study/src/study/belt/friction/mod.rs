@@ -12,32 +12,20 @@ use crate::study::document::{Node, Table};
 use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::{self, Choice, Role, Section};
 pub(super) use forces::{in_newtons, needs_no_normal_force};
-pub use samples::Measured;
+pub use measured::Measured;
 
 mod expression;
 mod forces;
+mod measured;
+mod read_law;
 mod samples;
 
-/// What `[friction]` says.
-pub(super) struct Read {
-    /// The law.
-    pub(super) law: Friction,
-    /// The samples that it was fitted to.
-    pub(super) measured: Option<Measured>,
-    /// The normal load F of friction in newtons where the study gives none.
-    pub(super) own_load: Option<f64>,
-}
+use read_law::ReadLaw;
 
-impl Read {
-    fn of(law: Friction) -> Self {
-        Self { law, measured: None, own_load: None }
-    }
-}
-
-/// What is known when a law is read.
+/// What is known before a law is read.
 #[derive(Clone, Copy)]
-pub(super) struct Given<'a> {
-    /// Where files of samples are looked for.
+pub(super) struct LawContext<'a> {
+    /// Folder of sample files.
     pub(super) folder: &'a Path,
     /// Samples that are known already: they are neither read nor fitted again.
     pub(super) known: Option<&'a Measured>,
@@ -46,7 +34,7 @@ pub(super) struct Given<'a> {
 }
 
 /// Reads `[friction]`.
-pub(super) fn read(reader: &mut Reader, root: &Table, given: Given<'_>) -> Option<Read> {
+pub(super) fn read(reader: &mut Reader, root: &Table, context: LawContext<'_>) -> Option<ReadLaw> {
     let Some(node) = root.get("friction") else {
         let allowed = "a table [friction] with law and its parameters";
         reader.complain(Complaint::new(
@@ -63,14 +51,14 @@ pub(super) fn read(reader: &mut Reader, root: &Table, given: Given<'_>) -> Optio
     let kind = name.and_then(LawKind::from_name);
     unknown_keys(reader, table, kind);
     match kind {
-        Some(LawKind::Expression) => expression::read(reader, table, node.origin).map(Read::of),
+        Some(LawKind::Expression) => expression::read(reader, table, node.origin).map(ReadLaw::of),
         Some(LawKind::Samples) => {
-            samples::read(reader, table, node.origin, given.folder, given.known)
+            samples::read(reader, table, node.origin, context.folder, context.known)
         }
         Some(kind) if forces::are_given(table) => {
-            forces::read(reader, table, node.origin, kind, given.normal_load)
+            forces::read(reader, table, node.origin, kind, context.normal_load)
         }
-        kind => numeric(reader, table, node, kind).map(Read::of),
+        kind => numeric(reader, table, node, kind).map(ReadLaw::of),
     }
 }
 

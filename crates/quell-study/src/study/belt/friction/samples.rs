@@ -5,13 +5,14 @@
 
 use std::path::{Path, PathBuf};
 
-use quell_model::friction::samples::{COEFFICIENTS, Fit, MOST_TERMS, SPEEDS, TERMS};
+use quell_model::friction::samples::{COEFFICIENTS, MOST_TERMS, SPEEDS, TERMS};
 use quell_model::parameter::{Bounds, STATIC_COEFFICIENT};
 use quell_model::{Friction, InvalidValues, Samples};
 use serde_json::Value as Json;
 
-use super::Read;
 use super::expression::{complain, velocity_unit};
+use super::measured::Measured;
+use super::read_law::ReadLaw;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::data_file::{self, DataFile, Row};
 use crate::study::document::{Node, Table, Value};
@@ -23,25 +24,6 @@ const WHAT: &str = "a CSV file of samples";
 /// Path of the file's key.
 const FILE: &str = "friction.file";
 
-/// Samples and what was made of them; what decides it is kept to see whether it is still the same.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
-    /// The file, where they stand in one.
-    pub file: Option<PathBuf>,
-    /// Slip speed, in the study's unit, and coefficient.
-    pub samples: Vec<(f64, f64)>,
-    static_coefficient: Option<f64>,
-    terms: Option<usize>,
-    fit: Fit,
-}
-
-impl Measured {
-    /// What decides the law, with the digits that read back as the same numbers.
-    pub(in crate::study) fn settings(&self) -> (String, String) {
-        ("friction.fit".to_owned(), self.fit.formula())
-    }
-}
-
 /// Reads the samples and fits them.
 pub(super) fn read(
     reader: &mut Reader,
@@ -49,7 +31,7 @@ pub(super) fn read(
     header: Origin,
     folder: &Path,
     known: Option<&Measured>,
-) -> Option<Read> {
+) -> Option<ReadLaw> {
     let level = reader.optional(table, "friction", STATIC_COEFFICIENT, None);
     let terms = match table.get("terms") {
         None => Some(None),
@@ -86,7 +68,7 @@ pub(super) fn read(
             reader.remember(COEFFICIENTS, key, origin.origin, 1.0);
             let fit = law.fit().clone();
             let measured = Measured { file, samples, static_coefficient, terms, fit };
-            Some(Read { measured: Some(measured), ..Read::of(Friction::Samples(law)) })
+            Some(ReadLaw { measured: Some(measured), ..ReadLaw::of(Friction::Samples(law)) })
         }
         Err(invalid) => {
             told(reader, table, origin, file.is_some(), invalid);
@@ -110,7 +92,8 @@ fn told(reader: &mut Reader, table: &Table, place: &Node, in_file: bool, invalid
     complain(reader, table, place, invalid);
 }
 
-type Given<'t> = (&'t Node, Option<PathBuf>, Vec<(f64, f64)>);
+/// Where the samples were written, the file that holds them, and the samples.
+type GivenSamples<'t> = (&'t Node, Option<PathBuf>, Vec<(f64, f64)>);
 
 /// The samples, from wherever the study has them.
 fn given<'t>(
@@ -119,7 +102,7 @@ fn given<'t>(
     header: Origin,
     folder: &Path,
     known: Option<&Measured>,
-) -> Option<Given<'t>> {
+) -> Option<GivenSamples<'t>> {
     let column = if reader.is_si() { "slip_velocity_m_per_s" } else { "slip_velocity" };
     let other = if reader.is_si() { "slip_velocity" } else { "slip_velocity_m_per_s" };
     if let Some(node) = table.get(other) {
