@@ -307,8 +307,8 @@ fn wrong_units_are_refused_with_what_is_expected() {
         (&["check", "pad.toml", "--set", "belt.mass_kg=5N"], "belt.mass_kg", "in kg"),
         (&range("5m"), "--from", "in N"),
         (&range("5 furlong"), "--from", "furlong is not a unit"),
-        (&["friction", "scaled.toml", "--at", "20mm/s"], "--at", "units need a study in SI"),
-        (&["orbit", "scaled.toml", "--near", "1um,0"], "--near", "units need a study in SI"),
+        (&["friction", "scaled.toml", "--at", "20mm/s"], "--at", "units require a study in SI"),
+        (&["orbit", "scaled.toml", "--near", "1um,0"], "--near", "units require a study in SI"),
         (
             &[
                 "thresholds",
@@ -321,12 +321,12 @@ fn wrong_units_are_refused_with_what_is_expected() {
                 "6",
             ],
             "--from",
-            "units need a study in SI",
+            "units require a study in SI",
         ),
         (
             &["check", "scaled.toml", "--set", "dither.amplitude=5kN"],
             "dither.amplitude",
-            "units need a study in SI",
+            "units require a study in SI",
         ),
     ];
     for (arguments, key, told) in cases {

@@ -48,7 +48,7 @@ fn invalid_laws_are_rejected_with_the_reason() {
     named[1].1 = f64::NAN;
     assert!(wrong(None, &named).contains("friction.constants.b"));
     named[1] = ("exp".to_owned(), 1.0);
-    assert!(wrong(None, &named).contains("means nothing else"));
+    assert!(wrong(None, &named).contains("has no other meaning"));
 }
 
 /// The formula proven up to a speed, or the complaints about it.

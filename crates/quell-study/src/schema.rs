@@ -53,8 +53,7 @@ pub fn schema() -> Json {
     json!({
         "$schema": DIALECT,
         "title": "Quell study file",
-        "description": "A mass on a moving belt with dither, in the numbers of the equations or in SI; or \
-                        an annular disc under rotating loads.",
+        "description": "A mass on a moving belt with dither, dimensionless or in SI; or an annular disc under rotating loads.",
         "oneOf": [
             { "$ref": reference(Section::Root, System::Scaled) },
             { "$ref": reference(Section::Root, System::Si) },
@@ -80,7 +79,7 @@ fn reference(section: Section, system: System) -> String {
 fn root(system: System) -> Json {
     let dither = reference(Section::Dither, system);
     let about = match system {
-        System::Scaled => "a study in the numbers of the equations",
+        System::Scaled => "a dimensionless study",
         System::Si => "a study in SI",
     };
     let mut whole = json!({
@@ -88,7 +87,7 @@ fn root(system: System) -> Json {
         "description": about,
         "properties": {
             "schema": { "const": SCHEMA_VERSION, "description": SCHEMA_ABOUT },
-            "title": { "type": "string", "description": "what the study is about" },
+            "title": { "type": "string", "description": "subject of the study" },
             "belt": { "$ref": reference(Section::Belt, system) },
             "friction": { "$ref": reference(Section::Friction, system) },
             "dither": {
@@ -152,7 +151,7 @@ fn disc(definitions: &mut Map<String, Json>) {
         "description": "a study of a disc",
         "properties": {
             "schema": { "const": SCHEMA_VERSION, "description": SCHEMA_ABOUT },
-            "title": { "type": "string", "description": "what the study is about" },
+            "title": { "type": "string", "description": "subject of the study" },
             "disc": { "$ref": "#/$defs/disc" },
             "dither": { "$ref": "#/$defs/disc_dither" },
             "sweep": { "type": "array", "items": { "$ref": "#/$defs/sweep" } },
@@ -256,7 +255,7 @@ fn friction(system: System) -> Json {
                     let mut known = law.parameters().iter().chain(law.options());
                     known.any(|known| known.path == parameter.path)
                 };
-                if let Some(parameter) = key.parameter().filter(|it| known(*it)) {
+                if let Some(parameter) = key.parameter().filter(|&parameter| known(parameter)) {
                     let number = match key.role {
                         Role::Coefficient => property_of(parameter),
                         _ => property(key),

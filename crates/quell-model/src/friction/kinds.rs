@@ -15,19 +15,19 @@ macro_rules! laws {
         laws!(@ $($numeric),+, $($carrying),+);
 
         impl LawKind {
-            /// Laws that are nothing but their numbers.
+            /// Laws defined by numbers alone.
             pub const NUMERIC: &'static [Self] = &[$(Self::$numeric),+];
 
-            /// A law of numbers from values in the order of its parameters.
+            /// Builds a law from values in the order of its parameters.
             ///
             /// # Errors
             /// Every value out of its bounds, and every relation that does not hold; a law that
-            /// is more than its numbers.
+            /// is not defined by numbers alone.
             pub fn build(self, values: &[f64]) -> Result<Friction, InvalidValues> {
                 match self {
                     $(Self::$numeric => $numeric::from_values(values).map(Friction::$numeric),)+
                     $(Self::$carrying => {
-                        let allowed = "made of its data; no law of numbers alone";
+                        let allowed = "a law defined by numbers alone; this one is built from data";
                         Err(InvalidValues::from(Invalid::new("friction.law", $carrying::NAME, allowed)))
                     })+
                 }
@@ -35,7 +35,7 @@ macro_rules! laws {
         }
     };
     (@ $($kind:ident),+) => {
-        /// The friction laws there are.
+        /// The kinds of friction law.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum LawKind {
             $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind,)+
@@ -56,17 +56,17 @@ macro_rules! laws {
                 match self { $(Self::$kind => <$kind as LawParameters>::NAME),+ }
             }
 
-            /// One line for people.
+            /// Description in one line.
             pub fn about(self) -> &'static str {
                 match self { $(Self::$kind => <$kind as LawParameters>::ABOUT),+ }
             }
 
-            /// Numbers that a study may say about the law and that are no number of its formula.
+            /// Numbers that a study may give for the law and that are not in its formula.
             pub fn options(self) -> &'static [Parameter] {
                 match self { $(Self::$kind => <$kind as LawParameters>::OPTIONS),+ }
             }
 
-            /// The value of a parameter that a study may leave out; `None` where it has to be given.
+            /// The default value of a parameter; `None` if the parameter is required.
             pub fn default_of(self, path: &str) -> Option<Otherwise> {
                 match self { $(Self::$kind => <$kind as LawParameters>::default_of(path)),+ }
             }
@@ -84,7 +84,7 @@ macro_rules! laws {
         }
 
         impl Friction {
-            /// Which law it is.
+            /// The kind of the law.
             pub fn kind(&self) -> LawKind {
                 match self { $(Self::$kind(_) => LawKind::$kind),+ }
             }
@@ -107,8 +107,8 @@ macro_rules! laws {
                 match self { $(Self::$kind(law) => law.with(path, value).map(Self::$kind)),+ }
             }
 
-            /// Whether runs with this law and with the other can go side by side: both are of one
-            /// kind and differ in numbers alone.
+            /// Whether runs with this law and with the other can share SIMD lanes: both are of one
+            /// kind and differ only in numbers.
             pub fn is_alike(&self, other: &Self) -> bool {
                 match (self, other) {
                     $((Self::$kind(law), Self::$kind(other)) => law.is_alike(other),)+
@@ -127,10 +127,10 @@ macro_rules! laws {
                 match self { $(Self::$kind(law) => visitor.visit(law)),+ }
             }
 
-            /// The law in the belt that it is put into ([`SlidingLaw::placed`]).
+            /// The law for use in a given belt ([`SlidingLaw::placed`]).
             ///
             /// # Errors
-            /// What cannot be proven of a law of one's own, and at which slip.
+            /// What could not be proven of a user-defined law, and at which slip.
             pub fn placed(&self, surroundings: &Surroundings) -> Result<Self, InvalidValues> {
                 match self { $(Self::$kind(law) => law.placed(surroundings).map(Self::$kind)),+ }
             }
@@ -140,12 +140,12 @@ macro_rules! laws {
                 match self { $(Self::$kind(law) => law.range()),+ }
             }
 
-            /// Why the law cannot be simulated, where it cannot.
+            /// Why the law cannot be simulated; `None` if it can.
             pub fn unsimulated(&self) -> Option<&'static str> {
                 match self { $(Self::$kind(law) => law.unsimulated()),+ }
             }
 
-            /// Whether the law changes over a velocity of its own.
+            /// Whether the law has a characteristic velocity.
             pub fn has_velocity(&self) -> bool {
                 match self { $(Self::$kind(law) => law.has_velocity()),+ }
             }
@@ -176,7 +176,7 @@ macro_rules! laws {
 laws!(numbers: Stribeck, Decreasing, Coulomb, StribeckExponential; data: Expression, Samples);
 
 impl LawKind {
-    /// The law of a name.
+    /// The law with a name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|kind| kind.name() == name)
     }

@@ -6,7 +6,7 @@
 //! μ is odd; at v_r = 0 it is set-valued in [−μ_s, μ_s] (the static level is separate from
 //! the sliding branch).
 //!
-//! Most laws are a few numbers ([`NumericLaw`]). A law may also carry data that its runs share:
+//! Most laws are defined by a few numbers ([`NumericLaw`]). A law may also carry data that its runs share:
 //! a formula ([`Expression`]) or the approximant of measured samples ([`Samples`]).
 
 mod coulomb;

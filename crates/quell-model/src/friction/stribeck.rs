@@ -2,8 +2,8 @@
 //!
 //! μ = μ_s sgn(v_r) − (3/2)(μ_s − μ_m)(w − w³/3), w = v_r/v_m.
 //!
-//! Range: a cubic through the minimum, meant for the fall and the beginning of the rise. w − w³/3 = w(1 − w²/3) is zero
-//! again at w = √3, where μ is back at μ_s; beyond, μ grows as w³/3 without bound and soon exceeds any measured friction.
+//! Range: a cubic through the minimum, intended for the fall and the start of the rise. w − w³/3 = w(1 − w²/3) is zero
+//! again at w = √3, where μ returns to μ_s; beyond that, μ grows as w³/3 without bound and soon exceeds any measured friction.
 //! The law holds up to √3 v_m. With μ_m = μ_s it is constant and holds everywhere.
 
 use quell_numerics::lane::{Lane, half_inner_square, partial_product};

@@ -95,7 +95,7 @@ impl Study {
     /// The study of a belt.
     ///
     /// # Errors
-    /// A complaint where it is of another kind.
+    /// An error if it is of another kind.
     pub fn belt(&self) -> Result<BeltStudy, Box<Complaint>> {
         match self.kind() {
             Kind::Belt(setup) => Ok(self.map_kind((**setup).clone())),
@@ -106,7 +106,7 @@ impl Study {
     /// The study of a disc.
     ///
     /// # Errors
-    /// A complaint where it is of another kind.
+    /// An error if it is of another kind.
     pub fn disc(&self) -> Result<DiscStudy, Box<Complaint>> {
         match self.kind() {
             Kind::Disc(setup) => Ok(self.map_kind((**setup).clone())),
@@ -123,9 +123,9 @@ impl Study {
     }
 }
 
-/// What a verb about discs reports of a study of a belt.
+/// The error of a command for discs given a study of a belt.
 fn not_of_a_disc() -> Complaint {
-    let allowed = "a disc study: this verb is about a disc ([disc]), and the study is of a belt";
+    let allowed = "this command requires a study of a disc, but the study is of a belt";
     Complaint::new(Fault::Missing, "disc", Origin::Whole, Json::Null, allowed)
 }
 

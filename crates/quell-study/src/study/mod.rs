@@ -1,10 +1,10 @@
 //! The study file: text, its document, and the checked study.
 //!
-//! `study.toml` → [`document::Table`] → [`Study`], which is valid by construction. All complaints are reported together, with
-//! key, line, value, what is allowed, and the nearest right key.
+//! `study.toml` → [`document::Table`] → [`Study`], which is valid by construction. All errors are reported together, with
+//! key, line, value, allowed values, and the nearest valid key.
 //!
-//! One [`Study`] serves every kind: what all kinds share (title, axes, text, changes) is read here, the rest by the kind
-//! ([`StudyKind`]). [`Kind`] lists the kinds; adding one is a file like `belt/mod.rs` or `disc/mod.rs`, its keys in
+//! One [`Study`] serves every kind: the parts that all kinds share (title, axes, text, changes) are read here, the rest by
+//! the kind ([`StudyKind`]). [`Kind`] lists the kinds; adding one is a file like `belt/mod.rs` or `disc/mod.rs`, its keys in
 //! [`vocabulary`], and a variant there.
 
 use std::path::{Path, PathBuf};
@@ -53,7 +53,7 @@ struct StudySource {
     sweeps: Vec<Sweep>,
     document: Table,
     text: Arc<str>,
-    /// Where files that the study names are looked for.
+    /// The folder of the files that the study names.
     folder: PathBuf,
     /// The file that it was read from; `-` is standard input.
     file: Option<PathBuf>,
@@ -80,7 +80,7 @@ impl<K: StudyKind> StudyOf<K> {
         Ok(Self::parse_in(&text, changes, folder)?.read_from(file::place(path)))
     }
 
-    /// Checks the text of a study after changing it; files that it names are looked for where the program runs.
+    /// Checks the text of a study after changing it; files that it names are searched in the working directory.
     ///
     /// # Errors
     /// All complaints together.
@@ -88,10 +88,10 @@ impl<K: StudyKind> StudyOf<K> {
         Self::parse_in(text, changes, Path::new(""))
     }
 
-    /// Checks the text of a study after changing it; files that it names are looked for in `folder`.
+    /// Checks the text of a study after changing it; files that it names are searched in `folder`.
     ///
     /// # Errors
-    /// All complaints together; what cannot be changed is reported together with what the check finds.
+    /// All errors together, those of the changes and those of the check.
     pub fn parse_in(text: &str, changes: &[Change], folder: &Path) -> Result<Self, Complaints> {
         let mut document = Table::parse(text)?;
         let refused: Vec<Complaint> = changes
@@ -121,7 +121,7 @@ impl<K: StudyKind> StudyOf<K> {
         Self { source, ..self }
     }
 
-    /// The files that it was read from: none of them is an output.
+    /// The files that it was read from, which outputs must not overwrite.
     pub fn inputs(&self) -> Inputs {
         let StudySource { file, folder, .. } = &*self.source;
         file::inputs(file.as_deref(), folder, self.kind.data_file())
@@ -139,8 +139,8 @@ impl<K: StudyKind> StudyOf<K> {
         self.check_again(document, changes)
     }
 
-    /// The study at one point of a map: its numbers set through the same path as `--set`, in
-    /// order, and no axes. It is the study that the file would give with these changes.
+    /// The study at one point of a map: its numbers set in order as by `--set`, without axes. It equals the study that the
+    /// file would give with these changes.
     ///
     /// # Errors
     /// All complaints about the changed study.
@@ -208,7 +208,7 @@ impl<K: StudyKind> StudyOf<K> {
                 complaints.extend(wrong.into_iter().map(|mut complaint| {
                     if complaint.fault == Fault::Value {
                         complaint.allowed = format!(
-                            "a path and values that make valid studies; {} = {value} must be {}",
+                            "a path and values that give valid studies; {} = {value} must be {}",
                             complaint.key, complaint.allowed
                         );
                     }
@@ -241,7 +241,7 @@ impl<K: StudyKind> StudyOf<K> {
 }
 
 impl<K> StudyOf<K> {
-    /// What only this kind of study has.
+    /// The parts that only this kind of study has.
     pub fn kind(&self) -> &K {
         &self.kind
     }

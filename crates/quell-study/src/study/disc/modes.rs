@@ -1,4 +1,4 @@
-//! Modes of a disc: computed, listed, or read from a file; and how the loads meet them.
+//! Modes of a disc: computed, listed, or read from a file; and their shapes at the loads.
 
 use std::path::{Path, PathBuf};
 
@@ -29,13 +29,13 @@ pub enum ModeSource {
     File {
         /// The file.
         path: PathBuf,
-        /// What stands in it.
+        /// The modes in the file.
         listed: Listed,
     },
 }
 
 impl ModeSource {
-    /// Hertz of one ω_ref, where material or listed frequencies say it.
+    /// ω_ref in hertz, if the material or listed frequencies determine it.
     pub fn reference_hz(&self, material: Option<&PlateMaterial>) -> Option<f64> {
         match self {
             Self::Plate(plate) => Some(material?.hertz(&plate.plate, plate.set.reference())),
@@ -66,7 +66,7 @@ pub struct ListedMode {
     pub damping: Option<f64>,
 }
 
-/// Reads the modes from wherever the study has them.
+/// Reads the modes: computed, listed, or from a file.
 pub(super) fn read(
     reader: &mut Reader,
     table: &Table,
@@ -87,10 +87,10 @@ pub(super) fn read(
     let others = plate.into_iter().chain(["reference_frequency"]);
     let mut right = true;
     for name in others.chain(list.and(file).map(|_| "modes_file")) {
-        // "critical" is what listed frequencies are measured in anyway.
+        // Listed frequencies use the "critical" reference anyway.
         let critical = |node: &Node| node.value == Value::Text("critical".to_owned());
         if let Some(other) = table.get(name).filter(|node| !critical(node)) {
-            let allowed = format!("modes are given by {key} already; leave this out");
+            let allowed = format!("the modes are already given by {key}; remove this key");
             let key = format!("disc.{name}");
             let given = other.given();
             reader.complain(Complaint::new(Fault::Conflict, key, other.origin, given, allowed));
@@ -123,7 +123,7 @@ pub(super) fn read(
 /// `[[disc.mode]]`.
 fn listed(reader: &mut Reader, node: &Node) -> Option<Listed> {
     let Value::List(list) = &node.value else {
-        reader.wrong("disc.mode", node, format!("tables [[disc.mode]]; this is {}", node.kind()));
+        reader.wrong("disc.mode", node, format!("tables [[disc.mode]]; got {}", node.kind()));
         return None;
     };
     if list.is_empty() {
@@ -159,10 +159,10 @@ fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<ModeLine> {
     let shape_at_load = reader.number(table, path, node.origin, MODE_SHAPE_AT_LOAD);
     let hertz = hertz?;
     let ratio = match hertz {
-        // Either of the two.
+        // Only one of the two may be given.
         Some(_) => {
             if let Some(other) = table.get(MODE_RATIO.key()) {
-                let allowed = "say either ratio or frequency_hz, not both";
+                let allowed = "give either ratio or frequency_hz, not both";
                 let (key, given) = (format!("{path}.ratio"), other.given());
                 reader.complain(Complaint::new(Fault::Conflict, key, other.origin, given, allowed));
                 return None;
@@ -190,10 +190,10 @@ fn together(lines: &[ModeLine]) -> Result<Listed, String> {
             let lowest = speeds
                 .filter_map(|line| Some(line.hertz? / line.diameters))
                 .reduce(f64::min)
-                .ok_or("no mode has a nodal diameter, so none has a critical speed: give ratios")?;
+                .ok_or("modes with at least one nodal diameter, which define the critical speed; otherwise give ratios")?;
             Some(lowest)
         }
-        _ => return Err("all modes have a ratio, or all have a frequency_hz".to_owned()),
+        _ => return Err("modes that either all have a ratio or all have a frequency_hz".to_owned()),
     };
     #[expect(
         clippy::cast_possible_truncation,
@@ -216,10 +216,10 @@ fn together(lines: &[ModeLine]) -> Result<Listed, String> {
     Ok(Listed { modes, reference_hz })
 }
 
-/// Modes as the first load meets them, the shapes at each load that sits at another radius, warnings.
+/// Modes with their shapes at the first load, the shapes at each load at another radius, warnings.
 type AtLoads = (Vec<Mode>, Vec<Option<Vec<f64>>>, Vec<String>);
 
-/// How the loads meet the modes.
+/// Evaluates the modes at the loads.
 pub(super) fn at_loads(
     reader: &mut Reader,
     source: &ModeSource,
@@ -244,7 +244,7 @@ pub(super) fn at_loads(
     for pad in pads {
         let key = format!("{}.radius_ratio", pad.path);
         let allowed = format!(
-            "a number in [{inner}, 1]: from the clamp (disc.inner_radius_ratio) to the edge"
+            "a number in [{inner}, 1], between the clamp (disc.inner_radius_ratio) and the edge"
         );
         match pad.radius {
             None => {
@@ -258,8 +258,8 @@ pub(super) fn at_loads(
                 right = false;
             }
             Some(radius) if radius == inner => warnings.push(format!(
-                "{} sits at the clamp (radius_ratio = inner_radius_ratio = {inner}), where the disc does not move: \
-                 nothing couples",
+                "{} is at the clamp (radius_ratio = inner_radius_ratio = {inner}), where the disc does not move, so it \
+                 couples to no mode",
                 pad.path
             )),
             Some(_) => {}
@@ -268,7 +268,7 @@ pub(super) fn at_loads(
     if !right {
         return None;
     }
-    // Without a load shapes are told at the edge; nothing depends on them.
+    // Without a load the shapes are given at the edge; nothing depends on them.
     let first = pads.first().and_then(|pad| pad.radius).unwrap_or(1.0);
     let modes = plate.set.at_radius(first, damping)?;
     let shapes = pads

@@ -1,7 +1,7 @@
-//! A CSV file of modes: what `quell modes --save` writes, or anyone else.
+//! A CSV file of modes, as `quell modes --save` writes it.
 //!
 //! Comment lines begin with `#`; the first other line names the columns: `diameters`, `ratio` or `frequency_hz`,
-//! `shape_at_load`, and `damping` where modes have their own. Other columns are passed over. Where there are both, `ratio` counts.
+//! `shape_at_load`, and optionally `damping`. Other columns are ignored. If both are given, `ratio` is used.
 
 use std::path::Path;
 

@@ -7,7 +7,7 @@ use quell_model::units::Quantity;
 use super::words::Choice;
 
 /// What the key `schema` of a study is.
-pub const SCHEMA_ABOUT: &str = "version of the study file; 1 where it is left out";
+pub const SCHEMA_ABOUT: &str = "version of the study file [default: 1]";
 
 /// A table of the study file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -73,49 +73,51 @@ impl Section {
         }
     }
 
-    /// What the table holds.
+    /// Contents of the table, in one line.
     pub fn about(self) -> &'static str {
         match self {
             Self::Root => "a study: a belt with its friction law or a disc, and dither",
-            Self::Disc => "annular disc under loads that rotate over it",
-            Self::DiscMode => "a mode of the disc, where modes are listed instead of computed",
+            Self::Disc => "annular disc under rotating loads",
+            Self::DiscMode => "a mode of the disc, if modes are listed instead of computed",
             Self::DiscLoad => {
                 "mass, damper, spring and friction at a point; several as [[disc.load]]"
             }
             Self::Belt => "mass, spring and damper on a moving belt",
-            Self::Initial => "where a run starts; at rest by default",
+            Self::Initial => "initial state of a run [default: at rest]",
             Self::Friction => "the friction law",
             Self::Constants => "named numbers of a formula",
             Self::Dither => "one dither force; several as [[dither]]",
             Self::Solver => "accuracy and length of the computations",
-            Self::Response => "what is measured of a response besides the band of slow vibration",
+            Self::Response => {
+                "measurements of a response in addition to the band of slow vibration"
+            }
             Self::Sweep => "one axis of a map; several in order",
         }
     }
 }
 
-/// What a key takes.
+/// The kind of value that a key takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Role {
-    /// A parameter in the numbers of the equations.
+    /// A dimensionless parameter.
     Number(Parameter),
     /// A parameter in SI.
     Twin(Parameter, SiTwin),
-    /// A number that makes the scales of a study in SI.
+    /// A number that defines the scales of a study in SI.
     Scale(ScaleKey),
-    /// A word out of a list.
+    /// A word from a list.
     Choice(Choice),
     /// Free text.
     Text,
     /// The version of the file.
     Schema,
-    /// Words out of a list, as an array.
+    /// Words from a list, as an array.
     Choices(Choice),
     /// The reference frequency of a disc: "critical", or a frequency parameter k².
     Reference,
     /// A formula of the friction coefficient, measured coefficients, or the number of a named law.
     Coefficient,
-    /// Friction as a force in SI, which gives this number of a named law.
+    /// Friction as a force in SI, which determines this parameter of a named law.
     FrictionForce(Parameter, &'static str),
     /// Measured slip speeds, in SI or not.
     Speeds {
@@ -142,13 +144,13 @@ pub enum Role {
 /// One key of the study file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Key {
-    /// The table it stands in.
+    /// Its table.
     pub section: Section,
     /// Its name inside the table.
     pub name: &'static str,
-    /// What it takes.
+    /// Its kind of value.
     pub role: Role,
-    /// What it is, in one line.
+    /// Description, in one line.
     pub about: &'static str,
 }
 
@@ -188,13 +190,13 @@ impl Key {
         }
     }
 
-    /// Unit in words; frequencies of a disc are counted in ω_ref.
+    /// Unit in words; frequencies of a disc are in ω_ref.
     pub fn unit_in_words(&self) -> &'static str {
         if self.is_of_a_disc() && self.unit() == "ω₀" { "ω_ref" } else { self.unit() }
     }
 
-    /// The unit in which a number with a unit is read, such as `5.7kN` for a key in newtons; `None` for numbers of
-    /// the equations and whatever else has no unit.
+    /// The unit to which a number with a unit is converted, such as `5.7kN` for a key in newtons; `None` for dimensionless
+    /// numbers and other values without a unit.
     pub fn measured_in(&self) -> Option<&'static str> {
         match self.role {
             Role::Number(parameter) => match parameter.quantity {

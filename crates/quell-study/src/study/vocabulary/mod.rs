@@ -15,11 +15,11 @@ pub use words::Choice;
 /// Version of the study file that this program reads.
 pub const SCHEMA_VERSION: u32 = 1;
 
-/// Tables of the design that are not built yet.
+/// Tables of the design that are not implemented yet.
 pub const NOT_BUILT: &[&str] =
     &["system", "contact", "input", "actuator", "design", "uncertainty", "sample", "profile"];
 
-/// Most points an axis of a map may have.
+/// Maximum number of points of an axis of a map.
 pub const MOST_POINTS: u32 = 10_000_000;
 
 #[cfg(test)]

@@ -14,19 +14,19 @@ static CONSTANT: Key = Key {
     about: "a named number of the formula",
 };
 
-/// A key with the entry of the list it stands in.
+/// A key with the index of its table in a list.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Address {
     /// The key.
     pub key: &'static Key,
-    /// Which `[[dither]]` or `[[sweep]]`, counted from 0, where one was named.
+    /// Index of the `[[dither]]` or `[[sweep]]`, from 0, if given.
     pub index: Option<usize>,
 }
 
 /// Finds what a path such as `dither[1].amplitude_n` names.
 ///
 /// # Errors
-/// The nearest path there is, if any is near.
+/// The nearest existing path, if any is close enough.
 pub fn resolve(path: &str) -> Result<Address, Option<String>> {
     let path = path.trim();
     let (table, name) = path.rsplit_once('.').unwrap_or(("", path));
@@ -52,7 +52,7 @@ pub fn resolve(path: &str) -> Result<Address, Option<String>> {
     }
 }
 
-/// The path that gives the same number in a study in SI, or in one without; a path that names none stays as it is.
+/// The path of the same number in a study in SI or in a dimensionless one; an unknown path is returned unchanged.
 pub fn in_system(path: &str, si: bool) -> String {
     let Ok(address) = resolve(path) else {
         return path.to_owned();

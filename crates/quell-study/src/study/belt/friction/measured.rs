@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use quell_model::friction::samples::Fit;
 
-/// Samples and the law fitted to them, with the options of the fit, which tell whether it is still current.
+/// Samples and the law fitted to them, with the options of the fit, which show whether it is still current.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
     /// The file that holds the samples, if any.

@@ -1,4 +1,4 @@
-//! `[friction]`: a law and its parameters, or a law of one's own.
+//! `[friction]`: a law and its parameters, or a user-defined law.
 
 use std::path::Path;
 
@@ -27,9 +27,9 @@ use read_law::ReadLaw;
 pub(super) struct LawContext<'a> {
     /// Folder of sample files.
     pub(super) folder: &'a Path,
-    /// Samples that are known already: they are neither read nor fitted again.
+    /// Samples of an earlier reading: they are neither read nor fitted again.
     pub(super) known: Option<&'a Measured>,
-    /// The normal load F, where it is given and right.
+    /// The normal load F, if given and valid.
     pub(super) normal_load: Option<f64>,
 }
 
@@ -62,16 +62,16 @@ pub(super) fn read(reader: &mut Reader, root: &Table, context: LawContext<'_>) -
     }
 }
 
-/// A law that is nothing but its numbers.
+/// A law defined by numbers alone.
 fn numeric(
     reader: &mut Reader,
     table: &Table,
     node: &Node,
     kind: Option<LawKind>,
 ) -> Option<Friction> {
-    // Without a law its parameters are still judged, each by itself.
+    // Without a law its parameters are still checked individually.
     let parameters = kind.map_or_else(|| LawKind::ALL[0].parameters(), LawKind::parameters);
-    // NaN stands for what was complained about: `adopt` says nothing twice.
+    // NaN stands for a value already reported: `adopt` reports nothing twice.
     let mut values: Vec<f64> = Vec::with_capacity(parameters.len());
     for parameter in parameters {
         if kind.is_none() && !table.has(parameter.key()) {
@@ -92,7 +92,7 @@ fn numeric(
         values.push(value.unwrap_or(f64::NAN));
     }
     match kind?.build(&values) {
-        // A static level that is not given follows the coefficient.
+        // A static level that is not given equals the coefficient.
         Ok(Friction::Coulomb(law)) if !table.has(STATIC_COEFFICIENT.key()) => {
             Some(Friction::Coulomb(law.without_static_level()))
         }
@@ -107,7 +107,7 @@ fn numeric(
 /// The table of the constants of a formula.
 const CONSTANTS: &str = "constants";
 
-/// Complains about keys that no law, or not this law, has.
+/// Reports keys that no law has, or that this law does not have.
 fn unknown_keys(reader: &mut Reader, table: &Table, kind: Option<LawKind>) {
     for (name, node) in table.iter() {
         let key = vocabulary::key(Section::Friction, name);
@@ -125,7 +125,7 @@ fn unknown_keys(reader: &mut Reader, table: &Table, kind: Option<LawKind>) {
                 .map(|key| key.name)
                 .chain(constants)
                 .collect();
-            // It is a key, only not one of this law: there is no nearer one to suggest.
+            // It is a key of another law: no suggestion is needed.
             let allowed = format!("{} for law = \"{}\"", keys.join(", "), kind.name());
             let key = vocabulary::join("friction", name);
             reader.complain(Complaint::new(
@@ -139,7 +139,7 @@ fn unknown_keys(reader: &mut Reader, table: &Table, kind: Option<LawKind>) {
     }
 }
 
-/// Whether a law has a key that takes this.
+/// Whether a law has a key with this role.
 fn belongs(role: Role, kind: LawKind) -> bool {
     match role {
         Role::Number(parameter) | Role::Twin(parameter, _) => {
