@@ -169,7 +169,7 @@ fn samples_that_determine_no_law_are_rejected_with_the_reason() {
         let wrong = Samples::new(samples, level, terms, 1.0).expect_err("wrong");
         wrong.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
     };
-    assert!(complaints(&good[..4], None, None).contains("5 different speeds"));
+    assert!(complaints(&good[..4], None, None).contains("5 distinct speeds"));
     assert!(complaints(&good, None, Some(9)).contains("from 1 to 4"));
     let mut bad = good.clone();
     bad[3].0 = -0.3;

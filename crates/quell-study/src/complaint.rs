@@ -17,7 +17,7 @@ pub enum Origin {
 }
 
 impl Origin {
-    /// The line, where there is one.
+    /// The line, if any.
     pub fn line(self) -> Option<usize> {
         match self {
             Self::Line(line) => Some(line),

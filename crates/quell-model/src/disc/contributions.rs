@@ -64,7 +64,7 @@ impl Contribution {
 pub struct Contributions(u16);
 
 impl Contributions {
-    /// All of them: the disc as it is.
+    /// All contributions: the complete disc.
     pub const ALL: Self = Self((1 << 9) - 1);
 
     /// Whether a contribution is switched on.

@@ -46,7 +46,7 @@ impl DiscDither {
         }
     }
 
-    /// Frequency ratio R, where there is dither.
+    /// Frequency ratio R; `None` without dither.
     pub fn frequency_ratio(self) -> Option<f64> {
         match self {
             Self::None => None,

@@ -334,7 +334,8 @@ impl<V: Lane, const N: usize> BranchSeries<V> for StribeckExponentialSeries<V, N
         // At large slip the excess vanishes, and p may change as long as it stays there.
         let room = (self.powers.power[0] - V::splat(VANISHED)).max(V::splat(most));
         let times = room.map(|room| most / room);
-        // The bound is linear in the step, but p is of order δ: a long step is first cut by the fourth root, to avoid cutting too far.
+        // The bound is linear in the step, but p is of order δ: a long step is first cut by the fourth root, so that it is not
+        // cut too far.
         let mut length = length;
         for _ in 0..CUTS {
             let cut = length_of_change(known, times, length, most);

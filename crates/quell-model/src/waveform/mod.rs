@@ -91,7 +91,7 @@ impl Waveform {
         self.shape().breaks
     }
 
-    /// The pieces: `pieces()[i]` follows `breaks()[i]`; a single piece where there is no break.
+    /// The pieces: `pieces()[i]` follows `breaks()[i]`; a single piece if there are no breaks.
     pub fn pieces(self) -> &'static [Piece] {
         self.shape().pieces
     }

@@ -23,7 +23,7 @@ impl Change {
     /// From `path=value`.
     ///
     /// # Errors
-    /// A complaint where there is no `=`.
+    /// An error if the text has no `=`.
     pub fn parse(text: &str, option: &'static str) -> Result<Self, Box<Complaint>> {
         match text.split_once('=') {
             Some((path, value)) if !path.trim().is_empty() => {

@@ -130,8 +130,8 @@ impl Node {
             DeValue::Integer(integer) => {
                 Value::Number(integer_value(integer.as_str(), integer.radix()))
             }
-            // A TOML float is a Rust float once the parser has taken out the underscores; one
-            // too large for f64 becomes infinite and is refused by the bounds.
+            // A TOML float is a Rust float once the parser has removed the underscores; one
+            // too large for f64 becomes infinite and is rejected by the bounds.
             DeValue::Float(float) => Value::Number(float.as_str().parse().unwrap_or(f64::NAN)),
             DeValue::Boolean(flag) => Value::Flag(*flag),
             DeValue::Datetime(date) => Value::Date(date.to_string()),

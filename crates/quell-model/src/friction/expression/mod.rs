@@ -1,7 +1,7 @@
 //! A law written as a formula, such as `0.3 + 0.1*exp(-abs(v)/0.2)`.
 //!
 //! The formula gives the coefficient in sliding; v is the slip velocity, and friction is odd in it. On
-//! each branch abs(v) and sign(v) are what they are there, so that the formula is analytic up to v = 0⁺.
+//! each branch abs(v) and sign(v) have their value on that branch, so that the formula is analytic up to v = 0⁺.
 //! It must agree on both branches, either as an even function (the coefficient) or as an odd one (the
 //! coefficient with the sign of slip). The static level is separate: a number, or μ(0⁺).
 //!

@@ -17,8 +17,8 @@ use super::tree::{Function, Tree};
 /// Coefficients beyond this are treated as infinite: exponentials are bounded before they overflow.
 const LARGEST: f64 = 1e100;
 
-/// Maximum number of intervals of a proof: 20 000 take tens of milliseconds, and a law that needs more falls by more than 10³ within
-/// a thousandth of its range.
+/// Maximum number of intervals of a proof: 20 000 take tens of milliseconds, and a law that needs more falls by more than 10³
+/// within a thousandth of its range.
 const MOST_INTERVALS: u32 = 20_000;
 
 /// Number of speeds at which the size of the coefficient is sampled, as reference for its rounding.

@@ -165,7 +165,7 @@ impl<V: Lane> SlotFiller<'_, V> {
     }
 }
 
-/// Above this the exponential is held at e^709; such a law is refused where it is made.
+/// Above this the exponential is held at e^709; such a law is rejected when it is built.
 const EXP_CEILING: f64 = 709.0;
 
 /// Value and slope of the output per unit of slot 0.

@@ -62,7 +62,7 @@ pub struct ListedMode {
     pub ratio: f64,
     /// Shape at the load.
     pub shape_at_load: f64,
-    /// Damping ratio; the disc's where it is not given.
+    /// Damping ratio; `None` for that of the disc.
     pub damping: Option<f64>,
 }
 
