@@ -318,8 +318,8 @@ fn wrong_units_are_rejected_with_the_expected_ones() {
         (&["check", "pad.toml", "--set", "belt.mass_kg=5N"], "belt.mass_kg", "in kg"),
         (&range("5m"), "--from", "in N"),
         (&range("5 furlong"), "--from", "furlong is not a unit"),
-        (&["friction", "scaled.toml", "--at", "20mm/s"], "--at", "units need a study in SI"),
-        (&["orbit", "scaled.toml", "--near", "1um,0"], "--near", "units need a study in SI"),
+        (&["friction", "scaled.toml", "--at", "20mm/s"], "--at", "units require a study in SI"),
+        (&["orbit", "scaled.toml", "--near", "1um,0"], "--near", "units require a study in SI"),
         (
             &[
                 "thresholds",
@@ -332,12 +332,12 @@ fn wrong_units_are_rejected_with_the_expected_ones() {
                 "6",
             ],
             "--from",
-            "units need a study in SI",
+            "units require a study in SI",
         ),
         (
             &["check", "scaled.toml", "--set", "dither.amplitude=5kN"],
             "dither.amplitude",
-            "units need a study in SI",
+            "units require a study in SI",
         ),
     ];
     for (arguments, key, printed) in cases {

@@ -1,4 +1,4 @@
-//! The mass on a moving belt, valid by construction.
+//! A mass on a moving belt, valid by construction.
 //!
 //! x″ + 2ζx′ + x = μ(v₀ − x′)·(F + Σ D_N g_N) + Σ D_T g_T        (2.1, 3.1, 4.1)
 
@@ -17,14 +17,17 @@ use quell_numerics::matrix::Matrix;
 
 /// Mass, spring, damper, contact, friction law and dither, in the numbers of the equations.
 #[derive(Clone, Debug, PartialEq)]
-#[expect(clippy::struct_field_names, reason = "the velocity of the belt, beside that of the mass")]
+#[expect(
+    clippy::struct_field_names,
+    reason = "the velocity of the belt, as opposed to that of the mass"
+)]
 pub struct Belt {
     damping_ratio: f64,
     normal_load: f64,
     belt_velocity: f64,
     friction: Friction,
     dithers: Vec<Dither>,
-    /// Mass and stiffness, of a study in SI.
+    /// Mass and stiffness, in a study in SI.
     scales: Option<Scales>,
 }
 
@@ -32,7 +35,7 @@ impl Belt {
     /// From ζ ≥ 0, F > 0, v₀ ≥ 0, a law and any number of dithers.
     ///
     /// # Errors
-    /// Every complaint at once: values out of bounds, and normal dither that would pull the
+    /// All errors together: values out of bounds, and normal dither that would pull the
     /// contact apart (ΣD_N > F).
     pub fn new(
         damping_ratio: f64,
@@ -73,19 +76,19 @@ impl Belt {
         self.scales
     }
 
-    /// What the friction law learns from the belt.
+    /// The properties of the belt that the friction law depends on.
     fn surroundings(&self) -> Surroundings {
         let slip = self.belt_velocity + self.fast_velocity();
         Surroundings { normal_load: self.normal_load, slip }
     }
 
-    /// The largest velocity that the dithers give the mass together in the limit of high frequency: Σ α max|G| of tangential
-    /// ones, μ_s times that of normal ones. Slip reaches v₀ plus this.
+    /// The largest fast velocity of the mass under all dithers in the limit of high frequency: Σ α max|G| of tangential
+    /// dithers, μ_s times that of normal ones. Slip reaches v₀ plus this.
     pub fn fast_velocity(&self) -> f64 {
         self.dithers.iter().map(|dither| self.fast_velocity_of(dither)).sum()
     }
 
-    /// The largest velocity that a dither gives this mass, as [`Belt::fast_velocity`].
+    /// The part of [`Belt::fast_velocity`] due to one dither.
     pub fn fast_velocity_of(&self, dither: &Dither) -> f64 {
         let level = match dither.direction {
             Direction::Tangential => 1.0,
@@ -94,7 +97,7 @@ impl Belt {
         level * dither.amplitude_ratio() * dither.waveform.peak_integral()
     }
 
-    /// Complaint about normal dither that exceeds the normal load, where those numbers are
+    /// The error for normal dither that exceeds the normal load, if those numbers are
     /// themselves valid.
     fn separation(&self) -> Option<Invalid> {
         let judged = NORMAL_LOAD.bounds.contains(self.normal_load)
@@ -153,7 +156,7 @@ impl Belt {
         self.dithers.iter().filter(move |dither| dither.direction == direction)
     }
 
-    /// Whether any dither, of whatever amplitude, is normal.
+    /// Whether any dither is normal, regardless of its amplitude.
     pub fn has_normal_dither(&self) -> bool {
         self.dithers.iter().any(|dither| dither.direction == Direction::Normal)
     }
@@ -178,8 +181,9 @@ impl Belt {
     #[inline]
     pub fn dither_force(&self, direction: Direction, time: f64) -> f64 {
         self.dithers_along(direction)
-            .map(|it| {
-                it.amplitude * it.waveform.value(f64::mul_add(it.frequency_ratio, time, it.phase))
+            .map(|dither| {
+                let phase = f64::mul_add(dither.frequency_ratio, time, dither.phase);
+                dither.amplitude * dither.waveform.value(phase)
             })
             .sum()
     }
@@ -343,7 +347,7 @@ impl Parametrisation for Belt {
     }
 }
 
-/// Where a path leads.
+/// The number that a path names.
 enum BeltNumber {
     DampingRatio,
     NormalLoad,
@@ -401,7 +405,7 @@ mod tests {
     }
 
     #[test]
-    fn separation_is_told_beside_other_complaints() {
+    fn separation_is_reported_with_other_errors() {
         let law = LawKind::Stribeck.build(&[0.4, 0.2857, 0.2]).expect("valid");
         let complaints =
             Belt::new(-1.0, 1.0, 0.05, law, vec![dither(Direction::Normal, 1.5)]).expect_err("two");

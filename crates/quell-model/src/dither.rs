@@ -54,7 +54,7 @@ impl Dither {
         self.amplitude / self.frequency_ratio
     }
 
-    /// Complaints about this dither as entry `index` of a list of `count`.
+    /// Errors of this dither as entry `index` of a list of `count`.
     pub(crate) fn complaints(&self, index: usize, count: usize) -> Vec<Invalid> {
         [
             (DITHER_AMPLITUDE, self.amplitude),

@@ -8,9 +8,9 @@ use std::ops::Deref;
 pub struct Invalid {
     /// Path of the parameter as in a study file, such as `belt.damping_ratio`.
     pub key: String,
-    /// The value as it was given.
+    /// The value as given.
     pub value: String,
-    /// What is allowed instead, with the reason where it is not plain.
+    /// The allowed values, with the reason if it is not obvious.
     pub allowed: String,
 }
 
@@ -33,7 +33,7 @@ impl fmt::Display for Invalid {
 
 impl std::error::Error for Invalid {}
 
-/// Every invalid value of one construction, at least one: the error of constructors.
+/// All invalid values of one construction, at least one: the error type of constructors.
 ///
 /// It derefs to a slice of [`Invalid`], prints one line for each, and is an [`std::error::Error`], so that `?` works:
 ///

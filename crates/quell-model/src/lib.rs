@@ -1,12 +1,12 @@
-//! Nouns of Quell: what a study describes, as valid values.
+//! The models of Quell: the systems that a study describes, as valid values.
 //!
-//! * [`system`]: a linear structure with friction contacts and inputs, under every kind of study; [`profile`]: what
-//!   changes in time;
-//! * [`belt`], [`disc`]: the two kinds of system by their own numbers, behind one trait ([`Parametrisation`]);
+//! * [`system`]: a linear structure with friction contacts and inputs, common to all kinds of study; [`profile`]: quantities
+//!   that vary in time;
+//! * [`belt`], [`disc`]: the two kinds of system with their parameters, behind one trait ([`Parametrisation`]);
 //! * [`friction`], [`waveform`], [`dither`]: laws, waves, and the dither of a belt;
 //! * [`parameter`], [`units`]: the registry of all numbers with symbols, bounds and units.
 //!
-//! A value that exists is valid: constructors return every invalid value at once, as
+//! A value that exists is valid: constructors return all invalid values together, as
 //! [`InvalidValues`]. Symbols and equation numbers are those of Michaux (2005), *Suppression of
 //! Friction-Induced Oscillations through Use of High-Frequency Dither Signals*.
 

@@ -1,7 +1,7 @@
 //! The registry of parameters: one table of path, symbol, unit and bounds.
 //!
-//! Constructors check against it, study files are read by it, `--set` and sweeps reach
-//! values through its paths, and the published JSON Schema is made of it.
+//! Constructors, the reader of study files, `--set`, sweeps and the published JSON Schema
+//! all use it.
 
 pub mod disc;
 
@@ -10,12 +10,12 @@ use std::fmt;
 use crate::Invalid;
 use crate::units::Quantity;
 
-/// Path of the key of entry `index` of a list of `count` tables, as a study file names it: without index where there is one.
+/// Path of the key of entry `index` of a list of `count` tables, as a study file names it: without index if there is only one.
 pub fn indexed(table: &str, index: usize, count: usize, key: &str) -> String {
     if count > 1 { format!("{table}[{index}].{key}") } else { format!("{table}.{key}") }
 }
 
-/// Index and key of such a path; `None` where it is no path of the table.
+/// Index and key of such a path; `None` if it is not a path of the table.
 pub fn split_index<'a>(path: &'a str, table: &str) -> Option<(usize, &'a str)> {
     let rest = path.strip_prefix(table)?;
     match rest.strip_prefix('[') {
@@ -34,9 +34,9 @@ pub struct Parameter {
     pub path: &'static str,
     /// Symbol in the equations, such as `D`.
     pub symbol: &'static str,
-    /// What it is, in one line.
+    /// Description, in one line.
     pub about: &'static str,
-    /// What kind of quantity it is; decides units and conversion.
+    /// Kind of quantity, which determines units and conversion.
     pub quantity: Quantity,
     /// Allowed values.
     pub bounds: Bounds,
@@ -55,7 +55,7 @@ impl Parameter {
         self.path.split('.').next().unwrap_or(self.path)
     }
 
-    /// Whether a study in SI may give it as it is, in place of its twin: a ratio of quantities of one dimension.
+    /// Whether a study in SI may give it directly instead of its SI twin, as a ratio of quantities of one dimension.
     pub fn is_pure(&self) -> bool {
         self.quantity == Quantity::DampingRatio
     }
@@ -80,7 +80,7 @@ pub struct SiTwin {
     pub key: &'static str,
     /// Its unit, such as `N`.
     pub unit: &'static str,
-    /// Whether it is a root mean square, to be turned into a peak by the waveform.
+    /// Whether it is a root mean square, which the waveform converts to a peak.
     pub rms: bool,
 }
 
@@ -108,7 +108,7 @@ impl Bounds {
         Self { lower, lower_included: true, upper: f64::INFINITY }
     }
 
-    /// Whether a value lies inside. NaN and infinities never do.
+    /// Whether a value is within the bounds. NaN and infinities never are.
     pub fn contains(&self, value: f64) -> bool {
         value.is_finite()
             && (value > self.lower || (self.lower_included && value == self.lower))
@@ -118,7 +118,7 @@ impl Bounds {
 
 impl fmt::Display for Bounds {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // The shortest form that is the number: no run of zeros.
+        // The shortest form of the number, without runs of zeros.
         let short = |value: f64| {
             let text = format!("{value:?}");
             text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
@@ -248,16 +248,16 @@ pub const EXPONENT: Parameter = Parameter {
     symbol: "δ",
     about: "exponent of the fall, e^−(v/v_s)^δ; simulation needs 1, 2, 3 or 4",
     quantity: Quantity::Ratio,
-    // Beyond, the fall is a step at v_s for every purpose, and its slope there grows with δ.
+    // Beyond this the fall is practically a step at v_s, with a slope that grows with δ.
     bounds: Bounds { lower: 0.0, lower_included: false, upper: 100.0 },
     si: &[],
 };
 
-/// Largest slip speed for which a formula is meant.
+/// Largest slip speed for which a formula is intended.
 pub const MAXIMUM_VELOCITY: Parameter = Parameter {
     path: "friction.maximum_velocity",
     symbol: "v_max",
-    about: "slip speed up to which the formula holds and is proven finite, smooth and not negative",
+    about: "slip speed up to which the formula is used and proven finite, smooth and not negative",
     quantity: Quantity::Velocity,
     bounds: Bounds::POSITIVE,
     si: &[si("maximum_velocity_m_per_s", "m/s")],
@@ -325,14 +325,14 @@ pub const RECORD_PERIODS: Parameter = Parameter {
     si: &[],
 };
 
-/// A number that exists only in a study in SI: it makes the scales.
+/// A number that exists only in a study in SI and defines its scales.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScaleKey {
     /// Path in a study file, such as `belt.mass_kg`.
     pub path: &'static str,
     /// Symbol in the equations.
     pub symbol: &'static str,
-    /// What it is, in one line.
+    /// Description, in one line.
     pub about: &'static str,
     /// Its unit.
     pub unit: &'static str,
@@ -351,7 +351,7 @@ impl ScaleKey {
 pub const MASS: ScaleKey = ScaleKey {
     path: "belt.mass_kg",
     symbol: "m",
-    about: "mass on the belt; its presence makes the study one in SI",
+    about: "mass on the belt; if given, the study is in SI",
     unit: "kg",
     bounds: Bounds::POSITIVE,
 };
@@ -360,7 +360,7 @@ pub const MASS: ScaleKey = ScaleKey {
 pub const STIFFNESS: ScaleKey = ScaleKey {
     path: "belt.stiffness_n_per_m",
     symbol: "k",
-    about: "stiffness of the spring that holds the mass; its presence makes the study one in SI",
+    about: "stiffness of the spring that holds the mass; if given, the study is in SI",
     unit: "N/m",
     bounds: Bounds::POSITIVE,
 };
@@ -369,12 +369,12 @@ pub const STIFFNESS: ScaleKey = ScaleKey {
 pub const NATURAL_FREQUENCY: ScaleKey = ScaleKey {
     path: "belt.natural_frequency_hz",
     symbol: "f₀",
-    about: "natural frequency ω₀/2π, instead of the stiffness; its presence makes the study one in SI",
+    about: "natural frequency ω₀/2π, instead of the stiffness; if given, the study is in SI",
     unit: "Hz",
     bounds: Bounds::POSITIVE,
 };
 
-/// The numbers that make the scales of a study in SI: the mass, and either stiffness or natural frequency.
+/// The numbers that define the scales of a study in SI: the mass, and either stiffness or natural frequency.
 pub const SCALES: &[ScaleKey] = &[MASS, STIFFNESS, NATURAL_FREQUENCY];
 
 /// Every parameter of a belt study, in the order of the study file. The friction law's own
@@ -398,7 +398,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bounds_refuse_what_is_not_a_number() {
+    fn bounds_reject_nan_and_infinity() {
         for bounds in [Bounds::FINITE, Bounds::NOT_NEGATIVE, Bounds::POSITIVE] {
             assert!(!bounds.contains(f64::NAN) && !bounds.contains(f64::INFINITY));
         }

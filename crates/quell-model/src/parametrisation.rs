@@ -1,4 +1,4 @@
-//! A kind of system by its own numbers: the paths that a study file names, and the system they describe.
+//! A kind of system with its parameters: the paths of a study file, and the system they describe.
 
 use crate::InvalidValues;
 use crate::parameter::Parameter;
@@ -20,7 +20,7 @@ use crate::system::System;
 /// # Ok::<(), quell_model::InvalidValues>(())
 /// ```
 pub trait Parametrisation: Clone {
-    /// The entry of the registry for a path; `None` if there is no such number here, or the study itself named it (a
+    /// The entry of the registry for a path; `None` if there is no such number here, or if the study defines it (a
     /// constant of a formula).
     fn parameter(&self, path: &str) -> Option<Parameter>;
 
@@ -31,10 +31,10 @@ pub trait Parametrisation: Clone {
     /// The same system with one parameter changed.
     ///
     /// # Errors
-    /// An unknown path, a value out of bounds, a relation that no longer holds.
+    /// An unknown path, a value out of bounds, a violated relation.
     fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues>;
 
-    /// The SI value of one unit of the parameter at `path`; `None` where the study does not give the scales.
+    /// The SI value of one unit of the parameter at `path`; `None` if the study does not give the scales.
     fn si_per_unit(&self, path: &str) -> Option<f64>;
 
     /// The structure, contacts and inputs that these numbers describe.

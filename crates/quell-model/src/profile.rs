@@ -1,4 +1,4 @@
-//! What changes in time: a constant plus periodic waves.
+//! Quantities that vary in time: a constant plus periodic waves.
 
 use crate::waveform::Waveform;
 

@@ -1,13 +1,13 @@
-//! SI units, mapped once at the edge.
+//! SI units, converted once at the boundary.
 //!
-//! Lengths stay lengths: a study in SI has F = N₀/k, D = A/k, v₀ = V₀/ω₀ in metres, only
-//! time is counted in 1/ω₀. ω₀ = √(k/m), ζ = c/(2mω₀), R = 2πf/ω₀, τ = ω₀t.
+//! Lengths stay lengths: a study in SI has F = N₀/k, D = A/k, v₀ = V₀/ω₀ in metres; only
+//! time is measured in 1/ω₀. ω₀ = √(k/m), ζ = c/(2mω₀), R = 2πf/ω₀, τ = ω₀t.
 
 use crate::{Invalid, InvalidValues};
 
 pub mod measure;
 
-/// What kind of quantity a number is.
+/// The kind of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Quantity {
     /// A pure number.
@@ -53,7 +53,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Unit in a study without SI, in words of the equations.
+    /// Unit in a dimensionless study, in the symbols of the equations.
     pub fn scaled_unit(self) -> &'static str {
         match self {
             Self::Ratio | Self::Count => "1",
@@ -78,7 +78,7 @@ impl Quantity {
         }
     }
 
-    /// The unit in which the number itself is given, where it is given in a unit in every study; its key carries it.
+    /// The unit of a quantity that has a unit in every study; the key ends in it.
     pub fn own_unit(self) -> Option<&'static str> {
         Some(match self {
             Self::Modulus => "Pa",
@@ -90,7 +90,7 @@ impl Quantity {
         })
     }
 
-    /// SI unit and the suffix that field and key names carry for it.
+    /// SI unit and the suffix for it in field and key names.
     pub fn si_unit(self) -> Option<(&'static str, &'static str)> {
         Some(match self {
             Self::Ratio
@@ -115,7 +115,7 @@ impl Quantity {
     }
 }
 
-/// Mass and stiffness of an SI study: the scales that turn SI into the equations' numbers.
+/// Mass and stiffness of an SI study: the scales that convert SI to dimensionless numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scales {
     mass_kg: f64,
@@ -128,7 +128,7 @@ impl Scales {
     /// From mass in kilograms and stiffness in newtons per metre.
     ///
     /// # Errors
-    /// A complaint for each value that is not finite and positive.
+    /// An error for each value that is not finite and positive.
     pub fn new(mass_kg: f64, stiffness_n_per_m: f64) -> Result<Self, InvalidValues> {
         let complaints: Vec<_> =
             [("belt.mass_kg", mass_kg), ("belt.stiffness_n_per_m", stiffness_n_per_m)]
@@ -146,7 +146,7 @@ impl Scales {
     /// From mass in kilograms and natural frequency ω₀/2π in hertz: k = mω₀².
     ///
     /// # Errors
-    /// A complaint for each value that is not finite and positive.
+    /// An error for each value that is not finite and positive.
     pub fn of_natural_frequency(mass_kg: f64, hertz: f64) -> Result<Self, InvalidValues> {
         let angular_frequency = std::f64::consts::TAU * hertz;
         let stiffness = mass_kg * angular_frequency * angular_frequency;
@@ -173,7 +173,7 @@ impl Scales {
         self.mass_kg
     }
 
-    /// SI value of one unit of a quantity of the equations.
+    /// SI value of one dimensionless unit of a quantity.
     pub fn si_per_unit(&self, quantity: Quantity) -> f64 {
         let omega = self.angular_frequency();
         match quantity {
@@ -200,30 +200,30 @@ impl Scales {
         }
     }
 
-    /// From SI to the equations' number.
+    /// Converts from SI to the dimensionless number.
     pub fn from_si(&self, quantity: Quantity, value: f64) -> f64 {
         value / self.si_per_unit(quantity)
     }
 
-    /// From the equations' number to SI.
+    /// Converts from the dimensionless number to SI.
     pub fn to_si(&self, quantity: Quantity, value: f64) -> f64 {
         value * self.si_per_unit(quantity)
     }
 }
 
-/// What turns the numbers of a disc into SI.
+/// The scales that convert the numbers of a disc to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DiscScales {
     /// ω_ref/2π, Hz.
     pub reference_hz: f64,
-    /// Mass M_p of the plate, kg, where material and size are known.
+    /// Mass M_p of the plate, kg, if material and size are known.
     pub plate_mass_kg: Option<f64>,
-    /// Radius r₀ of the load, m, where it is known.
+    /// Radius r₀ of the load, m, if known.
     pub load_radius_m: Option<f64>,
 }
 
 impl DiscScales {
-    /// SI value of one unit of a quantity of the equations; `None` where what it takes is not known.
+    /// SI value of one dimensionless unit of a quantity; `None` if the required scales are unknown.
     pub fn si_per_unit(&self, quantity: Quantity) -> Option<f64> {
         let omega = std::f64::consts::TAU * self.reference_hz;
         let mass = self.plate_mass_kg;
@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn a_natural_frequency_stands_for_a_stiffness() {
+    fn a_natural_frequency_replaces_a_stiffness() {
         let scales = Scales::of_natural_frequency(2.0, 5.0).expect("valid");
         assert_eq!(scales.angular_frequency(), 10.0 * std::f64::consts::PI);
         assert_eq!(scales.si_per_unit(Quantity::FrequencyRatio), 5.0);

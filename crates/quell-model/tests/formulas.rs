@@ -48,7 +48,7 @@ fn invalid_laws_are_rejected_with_the_reason() {
     named[1].1 = f64::NAN;
     assert!(wrong(None, &named).contains("friction.constants.b"));
     named[1] = ("exp".to_owned(), 1.0);
-    assert!(wrong(None, &named).contains("means nothing else"));
+    assert!(wrong(None, &named).contains("has no other meaning"));
 }
 
 /// The formula proven up to a speed, or the complaints about it.
@@ -169,7 +169,7 @@ fn samples_that_determine_no_law_are_rejected_with_the_reason() {
         let wrong = Samples::new(samples, level, terms, 1.0).expect_err("wrong");
         wrong.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
     };
-    assert!(complaints(&good[..4], None, None).contains("5 different speeds"));
+    assert!(complaints(&good[..4], None, None).contains("5 distinct speeds"));
     assert!(complaints(&good, None, Some(9)).contains("from 1 to 4"));
     let mut bad = good.clone();
     bad[3].0 = -0.3;

@@ -1,4 +1,4 @@
-//! What is said about input that cannot be accepted, and how a piece of work can fail.
+//! Errors in the input, and how a task can fail.
 
 use std::fmt;
 use std::ops::Deref;
@@ -12,12 +12,12 @@ pub enum Origin {
     Line(usize),
     /// An argument of the command line, such as `--set`.
     Argument(&'static str),
-    /// Nowhere in particular: something is missing from the whole.
+    /// The study as a whole, for example where something is missing.
     Whole,
 }
 
 impl Origin {
-    /// The line, where there is one.
+    /// The line, if any.
     pub fn line(self) -> Option<usize> {
         match self {
             Self::Line(line) => Some(line),
@@ -26,7 +26,7 @@ impl Origin {
     }
 }
 
-/// What is wrong with it.
+/// The kind of error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Fault {
     /// The command line is not understood.
@@ -37,15 +37,15 @@ pub enum Fault {
     Path,
     /// No such key, path or option.
     Unknown,
-    /// A key that is needed is not there.
+    /// A required key is missing.
     Missing,
     /// A value of the wrong kind or out of its range.
     Value,
     /// Two keys that exclude one another.
     Conflict,
-    /// A dimensionless key in a study in SI, or the other way round.
+    /// A dimensionless key in a study in SI, or an SI key in a dimensionless one.
     Mixed,
-    /// A part of the design that is not built yet.
+    /// A part of the design that is not implemented yet.
     NotBuilt,
 }
 
@@ -75,11 +75,11 @@ pub struct Complaint {
     pub key: String,
     /// Where it was written.
     pub origin: Origin,
-    /// The value as it was given; null where there is none.
+    /// The value as given; null if no value was given.
     pub value: Value,
     /// What is allowed instead.
     pub allowed: String,
-    /// The nearest right key or value.
+    /// The nearest valid key or value.
     pub suggestion: Option<String>,
 }
 
@@ -151,7 +151,7 @@ impl fmt::Display for Complaint {
         let Self { key, allowed, .. } = self;
         match self.fault {
             Fault::Usage => write!(f, "{allowed}")?,
-            Fault::Syntax => write!(f, "not TOML: {allowed}")?,
+            Fault::Syntax => write!(f, "invalid TOML: {allowed}")?,
             Fault::Path => match &self.value {
                 Value::Null => write!(f, "{key}: {allowed}")?,
                 _ => write!(f, "{key} {}: {allowed}", self.given())?,
@@ -162,16 +162,18 @@ impl fmt::Display for Complaint {
             Fault::Conflict | Fault::Mixed | Fault::NotBuilt => write!(f, "{key}: {allowed}")?,
         }
         match (&self.suggestion, self.fault) {
-            // These say the right key already.
+            // The message already names the right key.
             (_, Fault::Mixed) => Ok(()),
             (Some(suggestion), _) => write!(f, "; did you mean {suggestion}?"),
-            (None, Fault::Unknown) if !allowed.is_empty() => write!(f, "; there are {allowed}"),
+            (None, Fault::Unknown) if !allowed.is_empty() => {
+                write!(f, "; expected one of: {allowed}")
+            }
             (None, _) => Ok(()),
         }
     }
 }
 
-/// Every complaint about an input, at least one: the error of checks. `?` turns it into a [`Failure`].
+/// All errors found in an input, at least one. `?` converts it into a [`Failure`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Complaints(Vec<Complaint>);
 
@@ -231,16 +233,16 @@ impl fmt::Display for Complaints {
 
 impl std::error::Error for Complaints {}
 
-/// Why a piece of work gave no result.
+/// Why a task gave no result.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {
-    /// The input is wrong: every complaint at once (exit status 2).
+    /// The input is invalid: all errors together (exit status 2).
     Wrong(Complaints),
-    /// The input is right, but the work could not be done (exit status 1).
+    /// The input is valid, but the task failed (exit status 1).
     Failed {
-        /// What could not be done, such as the path that could not be written.
+        /// What failed, such as the path that could not be written.
         key: String,
-        /// Why, in one sentence.
+        /// The reason, in one sentence.
         why: String,
     },
 }
@@ -254,7 +256,7 @@ impl Failure {
         }
     }
 
-    /// The one JSON object that tells it.
+    /// The failure as one JSON object.
     pub fn json(&self) -> Value {
         let errors: Vec<Value> = match self {
             Self::Wrong(complaints) => complaints.iter().map(Complaint::json).collect(),

@@ -1,14 +1,14 @@
-//! Files that a study was read from: opened only where they are files, and never outputs.
+//! Files that a study was read from: only regular files are opened, and outputs never overwrite them.
 
 use std::fs::{self, File, Metadata};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// Reads a regular file that is at most so long. A pipe or a device, which may have no end or never an answer, is not
-/// opened: what the path leads to is looked up before, the file is opened without waiting, and looked up again.
+/// Reads a regular file of at most `most` bytes. Pipes and devices, which may never end or block, are not read: the type of
+/// the file is checked before and after it is opened without blocking.
 ///
 /// # Errors
-/// Those of the file system; where it is no regular file, or longer than `most`.
+/// File system errors; a file that is not regular or is longer than `most`.
 pub(crate) fn read_regular(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let regular = |found: &Metadata| {
         let refused = || io::Error::other("it is not a regular file");
@@ -25,7 +25,7 @@ pub(crate) fn read_regular(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Opens a file for reading, and never waits for whoever writes a pipe.
+/// Opens a file for reading without blocking on a pipe.
 #[cfg(unix)]
 fn open_at_once(path: &Path) -> io::Result<File> {
     use rustix::fs::{Mode, OFlags, open};
@@ -42,7 +42,7 @@ fn open_at_once(path: &Path) -> io::Result<File> {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Inputs {
     files: Vec<PathBuf>,
-    /// Whether its text came from standard input.
+    /// Whether the study was read from standard input.
     standard_input: bool,
 }
 
@@ -53,7 +53,7 @@ pub struct Input {
 }
 
 impl Input {
-    /// Why it is no output.
+    /// Why it must not be used as an output.
     pub fn refusal(&self) -> String {
         format!("would overwrite {}, which the study is read from; choose another name", self.name)
     }
@@ -76,7 +76,7 @@ impl Inputs {
         inputs
     }
 
-    /// The file that `path` is, by whatever name: through links, or as a second name of the same file.
+    /// The input file that `path` refers to, also through links or as a second name of the same file.
     pub fn at(&self, path: &Path) -> Option<Input> {
         let found = fs::metadata(path).ok().filter(Metadata::is_file)?;
         if self.standard_input && is_standard_input(&found) {
@@ -86,19 +86,20 @@ impl Inputs {
         self.files.iter().find(same).map(|file| Input { name: file.display().to_string() })
     }
 
-    /// A file that is in the folder `path`, or is it.
+    /// An input file that is in the folder `path`, or is `path` itself.
     pub fn inside(&self, path: &Path) -> Option<Input> {
         let folder = path.canonicalize().ok()?;
-        let within = |file: &&PathBuf| file.canonicalize().is_ok_and(|it| it.starts_with(&folder));
+        let within =
+            |file: &&PathBuf| file.canonicalize().is_ok_and(|file| file.starts_with(&folder));
         self.files.iter().find(within).map(|file| Input { name: file.display().to_string() })
     }
 }
 
-/// Whether a file is the one that was `found` at `path`.
+/// Whether a file is the one `found` at `path`.
 #[cfg(unix)]
 fn is_same(file: &Path, _path: &Path, found: &Metadata) -> bool {
     use std::os::unix::fs::MetadataExt;
-    let identity = |it: &Metadata| (it.dev(), it.ino());
+    let identity = |file: &Metadata| (file.dev(), file.ino());
     fs::metadata(file).is_ok_and(|file| identity(&file) == identity(found))
 }
 
@@ -107,14 +108,14 @@ fn is_same(file: &Path, path: &Path, _found: &Metadata) -> bool {
     matches!((file.canonicalize(), path.canonicalize()), (Ok(file), Ok(path)) if file == path)
 }
 
-/// Whether the file that was found is the one that is standard input.
+/// Whether the file found is the one connected to standard input.
 #[cfg(unix)]
 fn is_standard_input(found: &Metadata) -> bool {
     use std::os::fd::AsFd;
     use std::os::unix::fs::MetadataExt;
     let handle = io::stdin().as_fd().try_clone_to_owned();
     let there = handle.and_then(|handle| File::from(handle).metadata());
-    there.is_ok_and(|it| (it.dev(), it.ino()) == (found.dev(), found.ino()))
+    there.is_ok_and(|input| (input.dev(), input.ino()) == (found.dev(), found.ino()))
 }
 
 #[cfg(not(unix))]

@@ -1,14 +1,14 @@
-//! Study files: text → document → a valid [`Study`], with every complaint at once.
+//! Study files: text → document → a valid [`Study`]; all errors are reported together.
 //!
 //! | module | what |
 //! |---|---|
 //! | [`study`] | the study of any kind, its keys, and changes to it |
-//! | [`complaint`] | what is wrong, where, and what is allowed |
+//! | [`complaint`] | errors: the key, the line, the value and the allowed values |
 //! | [`quantity`] | numbers with units in options and arguments |
-//! | [`input`] | the files that a study was read from, which are never outputs |
+//! | [`input`] | the files that a study was read from, which outputs never overwrite |
 //! | [`schema`] | the JSON Schema of a study file |
 //!
-//! Nothing is computed here: the engines take the belt or the disc of a study, and the front door runs them.
+//! This crate computes nothing: the engines take the belt or the disc of a study, and the crate `quell` runs them.
 //!
 //! ```
 //! use quell_study::Study;

@@ -1,7 +1,7 @@
 //! Quantities on the command line and in Python: `0.5`, `0.5s`, `20 mm/s`.
 //!
-//! A plain number is in the system of the study: in SI where the study is, else one of the equations. A number with
-//! a unit needs a study in SI; angles and ratios have units (`30deg`, `2%`) in any.
+//! A plain number is in the units of the study: SI or dimensionless. A number with a unit requires a study in SI; angles and
+//! ratios may have units (`30deg`, `2%`) in any study.
 
 use quell_model::units::measure::{self, Unread};
 use quell_model::units::{Quantity, Scales};
@@ -16,7 +16,7 @@ pub fn unit_of(quantity: Quantity, si: bool) -> String {
     if si { unit.replacen("length", "m", 1) } else { unit.to_owned() }
 }
 
-/// Reads a quantity into the number of the equations.
+/// Reads a quantity as a dimensionless number.
 ///
 /// # Errors
 /// A complaint about `option` where the text is not a finite number, the unit is not one of
@@ -53,7 +53,7 @@ pub fn frequency(
     study: Option<&DiscStudy>,
     option: &'static str,
 ) -> Result<f64, Box<Complaint>> {
-    // Of a study that could not be read it is not known what ω_ref is: units are no fault there.
+    // ω_ref of a study that could not be read is unknown: units are accepted then.
     let hertz = study.map_or(Some(1.0), DiscStudy::reference_hz);
     let in_hertz = study.is_some_and(DiscStudy::is_si) || measure::has_unit(text);
     match hertz.filter(|_| in_hertz) {
@@ -62,8 +62,8 @@ pub fn frequency(
     }
 }
 
-/// Reads a value of the number that a path names, in the unit of its key. Where the path names none, which is for its
-/// own reader to refuse, the unit is not looked at.
+/// Reads a value of the number that a path names, in the unit of its key. If the path names no key, which its own reader
+/// rejects, the unit is ignored.
 ///
 /// # Errors
 /// As [`parse`].
@@ -74,7 +74,7 @@ pub fn value_of_key(text: &str, path: &str, option: &'static str) -> Result<f64,
     measured(text, address.key.measured_in(), address.key.unit_in_words(), option)
 }
 
-/// A finite number in a unit, or in the words for numbers without one.
+/// A finite number in `unit`; `otherwise` describes numbers without a unit.
 fn measured(
     text: &str,
     unit: Option<&'static str>,
@@ -90,28 +90,28 @@ fn measured(
     let wanted = match (unit, otherwise) {
         (None | Some("1"), "" | "1") => "a finite number".to_owned(),
         (None, unit) => format!("a finite number in {unit}"),
-        (Some("1"), _) => "a finite number, or one in %".to_owned(),
+        (Some("1"), _) => "a finite number, optionally in %".to_owned(),
         (Some(unit), _) => {
-            format!("a finite number in {unit}, or one with a unit such as 0.5{unit}")
+            format!("a finite number in {unit}, optionally with a unit, such as 0.5{unit}")
         }
     };
     let allowed = match why {
         None => wanted,
-        Some(why @ Unread::NoUnitHere(_)) => format!(
-            "{wanted}: {why}; units need a study in SI, with belt.mass_kg and its keys in SI"
-        ),
+        Some(why @ Unread::NoUnitHere(_)) => {
+            format!("{wanted}: {why}; units require a study in SI, with belt.mass_kg and SI keys")
+        }
         Some(why) => format!("{wanted}: {why}"),
     };
     Err(Box::new(Complaint::option(option, text, allowed)))
 }
 
-/// Longest time τ of a run, 1.6·10⁸ slow periods: nobody waits for longer ones.
+/// Longest time τ of a run, 1.6·10⁸ slow periods: longer runs are not practical.
 pub const MOST_TIME: f64 = 1e9;
 
 /// Reads how long a run lasts.
 ///
 /// # Errors
-/// As [`parse`], and where nobody could wait for it.
+/// As [`parse`], and if the time is out of range.
 pub fn duration(
     text: &str,
     scales: Option<Scales>,
@@ -121,7 +121,7 @@ pub fn duration(
     bearable(time, text, option)
 }
 
-/// Refuses a time τ that no run could cover, reported as it was given.
+/// Rejects a time τ beyond [`MOST_TIME`], reported as given.
 ///
 /// # Errors
 /// A complaint about `option`.
@@ -133,7 +133,7 @@ pub fn bearable(
     if (0.0..=MOST_TIME).contains(&time) {
         return Ok(time);
     }
-    let allowed = format!("a time from 0, where a run starts, to τ = {MOST_TIME:e}");
+    let allowed = format!("a time between 0, the start of the run, and τ = {MOST_TIME:e}");
     Err(Box::new(Complaint::option(option, given, allowed)))
 }
 

@@ -22,12 +22,12 @@ const DIALECT: &str = "https://json-schema.org/draft/2020-12/schema";
 
 /// The system of a study.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum System {
+enum UnitSystem {
     Scaled,
     Si,
 }
 
-impl System {
+impl UnitSystem {
     fn suffix(self) -> &'static str {
         match self {
             Self::Scaled => "scaled",
@@ -39,7 +39,7 @@ impl System {
 /// The JSON Schema of a study file.
 pub fn schema() -> Json {
     let mut definitions = Map::new();
-    for system in [System::Scaled, System::Si] {
+    for system in [UnitSystem::Scaled, UnitSystem::Si] {
         for section in
             [Section::Belt, Section::Initial, Section::Dither, Section::Solver, Section::Response]
         {
@@ -53,18 +53,17 @@ pub fn schema() -> Json {
     json!({
         "$schema": DIALECT,
         "title": "Quell study file",
-        "description": "A mass on a moving belt with dither, in the numbers of the equations or in SI; or \
-                        an annular disc under rotating loads.",
+        "description": "A mass on a moving belt with dither, dimensionless or in SI; or an annular disc under rotating loads.",
         "oneOf": [
-            { "$ref": reference(Section::Root, System::Scaled) },
-            { "$ref": reference(Section::Root, System::Si) },
+            { "$ref": reference(Section::Root, UnitSystem::Scaled) },
+            { "$ref": reference(Section::Root, UnitSystem::Si) },
             { "$ref": "#/$defs/study_disc" },
         ],
         "$defs": definitions,
     })
 }
 
-fn name(section: Section, system: System) -> String {
+fn name(section: Section, system: UnitSystem) -> String {
     let table = match section {
         Section::Root => "study",
         Section::Initial => "initial",
@@ -73,22 +72,22 @@ fn name(section: Section, system: System) -> String {
     format!("{table}_{}", system.suffix())
 }
 
-fn reference(section: Section, system: System) -> String {
+fn reference(section: Section, system: UnitSystem) -> String {
     format!("#/$defs/{}", name(section, system))
 }
 
-fn root(system: System) -> Json {
+fn root(system: UnitSystem) -> Json {
     let dither = reference(Section::Dither, system);
     let about = match system {
-        System::Scaled => "a study in the numbers of the equations",
-        System::Si => "a study in SI",
+        UnitSystem::Scaled => "a dimensionless study",
+        UnitSystem::Si => "a study in SI",
     };
     let mut whole = json!({
         "type": "object",
         "description": about,
         "properties": {
             "schema": { "const": SCHEMA_VERSION, "description": SCHEMA_ABOUT },
-            "title": { "type": "string", "description": "what the study is about" },
+            "title": { "type": "string", "description": "subject of the study" },
             "belt": { "$ref": reference(Section::Belt, system) },
             "friction": { "$ref": reference(Section::Friction, system) },
             "dither": {
@@ -105,7 +104,7 @@ fn root(system: System) -> Json {
         "required": ["belt", "friction"],
         "additionalProperties": false,
     });
-    if system == System::Si {
+    if system == UnitSystem::Si {
         let needs =
             |table: &str, key: &str| json!({ "properties": { table: { "required": [key] } } });
         let load = NORMAL_LOAD.si.first().map_or(NORMAL_LOAD.key(), |twin| twin.key);
@@ -152,7 +151,7 @@ fn disc(definitions: &mut Map<String, Json>) {
         "description": "a study of a disc",
         "properties": {
             "schema": { "const": SCHEMA_VERSION, "description": SCHEMA_ABOUT },
-            "title": { "type": "string", "description": "what the study is about" },
+            "title": { "type": "string", "description": "subject of the study" },
             "disc": { "$ref": "#/$defs/disc" },
             "dither": { "$ref": "#/$defs/disc_dither" },
             "sweep": { "type": "array", "items": { "$ref": "#/$defs/sweep" } },
@@ -178,7 +177,7 @@ fn property_of(parameter: Parameter) -> Json {
 }
 
 /// A table with the keys of one system.
-fn table(section: Section, system: System) -> Json {
+fn table(section: Section, system: UnitSystem) -> Json {
     let mut properties = Map::new();
     let mut required = Vec::new();
     // Keys that say the same: one of each list is needed.
@@ -243,7 +242,7 @@ fn object(section: Section, properties: &Map<String, Json>, required: &[&str]) -
 }
 
 /// One alternative a law.
-fn friction(system: System) -> Json {
+fn friction(system: UnitSystem) -> Json {
     let laws: Vec<Json> = LawKind::ALL
         .iter()
         .map(|law| {
@@ -256,7 +255,7 @@ fn friction(system: System) -> Json {
                     let mut known = law.parameters().iter().chain(law.options());
                     known.any(|known| known.path == parameter.path)
                 };
-                if let Some(parameter) = key.parameter().filter(|it| known(*it)) {
+                if let Some(parameter) = key.parameter().filter(|&parameter| known(parameter)) {
                     let number = match key.role {
                         Role::Coefficient => property_of(parameter),
                         _ => property(key),
@@ -265,7 +264,7 @@ fn friction(system: System) -> Json {
                     // Where a law carries data, its static level is that of the data.
                     let needed =
                         LawKind::NUMERIC.contains(law) && law.default_of(parameter.path).is_none();
-                    let also_as_force = system == System::Si && as_force(*law, parameter);
+                    let also_as_force = system == UnitSystem::Si && as_force(*law, parameter);
                     if needed && !also_as_force {
                         required.push(key.name);
                     }
@@ -293,8 +292,8 @@ fn friction(system: System) -> Json {
                 }
                 LawKind::Samples => {
                     let speeds = match system {
-                        System::Scaled => "slip_velocity",
-                        System::Si => "slip_velocity_m_per_s",
+                        UnitSystem::Scaled => "slip_velocity",
+                        UnitSystem::Si => "slip_velocity_m_per_s",
                     };
                     properties["coefficient"]["type"] = "array".into();
                     properties["coefficient"]["items"] = json!({ "type": "number", "minimum": 0 });
@@ -361,14 +360,14 @@ fn sweep() -> Json {
 }
 
 /// Whether a key may stand in a study of a system.
-fn belongs(key: &Key, system: System) -> bool {
+fn belongs(key: &Key, system: UnitSystem) -> bool {
     match key.role {
         Role::Number(parameter) => {
-            system == System::Scaled || parameter.si.is_empty() || parameter.is_pure()
+            system == UnitSystem::Scaled || parameter.si.is_empty() || parameter.is_pure()
         }
-        Role::Twin(..) | Role::Scale(_) | Role::FrictionForce(..) => system == System::Si,
-        Role::Speeds { si } => si == (system == System::Si),
-        Role::Band { hertz } => !hertz || system == System::Si,
+        Role::Twin(..) | Role::Scale(_) | Role::FrictionForce(..) => system == UnitSystem::Si,
+        Role::Speeds { si } => si == (system == UnitSystem::Si),
+        Role::Band { hertz } => !hertz || system == UnitSystem::Si,
         _ => true,
     }
 }

@@ -1,4 +1,4 @@
-//! Studies, good and bad: what is read, and every complaint that must be told.
+//! Valid and invalid studies: the values that are read, and the errors that are reported.
 
 use std::f64::consts::{PI, TAU};
 
@@ -202,7 +202,7 @@ const WRONG: &[(&str, &str, Said)] = &[
     (
         "[dither]",
         "[system]\n[dither]",
-        (Fault::NotBuilt, "system", Some(12), "not built yet", None),
+        (Fault::NotBuilt, "system", Some(12), "not implemented yet", None),
     ),
     ("schema = 1", "schema = 1\nschema = 1", (Fault::Syntax, "study", Some(2), "duplicate", None)),
     ("schema = 1", "schema == 1", (Fault::Syntax, "study", Some(1), "", None)),
@@ -280,7 +280,7 @@ phse = 1
             (Fault::Unknown, "dither[1].phse", Some(23), "phase", Some("dither[1].phase")),
         ],
     );
-    // With the second dither right, the first one's separation is told beside the rest.
+    // With a valid second dither, the separation by the first one is reported with the other errors.
     let text =
         text.replace("= nan", "= 1").replace("frequency_ratio = 0\n", "frequency_ratio = 3\n");
     let told = complaints(&text, &[]);
@@ -296,7 +296,7 @@ phse = 1
 fn a_disc_is_no_study_of_a_belt() {
     check(
         "schema = 1\n[disc]\ninner_radius_ratio = 0.5\n[disc.load]\nmass = 0.1\n",
-        &[(Fault::Conflict, "disc", Some(2), "about a belt", None)],
+        &[(Fault::Conflict, "disc", Some(2), "a study of a belt", None)],
     );
 }
 
@@ -411,17 +411,17 @@ fn numbers_may_have_units() {
     assert_eq!(listed.sweeps()[0].axis.values().collect::<Vec<_>>(), [300.0, 350.0]);
     // A unit of another dimension, one that is not a unit, and one in a study without SI.
     for (text, key, told) in [
-        ("belt.normal_force_n=5m", "belt.normal_force_n", "in N; m measures something else"),
-        ("belt.normal_force_n=5kg", "belt.normal_force_n", "kg measures something else"),
+        ("belt.normal_force_n=5m", "belt.normal_force_n", "in N; m is a unit of another quantity"),
+        ("belt.normal_force_n=5kg", "belt.normal_force_n", "kg is a unit of another quantity"),
         ("belt.normal_force_n=5 stone", "belt.normal_force_n", "stone is not a unit"),
-        ("solver.record_periods=5s", "solver.record_periods", "no unit, and s is one"),
+        ("solver.record_periods=5s", "solver.record_periods", "no unit is allowed here, got s"),
     ] {
         let complaints = with(&[text]).expect_err(text);
         assert_eq!(complaints[0].key, key);
         assert!(complaints[0].allowed.contains(told), "{text}: {}", complaints[0].allowed);
     }
     let complaints = BeltStudy::parse(GOOD, &set(&["belt.normal_load=5N"])).expect_err("no SI");
-    assert!(complaints[0].allowed.contains("units need a study in SI"), "{complaints:?}");
+    assert!(complaints[0].allowed.contains("units require a study in SI"), "{complaints:?}");
 }
 
 #[test]
@@ -436,7 +436,7 @@ fn hints_are_keys_that_the_study_has() {
         for (text, wanted) in [(SI, si), (GOOD, scaled)] {
             let complaints =
                 BeltStudy::parse(text, &set(&[&format!("{path}=1")])).expect_err("no such key");
-            let hint = complaints.iter().find_map(|it| it.suggestion.as_deref());
+            let hint = complaints.iter().find_map(|complaint| complaint.suggestion.as_deref());
             assert_eq!(hint, Some(wanted), "{path}: {complaints:?}");
         }
     }
@@ -642,9 +642,9 @@ fn axes_are_added_one_after_the_other_and_take_the_place_of_others() {
     assert!(study.sweeping(&[]).expect("valid").sweeps().is_empty());
 }
 
-/// A key that another law has is told with the keys of this law: itself is no suggestion.
+/// A key of another law is reported with the keys of this law, and never suggests itself.
 #[test]
-fn a_key_of_another_law_is_told_with_its_law() {
+fn a_key_of_another_law_is_reported_with_the_keys_of_this_law() {
     let formula = ["friction.law=expression", "friction.coefficient=0.3*exp(-v)"];
     for (changes, key, law) in [
         (&formula[..], "friction.minimum_coefficient", "expression"),
@@ -653,12 +653,15 @@ fn a_key_of_another_law_is_told_with_its_law() {
         (&["friction.constants.a=1"], "friction.constants", "stribeck"),
     ] {
         let told = complaints(GOOD, changes);
-        let found = told.iter().find(|it| it.key == key).unwrap_or_else(|| panic!("{told:?}"));
+        let found = told
+            .iter()
+            .find(|complaint| complaint.key == key)
+            .unwrap_or_else(|| panic!("{told:?}"));
         assert_eq!((found.fault, &found.suggestion), (Fault::Unknown, &None), "{found}");
         let (keys, whose) = found.allowed.split_once(" for ").expect("whose keys");
         assert_eq!(whose, format!("law = \"{law}\""));
         let name = key.trim_start_matches("friction.");
-        assert!(keys.starts_with("law") && keys.split(", ").all(|it| it != name), "{keys}");
+        assert!(keys.starts_with("law") && keys.split(", ").all(|key| key != name), "{keys}");
     }
     let told = complaints(GOOD, &["friction.minimum_coeficient=0.3"]);
     assert!(told[0].suggestion.is_some(), "{told:?}");
@@ -678,7 +681,7 @@ fn a_table_is_set_key_by_key() {
 }
 
 #[test]
-fn bounds_are_told_without_runs_of_zeros() {
+fn bounds_are_printed_without_runs_of_zeros() {
     use quell_model::parameter::Bounds;
     let told = |lower, upper| Bounds { lower, lower_included: true, upper }.to_string();
     assert_eq!(told(1e-300, f64::INFINITY), "a finite number ≥ 1e-300");
@@ -687,7 +690,7 @@ fn bounds_are_told_without_runs_of_zeros() {
 }
 
 #[test]
-fn a_study_without_a_version_is_of_the_present_one() {
+fn a_study_without_a_version_has_the_current_one() {
     let study = good(&[]);
     let without = GOOD.replace("schema = 1\n", "");
     let bare = BeltStudy::parse(&without, &[]).expect("valid");

@@ -1,16 +1,16 @@
-//! The parts a disc's equations are made of, each of which can be switched off.
+//! The contributions to the equations of a disc, each of which can be switched off.
 
 /// One part of the equations of motion M y″ + C y′ + K y = 0, y the coordinates A, B of every mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Contribution {
     /// Inertia and elasticity of the plate: y″ + β²y.
     Plate,
-    /// The waves seen from the frame of the loads: −2qΩB′, +2qΩA′ and −q²Ω².
+    /// The waves in the frame of the loads: −2qΩB′, +2qΩA′ and −q²Ω².
     Gyroscopic,
-    /// Damping by the velocity seen from the loads, 2ξβA′, 2ξβB′.
+    /// Damping by the velocity in the frame of the loads, 2ξβA′, 2ξβB′.
     DiscDamping,
-    /// The rest of the damping, because the damper rests in the disc: −2ξβqΩB, +2ξβqΩA. Without it the medium
-    /// would turn with the loads, and the free disc would be unstable beyond Ω = β/q.
+    /// The rest of the damping, because the damping rotates with the disc: −2ξβqΩB, +2ξβqΩA. Without it the medium
+    /// would rotate with the loads, and the free disc would be unstable beyond Ω = β/q.
     CirculatoryDamping,
     /// Mass of the loads.
     LoadMass,
@@ -20,7 +20,7 @@ pub enum Contribution {
     Spring,
     /// Mean follower force of friction.
     FollowerForce,
-    /// The part of the follower force that dither makes periodic.
+    /// The periodic part of the follower force, due to dither.
     Dither,
 }
 
@@ -64,7 +64,7 @@ impl Contribution {
 pub struct Contributions(u16);
 
 impl Contributions {
-    /// All of them: the disc as it is.
+    /// All contributions: the complete disc.
     pub const ALL: Self = Self((1 << 9) - 1);
 
     /// Whether a contribution is switched on.
@@ -72,8 +72,7 @@ impl Contributions {
         self.0 & (1 << contribution as u16) != 0
     }
 
-    /// The same set without one. The plate itself may be switched off as well, which leaves masses that nothing
-    /// holds.
+    /// The same set without one. The plate itself may also be switched off, which leaves free masses.
     #[must_use]
     pub fn without(self, contribution: Contribution) -> Self {
         Self(self.0 & !(1 << contribution as u16))

@@ -1,4 +1,4 @@
-//! An annular disc under loads that rotate over it, valid by construction.
+//! An annular disc under rotating loads, valid by construction.
 
 use crate::parameter::disc::{
     DISC, DISC_DITHER_AMPLITUDE, DISC_SPEED, LOAD_DAMPING, LOAD_FRICTION, LOAD_MASS,
@@ -22,7 +22,7 @@ pub enum DiscDither {
     None,
     /// f(τ) = f (1 + α cos Rτ), (5.22): the normal load varies.
     Normal {
-        /// Amplitude ratio α, 0 ≤ α ≤ 1: beyond, the pad would leave the disc.
+        /// Amplitude ratio α, 0 ≤ α ≤ 1: beyond 1 the pad would separate from the disc.
         amplitude: f64,
         /// Frequency ratio R > 0.
         frequency_ratio: f64,
@@ -46,7 +46,7 @@ impl DiscDither {
         }
     }
 
-    /// Frequency ratio R, where there is dither.
+    /// Frequency ratio R; `None` without dither.
     pub fn frequency_ratio(self) -> Option<f64> {
         match self {
             Self::None => None,
@@ -92,10 +92,10 @@ pub struct Disc {
 }
 
 impl Disc {
-    /// From modes (at least one), loads (none is a free disc), dither and the speed Ω in ω_ref.
+    /// From modes (at least one), loads (a disc without loads is free), dither and the speed Ω in ω_ref.
     ///
     /// # Errors
-    /// Every complaint at once, by the keys of a study file.
+    /// All errors together, by the keys of a study file.
     pub fn new(
         modes: Vec<Mode>,
         loads: Vec<Load>,
@@ -127,7 +127,7 @@ impl Disc {
         Self { scales, outer_radius_m, ..self }
     }
 
-    /// What turns numbers of the equations into SI at a load, where the study gives enough.
+    /// Scales that convert dimensionless numbers to SI at a load, if the study determines them.
     pub fn scales(&self, load: usize) -> Option<DiscScales> {
         let radius_ratio = self.loads.get(load).and_then(|load| load.radius_ratio);
         let load_radius_m = radius_ratio.zip(self.outer_radius_m).map(|(ratio, a)| ratio * a);

@@ -1,17 +1,16 @@
-//! Coulomb friction with a static level of its own and a viscous part.
+//! Coulomb friction with a separate static level and a viscous part.
 //!
 //! μ = μ_d sgn(v_r) + σ_v v_r, μ_s ≥ μ_d at rest.
 //!
 //! Its average under a fast velocity α cos θ is μ_d (2/π) asin(v/α) + σ_v v for |v| < α: the static level does not
-//! enter. The law has no velocity of its own; slip is counted in the normal load of the belt it is put into.
+//! enter. The law has no characteristic velocity; slip is scaled by the normal load of the belt.
 
 use quell_numerics::lane::Lane;
 
 use super::numeric::{checked, not_a_number_of, number_of, static_at_least_sliding};
 use super::series::side_by_side;
 use super::{
-    BranchSeries, Friction, LawParameters, LawSeries, NumericLaw, Otherwise, SlidingLaw,
-    Surroundings,
+    BranchSeries, LawParameters, LawSeries, NumericLaw, Otherwise, SlidingLaw, Surroundings,
 };
 use crate::InvalidValues;
 use crate::parameter::{COEFFICIENT, Parameter, STATIC_COEFFICIENT, VISCOUS};
@@ -22,12 +21,12 @@ pub struct Coulomb {
     coefficient: f64,
     given_static: Option<f64>,
     viscous: f64,
-    /// Velocity in which slip is counted.
+    /// Velocity that scales slip.
     scale: f64,
 }
 
 impl Coulomb {
-    /// From μ_d ≥ 0, μ_s ≥ μ_d (μ_d where it is not given) and σ_v ≥ 0.
+    /// From μ_d ≥ 0, μ_s ≥ μ_d (μ_d if not given) and σ_v ≥ 0.
     ///
     /// # Errors
     /// Every value out of its bounds; μ_s < μ_d.
@@ -41,18 +40,18 @@ impl Coulomb {
         Ok(Self { given_static: static_coefficient, ..law })
     }
 
-    /// A constant coefficient μ ≥ 0, without a static level of its own.
+    /// A constant coefficient μ ≥ 0, without a separate static level.
     pub fn constant(coefficient: f64) -> Self {
         Self { coefficient, given_static: None, viscous: 0.0, scale: 1.0 }
     }
 
-    /// The same law without a static level of its own: it follows the coefficient.
+    /// The same law without a separate static level, which then equals the coefficient.
     #[must_use]
     pub fn without_static_level(self) -> Self {
         Self { given_static: None, ..self }
     }
 
-    /// The same law with slip counted in another velocity.
+    /// The same law with slip scaled by another velocity.
     #[must_use]
     pub fn counted_in(self, scale: f64) -> Self {
         Self { scale, ..self }
@@ -132,10 +131,6 @@ impl LawSeries for Coulomb {
     ) -> CoulombSeries<V> {
         let CoulombConstants { coefficient, viscous } = *constants;
         CoulombSeries { first: w0.mul_add(viscous, sign * coefficient), slope: viscous }
-    }
-
-    fn of(friction: &Friction) -> Option<Self> {
-        if let Friction::Coulomb(law) = friction { Some(*law) } else { None }
     }
 }
 

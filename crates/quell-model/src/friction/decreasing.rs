@@ -7,7 +7,7 @@ use quell_numerics::lane::{Lane, partial_product};
 
 use super::numeric::{checked, minimum_at_most_static, number_of, with_number};
 use super::series::{length_of_change, longest_change, side_by_side};
-use super::{BranchSeries, Friction, LawParameters, LawSeries, NumericLaw, SlidingLaw};
+use super::{BranchSeries, LawParameters, LawSeries, NumericLaw, SlidingLaw};
 use crate::InvalidValues;
 use crate::parameter::{MINIMUM_COEFFICIENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT};
 
@@ -107,10 +107,6 @@ impl LawSeries for Decreasing {
             rate: [V::splat(0.0); N],
             partial: V::splat(0.0),
         }
-    }
-
-    fn of(friction: &Friction) -> Option<Self> {
-        if let Friction::Decreasing(law) = friction { Some(*law) } else { None }
     }
 }
 

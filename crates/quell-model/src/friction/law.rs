@@ -1,21 +1,23 @@
-//! What a friction law is: its numbers in a study, its values in steady sliding, its Taylor series.
+//! The traits of a friction law: its numbers in a study, its values in steady sliding, its Taylor series.
 //!
-//! Three traits, one for each use: [`LawParameters`] for whoever reads and prints a law, [`SlidingLaw`] for its physics,
-//! [`LawSeries`] for the engines. The formula is written once, in the series; values and slopes are its first terms.
+//! There is one trait for each use: [`LawParameters`] to read and print a law, [`SlidingLaw`] for its physics, [`LawSeries`]
+//! for the engines. The formula is written once, in the series; values and slopes are its first terms.
+
+use std::any::Any;
 
 use quell_numerics::lane::Lane;
 
 use super::series::BranchSeries;
-use super::{Friction, SlipRange, Surroundings};
+use super::{SlipRange, Surroundings};
 use crate::InvalidValues;
 use crate::parameter::Parameter;
 
-/// The value of a parameter that a study leaves out.
+/// The default value of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Otherwise {
     /// This number.
     Number(f64),
-    /// That of the law's parameter with this path.
+    /// The value of the parameter with this path.
     SameAs(&'static str),
 }
 
@@ -23,15 +25,15 @@ pub enum Otherwise {
 pub trait LawParameters: Sized {
     /// Name in a study file.
     const NAME: &'static str;
-    /// One line for people: the formula and its source.
+    /// Description in one line: the formula and its source.
     const ABOUT: &'static str;
     /// The law's parameters in the registry, in the order of [`LawParameters::values`].
     const PARAMETERS: &'static [Parameter];
 
-    /// Numbers that a study may give for the law and that are not numbers of its formula.
+    /// Numbers that a study may give for the law and that are not in its formula.
     const OPTIONS: &'static [Parameter] = &[];
 
-    /// The value of a parameter that a study may leave out; `None` where it is required.
+    /// The default value of a parameter; `None` if the parameter is required.
     fn default_of(path: &str) -> Option<Otherwise> {
         let _ = path;
         None
@@ -46,36 +48,36 @@ pub trait LawParameters: Sized {
     /// The law with one number changed.
     ///
     /// # Errors
-    /// A path that the law does not have; a value out of its bounds or against a relation.
+    /// A path that the law does not have; a value that is out of bounds or violates a relation.
     fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues>;
 }
 
 /// A friction law in steady sliding, analytic on each side of v_r = 0.
 pub trait SlidingLaw: LawParameters + LawSeries + Clone + Send + Sync + 'static {
-    /// The law at the contact that it is put into: what it has to prove about the slip that it meets there is proven, and
-    /// a law without a velocity of its own counts slip in one of the contact's.
+    /// The law for use at a given contact: its properties are proven over the slip range of the contact, and a law without a
+    /// characteristic velocity takes one from the contact to scale slip.
     ///
     /// # Errors
-    /// What cannot be proven of a user's own law, and at which slip.
+    /// What could not be proven of a user-defined law, and at which slip.
     fn placed(&self, surroundings: &Surroundings) -> Result<Self, InvalidValues> {
         let _ = surroundings;
         Ok(self.clone())
     }
 
-    /// Slip speeds for which the law holds; `None` where it holds for all.
+    /// Slip speeds for which the law holds; `None` if it holds for all.
     fn range(&self) -> Option<SlipRange> {
         None
     }
 
-    /// Why the law cannot be simulated, where it cannot: averages hold for every law.
+    /// Why the law cannot be simulated; `None` if it can. Averages are valid for every law.
     fn unsimulated(&self) -> Option<&'static str> {
         None
     }
 
-    /// Velocity by which the law is naturally scaled (v_m); slip is counted in it, w = v_r/v_m.
+    /// Characteristic velocity of the law (v_m), which scales slip: w = v_r/v_m.
     fn velocity_scale(&self) -> f64;
 
-    /// Whether the law changes over a velocity of its own, so that [`SlidingLaw::velocity_scale`] is a property of the law.
+    /// Whether the law has a characteristic velocity, so that [`SlidingLaw::velocity_scale`] is a property of the law.
     fn has_velocity(&self) -> bool {
         true
     }
@@ -102,7 +104,7 @@ pub trait SlidingLaw: LawParameters + LawSeries + Clone + Send + Sync + 'static 
         self.alone(speed).1 / self.velocity_scale()
     }
 
-    /// Coefficient and slope dμ/dw at one slip speed |v_r|, without any term of a series.
+    /// Coefficient and slope dμ/dw at one slip speed |v_r|, without further terms of the series.
     #[inline(always)]
     fn alone(&self, speed: f64) -> (f64, f64) {
         let mut constants = Self::constants::<f64>(std::slice::from_ref(self));
@@ -111,16 +113,16 @@ pub trait SlidingLaw: LawParameters + LawSeries + Clone + Send + Sync + 'static 
     }
 }
 
-/// The Taylor series of a law along a slip, for one run or for several side by side.
+/// The Taylor series of a law along a slip, for one run or for several in SIMD lanes.
 pub trait LawSeries: Sized {
     /// The constants of the recurrence in each lane.
-    /// A law with data keeps the memory of its recurrence here too: nothing is allocated per step.
+    /// A law with data also stores the memory of its recurrence here, so that no step allocates.
     type Constants<V: Lane>: Send + Sync;
 
-    /// Constants of laws side by side, one law per lane: [`Lane::LANES`] of them, all alike.
+    /// Constants of [`Lane::LANES`] laws, one per lane, all alike.
     fn constants<V: Lane>(laws: &[Self]) -> Self::Constants<V>;
 
-    /// Whether two laws differ in numbers alone, so that they can run side by side.
+    /// Whether two laws differ only in numbers, so that they can share lanes.
     fn is_alike(&self, other: &Self) -> bool {
         let _ = other;
         true
@@ -137,13 +139,24 @@ pub trait LawSeries: Sized {
     ) -> Self::Series<'_, V, N>;
 
     /// The concrete law in `friction`, if it is of this kind.
-    fn of(friction: &Friction) -> Option<Self>;
+    fn of(friction: &impl AnyLaw) -> Option<Self>
+    where
+        Self: Clone + 'static,
+    {
+        friction.concrete().downcast_ref::<Self>().cloned()
+    }
 }
 
-/// Work on the concrete law, for code that is compiled per law.
+/// A law of any kind, such as [`Friction`](super::Friction).
+pub trait AnyLaw {
+    /// The concrete law.
+    fn concrete(&self) -> &dyn Any;
+}
+
+/// An operation on the concrete law, for code that is compiled per law.
 pub trait LawVisitor {
-    /// Result of the work.
+    /// Result of the operation.
     type Output;
-    /// Does the work with a concrete law.
+    /// Applies the operation to a concrete law.
     fn visit<L: SlidingLaw>(self, law: &L) -> Self::Output;
 }

@@ -1,20 +1,18 @@
 //! Friction laws.
 //!
 //! A law is one file that implements [`LawParameters`], [`SlidingLaw`] and [`LawSeries`], and one name in the list
-//! `laws!(…)` of this one. Its formula is written once, as a recurrence for Taylor coefficients
+//! `laws!(…)` of `kinds.rs`. Its formula is written once, as a recurrence for Taylor coefficients
 //! ([`BranchSeries`]): the engine, its SIMD lanes, values, slopes and plots all use it.
-//! μ is odd; at v_r = 0 it is set-valued in [−μ_s, μ_s] (the static level is apart from
+//! μ is odd; at v_r = 0 it is set-valued in [−μ_s, μ_s] (the static level is separate from
 //! the sliding branch).
 //!
-//! Most laws are a few numbers ([`NumericLaw`]). A law may also carry data that its runs share:
+//! Most laws are defined by a few numbers ([`NumericLaw`]). A law may also carry data that its runs share:
 //! a formula ([`Expression`]) or the approximant of measured samples ([`Samples`]).
-
-use crate::parameter::Parameter;
-use crate::{Invalid, InvalidValues};
 
 mod coulomb;
 mod decreasing;
 pub mod expression;
+mod kinds;
 mod law;
 mod numeric;
 mod range;
@@ -26,7 +24,8 @@ mod stribeck_exponential;
 pub use coulomb::{Coulomb, CoulombConstants, CoulombSeries};
 pub use decreasing::{Decreasing, DecreasingConstants, DecreasingSeries};
 pub use expression::Expression;
-pub use law::{LawParameters, LawSeries, LawVisitor, Otherwise, SlidingLaw};
+pub use kinds::{Friction, LawKind};
+pub use law::{AnyLaw, LawParameters, LawSeries, LawVisitor, Otherwise, SlidingLaw};
 pub use numeric::NumericLaw;
 pub use range::{RangeLimit, SlipRange, Surroundings};
 pub use samples::Samples;
@@ -35,169 +34,3 @@ pub use stribeck::{Stribeck, StribeckConstants, StribeckSeries};
 pub use stribeck_exponential::{
     StribeckExponential, StribeckExponentialConstants, StribeckExponentialSeries,
 };
-
-macro_rules! laws {
-    (numbers: $($numeric:ident),+; data: $($carrying:ident),+ $(,)?) => {
-        laws!(@ $($numeric),+, $($carrying),+);
-
-        impl LawKind {
-            /// Laws that are nothing but their numbers.
-            pub const NUMERIC: &'static [Self] = &[$(Self::$numeric),+];
-
-            /// A law of numbers from values in the order of its parameters.
-            ///
-            /// # Errors
-            /// Every value out of its bounds, and every relation that does not hold; a law that
-            /// is more than its numbers.
-            pub fn build(self, values: &[f64]) -> Result<Friction, InvalidValues> {
-                match self {
-                    $(Self::$numeric => $numeric::from_values(values).map(Friction::$numeric),)+
-                    $(Self::$carrying => {
-                        let allowed = "made of its data; no law of numbers alone";
-                        Err(InvalidValues::from(Invalid::new("friction.law", $carrying::NAME, allowed)))
-                    })+
-                }
-            }
-        }
-    };
-    (@ $($kind:ident),+) => {
-        /// The friction laws there are.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-        pub enum LawKind {
-            $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind,)+
-        }
-
-        /// A friction law with valid parameters; cheap to clone.
-        #[derive(Clone, Debug, PartialEq)]
-        pub enum Friction {
-            $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind($kind),)+
-        }
-
-        impl LawKind {
-            /// Every law.
-            pub const ALL: &'static [Self] = &[$(Self::$kind),+];
-
-            /// Name in a study file.
-            pub fn name(self) -> &'static str {
-                match self { $(Self::$kind => <$kind as LawParameters>::NAME),+ }
-            }
-
-            /// One line for people.
-            pub fn about(self) -> &'static str {
-                match self { $(Self::$kind => <$kind as LawParameters>::ABOUT),+ }
-            }
-
-            /// Numbers that a study may say about the law and that are no number of its formula.
-            pub fn options(self) -> &'static [Parameter] {
-                match self { $(Self::$kind => <$kind as LawParameters>::OPTIONS),+ }
-            }
-
-            /// The value of a parameter that a study may leave out; `None` where it has to be given.
-            pub fn default_of(self, path: &str) -> Option<Otherwise> {
-                match self { $(Self::$kind => <$kind as LawParameters>::default_of(path)),+ }
-            }
-
-            /// Parameters of the law, in the order of [`Friction::values`].
-            pub fn parameters(self) -> &'static [Parameter] {
-                match self { $(Self::$kind => <$kind as LawParameters>::PARAMETERS),+ }
-            }
-        }
-
-        impl Friction {
-            /// Which law it is.
-            pub fn kind(&self) -> LawKind {
-                match self { $(Self::$kind(_) => LawKind::$kind),+ }
-            }
-
-            /// Values in the order of the law's parameters.
-            pub fn values(&self) -> Vec<f64> {
-                match self { $(Self::$kind(law) => law.values()),+ }
-            }
-
-            /// The number of a path such as `friction.static_coefficient`, if the law has it.
-            pub fn get(&self, path: &str) -> Option<f64> {
-                match self { $(Self::$kind(law) => law.get(path)),+ }
-            }
-
-            /// The law with one number changed.
-            ///
-            /// # Errors
-            /// A path that the law does not have; a value out of its bounds or against a relation.
-            pub fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues> {
-                match self { $(Self::$kind(law) => law.with(path, value).map(Self::$kind)),+ }
-            }
-
-            /// Whether runs with this law and with the other can go side by side: both are of one
-            /// kind and differ in numbers alone.
-            pub fn is_alike(&self, other: &Self) -> bool {
-                match (self, other) {
-                    $((Self::$kind(law), Self::$kind(other)) => law.is_alike(other),)+
-                    _ => false,
-                }
-            }
-
-            /// Whether the sliding branch starts from the static level, μ(0⁺) = μ_s.
-            pub fn starts_at_static_level(&self) -> bool {
-                match self { $(Self::$kind(law) => law.starts_at_static_level()),+ }
-            }
-
-            /// Hands the concrete law to `visitor`.
-            #[inline]
-            pub fn visit<T: LawVisitor>(&self, visitor: T) -> T::Output {
-                match self { $(Self::$kind(law) => visitor.visit(law)),+ }
-            }
-
-            /// The law in the belt that it is put into ([`SlidingLaw::placed`]).
-            ///
-            /// # Errors
-            /// What cannot be proven of a law of one's own, and at which slip.
-            pub fn placed(&self, surroundings: &Surroundings) -> Result<Self, InvalidValues> {
-                match self { $(Self::$kind(law) => law.placed(surroundings).map(Self::$kind)),+ }
-            }
-
-            /// Slip speeds for which the law holds; `None` where it holds for all.
-            pub fn range(&self) -> Option<SlipRange> {
-                match self { $(Self::$kind(law) => law.range()),+ }
-            }
-
-            /// Why the law cannot be simulated, where it cannot.
-            pub fn unsimulated(&self) -> Option<&'static str> {
-                match self { $(Self::$kind(law) => law.unsimulated()),+ }
-            }
-
-            /// Whether the law changes over a velocity of its own.
-            pub fn has_velocity(&self) -> bool {
-                match self { $(Self::$kind(law) => law.has_velocity()),+ }
-            }
-
-            /// Velocity scale v_m of the law.
-            pub fn velocity_scale(&self) -> f64 {
-                match self { $(Self::$kind(law) => law.velocity_scale()),+ }
-            }
-
-            /// Static level μ_s.
-            pub fn static_coefficient(&self) -> f64 {
-                match self { $(Self::$kind(law) => law.static_coefficient()),+ }
-            }
-
-            /// Sliding coefficient at slip speed |v_r| ≥ 0.
-            pub fn coefficient(&self, speed: f64) -> f64 {
-                match self { $(Self::$kind(law) => law.coefficient(speed)),+ }
-            }
-
-            /// Slope of the sliding branch at slip speed |v_r| ≥ 0, per unit velocity.
-            pub fn slope(&self, speed: f64) -> f64 {
-                match self { $(Self::$kind(law) => law.slope(speed)),+ }
-            }
-        }
-    };
-}
-
-laws!(numbers: Stribeck, Decreasing, Coulomb, StribeckExponential; data: Expression, Samples);
-
-impl LawKind {
-    /// The law of a name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|kind| kind.name() == name)
-    }
-}

@@ -1,10 +1,10 @@
-//! Laws that are nothing but their numbers, and the relations that these must satisfy.
+//! Laws defined by numbers alone, and the relations that the numbers must satisfy.
 
 use super::law::{LawParameters, SlidingLaw};
 use crate::parameter::Parameter;
 use crate::{Invalid, InvalidValues};
 
-/// A law that is nothing but its numbers.
+/// A law defined by numbers alone.
 pub trait NumericLaw: SlidingLaw {
     /// From values in the order of `PARAMETERS`.
     ///
@@ -13,13 +13,13 @@ pub trait NumericLaw: SlidingLaw {
     fn from_values(values: &[f64]) -> Result<Self, InvalidValues>;
 }
 
-/// [`SlidingLaw::get`] of a law of numbers.
+/// `get` of a law defined by numbers.
 pub(super) fn number_of<L: NumericLaw>(law: &L, path: &str) -> Option<f64> {
     let index = L::PARAMETERS.iter().position(|parameter| parameter.path == path)?;
     law.values().get(index).copied()
 }
 
-/// [`SlidingLaw::with`] of a law of numbers.
+/// `with` of a law defined by numbers.
 pub(super) fn with_number<L: NumericLaw>(
     law: &L,
     path: &str,
@@ -32,12 +32,16 @@ pub(super) fn with_number<L: NumericLaw>(
     L::from_values(&values)
 }
 
-/// Complaint about a path that a law does not have.
+/// The error for a path that a law does not have.
 pub(super) fn not_a_number_of<L: LawParameters>(path: &str, value: f64) -> InvalidValues {
-    InvalidValues::from(Invalid::new(path, value, format!("a number of the law \"{}\"", L::NAME)))
+    InvalidValues::from(Invalid::new(
+        path,
+        value,
+        format!("a parameter of the law \"{}\"", L::NAME),
+    ))
 }
 
-/// Values checked against their parameters and against `relation`, which speaks only where
+/// Checks values against their parameters and against `relation`, which returns an error only if
 /// the values it relates are themselves valid.
 pub(super) fn checked(
     parameters: &[Parameter],
@@ -45,7 +49,7 @@ pub(super) fn checked(
     relation: impl FnOnce() -> Option<Invalid>,
 ) -> Result<(), InvalidValues> {
     if values.len() != parameters.len() {
-        let allowed = format!("as many values as the law has parameters, {}", parameters.len());
+        let allowed = format!("as many values as the law has parameters ({})", parameters.len());
         return Err(InvalidValues::from(Invalid::new("friction", values.len(), allowed)));
     }
     let complaints: Vec<_> = parameters
@@ -57,7 +61,7 @@ pub(super) fn checked(
     if complaints.is_empty() { Ok(()) } else { Err(InvalidValues::of(complaints)) }
 }
 
-/// μ_s ≥ μ_d, which the laws with a sliding coefficient need.
+/// μ_s ≥ μ_d, required by the laws with a sliding coefficient.
 pub(super) fn static_at_least_sliding(
     coefficient: f64,
     static_coefficient: f64,
@@ -71,7 +75,7 @@ pub(super) fn static_at_least_sliding(
     })
 }
 
-/// μ_m ≤ μ_s, which the laws of the dissertation need.
+/// μ_m ≤ μ_s, required by the laws of the dissertation.
 pub(super) fn minimum_at_most_static(
     static_coefficient: f64,
     minimum_coefficient: f64,

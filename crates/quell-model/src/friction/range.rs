@@ -1,28 +1,28 @@
-//! The slip speeds for which a law holds, and what a law learns from the belt it is put into.
+//! The slip speeds for which a law holds, and the properties of the belt that a law depends on.
 
 use std::fmt;
 
 /// Slip speeds for which a law holds, |v_r| in the numbers of the equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlipRange {
-    /// Slowest slip; 0 where the law holds down to rest.
+    /// Smallest slip speed; 0 if the law holds down to rest.
     pub lower: f64,
-    /// Fastest slip.
+    /// Largest slip speed.
     pub upper: f64,
-    /// What ends there.
+    /// What limits the range.
     pub limit: RangeLimit,
 }
 
-/// What ends where a law's range ends.
+/// What limits the range of a law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RangeLimit {
-    /// A cubic is back at its static level, at √3 v_m.
+    /// A cubic returns to its static level, at √3 v_m.
     BackAtStaticLevel,
     /// Measured samples.
     Samples,
-    /// The speed up to which a study says that its formula holds.
+    /// The speed up to which the formula holds according to the study.
     Declared,
-    /// The speed up to which a formula was proven, where the study says none.
+    /// The speed up to which a formula was proven, if the study does not give one.
     Proven,
 }
 
@@ -30,18 +30,19 @@ impl fmt::Display for RangeLimit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::BackAtStaticLevel => {
-                "√3 v_m, where the cubic is back at the static level, which no Stribeck curve does"
+                "√3 v_m, where the cubic returns to the static level, unlike any Stribeck curve"
             }
             Self::Samples => "the slip speeds of the samples",
             Self::Declared => "the maximum velocity of the formula",
             Self::Proven => {
-                "as far as the formula was proven, 10 times the speed of belt and dither; a larger maximum_velocity extends it"
+                "the range over which the formula was proven, 10 times the speed of belt and dither; a larger \
+                 maximum_velocity extends it"
             }
         })
     }
 }
 
-/// The belt into which a law is put, as far as it bears on the law. Lengths as in the equations.
+/// The properties of a belt that its friction law depends on. Lengths as in the equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surroundings {
     /// F, the normal load.

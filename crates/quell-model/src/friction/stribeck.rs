@@ -2,8 +2,8 @@
 //!
 //! μ = μ_s sgn(v_r) − (3/2)(μ_s − μ_m)(w − w³/3), w = v_r/v_m.
 //!
-//! Range: a cubic through the minimum, meant for the fall and the beginning of the rise. w − w³/3 = w(1 − w²/3) is zero
-//! again at w = √3, where μ is back at μ_s; beyond, μ grows as w³/3 without bound and soon exceeds any measured friction.
+//! Range: a cubic through the minimum, intended for the fall and the start of the rise. w − w³/3 = w(1 − w²/3) is zero
+//! again at w = √3, where μ returns to μ_s; beyond that, μ grows as w³/3 without bound and soon exceeds any measured friction.
 //! The law holds up to √3 v_m. With μ_m = μ_s it is constant and holds everywhere.
 
 use quell_numerics::lane::{Lane, half_inner_square, partial_product};
@@ -11,7 +11,7 @@ use quell_numerics::lane::{Lane, half_inner_square, partial_product};
 use super::numeric::{checked, minimum_at_most_static, number_of, with_number};
 use super::series::side_by_side;
 use super::{
-    BranchSeries, Friction, LawParameters, LawSeries, NumericLaw, RangeLimit, SlidingLaw, SlipRange,
+    BranchSeries, LawParameters, LawSeries, NumericLaw, RangeLimit, SlidingLaw, SlipRange,
 };
 use crate::InvalidValues;
 use crate::parameter::{MINIMUM_COEFFICIENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT};
@@ -118,10 +118,6 @@ impl LawSeries for Stribeck {
             inner: V::splat(0.0),
             factor: [V::splat(0.0); N],
         }
-    }
-
-    fn of(friction: &Friction) -> Option<Self> {
-        if let Friction::Stribeck(law) = friction { Some(*law) } else { None }
     }
 }
 

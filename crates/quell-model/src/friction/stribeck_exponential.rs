@@ -2,31 +2,31 @@
 //!
 //! μ = [μ_d + (μ_s − μ_d) e^{−(|v_r|/v_s)^δ}] sgn(v_r) + σ_v v_r.
 //!
-//! Limits: with δ that is not whole the law is not analytic at v_r = 0, where every slip begins: averages hold, simulation
-//! refuses it. Of whole exponents those up to [`LARGEST_SIMULATED`] have a recurrence that goes through v_r = 0.
+//! Limits: if δ is not an integer, the law is not analytic at v_r = 0, where every slip begins: averages are valid, but
+//! simulation rejects it. Integer exponents up to [`LARGEST_SIMULATED`] have a recurrence that is valid through v_r = 0.
 
 use quell_numerics::elementary;
 use quell_numerics::lane::{Lane, half_inner_square, partial_product};
 
 use super::numeric::{checked, number_of, static_at_least_sliding, with_number};
 use super::series::{length_of_change, longest_change, side_by_side};
-use super::{BranchSeries, Friction, LawParameters, LawSeries, NumericLaw, Otherwise, SlidingLaw};
+use super::{BranchSeries, LawParameters, LawSeries, NumericLaw, Otherwise, SlidingLaw};
 use crate::InvalidValues;
 use crate::parameter::{
     COEFFICIENT, EXPONENT, Parameter, REFERENCE_VELOCITY, STATIC_COEFFICIENT, VISCOUS,
 };
 
-/// Largest whole exponent with a recurrence through v_r = 0.
+/// Largest integer exponent with a recurrence through v_r = 0.
 const LARGEST_SIMULATED: f64 = 4.0;
 
-/// p = (v/v_s)^δ from which the excess e^{−p} is nothing beside the friction: below 10⁻²¹ of it. Without this bound a slip of 100 v_s
-/// with δ = 4 takes 10⁷ steps in which nothing happens; nearer to rounding, e⁻³⁷, an error of the excess would show.
+/// p = (v/v_s)^δ from which the excess e^{−p} is negligible, below 10⁻²¹ of the friction. Without this bound a slip of 100 v_s
+/// with δ = 4 takes 10⁷ steps in which nothing changes; closer to rounding, e⁻³⁷, an error of the excess would be visible.
 const VANISHED: f64 = 50.0;
 
-/// Times that a step is cut by the fourth root of its excess: 10⁶ too long is 12 too long after six.
+/// How often a step is cut by the fourth root of its excess: a step 10⁶ times too long is 12 times too long after six cuts.
 const CUTS: u32 = 6;
 
-/// Exponent where a study gives none: a Gaussian fall.
+/// Default exponent: a Gaussian fall.
 const USUAL_EXPONENT: f64 = 2.0;
 
 /// Exponential Stribeck friction with a viscous part.
@@ -96,8 +96,8 @@ impl SlidingLaw for StribeckExponential {
     fn unsimulated(&self) -> Option<&'static str> {
         let whole = self.exponent.fract() == 0.0 && self.exponent <= LARGEST_SIMULATED;
         (!whole).then_some(
-            "a stribeck-exponential law is simulated with friction.exponent = 1, 2, 3 or 4: others are not analytic at \
-             v_r = 0, where every slip begins; averages (friction, stability) hold",
+            "simulation of a stribeck-exponential law requires friction.exponent = 1, 2, 3 or 4: other exponents are not \
+             analytic at v_r = 0, where every slip begins; averages (friction, stability) are valid for any exponent",
         )
     }
 
@@ -126,7 +126,7 @@ impl LawSeries for StribeckExponential {
             coefficient: side_by_side(laws, |law| law.coefficient),
             excess: side_by_side(laws, |law| law.static_coefficient - law.coefficient),
             viscous: side_by_side(laws, |law| law.viscous * law.reference_velocity),
-            // Laws side by side are alike: they have one exponent.
+            // Laws in lanes are alike: they have the same exponent.
             exponent: laws[0].exponent,
         }
     }
@@ -183,10 +183,6 @@ impl LawSeries for StribeckExponential {
             partial: zero,
         }
     }
-
-    fn of(friction: &Friction) -> Option<Self> {
-        if let Friction::StribeckExponential(law) = friction { Some(*law) } else { None }
-    }
 }
 
 impl NumericLaw for StribeckExponential {
@@ -211,7 +207,7 @@ pub struct StribeckExponentialConstants<V> {
     exponent: f64,
 }
 
-/// Whole exponents with a recurrence through v_r = 0.
+/// Integer exponents with a recurrence through v_r = 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Whole {
     One,
@@ -245,7 +241,7 @@ struct Powers<V, const N: usize> {
     inner: V,
     /// q, complete below the last k.
     square: [V; N],
-    /// p, likewise.
+    /// p, complete below the last k.
     power: [V; N],
 }
 
@@ -260,7 +256,7 @@ impl<V: Lane, const N: usize> Powers<V, N> {
     /// pₖ without its term in uₖ, from the orders below; `w` is the slip, u = s w.
     #[inline(always)]
     fn lower(&mut self, k: usize, sign: V, w: &[V]) -> V {
-        // Squares do not see the sign.
+        // Squares do not depend on the sign.
         let half = half_inner_square(w, k);
         self.inner = half + half;
         self.lower = match self.whole {
@@ -332,13 +328,14 @@ impl<V: Lane, const N: usize> BranchSeries<V> for StribeckExponentialSeries<V, N
 
     #[inline(always)]
     fn trusted(&self, w: &[V], length: V) -> V {
-        // The last orders are those that the step's length keeps below the tolerance.
+        // The step length keeps the last orders below the tolerance.
         let known = &self.powers.power[..N.saturating_sub(2)];
         let most = longest_change(w.len() - 1);
-        // Far out the excess vanishes, and p may change for as long as it stays there.
+        // At large slip the excess vanishes, and p may change as long as it stays there.
         let room = (self.powers.power[0] - V::splat(VANISHED)).max(V::splat(most));
         let times = room.map(|room| most / room);
-        // The bound is linear in the step, p of order δ: a long step is cut by the fourth root first, so that not too little is left.
+        // The bound is linear in the step, but p is of order δ: a long step is first cut by the fourth root, so that it is not
+        // cut too far.
         let mut length = length;
         for _ in 0..CUTS {
             let cut = length_of_change(known, times, length, most);

@@ -82,7 +82,7 @@ pub const OUTER_RADIUS: Parameter =
 pub const MODAL_DAMPING: Parameter = disc(
     "disc.modal_damping",
     "ξ",
-    "damping ratio of every mode; the damper rests in the disc",
+    "damping ratio of every mode; the damping rotates with the disc",
     Quantity::Ratio,
     Bounds::NOT_NEGATIVE,
 );
@@ -99,7 +99,7 @@ pub const DISC_SPEED: Parameter = in_si(
     &[si("speed_hz", "Hz"), si("speed_rpm", "rpm")],
 );
 
-/// Nodal diameters of a mode given by hand.
+/// Nodal diameters of a listed mode.
 pub const MODE_DIAMETERS: Parameter = disc(
     "disc.mode.diameters",
     "q",
@@ -108,7 +108,7 @@ pub const MODE_DIAMETERS: Parameter = disc(
     Bounds { lower: 0.0, lower_included: true, upper: 1000.0 },
 );
 
-/// Frequency of a mode given by hand.
+/// Frequency of a listed mode.
 pub const MODE_RATIO: Parameter = disc(
     "disc.mode.ratio",
     "β",
@@ -135,7 +135,7 @@ pub const MODE_SHAPE_AT_LOAD: Parameter = disc(
     Bounds { lower: -1e6, lower_included: true, upper: 1e6 },
 );
 
-/// Damping of a mode given by hand.
+/// Damping of a listed mode.
 pub const MODE_DAMPING: Parameter = disc(
     "disc.mode.damping",
     "ξ",
@@ -148,7 +148,7 @@ pub const MODE_DAMPING: Parameter = disc(
 pub const LOAD_RADIUS: Parameter = disc(
     "disc.load.radius_ratio",
     "r₀/a",
-    "radius of the load over the outer radius; needed where modes are computed",
+    "radius of the load over the outer radius; required if modes are computed",
     Quantity::Ratio,
     Bounds { lower: 0.01, lower_included: true, upper: 1.0 },
 );
@@ -157,7 +157,7 @@ pub const LOAD_RADIUS: Parameter = disc(
 pub const LOAD_ANGLE: Parameter = disc(
     "disc.load.angle_deg",
     "θ",
-    "angle of the load in the frame that turns with the loads, degrees",
+    "angle of the load in the frame that rotates with the loads, degrees",
     Quantity::Degrees,
     Bounds { lower: -1e6, lower_included: true, upper: 1e6 },
 );

@@ -1,6 +1,6 @@
 //! The mass matrix: a base and point masses attached to it.
 //!
-//! M = M₀ + Σ m u uᵀ. A modal structure has M₀ = I, and few masses are attached to it, so that its inverse costs O(n) a
+//! M = M₀ + Σ m u uᵀ. A modal structure has M₀ = I, with few attached masses, so that its inverse costs O(n) per
 //! column (Woodbury): (I + Σ m u uᵀ)⁻¹ = I − W (D⁻¹ + WᵀW)⁻¹ Wᵀ, W the rows u as columns and D the masses.
 
 use quell_numerics::matrix::Matrix;
@@ -9,7 +9,7 @@ use quell_numerics::matrix::Matrix;
 #[derive(Clone, Debug, PartialEq)]
 pub struct MassMatrix {
     size: usize,
-    /// M₀; the identity where there is none.
+    /// M₀; `None` for the identity.
     base: Option<Matrix>,
     /// Attached masses m > 0 and their rows u.
     attached: Vec<(f64, Vec<f64>)>,

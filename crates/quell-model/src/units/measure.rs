@@ -55,35 +55,35 @@ struct Unit {
     dimension: Dimension,
 }
 
-/// Why a text is no number of the unit that is asked for.
+/// Why a text is not a number in the requested unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unread {
-    /// It does not begin with a number.
+    /// It does not start with a number.
     NotANumber,
     /// What follows the number is not a unit.
     UnknownUnit(String),
-    /// The unit measures something else.
+    /// The unit has another dimension.
     OtherDimension(String),
-    /// A unit where the number has none: in a study without SI.
+    /// A unit for a dimensionless number, in a study without SI.
     NoUnitHere(String),
 }
 
 impl fmt::Display for Unread {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotANumber => write!(f, "this does not begin with a number"),
+            Self::NotANumber => write!(f, "the value does not start with a number"),
             Self::UnknownUnit(unit) => write!(f, "{unit} is not a unit"),
-            Self::OtherDimension(unit) => write!(f, "{unit} measures something else"),
-            Self::NoUnitHere(unit) => write!(f, "no unit, and {unit} is one"),
+            Self::OtherDimension(unit) => write!(f, "{unit} is a unit of another quantity"),
+            Self::NoUnitHere(unit) => write!(f, "no unit is allowed here, got {unit}"),
         }
     }
 }
 
 /// Reads a number in the unit `wanted`: a plain number is in that unit already, one with a unit is converted to it.
-/// `None` stands for a number of the equations, which has no unit.
+/// `None` stands for a dimensionless number.
 ///
 /// # Errors
-/// [`Unread`], where the text is no number, its unit is unknown or of another dimension.
+/// [`Unread`], if the text is not a number, or its unit is unknown or has another dimension.
 pub fn read(text: &str, wanted: Option<&str>) -> Result<f64, Unread> {
     let text = text.trim();
     let (number, rest) = text.split_at(length_of_number(text));
@@ -103,7 +103,7 @@ pub fn read(text: &str, wanted: Option<&str>) -> Result<f64, Unread> {
     Ok(shifted * (given.over * wanted.under) / (given.under * wanted.over))
 }
 
-/// A value in one unit as one in another of the same dimension; `None` where they differ in that.
+/// Converts a value to another unit; `None` if the dimensions differ.
 pub fn convert(value: f64, from: &str, to: &str) -> Option<f64> {
     if from == to {
         return Some(value);
@@ -121,7 +121,7 @@ pub fn has_unit(text: &str) -> bool {
     length > 0 && !text[length..].trim().is_empty()
 }
 
-/// Length of the decimal number with which a text begins; 0 where it begins with none.
+/// Length of the decimal number at the start of a text; 0 if it does not start with one.
 fn length_of_number(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits = |from: usize| {
@@ -156,7 +156,7 @@ fn shifted(number: &str, by: i32) -> Option<f64> {
 }
 
 impl Unit {
-    /// Reads a product of symbols; `None` where it is none.
+    /// Reads a product of symbols; `None` if it is not one.
     fn parse(text: &str) -> Option<Self> {
         let mut product = Self { ten: 0, over: 1.0, under: 1.0, dimension: [0; 4] };
         let mut divides = false;
@@ -193,7 +193,7 @@ impl Unit {
     }
 }
 
-/// A factor without its exponent, and that: `m³`, `m^3`, `m3` are three times m.
+/// Splits a factor into symbol and exponent: `m³`, `m^3` and `m3` all mean m cubed.
 fn exponent(factor: &str) -> (&str, u8) {
     for (suffix, exponent) in [("²", 2), ("³", 3), ("2", 2), ("3", 3)] {
         if let Some(symbol) = factor.strip_suffix(suffix) {

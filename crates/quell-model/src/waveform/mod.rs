@@ -1,46 +1,19 @@
 //! Dither waveforms g: zero mean, unit amplitude, 2π-periodic, odd.
 //!
-//! A waveform is one file with a `Shape` and one line in the list below. Between its
-//! breaks (kinks and jumps) it is analytic; the engine makes each break a time event. G is
+//! A waveform is one file with a `Shape` and one line in the list below. It is analytic between its
+//! breaks (kinks and jumps); the engine makes each break a time event. G is
 //! the zero-mean integral of g (even; the dissertation's text after (3.25) calls it odd,
-//! but τ₂ = 2π − τ₁ there needs evenness).
+//! but τ₂ = 2π − τ₁ there requires it to be even).
 
 use std::f64::consts::TAU;
 
+mod shape;
 mod sine;
 mod square;
 mod triangle;
 
-/// One analytic piece of a waveform.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Piece {
-    /// sin θ.
-    Harmonic,
-    /// `value + slope·(θ − θ₀)` after the break θ₀ that opens the piece.
-    Affine {
-        /// Value just after the break.
-        value: f64,
-        /// Slope per radian.
-        slope: f64,
-    },
-}
-
-/// The facts of a waveform. All phases lie in [0, 2π).
-pub(crate) struct Shape {
-    pub(crate) name: &'static str,
-    /// Phases of kinks and jumps, ascending; empty for an analytic waveform.
-    pub(crate) breaks: &'static [f64],
-    /// Pieces after each break; one piece where there is no break.
-    pub(crate) pieces: &'static [Piece],
-    /// G at a phase in [0, 2π).
-    pub(crate) integral: fn(f64) -> f64,
-    /// max |G|.
-    pub(crate) peak_integral: f64,
-    /// ⟨G²⟩.
-    pub(crate) mean_square_integral: f64,
-    /// √⟨g²⟩.
-    pub(crate) root_mean_square: f64,
-}
+pub use shape::Piece;
+use shape::Shape;
 
 /// A dither waveform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -118,7 +91,7 @@ impl Waveform {
         self.shape().breaks
     }
 
-    /// The pieces: `pieces()[i]` follows `breaks()[i]`; a single piece where there is no break.
+    /// The pieces: `pieces()[i]` follows `breaks()[i]`; a single piece if there are no breaks.
     pub fn pieces(self) -> &'static [Piece] {
         self.shape().pieces
     }

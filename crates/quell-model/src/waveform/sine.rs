@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use super::{Piece, Shape};
+use super::shape::{Piece, Shape};
 
 pub(super) const SHAPE: Shape = Shape {
     name: "sine",

@@ -4,7 +4,7 @@
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
-use super::{Piece, Shape};
+use super::shape::{Piece, Shape};
 
 /// 1/√3.
 const FRAC_1_SQRT_3: f64 = 0.577_350_269_189_625_8;

@@ -106,7 +106,7 @@ fn a_wrong_number_of_values_is_a_complaint() {
     for &kind in LawKind::NUMERIC {
         let mut values = samples(kind)[0].values();
         values.push(0.1);
-        let count = kind.parameters().len().to_string();
+        let count = format!("({})", kind.parameters().len());
         let refused = |values: &[f64]| {
             let complaints = kind.build(values).expect_err("a wrong number of values");
             assert_eq!(keys(&complaints), ["friction"], "{}", kind.name());

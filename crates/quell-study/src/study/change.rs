@@ -1,5 +1,5 @@
-//! Changes of a study from outside its file: `--set path=value`, `--tolerance`, points of a
-//! sweep. They change the mirror, which is checked afterwards.
+//! Changes to a study from outside its file: `--set path=value`, `--tolerance`, points of a
+//! sweep. They change the document, which is checked afterwards.
 
 use std::fmt;
 
@@ -23,7 +23,7 @@ impl Change {
     /// From `path=value`.
     ///
     /// # Errors
-    /// A complaint where there is no `=`.
+    /// An error if the text has no `=`.
     pub fn parse(text: &str, option: &'static str) -> Result<Self, Box<Complaint>> {
         match text.split_once('=') {
             Some((path, value)) if !path.trim().is_empty() => {
@@ -58,7 +58,7 @@ impl Change {
                 table.remove(sibling.name);
             }
         }
-        // Names of constants are the study's own.
+        // The study chooses the names of its constants.
         let name = match key.role {
             Role::Constant => self.path.trim().rsplit('.').next().unwrap_or_default(),
             _ => key.name,
@@ -67,11 +67,11 @@ impl Change {
         Ok(())
     }
 
-    /// A complaint with the nearest key that a study of this system has.
+    /// An error with the nearest key in the unit system of the study.
     fn unknown(&self, nearest: Option<String>, si: bool) -> Box<Complaint> {
         let first = self.path.split(['.', '[']).next().unwrap_or_default();
         if NOT_BUILT.contains(&first) {
-            let allowed = format!("[{first}] is not built yet");
+            let allowed = format!("[{first}] is not implemented yet");
             return Box::new(self.complaint(Fault::NotBuilt, allowed));
         }
         if let Some(section) = self.table_itself() {
@@ -79,14 +79,14 @@ impl Change {
                 .find(|key| !matches!(key.role, Role::Scale(_)))
                 .map_or_else(|| vocabulary::join(section.path(), "a"), Key::path);
             let example = vocabulary::in_system(&example, si);
-            let allowed = format!("set key by key, such as {example}: it is a table");
+            let allowed = format!("set key by key, such as {example}, because it is a table");
             return Box::new(self.complaint(Fault::Value, allowed));
         }
-        let complaint = self.complaint(Fault::Unknown, "the keys that `quell schema` lists");
+        let complaint = self.complaint(Fault::Unknown, "the keys listed by `quell schema`");
         Box::new(complaint.suggesting(nearest.map(|path| vocabulary::in_system(&path, si))))
     }
 
-    /// The table that the path names, where it names a table and no key of it.
+    /// The table that the path names, if it names a whole table.
     fn table_itself(&self) -> Option<Section> {
         let path = self.path.trim();
         let name = path.strip_suffix(']').and_then(|path| path.split_once('['));
@@ -98,8 +98,8 @@ impl Change {
         Complaint::new(fault, &self.path, self.node.origin, self.node.given(), allowed)
     }
 
-    /// The table of a section, made where it is not there. `None` where something else has
-    /// its name, which the check complains about.
+    /// The table of a section, created if it is missing. `None` if something else has
+    /// its name, which the check reports.
     fn section<'a>(
         &self,
         root: &'a mut Table,
@@ -158,7 +158,7 @@ impl Change {
         let chosen = match (index, count) {
             (None | Some(0), 0 | 1) => 0,
             (Some(index), count) if index < count => index,
-            // The next axis; entries of other lists are not made one key at a time.
+            // The next axis; entries of other lists cannot be created one key at a time.
             (Some(index), count) if index == count && name == "sweep" => index,
             (_, count) => {
                 let allowed = match count {
@@ -167,7 +167,7 @@ impl Change {
                     _ if index.is_some() => {
                         format!("the study has {count} of them: {name}[0] to {name}[{}]", count - 1)
                     }
-                    _ => format!("say which one: {name}[0] to {name}[{}]", count - 1),
+                    _ => format!("specify which one: {name}[0] to {name}[{}]", count - 1),
                 };
                 return Err(Box::new(self.complaint(Fault::Conflict, allowed)));
             }
@@ -175,7 +175,7 @@ impl Change {
         let origin = self.node.origin;
         let fresh = || Node { value: Value::Table(Table::default()), origin };
         if count == 0 {
-            // An axis is always one of a list; a single dither is a plain table.
+            // An axis is always in a list; a single dither is a plain table.
             let node = match name {
                 "sweep" => Node { value: Value::List(vec![fresh()]), origin },
                 _ => fresh(),
@@ -204,9 +204,8 @@ impl fmt::Display for Change {
     }
 }
 
-/// Whether setting `key` takes the place of `sibling`: another SI key of the same parameter,
-/// a named state for numbers, values of an axis for its ends, and the other way round. A disc has its numbers in SI or not,
-/// each by itself.
+/// Whether setting `key` replaces `sibling`: another SI key of the same parameter, a named state for numbers, the values of
+/// an axis for its ends, and vice versa. In a study of a disc each number may be in SI or not.
 fn replaces(key: &Key, sibling: &Key, of_a_disc: bool) -> bool {
     if key.name == sibling.name {
         return false;
@@ -217,7 +216,7 @@ fn replaces(key: &Key, sibling: &Key, of_a_disc: bool) -> bool {
         | (_, Role::Twin(parameter, _), Role::Number(other)) => {
             parameter.path == other.path && (of_a_disc || parameter.is_pure())
         }
-        // The mass stays: stiffness and natural frequency say the same of it.
+        // The mass stays: stiffness and natural frequency are alternatives to each other.
         (_, Role::Scale(scale), Role::Scale(other)) => ![scale, other].contains(&MASS),
         (Section::Initial, role, other) => is_word(role) || is_word(other),
         (Section::Friction, Role::Speeds { .. }, Role::Speeds { .. })

@@ -1,9 +1,9 @@
 //! CSV files that a study names: columns by name, wrong cells by line.
 //!
-//! Comment lines begin with `#`; the first other line names the columns. Columns that are not asked for are passed over.
+//! Comment lines begin with `#`; the first other line names the columns. Columns that are not requested are ignored.
 //!
-//! A study may come from a stranger and may name any file: nothing of a file is shown in a complaint before the columns
-//! that are needed were found in it, and then no more than the cell that is wrong, cut short.
+//! A study may come from an untrusted source and may name any file: error messages show nothing of a file unless the
+//! required columns were found in it, and then only the invalid cell, truncated.
 
 use std::path::Path;
 
@@ -12,13 +12,13 @@ use crate::input::read_regular;
 /// The largest file that is read.
 const LARGEST: u64 = 16 << 20;
 
-/// Most characters of a cell that are shown.
+/// Maximum number of characters of a cell that are shown.
 const SHOWN: usize = 24;
 
-/// Reads a file as text; `what` it must be, such as "a CSV file of samples".
+/// Reads a file as text; `what` is what it must be, such as "a CSV file of samples".
 ///
 /// # Errors
-/// Why it is none.
+/// Why it cannot be read.
 pub(super) fn text(path: &Path, what: &str) -> Result<String, String> {
     let bytes = read_regular(path, LARGEST)
         .map_err(|error| format!("{what} of at most 16 MiB; it cannot be read: {error}"))?;
@@ -41,10 +41,10 @@ pub(super) struct Row<'t> {
 }
 
 impl<'t> DataFile<'t> {
-    /// Takes the text apart.
+    /// Splits the text into column names and rows.
     ///
     /// # Errors
-    /// Where there is no line of column names.
+    /// If there is no header line.
     pub(super) fn new(text: &'t str, what: &str) -> Result<Self, String> {
         let mut lines = text
             .lines()
@@ -52,7 +52,7 @@ impl<'t> DataFile<'t> {
             .map(|(index, line)| (index + 1, line.trim().trim_start_matches('\u{feff}')))
             .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
         let (_, header) =
-            lines.next().ok_or_else(|| format!("{what} with a line of column names"))?;
+            lines.next().ok_or_else(|| format!("{what} with a header line of column names"))?;
         let names = header.split(',').map(|name| name.trim().trim_matches('"')).collect();
         let rows = lines
             .map(|(line, row)| Row { line, cells: row.split(',').map(str::trim).collect() })
@@ -60,7 +60,7 @@ impl<'t> DataFile<'t> {
         Ok(Self { names, rows })
     }
 
-    /// Where a column is.
+    /// Index of a column.
     pub(super) fn column(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| *known == name)
     }
@@ -72,7 +72,7 @@ impl<'t> DataFile<'t> {
 }
 
 impl Row<'_> {
-    /// The number in a column, where it is `right`.
+    /// The number in a column, if it is `right`.
     ///
     /// # Errors
     /// Line, column, the cell, and what it must be.
@@ -93,6 +93,9 @@ impl Row<'_> {
 
     /// Whether the number in a column is below 0.
     pub(super) fn is_negative(&self, at: usize) -> bool {
-        self.cells.get(at).and_then(|cell| cell.parse::<f64>().ok()).is_some_and(|it| it < 0.0)
+        self.cells
+            .get(at)
+            .and_then(|cell| cell.parse::<f64>().ok())
+            .is_some_and(|number| number < 0.0)
     }
 }

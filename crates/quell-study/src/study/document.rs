@@ -1,6 +1,6 @@
-//! The mirror of a study's text: values as they stand there, each with its line.
+//! The document of a study: the values of its text, each with its line.
 //!
-//! Nothing is judged here except that the text is TOML. `--set` changes the mirror before
+//! Only the TOML syntax is checked here. `--set` changes the document before
 //! it is checked.
 
 use serde_json::Value as Json;
@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::complaint::{Complaint, Complaints, Fault, Origin};
 
-/// A value with the place it came from.
+/// A value with its origin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
     /// The value.
@@ -64,7 +64,7 @@ impl Table {
             })
             .collect();
         complaints.sort_by_key(|complaint| complaint.origin.line());
-        // Later errors of a line mostly follow from its first.
+        // Later errors in a line are mostly consequences of the first.
         complaints.dedup_by_key(|complaint| complaint.origin);
         Err(complaints.into())
     }
@@ -88,12 +88,12 @@ impl Table {
         self.entries.iter().find(|(name, _)| name == key).map(|(_, node)| node)
     }
 
-    /// The value of a key, to change it.
+    /// The value of a key, mutable.
     pub fn get_mut(&mut self, key: &str) -> Option<&mut Node> {
         self.entries.iter_mut().find(|(name, _)| name == key).map(|(_, node)| node)
     }
 
-    /// Sets a key, in its old place where it had one.
+    /// Sets a key; an existing key keeps its position.
     pub fn set(&mut self, key: &str, node: Node) {
         match self.get_mut(key) {
             Some(old) => *old = node,
@@ -101,7 +101,7 @@ impl Table {
         }
     }
 
-    /// Takes a key away.
+    /// Removes a key.
     pub fn remove(&mut self, key: &str) {
         self.entries.retain(|(name, _)| name != key);
     }
@@ -111,12 +111,12 @@ impl Table {
         self.entries.iter().map(|(key, node)| (key.as_str(), node))
     }
 
-    /// Keys and values in the order of the text, to change the values.
+    /// Keys and mutable values in the order of the text.
     pub fn iter_mut(&mut self) -> impl Iterator<Item = (&str, &mut Node)> {
         self.entries.iter_mut().map(|(key, node)| (key.as_str(), node))
     }
 
-    /// Whether a key is there.
+    /// Whether a key exists.
     pub fn has(&self, key: &str) -> bool {
         self.get(key).is_some()
     }
@@ -130,8 +130,8 @@ impl Node {
             DeValue::Integer(integer) => {
                 Value::Number(integer_value(integer.as_str(), integer.radix()))
             }
-            // A TOML float is a Rust float once the parser has taken out the underscores; one
-            // too large for f64 becomes infinite and is refused by the bounds.
+            // A TOML float is a Rust float once the parser has removed the underscores; one
+            // too large for f64 becomes infinite and is rejected by the bounds.
             DeValue::Float(float) => Value::Number(float.as_str().parse().unwrap_or(f64::NAN)),
             DeValue::Boolean(flag) => Value::Flag(*flag),
             DeValue::Datetime(date) => Value::Date(date.to_string()),
@@ -167,7 +167,7 @@ impl Node {
         Self { value, origin }
     }
 
-    /// As it is told in a complaint.
+    /// The value as shown in an error.
     pub fn given(&self) -> Json {
         match &self.value {
             Value::Number(number) => given_number(*number),
@@ -178,7 +178,7 @@ impl Node {
         }
     }
 
-    /// Adds every value below this node with its path; numbers with the digits that read back
+    /// Adds every value below this node with its path; numbers have enough digits to read back
     /// as the same number.
     pub(super) fn leaves(&self, path: &str, leaves: &mut Vec<(String, String)>) {
         match &self.value {
@@ -197,7 +197,7 @@ impl Node {
         }
     }
 
-    /// The table, where it is one.
+    /// The table, if it is one.
     pub fn table(&self) -> Option<&Table> {
         match &self.value {
             Value::Table(table) => Some(table),
@@ -218,7 +218,7 @@ impl Node {
     }
 }
 
-/// A number in JSON; NaN and infinities, which JSON lacks, as words.
+/// A number in JSON; NaN and infinities, which JSON does not have, as strings.
 pub fn given_number(number: f64) -> Json {
     if !number.is_finite() {
         return number.to_string().into();
@@ -239,7 +239,7 @@ fn integer_value(digits: &str, radix: u32) -> f64 {
     i128::from_str_radix(digits, radix).map_or(f64::NAN, |integer| integer as f64)
 }
 
-/// Starts of lines, to turn byte offsets into line numbers.
+/// Starts of lines, to convert byte offsets to line numbers.
 struct Lines {
     starts: Vec<usize>,
 }
@@ -281,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn every_syntax_error_is_told() {
+    fn every_syntax_error_is_reported() {
         let complaints = Table::parse("a = \nb = 1\nc = [1,\nd d = 2\n").expect_err("broken");
         assert!(complaints.len() >= 2, "{complaints:?}");
         assert_eq!(complaints[0].origin, Origin::Line(1));

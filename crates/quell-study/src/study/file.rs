@@ -1,4 +1,4 @@
-//! Reads the text of a study file, whatever it turns out to be.
+//! Reads the text of a study file and rejects what is not text.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -9,17 +9,17 @@ use serde_json::Value as Json;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::input::Inputs;
 
-/// The largest study file that is read; anything larger is no study, and some files never end.
+/// The largest study file that is read; larger files are not studies, and some files never end.
 const LARGEST: u64 = 16 << 20;
 
-/// Where a study file is, wherever the program goes from here; `-` is standard input.
+/// The absolute path of a study file, which stays valid if the working directory changes; `-` is standard input.
 pub(super) fn place(path: &Path) -> PathBuf {
     let here = if path == Path::new("-") { None } else { path::absolute(path).ok() };
     here.unwrap_or_else(|| path.to_owned())
 }
 
-/// The files that a study was read from: its own, at its [`place`], and one that it names, which was looked for in
-/// `folder`, beside its own.
+/// The files that a study was read from: the study file, at its [`place`], and the data file that it names, which was
+/// searched in `folder`, next to the study file.
 pub(super) fn inputs(file: Option<&Path>, folder: &Path, data: Option<&Path>) -> Inputs {
     let home = file.filter(|file| *file != Path::new("-")).and_then(Path::parent);
     let data = data.map(|data| match home {
@@ -50,26 +50,26 @@ pub(super) fn text(path: &Path) -> Result<String, Box<Complaint>> {
     };
     match read {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            return Err(complaint("there is no such file".into()));
+            return Err(complaint("no such file".into()));
         }
         Err(error) => return Err(complaint(format!("cannot be read: {error}"))),
         Ok(_) => {}
     }
     if bytes.len() as u64 > LARGEST {
-        return Err(complaint("is larger than 16 MiB; no study is".into()));
+        return Err(complaint("is larger than 16 MiB, the limit for a study file".into()));
     }
     let text = String::from_utf8(bytes).map_err(|error| {
         complaint(format!(
-            "is not text: byte {} is not UTF-8; a study is a TOML file",
+            "is not text: invalid UTF-8 at byte {}; expected a TOML file",
             error.utf8_error().valid_up_to()
         ))
     })?;
     if text.contains('\0') {
-        return Err(complaint("is not text: it has zero bytes; a study is a TOML file".into()));
+        return Err(complaint("is not text: it contains null bytes; expected a TOML file".into()));
     }
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
         return Err(complaint(
-            "is empty; a study has at least [belt] and [friction], or [disc]; `quell new` prints examples".into(),
+            "is empty; a study needs at least [belt] and [friction], or [disc] (`quell new` prints examples)".into(),
         ));
     }
     Ok(text)

@@ -5,39 +5,16 @@ use std::path::Path;
 use quell_model::units::Scales;
 use serde_json::Value as Json;
 
-use super::Study;
+use super::StudyOf;
 use super::belt::{BeltSetup, BeltStudy};
 use super::disc::{DiscSetup, DiscStudy};
 use super::document::Table;
 use super::reader::Reader;
+use super::study_kind::{Given, StudyKind, not_of_a_belt};
 use crate::complaint::{Complaint, Fault, Origin};
 
-/// What a kind of study reads besides what all kinds share.
-pub trait StudyKind: Clone {
-    /// A reader that knows the units of the document.
-    fn reader(document: &Table) -> Reader;
-
-    /// Names of the tables and keys outside any table that such a study has.
-    fn tables(document: &Table) -> &'static [&'static str];
-
-    /// Reads the tables of this kind; `None` where something is wrong, which the reader was told.
-    fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self>;
-
-    /// A file that the study names, read already.
-    fn data_file(&self) -> Option<&Path>;
-
-    /// What such files contribute to the settings, as `path = value`.
-    fn file_settings(&self) -> Vec<(String, String)>;
-}
-
-/// What is known before a document is read.
-#[derive(Clone, Copy, Debug)]
-pub struct Given<'a, K> {
-    /// Where files that the study names are looked for.
-    pub folder: &'a Path,
-    /// The same study before a change: its files are not read again, and what the change leaves as it was is kept.
-    pub known: Option<&'a K>,
-}
+/// A checked study of any kind.
+pub type Study = StudyOf<Kind>;
 
 /// The kinds of study.
 #[derive(Clone, Debug, PartialEq)]
@@ -118,7 +95,7 @@ impl Study {
     /// The study of a belt.
     ///
     /// # Errors
-    /// A complaint where it is of another kind.
+    /// An error if it is of another kind.
     pub fn belt(&self) -> Result<BeltStudy, Box<Complaint>> {
         match self.kind() {
             Kind::Belt(setup) => Ok(self.map_kind((**setup).clone())),
@@ -129,7 +106,7 @@ impl Study {
     /// The study of a disc.
     ///
     /// # Errors
-    /// A complaint where it is of another kind.
+    /// An error if it is of another kind.
     pub fn disc(&self) -> Result<DiscStudy, Box<Complaint>> {
         match self.kind() {
             Kind::Disc(setup) => Ok(self.map_kind((**setup).clone())),
@@ -146,16 +123,9 @@ impl Study {
     }
 }
 
-/// What a verb about belts reports of a study of a disc.
-pub(super) fn not_of_a_belt(origin: Origin) -> Complaint {
-    let allowed = "this verb is about a belt ([belt], [friction]), and the study is of a disc, which has the verbs check, cite, \
-                   modes, stability, resonances and map";
-    Complaint::new(Fault::Conflict, "disc", origin, Json::Null, allowed)
-}
-
-/// What a verb about discs reports of a study of a belt.
+/// The error of a command for discs given a study of a belt.
 fn not_of_a_disc() -> Complaint {
-    let allowed = "a disc study: this verb is about a disc ([disc]), and the study is of a belt";
+    let allowed = "this command requires a study of a disc, but the study is of a belt";
     Complaint::new(Fault::Missing, "disc", Origin::Whole, Json::Null, allowed)
 }
 

@@ -1,14 +1,14 @@
-//! Numbers with units in the mirror: `amplitude_n = "5.7kN"` becomes 5700.
+//! Numbers with units in the document: `amplitude_n = "5.7kN"` is converted to 5700.
 //!
-//! The unit of a number is that of its key. What is not a number of that unit stays as it is, for the reader to refuse.
+//! The unit of a number is that of its key. Other texts are left unchanged, and the reader rejects them.
 
 use quell_model::units::measure;
 
 use super::document::{Node, Table, Value};
 use super::vocabulary::{self, Section};
 
-/// Turns texts with units under keys of numbers into numbers in the unit of the key; the ends and values of an axis
-/// are in the unit of the key that it names.
+/// Converts texts with units under numeric keys to numbers in the unit of the key; the ends and values of an axis
+/// are in the unit of the key that it varies.
 pub(super) fn resolve(root: &mut Table) {
     for section in Section::ALL {
         for table in tables(root, *section) {

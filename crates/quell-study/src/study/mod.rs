@@ -1,10 +1,10 @@
 //! The study file: text, its document, and the checked study.
 //!
-//! `study.toml` → [`document::Table`] → [`Study`], which is valid by construction. All complaints are reported together, with
-//! key, line, value, what is allowed, and the nearest right key.
+//! `study.toml` → [`document::Table`] → [`Study`], which is valid by construction. All errors are reported together, with
+//! key, line, value, allowed values, and the nearest valid key.
 //!
-//! One [`Study`] serves every kind: what all kinds share (title, axes, text, changes) is read here, the rest by the kind
-//! ([`StudyKind`]). [`Kind`] lists the kinds; adding one is a file like `belt/mod.rs` or `disc/mod.rs`, its keys in
+//! One [`Study`] serves every kind: the parts that all kinds share (title, axes, text, changes) are read here, the rest by
+//! the kind ([`StudyKind`]). [`Kind`] lists the kinds; adding one is a file like `belt/mod.rs` or `disc/mod.rs`, its keys in
 //! [`vocabulary`], and a variant there.
 
 use std::path::{Path, PathBuf};
@@ -25,6 +25,7 @@ mod kind;
 mod measures;
 mod reader;
 mod root;
+mod study_kind;
 pub mod suggest;
 mod sweep;
 pub mod vocabulary;
@@ -32,29 +33,27 @@ pub mod vocabulary;
 pub use belt::{BeltSetup, BeltStudy, Measured};
 pub use change::Change;
 pub use disc::{DiscSetup, DiscStudy};
-pub use kind::{Given, Kind, StudyKind};
+pub use kind::{Kind, Study};
 pub use quell_dynamics::response::Solver;
 pub use quell_dynamics::start::InitialState;
+pub use study_kind::{Given, StudyKind};
 pub use sweep::{Axis, Sweep};
-
-/// A checked study of any kind.
-pub type Study = StudyOf<Kind>;
 
 /// A checked study of the kind `K`: of any kind ([`Study`]), of a belt ([`BeltStudy`]), of a disc ([`DiscStudy`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyOf<K> {
     kind: K,
-    source: Arc<Source>,
+    source: Arc<StudySource>,
 }
 
 /// What every kind of study shares.
 #[derive(Clone, Debug, PartialEq)]
-struct Source {
+struct StudySource {
     title: Option<String>,
     sweeps: Vec<Sweep>,
     document: Table,
     text: Arc<str>,
-    /// Where files that the study names are looked for.
+    /// The folder of the files that the study names.
     folder: PathBuf,
     /// The file that it was read from; `-` is standard input.
     file: Option<PathBuf>,
@@ -63,7 +62,7 @@ struct Source {
 
 /// Where a document comes from.
 #[derive(Clone, Debug)]
-struct Provenance {
+struct DocumentOrigin {
     text: Arc<str>,
     folder: PathBuf,
     file: Option<PathBuf>,
@@ -81,7 +80,7 @@ impl<K: StudyKind> StudyOf<K> {
         Ok(Self::parse_in(&text, changes, folder)?.read_from(file::place(path)))
     }
 
-    /// Checks the text of a study after changing it; files that it names are looked for where the program runs.
+    /// Checks the text of a study after changing it; files that it names are searched in the working directory.
     ///
     /// # Errors
     /// All complaints together.
@@ -89,10 +88,10 @@ impl<K: StudyKind> StudyOf<K> {
         Self::parse_in(text, changes, Path::new(""))
     }
 
-    /// Checks the text of a study after changing it; files that it names are looked for in `folder`.
+    /// Checks the text of a study after changing it; files that it names are searched in `folder`.
     ///
     /// # Errors
-    /// All complaints together; what cannot be changed is reported together with what the check finds.
+    /// All errors together, those of the changes and those of the check.
     pub fn parse_in(text: &str, changes: &[Change], folder: &Path) -> Result<Self, Complaints> {
         let mut document = Table::parse(text)?;
         let refused: Vec<Complaint> = changes
@@ -101,7 +100,7 @@ impl<K: StudyKind> StudyOf<K> {
             .map(|complaint| *complaint)
             .collect();
         measures::resolve(&mut document);
-        let from = Provenance {
+        let from = DocumentOrigin {
             text: text.into(),
             folder: folder.to_owned(),
             file: None,
@@ -117,13 +116,14 @@ impl<K: StudyKind> StudyOf<K> {
     /// The same study, which was read from this file.
     #[must_use]
     pub fn read_from(self, file: PathBuf) -> Self {
-        let source = Arc::new(Source { file: Some(file), ..Arc::unwrap_or_clone(self.source) });
+        let source =
+            Arc::new(StudySource { file: Some(file), ..Arc::unwrap_or_clone(self.source) });
         Self { source, ..self }
     }
 
-    /// The files that it was read from: none of them is an output.
+    /// The files that it was read from, which outputs must not overwrite.
     pub fn inputs(&self) -> Inputs {
-        let Source { file, folder, .. } = &*self.source;
+        let StudySource { file, folder, .. } = &*self.source;
         file::inputs(file.as_deref(), folder, self.kind.data_file())
     }
 
@@ -139,8 +139,8 @@ impl<K: StudyKind> StudyOf<K> {
         self.check_again(document, changes)
     }
 
-    /// The study at one point of a map: its numbers set through the same path as `--set`, in
-    /// order, and no axes. It is the study that the file would give with these changes.
+    /// The study at one point of a map: its numbers set in order as by `--set`, without axes. It equals the study that the
+    /// file would give with these changes.
     ///
     /// # Errors
     /// All complaints about the changed study.
@@ -172,12 +172,12 @@ impl<K: StudyKind> StudyOf<K> {
 
     /// Checks the changed document of this study; files are not read again.
     fn check_again(&self, document: Table, changes: Vec<String>) -> Result<Self, Complaints> {
-        let Source { text, folder, file, .. } = &*self.source;
+        let StudySource { text, folder, file, .. } = &*self.source;
         let (text, folder, file) = (Arc::clone(text), folder.clone(), file.clone());
-        Self::check(document, Provenance { text, folder, file, changes }, Some(&self.kind))
+        Self::check(document, DocumentOrigin { text, folder, file, changes }, Some(&self.kind))
     }
 
-    fn check(document: Table, from: Provenance, known: Option<&K>) -> Result<Self, Complaints> {
+    fn check(document: Table, from: DocumentOrigin, known: Option<&K>) -> Result<Self, Complaints> {
         let mut reader = K::reader(&document);
         let title = root::read(&mut reader, &document, K::tables(&document));
         let kind = K::read(&mut reader, &document, Given { folder: &from.folder, known });
@@ -187,8 +187,8 @@ impl<K: StudyKind> StudyOf<K> {
         if !complaints.is_empty() {
             return Err(complaints.into());
         }
-        let Provenance { text, folder, file, changes } = from;
-        let source = Source { title, sweeps, document, text, folder, file, changes };
+        let DocumentOrigin { text, folder, file, changes } = from;
+        let source = StudySource { title, sweeps, document, text, folder, file, changes };
         let study = Self { kind, source: Arc::new(source) };
         study.ends_are_valid()?;
         Ok(study)
@@ -208,7 +208,7 @@ impl<K: StudyKind> StudyOf<K> {
                 complaints.extend(wrong.into_iter().map(|mut complaint| {
                     if complaint.fault == Fault::Value {
                         complaint.allowed = format!(
-                            "a path and values that make valid studies; {} = {value} must be {}",
+                            "a path and values that give valid studies; {} = {value} must be {}",
                             complaint.key, complaint.allowed
                         );
                     }
@@ -241,7 +241,7 @@ impl<K: StudyKind> StudyOf<K> {
 }
 
 impl<K> StudyOf<K> {
-    /// What only this kind of study has.
+    /// The parts that only this kind of study has.
     pub fn kind(&self) -> &K {
         &self.kind
     }

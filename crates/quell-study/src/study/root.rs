@@ -1,4 +1,4 @@
-//! What is outside the tables of a study: its version, its title, and tables that do not exist.
+//! The keys outside any table (version and title), and unknown tables.
 
 use serde_json::Value as Json;
 
@@ -8,13 +8,13 @@ use super::suggest;
 use super::vocabulary::{self, NOT_BUILT, SCHEMA_VERSION, Section};
 use crate::complaint::{Complaint, Fault};
 
-/// Complains about unknown tables and keys; `tables` are those of this kind of study. Returns the title.
+/// Reports unknown tables and keys; `tables` are those of this kind of study. Returns the title.
 pub(super) fn read(reader: &mut Reader, document: &Table, tables: &[&str]) -> Option<String> {
     let known: Vec<&str> = Section::ALL.iter().map(|section| section.path()).collect();
     for (name, node) in document.iter() {
         if NOT_BUILT.contains(&name) {
             let allowed =
-                format!("[{name}] is not built yet; this version computes belts and discs");
+                format!("[{name}] is not implemented yet; this version handles belts and discs");
             let complaint = Complaint::new(Fault::NotBuilt, name, node.origin, Json::Null, allowed);
             reader.complain(complaint);
         } else if vocabulary::key(Section::Root, name).is_none() && !known.contains(&name) {
@@ -25,11 +25,11 @@ pub(super) fn read(reader: &mut Reader, document: &Table, tables: &[&str]) -> Op
             reader.complain(complaint.suggesting(nearest));
         }
     }
-    // A study without a version is of the present one.
+    // A study without a version has the current one.
     if let Some(node) = document.get("schema")
         && node.value != Value::Number(f64::from(SCHEMA_VERSION))
     {
-        let allowed = format!("{SCHEMA_VERSION}, the only version of study files, or left out");
+        let allowed = format!("{SCHEMA_VERSION}, the only version of the study format, or omitted");
         reader.wrong("schema", node, allowed);
     }
     document.get("title").and_then(|node| reader.text("title", node))

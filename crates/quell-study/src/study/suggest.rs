@@ -1,15 +1,15 @@
-//! The nearest right key to a wrong one.
+//! Suggests the nearest valid key for an unknown one.
 //!
 //! Near means: the same symbol (`zeta`, `v0`, `D_T`), a few letters apart
 //! (Damerau–Levenshtein), a common beginning (Jaro–Winkler), or one inside the other.
 
 use super::vocabulary::{self, Key, Section, join};
 
-/// The score from which a word is near enough to be offered.
+/// The minimum score of a suggestion.
 const NEAR: f64 = 0.6;
-/// The likeness from which a common beginning counts.
+/// The minimum similarity for a common beginning to count.
 const SAME_BEGINNING: f64 = 0.85;
-/// A word inside the other is worth this.
+/// The score if one word contains the other.
 const INSIDE: f64 = 0.7;
 
 fn likeness(wrong: &str, right: &str) -> f64 {
@@ -28,7 +28,7 @@ fn likeness(wrong: &str, right: &str) -> f64 {
     score
 }
 
-/// The nearest of some words.
+/// The nearest of the valid words, if any is close enough.
 pub fn word<'a>(wrong: &str, right: impl IntoIterator<Item = &'a str>) -> Option<String> {
     right
         .into_iter()
@@ -38,11 +38,11 @@ pub fn word<'a>(wrong: &str, right: impl IntoIterator<Item = &'a str>) -> Option
         .map(|(_, candidate)| candidate.to_owned())
 }
 
-/// The nearest path to an unknown key of a table; `index` is kept where the table is the same.
+/// The nearest path to an unknown key of a table; `index` is kept if the table is the same.
 pub fn path(table: &str, name: &str, index: Option<usize>) -> Option<String> {
     let score = |key: &Key| {
         let letters = if same_symbol(name, key) { 1.0 } else { likeness(name, key.name) };
-        // A key of the same table is nearer than one of another, unless that one is spelled so.
+        // A key of the same table is preferred, unless a key of another table matches much better.
         let elsewhere = key.section.path() != table;
         letters - if elsewhere { 0.35 } else { 0.0 }
     };
@@ -52,7 +52,7 @@ pub fn path(table: &str, name: &str, index: Option<usize>) -> Option<String> {
         .filter(|key| !other_system(table, key.section))
         .map(|key| (score(key), key))
         .filter(|(score, _)| *score >= NEAR)
-        // The first of equals: dimensionless before SI, in the order of the file.
+        // Of equal scores the first: dimensionless before SI, in the order of the file.
         .rev()
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, key)| key)?;
@@ -63,7 +63,7 @@ pub fn path(table: &str, name: &str, index: Option<usize>) -> Option<String> {
     })
 }
 
-/// Whether a section is about a disc and the table about a belt, or the other way round.
+/// Whether a section belongs to a disc and the table to a belt, or vice versa.
 fn other_system(table: &str, section: Section) -> bool {
     let disc = matches!(section, Section::Disc | Section::DiscMode | Section::DiscLoad);
     let belt = matches!(section, Section::Belt | Section::Initial | Section::Friction);
@@ -74,7 +74,7 @@ fn other_system(table: &str, section: Section) -> bool {
     }
 }
 
-/// Whether a key was called by its symbol, as `zeta` for ζ or `mu_s` for μ_s.
+/// Whether a key was named by its symbol, as `zeta` for ζ or `mu_s` for μ_s.
 fn same_symbol(name: &str, key: &Key) -> bool {
     let symbol = match key.role {
         vocabulary::Role::Number(parameter) => parameter.symbol,
@@ -86,7 +86,7 @@ fn same_symbol(name: &str, key: &Key) -> bool {
     name == symbol || (symbol == "d" && (name == "dt" || name == "dn"))
 }
 
-/// A symbol in plain letters: Greek by name, no underscores, subscripts as digits.
+/// A symbol in plain letters: Greek letters by name, no underscores, subscripts as digits.
 fn spelled(symbol: &str) -> String {
     let mut plain = String::new();
     for letter in symbol.chars() {
@@ -115,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn slips_of_the_pen_are_understood() {
+    fn typing_errors_are_understood() {
         for (table, wrong, right) in [
             ("belt", "dampng_ratio", "belt.damping_ratio"),
             ("belt", "damping", "belt.damping_ratio"),

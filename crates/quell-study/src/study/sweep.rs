@@ -15,11 +15,11 @@ pub struct Sweep {
     pub path: String,
     /// The key it names.
     pub address: Address,
-    /// How the values lie.
+    /// Spacing of the values.
     pub axis: Axis,
 }
 
-/// How the values of an axis lie.
+/// The values of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Axis {
     /// `points` values in equal steps, both ends included.
@@ -53,12 +53,12 @@ impl Axis {
         }
     }
 
-    /// Whether there is no value; never so in a checked study.
+    /// Whether it has no values; never true in a checked study.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Value `index`, the last one from the last index on. Both ends come out exactly.
+    /// Value `index`; indices beyond the last give the last value. Both ends are exact.
     pub fn value(&self, index: usize) -> f64 {
         let last = self.len().saturating_sub(1);
         match self {
@@ -83,7 +83,7 @@ impl Axis {
         (0..self.len()).map(|index| self.value(index))
     }
 
-    /// The values that bound all others: whether these are allowed decides for all.
+    /// The smallest and largest values: if these are allowed, all are.
     pub(super) fn extremes(&self) -> Vec<f64> {
         let values = || self.values();
         match self {
@@ -105,7 +105,7 @@ impl Sweep {
     }
 }
 
-/// Puts these axes in place of those of a study.
+/// Replaces the axes of a study.
 pub(super) fn replace(root: &mut Table, axes: &[Table]) {
     let entry = |table: &Table| Node { value: Value::Table(table.clone()), origin: Origin::Whole };
     let list = axes.iter().map(entry).collect();
@@ -122,13 +122,13 @@ pub(super) fn changes(earlier: &[String], axes: &[Table]) -> Vec<String> {
     earlier.cloned().chain(new).collect()
 }
 
-/// Reads every `[[sweep]]`; `None` where one of them is wrong.
+/// Reads every `[[sweep]]`; `None` if one of them is invalid.
 pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Sweep>> {
     let Some(node) = root.get("sweep") else {
         return Some(Vec::new());
     };
     let Value::List(list) = &node.value else {
-        reader.wrong("sweep", node, format!("tables [[sweep]]; this is {}", node.kind()));
+        reader.wrong("sweep", node, format!("tables [[sweep]]; got {}", node.kind()));
         return None;
     };
     let mut sweeps: Vec<Option<Sweep>> = Vec::new();
@@ -139,7 +139,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Sweep>> {
             && let Some(earlier) =
                 sweeps.iter().flatten().position(|earlier| earlier.sets_the_same_as(sweep))
         {
-            let allowed = format!("sweep[{earlier}] varies {} already", sweep.path);
+            let allowed = format!("sweep[{earlier}] already varies {}", sweep.path);
             let key = join(&prefix, "parameter");
             reader.complain(Complaint::new(
                 Fault::Conflict,
@@ -156,7 +156,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Sweep>> {
 
 fn one(reader: &mut Reader, node: &Node, prefix: &str) -> Option<Sweep> {
     let Some(table) = node.table() else {
-        reader.wrong(prefix, node, format!("a table; this is {}", node.kind()));
+        reader.wrong(prefix, node, format!("a table; got {}", node.kind()));
         return None;
     };
     reader.unknown_keys(table, Section::Sweep, prefix, &[]);
@@ -176,7 +176,7 @@ fn parameter(
 ) -> Option<(String, Address)> {
     let key = join(prefix, "parameter");
     let Some(node) = table.get("parameter") else {
-        let allowed = "path of a number of the study, such as \"dither.amplitude\"";
+        let allowed = "the path of a number in the study, such as \"dither.amplitude\"";
         reader.complain(Complaint::new(Fault::Missing, key, header.origin, Json::Null, allowed));
         return None;
     };
@@ -184,11 +184,15 @@ fn parameter(
     match vocabulary::resolve(&path) {
         Ok(address) if address.key.takes_number() => Some((path, address)),
         Ok(_) => {
-            reader.wrong(&key, node, "path of a number of the study, such as \"dither.amplitude\"");
+            reader.wrong(
+                &key,
+                node,
+                "the path of a number in the study, such as \"dither.amplitude\"",
+            );
             None
         }
         Err(nearest) => {
-            let allowed = "path of a number of the study, such as \"dither.amplitude\"";
+            let allowed = "the path of a number in the study, such as \"dither.amplitude\"";
             let complaint = Complaint::new(Fault::Value, key, node.origin, path, allowed);
             reader.complain(complaint.suggesting(nearest.map(|path| reader.in_system(&path))));
             None
@@ -211,7 +215,7 @@ fn axis(
         for name in ["from", "to", "points", "spacing"] {
             if let Some(other) = table.get(name) {
                 let allowed = format!(
-                    "say either {} or from, to and points, not both",
+                    "give either {} or from, to and points, not both",
                     join(prefix, "values")
                 );
                 let key = join(prefix, name);
@@ -260,7 +264,7 @@ fn axis(
 
 fn values(reader: &mut Reader, node: &Node, key: &str, unit: &str) -> Option<Vec<f64>> {
     let Value::List(list) = &node.value else {
-        reader.wrong(key, node, format!("an array of numbers; this is {}", node.kind()));
+        reader.wrong(key, node, format!("an array of numbers; got {}", node.kind()));
         return None;
     };
     if list.is_empty() {

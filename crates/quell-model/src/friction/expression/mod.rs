@@ -1,17 +1,17 @@
 //! A law written as a formula, such as `0.3 + 0.1*exp(-abs(v)/0.2)`.
 //!
 //! The formula gives the coefficient in sliding; v is the slip velocity, and friction is odd in it. On
-//! each branch abs(v) and sign(v) are what they are there, so that the formula is analytic up to v = 0⁺.
-//! It must say the same on both branches: as an even function (the coefficient) or as an odd one (the
-//! coefficient with the sign of slip). The static level is apart: a number, or μ(0⁺).
+//! each branch abs(v) and sign(v) have their value on that branch, so that the formula is analytic up to v = 0⁺.
+//! It must agree on both branches, either as an even function (the coefficient) or as an odd one (the
+//! coefficient with the sign of slip). The static level is separate: a number, or μ(0⁺).
 //!
 //! Scheme: the text becomes a tree (`syntax`), the tree a list of steps (`program`), each step one
 //! bilinear recurrence for Taylor coefficients (`series`): values, slopes and all derivatives are exact up
-//! to rounding. Named constants are numbers of the law, to be varied like any other.
+//! to rounding. Named constants are parameters of the law and can be varied like any other.
 //!
-//! Limits: formulas must be smooth, finite and not negative for all slip speeds up to `friction.maximum_velocity`. That is
-//! proven, not sampled (`proof`), for each belt into which the law is put ([`SlidingLaw::placed`]): up to the speed that the
-//! study gives or, where it gives none, up to [`MULTIPLE`] times the slip that belt and dither reach together.
+//! Limits: formulas must be smooth, finite and not negative for all slip speeds up to `friction.maximum_velocity`. This is
+//! proven, not sampled (`proof`), for each belt that uses the law ([`SlidingLaw::placed`]): up to the speed given in the
+//! study or, by default, up to [`MULTIPLE`] times the slip that belt and dither reach together.
 
 use std::sync::Arc;
 
@@ -20,8 +20,7 @@ use quell_numerics::lane::Lane;
 use super::numeric::not_a_number_of;
 use super::series::side_by_side;
 use super::{
-    BranchSeries, Friction, LawParameters, LawSeries, RangeLimit, SlidingLaw, SlipRange,
-    Surroundings,
+    BranchSeries, LawParameters, LawSeries, RangeLimit, SlidingLaw, SlipRange, Surroundings,
 };
 use crate::parameter::{MAXIMUM_VELOCITY, Parameter, STATIC_COEFFICIENT};
 use crate::{Invalid, InvalidValues};
@@ -33,6 +32,7 @@ mod syntax;
 mod tree;
 
 use program::Program;
+use proof::Formula;
 pub use series::{ExpressionConstants, ExpressionSeries};
 pub use syntax::{LONGEST, SyntaxError, is_name, is_taken};
 use tree::Tree;
@@ -43,15 +43,12 @@ pub const FORMULA: &str = "friction.coefficient";
 /// Table of the named constants in a study file.
 pub const CONSTANTS: &str = "friction.constants";
 
-/// Slip speed up to which a law is proven where the study gives none, in units of the belt's speed plus the largest fast
-/// velocity of its dither: stick–slip and transients stay far below. Of a belt at rest without dither, in units of the
-/// speed over which the formula varies.
+/// Default slip speed up to which a law is proven, in units of the belt speed plus the largest fast velocity of its dither:
+/// stick–slip and transients stay far below. For a belt at rest without dither, in units of the speed over which the formula
+/// varies.
 pub const MULTIPLE: f64 = 10.0;
 
-/// Coefficients beyond this are taken for infinite: exponentials are held before they overflow.
-const LARGEST: f64 = 1e100;
-
-/// Derivatives at v = 0⁺ of which the velocity scale is made.
+/// Number of derivatives at v = 0⁺ that determine the velocity scale.
 const DERIVATIVES: usize = 6;
 
 /// A law written as a formula.
@@ -71,13 +68,13 @@ pub struct Expression {
     velocity_unit: f64,
     /// Velocity scale in units of v.
     scale: f64,
-    /// The largest slip speed for which the formula is meant, in units of v, where the study gives one.
+    /// The largest slip speed for which the formula is intended, in units of v, if the study gives one.
     maximum: Option<f64>,
     /// Slip speed up to which the formula is proven, in units of v.
     proven: Proven,
 }
 
-/// What a belt has proven of a formula: no part of the law, so that laws in different belts are equal.
+/// The range proven for a belt. It is not part of the law, so that laws in different belts compare equal.
 #[derive(Clone, Copy, Debug, Default)]
 struct Proven(Option<f64>);
 
@@ -88,12 +85,12 @@ impl PartialEq for Proven {
 }
 
 impl Expression {
-    /// From the text of a formula, its named constants in order, the static level (μ(0⁺) where it is
-    /// not given), and the velocity of the equations that one unit of v means.
+    /// From the text of a formula, its named constants in order, the static level (μ(0⁺) if
+    /// not given), and the dimensionless velocity of one unit of v.
     ///
     /// # Errors
-    /// Under `friction.coefficient`: what is wrong with the text and at which character; a formula that is
-    /// not smooth, not finite or negative somewhere, with the place; one that differs between the
+    /// Under `friction.coefficient`: a syntax error with its character; a formula that is
+    /// not smooth, not finite or negative somewhere, with the slip speed; one that differs between the
     /// directions of slip. Under `friction.constants.…` and `friction.static_coefficient`: a value that
     /// cannot be used. Under `velocity_unit`: one that is not finite or not above 0.
     pub fn new(
@@ -112,7 +109,7 @@ impl Expression {
             let twice = constants[..index].iter().any(|(known, _)| known == name);
             if !is_name(name) || is_taken(name) || twice {
                 let allowed =
-                    "a name of letters, digits and _ that means nothing else in a formula";
+                    "a name made of letters, digits and _ that has no other meaning in a formula";
                 complaints.push(Invalid::new(&path, value, allowed));
             } else if !value.is_finite() {
                 complaints.push(Invalid::new(&path, value, "a finite number"));
@@ -124,7 +121,7 @@ impl Expression {
         let names: Vec<&str> = constants.iter().map(|(name, _)| name.as_str()).collect();
         let refused = |why: String| Invalid::new(FORMULA, text, why);
         let compiled = syntax::parse(text, &names)
-            .map_err(|error| format!("a formula; {error}"))
+            .map_err(|error| format!("a valid formula; {error}"))
             .and_then(|tree| Ok((Program::new(&tree, 1.0)?, Program::new(&tree, -1.0)?, tree)));
         let (program, mirrored, tree) = match compiled {
             Ok(programs) => programs,
@@ -155,7 +152,7 @@ impl Expression {
         Ok(law)
     }
 
-    /// The law with all that follows from its numbers.
+    /// The law with all values that are derived from its numbers.
     fn settled(mut self) -> Result<Self, InvalidValues> {
         let refused =
             |law: &Self, why: String| InvalidValues::from(Invalid::new(FORMULA, &law.text, why));
@@ -163,13 +160,13 @@ impl Expression {
         self.proven = Proven::default();
         let (start, slope) = self.at(0.0);
         if !start.is_finite() || !slope.is_finite() {
-            let why = "smooth up to v = 0⁺, with a finite value and slope there; of powers of v only whole \
-                       numbers written in the formula are"
+            let why = "smooth up to v = 0⁺, with a finite value and slope there; powers of v are smooth only if the \
+                       exponent is an integer written in the formula"
                 .to_owned();
             return Err(refused(&self, why));
         }
         self.scale = self.scale_of_variation();
-        // Differences of equal terms leave their rounding, which has the size of the terms.
+        // Differences of equal terms leave a rounding error relative to the terms.
         if start < -4.0 * f64::EPSILON {
             let why = format!("≥ 0 at every slip speed; at v = 0⁺ it is {start:.6}");
             return Err(refused(&self, why));
@@ -179,7 +176,7 @@ impl Expression {
         let rounding = 4.0 * f64::EPSILON * level;
         if start > level + rounding {
             let allowed = format!(
-                "at least μ(0⁺) = {start}, where sliding begins: below it stick could never begin"
+                "at least μ(0⁺) = {start}, the coefficient at the onset of sliding: below it the contact could never stick"
             );
             return Err(InvalidValues::from(Invalid::new(STATIC_COEFFICIENT.path, level, allowed)));
         }
@@ -197,8 +194,8 @@ impl Expression {
         self.names.iter().map(String::as_str).zip(self.named.iter().copied())
     }
 
-    /// The same formula, meant for slip speeds up to `speed`, a velocity of the equations; up to a declared multiple of
-    /// the belt's and the dither's speed where it is not given.
+    /// The same formula, intended for slip speeds up to the dimensionless `speed`; by default up to [`MULTIPLE`] times the
+    /// speed of belt and dither.
     ///
     /// # Errors
     /// A speed that is not finite or not above 0.
@@ -210,8 +207,8 @@ impl Expression {
         Ok(Self { maximum, proven: Proven::default(), ..self.clone() })
     }
 
-    /// The same formula, proven finite, smooth and not negative at every slip speed up to `speed`, a velocity of the
-    /// equations. The proof is by interval arithmetic on the tree of the formula.
+    /// The same formula, proven finite, smooth and not negative at every slip speed up to the dimensionless `speed`.
+    /// The proof uses interval arithmetic on the tree of the formula.
     ///
     /// # Errors
     /// Under `friction.coefficient`: the slip at which the formula is negative or not finite, with its value, or at which
@@ -223,19 +220,20 @@ impl Expression {
             return Ok(self.clone());
         }
         if self.proven.0.is_none_or(|proven| proven < speed) {
-            proof::prove(self, speed).map_err(|doubt| {
+            let formula = Formula { tree: &self.tree, named: &self.named };
+            proof::prove(&formula, |speed| self.at(speed), speed).map_err(|doubt| {
                 InvalidValues::from(Invalid::new(FORMULA, &self.text, doubt.to_string()))
             })?;
         }
         Ok(Self { proven: Proven(Some(speed)), ..self.clone() })
     }
 
-    /// Velocity of the equations that one unit of v means.
+    /// Dimensionless velocity of one unit of v.
     pub fn velocity_unit(&self) -> f64 {
         self.velocity_unit
     }
 
-    /// The same formula with v counted in another unit.
+    /// The same formula with v in another unit.
     #[must_use]
     pub fn in_unit(&self, velocity_unit: f64) -> Self {
         Self { velocity_unit, ..self.clone() }
@@ -246,8 +244,8 @@ impl Expression {
         series::at_speed(&self.program, &self.constants, speed)
     }
 
-    /// The speed over which the formula varies near v = 0⁺: the least (|Dᵢ|/|Dⱼ|)^(1/(j−i)) of its
-    /// derivatives from the first that is not zero; v_m for e^(−v/v_m). 1 for a constant.
+    /// The speed over which the formula varies near v = 0⁺: the smallest (|Dᵢ|/|Dⱼ|)^(1/(j−i)) of its
+    /// derivatives, starting from the first nonzero one; v_m for e^(−v/v_m), and 1 for a constant.
     fn scale_of_variation(&self) -> f64 {
         let mut along =
             ExpressionConstants::new(Arc::clone(&self.program), self.constants.clone(), 1.0);
@@ -266,7 +264,8 @@ impl Expression {
         let ratio =
             |from: usize, to: usize| libm::pow(size(from) / size(to), 1.0 / (to - from) as f64);
         let higher = (first + 1..=DERIVATIVES).map(|k| ratio(first, k));
-        let scale = higher.chain([ratio(0, first)]).filter(|it| it.is_finite() && *it > 0.0);
+        let scale =
+            higher.chain([ratio(0, first)]).filter(|scale| scale.is_finite() && *scale > 0.0);
         scale.fold(f64::INFINITY, f64::min).min(f64::MAX.sqrt())
     }
 
@@ -278,7 +277,7 @@ impl Expression {
             let speed = self.scale * libm::exp(0.5 * f64::from(place) - 6.0);
             let (above, below) =
                 (self.at(speed).0, series::at_speed(mirrored, &constants, speed).0);
-            // Beyond its range a formula need not be defined.
+            // A formula need not be defined beyond its range.
             if !(above.is_finite() && below.is_finite()) {
                 continue;
             }
@@ -287,8 +286,8 @@ impl Expression {
             odd &= (above + below).abs() <= close;
             if !even && !odd {
                 return Err(format!(
-                    "the same in both directions of slip; at v = ±{speed:.6} it is {above:.6} and {below:.6}. Where \
-                     the slip speed is meant, write abs(v)"
+                    "the same in both directions of slip; at v = ±{speed:.6} it is {above:.6} and {below:.6}. Write \
+                     abs(v) for the slip speed"
                 ));
             }
         }
@@ -372,7 +371,7 @@ impl LawSeries for Expression {
     type Constants<V: Lane> = ExpressionConstants<V>;
 
     fn constants<V: Lane>(laws: &[Self]) -> ExpressionConstants<V> {
-        // Laws side by side are alike: they have one program.
+        // Laws in lanes are alike: they have the same program.
         let first = &laws[0];
         let constants = (0..first.constants.len())
             .map(|place| side_by_side(laws, |law| law.constants[place]))
@@ -394,9 +393,5 @@ impl LawSeries for Expression {
         w0: V,
     ) -> ExpressionSeries<'_, V, N> {
         constants.start(sign, w0)
-    }
-
-    fn of(friction: &Friction) -> Option<Self> {
-        if let Friction::Expression(law) = friction { Some(law.clone()) } else { None }
     }
 }

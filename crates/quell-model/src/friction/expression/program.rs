@@ -1,15 +1,15 @@
 //! A formula as a list of steps, each of which has a recurrence for its Taylor coefficients.
 //!
-//! What does not depend on v becomes a constant; sums with constants and products by them cost
-//! nothing, for every step takes its arguments as a x + b. The structure depends on the text alone, never
-//! on the value of a constant: runs that differ in those go side by side.
+//! Terms that do not depend on v become constants; adding or multiplying by constants costs
+//! nothing, because every step takes its arguments as a x + b. The structure depends only on the text, never
+//! on the value of a constant, so that runs with different constants can share lanes.
 
 use super::tree::{Function, Tree};
 
-/// Most series that a formula may need.
+/// Maximum number of series of a formula.
 pub(super) const MOST_SLOTS: usize = 32;
 
-/// Powers that are products; others are exp(b log a).
+/// Largest power that is computed by products; others are exp(b log a).
 pub(super) const LARGEST_POWER: f64 = 8.0;
 
 /// a x + b: a series, and the places of a and b in the list of constants.
@@ -44,7 +44,7 @@ pub(super) enum Step {
 }
 
 impl Step {
-    /// Series that it makes.
+    /// Number of series that it computes.
     pub(super) fn slots(self) -> usize {
         match self {
             Self::Tanh(_) | Self::Sine(_) | Self::Atan(_) => 2,
@@ -69,7 +69,7 @@ pub(super) struct Program {
 
 /// A part of the formula while it is compiled.
 #[derive(Clone, Debug)]
-enum Part {
+enum FormulaPart {
     Constant(Tree),
     /// Σ a x + b, the series of different slots with their factors.
     Straight(Vec<(usize, Tree)>, Tree),
@@ -108,8 +108,8 @@ impl Program {
         let mut compiler =
             Compiler { constants: vec![ZERO, ONE], steps: Vec::new(), slots: 1, sign };
         let (terms, offset) = match compiler.part(tree)? {
-            Part::Constant(value) => (Vec::new(), value),
-            Part::Straight(terms, offset) => (terms, offset),
+            FormulaPart::Constant(value) => (Vec::new(), value),
+            FormulaPart::Straight(terms, offset) => (terms, offset),
         };
         let output =
             terms.into_iter().map(|(slot, factor)| (slot, compiler.constant(factor))).collect();
@@ -117,7 +117,7 @@ impl Program {
         let Compiler { constants, steps, slots, .. } = compiler;
         if slots > MOST_SLOTS {
             return Err(format!(
-                "shorter: it needs {slots} series (one a product, a quotient or a function), at most {MOST_SLOTS} are there"
+                "shorter: it needs {slots} series (one per product, quotient or function), and the limit is {MOST_SLOTS}"
             ));
         }
         Ok(Self { constants, steps, output, offset, slots })
@@ -145,10 +145,10 @@ impl Compiler {
         self.constants.len() - 1
     }
 
-    fn argument(&mut self, part: Part) -> Argument {
+    fn argument(&mut self, part: FormulaPart) -> Argument {
         let (terms, offset) = match part {
-            Part::Constant(value) => (Vec::new(), value),
-            Part::Straight(terms, offset) => (terms, offset),
+            FormulaPart::Constant(value) => (Vec::new(), value),
+            FormulaPart::Straight(terms, offset) => (terms, offset),
         };
         let zero = self.constant(ZERO);
         let mut terms = terms.into_iter();
@@ -166,7 +166,7 @@ impl Compiler {
 
     /// Adds a step; its first slot.
     fn step(&mut self, step: Step) -> usize {
-        // The same step twice is one.
+        // Equal steps are shared.
         let mut slot = 1;
         for known in &self.steps {
             if *known == step {
@@ -179,10 +179,10 @@ impl Compiler {
         slot
     }
 
-    fn part(&mut self, tree: &Tree) -> Result<Part, String> {
+    fn part(&mut self, tree: &Tree) -> Result<FormulaPart, String> {
         Ok(match tree {
-            Tree::Number(_) | Tree::Constant(_) => Part::Constant(tree.clone()),
-            Tree::Velocity => Part::Straight(vec![(0, Tree::Number(self.sign))], ZERO),
+            Tree::Number(_) | Tree::Constant(_) => FormulaPart::Constant(tree.clone()),
+            Tree::Velocity => FormulaPart::Straight(vec![(0, Tree::Number(self.sign))], ZERO),
             Tree::Negative(x) => scaled(self.part(x)?, &Tree::Number(-1.0)),
             Tree::Sum(x, y) => {
                 let (x, y) = (self.part(x)?, self.part(y)?);
@@ -211,9 +211,9 @@ impl Compiler {
         })
     }
 
-    fn product(&mut self, x: Part, y: Part) -> Part {
+    fn product(&mut self, x: FormulaPart, y: FormulaPart) -> FormulaPart {
         match (x, y) {
-            (Part::Constant(c), part) | (part, Part::Constant(c)) => scaled(part, &c),
+            (FormulaPart::Constant(c), part) | (part, FormulaPart::Constant(c)) => scaled(part, &c),
             (x, y) => {
                 let (x, y) = (self.argument(x), self.argument(y));
                 alone(self.step(Step::Product(x, y)))
@@ -221,9 +221,11 @@ impl Compiler {
         }
     }
 
-    fn quotient(&mut self, x: Part, y: Part) -> Part {
+    fn quotient(&mut self, x: FormulaPart, y: FormulaPart) -> FormulaPart {
         match (x, y) {
-            (part, Part::Constant(c)) => scaled(part, &Tree::Quotient(Box::new(ONE), Box::new(c))),
+            (part, FormulaPart::Constant(c)) => {
+                scaled(part, &Tree::Quotient(Box::new(ONE), Box::new(c)))
+            }
             (x, y) => {
                 let (x, y) = (self.argument(x), self.argument(y));
                 alone(self.step(Step::Quotient(x, y)))
@@ -231,12 +233,12 @@ impl Compiler {
         }
     }
 
-    fn power(&mut self, x: Part, y: Part) -> Part {
+    fn power(&mut self, x: FormulaPart, y: FormulaPart) -> FormulaPart {
         match (x, y) {
-            (Part::Constant(x), Part::Constant(y)) => {
-                Part::Constant(Tree::Power(Box::new(x), Box::new(y)))
+            (FormulaPart::Constant(x), FormulaPart::Constant(y)) => {
+                FormulaPart::Constant(Tree::Power(Box::new(x), Box::new(y)))
             }
-            (x, Part::Constant(Tree::Number(n)))
+            (x, FormulaPart::Constant(Tree::Number(n)))
                 if n.fract() == 0.0 && n.abs() <= LARGEST_POWER =>
             {
                 #[expect(
@@ -245,9 +247,11 @@ impl Compiler {
                     reason = "a whole number up to LARGEST_POWER"
                 )]
                 let whole = self.whole_power(x, n.abs() as u32);
-                if n < 0.0 { self.quotient(Part::Constant(ONE), whole) } else { whole }
+                if n < 0.0 { self.quotient(FormulaPart::Constant(ONE), whole) } else { whole }
             }
-            (x, Part::Constant(Tree::Number(0.5))) => self.unary(x, Step::Sqrt, Function::Sqrt),
+            (x, FormulaPart::Constant(Tree::Number(0.5))) => {
+                self.unary(x, Step::Sqrt, Function::Sqrt)
+            }
             (x, y) => {
                 let logarithm = self.unary(x, Step::Log, Function::Log);
                 let exponent = self.product(logarithm, y);
@@ -256,9 +260,9 @@ impl Compiler {
         }
     }
 
-    fn whole_power(&mut self, x: Part, n: u32) -> Part {
+    fn whole_power(&mut self, x: FormulaPart, n: u32) -> FormulaPart {
         match n {
-            0 => Part::Constant(ONE),
+            0 => FormulaPart::Constant(ONE),
             1 => x,
             _ => {
                 let half = self.whole_power(x.clone(), n / 2);
@@ -268,19 +272,24 @@ impl Compiler {
         }
     }
 
-    fn unary(&mut self, x: Part, step: fn(Argument) -> Step, function: Function) -> Part {
+    fn unary(
+        &mut self,
+        x: FormulaPart,
+        step: fn(Argument) -> Step,
+        function: Function,
+    ) -> FormulaPart {
         match x {
-            Part::Constant(x) => Part::Constant(Tree::Call(function, Box::new(x))),
-            x @ Part::Straight(..) => {
+            FormulaPart::Constant(x) => FormulaPart::Constant(Tree::Call(function, Box::new(x))),
+            x @ FormulaPart::Straight(..) => {
                 let x = self.argument(x);
                 alone(self.step(step(x)))
             }
         }
     }
 
-    fn call(&mut self, function: Function, x: Part) -> Result<Part, String> {
-        if let Part::Constant(x) = x {
-            return Ok(Part::Constant(Tree::Call(function, Box::new(x))));
+    fn call(&mut self, function: Function, x: FormulaPart) -> Result<FormulaPart, String> {
+        if let FormulaPart::Constant(x) = x {
+            return Ok(FormulaPart::Constant(Tree::Call(function, Box::new(x))));
         }
         Ok(match function {
             Function::Abs | Function::Sign => return directed(function, x),
@@ -300,59 +309,61 @@ impl Compiler {
 }
 
 impl Compiler {
-    /// sech X = 2E/(1 + E²), E = e^(−|X|): no overflow far out.
-    fn sech(&mut self, x: Part) -> Result<Part, String> {
+    /// sech X = 2E/(1 + E²), E = e^(−|X|), which does not overflow for large |X|.
+    fn sech(&mut self, x: FormulaPart) -> Result<FormulaPart, String> {
         let size = directed(Function::Abs, x)?;
         let decay = self.unary(scaled(size, &Tree::Number(-1.0)), Step::Exp, Function::Exp);
         let square = self.product(decay.clone(), decay.clone());
-        let below = combined(square, Part::Constant(ONE));
+        let below = combined(square, FormulaPart::Constant(ONE));
         Ok(self.quotient(scaled(decay, &Tree::Number(2.0)), below))
     }
 }
 
-/// abs and sign of a multiple of v, which has one sign on a branch.
-fn directed(function: Function, x: Part) -> Result<Part, String> {
+/// abs and sign of a multiple of v, whose sign is constant on a branch.
+fn directed(function: Function, x: FormulaPart) -> Result<FormulaPart, String> {
     match x {
-        Part::Straight(terms, offset) if offset == ZERO && terms.len() == 1 && terms[0].0 == 0 => {
+        FormulaPart::Straight(terms, offset) if offset == ZERO && terms.len() == 1 && terms[0].0 == 0 => {
             let factor = Tree::Call(function, Box::new(terms[0].1.clone()));
             Ok(if function == Function::Abs {
-                Part::Straight(vec![(0, factor)], ZERO)
+                FormulaPart::Straight(vec![(0, factor)], ZERO)
             } else {
-                Part::Constant(factor)
+                FormulaPart::Constant(factor)
             })
         }
-        _ => Err("smooth on each side of v = 0: abs, sign and sech take a multiple of v or a \
-                  constant; of anything else they could have a kink elsewhere"
+        _ => Err("smooth on each side of v = 0: the argument of abs, sign and sech must be a multiple of v or a constant, \
+                  because any other argument could have a kink elsewhere"
             .to_owned()),
     }
 }
 
 /// A part times a constant.
-fn scaled(part: Part, by: &Tree) -> Part {
+fn scaled(part: FormulaPart, by: &Tree) -> FormulaPart {
     match part {
-        Part::Constant(value) if *by == Tree::Number(-1.0) => Part::Constant(negative(value)),
-        Part::Constant(value) => Part::Constant(product(value, by.clone())),
-        Part::Straight(terms, offset) => {
+        FormulaPart::Constant(value) if *by == Tree::Number(-1.0) => {
+            FormulaPart::Constant(negative(value))
+        }
+        FormulaPart::Constant(value) => FormulaPart::Constant(product(value, by.clone())),
+        FormulaPart::Straight(terms, offset) => {
             let terms = terms.into_iter().map(|(slot, factor)| (slot, product(factor, by.clone())));
-            Part::Straight(terms.collect(), product(offset, by.clone()))
+            FormulaPart::Straight(terms.collect(), product(offset, by.clone()))
         }
     }
 }
 
-/// A series by itself.
-fn alone(slot: usize) -> Part {
-    Part::Straight(vec![(slot, ONE)], ZERO)
+/// A single series.
+fn alone(slot: usize) -> FormulaPart {
+    FormulaPart::Straight(vec![(slot, ONE)], ZERO)
 }
 
-/// The sum of two parts: no step is needed for it until it becomes an argument.
-fn combined(x: Part, y: Part) -> Part {
+/// The sum of two parts, which needs no step until it is an argument.
+fn combined(x: FormulaPart, y: FormulaPart) -> FormulaPart {
     let (mut terms, offset) = match x {
-        Part::Constant(x) => (Vec::new(), x),
-        Part::Straight(terms, offset) => (terms, offset),
+        FormulaPart::Constant(x) => (Vec::new(), x),
+        FormulaPart::Straight(terms, offset) => (terms, offset),
     };
     let (others, shift) = match y {
-        Part::Constant(y) => (Vec::new(), y),
-        Part::Straight(terms, offset) => (terms, offset),
+        FormulaPart::Constant(y) => (Vec::new(), y),
+        FormulaPart::Straight(terms, offset) => (terms, offset),
     };
     for (slot, factor) in others {
         match terms.iter_mut().find(|(known, _)| *known == slot) {
@@ -361,5 +372,9 @@ fn combined(x: Part, y: Part) -> Part {
         }
     }
     let offset = sum(offset, shift);
-    if terms.is_empty() { Part::Constant(offset) } else { Part::Straight(terms, offset) }
+    if terms.is_empty() {
+        FormulaPart::Constant(offset)
+    } else {
+        FormulaPart::Straight(terms, offset)
+    }
 }

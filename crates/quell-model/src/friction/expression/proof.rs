@@ -1,10 +1,10 @@
 //! Proof that a formula is finite, smooth and not negative over a range of slip speeds.
 //!
 //! Scheme: the formula and its slope are evaluated over an interval of speeds with outward rounding ([`RealInterval`]), on the
-//! tree. Where their bounds prove nothing the interval is halved: a lower bound comes from the formula itself, where the
-//! slope has one sign from an end, else from the mean value. Every halving also evaluates the formula at the middle: what
-//! is negative or not finite there ends the search with the speed and the value. What is still open when the budget ends or
-//! the interval has no middle is refused, with the speed.
+//! tree. If their bounds prove nothing, the interval is halved. A lower bound is taken from one end of the interval if the slope
+//! has one sign, otherwise from the mean-value form. Every halving also evaluates the formula at the midpoint: a negative or
+//! infinite value there ends the search with the speed and the value. If an interval is still open when the budget is used up
+//! or the interval cannot be halved, the formula is rejected, with the speed.
 //!
 //! Cost: a formula of ten terms takes about a microsecond an interval; common laws need one to a hundred of them.
 
@@ -13,19 +13,21 @@ use std::fmt;
 use quell_numerics::interval::RealInterval;
 
 use super::tree::{Function, Tree};
-use super::{Expression, LARGEST};
 
-/// Most intervals of a proof: 20 000 take tens of milliseconds, and a law that needs more falls by more than 10³ within
-/// a thousandth of its range.
+/// Coefficients beyond this are treated as infinite: exponentials are bounded before they overflow.
+const LARGEST: f64 = 1e100;
+
+/// Maximum number of intervals of a proof: 20 000 take tens of milliseconds, and a law that needs more falls by more than 10³
+/// within a thousandth of its range.
 const MOST_INTERVALS: u32 = 20_000;
 
-/// Speeds at which the size of the coefficient is measured, to which its rounding is relative.
+/// Number of speeds at which the size of the coefficient is sampled, as reference for its rounding.
 const MEASURED: u32 = 8;
 
-/// Rounding of the coefficient relative to its size: differences of equal terms leave it.
+/// Rounding of the coefficient relative to its size, left by differences of equal terms.
 const ROUNDING: f64 = 1e-14;
 
-/// Why a formula is refused; speeds in units of v.
+/// Why a formula is rejected; speeds in units of v.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Doubt {
     what: What,
@@ -52,28 +54,32 @@ impl fmt::Display for Doubt {
         match what {
             What::Negative(value) => write!(f, "at v = {speed} it is {}", digits(value))?,
             What::NotFinite => write!(f, "it is not finite and smooth at v = {speed}")?,
-            What::Unproven => write!(f, "that could not be proven at v = {speed}")?,
+            What::Unproven => write!(f, "this could not be proven at v = {speed}")?,
         }
-        f.write_str(" (maximum_velocity says how far the formula is meant)")
+        f.write_str(" (maximum_velocity sets the intended range of the formula)")
     }
 }
 
-/// Nine digits, without zeros that say nothing: enough to name the place of a narrow dip.
+/// Nine digits without trailing zeros: enough to locate a narrow dip.
 fn digits(value: f64) -> String {
     let text = format!("{value:.8e}");
     text.parse::<f64>()
         .map_or(text, |rounded| format!("{rounded:?}").trim_end_matches(".0").to_owned())
 }
 
-/// Proves a formula from rest to `up_to`.
+/// Proves that a formula is finite, smooth and not negative from rest to `up_to`; `at` returns its coefficient and slope at
+/// a speed.
 ///
 /// # Errors
-/// Where it is negative or not finite, or could not be proven.
-pub(super) fn prove(law: &Expression, up_to: f64) -> Result<(), Doubt> {
+/// Where it is negative or not finite, or where the proof failed.
+pub(super) fn prove(
+    formula: &Formula<'_>,
+    at: impl Fn(f64) -> (f64, f64),
+    up_to: f64,
+) -> Result<(), Doubt> {
     let speeds = (0..=MEASURED).map(|k| up_to * f64::from(k) / f64::from(MEASURED));
-    let sizes = speeds.map(|speed| law.at(speed).0.abs()).filter(|size| size.is_finite());
+    let sizes = speeds.map(|speed| at(speed).0.abs()).filter(|size| size.is_finite());
     let allowed = -ROUNDING * sizes.fold(0.0, f64::max);
-    let formula = Formula { tree: &law.tree, named: &law.named };
     let doubt = |what, speed| Doubt { what, speed, up_to };
     let mut open = vec![(0.0, up_to)];
     let mut budget = MOST_INTERVALS;
@@ -87,13 +93,13 @@ pub(super) fn prove(law: &Expression, up_to: f64) -> Result<(), Doubt> {
             return Err(doubt(What::NotFinite, middle));
         };
         if there.value.upper < allowed {
-            return Err(doubt(What::Negative(law.at(middle).0), middle));
+            return Err(doubt(What::Negative(at(middle).0), middle));
         }
-        if there.value.lower > LARGEST || !law.at(middle).1.is_finite() {
+        if there.value.lower > LARGEST || !at(middle).1.is_finite() {
             return Err(doubt(What::NotFinite, middle));
         }
         budget -= 1;
-        // Intervals of a few roundings: halving them proves nothing more.
+        // The interval is a few rounding errors wide: halving it further proves nothing.
         if budget == 0 || to - from <= 8.0 * f64::EPSILON * to {
             return Err(doubt(What::Unproven, middle));
         }
@@ -104,9 +110,9 @@ pub(super) fn prove(law: &Expression, up_to: f64) -> Result<(), Doubt> {
 }
 
 /// A formula with the values of its constants.
-struct Formula<'f> {
-    tree: &'f Tree,
-    named: &'f [f64],
+pub(super) struct Formula<'f> {
+    pub(super) tree: &'f Tree,
+    pub(super) named: &'f [f64],
 }
 
 /// Bounds of a formula and of its slope in v.
@@ -172,7 +178,7 @@ impl Formula<'_> {
             Tree::Quotient(x, y) => of(x)?.over(of(y)?)?,
             Tree::Power(x, y) if !(x.has_velocity() || y.has_velocity()) => {
                 let value = tree.value(self.named);
-                // The platform-free power errs by less than this.
+                // The error of the platform-independent power is below this.
                 constant(RealInterval::point(value) * RealInterval::new(1.0 - 1e-15, 1.0 + 1e-15))
             }
             Tree::Power(x, y) => power(of(x)?, y, of(y)?)?,
@@ -195,7 +201,7 @@ impl Bounded {
     }
 }
 
-/// x^y as the compiled formula takes it: whole numbers written in the formula are products, others e^(y log x).
+/// x^y as the compiled formula evaluates it: integer exponents written in the formula are products, others e^(y log x).
 fn power(x: Bounded, written: &Tree, y: Bounded) -> Option<Bounded> {
     let whole = if let Tree::Number(n) = written { Some(*n) } else { None };
     match whole {

@@ -1,4 +1,4 @@
-//! Taylor coefficients of a formula along a slip, by one bilinear recurrence for every step.
+//! Taylor coefficients of a formula along a slip, by one bilinear recurrence per step.
 //!
 //! With X = a x + b and Y = c y + d each step's series u obeys, for k ≥ 1,
 //!
@@ -18,7 +18,7 @@
 //! | sin X, cos X | a cos; −a sin | | a; −a | j x, the other |
 //! | atan X, q = 1 + X² | a/q₀; q: 2aX₀ | | −1/q₀; a² | j u, q; x, x |
 //!
-//! so that uₖ = u′(w₀)wₖ + (a part of lower orders), as the engine wants it.
+//! so that uₖ = u′(w₀)wₖ + (a part of lower orders), as the engine requires.
 
 use quell_numerics::elementary;
 use quell_numerics::lane::{Lane, half_inner_square, partial_product};
@@ -27,7 +27,7 @@ use super::program::{Argument, MOST_SLOTS, Program, Step};
 use crate::friction::BranchSeries;
 use crate::friction::series::{length_of_change, longest_change};
 
-/// What a slot's recurrence sums.
+/// The sum in the recurrence of a slot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Sum {
     Nothing,
@@ -45,14 +45,14 @@ struct Rule {
     x: usize,
     y: Option<usize>,
     sum: Sum,
-    /// How many times the change of x, times the constant of this place, a step may not exceed.
+    /// Limits a step: the change of x times this factor and the constant with this index must stay bounded.
     guard: Option<(f64, usize)>,
 }
 
 /// α, β, γ of a slot.
 type Coefficients<V> = [V; 3];
 
-/// A slot at the start of a step, and what its recurrence needs.
+/// A slot at the start of a step, with the values for its recurrence.
 #[derive(Clone, Copy, Debug)]
 struct Slot<V> {
     value: V,
@@ -70,12 +70,12 @@ impl<V: Lane> Slot<V> {
     }
 }
 
-/// The slots while they are filled.
-struct Start<'s, V> {
+/// The slots while they are being filled.
+struct SlotFiller<'s, V> {
     slots: &'s mut [Slot<V>],
 }
 
-impl<V: Lane> Start<'_, V> {
+impl<V: Lane> SlotFiller<'_, V> {
     /// Fills every slot from the slip speed in slot 0.
     #[inline(always)]
     fn fill(&mut self, program: &Program, constants: &[V]) {
@@ -98,9 +98,9 @@ impl<V: Lane> Start<'_, V> {
     fn step(&mut self, step: Step, slot: usize, constants: &[V]) {
         let zero = V::splat(0.0);
         let one = V::splat(1.0);
-        let at = |start: &Self, it: Argument| {
-            let factor = constants[it.factor];
-            (factor.mul_add(start.slots[it.slot].value, constants[it.offset]), factor)
+        let at = |start: &Self, argument: Argument| {
+            let factor = constants[argument.factor];
+            (factor.mul_add(start.slots[argument.slot].value, constants[argument.offset]), factor)
         };
         match step {
             Step::Sum(x, y) => {
@@ -165,7 +165,7 @@ impl<V: Lane> Start<'_, V> {
     }
 }
 
-/// Above this the exponential is held at e^709; such a law is refused where it is made.
+/// Above this the exponential is held at e^709; such a law is rejected when it is built.
 const EXP_CEILING: f64 = 709.0;
 
 /// Value and slope of the output per unit of slot 0.
@@ -185,7 +185,7 @@ fn output<V: Lane>(program: &Program, constants: &[V], slots: &[Slot<V>]) -> (V,
 pub(super) fn at_speed(program: &Program, constants: &[f64], speed: f64) -> (f64, f64) {
     let mut slots = [Slot::zero(); MOST_SLOTS];
     (slots[0].value, slots[0].slope) = (speed, 1.0);
-    Start { slots: &mut slots }.fill(program, constants);
+    SlotFiller { slots: &mut slots }.fill(program, constants);
     output(program, constants, &slots)
 }
 
@@ -266,7 +266,7 @@ impl<V: Lane> ExpressionConstants<V> {
         }
         self.slots[0].value = sign * w0 * self.scale;
         self.slots[0].slope = self.scale;
-        Start { slots: &mut self.slots }.fill(&self.program, &self.constants);
+        SlotFiller { slots: &mut self.slots }.fill(&self.program, &self.constants);
         let (first, slope) = output(&self.program, &self.constants, &self.slots);
         // Along scaled slip of this sign; slot 0 is the speed.
         for slot in &mut self.slots {

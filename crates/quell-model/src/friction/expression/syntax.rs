@@ -1,24 +1,24 @@
-//! From the text of a formula to its tree.
+//! Parses the text of a formula into a tree.
 //!
 //! Grammar: numbers, names, `+ − * / ^` with their usual precedence (`^` from the right, before a sign:
-//! −v^2 = −(v²)), parentheses, and functions of one argument. Why a parser of our own: published
-//! ones give values, and the recurrence needs the tree; errors here name the character.
+//! −v^2 = −(v²)), parentheses, and functions of one argument. Existing parser crates return
+//! values, but the recurrence needs the tree, and errors must give the character.
 
 use std::fmt;
 
 use super::tree::{Function, Tree};
 
-/// Most characters of a formula.
+/// Maximum number of characters of a formula.
 pub const LONGEST: usize = 1000;
 
 /// Deepest nesting of parentheses, signs and powers.
 const DEEPEST: usize = 50;
 
-/// Functions that have a kink or a jump of their own.
+/// Functions with kinks or jumps.
 const NOT_SMOOTH: &[&str] =
     &["min", "max", "floor", "ceil", "round", "mod", "if", "step", "heaviside", "clamp"];
 
-/// What is wrong with the text of a formula, and where.
+/// A syntax error in a formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SyntaxError {
     /// Character, counted from 1.
@@ -52,7 +52,7 @@ impl fmt::Display for Token {
     }
 }
 
-/// Whether a name can be that of a constant.
+/// Whether a name is valid for a constant.
 pub fn is_name(name: &str) -> bool {
     let mut letters = name.chars();
     let start = |letter: char| letter.is_ascii_alphabetic() || letter == '_';
@@ -60,7 +60,7 @@ pub fn is_name(name: &str) -> bool {
         && letters.all(|letter| start(letter) || letter.is_ascii_digit())
 }
 
-/// Whether a name already means something in a formula.
+/// Whether a name already has a meaning in a formula.
 pub fn is_taken(name: &str) -> bool {
     name == "v" || name == "pi" || Function::named(name).is_some() || NOT_SMOOTH.contains(&name)
 }
@@ -68,14 +68,14 @@ pub fn is_taken(name: &str) -> bool {
 /// Reads a formula whose constants have these names.
 pub(super) fn parse(text: &str, names: &[&str]) -> Result<Tree, SyntaxError> {
     if text.chars().count() > LONGEST {
-        let what = format!("the formula goes on beyond {LONGEST} characters");
+        let what = format!("the formula is longer than {LONGEST} characters");
         return Err(SyntaxError { character: LONGEST, what });
     }
     let mut parser = Parser { tokens: tokens(text)?, at: 0, depth: 0, names };
     let tree = parser.sum()?;
     match parser.peek() {
         Token::End => Ok(tree),
-        other => Err(parser.wrong(format!("an operator (+ - * / ^) was expected, not {other}"))),
+        other => Err(parser.wrong(format!("expected an operator (+ - * / ^), found {other}"))),
     }
 }
 
@@ -106,7 +106,7 @@ fn tokens(text: &str) -> Result<Vec<(usize, Token)>, SyntaxError> {
             let number = written.parse::<f64>().ok().filter(|number| number.is_finite());
             Token::Number(number.ok_or_else(|| SyntaxError {
                 character: first + 1,
-                what: format!("{written} is no finite number"),
+                what: format!("{written} is not a finite number"),
             })?)
         } else if letter.is_ascii_alphabetic() || letter == '_' {
             at = run(at, &|letter| letter.is_ascii_alphanumeric() || letter == '_');
@@ -117,9 +117,9 @@ fn tokens(text: &str) -> Result<Vec<(usize, Token)>, SyntaxError> {
         } else {
             let hint = match letter {
                 '|' => "write abs(v) for |v|".to_owned(),
-                ',' => "functions here have one argument, and numbers a decimal point".to_owned(),
-                '−' | '–' => "the sign is written - (a plain hyphen)".to_owned(),
-                '·' | '×' => "a product is written *".to_owned(),
+                ',' => "functions take one argument, and numbers use a decimal point".to_owned(),
+                '−' | '–' => "use - (a plain hyphen) as the minus sign".to_owned(),
+                '·' | '×' => "use * for a product".to_owned(),
                 other => format!("“{other}” has no meaning in a formula"),
             };
             return Err(SyntaxError { character: first + 1, what: hint });
@@ -172,7 +172,7 @@ impl Parser<'_> {
         loop {
             if self.take('*') {
                 if self.peek() == Token::Mark('*') {
-                    return Err(self.wrong("a power is written ^"));
+                    return Err(self.wrong("use ^ for a power"));
                 }
                 tree = Tree::Product(Box::new(tree), Box::new(self.signed()?));
             } else if self.take('/') {
@@ -218,20 +218,19 @@ impl Parser<'_> {
                 self.at += 1;
                 self.closed()
             }
-            other => Err(self.wrong(format!(
-                "a number, v, a name, a function or “(” was expected, not {other}"
-            ))),
+            other => Err(self
+                .wrong(format!("expected a number, v, a name, a function or “(”, found {other}"))),
         }
     }
 
-    /// What stands between an opening parenthesis, already taken, and its end.
+    /// The expression after an opening parenthesis, which is already consumed, up to the closing one.
     fn closed(&mut self) -> Result<Tree, SyntaxError> {
         let tree = self.sum()?;
         if self.take(')') {
             return Ok(tree);
         }
         let other = self.peek();
-        Err(self.wrong(format!("“)” or an operator (+ - * / ^) was expected, not {other}")))
+        Err(self.wrong(format!("expected “)” or an operator (+ - * / ^), found {other}")))
     }
 
     fn named(&mut self, name: &str) -> Result<Tree, SyntaxError> {
@@ -245,7 +244,7 @@ impl Parser<'_> {
         }
         let tree = if NOT_SMOOTH.contains(&name) {
             return Err(self.wrong(format!(
-                "{name} has kinks or jumps, each of which would be an event of its own: use smooth \
+                "{name} has kinks or jumps, which would need event detection: use smooth \
                  functions (exp, tanh, sqrt, …)"
             )));
         } else if let Some(index) = self.names.iter().position(|known| *known == name) {
@@ -257,7 +256,7 @@ impl Parser<'_> {
         } else {
             let functions: Vec<&str> = Function::NAMES.iter().map(|(name, _)| *name).collect();
             let constants = match self.names {
-                [] => "no constant is given in [friction.constants]".to_owned(),
+                [] => "no constants are given in [friction.constants]".to_owned(),
                 names => format!("constants are {}", names.join(", ")),
             };
             return Err(self.wrong(format!(
@@ -266,7 +265,7 @@ impl Parser<'_> {
             )));
         };
         if called {
-            return Err(self.wrong(format!("{name} is no function; a product needs its *")));
+            return Err(self.wrong(format!("{name} is not a function; write a product with *")));
         }
         self.at += 1;
         Ok(tree)
@@ -305,7 +304,7 @@ mod tests {
     fn errors_name_the_character() {
         for (text, character, part) in [
             ("0.3 + ", 7, "the end"),
-            ("0.3 + )", 7, "not “)”"),
+            ("0.3 + )", 7, "found “)”"),
             ("0.3 0.1", 5, "an operator"),
             ("(0.3", 5, "“)”"),
             ("0.3*|v|", 5, "abs(v)"),
@@ -315,9 +314,9 @@ mod tests {
             ("b*v", 1, "constants are a"),
             ("exp v", 1, "exp(…)"),
             ("2(v)", 2, "an operator"),
-            ("a(v)", 1, "no function"),
+            ("a(v)", 1, "not a function"),
             ("1e999", 1, "finite"),
-            ("v**2", 3, "written ^"),
+            ("v**2", 3, "use ^"),
             ("", 1, "the end"),
         ] {
             let error = parse(text, &["a"]).expect_err(text);

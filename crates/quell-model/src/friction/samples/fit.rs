@@ -1,4 +1,4 @@
-//! One smooth approximant of measured friction: a sum of decaying exponentials,
+//! A smooth approximant of measured friction: a sum of decaying exponentials,
 //!
 //! ```text
 //! μ(u) = c + Σ aᵢ e^(−u/sᵢ),   s₁ < … < sₙ in equal ratios,   n ≤ 4
@@ -6,45 +6,45 @@
 //!
 //! Scheme: for given decay lengths the coefficients are linear least squares; the first and the last decay
 //! length are found by a grid and a compass search on the sum of squares (variable projection, Golub and
-//! Pereyra 1973). Of n = 1…4 the one with the least error at left-out samples is taken, fewer terms where
-//! more bring less than a tenth. Where the fit would start above a given static level it is pinned to it.
+//! Pereyra 1973). The n = 1…4 with the smallest error at left-out samples is chosen, with fewer terms if
+//! more reduce the error by less than a tenth. If the fit would start above a given static level, it is pinned to that level.
 //!
 //! Why exponentials and not Chebyshev polynomials or a rational function: they are bounded by construction,
-//! fit falls and rises alike, have no poles, and a law is one recurrence a term. Beyond the largest sampled
-//! speed the trend dies out over that speed once more, towards the constant c (no decay length is longer);
-//! below the smallest, no decay length is shorter than that speed. Measured: (2.8) is found again to 10⁻¹³; a Gaussian
-//! with a viscous part to 1 % of its fall; the cubic (2.7) up to 1.5 v_m to 1.2·10⁻³, to 1.5·10⁻² were no length
-//! longer than half the range, and to 2.5·10⁻⁴ with lengths of twice the range, but then it runs up to μ = 11 beyond.
+//! fit both falls and rises, have no poles, and need one recurrence per term. Beyond the largest sampled
+//! speed the trend decays towards the constant c over another interval of that length (no decay length is longer);
+//! no decay length is shorter than the smallest sampled speed. Measured: (2.8) is recovered to 10⁻¹³; a Gaussian
+//! with a viscous part to 1 % of its fall; the cubic (2.7) up to 1.5 v_m to 1.2·10⁻³. The latter would be 1.5·10⁻² with decay
+//! lengths up to half the range, and 2.5·10⁻⁴ with lengths up to twice the range, but then it rises to μ = 11 beyond.
 
 use std::fmt::Write as _;
 
 use quell_numerics::least_squares::least_squares;
 
-/// Most terms; more cost speed and follow noise.
+/// Maximum number of terms; more terms are slower and fit noise.
 pub const MOST_TERMS: usize = 4;
 
-/// Least number of samples at different speeds.
+/// Minimum number of distinct speeds.
 pub const FEWEST: usize = 5;
 
-/// Shortest decay length in units of the largest speed, where samples are that close to rest.
+/// Shortest decay length in units of the largest speed, if samples are that close to rest.
 const SHORTEST: f64 = 1.0 / 500.0;
 
 /// Longest decay length in units of the largest speed.
 const LONGEST: f64 = 1.0;
 
-/// Least ratio of neighbouring decay lengths: closer ones are hardly told apart by samples, and their terms cancel.
+/// Least ratio of neighbouring decay lengths: closer ones can hardly be distinguished from samples, and their terms cancel.
 const LEAST_RATIO: f64 = 1.5;
 
-/// Places of the grid along each decay length.
+/// Number of grid points along each decay length.
 const GRID: usize = 20;
 
 /// Halvings of the compass search.
 const HALVINGS: u32 = 36;
 
-/// More terms must bring at least this.
+/// A further term must reduce the error to less than this fraction.
 const WORTH_A_TERM: f64 = 0.9;
 
-/// An error at left-out samples, relative to the coefficients, that needs no more terms.
+/// An error at left-out samples, relative to the coefficients, below which no more terms are added.
 const EXACT: f64 = 1e-9;
 
 /// The approximant with its error over the samples.
@@ -60,7 +60,7 @@ pub struct Fit {
     pub rms_error: f64,
     /// The same at samples that were left out, one at a time.
     pub left_out_error: f64,
-    /// Whether μ(0⁺) was held at the static level.
+    /// Whether μ(0⁺) was fixed at the static level.
     pub pinned: bool,
     /// Number of samples.
     pub samples: usize,
@@ -87,7 +87,7 @@ impl Fit {
 }
 
 /// Fits samples (speed ≥ 0, coefficient), checked already, with `terms` terms or the best number.
-/// `None` where no fit is determined by them.
+/// `None` if the samples do not determine a fit.
 pub(super) fn fit(
     samples: &[(f64, f64)],
     static_coefficient: Option<f64>,
@@ -119,7 +119,7 @@ pub(super) fn fit(
 struct Problem<'s> {
     samples: &'s [(f64, f64)],
     count: usize,
-    /// μ(0⁺), where it is held.
+    /// The fixed value of μ(0⁺), if any.
     pin: Option<f64>,
 }
 
@@ -174,7 +174,7 @@ impl Problem<'_> {
     }
 
     fn solved(&self) -> Option<Fit> {
-        // Lengths are numbers too: two of them, or one.
+        // The decay lengths count as one or two unknowns.
         let numbers = self.count + self.count.min(2) + usize::from(self.pin.is_none());
         if numbers > self.samples.len() {
             return None;

@@ -1,11 +1,11 @@
-//! A law from measured samples of slip speed and coefficient, the static level apart.
+//! A law from measured samples of slip speed and coefficient, with a separate static level.
 //!
-//! The samples are replaced by one smooth approximant ([`Fit`]), never by a spline: each of its knots
+//! The samples are replaced by one smooth approximant ([`Fit`]), never by a spline, because each knot
 //! would be an event. The approximant is a formula, and the law is that formula ([`Expression`]): it
-//! has the same values, derivatives and lanes, and its text can be used as one.
+//! has the same values, derivatives and lanes, and its text can be used as a formula.
 //!
-//! Limits: friction is odd here, both directions of slip share one curve; samples at negative
-//! slip are refused.
+//! Limits: friction is assumed odd, with one curve for both directions of slip; samples at negative
+//! slip are rejected.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use quell_numerics::lane::Lane;
 use super::expression::{ExpressionConstants, ExpressionSeries};
 use super::numeric::not_a_number_of;
 use super::{
-    Expression, Friction, LawParameters, LawSeries, RangeLimit, SlidingLaw, SlipRange, Surroundings,
+    Expression, LawParameters, LawSeries, RangeLimit, SlidingLaw, SlipRange, Surroundings,
 };
 use crate::parameter::{Parameter, STATIC_COEFFICIENT};
 use crate::{Invalid, InvalidValues};
@@ -32,14 +32,14 @@ pub const COEFFICIENTS: &str = "friction.coefficient";
 /// Path of the number of terms in a study file.
 pub const TERMS: &str = "friction.terms";
 
-/// What is wrong with the formula of a fit, said of its samples.
+/// Restates the errors of the formula of a fit for its samples.
 fn of_samples(wrong: InvalidValues) -> InvalidValues {
     let said = |invalid: Invalid| {
         if invalid.key == STATIC_COEFFICIENT.path {
             return invalid;
         }
         let allowed = format!(
-            "samples whose fit is {}; give more samples, or another number of terms",
+            "samples whose fit is {}; give more samples, or a different number of terms",
             invalid.allowed
         );
         Invalid::new(COEFFICIENTS, invalid.value, allowed)
@@ -55,13 +55,13 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// From samples (slip speed, coefficient) in any order, the static level (μ(0⁺) of the fit where it
-    /// is not given), the number of terms (the best of 1…[`MOST_TERMS`] where it is not given), and the
-    /// velocity of the equations that one unit of the speeds means.
+    /// From samples (slip speed, coefficient) in any order, the static level (μ(0⁺) of the fit if
+    /// not given), the number of terms (the best of 1…[`MOST_TERMS`] if not given), and the
+    /// dimensionless velocity of one unit of the speeds.
     ///
     /// # Errors
-    /// Samples that are not finite or negative, by their places; fewer than [`FEWEST`] different speeds;
-    /// samples that no fit is determined by, or whose fit is negative somewhere.
+    /// Samples that are not finite or negative, by index; fewer than [`FEWEST`] distinct speeds;
+    /// samples that do not determine a fit, or whose fit is negative somewhere.
     pub fn new(
         samples: &[(f64, f64)],
         static_coefficient: Option<f64>,
@@ -71,8 +71,8 @@ impl Samples {
         let mut complaints: Vec<Invalid> = Vec::new();
         for (index, (speed, coefficient)) in samples.iter().enumerate() {
             if !(speed.is_finite() && *speed >= 0.0) {
-                let allowed = "a slip speed, finite and ≥ 0: friction is the same in both directions of slip here; \
-                               samples of one direction make one law";
+                let allowed = "a finite slip speed ≥ 0: friction is assumed equal in both directions of slip, so give \
+                               samples of one direction";
                 complaints.push(Invalid::new(format!("{SPEEDS}[{index}]"), speed, allowed));
             }
             if !(coefficient.is_finite() && *coefficient >= 0.0) {
@@ -94,11 +94,12 @@ impl Samples {
         speeds.sort_by(f64::total_cmp);
         speeds.dedup();
         if speeds.len() < FEWEST {
-            let allowed = format!("samples at {FEWEST} different speeds or more");
+            let allowed = format!("at least {FEWEST} distinct speeds");
             return Err(InvalidValues::from(Invalid::new(SPEEDS, speeds.len(), allowed)));
         }
         let fit = fit::fit(samples, static_coefficient, terms).ok_or_else(|| {
-            let allowed = "fewer, or more samples: these do not determine the fit";
+            let allowed =
+                "a smaller number of terms, or give more samples: these do not determine the fit";
             InvalidValues::from(Invalid::new(TERMS, terms.unwrap_or(1), allowed))
         })?;
         Self::of_fit(fit, static_coefficient, velocity_unit)
@@ -113,7 +114,7 @@ impl Samples {
         static_coefficient: Option<f64>,
         velocity_unit: f64,
     ) -> Result<Self, InvalidValues> {
-        // A pinned fit starts at the level but for rounding.
+        // A pinned fit starts at the level up to rounding.
         let level =
             static_coefficient.map(|level| if fit.pinned { level.max(fit.start()) } else { level });
         let curve = Expression::new(&fit.formula(), &[], level, velocity_unit)
@@ -132,7 +133,7 @@ impl Samples {
         &self.curve
     }
 
-    /// The same law with speeds counted in another unit.
+    /// The same law with speeds in another unit.
     #[must_use]
     pub fn in_unit(&self, velocity_unit: f64) -> Self {
         Self { curve: self.curve.in_unit(velocity_unit), fit: Arc::clone(&self.fit) }
@@ -162,7 +163,7 @@ impl LawParameters for Samples {
 }
 
 impl SlidingLaw for Samples {
-    /// Slip beyond the samples is warned of; the fit's trend is proven there all the same.
+    /// Slip beyond the samples causes a warning; the trend of the fit is proven there as well.
     fn placed(&self, surroundings: &Surroundings) -> Result<Self, InvalidValues> {
         let data = self.fit.range.1 * self.curve.velocity_unit();
         let speed = data.max(super::expression::MULTIPLE * surroundings.slip);
@@ -214,9 +215,5 @@ impl LawSeries for Samples {
         w0: V,
     ) -> ExpressionSeries<'_, V, N> {
         Expression::series(constants, sign, w0)
-    }
-
-    fn of(friction: &Friction) -> Option<Self> {
-        if let Friction::Samples(law) = friction { Some(law.clone()) } else { None }
     }
 }

@@ -1,4 +1,4 @@
-//! `[response]`: optional; the band in which a level is asked for.
+//! `[response]`: optional; the band in which a vibration level is requested.
 
 use quell_model::parameter::Bounds;
 use quell_model::units::Quantity;
@@ -11,8 +11,8 @@ use crate::study::vocabulary::Section;
 const BAND: &str = "response.band";
 const BAND_HZ: &str = "response.band_hz";
 
-/// Reads `[response]`: the ends of the band in ω₀, `None` without one; nothing where it is wrong.
-#[expect(clippy::option_option, reason = "wrong, absent, there")]
+/// Reads `[response]`: the ends of the band in ω₀, `Some(None)` without a band, `None` if it is invalid.
+#[expect(clippy::option_option, reason = "invalid, absent, given")]
 pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Option<[f64; 2]>> {
     let Some(node) = root.get("response") else { return Some(None) };
     let table = reader.table("response", node)?;
@@ -22,7 +22,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Option<[f64; 2]>
         (Some(node), None) => Some(Some(ends(reader, BAND, node, "ω₀")?)),
         (None, Some(node)) => in_hertz(reader, node).map(Some),
         (Some(_), Some(node)) => {
-            let allowed = format!("say either {BAND} or {BAND_HZ}, not both");
+            let allowed = format!("give either {BAND} or {BAND_HZ}, not both");
             let complaint =
                 Complaint::new(Fault::Conflict, BAND_HZ, node.origin, node.given(), allowed);
             reader.complain(complaint);
@@ -34,7 +34,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Option<[f64; 2]>
 fn in_hertz(reader: &mut Reader, node: &Node) -> Option<[f64; 2]> {
     if !reader.is_si() {
         let allowed =
-            format!("this study is dimensionless, {BAND_HZ} is in SI: give {BAND}, in ω₀");
+            format!("the study is dimensionless, but {BAND_HZ} is in SI: use {BAND}, in ω₀");
         let complaint = Complaint::new(Fault::Mixed, BAND_HZ, node.origin, node.given(), allowed);
         reader.complain(complaint.suggesting(Some(BAND.to_owned())));
         return None;
@@ -44,15 +44,15 @@ fn in_hertz(reader: &mut Reader, node: &Node) -> Option<[f64; 2]> {
     Some(ends.map(|end| scales.from_si(Quantity::FrequencyRatio, end)))
 }
 
-/// Two frequencies in rising order.
+/// Two frequencies in ascending order.
 fn ends(reader: &mut Reader, key: &str, node: &Node, unit: &str) -> Option<[f64; 2]> {
     let Value::List(list) = &node.value else {
-        let allowed = format!("a list of two frequencies in {unit}; this is {}", node.kind());
+        let allowed = format!("an array of two frequencies in {unit}, got {}", node.kind());
         reader.wrong(key, node, allowed);
         return None;
     };
     let [low, high] = list.as_slice() else {
-        let allowed = format!("two frequencies in {unit}; these are {}", list.len());
+        let allowed = format!("two frequencies in {unit}, got {}", list.len());
         reader.wrong(key, node, allowed);
         return None;
     };

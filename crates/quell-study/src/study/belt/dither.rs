@@ -7,7 +7,7 @@ use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::{Choice, Section};
 
-/// Reads every dither; `None` where one of them is wrong.
+/// Reads every dither; `None` if one of them is invalid.
 pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Dither>> {
     let Some(node) = root.get("dither") else {
         return Some(Vec::new());
@@ -30,7 +30,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Dither>> {
             reader.wrong(
                 "dither",
                 node,
-                format!("a table [dither] or tables [[dither]]; this is {}", node.kind()),
+                format!("a table [dither] or tables [[dither]]; got {}", node.kind()),
             );
             None
         }
@@ -39,7 +39,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Dither>> {
 
 fn one(reader: &mut Reader, node: &Node, prefix: &str) -> Option<Dither> {
     let Some(table) = node.table() else {
-        reader.wrong(prefix, node, format!("a table; this is {}", node.kind()));
+        reader.wrong(prefix, node, format!("a table; got {}", node.kind()));
         return None;
     };
     reader.unknown_keys(table, Section::Dither, prefix, &[]);

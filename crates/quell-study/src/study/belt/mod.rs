@@ -15,10 +15,10 @@ use quell_model::parameter::NORMAL_LOAD;
 use quell_model::units::{Quantity, Scales};
 use quell_model::{Belt, Dither, Friction, LawKind};
 
+use super::StudyOf;
 use super::document::Table;
-use super::kind::not_of_a_belt;
 use super::reader::Reader;
-use super::{Given, StudyKind, StudyOf};
+use super::study_kind::{Given, StudyKind, not_of_a_belt};
 
 pub use friction::Measured;
 use table::BeltTable;
@@ -26,7 +26,7 @@ use table::BeltTable;
 /// A checked study of a belt.
 pub type BeltStudy = StudyOf<BeltSetup>;
 
-/// What only the study of a belt has.
+/// The parts of a study that only a belt has.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BeltSetup {
     belt: Belt,
@@ -53,8 +53,9 @@ impl StudyKind for BeltSetup {
         }
         let mut belt = table::read(reader, document);
         let known = given.known.and_then(|setup| setup.measured.as_deref());
-        let place = friction::Given { folder: given.folder, known, normal_load: belt.normal_load };
-        let friction = friction::read(reader, document, place);
+        let context =
+            friction::LawContext { folder: given.folder, known, normal_load: belt.normal_load };
+        let friction = friction::read(reader, document, context);
         let dithers = dither::read(reader, document);
         if let Some(load) = friction.as_ref().and_then(|read| read.own_load) {
             belt.normal_load = Some(load);
@@ -97,7 +98,7 @@ impl BeltStudy {
         &self.kind().belt
     }
 
-    /// Where a run starts.
+    /// Initial state of a run.
     pub fn initial(&self) -> InitialState {
         self.kind().initial
     }
@@ -123,8 +124,8 @@ impl BeltStudy {
     }
 }
 
-/// Puts the belt together. Where something was already complained about a stand-in takes its place, so that relations
-/// between the other values are checked at the same time.
+/// Builds the belt. A value already reported as invalid is replaced by a placeholder, so that relations between the other
+/// values are checked at the same time.
 fn build(
     reader: &mut Reader,
     table: BeltTable,
@@ -148,8 +149,8 @@ fn build(
                     complaint.key.starts_with("dither") && complaint.key.ends_with(".amplitude");
                 if let Some(newtons) = newtons.filter(|_| amplitude) {
                     complaint.allowed = format!(
-                        "such that the peaks of normal dither together stay at most {} = {newtons} N: more would pull \
-                         the contact apart, which this model does not describe",
+                        "such that the sum of the normal dither peaks is at most {} = {newtons} N: more would pull the \
+                         contact apart, which this model does not describe",
                         NORMAL_LOAD.si.first().map_or(NORMAL_LOAD.path, |twin| twin.key)
                     );
                 }

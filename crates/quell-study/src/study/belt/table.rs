@@ -1,17 +1,18 @@
 //! `[belt]` and `[belt.initial]`.
 
+use quell_dynamics::start::InitialState;
 use quell_model::parameter::{
     BELT_VELOCITY, DAMPING_RATIO, INITIAL_DISPLACEMENT, INITIAL_VELOCITY, NORMAL_LOAD,
 };
 use serde_json::Value as Json;
 
-use super::{InitialState, friction};
+use super::friction;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table};
 use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::{Choice, Section};
 
-/// Numbers of `[belt]`, each where it was right.
+/// Numbers of `[belt]`; `None` where a value is invalid.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct BeltTable {
     pub(super) damping_ratio: Option<f64>,
@@ -23,7 +24,8 @@ pub(super) struct BeltTable {
 /// Reads `[belt]`.
 pub(super) fn read(reader: &mut Reader, root: &Table) -> BeltTable {
     let Some(node) = root.get("belt") else {
-        let allowed = "a table [belt] with damping_ratio, normal_load, belt_velocity (or in SI)";
+        let allowed =
+            "a table [belt] with damping_ratio, normal_load, belt_velocity (or their SI keys)";
         reader.complain(Complaint::new(Fault::Missing, "belt", Origin::Whole, Json::Null, allowed));
         return BeltTable::default();
     };
@@ -33,7 +35,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> BeltTable {
     reader.unknown_keys(table, Section::Belt, "belt", &["initial"]);
     let mut number = |parameter| reader.number(table, "belt", node.origin, parameter);
     let (damping_ratio, belt_velocity) = (number(DAMPING_RATIO), number(BELT_VELOCITY));
-    // Friction in newtons may stand for the normal force.
+    // With friction in newtons the normal force may be omitted.
     let normal_load = match reader.optional(table, "belt", NORMAL_LOAD, None) {
         Found::Absent if friction::in_newtons(reader, root) => None,
         Found::Absent => reader.number(table, "belt", node.origin, NORMAL_LOAD),
@@ -64,7 +66,7 @@ fn initial(reader: &mut Reader, node: &Node) -> Option<InitialState> {
     };
     let name = reader.choice("belt.initial.state", state, Choice::State);
     if numbers {
-        let allowed = "say either a named state or displacement and velocity, not both";
+        let allowed = "give either a named state or displacement and velocity, not both";
         let key = "belt.initial.state";
         reader.complain(Complaint::new(Fault::Conflict, key, state.origin, state.given(), allowed));
         return None;

@@ -1,4 +1,4 @@
-//! `[disc]` itself: its modes, its loads, and the parts of the equations that are left out.
+//! The table `[disc]`: its modes, its loads, and the contributions to the equations that are omitted.
 
 use std::path::Path;
 
@@ -16,7 +16,7 @@ use super::modes::{self, ModeSource};
 use super::{loads, plate};
 use crate::complaint::Origin;
 
-/// What `[disc]` says.
+/// The contents of `[disc]`.
 pub(super) struct Body {
     pub(super) source: ModeSource,
     pub(super) material: Option<PlateMaterial>,
@@ -44,7 +44,7 @@ impl Body {
         let metal = material.as_ref().and_then(|given| given.as_ref().map(|(metal, _)| metal));
         let scales = match (&source, &material) {
             (Some(source), Some(_)) => scales(source, metal),
-            // What is wrong was complained about: the loads are judged all the same.
+            // The error has been reported already; the loads are still checked.
             _ => LoadScales { disc: Some(UNIT), outer_radius_m: Some(1.0) },
         };
         let pads = loads::read(reader, table, scales);
@@ -64,11 +64,11 @@ impl Body {
     }
 }
 
-/// Scales that stand in for unknown ones.
+/// Placeholder for unknown scales.
 const UNIT: DiscScales =
     DiscScales { reference_hz: 1.0, plate_mass_kg: Some(1.0), load_radius_m: Some(1.0) };
 
-/// What turns the numbers of a disc into SI.
+/// Scales that convert the numbers of a disc to SI.
 pub(super) fn scales(source: &ModeSource, material: Option<&PlateMaterial>) -> LoadScales {
     let plate = match source {
         ModeSource::Plate(plate) => Some(&plate.plate),

@@ -12,7 +12,7 @@ use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::Section;
 
-/// What turns the numbers of loads into SI, each at its own radius.
+/// Scales that convert the numbers of loads to SI, each at its own radius.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LoadScales {
     /// Scales of the disc; `None` where they are not known.
@@ -29,7 +29,7 @@ impl LoadScales {
     }
 }
 
-/// A load with what the file says about its place.
+/// A load with its position in the study file.
 #[derive(Clone, Debug)]
 pub(super) struct Pad {
     pub(super) load: Load,
@@ -43,7 +43,7 @@ pub(super) struct Pad {
     pub(super) origin: Origin,
 }
 
-/// Reads every load; none is a free disc.
+/// Reads every load; a disc without loads is free.
 pub(super) fn read(reader: &mut Reader, disc: &Table, scales: LoadScales) -> Option<Vec<Pad>> {
     let Some(node) = disc.get("load") else { return Some(Vec::new()) };
     let pads: Vec<Option<Pad>> = match &node.value {
@@ -62,7 +62,8 @@ pub(super) fn read(reader: &mut Reader, disc: &Table, scales: LoadScales) -> Opt
     if let Some(((first, _), path)) = speeds.next() {
         for ((speed, origin), other) in speeds {
             if speed != first {
-                let allowed = format!("{first}, as {path}.speed: the loads turn together");
+                let allowed =
+                    format!("must equal {path}.speed = {first}: all loads rotate together");
                 let key = format!("{other}.speed");
                 reader.complain(Complaint::new(Fault::Conflict, key, origin, speed, allowed));
                 return None;

@@ -5,6 +5,7 @@
 
 mod body;
 mod loads;
+mod mode_line;
 mod modes;
 mod modes_file;
 mod plate;
@@ -20,10 +21,11 @@ use quell_model::units::DiscScales;
 use quell_model::{Direction, Disc};
 use serde_json::Value as Json;
 
+use super::StudyOf;
 use super::document::{Table, Value};
 use super::reader::{Found, Reader};
+use super::study_kind::{Given, StudyKind};
 use super::vocabulary::{self, Choice, Role, join};
-use super::{Given, StudyKind, StudyOf};
 use crate::complaint::{Complaint, Fault, Origin};
 
 pub use modes::{Listed, ModeSource};
@@ -34,7 +36,7 @@ use body::Body;
 /// A checked study of a disc.
 pub type DiscStudy = StudyOf<DiscSetup>;
 
-/// What only the study of a disc has.
+/// The parts of a study that only a disc has.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiscSetup {
     disc: Disc,
@@ -42,7 +44,7 @@ pub struct DiscSetup {
     plate: Arc<PlateSetup>,
 }
 
-/// What most points of a map share.
+/// The parts that most points of a map share.
 #[derive(Clone, Debug, PartialEq)]
 struct PlateSetup {
     source: ModeSource,
@@ -63,8 +65,9 @@ impl StudyKind for DiscSetup {
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
         for name in ["belt", "friction", "solver"] {
             if let Some(node) = document.get(name) {
-                let allowed =
-                    format!("a study is of a belt or of a disc; [{name}] is about a belt");
+                let allowed = format!(
+                    "a study describes either a belt or a disc; [{name}] belongs to a belt"
+                );
                 let complaint =
                     Complaint::new(Fault::Conflict, name, node.origin, Json::Null, allowed);
                 reader.complain(complaint);
@@ -90,7 +93,7 @@ impl StudyKind for DiscSetup {
                 plate: Arc::new(PlateSetup { source, material, radii, warnings }),
             }),
             Err(invalid) => {
-                // The reader knows where most numbers were written; for the others the key has to do.
+                // The reader knows where most numbers were written; the others are reported by key alone.
                 reader.adopt(invalid.clone());
                 if reader.complaints_so_far() == 0 {
                     for wrong in invalid {
@@ -136,8 +139,8 @@ impl DiscSetup {
 }
 
 impl DiscStudy {
-    /// The disc at one point of a map, the same as that of [`StudyOf::at`]: without reading the study again where
-    /// the numbers are ones of the equations. `None` where they make no valid study.
+    /// The disc at one point of a map, the same as that of [`StudyOf::at`], but without reading the study again if
+    /// the numbers are dimensionless. `None` if they do not give a valid study.
     pub fn disc_at(&self, numbers: &[(&str, f64)]) -> Option<Disc> {
         let disc = self.disc();
         let direct = |path: &str| {
@@ -162,7 +165,7 @@ impl DiscStudy {
         &self.kind().disc
     }
 
-    /// The contributions that are left.
+    /// The contributions that are switched on.
     pub fn parts(&self) -> Contributions {
         self.kind().parts
     }
@@ -188,17 +191,17 @@ impl DiscStudy {
         &self.kind().plate.radii
     }
 
-    /// What a reader of the results should know.
+    /// Warnings about the study.
     pub fn warnings(&self) -> &[String] {
         &self.kind().plate.warnings
     }
 
-    /// Hertz of a frequency of one ω_ref, where material or listed frequencies tell it.
+    /// ω_ref in hertz, if the material or listed frequencies determine it.
     pub fn reference_hz(&self) -> Option<f64> {
         self.kind().plate.source.reference_hz(self.kind().plate.material.as_ref())
     }
 
-    /// What turns numbers of the equations into SI at a load, where the study says enough.
+    /// Scales that convert dimensionless numbers to SI at a load, if the study determines them.
     pub fn scales(&self, load: usize) -> Option<DiscScales> {
         self.kind().disc.scales(load)
     }
@@ -242,7 +245,11 @@ fn dither(reader: &mut Reader, document: &Table) -> Option<DiscDither> {
         Some(node) => match reader.choice("dither.waveform", node, Choice::Waveform) {
             Some("sine") => Some("sine"),
             Some(_) => {
-                reader.wrong("dither.waveform", node, "\"sine\", the waveform of a disc's dither");
+                reader.wrong(
+                    "dither.waveform",
+                    node,
+                    "\"sine\", the only waveform for the dither of a disc",
+                );
                 None
             }
             None => None,

@@ -1,4 +1,4 @@
-//! Modes of a disc: computed, listed, or read from a file; and how the loads meet them.
+//! Modes of a disc: computed, listed, or read from a file; and their shapes at the loads.
 
 use std::path::{Path, PathBuf};
 
@@ -10,6 +10,7 @@ use quell_model::parameter::disc::{
 use serde_json::Value as Json;
 
 use super::loads::Pad;
+use super::mode_line::ModeLine;
 use super::modes_file;
 use super::plate::{self, PlateModes};
 use crate::complaint::{Complaint, Fault, Origin};
@@ -28,13 +29,13 @@ pub enum ModeSource {
     File {
         /// The file.
         path: PathBuf,
-        /// What stands in it.
+        /// The modes in the file.
         listed: Listed,
     },
 }
 
 impl ModeSource {
-    /// Hertz of one ω_ref, where material or listed frequencies say it.
+    /// ω_ref in hertz, if the material or listed frequencies determine it.
     pub fn reference_hz(&self, material: Option<&PlateMaterial>) -> Option<f64> {
         match self {
             Self::Plate(plate) => Some(material?.hertz(&plate.plate, plate.set.reference())),
@@ -61,21 +62,11 @@ pub struct ListedMode {
     pub ratio: f64,
     /// Shape at the load.
     pub shape_at_load: f64,
-    /// Damping ratio; the disc's where it is not given.
+    /// Damping ratio; `None` for that of the disc.
     pub damping: Option<f64>,
 }
 
-/// One line of a list: frequency still as it was given.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
-    pub(super) diameters: f64,
-    pub(super) ratio: Option<f64>,
-    pub(super) hertz: Option<f64>,
-    pub(super) shape_at_load: f64,
-    pub(super) damping: Option<f64>,
-}
-
-/// Reads the modes from wherever the study has them.
+/// Reads the modes: computed, listed, or from a file.
 pub(super) fn read(
     reader: &mut Reader,
     table: &Table,
@@ -96,10 +87,10 @@ pub(super) fn read(
     let others = plate.into_iter().chain(["reference_frequency"]);
     let mut right = true;
     for name in others.chain(list.and(file).map(|_| "modes_file")) {
-        // "critical" is what listed frequencies are measured in anyway.
+        // Listed frequencies use the "critical" reference anyway.
         let critical = |node: &Node| node.value == Value::Text("critical".to_owned());
         if let Some(other) = table.get(name).filter(|node| !critical(node)) {
-            let allowed = format!("modes are given by {key} already; leave this out");
+            let allowed = format!("the modes are already given by {key}; remove this key");
             let key = format!("disc.{name}");
             let given = other.given();
             reader.complain(Complaint::new(Fault::Conflict, key, other.origin, given, allowed));
@@ -132,19 +123,19 @@ pub(super) fn read(
 /// `[[disc.mode]]`.
 fn listed(reader: &mut Reader, node: &Node) -> Option<Listed> {
     let Value::List(list) = &node.value else {
-        reader.wrong("disc.mode", node, format!("tables [[disc.mode]]; this is {}", node.kind()));
+        reader.wrong("disc.mode", node, format!("tables [[disc.mode]]; got {}", node.kind()));
         return None;
     };
     if list.is_empty() {
         reader.wrong("disc.mode", node, "at least one mode");
         return None;
     }
-    let lines: Vec<Option<Line>> = list
+    let lines: Vec<Option<ModeLine>> = list
         .iter()
         .enumerate()
         .map(|(index, node)| line(reader, node, &format!("disc.mode[{index}]")))
         .collect();
-    let lines: Vec<Line> = lines.into_iter().collect::<Option<_>>()?;
+    let lines: Vec<ModeLine> = lines.into_iter().collect::<Option<_>>()?;
     match together(&lines) {
         Ok(listed) => Some(listed),
         Err(why) => {
@@ -155,7 +146,7 @@ fn listed(reader: &mut Reader, node: &Node) -> Option<Listed> {
     }
 }
 
-fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<Line> {
+fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<ModeLine> {
     let table = reader.table(path, node)?;
     reader.unknown_keys(table, Section::DiscMode, path, &[]);
     let mut maybe = |parameter| match reader.optional(table, path, parameter, None) {
@@ -168,10 +159,10 @@ fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<Line> {
     let shape_at_load = reader.number(table, path, node.origin, MODE_SHAPE_AT_LOAD);
     let hertz = hertz?;
     let ratio = match hertz {
-        // Either of the two.
+        // Only one of the two may be given.
         Some(_) => {
             if let Some(other) = table.get(MODE_RATIO.key()) {
-                let allowed = "say either ratio or frequency_hz, not both";
+                let allowed = "give either ratio or frequency_hz, not both";
                 let (key, given) = (format!("{path}.ratio"), other.given());
                 reader.complain(Complaint::new(Fault::Conflict, key, other.origin, given, allowed));
                 return None;
@@ -180,7 +171,7 @@ fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<Line> {
         }
         None => Some(reader.number(table, path, node.origin, MODE_RATIO)?),
     };
-    Some(Line {
+    Some(ModeLine {
         diameters: diameters?,
         ratio,
         hertz,
@@ -190,7 +181,7 @@ fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<Line> {
 }
 
 /// Modes of the lines; frequencies in hertz are measured in the lowest critical speed of the list.
-fn together(lines: &[Line]) -> Result<Listed, String> {
+fn together(lines: &[ModeLine]) -> Result<Listed, String> {
     let in_hertz = lines.iter().filter(|line| line.ratio.is_none()).count();
     let reference_hz = match in_hertz {
         0 => None,
@@ -199,10 +190,10 @@ fn together(lines: &[Line]) -> Result<Listed, String> {
             let lowest = speeds
                 .filter_map(|line| Some(line.hertz? / line.diameters))
                 .reduce(f64::min)
-                .ok_or("no mode has a nodal diameter, so none has a critical speed: give ratios")?;
+                .ok_or("modes with at least one nodal diameter, which define the critical speed; otherwise give ratios")?;
             Some(lowest)
         }
-        _ => return Err("all modes have a ratio, or all have a frequency_hz".to_owned()),
+        _ => return Err("modes that either all have a ratio or all have a frequency_hz".to_owned()),
     };
     #[expect(
         clippy::cast_possible_truncation,
@@ -225,10 +216,10 @@ fn together(lines: &[Line]) -> Result<Listed, String> {
     Ok(Listed { modes, reference_hz })
 }
 
-/// Modes as the first load meets them, the shapes at each load that sits at another radius, warnings.
+/// Modes with their shapes at the first load, the shapes at each load at another radius, warnings.
 type AtLoads = (Vec<Mode>, Vec<Option<Vec<f64>>>, Vec<String>);
 
-/// How the loads meet the modes.
+/// Evaluates the modes at the loads.
 pub(super) fn at_loads(
     reader: &mut Reader,
     source: &ModeSource,
@@ -253,7 +244,7 @@ pub(super) fn at_loads(
     for pad in pads {
         let key = format!("{}.radius_ratio", pad.path);
         let allowed = format!(
-            "a number in [{inner}, 1]: from the clamp (disc.inner_radius_ratio) to the edge"
+            "a number in [{inner}, 1], between the clamp (disc.inner_radius_ratio) and the edge"
         );
         match pad.radius {
             None => {
@@ -267,8 +258,8 @@ pub(super) fn at_loads(
                 right = false;
             }
             Some(radius) if radius == inner => warnings.push(format!(
-                "{} sits at the clamp (radius_ratio = inner_radius_ratio = {inner}), where the disc does not move: \
-                 nothing couples",
+                "{} is at the clamp (radius_ratio = inner_radius_ratio = {inner}), where the disc does not move, so it \
+                 couples to no mode",
                 pad.path
             )),
             Some(_) => {}
@@ -277,7 +268,7 @@ pub(super) fn at_loads(
     if !right {
         return None;
     }
-    // Without a load shapes are told at the edge; nothing depends on them.
+    // Without a load the shapes are given at the edge; nothing depends on them.
     let first = pads.first().and_then(|pad| pad.radius).unwrap_or(1.0);
     let modes = plate.set.at_radius(first, damping)?;
     let shapes = pads

@@ -1,7 +1,7 @@
-//! A CSV file of modes: what `quell modes --save` writes, or anyone else.
+//! A CSV file of modes, as `quell modes --save` writes it.
 //!
 //! Comment lines begin with `#`; the first other line names the columns: `diameters`, `ratio` or `frequency_hz`,
-//! `shape_at_load`, and `damping` where modes have their own. Other columns are passed over. Where there are both, `ratio` counts.
+//! `shape_at_load`, and optionally `damping`. Other columns are ignored. If both are given, `ratio` is used.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use quell_model::parameter::disc::{
     MODE_DAMPING, MODE_DIAMETERS, MODE_FREQUENCY, MODE_RATIO, MODE_SHAPE_AT_LOAD,
 };
 
-use super::modes::Line;
+use super::mode_line::ModeLine;
 use crate::study::data_file::{self, DataFile, Row};
 
 /// What the file must be.
@@ -20,11 +20,11 @@ const WHAT: &str = "a CSV file of modes";
 ///
 /// # Errors
 /// What is wrong, with its line.
-pub(super) fn read(path: &Path) -> Result<Vec<Line>, String> {
+pub(super) fn read(path: &Path) -> Result<Vec<ModeLine>, String> {
     parse(&data_file::text(path, WHAT)?)
 }
 
-fn parse(text: &str) -> Result<Vec<Line>, String> {
+fn parse(text: &str) -> Result<Vec<ModeLine>, String> {
     let file = DataFile::new(text, WHAT)?;
     let column = |parameter: Parameter| file.column(parameter.key());
     let needed = |parameter: Parameter| {
@@ -49,7 +49,7 @@ fn parse(text: &str) -> Result<Vec<Line>, String> {
             Some(_) => None,
             None => hertz.map(|at| value(at, MODE_FREQUENCY)).transpose()?,
         };
-        Ok(Line {
+        Ok(ModeLine {
             diameters: value(diameters, MODE_DIAMETERS)?,
             ratio,
             hertz,
@@ -57,7 +57,7 @@ fn parse(text: &str) -> Result<Vec<Line>, String> {
             damping: damping.map(|at| value(at, MODE_DAMPING)).transpose()?,
         })
     };
-    let lines: Vec<Line> = file.rows().iter().map(line).collect::<Result<_, String>>()?;
+    let lines: Vec<ModeLine> = file.rows().iter().map(line).collect::<Result<_, String>>()?;
     if lines.is_empty() {
         return Err("a CSV file with at least one mode".to_owned());
     }

@@ -12,7 +12,7 @@ use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
 
-/// A plate and the modes taken of it.
+/// A plate and its modes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlateModes {
     /// The plate.
@@ -21,13 +21,13 @@ pub struct PlateModes {
     pub radial_modes: usize,
     /// Largest number of nodal diameters, N_θ.
     pub nodal_diameters: u32,
-    /// What frequencies are measured in.
+    /// Reference of all frequencies.
     pub reference: Reference,
     /// The modes.
     pub set: ModeSet,
 }
 
-/// Reads the plate and computes its modes, unless they are those `known` already.
+/// Reads the plate and computes its modes, unless they are already `known`.
 pub(super) fn read(
     reader: &mut Reader,
     table: &Table,
@@ -63,7 +63,8 @@ pub(super) fn read(
             let key = "disc.nodal_diameters";
             let allowed = match why {
                 ModeSetError::NoCriticalSpeed => {
-                    "at least 1, or disc.reference_frequency a number: without a nodal diameter no mode has a critical speed"
+                    "at least 1, unless disc.reference_frequency is a number: modes without nodal diameters have no \
+                     critical speed"
                         .to_owned()
                 }
                 why => format!("such that all modes can be computed: {why}"),
@@ -92,8 +93,8 @@ pub(super) fn reference(reader: &mut Reader, table: &Table) -> Option<Reference>
     }
 }
 
-/// Material and size of the plate, and where they begin: all four or none.
-#[expect(clippy::option_option, reason = "wrong, not given, given")]
+/// Material and size of the plate, with their first line; either all four are given or none.
+#[expect(clippy::option_option, reason = "invalid, absent, given")]
 pub(super) fn material(
     reader: &mut Reader,
     table: &Table,
@@ -110,7 +111,7 @@ pub(super) fn material(
             Found::Wrong => None,
             Found::Absent => {
                 let allowed = format!(
-                    "{} ({}, {}); hertz and rpm need modulus, density, thickness and outer radius",
+                    "{} ({}, {}); values in hertz and rpm require modulus, density, thickness and outer radius",
                     parameter.bounds, parameter.symbol, parameter.about
                 );
                 reader.complain(Complaint::new(
@@ -127,7 +128,7 @@ pub(super) fn material(
         return Some(Some((material, origin)));
     }
     let node = table.get(THICKNESS.key())?;
-    // Each is positive already: what is left is a plate as thick as it is wide.
+    // Each is already positive: the only remaining error is a plate as thick as it is wide.
     let allowed = format!("a thickness below {} = {}", OUTER_RADIUS.path, radius?);
     reader.wrong(THICKNESS.path, node, allowed);
     None

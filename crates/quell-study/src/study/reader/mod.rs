@@ -1,9 +1,9 @@
-//! Reads keys out of the mirror, turns SI into the numbers of the equations, and collects
-//! every complaint.
+//! Reads keys from the document, converts SI to dimensionless numbers, and collects
+//! all errors.
 //!
-//! A study is in one system. It is in SI as soon as `belt.mass_kg` or
-//! `belt.stiffness_n_per_m` is there, or where all its quantities are; then a dimensionless
-//! key that has an SI twin is refused, and the other way round.
+//! A study uses one unit system. It is in SI if `belt.mass_kg` or
+//! `belt.stiffness_n_per_m` is given, or if all its quantities are in SI; then a dimensionless
+//! key that has an SI twin is rejected, and vice versa.
 
 use quell_model::InvalidValues;
 use quell_model::units::{DiscScales, Quantity, Scales};
@@ -19,14 +19,14 @@ mod words;
 
 pub(super) use numbers::Found;
 
-/// The system a study is written in.
+/// The unit system of a study.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Units {
-    /// The numbers of the equations.
+    /// Dimensionless.
     Scaled,
-    /// SI; without scales where mass or stiffness are wrong.
+    /// SI; without scales if mass or stiffness is invalid.
     Si(Option<Scales>),
-    /// A disc, of which each key may be in SI or not; without scales where neither material nor frequencies in hertz
+    /// A disc, for which each key may be in SI or not; without scales if neither material nor frequencies in hertz
     /// are known.
     Disc(Option<DiscScales>),
 }
@@ -39,11 +39,11 @@ struct Written {
     /// Path of the key that gave it.
     key: String,
     origin: Origin,
-    /// What one unit of the equations is in the unit of that key.
+    /// The dimensionless unit in the unit of that key.
     factor: f64,
 }
 
-/// Reads keys and collects complaints.
+/// Reads keys and collects errors.
 #[derive(Debug)]
 pub struct Reader {
     units: Units,
@@ -52,7 +52,7 @@ pub struct Reader {
 }
 
 impl Reader {
-    /// Finds out the system of a study and reads its scales.
+    /// Determines the unit system of a study and reads its scales.
     pub(super) fn new(root: &Table) -> Self {
         let mut reader = Self { units: Units::Scaled, complaints: Vec::new(), written: Vec::new() };
         if is_si(root) {
@@ -64,17 +64,17 @@ impl Reader {
         reader
     }
 
-    /// For a study of a disc, whose scales are not known yet.
+    /// A reader for a study of a disc, whose scales are not known yet.
     pub(super) fn of_a_disc() -> Self {
         Self { units: Units::Disc(None), complaints: Vec::new(), written: Vec::new() }
     }
 
-    /// Says what turns the numbers of the disc into SI from here on.
+    /// Sets the scales of the disc for the keys read from here on.
     pub(super) fn set_disc_scales(&mut self, scales: Option<DiscScales>) {
         self.units = Units::Disc(scales);
     }
 
-    /// SI value of one unit of a quantity, where that is known.
+    /// SI value of one unit of a quantity, if known.
     fn si_per_unit(&self, quantity: Quantity) -> Option<f64> {
         match self.units {
             Units::Scaled => None,
@@ -88,7 +88,7 @@ impl Reader {
         matches!(self.units, Units::Disc(_))
     }
 
-    /// The scales, in a study in SI whose mass and stiffness are right.
+    /// The scales of a study in SI, if mass and stiffness are valid.
     pub(super) fn known_scales(&self) -> Option<Scales> {
         match self.units {
             Units::Si(scales) => scales,
@@ -106,7 +106,7 @@ impl Reader {
         self.complaints.push(complaint);
     }
 
-    /// How many complaints there are so far.
+    /// Number of errors so far.
     pub(super) fn complaints_so_far(&self) -> usize {
         self.complaints.len()
     }
@@ -117,7 +117,7 @@ impl Reader {
         self.complaints
     }
 
-    /// Complains about keys that a table does not have.
+    /// Reports keys that a table does not have.
     pub(super) fn unknown_keys(
         &mut self,
         table: &Table,
@@ -133,14 +133,14 @@ impl Reader {
         }
     }
 
-    /// Complains about one unknown key.
+    /// Reports one unknown key.
     pub(super) fn unknown_key(&mut self, section: Section, prefix: &str, name: &str, node: &Node) {
         let index =
             prefix.split_once('[').and_then(|(_, rest)| rest.trim_end_matches(']').parse().ok());
         let there: Vec<&str> = self.keys_there(section).map(|key| key.name).collect();
         let key = join(prefix, name);
         let nearest = suggest::path(section.path(), name, index).map(|path| self.in_system(&path));
-        // A key that is there is never the way out of its own complaint.
+        // A key is never suggested for itself.
         let nearest = nearest.filter(|path| *path != key);
         let complaint =
             Complaint::new(Fault::Unknown, key, node.origin, node.given(), there.join(", "));
@@ -169,8 +169,8 @@ impl Reader {
         vocabulary::in_system(path, self.is_si())
     }
 
-    /// Adds what a constructor of the model said, in the words of the file. What was
-    /// already complained about is not said again.
+    /// Adds the errors of a constructor of the model, under the keys of the file. A key that already
+    /// has an error is not reported again.
     pub(super) fn adopt(&mut self, invalid: InvalidValues) {
         for complaint in invalid {
             let written = self.written.iter().find(|written| written.path == complaint.key);
@@ -188,7 +188,7 @@ impl Reader {
         }
     }
 
-    /// Remembers where a number of the registry was written, for complaints of the model.
+    /// Records where a number of the registry was written, for errors of the model.
     pub(super) fn remember(&mut self, path: &str, key: &str, origin: Origin, factor: f64) {
         self.written.push(Written { path: path.to_owned(), key: key.to_owned(), origin, factor });
     }

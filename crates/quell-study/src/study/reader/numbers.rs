@@ -13,19 +13,19 @@ use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
 use crate::study::vocabulary::{self, join};
 
-/// What was found under a parameter's keys.
+/// The result of reading the keys of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::study) enum Found {
-    /// A valid value in the numbers of the equations.
+    /// A valid value, dimensionless.
     Value(f64),
-    /// Something that was complained about.
+    /// An invalid value, already reported.
     Wrong,
-    /// Nothing.
+    /// No value.
     Absent,
 }
 
 impl Found {
-    /// The value, or the default where nothing was given.
+    /// The value, or the default if absent.
     pub(in crate::study) fn or(self, default: f64) -> Option<f64> {
         match self {
             Self::Value(value) => Some(value),
@@ -51,9 +51,9 @@ impl Reader {
         Scales::of_natural_frequency(mass?, hertz?).ok()
     }
 
-    /// Complains about the second of two keys that say the same.
+    /// Reports the second of two keys for the same number.
     fn not_both(&mut self, first: &str, second: &str, node: &Node) {
-        let allowed = format!("say either {first} or {second}, not both");
+        let allowed = format!("give either {first} or {second}, not both");
         let given = node.given();
         self.complain(Complaint::new(Fault::Conflict, second, node.origin, given, allowed));
     }
@@ -66,7 +66,7 @@ impl Reader {
                 String::new()
             };
             let allowed = format!(
-                "{} in {} ({}, {}){or}; a study in SI needs mass and stiffness",
+                "{} in {} ({}, {}){or}; a study in SI requires mass and stiffness",
                 scale.bounds, scale.unit, scale.symbol, scale.about
             );
             self.complain(Complaint::new(Fault::Missing, scale.path, header, Json::Null, allowed));
@@ -75,7 +75,7 @@ impl Reader {
         self.within(scale.path, node, scale.bounds, scale.unit, false)
     }
 
-    /// A parameter that has to be there.
+    /// A required parameter.
     pub(in crate::study) fn number(
         &mut self,
         table: &Table,
@@ -103,7 +103,7 @@ impl Reader {
         }
     }
 
-    /// A parameter that may be absent. The waveform turns a root mean square into a peak.
+    /// An optional parameter. The waveform converts a root mean square to a peak.
     pub(in crate::study) fn optional(
         &mut self,
         table: &Table,
@@ -151,11 +151,11 @@ impl Reader {
         let twin_key = join(prefix, twins.first().unwrap_or(&parameter.si[0]).key);
         if matches!(self.units, Units::Si(_)) {
             let Some(node) = plain else { return };
-            // What an option sets is given in another way; what stands in the file beside its twin is dropped.
+            // An option is set by the other key; a key in the file next to its twin is removed.
             let is_set = matches!(node.origin, Origin::Argument(_));
-            let instead = if twins.is_empty() || is_set { "give" } else { "drop it and keep" };
+            let instead = if twins.is_empty() || is_set { "use" } else { "remove it and keep" };
             let allowed = format!(
-                "this study is in SI, {plain_key} is dimensionless: {instead} {twin_key} ({})",
+                "the study is in SI, but {plain_key} is dimensionless: {instead} {twin_key} ({})",
                 parameter.si[0].unit
             );
             let complaint =
@@ -169,8 +169,8 @@ impl Reader {
             };
             let key = join(prefix, twin.key);
             let allowed = format!(
-                "this study is dimensionless, {key} is in SI: give {plain_key}, or make the whole \
-                 study one in SI with belt.mass_kg and belt.stiffness_n_per_m"
+                "the study is dimensionless, but {key} is in SI: use {plain_key}, or convert the whole study to SI with \
+                 belt.mass_kg and belt.stiffness_n_per_m"
             );
             let complaint = Complaint::new(Fault::Mixed, key, node.origin, node.given(), allowed);
             self.complain(complaint.suggesting(Some(plain_key.clone())));
@@ -207,7 +207,7 @@ impl Reader {
         let size = measure::convert(1.0, unit, si_unit).unwrap_or(1.0);
         let per_unit = self.si_per_unit(parameter.quantity);
         let factor = per_unit.zip(rms).map(|(per_unit, rms)| per_unit * rms / size);
-        // Without scales the sign can still be judged.
+        // Without scales the sign can still be checked.
         let scale = factor.unwrap_or(1.0);
         let judged = factor.is_some()
             || (parameter.bounds.lower == 0.0 && parameter.bounds.upper.is_infinite());
@@ -231,23 +231,24 @@ impl Reader {
         Found::Value(given * size / rms / per_unit)
     }
 
-    /// Complains about a number in SI of a disc whose size in the equations is not known; of a belt the missing mass
-    /// or stiffness was complained about.
+    /// Reports a number in SI of a disc whose scale is unknown; for a belt the missing mass or stiffness has already been
+    /// reported.
     fn without_scale(&mut self, parameter: Parameter, key: &str, node: &Node) {
         if !self.is_of_a_disc() {
             return;
         }
         let needed = match parameter.quantity {
             Quantity::FrequencyRatio => {
-                "hertz need disc.youngs_modulus_pa, density_kg_per_m3, thickness_m and outer_radius_m, or modes in hertz"
+                "values in hertz require disc.youngs_modulus_pa, density_kg_per_m3, thickness_m and outer_radius_m, or \
+                 modes in hertz"
             }
             Quantity::LoadFriction => {
-                "newtons need the computed modes of a plate with disc.youngs_modulus_pa, density_kg_per_m3, thickness_m and \
-                 outer_radius_m, and radius_ratio of the load"
+                "values in newtons require radius_ratio of the load and modes computed from a plate with \
+                 disc.youngs_modulus_pa, density_kg_per_m3, thickness_m and outer_radius_m"
             }
             _ => {
-                "SI needs the mass of the plate: computed modes with disc.youngs_modulus_pa, density_kg_per_m3, thickness_m \
-                 and outer_radius_m"
+                "SI values require the mass of the plate: modes computed with disc.youngs_modulus_pa, density_kg_per_m3, \
+                 thickness_m and outer_radius_m"
             }
         };
         let allowed = format!("{needed}; or give {} instead", parameter.key());
@@ -281,29 +282,29 @@ impl Reader {
         Some(value)
     }
 
-    /// Why a value is no number of a key, in `unit` where one is given.
+    /// Why a value is not a number for a key, in `unit` if given.
     fn no_number(&self, key: &str, node: &Node, unit: &str) -> String {
         let kind = node.kind();
-        let Value::Text(text) = &node.value else { return format!("; this is {kind}") };
+        let Value::Text(text) = &node.value else { return format!("; got {kind}") };
         if text.trim().parse::<f64>().is_ok() {
-            return format!(", without quotes; this is {kind}");
+            return format!(", without quotes; got {kind}");
         }
         if !measure::has_unit(text) {
-            return format!("; this is {kind}");
+            return format!("; got {kind}");
         }
         let of_key = || vocabulary::resolve(key).ok()?.key.measured_in();
         let given = Some(unit.trim_end_matches(" (rms)")).filter(|unit| !unit.is_empty());
         match measure::read(text, given.or_else(of_key)) {
             Err(why @ Unread::NoUnitHere(_)) if !self.is_si() => {
                 let instead = if self.is_of_a_disc() {
-                    "units need the keys in SI, such as disc.load.speed_rpm"
+                    "units require SI keys, such as disc.load.speed_rpm"
                 } else {
-                    "units need a study in SI, with belt.mass_kg"
+                    "units require a study in SI, with belt.mass_kg"
                 };
                 format!("; {why}: {instead}")
             }
             Err(why) => format!("; {why}"),
-            Ok(_) => format!("; this is {kind}"),
+            Ok(_) => format!("; got {kind}"),
         }
     }
 

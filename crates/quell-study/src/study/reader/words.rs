@@ -1,4 +1,4 @@
-//! Words, tables, and what is neither.
+//! Reads words, text and tables.
 
 use serde_json::Value as Json;
 
@@ -9,7 +9,7 @@ use crate::study::suggest;
 use crate::study::vocabulary::{Choice, join};
 
 impl Reader {
-    /// A word out of a list.
+    /// A word from a list.
     pub(in crate::study) fn choice(
         &mut self,
         key: &str,
@@ -19,7 +19,7 @@ impl Reader {
         let names = choice.names();
         let list = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
         let Value::Text(text) = &node.value else {
-            self.wrong(key, node, format!("one of {list}; this is {}", node.kind()));
+            self.wrong(key, node, format!("one of {list}; got {}", node.kind()));
             return None;
         };
         let found = names.iter().copied().find(|name| name == text);
@@ -38,7 +38,7 @@ impl Reader {
         found
     }
 
-    /// A word out of a list that has to be there.
+    /// A required word from a list.
     pub(in crate::study) fn needed_choice(
         &mut self,
         table: &Table,
@@ -60,22 +60,22 @@ impl Reader {
     /// Free text.
     pub(in crate::study) fn text(&mut self, key: &str, node: &Node) -> Option<String> {
         let Value::Text(text) = &node.value else {
-            self.wrong(key, node, format!("a string in quotes; this is {}", node.kind()));
+            self.wrong(key, node, format!("a string in quotes; got {}", node.kind()));
             return None;
         };
         Some(text.clone())
     }
 
-    /// Complains about a value.
+    /// Reports an invalid value.
     pub(in crate::study) fn wrong(&mut self, key: &str, node: &Node, allowed: impl Into<String>) {
         self.complain(Complaint::new(Fault::Value, key, node.origin, node.given(), allowed));
     }
 
-    /// A table of the root or of `[belt]`; a complaint where it is something else.
+    /// A table of the root or of `[belt]`; an error if it is something else.
     pub(in crate::study) fn table<'a>(&mut self, key: &str, node: &'a Node) -> Option<&'a Table> {
         let table = node.table();
         if table.is_none() {
-            self.wrong(key, node, format!("a table [{key}]; this is {}", node.kind()));
+            self.wrong(key, node, format!("a table [{key}]; got {}", node.kind()));
         }
         table
     }

@@ -1,12 +1,30 @@
-//! Every key, made from the registry of parameters and from lists of what takes no number of it.
+//! Every key: those of the registry of parameters, and those that take other values.
+
+use std::sync::LazyLock;
 
 use quell_model::LawKind;
 use quell_model::parameter::{self, COEFFICIENT, Parameter, STATIC_COEFFICIENT, VISCOUS};
 
-use super::{Choice, Key, Role, SCHEMA_ABOUT, Section};
+use super::key::{Key, Role, SCHEMA_ABOUT, Section};
+use super::words::Choice;
 
 /// Every key, table by table.
-pub(super) fn all() -> Vec<Key> {
+pub fn keys() -> &'static [Key] {
+    static KEYS: LazyLock<Vec<Key>> = LazyLock::new(all);
+    &KEYS
+}
+
+/// Keys of one table.
+pub fn keys_of(section: Section) -> impl Iterator<Item = &'static Key> {
+    keys().iter().filter(move |key| key.section == section)
+}
+
+/// The key of a name in a table.
+pub fn key(section: Section, name: &str) -> Option<&'static Key> {
+    keys_of(section).find(|key| key.name == name)
+}
+
+fn all() -> Vec<Key> {
     let mut keys = words();
     keys.extend(numbers());
     keys.extend(own_law());
@@ -25,15 +43,15 @@ fn words() -> Vec<Key> {
     let root = |name, role, about| Key { section: Root, name, role, about };
     vec![
         root("schema", Role::Schema, SCHEMA_ABOUT),
-        root("title", Role::Text, "what the study is about"),
+        root("title", Role::Text, "subject of the study"),
         word(Initial, "state", Choice::State, "a named state"),
         word(Friction, "law", Choice::Law, "the friction law"),
-        word(Dither, "direction", Choice::Direction, "where the force acts"),
+        word(Dither, "direction", Choice::Direction, "direction of the force"),
         word(Dither, "waveform", Choice::Waveform, "shape of the force in time"),
     ]
 }
 
-/// Keys that take a number of the registry, in the numbers of the equations or in SI.
+/// Keys that take a number of the registry, dimensionless or in SI.
 fn numbers() -> Vec<Key> {
     let scales = parameter::SCALES.iter().map(|scale| Key {
         section: Section::Belt,
@@ -72,7 +90,7 @@ fn numbers() -> Vec<Key> {
     keys
 }
 
-/// Keys of a friction law of one's own.
+/// Keys of a user-defined friction law.
 fn own_law() -> Vec<Key> {
     let key = |name, role, about| Key { section: Section::Friction, name, role, about };
     vec![
@@ -101,37 +119,33 @@ fn own_law() -> Vec<Key> {
         key(
             "file",
             Role::Text,
-            "CSV file of measured slip speeds and coefficients, beside the study",
+            "CSV file of measured slip speeds and coefficients, relative to the study file",
         ),
         key("slip_velocity", Role::Speeds { si: false }, "measured slip speeds"),
         key("slip_velocity_m_per_s", Role::Speeds { si: true }, "measured slip speeds"),
-        key(
-            "terms",
-            Role::Terms,
-            "number of exponentials of the fit, the best where it is not given",
-        ),
+        key("terms", Role::Terms, "number of exponentials in the fit [default: the best number]"),
     ]
 }
 
-/// Keys of a disc that take no number of the registry.
+/// Keys of a disc that are not numbers of the registry.
 fn disc() -> Vec<Key> {
     let key = |name, role, about| Key { section: Section::Disc, name, role, about };
     vec![
         key(
             "reference_frequency",
             Role::Reference,
-            "what frequencies and speeds are measured in: \"critical\", the lowest critical speed of these modes, \
-             or a frequency parameter k²",
+            "reference for frequencies and speeds: \"critical\", the lowest critical speed of these modes, or a frequency \
+             parameter k²",
         ),
         key(
             "modes_file",
             Role::Text,
-            "CSV file of modes, beside the study, instead of computed ones",
+            "CSV file of modes, relative to the study file, instead of computed modes",
         ),
         key(
             "without",
             Role::Choices(Choice::Contribution),
-            "parts of the equations that are left out",
+            "contributions to the equations that are omitted",
         ),
     ]
 }
@@ -142,7 +156,7 @@ fn band() -> Vec<Key> {
         section: Section::Response,
         name,
         role: Role::Band { hertz },
-        about: "lower and upper end of a band in which the level of the vibration is compared with and without dither",
+        about: "lower and upper limit of the band in which vibration levels with and without dither are compared",
     };
     vec![key("band", false), key("band_hz", true)]
 }
@@ -151,11 +165,11 @@ fn band() -> Vec<Key> {
 fn axis() -> Vec<Key> {
     let key = |name, role, about| Key { section: Section::Sweep, name, role, about };
     vec![
-        key("parameter", Role::Text, "path of the number that is varied"),
+        key("parameter", Role::Text, "path of the number to vary"),
         key("from", Role::AxisNumber, "first value"),
         key("to", Role::AxisNumber, "last value"),
         key("points", Role::AxisPoints, "number of values, both ends included"),
         key("values", Role::AxisValues, "the values themselves, instead of from, to and points"),
-        key("spacing", Role::Choice(Choice::Spacing), "how the values lie between the ends"),
+        key("spacing", Role::Choice(Choice::Spacing), "spacing of the values between the ends"),
     ]
 }

@@ -23,7 +23,7 @@ pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option
         Value::Text(text) => text.clone(),
         Value::Number(number) => format!("{number:?}"),
         _ => {
-            reader.wrong(FORMULA, node, format!("a formula in quotes; this is {}", node.kind()));
+            reader.wrong(FORMULA, node, format!("a formula in quotes; got {}", node.kind()));
             return None;
         }
     };
@@ -37,7 +37,7 @@ pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option
         Found::Absent => None,
         Found::Wrong => return None,
     };
-    // What cannot be proven is said when the belt is known.
+    // The proof needs the belt: its errors come later.
     reader.remember(FORMULA, FORMULA, node.origin, 1.0);
     let law = Expression::new(&text, &constants?, level, velocity_unit(reader));
     match law.and_then(|law| law.with_maximum_velocity(maximum)) {
@@ -49,9 +49,9 @@ pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option
     }
 }
 
-/// The velocity of the equations that one unit of the study's velocities means.
+/// The dimensionless velocity of one velocity unit of the study.
 pub(super) fn velocity_unit(reader: &Reader) -> f64 {
-    // Where mass or stiffness are wrong that was complained about, and no law is made.
+    // An invalid mass or stiffness has been reported already, and no law is built then.
     reader.known_scales().map_or(1.0, |scales| scales.from_si(Quantity::Velocity, 1.0))
 }
 
@@ -69,7 +69,7 @@ fn constants(reader: &mut Reader, table: &Table) -> Option<Vec<(String, f64)>> {
     read.into_iter().collect()
 }
 
-/// Tells what the model said of a law of one's own, each under its key.
+/// Reports the errors of the model about a user-defined law, each under its key.
 pub(super) fn complain(reader: &mut Reader, table: &Table, formula: &Node, invalid: InvalidValues) {
     for Invalid { key, allowed, .. } in invalid {
         let name = key.rsplit('.').next().unwrap_or_default();

@@ -1,8 +1,8 @@
 //! Friction given as forces, for drives: `friction_force_n`, `static_friction_force_n`, `viscous_n_s_per_m`.
 //!
-//! T = F_c + c v_r, F_s at rest, in a study in SI. With a normal force N the coefficients are F/N. A drive has no meaningful
-//! μ and N apart: without `belt.normal_force_n` N is the larger of both forces, so that the coefficients are shares of it;
-//! forces, and with them every motion, are the same whatever N is. Normal dither alone needs a normal force of its own.
+//! T = F_c + c v_r, F_s at rest, in a study in SI. With a normal force N the coefficients are F/N. For a drive, μ and N have
+//! no separate meaning: without `belt.normal_force_n`, N is the larger of both forces, so that the coefficients are fractions
+//! of it; the forces, and therefore every motion, do not depend on N. Only normal dither requires the normal force itself.
 
 use quell_model::friction::Otherwise;
 use quell_model::parameter::{
@@ -12,13 +12,13 @@ use quell_model::units::{Quantity, Scales};
 use quell_model::{Direction, Dither, Friction, LawKind};
 use serde_json::Value as Json;
 
-use super::Read;
+use super::read_law::ReadLaw;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table};
 use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::{self, Key, Role, Section, join};
 
-/// The keys, each with the number of the law that it gives.
+/// The keys, each with the parameter of the law that it gives.
 fn keys() -> impl Iterator<Item = (&'static Key, Parameter)> {
     vocabulary::keys_of(Section::Friction).filter_map(|key| match key.role {
         Role::FrictionForce(parameter, _) => Some((key, parameter)),
@@ -26,7 +26,7 @@ fn keys() -> impl Iterator<Item = (&'static Key, Parameter)> {
     })
 }
 
-/// Whether a law has its level as a coefficient that a force can give.
+/// Whether a force can give this coefficient of a law.
 pub(super) fn gives(kind: LawKind, parameter: Parameter) -> bool {
     let has = |wanted: Parameter| kind.parameters().iter().any(|known| known.path == wanted.path);
     has(COEFFICIENT) && has(parameter)
@@ -42,7 +42,7 @@ pub(in crate::study) fn in_newtons(reader: &Reader, root: &Table) -> bool {
     reader.is_si() && root.get("friction").and_then(Node::table).is_some_and(are_given)
 }
 
-/// Complains about normal dither where friction in newtons stands for the normal force.
+/// Reports normal dither if the normal force is derived from friction in newtons.
 pub(in crate::study) fn needs_no_normal_force(
     reader: &mut Reader,
     root: &Table,
@@ -51,22 +51,22 @@ pub(in crate::study) fn needs_no_normal_force(
     let normal = |dither: &Dither| dither.direction == Direction::Normal;
     if dithers.is_some_and(|dithers| dithers.iter().any(normal)) {
         let origin = root.get("dither").map_or(Origin::Whole, |node| node.origin);
-        let allowed = "given with belt.normal_force_n: normal dither changes the normal force, which friction in newtons \
-                       does not say";
+        let allowed = "normal dither requires belt.normal_force_n: it modulates the normal force, which friction in \
+                       newtons does not determine";
         let complaint =
             Complaint::new(Fault::Conflict, "dither.direction", origin, "normal", allowed);
         reader.complain(complaint);
     }
 }
 
-/// Reads a law whose level is given in newtons; F where the study gives none.
+/// Reads a law whose level is given in newtons, and F if the study does not give it.
 pub(super) fn read(
     reader: &mut Reader,
     table: &Table,
     header: Origin,
     kind: LawKind,
     load: Option<f64>,
-) -> Option<Read> {
+) -> Option<ReadLaw> {
     if conflicts(reader, table, kind) {
         return None;
     }
@@ -78,14 +78,15 @@ pub(super) fn read(
     let given = load.map(|load| scales.to_si(Quantity::Force, load));
     let newtons = given.unwrap_or_else(|| level.unwrap_or(sliding).max(sliding));
     if newtons <= 0.0 {
-        let allowed = "above 0, or give belt.normal_force_n: without friction nothing presses the mass to the belt";
+        let allowed = "above 0, unless belt.normal_force_n is given: otherwise the normal force is derived from the \
+                       friction force";
         let (key, node) = written(table, COEFFICIENT)?;
         reader.complain(Complaint::new(Fault::Value, key, node.origin, node.given(), allowed));
         return None;
     }
     if level.is_some_and(|level| level < sliding) {
         let (key, node) = written(table, STATIC_COEFFICIENT)?;
-        let allowed = format!("at least friction.friction_force_n = {sliding}, in N");
+        let allowed = format!("at least friction.friction_force_n = {sliding} N");
         reader.complain(Complaint::new(Fault::Value, key, node.origin, node.given(), allowed));
         return None;
     }
@@ -112,9 +113,9 @@ pub(super) fn read(
     match kind.build(&values) {
         Ok(Friction::Coulomb(law)) if level.is_none() => {
             let law = Friction::Coulomb(law.without_static_level());
-            Some(Read { own_load, ..Read::of(law) })
+            Some(ReadLaw { own_load, ..ReadLaw::of(law) })
         }
-        Ok(law) => Some(Read { own_load, ..Read::of(law) }),
+        Ok(law) => Some(ReadLaw { own_load, ..ReadLaw::of(law) }),
         Err(invalid) => {
             reader.adopt(invalid);
             None
@@ -122,7 +123,7 @@ pub(super) fn read(
     }
 }
 
-/// Complains where a key in newtons is not of this law or this study, or stands beside a coefficient.
+/// Reports keys in newtons that do not apply to this law or study, or that conflict with a coefficient. Returns whether any do.
 fn conflicts(reader: &mut Reader, table: &Table, kind: LawKind) -> bool {
     let before = reader.complaints_so_far();
     for (key, parameter) in keys() {
@@ -134,7 +135,7 @@ fn conflicts(reader: &mut Reader, table: &Table, kind: LawKind) -> bool {
         if !reader.is_si() {
             let plain = parameter.path;
             let allowed = format!(
-                "this study is dimensionless, {path} is in SI: give {plain}, or make the whole study one in SI with \
+                "the study is dimensionless, but {path} is in SI: use {plain}, or convert the whole study to SI with \
                  belt.mass_kg and belt.stiffness_n_per_m"
             );
             let complaint = Complaint::new(Fault::Mixed, &path, node.origin, node.given(), allowed);
@@ -145,7 +146,8 @@ fn conflicts(reader: &mut Reader, table: &Table, kind: LawKind) -> bool {
     let twins = VISCOUS.si.iter().map(|twin| twin.key);
     for name in coefficients.into_iter().chain(twins) {
         let Some(node) = table.get(name) else { continue };
-        let allowed = "left out: friction is given in newtons here; give either forces or coefficients, not both";
+        let allowed =
+            "friction is already given in newtons; give either forces or coefficients, not both";
         let key = join("friction", name);
         reader.complain(Complaint::new(Fault::Conflict, key, node.origin, node.given(), allowed));
     }
@@ -153,8 +155,8 @@ fn conflicts(reader: &mut Reader, table: &Table, kind: LawKind) -> bool {
     misplaced || reader.complaints_so_far() > before
 }
 
-/// A force of the law: `Some(None)` where it may be absent and is.
-#[expect(clippy::option_option, reason = "wrong, absent, and there are three things")]
+/// A force of the law: `Some(None)` if it is optional and absent.
+#[expect(clippy::option_option, reason = "invalid, absent, given")]
 fn force(
     reader: &mut Reader,
     table: &Table,
@@ -181,7 +183,7 @@ fn force(
     }
 }
 
-/// The key in newtons that gives a parameter, and what it says.
+/// The key in newtons that gives a parameter, and its value.
 fn written(table: &Table, parameter: Parameter) -> Option<(String, &Node)> {
     let (key, _) = keys().find(|(_, known)| known.path == parameter.path)?;
     Some((join("friction", key.name), table.get(key.name)?))

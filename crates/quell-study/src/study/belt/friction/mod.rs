@@ -1,4 +1,4 @@
-//! `[friction]`: a law and its parameters, or a law of one's own.
+//! `[friction]`: a law and its parameters, or a user-defined law.
 
 use std::path::Path;
 
@@ -12,41 +12,29 @@ use crate::study::document::{Node, Table};
 use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::{self, Choice, Role, Section};
 pub(super) use forces::{in_newtons, needs_no_normal_force};
-pub use samples::Measured;
+pub use measured::Measured;
 
 mod expression;
 mod forces;
+mod measured;
+mod read_law;
 mod samples;
 
-/// What `[friction]` says.
-pub(super) struct Read {
-    /// The law.
-    pub(super) law: Friction,
-    /// The samples that it was fitted to.
-    pub(super) measured: Option<Measured>,
-    /// The normal load F of friction in newtons where the study gives none.
-    pub(super) own_load: Option<f64>,
-}
+use read_law::ReadLaw;
 
-impl Read {
-    fn of(law: Friction) -> Self {
-        Self { law, measured: None, own_load: None }
-    }
-}
-
-/// What is known when a law is read.
+/// What is known before a law is read.
 #[derive(Clone, Copy)]
-pub(super) struct Given<'a> {
-    /// Where files of samples are looked for.
+pub(super) struct LawContext<'a> {
+    /// Folder of sample files.
     pub(super) folder: &'a Path,
-    /// Samples that are known already: they are neither read nor fitted again.
+    /// Samples of an earlier reading: they are neither read nor fitted again.
     pub(super) known: Option<&'a Measured>,
-    /// The normal load F, where it is given and right.
+    /// The normal load F, if given and valid.
     pub(super) normal_load: Option<f64>,
 }
 
 /// Reads `[friction]`.
-pub(super) fn read(reader: &mut Reader, root: &Table, given: Given<'_>) -> Option<Read> {
+pub(super) fn read(reader: &mut Reader, root: &Table, context: LawContext<'_>) -> Option<ReadLaw> {
     let Some(node) = root.get("friction") else {
         let allowed = "a table [friction] with law and its parameters";
         reader.complain(Complaint::new(
@@ -63,27 +51,27 @@ pub(super) fn read(reader: &mut Reader, root: &Table, given: Given<'_>) -> Optio
     let kind = name.and_then(LawKind::from_name);
     unknown_keys(reader, table, kind);
     match kind {
-        Some(LawKind::Expression) => expression::read(reader, table, node.origin).map(Read::of),
+        Some(LawKind::Expression) => expression::read(reader, table, node.origin).map(ReadLaw::of),
         Some(LawKind::Samples) => {
-            samples::read(reader, table, node.origin, given.folder, given.known)
+            samples::read(reader, table, node.origin, context.folder, context.known)
         }
         Some(kind) if forces::are_given(table) => {
-            forces::read(reader, table, node.origin, kind, given.normal_load)
+            forces::read(reader, table, node.origin, kind, context.normal_load)
         }
-        kind => numeric(reader, table, node, kind).map(Read::of),
+        kind => numeric(reader, table, node, kind).map(ReadLaw::of),
     }
 }
 
-/// A law that is nothing but its numbers.
+/// A law defined by numbers alone.
 fn numeric(
     reader: &mut Reader,
     table: &Table,
     node: &Node,
     kind: Option<LawKind>,
 ) -> Option<Friction> {
-    // Without a law its parameters are still judged, each by itself.
+    // Without a law its parameters are still checked individually.
     let parameters = kind.map_or_else(|| LawKind::ALL[0].parameters(), LawKind::parameters);
-    // NaN stands for what was complained about: `adopt` says nothing twice.
+    // NaN stands for a value already reported: `adopt` reports nothing twice.
     let mut values: Vec<f64> = Vec::with_capacity(parameters.len());
     for parameter in parameters {
         if kind.is_none() && !table.has(parameter.key()) {
@@ -104,7 +92,7 @@ fn numeric(
         values.push(value.unwrap_or(f64::NAN));
     }
     match kind?.build(&values) {
-        // A static level that is not given follows the coefficient.
+        // A static level that is not given equals the coefficient.
         Ok(Friction::Coulomb(law)) if !table.has(STATIC_COEFFICIENT.key()) => {
             Some(Friction::Coulomb(law.without_static_level()))
         }
@@ -119,7 +107,7 @@ fn numeric(
 /// The table of the constants of a formula.
 const CONSTANTS: &str = "constants";
 
-/// Complains about keys that no law, or not this law, has.
+/// Reports keys that no law has, or that this law does not have.
 fn unknown_keys(reader: &mut Reader, table: &Table, kind: Option<LawKind>) {
     for (name, node) in table.iter() {
         let key = vocabulary::key(Section::Friction, name);
@@ -137,7 +125,7 @@ fn unknown_keys(reader: &mut Reader, table: &Table, kind: Option<LawKind>) {
                 .map(|key| key.name)
                 .chain(constants)
                 .collect();
-            // It is a key, only not one of this law: there is no nearer one to suggest.
+            // It is a key of another law: no suggestion is needed.
             let allowed = format!("{} for law = \"{}\"", keys.join(", "), kind.name());
             let key = vocabulary::join("friction", name);
             reader.complain(Complaint::new(
@@ -151,7 +139,7 @@ fn unknown_keys(reader: &mut Reader, table: &Table, kind: Option<LawKind>) {
     }
 }
 
-/// Whether a law has a key that takes this.
+/// Whether a law has a key with this role.
 fn belongs(role: Role, kind: LawKind) -> bool {
     match role {
         Role::Number(parameter) | Role::Twin(parameter, _) => {

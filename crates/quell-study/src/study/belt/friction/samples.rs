@@ -1,17 +1,18 @@
-//! A law from measured samples, in the study or in a CSV file beside it.
+//! A law from measured samples, in the study or in a separate CSV file.
 //!
 //! The file: comment lines begin with `#`; the first other line names the columns, `slip_velocity` (in a study in SI
-//! `slip_velocity_m_per_s`) and `coefficient`. Other columns are passed over.
+//! `slip_velocity_m_per_s`) and `coefficient`. Other columns are ignored.
 
 use std::path::{Path, PathBuf};
 
-use quell_model::friction::samples::{COEFFICIENTS, Fit, MOST_TERMS, SPEEDS, TERMS};
+use quell_model::friction::samples::{COEFFICIENTS, MOST_TERMS, SPEEDS, TERMS};
 use quell_model::parameter::{Bounds, STATIC_COEFFICIENT};
 use quell_model::{Friction, InvalidValues, Samples};
 use serde_json::Value as Json;
 
-use super::Read;
 use super::expression::{complain, velocity_unit};
+use super::measured::Measured;
+use super::read_law::ReadLaw;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::data_file::{self, DataFile, Row};
 use crate::study::document::{Node, Table, Value};
@@ -23,25 +24,6 @@ const WHAT: &str = "a CSV file of samples";
 /// Path of the file's key.
 const FILE: &str = "friction.file";
 
-/// Samples and what was made of them; what decides it is kept to see whether it is still the same.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
-    /// The file, where they stand in one.
-    pub file: Option<PathBuf>,
-    /// Slip speed, in the study's unit, and coefficient.
-    pub samples: Vec<(f64, f64)>,
-    static_coefficient: Option<f64>,
-    terms: Option<usize>,
-    fit: Fit,
-}
-
-impl Measured {
-    /// What decides the law, with the digits that read back as the same numbers.
-    pub(in crate::study) fn settings(&self) -> (String, String) {
-        ("friction.fit".to_owned(), self.fit.formula())
-    }
-}
-
 /// Reads the samples and fits them.
 pub(super) fn read(
     reader: &mut Reader,
@@ -49,7 +31,7 @@ pub(super) fn read(
     header: Origin,
     folder: &Path,
     known: Option<&Measured>,
-) -> Option<Read> {
+) -> Option<ReadLaw> {
     let level = reader.optional(table, "friction", STATIC_COEFFICIENT, None);
     let terms = match table.get("terms") {
         None => Some(None),
@@ -60,7 +42,7 @@ pub(super) fn read(
                 clippy::cast_sign_loss,
                 reason = "a whole number from 1 to MOST_TERMS"
             )]
-            let whole = reader.within(TERMS, node, bounds, "", true).map(|it| it as usize);
+            let whole = reader.within(TERMS, node, bounds, "", true).map(|count| count as usize);
             whole.map(Some)
         }
     };
@@ -86,17 +68,17 @@ pub(super) fn read(
             reader.remember(COEFFICIENTS, key, origin.origin, 1.0);
             let fit = law.fit().clone();
             let measured = Measured { file, samples, static_coefficient, terms, fit };
-            Some(Read { measured: Some(measured), ..Read::of(Friction::Samples(law)) })
+            Some(ReadLaw { measured: Some(measured), ..ReadLaw::of(Friction::Samples(law)) })
         }
         Err(invalid) => {
-            told(reader, table, origin, file.is_some(), invalid);
+            report(reader, table, origin, file.is_some(), invalid);
             None
         }
     }
 }
 
-/// Complaints of the model, under the keys that the study has.
-fn told(reader: &mut Reader, table: &Table, place: &Node, in_file: bool, invalid: InvalidValues) {
+/// Reports errors of the model under the keys of the study.
+fn report(reader: &mut Reader, table: &Table, place: &Node, in_file: bool, invalid: InvalidValues) {
     let invalid = invalid.map(|mut invalid| {
         // A number of a list is reported with the list.
         let list = invalid.key.split('[').next().unwrap_or_default();
@@ -110,20 +92,21 @@ fn told(reader: &mut Reader, table: &Table, place: &Node, in_file: bool, invalid
     complain(reader, table, place, invalid);
 }
 
-type Given<'t> = (&'t Node, Option<PathBuf>, Vec<(f64, f64)>);
+/// Where the samples were written, the file that holds them, and the samples.
+type GivenSamples<'t> = (&'t Node, Option<PathBuf>, Vec<(f64, f64)>);
 
-/// The samples, from wherever the study has them.
+/// The samples, from the study or from its file.
 fn given<'t>(
     reader: &mut Reader,
     table: &'t Table,
     header: Origin,
     folder: &Path,
     known: Option<&Measured>,
-) -> Option<Given<'t>> {
+) -> Option<GivenSamples<'t>> {
     let column = if reader.is_si() { "slip_velocity_m_per_s" } else { "slip_velocity" };
     let other = if reader.is_si() { "slip_velocity" } else { "slip_velocity_m_per_s" };
     if let Some(node) = table.get(other) {
-        let allowed = format!("in the units of this study: give friction.{column}");
+        let allowed = format!("does not match the units of this study: use friction.{column}");
         let key = format!("friction.{other}");
         let complaint = Complaint::new(Fault::Mixed, key, node.origin, Json::Null, allowed);
         reader.complain(complaint.suggesting(Some(format!("friction.{column}"))));
@@ -133,7 +116,7 @@ fn given<'t>(
         for name in [column, "coefficient"] {
             if let Some(other) = table.get(name) {
                 let key = format!("friction.{name}");
-                let allowed = format!("samples are given by {FILE} already; leave this out");
+                let allowed = format!("the samples are already given by {FILE}; remove this key");
                 reader.complain(Complaint::new(
                     Fault::Conflict,
                     key,
@@ -161,7 +144,7 @@ fn given<'t>(
     let coefficients = list(reader, table, header, "coefficient");
     let ((node, speeds), (other, coefficients)) = (speeds?, coefficients?);
     if speeds.len() != coefficients.len() {
-        let allowed = format!("as many numbers as friction.{column} has, {}", speeds.len());
+        let allowed = format!("{} values, as many as friction.{column} has", speeds.len());
         let given = coefficients.len();
         let complaint = Complaint::new(Fault::Value, COEFFICIENTS, other.origin, given, allowed);
         reader.complain(complaint);
@@ -185,7 +168,7 @@ fn list<'t>(
         return None;
     };
     let Value::List(list) = &node.value else {
-        reader.wrong(&key, node, format!("an array of numbers; this is {}", node.kind()));
+        reader.wrong(&key, node, format!("an array of numbers; got {}", node.kind()));
         return None;
     };
     let numbers: Vec<Option<f64>> = list
@@ -198,7 +181,7 @@ fn list<'t>(
     Some((node, numbers.into_iter().collect::<Option<_>>()?))
 }
 
-/// Reads the samples of a file; what is wrong, with its line.
+/// Reads the samples of a file; errors name the line.
 fn from_file(path: &Path, column: &str) -> Result<Vec<(f64, f64)>, String> {
     parse(&data_file::text(path, WHAT)?, column)
 }
@@ -206,22 +189,23 @@ fn from_file(path: &Path, column: &str) -> Result<Vec<(f64, f64)>, String> {
 fn parse(text: &str, column: &str) -> Result<Vec<(f64, f64)>, String> {
     let file = DataFile::new(text, WHAT)?;
     let (Some(speed), Some(coefficient)) = (file.column(column), file.column("coefficient")) else {
-        // Columns of a study in other units are named; other names of the file are its own.
+        // Only a column in the other unit system is named; other column names are not shown.
         let other = ["slip_velocity", "slip_velocity_m_per_s"];
         let other = other.iter().find(|name| **name != column && file.column(name).is_some());
         let other = other.map_or_else(String::new, |name| {
-            format!("; {name}, which it has, is in the units of another study")
+            format!("; its column {name} does not match the units of this study")
         });
         return Err(format!("a CSV file with columns {column} and coefficient{other}"));
     };
     let value = |row: &Row<'_>, at: usize, name: &str| {
-        let number =
-            row.number(at, name, "a finite number ≥ 0", |it| it.is_finite() && it >= 0.0);
+        let number = row.number(at, name, "a finite number ≥ 0", |number| {
+            number.is_finite() && number >= 0.0
+        });
         number.map_err(|why| {
             if row.is_negative(at) {
                 format!(
-                    "{why}; friction is the same in both directions of slip here: samples of one direction, with \
-                     both numbers positive, make one law"
+                    "{why}; friction is assumed equal in both directions of slip: give samples of one direction, with \
+                     both values positive"
                 )
             } else {
                 why
@@ -242,7 +226,9 @@ mod tests {
         assert_eq!(parse(text, "slip_velocity"), Ok(vec![(0.0, 0.4), (0.5, 0.3)]));
         let wrong = parse(text, "slip_velocity_m_per_s").expect_err("no such column");
         assert!(
-            wrong.contains("columns slip_velocity_m_per_s and coefficient; slip_velocity"),
+            wrong.contains(
+                "columns slip_velocity_m_per_s and coefficient; its column slip_velocity"
+            ),
             "{wrong}"
         );
         for (row, part) in [

@@ -1,0 +1,183 @@
+//! The friction laws as one type, and what holds for each of them.
+
+use std::any::Any;
+
+use super::law::AnyLaw;
+use super::{
+    Coulomb, Decreasing, Expression, LawParameters, LawSeries, LawVisitor, NumericLaw, Otherwise,
+    Samples, SlidingLaw, SlipRange, Stribeck, StribeckExponential, Surroundings,
+};
+use crate::parameter::Parameter;
+use crate::{Invalid, InvalidValues};
+
+macro_rules! laws {
+    (numbers: $($numeric:ident),+; data: $($carrying:ident),+ $(,)?) => {
+        laws!(@ $($numeric),+, $($carrying),+);
+
+        impl LawKind {
+            /// Laws defined by numbers alone.
+            pub const NUMERIC: &'static [Self] = &[$(Self::$numeric),+];
+
+            /// Builds a law from values in the order of its parameters.
+            ///
+            /// # Errors
+            /// Every value out of its bounds, and every relation that does not hold; a law that
+            /// is not defined by numbers alone.
+            pub fn build(self, values: &[f64]) -> Result<Friction, InvalidValues> {
+                match self {
+                    $(Self::$numeric => $numeric::from_values(values).map(Friction::$numeric),)+
+                    $(Self::$carrying => {
+                        let allowed = "a law defined by numbers alone; this one is built from data";
+                        Err(InvalidValues::from(Invalid::new("friction.law", $carrying::NAME, allowed)))
+                    })+
+                }
+            }
+        }
+    };
+    (@ $($kind:ident),+) => {
+        /// The kinds of friction law.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum LawKind {
+            $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind,)+
+        }
+
+        /// A friction law with valid parameters; cheap to clone.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Friction {
+            $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind($kind),)+
+        }
+
+        impl LawKind {
+            /// Every law.
+            pub const ALL: &'static [Self] = &[$(Self::$kind),+];
+
+            /// Name in a study file.
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$kind => <$kind as LawParameters>::NAME),+ }
+            }
+
+            /// Description in one line.
+            pub fn about(self) -> &'static str {
+                match self { $(Self::$kind => <$kind as LawParameters>::ABOUT),+ }
+            }
+
+            /// Numbers that a study may give for the law and that are not in its formula.
+            pub fn options(self) -> &'static [Parameter] {
+                match self { $(Self::$kind => <$kind as LawParameters>::OPTIONS),+ }
+            }
+
+            /// The default value of a parameter; `None` if the parameter is required.
+            pub fn default_of(self, path: &str) -> Option<Otherwise> {
+                match self { $(Self::$kind => <$kind as LawParameters>::default_of(path)),+ }
+            }
+
+            /// Parameters of the law, in the order of [`Friction::values`].
+            pub fn parameters(self) -> &'static [Parameter] {
+                match self { $(Self::$kind => <$kind as LawParameters>::PARAMETERS),+ }
+            }
+        }
+
+        impl AnyLaw for Friction {
+            fn concrete(&self) -> &dyn Any {
+                match self { $(Self::$kind(law) => law),+ }
+            }
+        }
+
+        impl Friction {
+            /// The kind of the law.
+            pub fn kind(&self) -> LawKind {
+                match self { $(Self::$kind(_) => LawKind::$kind),+ }
+            }
+
+            /// Values in the order of the law's parameters.
+            pub fn values(&self) -> Vec<f64> {
+                match self { $(Self::$kind(law) => law.values()),+ }
+            }
+
+            /// The number of a path such as `friction.static_coefficient`, if the law has it.
+            pub fn get(&self, path: &str) -> Option<f64> {
+                match self { $(Self::$kind(law) => law.get(path)),+ }
+            }
+
+            /// The law with one number changed.
+            ///
+            /// # Errors
+            /// A path that the law does not have; a value out of its bounds or against a relation.
+            pub fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues> {
+                match self { $(Self::$kind(law) => law.with(path, value).map(Self::$kind)),+ }
+            }
+
+            /// Whether runs with this law and with the other can share SIMD lanes: both are of one
+            /// kind and differ only in numbers.
+            pub fn is_alike(&self, other: &Self) -> bool {
+                match (self, other) {
+                    $((Self::$kind(law), Self::$kind(other)) => law.is_alike(other),)+
+                    _ => false,
+                }
+            }
+
+            /// Whether the sliding branch starts from the static level, μ(0⁺) = μ_s.
+            pub fn starts_at_static_level(&self) -> bool {
+                match self { $(Self::$kind(law) => law.starts_at_static_level()),+ }
+            }
+
+            /// Passes the concrete law to `visitor`.
+            #[inline]
+            pub fn visit<T: LawVisitor>(&self, visitor: T) -> T::Output {
+                match self { $(Self::$kind(law) => visitor.visit(law)),+ }
+            }
+
+            /// The law for use in a given belt ([`SlidingLaw::placed`]).
+            ///
+            /// # Errors
+            /// What could not be proven of a user-defined law, and at which slip.
+            pub fn placed(&self, surroundings: &Surroundings) -> Result<Self, InvalidValues> {
+                match self { $(Self::$kind(law) => law.placed(surroundings).map(Self::$kind)),+ }
+            }
+
+            /// Slip speeds for which the law holds; `None` if it holds for all.
+            pub fn range(&self) -> Option<SlipRange> {
+                match self { $(Self::$kind(law) => law.range()),+ }
+            }
+
+            /// Why the law cannot be simulated; `None` if it can.
+            pub fn unsimulated(&self) -> Option<&'static str> {
+                match self { $(Self::$kind(law) => law.unsimulated()),+ }
+            }
+
+            /// Whether the law has a characteristic velocity.
+            pub fn has_velocity(&self) -> bool {
+                match self { $(Self::$kind(law) => law.has_velocity()),+ }
+            }
+
+            /// Velocity scale v_m of the law.
+            pub fn velocity_scale(&self) -> f64 {
+                match self { $(Self::$kind(law) => law.velocity_scale()),+ }
+            }
+
+            /// Static level μ_s.
+            pub fn static_coefficient(&self) -> f64 {
+                match self { $(Self::$kind(law) => law.static_coefficient()),+ }
+            }
+
+            /// Sliding coefficient at slip speed |v_r| ≥ 0.
+            pub fn coefficient(&self, speed: f64) -> f64 {
+                match self { $(Self::$kind(law) => law.coefficient(speed)),+ }
+            }
+
+            /// Slope of the sliding branch at slip speed |v_r| ≥ 0, per unit velocity.
+            pub fn slope(&self, speed: f64) -> f64 {
+                match self { $(Self::$kind(law) => law.slope(speed)),+ }
+            }
+        }
+    };
+}
+
+laws!(numbers: Stribeck, Decreasing, Coulomb, StribeckExponential; data: Expression, Samples);
+
+impl LawKind {
+    /// The law with a name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|kind| kind.name() == name)
+    }
+}

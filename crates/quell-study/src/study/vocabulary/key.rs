@@ -1,0 +1,225 @@
+//! A key of the study file: its table, its name and the values it takes.
+
+use quell_model::friction::expression;
+use quell_model::parameter::{COEFFICIENT, Parameter, ScaleKey, SiTwin};
+use quell_model::units::Quantity;
+
+use super::words::Choice;
+
+/// What the key `schema` of a study is.
+pub const SCHEMA_ABOUT: &str = "version of the study file [default: 1]";
+
+/// A table of the study file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Section {
+    /// Keys outside any table.
+    Root,
+    /// `[belt]`.
+    Belt,
+    /// `[belt.initial]`.
+    Initial,
+    /// `[friction]`.
+    Friction,
+    /// `[friction.constants]`, whose names a study chooses.
+    Constants,
+    /// `[disc]`.
+    Disc,
+    /// `[[disc.mode]]`.
+    DiscMode,
+    /// `[disc.load]` or `[[disc.load]]`.
+    DiscLoad,
+    /// `[dither]` or `[[dither]]`.
+    Dither,
+    /// `[solver]`.
+    Solver,
+    /// `[response]`.
+    Response,
+    /// `[[sweep]]`.
+    Sweep,
+}
+
+impl Section {
+    /// Every table, in the order of a study file.
+    pub const ALL: &'static [Self] = &[
+        Self::Root,
+        Self::Belt,
+        Self::Initial,
+        Self::Friction,
+        Self::Constants,
+        Self::Disc,
+        Self::DiscMode,
+        Self::DiscLoad,
+        Self::Dither,
+        Self::Solver,
+        Self::Response,
+        Self::Sweep,
+    ];
+
+    /// Path of the table; empty for the root.
+    pub fn path(self) -> &'static str {
+        match self {
+            Self::Root => "",
+            Self::Belt => "belt",
+            Self::Initial => "belt.initial",
+            Self::Friction => "friction",
+            Self::Constants => expression::CONSTANTS,
+            Self::Disc => "disc",
+            Self::DiscMode => "disc.mode",
+            Self::DiscLoad => "disc.load",
+            Self::Dither => "dither",
+            Self::Solver => "solver",
+            Self::Response => "response",
+            Self::Sweep => "sweep",
+        }
+    }
+
+    /// Contents of the table, in one line.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Root => "a study: a belt with its friction law or a disc, and dither",
+            Self::Disc => "annular disc under rotating loads",
+            Self::DiscMode => "a mode of the disc, if modes are listed instead of computed",
+            Self::DiscLoad => {
+                "mass, damper, spring and friction at a point; several as [[disc.load]]"
+            }
+            Self::Belt => "mass, spring and damper on a moving belt",
+            Self::Initial => "initial state of a run [default: at rest]",
+            Self::Friction => "the friction law",
+            Self::Constants => "named numbers of a formula",
+            Self::Dither => "one dither force; several as [[dither]]",
+            Self::Solver => "accuracy and length of the computations",
+            Self::Response => {
+                "measurements of a response in addition to the band of slow vibration"
+            }
+            Self::Sweep => "one axis of a map; several in order",
+        }
+    }
+}
+
+/// The kind of value that a key takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Role {
+    /// A dimensionless parameter.
+    Number(Parameter),
+    /// A parameter in SI.
+    Twin(Parameter, SiTwin),
+    /// A number that defines the scales of a study in SI.
+    Scale(ScaleKey),
+    /// A word from a list.
+    Choice(Choice),
+    /// Free text.
+    Text,
+    /// The version of the file.
+    Schema,
+    /// Words from a list, as an array.
+    Choices(Choice),
+    /// The reference frequency of a disc: "critical", or a frequency parameter k².
+    Reference,
+    /// A formula of the friction coefficient, measured coefficients, or the number of a named law.
+    Coefficient,
+    /// Friction as a force in SI, which determines this parameter of a named law.
+    FrictionForce(Parameter, &'static str),
+    /// Measured slip speeds, in SI or not.
+    Speeds {
+        /// In metres per second.
+        si: bool,
+    },
+    /// The two ends of a band of frequencies, in hertz or in ω₀.
+    Band {
+        /// In hertz.
+        hertz: bool,
+    },
+    /// The number of terms of a fit.
+    Terms,
+    /// A named number of a formula.
+    Constant,
+    /// A bare number of an axis, in the unit of the parameter it names.
+    AxisNumber,
+    /// The number of points of an axis.
+    AxisPoints,
+    /// The list of values of an axis.
+    AxisValues,
+}
+
+/// One key of the study file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Key {
+    /// Its table.
+    pub section: Section,
+    /// Its name inside the table.
+    pub name: &'static str,
+    /// Its kind of value.
+    pub role: Role,
+    /// Description, in one line.
+    pub about: &'static str,
+}
+
+impl Key {
+    /// Its path without index.
+    pub fn path(&self) -> String {
+        join(self.section.path(), self.name)
+    }
+
+    /// The parameter it gives, in SI or not.
+    pub fn parameter(&self) -> Option<Parameter> {
+        match self.role {
+            Role::Number(parameter) | Role::Twin(parameter, _) => Some(parameter),
+            Role::Coefficient => Some(COEFFICIENT),
+            _ => None,
+        }
+    }
+
+    /// Whether it takes a number that can be varied.
+    pub fn takes_number(&self) -> bool {
+        let scale = matches!(self.role, Role::Scale(_) | Role::Constant | Role::FrictionForce(..));
+        scale || self.parameter().is_some()
+    }
+
+    /// Unit of its value.
+    pub fn unit(&self) -> &'static str {
+        match self.role {
+            Role::Number(parameter) => parameter.quantity.scaled_unit(),
+            Role::Twin(_, twin) => twin.unit,
+            Role::Scale(scale) => scale.unit,
+            Role::FrictionForce(_, unit) => unit,
+            Role::Speeds { si: true } => "m/s",
+            Role::Speeds { si: false } => Quantity::Velocity.scaled_unit(),
+            Role::Band { hertz: true } => "Hz",
+            Role::Band { hertz: false } => Quantity::FrequencyRatio.scaled_unit(),
+            _ => "1",
+        }
+    }
+
+    /// Unit in words; frequencies of a disc are in ω_ref.
+    pub fn unit_in_words(&self) -> &'static str {
+        if self.is_of_a_disc() && self.unit() == "ω₀" { "ω_ref" } else { self.unit() }
+    }
+
+    /// The unit to which a number with a unit is converted, such as `5.7kN` for a key in newtons; `None` for dimensionless
+    /// numbers and other values without a unit.
+    pub fn measured_in(&self) -> Option<&'static str> {
+        match self.role {
+            Role::Number(parameter) => match parameter.quantity {
+                Quantity::Ratio | Quantity::DampingRatio => Some("1"),
+                Quantity::Angle => Some("rad"),
+                quantity => quantity.own_unit(),
+            },
+            Role::Twin(_, twin) => Some(twin.unit.trim_end_matches(" (rms)")),
+            Role::Scale(scale) => Some(scale.unit),
+            Role::Speeds { si: true } => Some("m/s"),
+            Role::Band { hertz: true } => Some("Hz"),
+            Role::FrictionForce(_, unit) => Some(unit),
+            Role::Constant => Some("1"),
+            _ => None,
+        }
+    }
+
+    fn is_of_a_disc(&self) -> bool {
+        matches!(self.section, Section::Disc | Section::DiscMode | Section::DiscLoad)
+    }
+}
+
+/// `table.key`, or `key` alone at the root.
+pub fn join(table: &str, key: &str) -> String {
+    if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") }
+}
