@@ -13,7 +13,7 @@ use quell_model::disc::{Contribution, Contributions};
 use quell_model::disc::{DiscDither, Load, Mode};
 use quell_numerics::floquet::Effort;
 use quell_zoo::DiscExt;
-use quell_zoo::disc::{self as zoo, ZooModes, NORMAL, TANGENTIAL, free, loaded};
+use quell_zoo::disc::{self as zoo, NORMAL, TANGENTIAL, ZooModes, free, loaded};
 
 fn of(disc: &Disc) -> Growth {
     dithered::growth(disc, Effort::default()).expect("finite")
