@@ -101,8 +101,8 @@ const SLOW: &[&str] = &[
     "every_entry_is_made",
     "runs_from_rest_have_both_thresholds_in_any_window",
     "studies_commands_and_answers_are_true",
-    "the_reader_of_stores_believes_no_damage",
-    "the_reader_of_studies_refuses_in_words",
+    "the_reader_of_stores_detects_damage",
+    "the_reader_of_studies_rejects_with_complaints",
     "thresholds_answer_with_the_number",
     "thresholds_tell_each_protocol_apart",
 ];

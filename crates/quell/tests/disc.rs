@@ -72,7 +72,7 @@ fn complaints_name_the_key() {
             "cannot be read",
         ),
         ("schema = 1\n[disc]\nmode = []\n".to_owned(), "disc.mode", Some(3), "at least one"),
-        (format!("{PLATE}[belt]\nnormal_load = 1\n"), "belt", Some(11), "of a belt or of a disc"),
+        (format!("{PLATE}[belt]\nnormal_load = 1\n"), "belt", Some(11), "either a belt or a disc"),
     ] {
         let complaints = parse(&text).expect_err(&text);
         let found = complaints.iter().find(|complaint| complaint.key == key);
@@ -91,8 +91,8 @@ fn complaints_about_a_plate_name_the_key() {
     let metal = "youngs_modulus_pa = 1.1e11\ndensity_kg_per_m3 = 7200\n";
     let axis = "[[sweep]]\nparameter = \"disc.load.speed\"\nfrom = 0.1\nto = 1\npoints = 3\n";
     for (text, key, line, allowed) in [
-        (disc(metal), "disc.thickness_m", Some(2), "hertz and rpm need"),
-        (disc(metal), "disc.outer_radius_m", Some(2), "hertz and rpm need"),
+        (disc(metal), "disc.thickness_m", Some(2), "hertz and rpm require"),
+        (disc(metal), "disc.outer_radius_m", Some(2), "hertz and rpm require"),
         (
             disc(&format!("{metal}thickness_m = 0.5\nouter_radius_m = 0.1\n")),
             "disc.thickness_m",

@@ -104,7 +104,7 @@ fn complaints_name_the_key_and_the_line() {
             "law = \"samples\"\nslip_velocity = [0, 1]\ncoefficient = [0.3, 0.2]\n",
             "friction.slip_velocity",
             8,
-            "5 different",
+            "5 distinct",
         ),
         (
             "law = \"samples\"\nslip_velocity = [0, -1]\ncoefficient = [0.3, 0.2]\n",

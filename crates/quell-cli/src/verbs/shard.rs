@@ -58,7 +58,7 @@ fn text(done: &Sharded, path: &Path) -> String {
         let chunks = if done.left == 1 { "chunk is" } else { "chunks are" };
         let shards = if numbers.len() == 1 { "shard" } else { "shards" };
         let (left, numbers) = (done.left, numbers.join(","));
-        let _ = writeln!(text, "  {left} {chunks} left, of the {shards} {numbers}");
+        let _ = writeln!(text, "  {left} {chunks} left, of {shards} {numbers}");
     }
     text
 }

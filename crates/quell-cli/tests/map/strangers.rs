@@ -185,7 +185,7 @@ fn pipes_and_folders_in_place_of_files_are_rejected() {
             remove(&path);
             if kind == "pipe" {
                 assert!(Command::new("mkfifo").arg(&path).status().expect("mkfifo").success());
-                refused(&place, &["holds a pipe", name]);
+                refused(&place, &["contains a pipe", name]);
             } else {
                 fs::create_dir(&path).expect("made");
                 let last = name.rsplit('/').next().expect("a name");
