@@ -48,11 +48,11 @@ pub struct Inputs {
 
 /// A file that a study was read from.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Input {
+pub struct InputFile {
     name: String,
 }
 
-impl Input {
+impl InputFile {
     /// Why it must not be used as an output.
     pub fn refusal(&self) -> String {
         format!("would overwrite {}, which the study is read from; choose another name", self.name)
@@ -77,21 +77,21 @@ impl Inputs {
     }
 
     /// The input file that `path` refers to, also through links or as a second name of the same file.
-    pub fn at(&self, path: &Path) -> Option<Input> {
+    pub fn at(&self, path: &Path) -> Option<InputFile> {
         let found = fs::metadata(path).ok().filter(Metadata::is_file)?;
         if self.standard_input && is_standard_input(&found) {
-            return Some(Input { name: "the file that is standard input".to_owned() });
+            return Some(InputFile { name: "the file that is standard input".to_owned() });
         }
         let same = |file: &&PathBuf| is_same(file, path, &found);
-        self.files.iter().find(same).map(|file| Input { name: file.display().to_string() })
+        self.files.iter().find(same).map(|file| InputFile { name: file.display().to_string() })
     }
 
     /// An input file that is in the folder `path`, or is `path` itself.
-    pub fn inside(&self, path: &Path) -> Option<Input> {
+    pub fn inside(&self, path: &Path) -> Option<InputFile> {
         let folder = path.canonicalize().ok()?;
         let within =
             |file: &&PathBuf| file.canonicalize().is_ok_and(|file| file.starts_with(&folder));
-        self.files.iter().find(within).map(|file| Input { name: file.display().to_string() })
+        self.files.iter().find(within).map(|file| InputFile { name: file.display().to_string() })
     }
 }
 

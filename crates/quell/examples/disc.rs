@@ -8,7 +8,7 @@ use quell::run::disc::stability;
 use quell::{Failure, Study};
 
 /// A steel disc under one pad; modes are computed from the plate.
-const STUDY: &str = r#"
+const STUDY: &str = r"
 [disc]
 inner_radius_ratio = 0.5
 poisson_ratio = 0.3
@@ -19,7 +19,7 @@ radius_ratio = 0.75
 stiffness = 0.1
 friction = 0.05
 speed = 0.4
-"#;
+";
 
 /// Answers the question.
 ///

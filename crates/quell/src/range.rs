@@ -129,8 +129,7 @@ pub(crate) fn averaged_at(study: &BeltStudy, slip: f64) -> Vec<String> {
     let (together, fast) = (with_dither(belt, slip), belt.fast_velocity());
     if together > range.upper {
         let what = match (fast > 0.0, slip == belt.belt_velocity()) {
-            (true, true) => "slip including dither reaches".to_owned(),
-            (true, false) => "slip including dither reaches".to_owned(),
+            (true, _) => "slip including dither reaches".to_owned(),
             (false, true) => "slip without dither reaches".to_owned(),
             (false, false) => "slip reaches".to_owned(),
         };

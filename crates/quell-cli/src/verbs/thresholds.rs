@@ -71,15 +71,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         complaints.finish(study.zip(range.zip(runs).zip(between.zip(files))))?;
     let parameter = arguments.varied.parameter.clone();
     let verbs = verbs(&study)?;
-    let done = match arguments.along.clone().zip(between) {
-        Some((along, between)) => {
-            verbs.threshold_curves(&CurvesRequest { parameter, window: range, along, between })?
-        }
-        None => {
-            let ((from, to), (start, ramp)) = (range, runs);
-            let protocols = arguments.protocols(start);
-            verbs.thresholds(ThresholdsRequest { parameter, from, to, protocols, ramp })?
-        }
+    let done = if let Some((along, between)) = arguments.along.clone().zip(between) {
+        verbs.threshold_curves(&CurvesRequest { parameter, window: range, along, between })?
+    } else {
+        let ((from, to), (start, ramp)) = (range, runs);
+        let protocols = arguments.protocols(start);
+        verbs.thresholds(ThresholdsRequest { parameter, from, to, protocols, ramp })?
     };
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }

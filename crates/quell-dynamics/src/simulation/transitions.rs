@@ -29,7 +29,7 @@ impl Engine<'_> {
         match self.state.contact {
             ContactState::Stick { .. } => self.report(EventKind::Stick),
             ContactState::Slip { sign: after, .. } if after != sign => {
-                self.report(EventKind::Reversal)
+                self.report(EventKind::Reversal);
             }
             // Grazing: v_r touches 0 and returns to the same side, without an event.
             ContactState::Slip { .. } => {}

@@ -222,7 +222,7 @@ impl Disc {
     }
 
     /// The load that a path names, counted from 0.
-    pub(crate) fn load_of(&self, path: &str) -> Option<usize> {
+    pub(crate) fn load_of(path: &str) -> Option<usize> {
         split_index(path, "disc.load").map(|(index, _)| index)
     }
 

@@ -43,7 +43,7 @@ impl Parametrisation for Disc {
 
     fn si_per_unit(&self, path: &str) -> Option<f64> {
         let parameter = Self::parameter(self, path)?;
-        self.scales(self.load_of(path).unwrap_or(0))?.si_per_unit(parameter.quantity)
+        self.scales(Self::load_of(path).unwrap_or(0))?.si_per_unit(parameter.quantity)
     }
 
     fn system(&self) -> System {

@@ -142,6 +142,9 @@ pub trait Verbs: Send + Sync {
 }
 
 /// The verbs of a study.
+///
+/// # Errors
+/// None of today's kinds: a kind that has no verbs would be refused.
 pub fn verbs(study: &Study) -> Result<Box<dyn Verbs>, Failure> {
     Ok(match study.kind() {
         Kind::Belt(_) => Box::new(study.belt()?),

@@ -112,10 +112,10 @@ fn decided(growth: Growth) -> Result<f64, Status> {
 /// A disc of unit friction, and what was prepared for it.
 struct Prepared {
     disc: Disc,
-    equations: Equations,
+    equations: DiscEquations,
 }
 
-enum Equations {
+enum DiscEquations {
     Dithered(Box<FollowerDither>),
     Constant(Box<Linearised>),
 }
@@ -164,19 +164,19 @@ fn growth(
         Some(prepared) if prepared.disc == unit => &prepared.equations,
         _ => {
             let equations = match dithered::prepared_with(&unit, parts).map_err(not_finite)? {
-                Some(dithered) => Equations::Dithered(Box::new(dithered)),
+                Some(dithered) => DiscEquations::Dithered(Box::new(dithered)),
                 None => {
-                    Equations::Constant(Box::new(linearised(&unit, parts).map_err(not_finite)?))
+                    DiscEquations::Constant(Box::new(linearised(&unit, parts).map_err(not_finite)?))
                 }
             };
             &prepared.insert(Prepared { disc: unit, equations }).equations
         }
     };
     match equations {
-        Equations::Dithered(dithered) => {
+        DiscEquations::Dithered(dithered) => {
             dithered.growth(factor, Effort::default()).map_err(not_finite)
         }
-        Equations::Constant(linear) => {
+        DiscEquations::Constant(linear) => {
             let on = parts.contains(Contribution::FollowerForce);
             let mean = linear.contacts().iter();
             let friction: Vec<f64> =

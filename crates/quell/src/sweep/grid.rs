@@ -219,7 +219,7 @@ mod tests {
         direction = \"tangential\"\nwaveform = \"square\"\namplitude = 0.1\nfrequency_ratio = 7\n";
 
     fn grid(axes: &str) -> Result<Grid, Box<Complaint>> {
-        Grid::of(&BeltStudy::parse(&format!("{TEXT}{axes}"), &[]).expect("valid"))
+        Grid::of(BeltStudy::parse(&format!("{TEXT}{axes}"), &[]).expect("valid"))
     }
 
     #[test]
