@@ -110,7 +110,7 @@ fn complaints_about_a_plate_name_the_key() {
             disc("nodal_diameters = 0\n"),
             "disc.nodal_diameters",
             Some(4),
-            "at least 1, or disc.reference_frequency",
+            "at least 1, unless disc.reference_frequency",
         ),
         (
             format!("{PLATE}{}", DITHER.replace("\"normal\"", "\"normal\"\nwaveform = \"square\"")),
