@@ -38,10 +38,10 @@ impl std::error::Error for Invalid {}
 /// It derefs to a slice of [`Invalid`], prints one line for each, and is an [`std::error::Error`], so that `?` works:
 ///
 /// ```
-/// use quell_model::{Belt, Friction, LawKind};
+/// use quell_model::{Belt, LawKind};
 ///
 /// fn belt(velocity: f64) -> Result<Belt, Box<dyn std::error::Error>> {
-///     let law = LawKind::Coulomb.build(&[0.3, 0.3])?;
+///     let law = LawKind::Coulomb.build(&[0.3, 0.3, 0.0])?;
 ///     Ok(Belt::new(0.005, 1.0, velocity, law, Vec::new())?)
 /// }
 ///

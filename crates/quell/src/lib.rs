@@ -103,7 +103,7 @@
 //!     friction = 0.05
 //!     speed = 0.4
 //! "#;
-//! let study = DiscStudy::parse(text, &[], "".as_ref())?;
+//! let study = DiscStudy::parse(text, &[])?;
 //! let found = stability::run(&study)?;
 //! println!("{}", found.sentence(&study));
 //! assert!(found.growth.rate > 0.0);

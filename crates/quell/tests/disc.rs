@@ -116,9 +116,9 @@ fn complaints_about_a_plate_name_the_key() {
             format!("{PLATE}{}", DITHER.replace("\"normal\"", "\"normal\"\nwaveform = \"square\"")),
             "dither.waveform",
             Some(13),
-            "\"sine\", the waveform of a disc",
+            "\"sine\", the only waveform",
         ),
-        (format!("{PLATE}{axis}{axis}"), "sweep[1].parameter", Some(16), "sweep[0] varies"),
+        (format!("{PLATE}{axis}{axis}"), "sweep[1].parameter", Some(16), "sweep[0] already varies"),
         (format!("sweep = 3\n{PLATE}"), "sweep", Some(1), "tables [[sweep]]"),
     ] {
         let complaints = parse(&text).err().unwrap_or_else(|| panic!("{key} is accepted"));

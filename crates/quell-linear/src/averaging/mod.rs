@@ -21,7 +21,7 @@
 //! let critical = critical_amplitudes(&belt, options).expect("one dither");
 //! assert!((critical[0].amplitude - 4.322392).abs() < 1e-6); // exact: 4.322393
 //! assert!((critical[1].amplitude - 9.9).abs() < 1e-12 && critical[1].crossing == CrossingKind::Jump);
-//! # Ok::<(), Vec<quell_model::Invalid>>(())
+//! # Ok::<(), quell_model::InvalidValues>(())
 //! ```
 //!
 //! | file | content |
