@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use pyo3::prelude::*;
+use quell::dataset::Dataset;
 use quell::outcome::Outcome;
 use quell::output::Output;
 use quell::picture::{self, EXTENSIONS};
@@ -32,6 +33,11 @@ impl NativeAnswer {
     }
 }
 
+/// The datasets of an outcome. The events of a run are a field of its facts in Python, not a dataset.
+fn tables(outcome: &dyn Outcome) -> Vec<(&'static str, Dataset)> {
+    outcome.datasets().into_iter().filter(|(name, _)| *name != "events").collect()
+}
+
 #[pymethods]
 impl NativeAnswer {
     /// The facts of the answer, as a dict.
@@ -42,7 +48,7 @@ impl NativeAnswer {
     /// (name, (provenance, axes, arrays)) of every dataset.
     fn datasets(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, Py<PyAny>)>> {
         let inner = Arc::clone(&self.inner);
-        let found = py.detach(move || inner.datasets());
+        let found = py.detach(move || tables(inner.as_ref()));
         found
             .into_iter()
             .map(|(name, dataset)| Ok((name, convert::dataset(py, dataset)?)))
@@ -78,7 +84,7 @@ impl NativeAnswer {
             let mut saved = Vec::new();
             let inputs = inner.inputs();
             let first = Output::prepare(&path, "path", &["csv"], &inputs)?;
-            let datasets = inner.datasets();
+            let datasets = tables(inner.as_ref());
             if datasets.is_empty() {
                 let allowed = "this result has no table";
                 let origin = Origin::Whole;

@@ -199,7 +199,7 @@ WRONG: list[tuple[str, str, Any]] = [
     ("until", "", lambda belt, disc: belt.simulate(-1.0)),
     ("quantity", "efficiency", lambda belt, disc: belt.map("eficiency", {"dither.amplitude": [0.1]})),
     ("[[sweep]]", 'axes={"dither.amplitude"', lambda belt, disc: belt.map("efficiency")),
-    ("clear", "clear and frequency are given together", lambda belt, disc: disc.resonances(clear=(0.2, 0.6))),
+    ("clear", "clear and frequency must be given together", lambda belt, disc: disc.resonances(clear=(0.2, 0.6))),
     ("clear", "damped", lambda belt, disc: disc.set(TANGENTIAL).resonances(clear=(0.1, 1.0), frequency=(2.0, 6.0))),
     ("out", "", lambda belt, disc: quell.reproduce("2.2", out=__file__)),
     ("path", "must end in", lambda belt, disc: belt.simulate(1.0).save("x.xlsx")),
