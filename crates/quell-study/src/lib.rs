@@ -23,7 +23,7 @@
 //!     coefficient = 0.3
 //! ";
 //! let study = Study::parse(text, &[]).expect("valid");
-//! assert_eq!(study.belt()?.belt().belt_velocity(), 0.05);
+//! assert_eq!(study.belt().expect("a belt").belt().belt_velocity(), 0.05);
 //! let wrong = Study::parse(&text.replace("0.05", "-1"), &[]).expect_err("a belt moves forwards");
 //! assert_eq!(wrong[0].key, "belt.belt_velocity");
 //! ```
