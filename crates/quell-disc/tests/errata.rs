@@ -158,8 +158,9 @@ fn indices_of_the_double_sum() {
     let (count, load) = (disc.coordinates(), &disc.loads()[0]);
     let parts = Contributions::ALL.without(Contribution::LoadMass).without(Contribution::Damper);
     let bare = linearised(&disc, parts).expect("finite");
-    let whole_mass = disc.system_of(Contributions::ALL).structure.mass().matrix();
-    let bare_mass = disc.system_of(parts).structure.mass().matrix();
+    let whole_mass =
+        disc.system_of(Contributions::ALL).structure.mechanical().expect("masses").mass().matrix();
+    let bare_mass = disc.system_of(parts).structure.mechanical().expect("masses").mass().matrix();
     let row = |matrix: &Matrix, i: usize, j: usize| matrix.row(i)[j];
     let (mut mass, mut damping) = (bare_mass.clone(), bare.damping().clone());
     for i in 0..count {

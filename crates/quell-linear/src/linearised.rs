@@ -100,8 +100,9 @@ impl Linearised {
     /// [`NoSteadySliding`] with the contact and the reason.
     pub fn new(system: &System) -> Result<Self, NoSteadySliding> {
         let n = system.structure.size();
-        let mut damping = system.structure.damping().clone();
-        let mut stiffness = system.structure.stiffness().clone();
+        let structure = system.structure.mechanical().ok_or(NoSteadySliding::Singular)?;
+        let mut damping = structure.damping().clone();
+        let mut stiffness = structure.stiffness().clone();
         for contact in &system.contacts {
             let Some(row) = &contact.normal else { continue };
             for (strength, matrix) in
@@ -128,7 +129,7 @@ impl Linearised {
                 return Err(NoSteadySliding::Open { contact: given.name.clone(), normal_load });
             }
         }
-        let mass = system.structure.mass();
+        let mass = structure.mass();
         let solve = |right: &Matrix| mass.solve(right).ok_or(NoSteadySliding::Singular);
         let columns = |row: &dyn Fn(&SteadyContact, usize) -> f64| {
             solve(&Matrix::from_fn(n, contacts.len(), |i, c| row(&contacts[c], i)))
@@ -355,7 +356,7 @@ fn product(row: Option<&[f64]>, position: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use quell_model::profile::Profile;
-    use quell_model::system::{Contact, MassMatrix, Structure};
+    use quell_model::system::{Contact, MassMatrix, Mechanical};
     use quell_model::{Belt, Friction, LawKind, Parametrisation};
 
     use super::*;
@@ -379,7 +380,7 @@ mod tests {
     fn mode_coupling_begins_at_three_quarters() {
         let growth = |coefficient: f64| {
             let stiffness = [[2.0, 1.0], [1.0, 2.0 / 3.0]];
-            let structure = Structure::new(
+            let structure = Mechanical::new(
                 vec!["x".to_owned(), "y".to_owned()],
                 MassMatrix::identity(2),
                 Matrix::zeros(2, 2),
@@ -388,6 +389,7 @@ mod tests {
             let contact = Contact {
                 name: "pad".to_owned(),
                 tangent: Some(vec![1.0, 0.0]),
+                force: None,
                 normal: Some(vec![0.0, 1.0]),
                 slope: None,
                 normal_load: 1.0,
@@ -396,7 +398,8 @@ mod tests {
                 surface_velocity: Profile::constant(0.05),
                 friction: Friction::Coulomb(quell_model::Coulomb::constant(coefficient)),
             };
-            let system = System { structure, contacts: vec![contact], inputs: Vec::new() };
+            let system =
+                System { structure: structure.into(), contacts: vec![contact], inputs: Vec::new() };
             let linear = Linearised::new(&system).expect("slides");
             eigenvalues::growth(&linear, &linear.mean_friction()).expect("finite").rate
         };

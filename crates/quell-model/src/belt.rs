@@ -10,7 +10,7 @@ use crate::parameter::{
     NORMAL_LOAD, Parameter, indexed, split_index,
 };
 use crate::profile::{Profile, Wave};
-use crate::system::{Contact, Input, InputTarget, MassMatrix, Structure, System};
+use crate::system::{Contact, Input, InputTarget, MassMatrix, Mechanical, System};
 use crate::units::Scales;
 use crate::{Invalid, InvalidValues};
 use quell_numerics::matrix::Matrix;
@@ -314,7 +314,7 @@ impl Parametrisation for Belt {
     /// One coordinate of unit mass and stiffness; its contact is loaded by F, and normal dither has no reaction (4.1).
     fn system(&self) -> System {
         let one = |value: f64| Matrix::from_fn(1, 1, |_, _| value);
-        let structure = Structure::new(
+        let structure = Mechanical::new(
             vec!["x".to_owned()],
             MassMatrix::identity(1),
             one(2.0 * self.damping_ratio),
@@ -323,6 +323,7 @@ impl Parametrisation for Belt {
         let contact = Contact {
             name: "belt".to_owned(),
             tangent: Some(vec![1.0]),
+            force: None,
             normal: None,
             slope: None,
             normal_load: self.normal_load,
@@ -343,7 +344,7 @@ impl Parametrisation for Belt {
                 phase: dither.phase,
             }),
         });
-        System { structure, contacts: vec![contact], inputs: inputs.collect() }
+        System { structure: structure.into(), contacts: vec![contact], inputs: inputs.collect() }
     }
 }
 
@@ -375,7 +376,10 @@ mod tests {
         let belt = belt(vec![dither(Direction::Tangential, 0.3), dither(Direction::Normal, 0.5)])
             .expect("valid");
         let system = belt.system();
-        assert_eq!(system.structure.damping()[(0, 0)], 2.0 * belt.damping_ratio());
+        assert_eq!(
+            system.structure.mechanical().expect("a mass").damping()[(0, 0)],
+            2.0 * belt.damping_ratio()
+        );
         assert_eq!(system.contacts[0].normal_load, belt.normal_load());
         for time in [0.0, 0.37, 2.1] {
             let value = |index: usize| system.inputs[index].profile.value(time);

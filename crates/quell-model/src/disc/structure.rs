@@ -25,7 +25,7 @@ use super::{Contribution, Contributions, Disc};
 use crate::friction::{Coulomb, Friction};
 use crate::parameter::Parameter;
 use crate::profile::{Profile, Wave};
-use crate::system::{Contact, Input, InputTarget, MassMatrix, Structure, System};
+use crate::system::{Contact, Input, InputTarget, MassMatrix, Mechanical, System};
 use crate::{InvalidValues, Parametrisation, Waveform};
 
 impl Parametrisation for Disc {
@@ -69,6 +69,7 @@ impl Disc {
             contacts.push(Contact {
                 name: format!("load {l}"),
                 tangent: None,
+                force: None,
                 normal: Some(normal),
                 slope: Some(slope),
                 normal_load: 1.0,
@@ -90,8 +91,8 @@ impl Disc {
             }
             inputs.push(Input { target: InputTarget::Friction { contact: l }, profile: factor });
         }
-        let structure = Structure::new(self.coordinate_names(), mass, damping, stiffness);
-        System { structure, contacts, inputs }
+        let structure = Mechanical::new(self.coordinate_names(), mass, damping, stiffness);
+        System { structure: structure.into(), contacts, inputs }
     }
 
     /// Names of the coordinates: A and B of each mode, counted from 0.

@@ -18,6 +18,8 @@ pub struct Contact {
     pub name: String,
     /// Tangent row t.
     pub tangent: Option<Vec<f64>>,
+    /// Column g of first-order equations, ẋ = … + g T, which stands for M⁻¹t; `None` for a mechanical structure.
+    pub force: Option<Vec<f64>>,
     /// Normal row n.
     pub normal: Option<Vec<f64>>,
     /// Slope row s: a surface tilted by sᵀq turns friction by that angle.

@@ -1,14 +1,122 @@
-//! A linear structure: M q̈ + C q̇ + K q = p.
+//! The linear part of a system: a mechanical structure M q̈ + C q̇ + K q = p, or first-order equations ẋ = A x + p.
 
 use quell_numerics::matrix::Matrix;
 
 use super::MassMatrix;
 
+/// The linear part of a system.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Structure {
+    /// Masses, dampers and springs; the state is (q, q̇).
+    Mechanical(Mechanical),
+    /// First-order equations; the state is x.
+    StateSpace(StateSpace),
+}
+
+impl Structure {
+    /// Names of the coordinates q, or of the states x: what a row of a contact or an input has one number for.
+    pub fn names(&self) -> &[String] {
+        match self {
+            Self::Mechanical(mechanical) => mechanical.coordinates(),
+            Self::StateSpace(states) => states.names(),
+        }
+    }
+
+    /// The constant forces p, one for each name.
+    pub fn force(&self) -> &[f64] {
+        match self {
+            Self::Mechanical(mechanical) => mechanical.force(),
+            Self::StateSpace(states) => states.force(),
+        }
+    }
+
+    /// Length of a row: the number of names.
+    pub fn size(&self) -> usize {
+        self.names().len()
+    }
+
+    /// Length of the state: 2n of a mechanical structure, else the number of states.
+    pub fn state_size(&self) -> usize {
+        match self {
+            Self::Mechanical(mechanical) => 2 * mechanical.size(),
+            Self::StateSpace(states) => states.names().len(),
+        }
+    }
+
+    /// The mechanical structure, if it is one.
+    pub fn mechanical(&self) -> Option<&Mechanical> {
+        match self {
+            Self::Mechanical(mechanical) => Some(mechanical),
+            Self::StateSpace(_) => None,
+        }
+    }
+}
+
+impl From<Mechanical> for Structure {
+    fn from(mechanical: Mechanical) -> Self {
+        Self::Mechanical(mechanical)
+    }
+}
+
+impl From<StateSpace> for Structure {
+    fn from(states: StateSpace) -> Self {
+        Self::StateSpace(states)
+    }
+}
+
+/// First-order equations ẋ = A x + p: a structure with its controllers, actuators and filters.
+///
+/// Rows of contacts and inputs are over the states; a contact's friction enters through its column g
+/// ([`Contact::force`](super::Contact::force)).
+#[derive(Clone, Debug, PartialEq)]
+pub struct StateSpace {
+    names: Vec<String>,
+    matrix: Matrix,
+    force: Vec<f64>,
+}
+
+impl StateSpace {
+    /// From the names of the states and A, without constant forces.
+    ///
+    /// # Panics
+    /// If A is not square of that size.
+    pub fn new(names: Vec<String>, matrix: Matrix) -> Self {
+        let n = names.len();
+        assert_eq!((matrix.rows(), matrix.columns()), (n, n), "size of the state matrix");
+        Self { names, matrix, force: vec![0.0; n] }
+    }
+
+    /// The same equations with the constant rates p, one for each state.
+    ///
+    /// # Panics
+    /// If there are not as many rates as states.
+    #[must_use]
+    pub fn under(self, force: Vec<f64>) -> Self {
+        assert_eq!(force.len(), self.names.len(), "one rate for each state");
+        Self { force, ..self }
+    }
+
+    /// Names of the states.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// A.
+    pub fn matrix(&self) -> &Matrix {
+        &self.matrix
+    }
+
+    /// Constant rates p.
+    pub fn force(&self) -> &[f64] {
+        &self.force
+    }
+}
+
 /// Masses, dampers, springs and constant forces of n coordinates.
 ///
 /// M is symmetric and positive definite; C and K are any real matrices, gyroscopic and circulatory parts included.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Structure {
+pub struct Mechanical {
     coordinates: Vec<String>,
     mass: MassMatrix,
     damping: Matrix,
@@ -16,7 +124,7 @@ pub struct Structure {
     force: Vec<f64>,
 }
 
-impl Structure {
+impl Mechanical {
     /// From the names of the coordinates, M, C and K, without constant forces.
     ///
     /// # Panics
