@@ -162,7 +162,8 @@ fn indices_of_the_double_sum() {
         disc.system_of(Contributions::ALL).structure.mechanical().expect("masses").mass().matrix();
     let bare_mass = disc.system_of(parts).structure.mechanical().expect("masses").mass().matrix();
     let row = |matrix: &Matrix, i: usize, j: usize| matrix.row(i)[j];
-    let (mut mass, mut damping) = (bare_mass.clone(), bare.damping().clone());
+    let (mut mass, mut damping) =
+        (bare_mass.clone(), bare.matrices().expect("masses").damping.clone());
     for i in 0..count {
         // The diagonal of the full system shows on which rows the load acts: φ_pq² there.
         let own = row(&whole_mass, i, i) - row(&bare_mass, i, i);

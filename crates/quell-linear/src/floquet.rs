@@ -13,7 +13,7 @@ use quell_numerics::floquet::{ConstantFlow, Effort, Exponent, Floquet, Phase};
 use quell_numerics::matrix::Matrix;
 
 use crate::growth::Growth;
-use crate::linearised::{Linearised, SteadyContact};
+use crate::linearised::{LinearContact, Linearised};
 
 /// The factor m + α cos(ωt + φ) on the friction of one contact.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ impl FollowerDither {
         frequency: f64,
     ) -> Result<Option<Self>, EigenError> {
         let Some(factors) = factors(system, frequency) else { return Ok(None) };
-        if linear.contacts().iter().any(SteadyContact::has_tangent) {
+        if linear.contacts().iter().any(|contact: &LinearContact| contact.tangent().is_some()) {
             return Ok(None);
         }
         let none = vec![0.0; factors.len()];
@@ -52,7 +52,7 @@ impl FollowerDither {
         let flow = ConstantFlow::new(&linear.state_matrix(&none), &u, &v)?;
         Ok(Some(Self {
             engine: Floquet::new(flow, TAU / frequency),
-            friction: linear.contacts().iter().map(|contact| contact.friction).collect(),
+            friction: linear.contacts().iter().map(|contact| contact.steady.friction).collect(),
             factors,
         }))
     }

@@ -10,3 +10,4 @@ pub mod eigenvalues;
 pub mod floquet;
 pub mod growth;
 pub mod linearised;
+pub mod steady;

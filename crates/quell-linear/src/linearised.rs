@@ -1,187 +1,218 @@
 //! Linearisation about steady sliding (systems of any number of contacts).
 //!
-//! In steady sliding q₀ every contact slips at γ_c = v_c ≠ 0, so that T_c = μ_c(v_c) N_c acts, with the mean of its factor where
-//! an input multiplies it. Small motions y = (q − q₀, q̇) obey
+//! In steady sliding q₀ every contact slips at γ_c = v_c ≠ 0 ([`SteadySliding`]), and friction acts with the mean of its factor
+//! where an input multiplies it. Small motions y = (q − q₀, q̇) obey
 //!
 //! ```text
 //! ẏ = [A₀ + Σ_c U_c Φ_c V_cᵀ] y,    U_c = (0, M⁻¹[t_c + n_cσ_c, n_c]),    V_c = [t_c on q̇, n_c on q, n_c on q̇, s_c on q]
-//! Φ_c = [ −μ′N, μk, μd, 0 ;   0, −k, −d, T ],     σ_c = s_cᵀq₀
+//! Φ_c = [ −T_γ, T_N k, T_N d, 0 ;   0, −k, −d, T ],     σ_c = s_cᵀq₀
 //! ```
 //!
-//! The contacts' own springs and dampers (−k, −d) are gathered in K and C once; what friction does (μ′, μ and T) is added for a
-//! friction that is given, so that a row of a map shares the assembly.
-
-use std::fmt;
+//! with T_γ = μ′N and T_N = μ without dither. The contacts' own springs and dampers (−k, −d) are gathered in K and C once; what
+//! friction does (T_γ, T_N and T) is added for a friction that is given, so that a row of a map shares the assembly. First-order
+//! equations have U_c = g_c, V_c = t_c and Φ_c = −T_γ.
 
 use quell_model::System;
-use quell_model::system::InputTarget;
+use quell_model::system::Structure;
 use quell_numerics::matrix::Matrix;
 
-/// Newton steps after which steady sliding is given up: slope rows alone make the equation nonlinear, and it converges in
-/// a few steps or not at all.
-const MOST_STEPS: usize = 50;
+pub use crate::steady::{FrictionLine, NoSteadySliding};
+use crate::steady::{SteadyContact, SteadySliding, entry, with_dampers, with_springs};
 
-/// Why a system cannot be linearised.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NoSteadySliding {
-    /// The surface of a contact does not move.
-    AtRest {
-        /// Name of the contact.
-        contact: String,
-    },
-    /// The contact is open in steady sliding.
-    Open {
-        /// Name of the contact.
-        contact: String,
-        /// Its normal load there.
-        normal_load: f64,
-    },
-    /// The equations of steady sliding have no solution that was found, or the mass matrix is singular.
-    Singular,
+/// Friction of a contact near steady sliding: its force and how it changes with slip velocity and load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrictionSlopes {
+    /// T.
+    pub force: f64,
+    /// T_γ = ∂T/∂γ.
+    pub by_velocity: f64,
+    /// T_N = ∂T/∂N.
+    pub by_load: f64,
 }
 
-impl fmt::Display for NoSteadySliding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::AtRest { contact } => write!(f, "the surface of contact {contact} does not move"),
-            Self::Open { contact, normal_load } => {
-                write!(f, "contact {contact} is open in steady sliding, its load is {normal_load}")
-            }
-            Self::Singular => f.write_str("the equations of steady sliding are singular"),
-        }
-    }
-}
-
-impl std::error::Error for NoSteadySliding {}
-
-/// A contact in steady sliding.
+/// A contact of linearised equations.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SteadyContact {
-    /// Friction coefficient μ(v), signed.
-    pub coefficient: f64,
-    /// Slope μ′(v).
-    pub slope: f64,
-    /// Normal load N at q₀.
-    pub normal_load: f64,
-    /// Friction T = μN without its factor.
-    pub friction: f64,
-    /// Mean of the factor on the friction force; 1 without an input on it.
-    pub factor: f64,
+pub struct LinearContact {
+    /// The contact in steady sliding.
+    pub steady: SteadyContact,
     tangent: Option<Vec<f64>>,
     normal: Option<Vec<f64>>,
     slope_row: Option<Vec<f64>>,
-    /// σ = sᵀq₀.
-    tilt: f64,
     stiffness: f64,
     damping: f64,
-    /// M⁻¹(t + nσ) and M⁻¹n.
+    /// M⁻¹(t + nσ), or g.
     along: Vec<f64>,
+    /// M⁻¹n.
     across: Vec<f64>,
+}
+
+/// What is linear without friction.
+#[derive(Clone, Debug)]
+enum Equations {
+    Mechanical {
+        /// M.
+        mass: Matrix,
+        /// C and K with the springs and dampers of the contacts.
+        damping: Matrix,
+        stiffness: Matrix,
+        /// M⁻¹C and M⁻¹K of these.
+        over_mass: [Matrix; 2],
+    },
+    StateSpace(Matrix),
 }
 
 /// The linear equations of small motions about steady sliding.
 #[derive(Clone, Debug)]
 pub struct Linearised {
-    size: usize,
-    /// q₀.
     position: Vec<f64>,
-    /// C and K with the springs and dampers of the contacts, without friction.
-    damping: Matrix,
-    stiffness: Matrix,
-    /// M⁻¹C and M⁻¹K of these.
-    over_mass: [Matrix; 2],
-    contacts: Vec<SteadyContact>,
+    equations: Equations,
+    contacts: Vec<LinearContact>,
+}
+
+/// M, C and K of a mechanical structure with the springs and dampers of its contacts, friction left out.
+#[derive(Clone, Copy, Debug)]
+pub struct Matrices<'a> {
+    /// M.
+    pub mass: &'a Matrix,
+    /// C.
+    pub damping: &'a Matrix,
+    /// K.
+    pub stiffness: &'a Matrix,
 }
 
 impl Linearised {
-    /// Linearises a system about steady sliding.
+    /// Linearises a system about its steady sliding without dither.
     ///
     /// # Errors
     /// [`NoSteadySliding`] with the contact and the reason.
     pub fn new(system: &System) -> Result<Self, NoSteadySliding> {
+        Self::about(system, SteadySliding::new(system)?)
+    }
+
+    /// Linearises a system about a steady sliding.
+    ///
+    /// # Errors
+    /// [`NoSteadySliding::NoMass`].
+    pub fn about(system: &System, steady: SteadySliding) -> Result<Self, NoSteadySliding> {
         let n = system.structure.size();
-        let structure = system.structure.mechanical().ok_or(NoSteadySliding::Singular)?;
-        let mut damping = structure.damping().clone();
-        let mut stiffness = structure.stiffness().clone();
-        for contact in &system.contacts {
-            let Some(row) = &contact.normal else { continue };
-            for (strength, matrix) in
-                [(contact.normal_damping, &mut damping), (contact.normal_stiffness, &mut stiffness)]
-            {
-                if strength != 0.0 {
-                    for i in 0..n {
-                        for j in 0..n {
-                            matrix[(i, j)] += strength * row[i] * row[j];
-                        }
-                    }
+        let given = system.contacts.iter();
+        let mut contacts: Vec<LinearContact> = given
+            .zip(steady.contacts)
+            .map(|(contact, steady)| LinearContact {
+                steady,
+                tangent: contact.tangent.clone(),
+                normal: contact.normal.clone(),
+                slope_row: contact.slope.clone(),
+                stiffness: contact.normal_stiffness,
+                damping: contact.normal_damping,
+                along: contact.force.clone().unwrap_or_else(|| vec![0.0; n]),
+                across: vec![0.0; n],
+            })
+            .collect();
+        let equations = match &system.structure {
+            Structure::StateSpace(states) => Equations::StateSpace(states.matrix().clone()),
+            Structure::Mechanical(mechanical) => {
+                let damping = with_dampers(system, mechanical.damping());
+                let stiffness = with_springs(system, mechanical.stiffness());
+                let mass = mechanical.mass();
+                let solve = |right: &Matrix| mass.solve(right).ok_or(NoSteadySliding::NoMass);
+                let columns = |row: &dyn Fn(&LinearContact, usize) -> f64| {
+                    solve(&Matrix::from_fn(n, contacts.len(), |i, c| row(&contacts[c], i)))
+                };
+                let across = columns(&|contact, i| entry(contact.normal.as_deref(), i))?;
+                let along = columns(&|contact, i| {
+                    let normal = entry(contact.normal.as_deref(), i);
+                    entry(contact.tangent.as_deref(), i) + normal * contact.steady.tilt
+                })?;
+                for (c, contact) in contacts.iter_mut().enumerate() {
+                    contact.along = (0..n).map(|i| along[(i, c)]).collect();
+                    contact.across = (0..n).map(|i| across[(i, c)]).collect();
                 }
+                let over_mass = [solve(&damping)?, solve(&stiffness)?];
+                Equations::Mechanical { mass: mass.matrix(), damping, stiffness, over_mass }
             }
-        }
-        let mut contacts = steady_contacts(system)?;
-        let position = steady_position(system, &stiffness, &contacts)?;
-        for (contact, given) in contacts.iter_mut().zip(&system.contacts) {
-            contact.tilt = product(contact.slope_row.as_deref(), &position);
-            let approach = product(contact.normal.as_deref(), &position);
-            contact.normal_load = given.normal_load + given.normal_stiffness * approach;
-            contact.friction = contact.coefficient * contact.normal_load;
-            if contact.normal_load <= 0.0 {
-                let normal_load = contact.normal_load;
-                return Err(NoSteadySliding::Open { contact: given.name.clone(), normal_load });
-            }
-        }
-        let mass = structure.mass();
-        let solve = |right: &Matrix| mass.solve(right).ok_or(NoSteadySliding::Singular);
-        let columns = |row: &dyn Fn(&SteadyContact, usize) -> f64| {
-            solve(&Matrix::from_fn(n, contacts.len(), |i, c| row(&contacts[c], i)))
         };
-        let across = columns(&|contact, i| entry(contact.normal.as_deref(), i))?;
-        let along = columns(&|contact, i| {
-            let normal = entry(contact.normal.as_deref(), i);
-            entry(contact.tangent.as_deref(), i) + normal * contact.tilt
-        })?;
-        for (c, contact) in contacts.iter_mut().enumerate() {
-            contact.along = (0..n).map(|i| along[(i, c)]).collect();
-            contact.across = (0..n).map(|i| across[(i, c)]).collect();
-        }
-        let over_mass = [solve(&damping)?, solve(&stiffness)?];
-        Ok(Self { size: n, position, damping, stiffness, over_mass, contacts })
+        Ok(Self { position: steady.position, equations, contacts })
     }
 
-    /// Number of coordinates; the state has twice as many numbers.
+    /// Number n of coordinates, or of states of first-order equations.
     pub fn coordinates(&self) -> usize {
-        self.size
+        self.position.len()
     }
 
-    /// Steady sliding q₀.
+    /// Steady sliding q₀, or x₀ of first-order equations.
     pub fn position(&self) -> &[f64] {
         &self.position
     }
 
-    /// C with the dampers of the contacts.
-    pub fn damping(&self) -> &Matrix {
-        &self.damping
-    }
-
-    /// K with the springs of the contacts, without friction.
-    pub fn stiffness(&self) -> &Matrix {
-        &self.stiffness
+    /// M, C and K with the springs and dampers of the contacts; `None` for first-order equations.
+    pub fn matrices(&self) -> Option<Matrices<'_>> {
+        match &self.equations {
+            Equations::Mechanical { mass, damping, stiffness, .. } => {
+                Some(Matrices { mass, damping, stiffness })
+            }
+            Equations::StateSpace(_) => None,
+        }
     }
 
     /// The contacts in steady sliding.
-    pub fn contacts(&self) -> &[SteadyContact] {
+    pub fn contacts(&self) -> &[LinearContact] {
         &self.contacts
     }
 
     /// Mean friction of each contact, its factor included.
     pub fn mean_friction(&self) -> Vec<f64> {
-        self.contacts.iter().map(|contact| contact.factor * contact.friction).collect()
+        let contacts = self.contacts.iter().map(|contact| &contact.steady);
+        contacts.map(|contact| contact.factor * contact.friction).collect()
     }
 
-    /// The state matrix of small motions under a friction T_c that is given for each contact; μ_c = T_c/N_c, and the slope
-    /// μ′_c changes in proportion.
+    /// The friction of each contact in steady sliding, its factor included.
+    pub fn friction(&self) -> Vec<FrictionSlopes> {
+        let contacts = self.contacts.iter().map(|contact| &contact.steady);
+        contacts
+            .map(|SteadyContact { line, normal_load, friction, factor, .. }| FrictionSlopes {
+                force: factor * friction,
+                by_velocity: factor * (line.slope * normal_load + line.slope_constant),
+                by_load: factor * line.coefficient,
+            })
+            .collect()
+    }
+
+    /// The state matrix of small motions under a friction T_c that is given for each contact without dither; μ_c = T_c/N_c,
+    /// and the slope μ′_c changes in proportion.
     pub fn state_matrix(&self, friction: &[f64]) -> Matrix {
-        let n = self.size;
-        let [damping, stiffness] = &self.over_mass;
+        let contacts = self.contacts.iter().map(|contact| &contact.steady).zip(friction);
+        let slopes: Vec<FrictionSlopes> = contacts
+            .map(|(SteadyContact { line, normal_load, .. }, &force)| {
+                let by_load = force / normal_load;
+                let unchanged = line.coefficient == 0.0;
+                let share = if unchanged { 1.0 } else { by_load / line.coefficient };
+                let by_velocity = share * line.slope * normal_load;
+                FrictionSlopes { force, by_velocity, by_load }
+            })
+            .collect();
+        self.state_matrix_with(&slopes)
+    }
+
+    /// The state matrix of small motions under a given friction of each contact.
+    pub fn state_matrix_with(&self, friction: &[FrictionSlopes]) -> Matrix {
+        let n = self.coordinates();
+        let [damping, stiffness] = match &self.equations {
+            Equations::Mechanical { over_mass, .. } => over_mass,
+            Equations::StateSpace(matrix) => {
+                let mut a = matrix.clone();
+                for (contact, friction) in self.contacts.iter().zip(friction) {
+                    for i in 0..n {
+                        add(
+                            a.row_mut(i),
+                            -contact.along[i] * friction.by_velocity,
+                            contact.tangent.as_deref(),
+                        );
+                    }
+                }
+                return a;
+            }
+        };
         let mut a = Matrix::zeros(2 * n, 2 * n);
         for i in 0..n {
             a[(i, n + i)] = 1.0;
@@ -190,8 +221,8 @@ impl Linearised {
                 row[j] = -stiffness[(i, j)];
                 row[n + j] = -damping[(i, j)];
             }
-            for (contact, &force) in self.contacts.iter().zip(friction) {
-                contact.add_friction(force, i, row);
+            for (contact, friction) in self.contacts.iter().zip(friction) {
+                contact.add_friction(friction, i, row);
             }
         }
         a
@@ -200,7 +231,7 @@ impl Linearised {
     /// U (columns (0, M⁻¹n_c)) and V (columns (s_c, 0)): a friction force T_c adds T_c U_c V_cᵀ to the state matrix where
     /// contacts have no tangent.
     pub fn follower_columns(&self) -> (Matrix, Matrix) {
-        let (n, contacts) = (self.size, self.contacts.len());
+        let (n, contacts) = (self.coordinates(), self.contacts.len());
         let u = Matrix::from_fn(2 * n, contacts, |i, c| {
             if i < n { 0.0 } else { self.contacts[c].across[i - n] }
         });
@@ -211,7 +242,12 @@ impl Linearised {
     }
 }
 
-impl SteadyContact {
+impl LinearContact {
+    /// The tangent row t, where the contact has one.
+    pub fn tangent(&self) -> Option<&[f64]> {
+        self.tangent.as_deref()
+    }
+
     /// The normal row n, where the contact has one.
     pub fn normal(&self) -> Option<&[f64]> {
         self.normal.as_deref()
@@ -222,135 +258,36 @@ impl SteadyContact {
         self.slope_row.as_deref()
     }
 
-    /// Whether the contact has a tangent, so that friction also acts on the structure's own sliding.
-    pub fn has_tangent(&self) -> bool {
-        self.tangent.is_some()
+    /// Normal stiffness k and damping d.
+    pub fn normal_spring(&self) -> (f64, f64) {
+        (self.stiffness, self.damping)
     }
 
-    /// Adds what the friction T does to coordinate i: [t + nσ](−μ′N tᵀq̇ + μ(k nᵀq + d nᵀq̇)) + n T sᵀq.
-    fn add_friction(&self, force: f64, i: usize, row: &mut [f64]) {
-        if force == 0.0 {
-            return;
-        }
-        let n = row.len() / 2;
-        if let Some(slope) = &self.slope_row {
-            let factor = force * self.across[i];
-            for (entry, slope) in row[..n].iter_mut().zip(slope) {
-                *entry += factor * slope;
-            }
+    /// Adds what friction does to coordinate i: [t + nσ](−T_γ tᵀq̇ + T_N(k nᵀq + d nᵀq̇)) + n T sᵀq.
+    fn add_friction(&self, friction: &FrictionSlopes, i: usize, row: &mut [f64]) {
+        let (on_position, on_velocity) = row.split_at_mut(row.len() / 2);
+        if friction.force != 0.0 {
+            add(on_position, friction.force * self.across[i], self.slope_row.as_deref());
         }
         if self.along[i] == 0.0 {
             return;
         }
-        let coefficient = force / self.normal_load;
-        if let Some(tangent) = &self.tangent {
-            let share = if self.coefficient == 0.0 { 1.0 } else { coefficient / self.coefficient };
-            let rate = share * self.slope * self.normal_load;
-            for (entry, tangent) in row[n..].iter_mut().zip(tangent) {
-                *entry -= self.along[i] * rate * tangent;
-            }
+        if friction.by_velocity != 0.0 {
+            add(on_velocity, -(self.along[i] * friction.by_velocity), self.tangent.as_deref());
         }
-        if let Some(normal) = &self.normal {
-            for (half, strength) in row.chunks_mut(n).zip([self.stiffness, self.damping]) {
-                for (entry, normal) in half.iter_mut().zip(normal) {
-                    *entry += self.along[i] * coefficient * strength * normal;
-                }
-            }
+        if friction.by_load != 0.0 {
+            let factor = self.along[i] * friction.by_load;
+            add(on_position, factor * self.stiffness, self.normal.as_deref());
+            add(on_velocity, factor * self.damping, self.normal.as_deref());
         }
     }
 }
 
-/// Laws and rows of the contacts; loads and tilts are those of q = 0 so far.
-fn steady_contacts(system: &System) -> Result<Vec<SteadyContact>, NoSteadySliding> {
-    let mut contacts = Vec::with_capacity(system.contacts.len());
-    for (index, contact) in system.contacts.iter().enumerate() {
-        let velocity = contact.surface_velocity.mean();
-        if velocity == 0.0 {
-            return Err(NoSteadySliding::AtRest { contact: contact.name.clone() });
-        }
-        let coefficient = velocity.signum() * contact.friction.coefficient(velocity.abs());
-        let mut factors = system.inputs.iter().filter(
-            |input| matches!(input.target, InputTarget::Friction { contact } if contact == index),
-        );
-        contacts.push(SteadyContact {
-            coefficient,
-            slope: contact.friction.slope(velocity.abs()),
-            normal_load: contact.normal_load,
-            friction: coefficient * contact.normal_load,
-            factor: factors.next().map_or(1.0, |input| input.profile.mean()),
-            tangent: contact.tangent.clone(),
-            normal: contact.normal.clone(),
-            slope_row: contact.slope.clone(),
-            tilt: 0.0,
-            stiffness: contact.normal_stiffness,
-            damping: contact.normal_damping,
-            along: Vec::new(),
-            across: Vec::new(),
-        });
+/// Adds a multiple of a row, if there is one.
+fn add(to: &mut [f64], factor: f64, row: Option<&[f64]>) {
+    for (entry, value) in to.iter_mut().zip(row.unwrap_or_default()) {
+        *entry += factor * value;
     }
-    Ok(contacts)
-}
-
-/// Steady sliding: K q = p + Σ (t + n sᵀq) μN(q), K with the springs of the contacts, by Newton's method from q = 0.
-fn steady_position(
-    system: &System,
-    stiffness: &Matrix,
-    contacts: &[SteadyContact],
-) -> Result<Vec<f64>, NoSteadySliding> {
-    let n = system.structure.size();
-    let mut position = vec![0.0; n];
-    for _ in 0..MOST_STEPS {
-        let mut residual: Vec<f64> = (0..n)
-            .map(|i| {
-                let spring: f64 = stiffness.row(i).iter().zip(&position).map(|(k, q)| k * q).sum();
-                system.structure.force()[i] - spring
-            })
-            .collect();
-        let mut jacobian = stiffness.clone();
-        for contact in contacts {
-            let tilt = product(contact.slope_row.as_deref(), &position);
-            let load = contact.normal_load
-                + contact.stiffness * product(contact.normal.as_deref(), &position);
-            let coefficient = contact.factor * contact.coefficient;
-            for i in 0..n {
-                let normal = entry(contact.normal.as_deref(), i);
-                let along = entry(contact.tangent.as_deref(), i) + normal * tilt;
-                residual[i] += along * coefficient * load;
-                for j in 0..n {
-                    let approach = contact.stiffness * entry(contact.normal.as_deref(), j);
-                    jacobian[(i, j)] -= along * coefficient * approach
-                        + normal * coefficient * load * entry(contact.slope_row.as_deref(), j);
-                }
-            }
-        }
-        if residual.iter().all(|force| *force == 0.0) {
-            return Ok(position);
-        }
-        let right = Matrix::from_fn(n, 1, |i, _| residual[i]);
-        let step = jacobian.solve(&right).ok_or(NoSteadySliding::Singular)?;
-        let length = step.largest();
-        if !length.is_finite() {
-            return Err(NoSteadySliding::Singular);
-        }
-        let largest = position.iter().fold(0.0, |largest: f64, q| largest.max(q.abs()));
-        for (q, step) in position.iter_mut().zip(step.as_slice()) {
-            *q += step;
-        }
-        if length <= 4.0 * f64::EPSILON * largest {
-            return Ok(position);
-        }
-    }
-    Err(NoSteadySliding::Singular)
-}
-
-/// Entry i of a row; 0 without one.
-fn entry(row: Option<&[f64]>, i: usize) -> f64 {
-    row.map_or(0.0, |row| row[i])
-}
-
-/// rowᵀq; 0 without a row.
-fn product(row: Option<&[f64]>, position: &[f64]) -> f64 {
-    row.map_or(0.0, |row| row.iter().zip(position).map(|(r, q)| r * q).sum())
 }
 
 #[cfg(test)]

@@ -92,6 +92,15 @@ impl Matrix {
         }
     }
 
+    /// Adds `factor`·v vᵀ to a square matrix of the size of v.
+    pub fn add_outer(&mut self, factor: f64, vector: &[f64]) {
+        for (i, left) in vector.iter().enumerate() {
+            for (entry, right) in self.row_mut(i).iter_mut().zip(vector) {
+                *entry += factor * left * right;
+            }
+        }
+    }
+
     /// Square root of the sum of squares of all entries.
     pub fn frobenius_norm(&self) -> f64 {
         self.values.iter().map(|value| value * value).sum::<f64>().sqrt()

@@ -44,11 +44,7 @@ impl MassMatrix {
     pub fn matrix(&self) -> Matrix {
         let mut matrix = self.base.clone().unwrap_or_else(|| Matrix::identity(self.size));
         for (mass, row) in &self.attached {
-            for i in 0..self.size {
-                for j in 0..self.size {
-                    matrix[(i, j)] += mass * row[i] * row[j];
-                }
-            }
+            matrix.add_outer(*mass, row);
         }
         matrix
     }

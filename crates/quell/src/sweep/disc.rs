@@ -179,8 +179,9 @@ fn growth(
         DiscEquations::Constant(linear) => {
             let on = parts.contains(Contribution::FollowerForce);
             let mean = linear.contacts().iter();
-            let friction: Vec<f64> =
-                mean.map(|contact| if on { factor * contact.friction } else { 0.0 }).collect();
+            let friction: Vec<f64> = mean
+                .map(|contact| if on { factor * contact.steady.friction } else { 0.0 })
+                .collect();
             eigenvalues::growth(linear, &friction).map_err(not_finite)
         }
     }
