@@ -154,18 +154,30 @@ impl SteadySliding {
                 solved.as_slice().to_vec()
             }
         };
-        let mut contacts = Vec::with_capacity(lines.len());
-        for ((given, &line), factor) in system.contacts.iter().zip(lines).zip(factors) {
-            let tilt = product(given.slope.as_deref(), &position);
-            let approach = product(given.normal.as_deref(), &position);
-            let normal_load = given.normal_load + given.normal_stiffness * approach;
-            if normal_load <= 0.0 {
-                return Err(NoSteadySliding::Open { contact: given.name.clone(), normal_load });
-            }
-            let friction = line.coefficient * normal_load + line.constant;
-            contacts.push(SteadyContact { line, normal_load, friction, factor, tilt });
+        let steady = Self::at(system, position, lines);
+        let open = steady.contacts.iter().position(|contact| contact.normal_load <= 0.0);
+        if let Some(index) = open {
+            let normal_load = steady.contacts[index].normal_load;
+            let contact = system.contacts[index].name.clone();
+            return Err(NoSteadySliding::Open { contact, normal_load });
         }
-        Ok(Self { position, contacts })
+        Ok(steady)
+    }
+
+    /// The contacts at a given position.
+    pub(crate) fn at(system: &System, position: Vec<f64>, lines: &[FrictionLine]) -> Self {
+        let given = system.contacts.iter().enumerate().zip(lines);
+        let contacts = given
+            .map(|((index, given), &line)| {
+                let tilt = product(given.slope.as_deref(), &position);
+                let approach = product(given.normal.as_deref(), &position);
+                let normal_load = given.normal_load + given.normal_stiffness * approach;
+                let friction = line.coefficient * normal_load + line.constant;
+                let factor = mean_factor(system, index);
+                SteadyContact { line, normal_load, friction, factor, tilt }
+            })
+            .collect();
+        Self { position, contacts }
     }
 }
 

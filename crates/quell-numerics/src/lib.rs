@@ -5,6 +5,7 @@
 //! * [`polynomial`]: first root of a Taylor step, isolated or proven absent; step length;
 //! * [`quadrature`], [`gauss_legendre`], [`roots`], [`special`], [`bessel`], [`spectrum`]: integrals, scalar roots and minima,
 //!   special functions, spectra;
+//! * [`extrapolation`]: smooth ordinary differential equations to full accuracy;
 //! * [`symmetric`], [`least_squares`]: eigenvalues of symmetric pencils, fits of a few columns;
 //! * [`interval`]: bounds of functions over intervals with outward rounding, for proofs;
 //! * [`continuation`]: fixed points of period maps by shooting, their branches, thresholds and curves of thresholds.
@@ -14,6 +15,7 @@ pub mod continuation;
 pub mod dispatch;
 pub mod eigen;
 pub mod elementary;
+pub mod extrapolation;
 pub mod floquet;
 pub mod gauss_legendre;
 pub mod interval;

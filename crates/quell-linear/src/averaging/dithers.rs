@@ -107,9 +107,11 @@ fn grouped(
     response: FastResponse,
 ) -> Result<Vec<PeriodicMotion>, AveragingError> {
     let mut groups = Vec::new();
-    for members in commensurate_groups(dithers) {
+    let frequencies: Vec<f64> = dithers.iter().map(|dither| dither.frequency_ratio).collect();
+    for members in commensurate_groups(&frequencies) {
         let mut group = PeriodicMotion::default();
-        for (dither, harmonic) in members {
+        for (index, harmonic) in members {
+            let dither = dithers[index];
             let wave = fast_wave(dither, response)?;
             let (alpha, phase) = (dither.amplitude_ratio(), dither.phase);
             match dither.direction {
@@ -160,13 +162,13 @@ fn friction_level(
 /// Largest multiple of a group's base frequency that still counts as commensurate.
 pub const MAX_HARMONIC: u32 = 64;
 
-/// Groups of dithers with frequencies in small whole-number ratios, each member with its multiple of the base.
-fn commensurate_groups<'a>(dithers: &[&'a Dither]) -> Vec<Vec<(&'a Dither, u32)>> {
-    let mut groups: Vec<Vec<(&Dither, u32)>> = Vec::new();
-    'dithers: for dither in dithers {
+/// Groups of frequencies in small whole-number ratios: the index of each member with its multiple of the group's base.
+pub(crate) fn commensurate_groups(frequencies: &[f64]) -> Vec<Vec<(usize, u32)>> {
+    let mut groups: Vec<Vec<(usize, u32)>> = Vec::new();
+    'members: for (index, frequency) in frequencies.iter().enumerate() {
         for group in &mut groups {
             let (first, multiple) = group[0];
-            let ratio = dither.frequency_ratio / first.frequency_ratio * f64::from(multiple);
+            let ratio = frequency / frequencies[first] * f64::from(multiple);
             let Some((p, q)) = small_ratio(ratio) else {
                 continue;
             };
@@ -175,11 +177,11 @@ fn commensurate_groups<'a>(dithers: &[&'a Dither]) -> Vec<Vec<(&'a Dither, u32)>
                 for member in group.iter_mut() {
                     member.1 *= q;
                 }
-                group.push((dither, p));
-                continue 'dithers;
+                group.push((index, p));
+                continue 'members;
             }
         }
-        groups.push(vec![(dither, 1)]);
+        groups.push(vec![(index, 1)]);
     }
     groups
 }
@@ -201,27 +203,14 @@ fn small_ratio(ratio: f64) -> Option<(u32, u32)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use quell_model::Waveform;
-
-    fn dither(frequency_ratio: f64) -> Dither {
-        Dither {
-            direction: Direction::Tangential,
-            waveform: Waveform::Sine,
-            amplitude: 1.0,
-            frequency_ratio,
-            phase: 0.0,
-        }
-    }
 
     #[test]
     fn groups_by_frequency() {
         let ratios = [10.0, 15.0, 10.0 * core::f64::consts::SQRT_2, 5.0, 20.0, 7.5];
-        let dithers: Vec<Dither> = ratios.iter().map(|r| dither(*r)).collect();
-        let acting: Vec<&Dither> = dithers.iter().collect();
-        let groups = commensurate_groups(&acting);
+        let groups = commensurate_groups(&ratios);
         let found: Vec<Vec<(f64, u32)>> = groups
             .iter()
-            .map(|g| g.iter().map(|(d, m)| (d.frequency_ratio, *m)).collect())
+            .map(|g| g.iter().map(|(index, m)| (ratios[*index], *m)).collect())
             .collect();
         // Base 2.5.
         let first = vec![(10.0, 4), (15.0, 6), (5.0, 2), (20.0, 8), (7.5, 3)];

@@ -39,14 +39,25 @@ impl FastMotion {
         &self.groups
     }
 
+    /// Smallest and largest fast slip velocity s, summed over the groups.
+    ///
+    /// # Errors
+    /// A quadrature that did not converge.
+    pub(super) fn slip_range(&self) -> Result<[f64; 2], AveragingError> {
+        self.groups.iter().try_fold([0.0, 0.0], |[low, high], group| {
+            let range = match group.single_term() {
+                Some((wave, amplitude)) => {
+                    let peak = amplitude.abs() * wave.peak();
+                    [-peak, peak]
+                }
+                None => Signal::new(group)?.range(),
+            };
+            Ok([low + range[0], high + range[1]])
+        })
+    }
+
     /// Largest fast slip velocity, max s summed over the groups.
     pub(super) fn largest_slip(&self) -> Result<f64, AveragingError> {
-        self.groups.iter().try_fold(0.0, |sum, group| {
-            Ok(sum
-                + match group.single_term() {
-                    Some((wave, amplitude)) => amplitude.abs() * wave.peak(),
-                    None => Signal::new(group)?.range()[1],
-                })
-        })
+        Ok(self.slip_range()?[1])
     }
 }

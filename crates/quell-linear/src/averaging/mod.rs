@@ -35,6 +35,7 @@
 //! | `mean_friction` | the method for each fast motion |
 //! | `criterion` | 2ζ + Fμ̄′(v₀) and its verdict |
 //! | `critical_amplitudes`, `edges`, `everywhere_stable` | points at which the verdict changes: along α, along v₀, and α^L |
+//! | `sliding`, `sliding_critical` | averaged sliding of systems of any number of contacts, and its critical amplitudes |
 //! | `sign_changes` | every change of sign of a function on a grid |
 
 mod criterion;
@@ -53,11 +54,14 @@ mod periodic;
 mod periodic_motion;
 mod sign_changes;
 mod single_wave;
+mod sliding;
+mod sliding_critical;
 mod stribeck;
 mod wave;
 
 pub use criterion::{AveragedVerdict, Criterion, UndecidedBecause, criterion};
 pub use critical_amplitudes::{Becomes, CriticalAmplitude, critical_amplitudes};
+pub(crate) use dithers::commensurate_groups;
 pub use dithers::{AveragingOptions, FastResponse, MAX_HARMONIC, NormalOrder, fast_wave};
 pub use edges::{
     CriticalVelocity, NoBand, UnstableBand, closed_band, undithered_critical_velocity,
@@ -71,5 +75,8 @@ pub use independent::MAX_GROUPS;
 pub use mean_friction::effective;
 pub use periodic_motion::{LoadTerm, PeriodicMotion, SlipTerm};
 pub use sign_changes::CrossingKind;
+pub(crate) use sign_changes::sign_changes;
 pub use single_wave::effective_by_quadrature;
+pub use sliding::{AveragedSliding, DitheredContact, DitheredSystem, MOST_FREQUENCIES, NoAverage};
+pub use sliding_critical::CriticalInput;
 pub use wave::FastWave;

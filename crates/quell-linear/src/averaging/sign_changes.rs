@@ -20,12 +20,12 @@ pub enum CrossingKind {
 
 /// One change of sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct SignChange {
-    pub(super) location: f64,
-    pub(super) error: f64,
-    pub(super) crossing: CrossingKind,
+pub(crate) struct SignChange {
+    pub(crate) location: f64,
+    pub(crate) error: f64,
+    pub(crate) crossing: CrossingKind,
     /// Whether the function is positive beyond the location (for increasing parameter).
-    pub(super) becomes_positive: bool,
+    pub(crate) becomes_positive: bool,
 }
 
 /// Relative distance from a corner at which its two sides are evaluated.
@@ -35,7 +35,7 @@ const BESIDE: f64 = 8.0 * f64::EPSILON;
 ///
 /// # Errors
 /// The first error of `f`.
-pub(super) fn sign_changes<E>(
+pub(crate) fn sign_changes<E>(
     mut f: impl FnMut(f64) -> Result<f64, E>,
     points: &[f64],
     corners: &[f64],

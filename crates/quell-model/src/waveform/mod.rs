@@ -5,7 +5,7 @@
 //! the zero-mean integral of g (even; the dissertation's text after (3.25) calls it odd,
 //! but τ₂ = 2π − τ₁ there requires it to be even).
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 mod shape;
 mod sine;
@@ -84,6 +84,22 @@ impl Waveform {
     /// √⟨g²⟩: 1/√2, 1/√3, 1.
     pub fn root_mean_square(self) -> f64 {
         self.shape().root_mean_square
+    }
+
+    /// Fourier coefficient b_n of sin nθ; g is odd and antiperiodic, so that all others vanish.
+    pub fn sine_coefficient(self, harmonic: u32) -> f64 {
+        if harmonic % 2 == 0 {
+            return 0.0;
+        }
+        let n = f64::from(harmonic);
+        match self {
+            Self::Sine => f64::from(u8::from(harmonic == 1)),
+            Self::Square => 4.0 / (PI * n),
+            Self::Triangle => {
+                let sign = if harmonic % 4 == 1 { 1.0 } else { -1.0 };
+                8.0 * sign / (PI * n * PI * n)
+            }
+        }
     }
 
     /// Phases of kinks and jumps in [0, 2π), ascending.

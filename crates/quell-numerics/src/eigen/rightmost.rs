@@ -7,7 +7,7 @@
 
 use num_complex::Complex64;
 
-use super::Decomposition;
+use super::{Decomposition, EigenPair};
 
 /// e relative to ε‖A‖ (Frobenius). The largest ratio observed against `faer` for random matrices of up to 97 rows is 1.2.
 pub(crate) const ROUNDING: f64 = 4.0;
@@ -26,6 +26,13 @@ pub struct Rightmost {
 }
 
 impl Decomposition {
+    /// Bound on the error of one eigenvalue.
+    pub fn error_of(&self, pair: &EigenPair) -> f64 {
+        let rounding = ROUNDING * f64::EPSILON * self.norm;
+        let nearly_double = (rounding * self.norm).sqrt();
+        (rounding * pair.condition).min(nearly_double).max(f64::MIN_POSITIVE)
+    }
+
     /// All eigenvalues with a positive real part, one of each conjugate pair, the largest real part first, each with a
     /// bound on the error of its real part.
     pub fn in_right_half_plane(&self) -> Vec<Rightmost> {

@@ -1,0 +1,132 @@
+//! Eigenvalues of steady sliding followed over a parameter: merging frequencies, and the thresholds of stability.
+//!
+//! The eigenvalues at neighbouring values of the parameter are matched with a prediction from the last step. Where a match is not
+//! certain, the step is halved: near a close approach of two eigenvalues the steps are as short as the approach requires, down
+//! to a coalescence, where the two cannot be told apart. Thresholds are located by root finding on the largest growth rate, not
+//! on the grid.
+
+mod coalescence;
+mod matching;
+mod thresholds;
+
+use num_complex::Complex64;
+use quell_numerics::eigen::{Decomposition, EigenError};
+use quell_numerics::matrix::Matrix;
+
+use crate::growth::Growth;
+use crate::spectrum::growth_of;
+
+pub use thresholds::{Change, ThresholdOfStability};
+
+/// Shortest step over the width of the window: below it two eigenvalues count as one.
+const SHORTEST: f64 = 1e-12;
+
+/// Most values of the parameter at which eigenvalues are computed, for each requested point: every close approach halves a
+/// step some forty times.
+const MOST_VALUES_PER_POINT: usize = 64;
+
+/// A family of state matrices, one for each value of a parameter.
+pub trait Family {
+    /// Why there is no matrix at a value.
+    type Error: Clone;
+
+    /// The state matrix at a value of the parameter.
+    ///
+    /// # Errors
+    /// Why there is none, such as no steady sliding.
+    fn matrix(&self, value: f64) -> Result<Matrix, Self::Error>;
+
+    /// The error of a matrix whose eigenvalues cannot be computed.
+    fn overflows(why: EigenError) -> Self::Error;
+}
+
+/// Eigenvalues at one value of the parameter, in the order of the branches.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrackedPoint {
+    /// Value of the parameter.
+    pub value: f64,
+    /// Eigenvalues; entry b belongs to branch b of the piece.
+    pub eigenvalues: Vec<Complex64>,
+    /// Largest growth rate with its bound.
+    pub growth: Growth,
+}
+
+/// A range of the parameter without an answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnknownRange<E> {
+    /// First value without.
+    pub from: f64,
+    /// Last value without.
+    pub to: f64,
+    /// Why.
+    pub why: E,
+}
+
+/// Eigenvalues over a window of a parameter.
+#[derive(Clone, Debug)]
+pub struct Tracked<E> {
+    /// Pieces of the window, ascending; between two pieces there is no steady sliding.
+    pub pieces: Vec<Vec<TrackedPoint>>,
+    /// The ranges between the pieces.
+    pub unknown: Vec<UnknownRange<E>>,
+    /// Values at which the verdict changes or two eigenvalues coalesce, ascending.
+    pub thresholds: Vec<ThresholdOfStability>,
+}
+
+/// Follows the eigenvalues of a family over a window, on at least `points` values.
+///
+/// # Errors
+/// The reason at the first value, if no value of the window has eigenvalues.
+pub fn track<F: Family>(
+    family: &F,
+    window: (f64, f64),
+    points: usize,
+) -> Result<Tracked<F::Error>, F::Error> {
+    let (from, to) = window;
+    let count = points.max(2);
+    let grid: Vec<f64> =
+        (0..count)
+            .map(|k| {
+                if k + 1 == count { to } else { from + (to - from) * k as f64 / (count - 1) as f64 }
+            })
+            .collect();
+    let mut pieces: Vec<Vec<TrackedPoint>> = Vec::new();
+    let mut unknown: Vec<UnknownRange<F::Error>> = Vec::new();
+    let mut piece: Vec<TrackedPoint> = Vec::new();
+    for &value in &grid {
+        match at(family, value) {
+            Ok(point) => piece.push(point),
+            Err(why) => {
+                match unknown.last_mut() {
+                    Some(range) if piece.is_empty() => range.to = value,
+                    _ => unknown.push(UnknownRange { from: value, to: value, why }),
+                }
+                if !piece.is_empty() {
+                    pieces.push(std::mem::take(&mut piece));
+                }
+            }
+        }
+    }
+    if !piece.is_empty() {
+        pieces.push(piece);
+    }
+    if let (true, Some(range)) = (pieces.is_empty(), unknown.first()) {
+        return Err(range.why.clone());
+    }
+    let most = count * MOST_VALUES_PER_POINT;
+    let shortest = SHORTEST * (to - from).abs();
+    let mut thresholds = Vec::new();
+    for piece in &mut pieces {
+        *piece = matching::followed(family, std::mem::take(piece), shortest, most);
+        thresholds.extend(thresholds::of_piece(family, piece)?);
+    }
+    thresholds.sort_by(|a, b| a.value.total_cmp(&b.value));
+    Ok(Tracked { pieces, unknown, thresholds })
+}
+
+/// Eigenvalues at a value, in any order.
+fn at<F: Family>(family: &F, value: f64) -> Result<TrackedPoint, F::Error> {
+    let decomposition = Decomposition::new(&family.matrix(value)?).map_err(F::overflows)?;
+    let growth = growth_of(&decomposition).map_err(F::overflows)?;
+    Ok(TrackedPoint { value, eigenvalues: decomposition.values().to_vec(), growth })
+}

@@ -1,0 +1,135 @@
+//! Values of a parameter at which the verdict changes or two motions coalesce.
+
+use num_complex::Complex64;
+
+use super::coalescence::{self, Coalescence};
+use super::{Family, TrackedPoint, at};
+use crate::averaging::{CrossingKind, sign_changes};
+use crate::growth::Verdict;
+
+/// Relative distance, in steps of the piece, within which a change of the verdict is that of a coalescence.
+const TOGETHER: f64 = 1e-6;
+
+/// Share of the neighbouring step at which the verdict beside a threshold is evaluated.
+const BESIDE: f64 = 1e-4;
+
+/// A frequency below this share of the largest eigenvalue counts as zero.
+const NO_FREQUENCY: f64 = 1e-9;
+
+/// What happens at a threshold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Change {
+    /// A motion of this frequency begins or ceases to grow.
+    Hopf,
+    /// A motion without frequency begins or ceases to grow.
+    Divergence,
+    /// Two frequencies merge, or part.
+    Coalescence,
+    /// The growth rate jumps.
+    Jump,
+}
+
+impl Change {
+    /// Name in output.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hopf => "hopf",
+            Self::Divergence => "divergence",
+            Self::Coalescence => "coalescence",
+            Self::Jump => "jump",
+        }
+    }
+}
+
+/// A threshold of the stability of steady sliding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThresholdOfStability {
+    /// Value of the parameter.
+    pub value: f64,
+    /// Bound on its error.
+    pub error: f64,
+    /// What happens.
+    pub change: Change,
+    /// The eigenvalue there.
+    pub eigenvalue: Complex64,
+    /// The verdict just below and just beyond it; the same where only frequencies merge.
+    pub verdicts: [Verdict; 2],
+}
+
+/// The thresholds of a piece; `Err` only where the family fails inside it.
+pub(super) fn of_piece<F: Family>(
+    family: &F,
+    piece: &[TrackedPoint],
+) -> Result<Vec<ThresholdOfStability>, F::Error> {
+    let values: Vec<f64> = piece.iter().map(|point| point.value).collect();
+    let ascending = values.windows(2).all(|pair| pair[0] < pair[1]);
+    if piece.len() < 2 || !ascending {
+        return Ok(Vec::new());
+    }
+    let decided = |point: &TrackedPoint| match point.growth.verdict() {
+        Verdict::Undecided => 0.0,
+        _ => point.growth.rate,
+    };
+    let changes = sign_changes(|value| Ok(decided(&at(family, value)?)), &values, &[])?;
+    let mut merged = coalescence::of_piece(family, piece);
+    let mut found = Vec::new();
+    for change in changes {
+        let width = step_at(&values, change.location);
+        let verdicts = beside(family, change.location, width, &values)?;
+        if verdicts[0] == verdicts[1] {
+            continue;
+        }
+        let together = |merged: &Coalescence| {
+            (merged.value - change.location).abs()
+                <= TOGETHER * (values[values.len() - 1] - values[0])
+        };
+        let undecided = verdicts.contains(&Verdict::Undecided);
+        if let (true, Some(index)) = (undecided, merged.iter().position(together)) {
+            let Coalescence { value, error, eigenvalue, .. } = merged.remove(index);
+            let change = Change::Coalescence;
+            found.push(ThresholdOfStability { value, error, change, eigenvalue, verdicts });
+            continue;
+        }
+        let point = at(family, change.location)?;
+        let eigenvalue = Complex64::new(point.growth.rate, point.growth.frequency);
+        let size = point.eigenvalues.iter().fold(0.0, |m: f64, z| m.max(z.re.abs() + z.im.abs()));
+        let kind = match change.crossing {
+            CrossingKind::Jump => Change::Jump,
+            CrossingKind::Root if eigenvalue.im <= NO_FREQUENCY * size => Change::Divergence,
+            CrossingKind::Root => Change::Hopf,
+        };
+        found.push(ThresholdOfStability {
+            value: change.location,
+            error: change.error,
+            change: kind,
+            eigenvalue,
+            verdicts,
+        });
+    }
+    for Coalescence { value, error, eigenvalue, .. } in merged {
+        let verdicts = beside(family, value, step_at(&values, value), &values)?;
+        let change = Change::Coalescence;
+        found.push(ThresholdOfStability { value, error, change, eigenvalue, verdicts });
+    }
+    Ok(found)
+}
+
+/// Length of the longest step next to a value.
+fn step_at(values: &[f64], value: f64) -> f64 {
+    let after = values.partition_point(|known| *known < value).clamp(1, values.len() - 1);
+    let near = after.saturating_sub(2)..(after + 2).min(values.len() - 1);
+    near.map(|k| values[k + 1] - values[k]).fold(values[after] - values[after - 1], f64::max)
+}
+
+/// The verdicts below and beyond a value.
+fn beside<F: Family>(
+    family: &F,
+    value: f64,
+    step: f64,
+    values: &[f64],
+) -> Result<[Verdict; 2], F::Error> {
+    let (first, last) = (values[0], values[values.len() - 1]);
+    let below = at(family, (value - BESIDE * step).max(first))?.growth.verdict();
+    let beyond = at(family, (value + BESIDE * step).min(last))?.growth.verdict();
+    Ok([below, beyond])
+}
