@@ -3,7 +3,7 @@
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::table::Table;
+use super::table::TextTable;
 use super::{Answered, Outcome};
 use crate::input::Inputs;
 use crate::run::check::Check;
@@ -58,7 +58,7 @@ fn sentence<K>(study: &StudyOf<K>) -> String {
 
 fn table_of_belt(study: &BeltStudy) -> String {
     let belt = study.belt();
-    let mut table = Table::new(study.scales());
+    let mut table = TextTable::new(study.scales());
     table.number("damping ratio ζ", Quantity::DampingRatio, belt.damping_ratio());
     table.number("normal load F", Quantity::Force, belt.normal_load());
     table.number("belt velocity v₀", Quantity::Velocity, belt.belt_velocity());
@@ -82,7 +82,7 @@ fn table_of_belt(study: &BeltStudy) -> String {
     table.text()
 }
 
-fn axes<K>(table: &mut Table, study: &StudyOf<K>) {
+fn axes<K>(table: &mut TextTable, study: &StudyOf<K>) {
     for sweep in study.sweeps() {
         let (first, last) = (sweep.axis.value(0), sweep.axis.value(usize::MAX));
         let points = sweep.axis.len();
@@ -92,7 +92,7 @@ fn axes<K>(table: &mut Table, study: &StudyOf<K>) {
 
 fn table_of_disc(study: &DiscStudy) -> String {
     let object = disc::check::json(study);
-    let mut table = Table::new(None);
+    let mut table = TextTable::new(None);
     let word = |value: &Json| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
     table.word(
         "modes",

@@ -5,17 +5,17 @@ use std::fmt::Write as _;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::table::Table;
+use super::table::TextTable;
 use super::{Answered, Outcome};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::orbit::{Orbit, Response, extremes, sentence};
+use crate::run::orbit::{Orbit, PeriodicResponse, extremes, sentence};
 use crate::study::{BeltSetup, BeltStudy};
 
-impl Outcome for Answered<BeltSetup, Response> {
+impl Outcome for Answered<BeltSetup, PeriodicResponse> {
     fn inputs(&self) -> Inputs {
         self.study.inputs()
     }
@@ -41,7 +41,7 @@ impl Outcome for Answered<BeltSetup, Response> {
     }
 }
 
-fn tables(study: &BeltStudy, found: &Response) -> String {
+fn tables(study: &BeltStudy, found: &PeriodicResponse) -> String {
     let mut text = String::new();
     if let Some(orbit) = &found.orbit {
         text += &table(study, orbit);
@@ -54,7 +54,7 @@ fn tables(study: &BeltStudy, found: &Response) -> String {
 }
 
 fn table(study: &BeltStudy, found: &Orbit) -> String {
-    let mut table = Table::new(study.scales());
+    let mut table = TextTable::new(study.scales());
     table.word("verdict", found.verdict().name());
     for (re, im) in found.multipliers {
         let multiplier = format!("{re:.9} {} {:.9} i", if im < 0.0 { '−' } else { '+' }, im.abs());

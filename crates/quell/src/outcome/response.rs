@@ -5,17 +5,17 @@ use std::fmt::Write as _;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::table::{Table, figure};
+use super::table::{TextTable, figure};
 use super::{Answered, Outcome};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::response::Steady;
+use crate::run::response::MeasuredResponse;
 use crate::study::{BeltSetup, BeltStudy};
 
-impl Outcome for Answered<BeltSetup, Steady> {
+impl Outcome for Answered<BeltSetup, MeasuredResponse> {
     fn inputs(&self) -> Inputs {
         self.study.inputs()
     }
@@ -47,9 +47,9 @@ impl Outcome for Answered<BeltSetup, Steady> {
 /// Largest number of peaks in the table; JSON has them all.
 const PEAKS: usize = 8;
 
-fn table(study: &BeltStudy, done: &Steady) -> String {
+fn table(study: &BeltStudy, done: &MeasuredResponse) -> String {
     let response = &done.response;
-    let mut table = Table::new(study.scales());
+    let mut table = TextTable::new(study.scales());
     table.word("effect", response.effect.name());
     table.word("ends on", response.ending.name());
     table.known(

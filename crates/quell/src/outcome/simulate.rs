@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::table::{Table, figure_of};
+use super::table::{TextTable, figure_of};
 use super::{Answered, Outcome};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
@@ -73,7 +73,7 @@ fn table(study: &BeltStudy, done: &Simulation) -> String {
         text.push('\n');
     }
     let end = &done.end;
-    let mut table = Table::new(study.scales());
+    let mut table = TextTable::new(study.scales());
     table.number("time τ", Quantity::Time, end.time);
     table.number("displacement x", Quantity::Displacement, end.displacement);
     table.number("velocity x′", Quantity::Velocity, end.velocity);

@@ -4,8 +4,8 @@ use super::belt::BeltPoints;
 use super::disc::DiscPoints;
 use super::evaluate::Computation;
 use super::grid::Grid;
-use super::mapped::{Mapped, Point};
-use super::quantity::Quantity;
+use super::mapped::{Mapped, PointResults};
+use super::quantity::MapQuantity;
 use crate::complaint::Complaint;
 use crate::study::Study;
 
@@ -25,7 +25,7 @@ impl Grid {
 struct Unmapped;
 
 impl Mapped for Unmapped {
-    fn quantities(&self) -> &'static [Quantity] {
+    fn quantities(&self) -> &'static [MapQuantity] {
         &[]
     }
 
@@ -33,7 +33,7 @@ impl Mapped for Unmapped {
         0.0
     }
 
-    fn compute(&self, _: &Grid, indices: &[usize], _: &[Computation]) -> Vec<Option<Point>> {
+    fn compute(&self, _: &Grid, indices: &[usize], _: &[Computation]) -> Vec<Option<PointResults>> {
         indices.iter().map(|_| None).collect()
     }
 }

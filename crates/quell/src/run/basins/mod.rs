@@ -35,7 +35,7 @@ use crate::study::BeltStudy;
 use crate::sweep::Running;
 
 pub use share::Share;
-pub use starts::{Layout, MOST_STARTS, Starts, Window};
+pub use starts::{MOST_STARTS, StartLayout, Starts, Window};
 
 /// Number of starts in a work item: enough to fill the SIMD lanes of a processor several times.
 const CHUNK: usize = 128;
@@ -48,7 +48,7 @@ pub struct BasinsRequest {
     /// Velocities x′ of the window; derived from the belt if `None`.
     pub velocity: Option<(f64, f64)>,
     /// Layout of the starts.
-    pub layout: Layout,
+    pub layout: StartLayout,
     /// A parameter to vary.
     pub over: Option<Range>,
 }
