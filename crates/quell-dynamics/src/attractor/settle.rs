@@ -14,7 +14,7 @@
 //!
 //! Without dither none of this is needed: the exact cycle map decides ([`crate::orbit::cycle`]).
 //!
-//! Each run depends on itself alone: its outcome has the same bits whatever other runs are computed with it.
+//! Each run depends on itself alone: its outcome has the same bits alone and together with any other runs.
 //! Limits: a run is assigned to the base response on the linear rate although a further attractor could exist in the
 //! neighbourhood where the rate is within `RATE_TOLERANCE` of it; the slow change along a curve with sticks that is about to
 //! lock is not a change of size.
