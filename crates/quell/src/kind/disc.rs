@@ -1,12 +1,11 @@
 //! The verbs of a disc.
 
-use super::{Reply, Verbs};
+use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
-use crate::complaint::Failure;
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::disc::{modes, resonances, stability};
-use crate::study::{DiscSetup, DiscStudy};
+use crate::study::DiscStudy;
 
 impl Verbs for DiscStudy {
     fn kind(&self) -> &'static str {
@@ -40,11 +39,4 @@ impl Verbs for DiscStudy {
     fn resonances(&self, request: resonances::ResonancesRequest) -> Reply {
         answer(self, resonances::run(self, request))
     }
-}
-
-fn answer<D>(study: &DiscStudy, done: Result<D, Failure>) -> Reply
-where
-    Answered<DiscSetup, D>: Outcome + 'static,
-{
-    Ok(Box::new(Answered::new(study, done?)))
 }

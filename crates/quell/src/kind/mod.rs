@@ -7,11 +7,11 @@ use serde_json::Value as Json;
 
 use crate::cite::Sources;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::outcome::Outcome;
+use crate::outcome::{Answered, Outcome, Presented};
 use crate::run::disc::resonances;
 use crate::run::orbit::Wanted;
 use crate::run::{basins, bifurcation, curves, simulate, thresholds};
-use crate::study::{Kind, Study};
+use crate::study::{Kind, Study, StudyKind, StudyOf};
 use crate::sweep::Running;
 
 mod belt;
@@ -150,4 +150,13 @@ pub fn verbs(study: &Study) -> Result<Box<dyn Verbs>, Failure> {
         Kind::Belt(_) => Box::new(study.belt()?),
         Kind::Disc(_) => Box::new(study.disc()?),
     })
+}
+
+/// The result of a verb with its study, or why the verb failed.
+fn answer<K, D>(study: &StudyOf<K>, done: Result<D, Failure>) -> Reply
+where
+    K: StudyKind + Send + Sync + 'static,
+    D: Presented<K> + 'static,
+{
+    Ok(Box::new(Answered::new(study, done?)))
 }

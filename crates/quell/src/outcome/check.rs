@@ -3,9 +3,8 @@
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::Presented;
 use super::table::TextTable;
-use super::{Answered, Outcome};
-use crate::input::Inputs;
 use crate::run::check::Check;
 use crate::run::disc;
 use crate::run::law;
@@ -15,39 +14,31 @@ use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy, StudyOf};
 #[derive(Clone, Copy, Debug)]
 pub struct Valid;
 
-impl Outcome for Answered<BeltSetup, Valid> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<BeltSetup> for Valid {
+    fn json(&self, study: &BeltStudy) -> Json {
+        Check { study }.json()
     }
 
-    fn json(&self) -> Json {
-        Check { study: &self.study }.json()
+    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+        Some(sentence(study))
     }
 
-    fn sentence(&self) -> Option<String> {
-        Some(sentence(&self.study))
-    }
-
-    fn table(&self) -> String {
-        table_of_belt(&self.study)
+    fn table(&self, study: &BeltStudy) -> String {
+        table_of_belt(study)
     }
 }
 
-impl Outcome for Answered<DiscSetup, Valid> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<DiscSetup> for Valid {
+    fn json(&self, study: &DiscStudy) -> Json {
+        disc::check::json(study)
     }
 
-    fn json(&self) -> Json {
-        disc::check::json(&self.study)
+    fn sentence(&self, study: &DiscStudy) -> Option<String> {
+        Some(sentence(study))
     }
 
-    fn sentence(&self) -> Option<String> {
-        Some(sentence(&self.study))
-    }
-
-    fn table(&self) -> String {
-        table_of_disc(&self.study)
+    fn table(&self, study: &DiscStudy) -> String {
+        table_of_disc(study)
     }
 }
 

@@ -5,39 +5,34 @@ use std::fmt::Write as _;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::Presented;
 use super::table::TextTable;
-use super::{Answered, Outcome};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
-use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::orbit::{Orbit, PeriodicResponse, extremes, sentence};
 use crate::study::{BeltSetup, BeltStudy};
 
-impl Outcome for Answered<BeltSetup, PeriodicResponse> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<BeltSetup> for PeriodicResponse {
+    fn json(&self, study: &BeltStudy) -> Json {
+        self.json(study)
     }
 
-    fn json(&self) -> Json {
-        self.done.json(&self.study)
+    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+        Some(self.sentence(study))
     }
 
-    fn sentence(&self) -> Option<String> {
-        Some(self.done.sentence(&self.study))
+    fn table(&self, study: &BeltStudy) -> String {
+        tables(study, self)
     }
 
-    fn table(&self) -> String {
-        tables(&self.study, &self.done)
+    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
+        self.dataset(study).map(|dataset| ("orbit", dataset)).into_iter().collect()
     }
 
-    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
-        self.done.dataset(&self.study).map(|dataset| ("orbit", dataset)).into_iter().collect()
-    }
-
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        Some(picture::periodic_response(&self.study, &self.done))
+    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
+        Some(picture::periodic_response(study, self))
     }
 }
 

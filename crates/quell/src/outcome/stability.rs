@@ -6,10 +6,9 @@ use quell_linear::growth::of_criterion;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::Presented;
 use super::table::{TextTable, figure, figure_of, in_hertz, in_rpm};
-use super::{Answered, Outcome};
 use crate::complaint::Failure;
-use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::disc;
@@ -19,49 +18,41 @@ use crate::run::stability::{
 };
 use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy};
 
-impl Outcome for Answered<BeltSetup, BeltStability> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<BeltSetup> for BeltStability {
+    fn json(&self, study: &BeltStudy) -> Json {
+        self.json(study)
     }
 
-    fn json(&self) -> Json {
-        self.done.json(&self.study)
+    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+        Some(self.sentence(study))
     }
 
-    fn sentence(&self) -> Option<String> {
-        Some(self.done.sentence(&self.study))
+    fn table(&self, study: &BeltStudy) -> String {
+        table(study, self)
     }
 
-    fn table(&self) -> String {
-        table(&self.study, &self.done)
-    }
-
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::stability(&self.study, &self.done)))
+    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::stability(study, self)))
     }
 }
 
-impl Outcome for Answered<DiscSetup, DiscStability> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<DiscSetup> for DiscStability {
+    fn json(&self, study: &DiscStudy) -> Json {
+        self.json(study)
     }
 
-    fn json(&self) -> Json {
-        self.done.json(&self.study)
+    fn sentence(&self, study: &DiscStudy) -> Option<String> {
+        Some(self.sentence(study))
     }
 
-    fn sentence(&self) -> Option<String> {
-        Some(self.done.sentence(&self.study))
+    fn table(&self, study: &DiscStudy) -> String {
+        table_of_disc(study, self)
     }
 
-    fn table(&self) -> String {
-        table_of_disc(&self.study, &self.done)
-    }
-
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        let last = disc::campbell::usual_end(&self.study);
-        let campbell = disc::campbell::run(&self.study, last);
-        Some(campbell.map(|found| picture::disc::stability(&self.study, &self.done, &found)))
+    fn figure(&self, study: &DiscStudy) -> Option<Result<Figure, Failure>> {
+        let last = disc::campbell::usual_end(study);
+        let campbell = disc::campbell::run(study, last);
+        Some(campbell.map(|found| picture::disc::stability(study, self, &found)))
     }
 }
 
