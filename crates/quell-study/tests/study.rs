@@ -296,7 +296,7 @@ phse = 1
 fn a_disc_is_no_study_of_a_belt() {
     check(
         "schema = 1\n[disc]\ninner_radius_ratio = 0.5\n[disc.load]\nmass = 0.1\n",
-        &[(Fault::Conflict, "disc", Some(2), "a study of a belt", None)],
+        &[(Fault::Conflict, "disc", Some(2), "is not available for a disc study", None)],
     );
 }
 

@@ -75,7 +75,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         complaints.finish(study.zip(request).zip(threads.zip(outputs.zip(plot))))?;
     let bar = Bar::new();
     let running = Running { threads, stop: interrupt::flag(), progress: &bar };
-    let done = verbs(&study)?.basins(&request, running)?;
+    let done = verbs(&study).basins(&request, running)?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }
 

@@ -7,12 +7,12 @@ use crate::outcome::{Answered, Outcome};
 use crate::run::{
     basins, bifurcation, curves, friction, orbit, response, simulate, stability, thresholds,
 };
-use crate::study::BeltStudy;
+use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
 
 impl Verbs for BeltStudy {
     fn kind(&self) -> &'static str {
-        "belt"
+        BeltSetup::NAME
     }
 
     fn names(&self) -> &'static [&'static str] {

@@ -5,11 +5,11 @@ use crate::cite::{self, Sources};
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::disc::{modes, resonances, stability};
-use crate::study::DiscStudy;
+use crate::study::{DiscSetup, DiscStudy};
 
 impl Verbs for DiscStudy {
     fn kind(&self) -> &'static str {
-        "disc"
+        DiscSetup::NAME
     }
 
     fn names(&self) -> &'static [&'static str] {

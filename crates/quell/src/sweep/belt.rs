@@ -11,10 +11,9 @@ use super::grid::Grid;
 use super::mapped::{Mapped, PointResults};
 use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, variable};
 use super::status::Status;
-use crate::study::BeltStudy;
+use crate::study::{BeltSetup, BeltStudy};
 
 /// Name of the kind.
-pub(super) const KIND: &str = "belt";
 
 /// Maps of belt studies.
 pub(super) struct BeltPoints(BeltStudy);
@@ -225,7 +224,7 @@ const fn belt(
     computation: Computation,
     variables: &'static [Variable],
 ) -> MapQuantity {
-    MapQuantity { name, about, kind: KIND, computation, variables }
+    MapQuantity { name, about, kind: BeltSetup::NAME, computation, variables }
 }
 
 /// Whether a response has settled; added to every quantity of a response.

@@ -3,7 +3,7 @@
 use super::quantity::MapQuantity;
 use super::{belt, disc};
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::suggest;
+use crate::study::{BeltSetup, suggest};
 
 impl MapQuantity {
     /// The quantity of a belt with this name.
@@ -11,7 +11,7 @@ impl MapQuantity {
     /// # Errors
     /// A complaint about `option` with the nearest name.
     pub fn named(name: &str, option: &'static str) -> Result<&'static Self, Box<Complaint>> {
-        Self::named_for(belt::KIND, name, option)
+        Self::named_for(BeltSetup::NAME, name, option)
     }
 
     /// The quantity with this name for a kind of study, itself named as by [`crate::study::Kind::name`].

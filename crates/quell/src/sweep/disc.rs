@@ -20,10 +20,9 @@ use super::mapped::{Mapped, PointResults};
 use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, variable};
 use super::status::Status;
 use super::{cost, refine};
-use crate::study::{DiscStudy, Sweep};
+use crate::study::{DiscSetup, DiscStudy, Sweep};
 
 /// Name of the kind.
-const KIND: &str = "disc";
 
 /// Maps of disc studies.
 pub(super) struct DiscPoints(DiscStudy);
@@ -90,7 +89,7 @@ const fn disc(
     computation: Computation,
     variables: &'static [Variable],
 ) -> MapQuantity {
-    MapQuantity { name, about, kind: KIND, computation, variables }
+    MapQuantity { name, about, kind: DiscSetup::NAME, computation, variables }
 }
 
 fn grown(results: &Results) -> Result<Growth, Status> {
