@@ -109,8 +109,8 @@ fn runs_that_end_on_no_orbit() {
 #[test]
 fn runs_that_have_not_settled() {
     let unsettled = |belt: &Belt, start: Start, patience: Patience| {
-        let scene = AttractorSettings::new(belt).expect("commensurate");
-        let settled = settle(&scene, start, patience).expect("no stall");
+        let settings = AttractorSettings::new(belt).expect("commensurate");
+        let settled = settle(&settings, start, patience).expect("no stall");
         settled.why().expect("not settled")
     };
     let belt = decreasing_under(Waveform::Sine, 4.3);

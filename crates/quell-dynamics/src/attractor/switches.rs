@@ -1,5 +1,5 @@
-//! Thresholds of an initial-condition protocol: the values of a parameter at which runs from a given start begin or cease to
-//! settle on the base response.
+//! Thresholds of an initial-condition protocol: the values of a parameter at which runs from a given state begin or stop
+//! settling on the base response.
 //!
 //! These thresholds depend on the start, unlike the local ones of the multipliers: attractors coexist, so that quenching from a
 //! given start and stability of the response are different questions. Where a run settles is decided by
@@ -141,8 +141,8 @@ pub struct Switches {
     pub unknown: Vec<(f64, NoOrbit)>,
 }
 
-/// Values of `path` between `from` and `to` at which runs from `start` (a state for each belt) begin or cease to
-/// settle on the base response. A belt without a start has nothing to quench and counts as settling on it. `steps` values are
+/// Values of `path` between `from` and `to` at which runs from `start` (a state for each belt) begin or stop
+/// settling on the base response. A belt without a start has nothing to quench and counts as settling on it. `steps` values are
 /// tried, and each change is bisected to the relative `closeness`; if a third result is found between two, both changes next to
 /// it are bisected. A pair of changes between two neighbouring values is missed.
 ///

@@ -30,7 +30,7 @@ const FIRST_STEPS: u32 = 8;
 pub enum ThresholdKind {
     /// A complex pair of multipliers crosses the unit circle.
     NeimarkSacker,
-    /// The same for steady sliding without dither: its oscillation starts or ceases to grow.
+    /// The Hopf bifurcation of steady sliding without dither.
     Hopf,
     /// A multiplier crosses −1.
     Flip,

@@ -12,7 +12,7 @@ use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::simulation::{Start, within};
 use quell_model::units::Scales;
 
-use super::attractor::{scene, unknown};
+use super::attractor::{settings, unknown};
 use super::varied::{Range, Varied};
 use super::{failed, start, stopped};
 use crate::complaint::Failure;
@@ -169,15 +169,15 @@ pub fn run(
 
 /// The response at one value, and the state from which the next one starts.
 fn point(study: &BeltStudy, value: f64, begun: Start) -> Result<(SweepPoint, Start), Failure> {
-    let scene = scene(study.belt())?;
+    let settings = settings(study.belt())?;
     let patience = Patience { tolerance: study.solver().tolerance, ..Patience::SWEEP };
-    let settled = settle(&scene, begun, patience).map_err(failed)?;
-    let attractor = measure(&scene, &settled).map_err(failed)?;
+    let settled = settle(&settings, begun, patience).map_err(failed)?;
+    let attractor = measure(&settings, &settled).map_err(failed)?;
     let end = attractor.as_ref().map_or(settled.state, |attractor| attractor.state);
     let response = attractor.ok_or_else(|| settled.why().unwrap_or(Unsettled::Moving));
-    let local = scene.base.as_ref().map(|quiet| quiet.verdict).map_err(unknown);
-    let period = scene.section.period;
-    let in_band = scene.reaches_the_band();
+    let local = settings.base.as_ref().map(|base| base.verdict).map_err(unknown);
+    let period = settings.section.period;
+    let in_band = settings.reaches_the_band();
     let scales = study.scales();
     Ok((
         SweepPoint { value, scales, period, in_band, local, response, periods: settled.periods },
