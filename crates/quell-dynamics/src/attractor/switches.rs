@@ -19,7 +19,8 @@ use crate::simulation::{DEFAULT_TOLERANCE, Stalled, Start, simulate};
 
 /// Half the width of an interval, relative to its value, up to which it is reported as a single value: ten times the closeness
 /// that thresholds request of bisection (10⁻⁵). Wider intervals are those at which bisection stopped, and are reported with
-/// their error. Larger, such an interval would be reported as a value; smaller, an ordinary one with its error.
+/// their error. With a larger bound such an interval would be reported as a value; with a smaller one
+/// an ordinary threshold would be reported as an interval.
 const NARROW: f64 = 1e-4;
 
 /// For a run that cannot settle on the base response, because that is unstable. A run that still moves after 2000 slow periods
