@@ -51,8 +51,8 @@ const SHRINKS: f64 = 0.5;
 /// trend to be measured. With a larger value a slow drift along a nearly locked curve would count as closed.
 const CLOSED: f64 = 1e-7;
 
-/// Most numbers of periods for which shooting is tried in one section: a section with more returns than this usually fills a curve. An orbit
-/// that follows more than three unsuccessful attempts is missed in this record.
+/// Most numbers of periods for which shooting is tried in one section: a section with more returns than this usually fills a
+/// curve. An orbit that follows more than three unsuccessful attempts is missed in this record.
 const MOST_SHOTS: usize = 4;
 
 /// Difference of the rotation numbers of the two halves of a record below which the motion is on a curve: a hundredth of a

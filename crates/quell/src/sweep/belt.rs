@@ -13,8 +13,6 @@ use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, variable};
 use super::status::Status;
 use crate::study::{BeltSetup, BeltStudy};
 
-/// Name of the kind.
-
 /// Maps of belt studies.
 pub(super) struct BeltPoints(BeltStudy);
 

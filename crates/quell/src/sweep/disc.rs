@@ -22,8 +22,6 @@ use super::status::Status;
 use super::{cost, refine};
 use crate::study::{DiscSetup, DiscStudy, Sweep};
 
-/// Name of the kind.
-
 /// Maps of disc studies.
 pub(super) struct DiscPoints(DiscStudy);
 
