@@ -10,8 +10,8 @@ use std::sync::atomic::AtomicBool;
 use libfuzzer_sys::fuzz_target;
 use quell::BeltStudy;
 use quell::run::map::run;
-use quell::store::{Found, Store};
-use quell::sweep::{Plan, Quantity, Running};
+use quell::store::{ChunkState, Store};
+use quell::sweep::{MapQuantity, Plan, Running};
 
 const MAP: &str = "schema = 1\n[belt]\ndamping_ratio = 0.005\nnormal_load = 1\nbelt_velocity = 0.05\n\
     [friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n\
@@ -22,7 +22,7 @@ struct Whole {
     _folder: tempfile::TempDir,
     path: PathBuf,
     plan: Plan,
-    known: Found,
+    known: ChunkState,
     files: Vec<PathBuf>,
 }
 
@@ -30,7 +30,7 @@ static WHOLE: LazyLock<Whole> = LazyLock::new(|| {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("whole.zarr");
     let study = BeltStudy::parse(MAP, &[]).expect("valid");
-    let quantity = Quantity::named("verdict", "fuzz").expect("known");
+    let quantity = MapQuantity::named("verdict", "fuzz").expect("known");
     let plan = Plan::new(&study, &[quantity]).expect("a plan");
     let store = Store::open(&path, &plan, false).expect("made");
     let never = AtomicBool::new(false);
@@ -71,8 +71,8 @@ fuzz_target!(|input: (u8, &[u8])| {
         }
     }
     if let Ok(store) = Store::open(&path, &whole.plan, true) {
-        if let Found::Whole(values) = store.read(&whole.plan, 0) {
-            assert_eq!(Found::Whole(values), whole.known);
+        if let ChunkState::Whole(values) = store.read(&whole.plan, 0) {
+            assert_eq!(ChunkState::Whole(values), whole.known);
         }
     }
 });

@@ -54,7 +54,7 @@ fn lines(failure: &Failure) -> String {
     let mut lines: Vec<String> =
         texts.iter().map(|text| format!("error: {}\n", text.replace('\n', "\n    "))).collect();
     if lines.len() > 1 {
-        lines.push(format!("{} errors; nothing was computed\n", lines.len()));
+        lines.push(format!("{} errors; no computation was started\n", lines.len()));
     }
     lines.concat()
 }

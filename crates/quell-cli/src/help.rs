@@ -7,10 +7,10 @@ use std::fmt::Write as _;
 use clap::Command;
 
 /// A verb and its examples.
-type Verb = (&'static str, &'static [&'static str]);
+type VerbExamples = (&'static str, &'static [&'static str]);
 
 /// Headings with their verbs, in the order of the help.
-const GROUPS: &[(&str, &[Verb])] = &[
+const GROUPS: &[(&str, &[VerbExamples])] = &[
     (
         "Start here",
         &[

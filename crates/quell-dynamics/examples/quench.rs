@@ -37,7 +37,8 @@ pub(crate) fn answer() -> Result<String, Box<dyn Error>> {
         writeln!(text, "exactly: {} at D = {:.7}", threshold.kind.name(), threshold.value)?;
     }
     for amplitude in [0.3, 0.4, 0.52] {
-        let belt = belt.with("dither.amplitude", amplitude).map_err(|it| format!("{it:?}"))?;
+        let belt =
+            belt.with("dither.amplitude", amplitude).map_err(|error| format!("{error:?}"))?;
         let response = respond(&belt, Start::REST, &Solver::default())?;
         let left = response.efficiency?;
         writeln!(text, "from rest, D = {amplitude}: {:.1} % of the squeal is left", 100.0 * left)?;

@@ -10,10 +10,10 @@ use quell_model::{Belt, Waveform};
 use quell_zoo::belt::{self, decreasing_under, stribeck_under};
 
 fn reached(belt: &Belt, displacement: f64, velocity: f64) -> (Settled, Option<Attractor>) {
-    let scene = AttractorSettings::new(belt).expect("a strobe");
+    let settings = AttractorSettings::new(belt).expect("a strobe");
     let start = Start { time: 0.0, displacement, velocity };
-    let settled = settle(&scene, start, Patience::SWEEP).expect("no stall");
-    let attractor = measure(&scene, &settled).expect("no stall");
+    let settled = settle(&settings, start, Patience::SWEEP).expect("no stall");
+    let attractor = measure(&settings, &settled).expect("no stall");
     (settled, attractor)
 }
 
@@ -55,8 +55,8 @@ fn the_base_response_and_squeal_coexist_below_the_local_threshold() {
         (9.91, true, true),
     ] {
         let belt = decreasing_under(Waveform::Sine, amplitude);
-        let scene = AttractorSettings::new(&belt).expect("a strobe");
-        let base = scene.base.clone().expect("an orbit");
+        let settings = AttractorSettings::new(&belt).expect("a strobe");
+        let base = settings.base.clone().expect("an orbit");
         assert_eq!(base.verdict == OrbitVerdict::Stable, stable, "{amplitude}");
         // From the orbit itself: a run leaves it if it is unstable.
         let (settled, _) = reached(&belt, base.displacement, base.velocity);
@@ -98,15 +98,17 @@ fn cycles_without_dither_have_their_size_and_frequency() {
 #[test]
 fn a_line_of_starts_has_two_attractors() {
     let belt = decreasing_under(Waveform::Sine, 2.5);
-    let scene = AttractorSettings::new(&belt).expect("a strobe");
+    let settings = AttractorSettings::new(&belt).expect("a strobe");
     let starts: Vec<Start> = (0..40)
         .map(|k| Start { time: 0.0, displacement: -1.4 + 0.09 * f64::from(k), velocity: 0.0 })
         .collect();
-    let all = settle_many(&scene, &starts, Patience::BASIN);
-    let alone: Vec<_> =
-        starts.chunks(7).flat_map(|starts| settle_many(&scene, starts, Patience::BASIN)).collect();
+    let all = settle_many(&settings, &starts, Patience::BASIN);
+    let alone: Vec<_> = starts
+        .chunks(7)
+        .flat_map(|starts| settle_many(&settings, starts, Patience::BASIN))
+        .collect();
     assert_eq!(all, alone);
-    let found = gather(&scene, &all).expect("no stall");
+    let found = gather(&settings, &all).expect("no stall");
     assert_eq!((found.basins.len(), found.unknown()), (2, 0), "{found:?}");
     assert!(found.basins[0].attractor.quiet && !found.basins[1].attractor.quiet);
     let quenched: Vec<bool> =
@@ -116,7 +118,7 @@ fn a_line_of_starts_has_two_attractors() {
     assert_eq!(quenched.iter().filter(|quenched| **quenched).count(), found.basins[0].starts);
     // A single long run from some of the starts agrees.
     for (start, quenched) in starts.iter().zip(&quenched).step_by(9) {
-        let settled = settle(&scene, *start, Patience::SWEEP).expect("no stall");
+        let settled = settle(&settings, *start, Patience::SWEEP).expect("no stall");
         assert_eq!(settled.outcome == SettleOutcome::Base, *quenched, "{start:?}");
     }
 }

@@ -22,9 +22,9 @@ fn a_response_of_one_period_is_not_called_locked() {
     let fast = belt::decreasing();
     for amplitude in [2.0, 2.25, 2.5] {
         let belt = fast.with_dither(sine(amplitude, 0.9));
-        let scene = AttractorSettings::new(&belt).expect("a strobe");
-        let settled = settle(&scene, Start::REST, Patience::SWEEP).expect("no stall");
-        let attractor = measure(&scene, &settled).expect("no stall").expect("settled");
+        let settings = AttractorSettings::new(&belt).expect("a strobe");
+        let settled = settle(&settings, Start::REST, Patience::SWEEP).expect("no stall");
+        let attractor = measure(&settings, &settled).expect("no stall").expect("settled");
         let AttractorKind::Periodic { periods, radius } = attractor.kind else {
             panic!("{attractor:?}")
         };
@@ -66,11 +66,11 @@ fn a_limit_cycle_does_not_depend_on_the_frequency_of_a_silent_dither() {
     let frequency = std::f64::consts::TAU / cycles(&belt).expect("no stall")[0].period;
     for frequency_ratio in [10.0, 1.45, 1.396, 1.0, 0.6] {
         let belt = belt.with_dither(sine(0.0, frequency_ratio));
-        let scene = AttractorSettings::new(&belt).expect("a strobe");
-        let settled = settle(&scene, Start::REST, Patience::SWEEP).expect("no stall");
-        let attractor = measure(&scene, &settled).expect("no stall").expect("settled");
+        let settings = AttractorSettings::new(&belt).expect("a strobe");
+        let settled = settle(&settings, Start::REST, Patience::SWEEP).expect("no stall");
+        let attractor = measure(&settings, &settled).expect("no stall").expect("settled");
         assert_eq!(attractor.kind, AttractorKind::Cycle, "{frequency_ratio}");
-        let found = attractor.frequency(scene.section.period).expect("a slow phase");
+        let found = attractor.frequency(settings.section.period).expect("a slow phase");
         assert!((found - frequency).abs() < 1e-12, "{frequency_ratio}: {found} {frequency}");
         let orbit = orbit_reached(&belt, Start::REST).expect("a cycle");
         assert!(orbit.is_free && (orbit.period * frequency - std::f64::consts::TAU).abs() < 1e-12);
@@ -164,12 +164,12 @@ fn every_effect_is_recognised() {
 fn undithered_runs_end_as_the_cycle_map_predicts() {
     let belt = belt::decreasing();
     let between = &cycles(&belt).expect("no stall")[1];
-    let scene = AttractorSettings::new(&belt).expect("a strobe");
+    let settings = AttractorSettings::new(&belt).expect("a strobe");
     for (share, outcome) in [(1.001, SettleOutcome::Elsewhere), (0.999, SettleOutcome::Base)] {
         let sliding = belt.steady_sliding();
         let displacement = sliding + share * (between.start.displacement - sliding);
         let start = Start { time: 0.0, displacement, velocity: 0.0 };
-        let settled = settle(&scene, start, Patience::SWEEP).expect("no stall");
+        let settled = settle(&settings, start, Patience::SWEEP).expect("no stall");
         assert_eq!(settled.outcome, outcome, "{share}");
     }
 }

@@ -87,7 +87,7 @@ fn shooting_that_does_not_close() {
 fn base_responses_that_end_or_are_lost() {
     let why = no_orbit(from_sliding(&folding(2e-3), 8));
     assert!(matches!(why, NoOrbit::Ends { .. }) && why.is_absence(), "{why:?}");
-    assert_states(&why, &["0.786", "of the dither", "none beyond"]);
+    assert_states(&why, &["0.786", "of the dither", "exists beyond"]);
     let why = no_orbit(from_sliding(&lost(), 8));
     assert!(matches!(why, NoOrbit::LostOnTheWay { .. }) && !why.is_absence(), "{why:?}");
     assert_states(&why, &["0.997", "of the dither", "could not be followed"]);
@@ -109,8 +109,8 @@ fn runs_that_end_on_no_orbit() {
 #[test]
 fn runs_that_have_not_settled() {
     let unsettled = |belt: &Belt, start: Start, patience: Patience| {
-        let scene = AttractorSettings::new(belt).expect("commensurate");
-        let settled = settle(&scene, start, patience).expect("no stall");
+        let settings = AttractorSettings::new(belt).expect("commensurate");
+        let settled = settle(&settings, start, patience).expect("no stall");
         settled.why().expect("not settled")
     };
     let belt = decreasing_under(Waveform::Sine, 4.3);
@@ -162,7 +162,7 @@ fn thresholds() {
     assert_states(&why, &["-1.5"]);
     let why = from(2e-3);
     assert!(matches!(why, NoThresholds::Start(NoOrbit::Ends { .. })), "{why:?}");
-    assert_states(&why, &["0.786", "none beyond"]);
+    assert_states(&why, &["0.786", "exists beyond"]);
     let why = along(&belt, "dither.amplitude", (-3.0, Start::REST), 1.0, 5, 1);
     let why = why.expect_err("a negative amplitude");
     assert_eq!(why, NoThresholds::Start(NoOrbit::Invalid { value: -3.0 }));
@@ -186,7 +186,7 @@ fn curves_of_thresholds() {
     assert_states(&why, &["at -0.5", "cannot take this value"]);
     let why = line(&folding(1e-4), (2e-3, 3e-3), (0.9, 1.1));
     let Open::Begin(NoThresholds::Start(NoOrbit::Ends { .. })) = why.why else { panic!("{why}") };
-    assert_states(&why, &["at 0.95", "none beyond"]);
+    assert_states(&why, &["at 0.95", "exists beyond"]);
     // No plane is known in which these are met at once.
     let line = |why: Open| OpenLine { along: 2.5, why };
     assert_states(&line(Open::Lost { at: 0.375 }), &["at 2.5", "lost beyond 0.375"]);

@@ -1,7 +1,7 @@
 //! Steady responses: published statements that independent computations confirm, limits and
 //! identities of the costs.
 
-use quell_dynamics::response::{Response, Solver, Undefined, respond};
+use quell_dynamics::response::{Solver, SteadyResponse, Undefined, respond};
 use quell_dynamics::simulation::Start;
 use quell_dynamics::start::{InitialState, NoSquealingStart};
 use quell_model::{Belt, LawKind, Waveform};
@@ -10,7 +10,7 @@ use quell_zoo::belt::{self, dissertation, stribeck_under};
 use quell_zoo::dither::{normal, sine, tangential};
 use quell_zoo::law;
 
-fn response(belt: &Belt) -> Response {
+fn response(belt: &Belt) -> SteadyResponse {
     respond(belt, Start::REST, &Solver::default()).expect("no stall")
 }
 

@@ -19,7 +19,7 @@ pub enum PlotError {
         /// The reason.
         why: String,
     },
-    /// The drawn scene could not be rasterised.
+    /// The figure could not be rasterised.
     Raster {
         /// Error of the rasteriser.
         source: Box<dyn Error + Send + Sync>,

@@ -188,7 +188,7 @@ impl<'a> MeasuredPath<'a> {
         (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1))
     }
 
-    /// The candidate for a text of this half width around a position on the line; `None` where the line
+    /// The candidate for a text of this half width, centred at a position on the line; `None` where the line
     /// bends too much.
     fn candidate(&self, at: f64, half: f64, most_bend: f64) -> Option<Candidate> {
         const SAMPLES: i32 = 8;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
-use quell::run::basins::{BasinsRequest, Layout};
+use quell::run::basins::{BasinsRequest, StartLayout};
 use quell::run::bifurcation::SweepRequest;
 use quell::run::varied::Range;
 use quell::study::document::{Node, Table};
@@ -29,7 +29,7 @@ pub(crate) struct NativeStudy {
     folder: PathBuf,
     changes: Vec<(String, String)>,
     /// Axes in place of those of the text, each as (key, value).
-    axes: Option<Vec<Axis>>,
+    axes: Option<Vec<AxisKeys>>,
     /// Whether line numbers are meaningful to the user.
     has_lines: bool,
     /// The file from which it was read, which must not be an output.
@@ -37,10 +37,10 @@ pub(crate) struct NativeStudy {
 }
 
 /// Keys and values of an axis.
-type Axis = Vec<(String, String)>;
+type AxisKeys = Vec<(String, String)>;
 
 /// Everything needed to rebuild a study: text, folder, changes, axes, whether it has lines, and the file from which it was read.
-type Parts = (String, PathBuf, Vec<(String, String)>, Option<Vec<Axis>>, bool, Option<PathBuf>);
+type Parts = (String, PathBuf, Vec<(String, String)>, Option<Vec<AxisKeys>>, bool, Option<PathBuf>);
 
 impl NativeStudy {
     fn made(py: Python<'_>, parts: Parts) -> PyResult<Self> {
@@ -70,9 +70,9 @@ impl NativeStudy {
     }
 }
 
-fn sweeping(study: Study, axes: Option<&[Axis]>) -> Result<Study, Complaints> {
+fn sweeping(study: Study, axes: Option<&[AxisKeys]>) -> Result<Study, Complaints> {
     let Some(axes) = axes else { return Ok(study) };
-    let table = |axis: &Axis| {
+    let table = |axis: &AxisKeys| {
         let mut table = Table::default();
         for (key, value) in axis {
             table.set(key, Node::from_argument(value, "axes"));
@@ -117,7 +117,7 @@ impl NativeStudy {
     }
 
     /// The same study with these axes in place of its own.
-    fn swept(&self, py: Python<'_>, axes: Vec<Axis>) -> PyResult<Self> {
+    fn swept(&self, py: Python<'_>, axes: Vec<AxisKeys>) -> PyResult<Self> {
         let (text, folder, changes, _, has_lines, file) = self.parts();
         Self::made(py, (text, folder, changes, Some(axes), has_lines, file))
     }
@@ -290,8 +290,8 @@ impl NativeStudy {
             ))
         })?;
         let layout = match layout {
-            (_, Some((count, seed))) => Layout::Sample { count, seed },
-            ((columns, rows), None) => Layout::Grid { columns, rows },
+            (_, Some((count, seed))) => StartLayout::Sample { count, seed },
+            ((columns, rows), None) => StartLayout::Grid { columns, rows },
         };
         let request = BasinsRequest { displacement, velocity, layout, over };
         basins::run(py, self.study(), request, threads, progress)

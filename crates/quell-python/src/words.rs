@@ -5,9 +5,7 @@
 
 /// Phrases of the command line, and their replacements in Python.
 const PHRASES: &[(&str, &str)] = &[
-    ("the same command with --resume goes on", "the same call with resume=True goes on"),
     ("the same command with --resume continues", "the same call with resume=True continues"),
-    ("--resume goes on", "resume=True goes on"),
     ("--resume continues", "resume=True continues"),
     ("--save FILE.zarr keeps finished chunks", "store=\"FILE.zarr\" keeps finished chunks"),
     (

@@ -215,9 +215,9 @@ def test_failures_name_arguments_not_options(key: str, words: str, call: Any, be
     failed: Any = caught.value
     named = [it["key"] for it in failed.errors] if isinstance(failed, quell.StudyError) else [failed.key]
     assert key in named, named
-    told = messages(failed)
-    assert not [it for it in told if "--" in it]
-    assert any(words in it for it in told), told
+    reported = messages(failed)
+    assert not [message for message in reported if "--" in message]
+    assert any(words in message for message in reported), reported
 
 
 def test_failures_of_stores_and_pictures_name_arguments(belt: quell.Belt, tmp_path: Any) -> None:

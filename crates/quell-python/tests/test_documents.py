@@ -53,8 +53,8 @@ def test_every_fact_of_a_result_says_what_it_is() -> None:
         for node, behind in zip(it.body, [*it.body[1:], None], strict=True):
             if isinstance(node, ast.AnnAssign):
                 facts += 1
-                told = isinstance(behind, ast.Expr) and isinstance(behind.value, ast.Constant)
-                assert told, f"{it.name}.{ast.unparse(node.target)}"
+                documented = isinstance(behind, ast.Expr) and isinstance(behind.value, ast.Constant)
+                assert documented, f"{it.name}.{ast.unparse(node.target)}"
     # Result alone has three.
     assert facts > 30
 

@@ -40,12 +40,12 @@ impl AmplitudeColumn {
     fn new(name: &str, study: &BeltStudy, amplitude: f64) -> Result<Self, Failure> {
         let study = study.with("dither.amplitude", amplitude)?;
         let belt = study.belt().clone();
-        let scene = AttractorSettings::new(&belt).map_err(|why| failed(name, &why))?;
-        let local = local(name, &scene)?;
-        let settled = run_from_start(name, &study, &scene)?;
-        let attractor = measure(&scene, &settled).map_err(|why| failed(name, &why))?;
+        let settings = AttractorSettings::new(&belt).map_err(|why| failed(name, &why))?;
+        let local = local(name, &settings)?;
+        let settled = run_from_start(name, &study, &settings)?;
+        let attractor = measure(&settings, &settled).map_err(|why| failed(name, &why))?;
         let quiet = attractor.as_ref().is_some_and(|attractor| attractor.quiet);
-        Ok(Self { amplitude, study, local, quiet, attractor, period: scene.section.period })
+        Ok(Self { amplitude, study, local, quiet, attractor, period: settings.section.period })
     }
 
     /// Slow frequency (ω₀), if the section of the response rotates.
@@ -55,19 +55,19 @@ impl AmplitudeColumn {
 }
 
 /// Stability of the base response.
-fn local(name: &str, scene: &AttractorSettings<'_>) -> Result<OrbitVerdict, Failure> {
-    scene.base.as_ref().map(|quiet| quiet.verdict).map_err(|why| failed(name, why))
+fn local(name: &str, settings: &AttractorSettings<'_>) -> Result<OrbitVerdict, Failure> {
+    settings.base.as_ref().map(|base| base.verdict).map_err(|why| failed(name, why))
 }
 
 /// SettleOutcome of the run from the study's initial state.
 fn run_from_start(
     name: &str,
     study: &BeltStudy,
-    scene: &AttractorSettings<'_>,
+    settings: &AttractorSettings<'_>,
 ) -> Result<Settled, Failure> {
     let start = run::start(study)?;
     let patience = Patience { periods: MOST_PERIODS, ..Patience::SWEEP };
-    settle(scene, start, patience).map_err(|why| failed(name, &why))
+    settle(settings, start, patience).map_err(|why| failed(name, &why))
 }
 
 /// An amplitude between neighbouring columns at which a property changes.
@@ -101,15 +101,12 @@ impl AmplitudeColumns {
             cases.iter().map(|case| (case.amplitude, holds(case))).collect::<Vec<_>>()
         };
         let stable = of(|case| case.local == OrbitVerdict::Stable);
-        let local =
-            thresholds(
-                &study,
-                &stable,
-                |_, scene| Ok(local(name, scene)? == OrbitVerdict::Stable),
-            )?;
+        let local = thresholds(&study, &stable, |_, settings| {
+            Ok(local(name, settings)? == OrbitVerdict::Stable)
+        })?;
         let quiet = of(|case| case.quiet);
-        let from_rest = thresholds(&study, &quiet, |study, scene| {
-            Ok(run_from_start(name, study, scene)?.outcome == SettleOutcome::Base)
+        let from_rest = thresholds(&study, &quiet, |study, settings| {
+            Ok(run_from_start(name, study, settings)?.outcome == SettleOutcome::Base)
         })?;
         Ok(Self { study, cases, local, from_rest })
     }
@@ -131,8 +128,9 @@ fn thresholds(
             let middle = 0.5 * (low + high);
             let study = study.with("dither.amplitude", middle)?;
             let belt = study.belt().clone();
-            let scene = AttractorSettings::new(&belt).map_err(|why| failed("reproduce", &why))?;
-            if holds(&study, &scene)? == before { low = middle } else { high = middle }
+            let settings =
+                AttractorSettings::new(&belt).map_err(|why| failed("reproduce", &why))?;
+            if holds(&study, &settings)? == before { low = middle } else { high = middle }
         }
         found.push(AmplitudeThreshold { amplitude: 0.5 * (low + high), holds_above: after });
     }

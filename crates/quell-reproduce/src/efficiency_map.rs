@@ -20,9 +20,9 @@ use quell::picture::{self, MapAxis, MapKind};
 use quell::plot::{
     Figure, Legend, LineStyle, Panel, PlotAxis, PlotRole, Polyline, SharedLegend, Sharing, Size,
 };
-use quell::run::map::{Map, boundaries, run};
+use quell::run::map::{FinishedMap, boundaries, run};
 use quell::study::BeltStudy;
-use quell::sweep::{Plan, Quantity, Running, Status};
+use quell::sweep::{MapQuantity, Plan, Running, Status};
 
 /// Belt velocities of figures 2.8 and 2.9.
 const FOUR_VELOCITIES: [f64; 4] = [0.05, 0.1, 0.125, 0.15];
@@ -149,8 +149,8 @@ fn study_of(
 }
 
 /// E over the study's axes.
-fn efficiency(source: &EntrySource, study: &BeltStudy) -> Result<Map, Failure> {
-    let quantity = Quantity::named("efficiency", "reproduce")?;
+fn efficiency(source: &EntrySource, study: &BeltStudy) -> Result<FinishedMap, Failure> {
+    let quantity = MapQuantity::named("efficiency", "reproduce")?;
     let plan = Plan::new(study, &[quantity])?;
     let axes: Vec<&str> = plan.grid().axes().iter().map(|axis| axis.path.as_str()).collect();
     if axes != ["dither.frequency_ratio", "dither.amplitude"] {
@@ -160,7 +160,7 @@ fn efficiency(source: &EntrySource, study: &BeltStudy) -> Result<Map, Failure> {
     run(plan, None, Running { threads: None, stop: &never, progress: &() })
 }
 
-fn record(table: &mut DataTable, panel: &str, case: &MapPanel, done: &Map) {
+fn record(table: &mut DataTable, panel: &str, case: &MapPanel, done: &FinishedMap) {
     let grid = done.plan().grid();
     let entry = &done.plan().sheet().entries()[0];
     for point in 0..grid.len() {
@@ -178,7 +178,7 @@ fn record(table: &mut DataTable, panel: &str, case: &MapPanel, done: &Map) {
 }
 
 /// The boundary D = α*R by averaging, and that by finite-R averaging.
-fn boundary(done: &Map, panel: &str, table: &mut DataTable) -> Vec<Polyline> {
+fn boundary(done: &FinishedMap, panel: &str, table: &mut DataTable) -> Vec<Polyline> {
     let grid = done.plan().grid();
     let furthest = grid.axes()[1].values.last().copied().unwrap_or(1.0);
     let mut lines = Vec::new();
@@ -207,7 +207,7 @@ fn boundary(done: &Map, panel: &str, table: &mut DataTable) -> Vec<Polyline> {
 fn panel(
     source: &EntrySource,
     study: &BeltStudy,
-    done: &Map,
+    done: &FinishedMap,
     lines: Vec<Polyline>,
 ) -> Result<Panel, Failure> {
     let grid = done.plan().grid();
@@ -226,7 +226,7 @@ fn panel(
         done.number(entry, point)
             .ok_or_else(|| unknown.iter().position(|state| *state == states[point]).unwrap_or(0))
     };
-    let map = picture::Map {
+    let map = picture::MappedQuantity {
         axes: axes
             .iter()
             .zip(grid.axes())

@@ -3,7 +3,7 @@
 //! Rows: x(τ) and x′(τ) from rest, and the spectral amplitudes of the steady record (settling time discarded, mean removed,
 //! Hann window). One column for each amplitude of the study's sweep.
 
-use quell_dynamics::response::{BAND_END, Response, Spectrum, respond};
+use quell_dynamics::response::{BAND_END, Spectrum, SteadyResponse, respond};
 use quell_dynamics::simulation::{Sample, Sampler, simulate};
 use quell_model::{Belt, Direction, LawKind};
 
@@ -34,7 +34,7 @@ pub(super) struct ResponseColumn {
     /// D.
     pub(super) amplitude: f64,
     /// The steady response.
-    pub(super) response: Response,
+    pub(super) response: SteadyResponse,
 }
 
 /// The steady responses of the study's amplitudes.
@@ -62,7 +62,7 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         vec![("time".to_owned(), "1/ω0", undithered.iter().map(|s| s.time).collect())];
     histories.extend(columns_of("undithered", &undithered));
     let top = dither.frequency_ratio * 1.25;
-    let shown = |response: &Response| {
+    let shown = |response: &SteadyResponse| {
         response.record.spectrum.frequencies().take_while(|ω| *ω <= top).count()
     };
     let first = &cases[0].response;
@@ -157,7 +157,7 @@ fn time_axis() -> PlotAxis {
 }
 
 fn spectrum_panel(case: &ResponseColumn, top: f64) -> Panel {
-    let Response { record, undithered_record, .. } = &case.response;
+    let SteadyResponse { record, undithered_record, .. } = &case.response;
     let curve = |role, spectrum: &Spectrum| {
         let amplitudes = spectrum.amplitudes().iter().map(|amplitude| amplitude.max(0.1 * FLOOR));
         let points: Vec<(f64, f64)> =
@@ -193,7 +193,7 @@ fn history(
     Ok(sampler.samples)
 }
 
-fn caption(source: &EntrySource, study: &BeltStudy, response: &Response) -> String {
+fn caption(source: &EntrySource, study: &BeltStudy, response: &SteadyResponse) -> String {
     let belt = study.belt();
     let dither = belt.dithers()[0];
     let (direction, symbol) = match dither.direction {

@@ -68,7 +68,7 @@ fn of_waveforms(
         for (index, case) in block.cases.iter().enumerate() {
             let name = letter(index);
             let samples = history(source, case)?;
-            let transient = strobe(source, case)?;
+            let transient = stroboscopic_section(source, case)?;
             let prefix = if several { format!("{waveform}_{name}") } else { name.to_string() };
             if histories.is_empty() {
                 let time = samples.iter().map(|s| s.time).collect();
@@ -212,7 +212,10 @@ fn history(source: &EntrySource, case: &AmplitudeColumn) -> Result<Vec<Sample>, 
 }
 
 /// Stroboscopic states of the first periods.
-fn strobe(source: &EntrySource, case: &AmplitudeColumn) -> Result<Vec<(f64, f64)>, Failure> {
+fn stroboscopic_section(
+    source: &EntrySource,
+    case: &AmplitudeColumn,
+) -> Result<Vec<(f64, f64)>, Failure> {
     let samples = sampled(source, case, case.period, TRANSIENT)?;
     Ok(samples.iter().map(|sample| (sample.displacement, sample.velocity)).collect())
 }

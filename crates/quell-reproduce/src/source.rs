@@ -25,7 +25,7 @@ impl EntrySource {
     /// The study.
     ///
     /// # Errors
-    /// Complaints about the study file; a test checks that there are none.
+    /// Complaints about the study file; a test checks that it has no fault.
     pub fn study(&self) -> Result<BeltStudy, Failure> {
         self.changed(&[])
     }

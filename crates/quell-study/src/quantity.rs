@@ -160,7 +160,8 @@ mod tests {
 
     #[test]
     fn a_value_is_in_the_unit_of_its_key() {
-        let of = |text, path| value_of_key(text, path, "--from").map_err(|told| told.allowed);
+        let of =
+            |text, path| value_of_key(text, path, "--from").map_err(|complaint| complaint.allowed);
         assert_eq!(of("5kN", "dither.amplitude_n"), Ok(5000.0));
         assert_eq!(of("5000", "dither.amplitude_n"), Ok(5000.0));
         assert_eq!(of("90deg", "dither.phase"), Ok(std::f64::consts::FRAC_PI_2));
@@ -171,7 +172,7 @@ mod tests {
 
     #[test]
     fn units_need_a_study_in_si() {
-        let told = parse("3s", Quantity::Time, None, "--until").expect_err("no scales");
-        assert!(told.allowed.contains("mass_kg") && told.key == "--until");
+        let complaint = parse("3s", Quantity::Time, None, "--until").expect_err("no scales");
+        assert!(complaint.allowed.contains("mass_kg") && complaint.key == "--until");
     }
 }

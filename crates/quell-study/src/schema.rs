@@ -421,7 +421,7 @@ fn property(key: &Key) -> Json {
     schema
 }
 
-/// Texts that begin with a number and go on with a unit, which the reader judges.
+/// Texts of a number followed by a unit; the reader checks the unit.
 const WITH_UNIT: &str =
     "^\\s*[-+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][-+]?[0-9]+)?\\s*[^-+.\\s0-9eE]";
 

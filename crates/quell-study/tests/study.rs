@@ -64,19 +64,19 @@ fn complaints(text: &str, changes: &[&str]) -> Complaints {
 type Said = (Fault, &'static str, Option<usize>, &'static str, Option<&'static str>);
 
 fn check(text: &str, expected: &[Said]) {
-    let told = complaints(text, &[]);
-    let told: Vec<_> = told.iter().collect();
+    let reported = complaints(text, &[]);
+    let reported: Vec<_> = reported.iter().collect();
     for (fault, key, line, allowed, suggestion) in expected {
         let found =
-            told.iter().find(|complaint| complaint.fault == *fault && complaint.key == *key);
+            reported.iter().find(|complaint| complaint.fault == *fault && complaint.key == *key);
         let Some(found) = found else {
-            panic!("no complaint {fault:?} about {key} in {told:#?}\n{text}");
+            panic!("no complaint {fault:?} about {key} in {reported:#?}\n{text}");
         };
         assert_eq!(found.origin.line(), *line, "{found}");
         assert!(found.allowed.contains(allowed), "{found}: wants {allowed:?}");
         assert_eq!(found.suggestion.as_deref(), *suggestion, "{found}");
     }
-    assert_eq!(told.len(), expected.len(), "{told:#?}");
+    assert_eq!(reported.len(), expected.len(), "{reported:#?}");
 }
 
 #[test]
@@ -227,10 +227,10 @@ fn normal_dither_beyond_the_load_is_refused() {
         GOOD.replace("\"tangential\"", "\"normal\"").replace("amplitude = 0.4", "amplitude = 1.5");
     check(&text, &[(Fault::Value, "dither.amplitude", Some(15), "pull the contact apart", None)]);
     let text = SI.replace("amplitude_n_rms = 60.0", "amplitude_n_rms = 300.0");
-    let told = complaints(&text, &[]);
-    assert_eq!((told.len(), told[0].key.as_str()), (1, "dither[0].amplitude_n_rms"));
-    assert!(told[0].allowed.contains("normal_force_n = 350 N"), "{}", told[0]);
-    let given = told[0].value.as_f64().expect("a number");
+    let reported = complaints(&text, &[]);
+    assert_eq!((reported.len(), reported[0].key.as_str()), (1, "dither[0].amplitude_n_rms"));
+    assert!(reported[0].allowed.contains("normal_force_n = 350 N"), "{}", reported[0]);
+    let given = reported[0].value.as_f64().expect("a number");
     assert!((given - 300.0).abs() < 1e-10, "{given}");
 }
 
@@ -283,20 +283,20 @@ phse = 1
     // With a valid second dither, the separation by the first one is reported with the other errors.
     let text =
         text.replace("= nan", "= 1").replace("frequency_ratio = 0\n", "frequency_ratio = 3\n");
-    let told = complaints(&text, &[]);
+    let reported = complaints(&text, &[]);
     assert!(
-        told.iter().any(|complaint| complaint.allowed.contains("pull the contact apart")),
-        "{told:#?}"
+        reported.iter().any(|complaint| complaint.allowed.contains("pull the contact apart")),
+        "{reported:#?}"
     );
-    let lines: Vec<_> = told.iter().filter_map(|complaint| complaint.origin.line()).collect();
-    assert!(lines.is_sorted() && lines.len() == told.len(), "{lines:?}");
+    let lines: Vec<_> = reported.iter().filter_map(|complaint| complaint.origin.line()).collect();
+    assert!(lines.is_sorted() && lines.len() == reported.len(), "{lines:?}");
 }
 
 #[test]
 fn a_disc_is_no_study_of_a_belt() {
     check(
         "schema = 1\n[disc]\ninner_radius_ratio = 0.5\n[disc.load]\nmass = 0.1\n",
-        &[(Fault::Conflict, "disc", Some(2), "a study of a belt", None)],
+        &[(Fault::Conflict, "disc", Some(2), "is not available for a disc study", None)],
     );
 }
 
@@ -410,7 +410,7 @@ fn numbers_may_have_units() {
     let listed = listed.expect("valid");
     assert_eq!(listed.sweeps()[0].axis.values().collect::<Vec<_>>(), [300.0, 350.0]);
     // A unit of another dimension, one that is not a unit, and one in a study without SI.
-    for (text, key, told) in [
+    for (text, key, part) in [
         ("belt.normal_force_n=5m", "belt.normal_force_n", "in N; m is a unit of another quantity"),
         ("belt.normal_force_n=5kg", "belt.normal_force_n", "kg is a unit of another quantity"),
         ("belt.normal_force_n=5 stone", "belt.normal_force_n", "stone is not a unit"),
@@ -418,7 +418,7 @@ fn numbers_may_have_units() {
     ] {
         let complaints = with(&[text]).expect_err(text);
         assert_eq!(complaints[0].key, key);
-        assert!(complaints[0].allowed.contains(told), "{text}: {}", complaints[0].allowed);
+        assert!(complaints[0].allowed.contains(part), "{text}: {}", complaints[0].allowed);
     }
     let complaints = BeltStudy::parse(GOOD, &set(&["belt.normal_load=5N"])).expect_err("no SI");
     assert!(complaints[0].allowed.contains("units require a study in SI"), "{complaints:?}");
@@ -477,15 +477,18 @@ fn systems_do_not_mix() {
 
 #[test]
 fn suggestions_are_in_the_system_of_the_study() {
-    let told = complaints(&SI.replace("damping_n_s_per_m", "dampng_ratio"), &[]);
-    let unknown = told.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
+    let reported = complaints(&SI.replace("damping_n_s_per_m", "dampng_ratio"), &[]);
+    let unknown =
+        reported.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
     // The damping ratio is a key of a study in SI as well.
     assert_eq!(unknown.suggestion.as_deref(), Some("belt.damping_ratio"));
-    let told = complaints(&SI.replace("normal_force_n", "normal_laod"), &[]);
-    let unknown = told.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
+    let reported = complaints(&SI.replace("normal_force_n", "normal_laod"), &[]);
+    let unknown =
+        reported.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
     assert_eq!(unknown.suggestion.as_deref(), Some("belt.normal_force_n"));
-    let told = complaints(&GOOD.replace("amplitude = 0.4", "amplitud_n = 0.4"), &[]);
-    let unknown = told.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
+    let reported = complaints(&GOOD.replace("amplitude = 0.4", "amplitud_n = 0.4"), &[]);
+    let unknown =
+        reported.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
     assert_eq!(unknown.suggestion.as_deref(), Some("dither.amplitude"));
 }
 
@@ -519,9 +522,9 @@ fn set_reaches_every_key() {
 #[test]
 fn set_complains_about_what_it_cannot_reach() {
     let one = |changes: &[&str]| {
-        let told = complaints(GOOD, changes);
-        assert_eq!(told.len(), 1, "{told:#?}");
-        told.into_iter().next().expect("one")
+        let reported = complaints(GOOD, changes);
+        assert_eq!(reported.len(), 1, "{reported:#?}");
+        reported.into_iter().next().expect("one")
     };
     let unknown = one(&["belt.belt_velocty=0.1"]);
     assert_eq!(
@@ -533,13 +536,15 @@ fn set_complains_about_what_it_cannot_reach() {
     assert_eq!(one(&["disc.inner_radius_ratio=1"]).fault, Fault::Conflict);
     assert_eq!(one(&["belt.normal_load=-1"]).key, "belt.normal_load");
     assert_eq!(one(&["belt.normal_force_n=3"]).fault, Fault::Mixed);
-    let told = complaints(SI, &["dither.phase=1", "belt.belt_velocity=1"]);
+    let reported = complaints(SI, &["dither.phase=1", "belt.belt_velocity=1"]);
     assert!(
-        told.iter()
+        reported
+            .iter()
             .any(|complaint| complaint.fault == Fault::Conflict && complaint.key == "dither.phase")
     );
     assert!(
-        told.iter()
+        reported
+            .iter()
             .any(|complaint| complaint.fault == Fault::Mixed
                 && complaint.key == "belt.belt_velocity")
     );
@@ -637,8 +642,8 @@ fn axes_are_added_one_after_the_other_and_take_the_place_of_others() {
     table.set("values", value("[1, 2, 3]"));
     let other = study.sweeping(&[table]).expect("valid");
     assert_eq!(paths(&other), ["belt.normal_load"]);
-    let told = ["sweep[0].parameter=\"belt.normal_load\"", "sweep[0].values=[1,2,3]"];
-    assert_eq!(other.changes(), told);
+    let recorded = ["sweep[0].parameter=\"belt.normal_load\"", "sweep[0].values=[1,2,3]"];
+    assert_eq!(other.changes(), recorded);
     assert!(study.sweeping(&[]).expect("valid").sweeps().is_empty());
 }
 
@@ -652,19 +657,19 @@ fn a_key_of_another_law_is_reported_with_the_keys_of_this_law() {
         (&["friction.terms=2"], "friction.terms", "stribeck"),
         (&["friction.constants.a=1"], "friction.constants", "stribeck"),
     ] {
-        let told = complaints(GOOD, changes);
-        let found = told
+        let reported = complaints(GOOD, changes);
+        let found = reported
             .iter()
             .find(|complaint| complaint.key == key)
-            .unwrap_or_else(|| panic!("{told:?}"));
+            .unwrap_or_else(|| panic!("{reported:?}"));
         assert_eq!((found.fault, &found.suggestion), (Fault::Unknown, &None), "{found}");
         let (keys, whose) = found.allowed.split_once(" for ").expect("whose keys");
         assert_eq!(whose, format!("law = \"{law}\""));
         let name = key.trim_start_matches("friction.");
         assert!(keys.starts_with("law") && keys.split(", ").all(|key| key != name), "{keys}");
     }
-    let told = complaints(GOOD, &["friction.minimum_coeficient=0.3"]);
-    assert!(told[0].suggestion.is_some(), "{told:?}");
+    let reported = complaints(GOOD, &["friction.minimum_coeficient=0.3"]);
+    assert!(reported[0].suggestion.is_some(), "{reported:?}");
 }
 
 #[test]
@@ -674,19 +679,26 @@ fn a_table_is_set_key_by_key() {
         ("friction={}", "friction", "friction.law"),
         ("dither[0]=1", "dither[0]", "dither.direction"),
     ] {
-        let told = complaints(GOOD, &[change]);
-        assert_eq!((told.len(), told[0].fault, told[0].key.as_str()), (1, Fault::Value, key));
-        assert!(told[0].allowed.contains(&format!("key by key, such as {example}")), "{}", told[0]);
+        let reported = complaints(GOOD, &[change]);
+        assert_eq!(
+            (reported.len(), reported[0].fault, reported[0].key.as_str()),
+            (1, Fault::Value, key)
+        );
+        assert!(
+            reported[0].allowed.contains(&format!("key by key, such as {example}")),
+            "{}",
+            reported[0]
+        );
     }
 }
 
 #[test]
 fn bounds_are_printed_without_runs_of_zeros() {
     use quell_model::parameter::Bounds;
-    let told = |lower, upper| Bounds { lower, lower_included: true, upper }.to_string();
-    assert_eq!(told(1e-300, f64::INFINITY), "a finite number ≥ 1e-300");
-    assert_eq!(told(0.0, 1e30), "a number in [0, 1e30]");
-    assert_eq!(told(-0.5, 20000.0), "a number in [-0.5, 20000]");
+    let reported = |lower, upper| Bounds { lower, lower_included: true, upper }.to_string();
+    assert_eq!(reported(1e-300, f64::INFINITY), "a finite number ≥ 1e-300");
+    assert_eq!(reported(0.0, 1e30), "a number in [0, 1e30]");
+    assert_eq!(reported(-0.5, 20000.0), "a number in [-0.5, 20000]");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use quell::outcome::Outcome;
 use quell::run::map;
-use quell::sweep::{Plan, Quantity, Running};
+use quell::sweep::{MapQuantity, Plan, Running};
 use quell::{Failure, Study};
 
 /// A Stribeck belt with two axes.
@@ -43,7 +43,7 @@ points = 20
 /// An invalid study.
 pub(crate) fn main() -> Result<(), Failure> {
     let study = Study::parse(STUDY, &[])?;
-    let plan = Plan::new(&study, &[Quantity::named("verdict", "quantity")?])?;
+    let plan = Plan::new(&study, &[MapQuantity::named("verdict", "quantity")?])?;
     assert_eq!(plan.grid().shape(), [10, 20]);
     let running = Running { threads: None, stop: &AtomicBool::new(false), progress: &() };
     let done = map::run(plan, None, running)?;

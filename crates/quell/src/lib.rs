@@ -67,7 +67,7 @@
 //! use std::sync::atomic::AtomicBool;
 //!
 //! use quell::run::map;
-//! use quell::sweep::{Plan, Quantity, Running};
+//! use quell::sweep::{MapQuantity, Plan, Running};
 //!
 //! # fn main() -> Result<(), quell::Failure> {
 //! # let text = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.05\n[friction]\nlaw = \"stribeck\"\n\
@@ -75,7 +75,7 @@
 //! #     direction = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.52\nfrequency_ratio = 10.0\n";
 //! let axis = "[[sweep]]\nparameter = \"dither.amplitude\"\nfrom = 0.1\nto = 0.6\npoints = 6\n";
 //! let study = BeltStudy::parse(&format!("{text}{axis}"), &[])?;
-//! let plan = Plan::new(&study, &[Quantity::named("criterion", "quantity")?])?;
+//! let plan = Plan::new(&study, &[MapQuantity::named("criterion", "quantity")?])?;
 //! let running = Running { threads: None, stop: &AtomicBool::new(false), progress: &() };
 //! let map = map::run(plan, None, running)?;
 //! let least = map.summaries()[0].least.clone().expect("known everywhere");

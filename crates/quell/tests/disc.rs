@@ -6,7 +6,7 @@ use std::path::Path;
 use quell::run::disc::{modes, resonances, stability};
 use quell::run::map::run as map;
 use quell::study::DiscStudy;
-use quell::sweep::{Grid, Plan, Quantity, Running};
+use quell::sweep::{Grid, MapQuantity, Plan, Running};
 use quell::{Change, Complaints};
 use quell_numerics::floquet::Effort;
 use serde_json::Value as Json;
@@ -23,8 +23,8 @@ fn good(text: &str) -> DiscStudy {
     parse(text).unwrap_or_else(|errors| panic!("{errors:#?}"))
 }
 
-fn computed(study: &DiscStudy, quantity: &str) -> quell::run::map::Map {
-    let quantity = Quantity::named_for("disc", quantity, "--quantity").expect("a quantity");
+fn computed(study: &DiscStudy, quantity: &str) -> quell::run::map::FinishedMap {
+    let quantity = MapQuantity::named_for("disc", quantity, "--quantity").expect("a quantity");
     let plan = Plan::new(study, &[quantity]).expect("axes");
     let stop = std::sync::atomic::AtomicBool::new(false);
     map(plan, None, Running { threads: Some(1), stop: &stop, progress: &() }).expect("computed")

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use quell::picture::{basins as draw_basins, curves as draw_curves, disc, periodic_response};
 use quell::plot::Figure;
-use quell::run::basins::{self, Layout};
+use quell::run::basins::{self, StartLayout};
 use quell::run::curves;
 use quell::run::disc::{campbell, modes, resonances, stability};
 use quell::run::orbit::{self, Wanted};
@@ -148,7 +148,7 @@ fn an_orbit_closes_and_its_multipliers_are_drawn() {
     assert!(refused.contains("No limit cycle was found"), "{refused}");
 }
 
-fn portraits(study: &BeltStudy, layout: Layout, over: Option<Range>) -> (Json, Figure) {
+fn portraits(study: &BeltStudy, layout: StartLayout, over: Option<Range>) -> (Json, Figure) {
     let never = AtomicBool::new(false);
     let running = Running { threads: Some(2), stop: &never, progress: &() };
     let question = basins::BasinsRequest { displacement: None, velocity: None, layout, over };
@@ -159,7 +159,7 @@ fn portraits(study: &BeltStudy, layout: Layout, over: Option<Range>) -> (Json, F
 #[test]
 fn basins_show_every_start_and_every_share() {
     let study = belt("will-every-start-fall-quiet.toml", &[]);
-    let layout = Layout::Sample { count: 24, seed: 3 };
+    let layout = StartLayout::Sample { count: 24, seed: 3 };
     let (answer, figure) = portraits(&study, layout, None);
     let attractors = answer["attractors"].as_array().expect("attractors").len();
     let figure = figure.described();
@@ -168,7 +168,7 @@ fn basins_show_every_start_and_every_share() {
     let unknown = answer["unknown"]["starts"].as_u64().expect("a count");
     assert_eq!(starts as u64 + unknown, 24);
     let over = Range { parameter: "dither.amplitude".into(), from: 5.0, to: 10.5, points: 3 };
-    let (answer, figure) = portraits(&study, Layout::Sample { count: 8, seed: 3 }, Some(over));
+    let (answer, figure) = portraits(&study, StartLayout::Sample { count: 8, seed: 3 }, Some(over));
     let figure = figure.described();
     let line = places(layers(&figure, 0, "line")[0]);
     let shares = numbers(&answer["portraits"], "quiet_fraction");

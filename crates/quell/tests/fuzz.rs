@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use quell::run::map::run;
-use quell::store::{Found, Store};
-use quell::sweep::{Plan, Quantity, Running};
+use quell::store::{ChunkState, Store};
+use quell::sweep::{MapQuantity, Plan, Running};
 use quell::{BeltStudy, Failure, Fault, Study};
 
 /// Random numbers with a fixed seed (splitmix64).
@@ -155,7 +155,7 @@ const MAP: &str = "schema = 1\n[belt]\ndamping_ratio = 0.005\nnormal_load = 1\nb
 
 fn plan() -> Plan {
     let study = BeltStudy::parse(MAP, &[]).expect("valid");
-    Plan::new(&study, &[Quantity::named("verdict", "test").expect("known")]).expect("a plan")
+    Plan::new(&study, &[MapQuantity::named("verdict", "test").expect("known")]).expect("a plan")
 }
 
 /// Every file below a folder, with its bytes.
@@ -204,7 +204,7 @@ fn the_reader_of_stores_detects_damage() {
     run(plan.clone(), Some(&store), Running { threads: Some(1), stop: &never, progress: &() })
         .expect("computed");
     let known = store.read(&plan, 0);
-    assert!(matches!(known, Found::Whole(_)));
+    assert!(matches!(known, ChunkState::Whole(_)));
     drop(store);
     let files = files(&whole);
     let names: Vec<&PathBuf> = files.keys().collect();
@@ -231,10 +231,10 @@ fn the_reader_of_stores_detects_damage() {
         }
         match opened {
             Ok(store) => match store.read(&plan, 0) {
-                Found::Whole(values) => {
-                    assert_eq!(Found::Whole(values), known, "{}", chosen.display());
+                ChunkState::Whole(values) => {
+                    assert_eq!(ChunkState::Whole(values), known, "{}", chosen.display());
                 }
-                Found::Damaged | Found::Nothing => seen += 1,
+                ChunkState::Damaged | ChunkState::Nothing => seen += 1,
             },
             Err(Failure::Wrong(complaints)) => {
                 refused += 1;

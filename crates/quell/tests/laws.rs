@@ -7,7 +7,7 @@ use quell::run::{
     varied,
 };
 use quell::study::{BeltStudy, Change};
-use quell::sweep::{Plan, Quantity, Running, Status};
+use quell::sweep::{MapQuantity, Plan, Running, Status};
 use serde_json::Value as Json;
 
 fn reference() -> Json {
@@ -300,7 +300,7 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     let question = basins::BasinsRequest {
         displacement: None,
         velocity: None,
-        layout: basins::Layout::Grid { columns: 2, rows: 2 },
+        layout: basins::StartLayout::Grid { columns: 2, rows: 2 },
         over: None,
     };
     warns(&basins::run(&outside, &question, running).expect("basins").json(&outside));
@@ -308,7 +308,7 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     let axes = "[[sweep]]\nparameter = \"dither.amplitude\"\nvalues = [0.5, 3.0]\n";
     let swept = study(&format!("{CUBIC}{axes}"));
     for name in ["efficiency", "mean-friction", "verdict", "criterion-sharper"] {
-        let quantity = Quantity::named(name, "--quantity").expect("a quantity");
+        let quantity = MapQuantity::named(name, "--quantity").expect("a quantity");
         let plan = Plan::new(&swept, &[quantity]).expect("axes");
         let found = map::run(plan, None, running).expect("a map");
         let entry = found.plan().sheet().entries()[0];

@@ -1,6 +1,6 @@
 //! Pictures of maps as users see them: isolines, gaps, outcomes, curves, size.
 
-use quell::picture::{Map, MapAxis, MapKind, map};
+use quell::picture::{MapAxis, MapKind, MappedQuantity, map};
 use quell::plot::{PlotAxis, PlotError, PlotRole, Polyline, Size, Spread};
 
 fn even(from: f64, to: f64, count: usize) -> Vec<f64> {
@@ -19,11 +19,15 @@ fn stable_or_not() -> MapKind {
 }
 
 /// A map over ratio (to the right) and amplitude with these values.
-fn plane(count: usize, kind: MapKind, value: impl Fn(f64, f64) -> Result<f64, usize>) -> Map {
+fn plane(
+    count: usize,
+    kind: MapKind,
+    value: impl Fn(f64, f64) -> Result<f64, usize>,
+) -> MappedQuantity {
     let (ratio, amplitude) = (even(1.0, 20.0, count), even(0.0, 1.0, count));
     let values =
         ratio.iter().flat_map(|r| amplitude.iter().map(|d| value(*r, *d)).collect::<Vec<_>>());
-    Map {
+    MappedQuantity {
         values: values.collect(),
         axes: vec![axis("frequency ratio", "R", ratio), axis("dither amplitude", "D", amplitude)],
         quantity: PlotAxis::new("efficiency").symbol("E"),
@@ -38,7 +42,7 @@ fn quench(ratio: f64, amplitude: f64) -> f64 {
     1.0 / (1.0 + (12.0 * (amplitude - 0.05 * ratio)).exp())
 }
 
-fn svg(given: &Map) -> String {
+fn svg(given: &MappedQuantity) -> String {
     map(given).expect("a map").to_svg()
 }
 
@@ -105,13 +109,13 @@ fn the_first_of_two_axes_is_horizontal() {
     let given = plane(3, MapKind::Number(Spread::Linear), |r, d| {
         if r > 19.0 && d < 0.1 { Err(0) } else { Ok(r + d) }
     });
-    let turned = Map {
+    let turned = MappedQuantity {
         axes: given.axes.iter().rev().cloned().collect(),
         values: (0..9).map(|k| given.values[3 * (k % 3) + k / 3]).collect(),
         ..given.clone()
     };
     // Left end of the hatched corner.
-    let corner = |given: &Map| -> f64 {
+    let corner = |given: &MappedQuantity| -> f64 {
         let svg = svg(given);
         // The sample in the legend comes last.
         let path = svg.split("<path ").find(|path| path.contains("fill=\"url(#"));
@@ -145,7 +149,7 @@ fn a_sweep_is_open_and_hatched_where_nothing_is_known() {
     let values: Vec<Result<f64, usize>> = (0..90)
         .map(|k| if (30..40).contains(&k) { Err(1) } else { Ok(0.01 * f64::from(k)) })
         .collect();
-    let given = Map {
+    let given = MappedQuantity {
         axes: vec![axis("dither amplitude", "D", even(0.0, 1.0, 90))],
         values,
         ..plane(2, MapKind::Efficiency, |_, _| Ok(0.0))
@@ -159,7 +163,7 @@ fn a_sweep_is_open_and_hatched_where_nothing_is_known() {
 
 #[test]
 fn outcomes_over_one_axis_are_strips() {
-    let given = Map {
+    let given = MappedQuantity {
         axes: vec![axis("dither amplitude", "D", even(0.0, 1.0, 90))],
         values: (0..90)
             .map(|k| if k == 45 { Err(0) } else { Ok(f64::from(u8::from(k < 45))) })
@@ -200,8 +204,8 @@ fn invalid_maps_are_refused() {
     short.values.pop();
     let mut endless = good();
     endless.axes[1].values[4] = f64::INFINITY;
-    let bare = Map { axes: Vec::new(), values: Vec::new(), ..good() };
-    let many = Map {
+    let bare = MappedQuantity { axes: Vec::new(), values: Vec::new(), ..good() };
+    let many = MappedQuantity {
         axes: [vec![axis("x", "x", even(0.0, 1.0, 40))], good().axes].concat(),
         values: vec![Ok(0.0); 1000],
         ..good()

@@ -3,7 +3,7 @@
 //! Numbers and sources are in `reference/published.json`; the page on correctness shows the same table.
 
 use quell::BeltStudy;
-use quell::run::orbit::{Response, Wanted, run as orbit};
+use quell::run::orbit::{PeriodicResponse, Wanted, run as orbit};
 use quell::run::simulate::{Options, run as simulate};
 use quell::run::thresholds::{ThresholdKind, ThresholdsRequest, run as thresholds};
 use quell_dynamics::orbit::cycle::cycles;
@@ -52,7 +52,7 @@ fn driven(damping: f64, stiction: f64, amplitude: f64, ratio: f64) -> BeltStudy 
     belt(damping, 0.0, "1.0", &rest)
 }
 
-fn only(found: Response) -> Orbit {
+fn only(found: PeriodicResponse) -> Orbit {
     found.orbit.expect("an orbit")
 }
 

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use quell::kind::verbs;
-use quell::run::basins::{BasinsRequest, Layout};
+use quell::run::basins::{BasinsRequest, StartLayout};
 use quell::run::varied::Range;
 use quell::sweep::Running;
 use quell::{Complaint, Failure, Fault, Origin, Study};
@@ -75,7 +75,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         complaints.finish(study.zip(request).zip(threads.zip(outputs.zip(plot))))?;
     let bar = Bar::new();
     let running = Running { threads, stop: interrupt::flag(), progress: &bar };
-    let done = verbs(&study)?.basins(&request, running)?;
+    let done = verbs(&study).basins(&request, running)?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }
 
@@ -115,15 +115,15 @@ fn request(
     })
 }
 
-fn layout(arguments: &Arguments) -> Result<Layout, Box<Complaint>> {
+fn layout(arguments: &Arguments) -> Result<StartLayout, Box<Complaint>> {
     if let Some(text) = &arguments.sample {
-        return Ok(Layout::Sample { count: count("--sample", text)?, seed: arguments.seed });
+        return Ok(StartLayout::Sample { count: count("--sample", text)?, seed: arguments.seed });
     }
-    let Some(text) = &arguments.grid else { return Ok(Layout::default()) };
+    let Some(text) = &arguments.grid else { return Ok(StartLayout::default()) };
     let sides = text.split_once(['x', 'X', '×']).and_then(|(columns, rows)| {
         Some((columns.trim().parse().ok()?, rows.trim().parse().ok()?))
     });
-    sides.map(|(columns, rows)| Layout::Grid { columns, rows }).ok_or_else(|| {
+    sides.map(|(columns, rows)| StartLayout::Grid { columns, rows }).ok_or_else(|| {
         let allowed = "NxM, the numbers of displacements and of velocities, such as 41x31";
         let origin = Origin::Argument("--grid");
         Box::new(Complaint::new(Fault::Value, "--grid", origin, text.as_str(), allowed))

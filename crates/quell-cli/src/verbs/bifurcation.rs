@@ -50,6 +50,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let request = SweepRequest { range, up: arguments.up, down: arguments.down };
     let bar = Bar::new();
     let running = Running { threads: None, stop: interrupt::flag(), progress: &bar };
-    let done = verbs(&study)?.bifurcation(&request, running)?;
+    let done = verbs(&study).bifurcation(&request, running)?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }

@@ -20,7 +20,7 @@ pub(crate) struct Arguments {
 /// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = arguments.study.read()?;
-    let verbs = verbs(&study)?;
+    let verbs = verbs(&study);
     let done = verbs.cite();
     let text = || if arguments.bibtex { verbs.sources().bibtex() } else { done.text() };
     Ok(Answer::new(arguments.study.json, &done.json(), text))

@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let (study, (outputs, plot)) = complaints.finish(study.zip(outputs.zip(plot)))?;
 
     let at = (!at.is_empty()).then_some(at);
-    let done = verbs(&study)?.friction(at)?;
+    let done = verbs(&study).friction(at)?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }
 

@@ -10,7 +10,7 @@ use quell::output::Output;
 use quell::picture;
 use quell::run::map::run as map;
 use quell::store::Store;
-use quell::sweep::{Grid, MOST_THREADS, Plan, QUANTITIES, Quantity, Running};
+use quell::sweep::{Grid, MOST_THREADS, MapQuantity, Plan, QUANTITIES, Running};
 use quell::{Complaint, Failure, Fault, Origin};
 
 use crate::answer::Answer;
@@ -73,9 +73,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     // The quantities available depend on the kind of the study.
     let kind = study.as_ref().map_or("", |study| study.kind().name());
     let names = if study.is_some() { arguments.quantities.as_slice() } else { &[] };
-    let asked: Vec<&'static Quantity> = names
+    let asked: Vec<&'static MapQuantity> = names
         .iter()
-        .filter_map(|name| complaints.take(Quantity::named_for(kind, name.trim(), "--quantity")))
+        .filter_map(|name| complaints.take(MapQuantity::named_for(kind, name.trim(), "--quantity")))
         .collect();
     let threads = complaints.take(threads(arguments.threads.as_deref()));
     let keep = complaints.take(keep(arguments, &inputs));

@@ -27,6 +27,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     let (study, (outputs, plot)) = complaints.finish(study.zip(outputs.zip(plot)))?;
 
-    let done = verbs(&study)?.modes()?;
+    let done = verbs(&study).modes()?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }

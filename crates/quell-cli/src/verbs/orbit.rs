@@ -76,6 +76,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         (None, Some(state)) => Wanted::Near { state, periods },
         (None, None) => Wanted::OfSliding { periods },
     };
-    let done = verbs(&study)?.orbit(wanted)?;
+    let done = verbs(&study).orbit(wanted)?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }

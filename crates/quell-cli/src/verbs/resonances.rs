@@ -45,12 +45,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let inputs = inputs(study.as_ref());
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
-    let study = study.filter(|study| complaints.take(verbs(study)).is_some());
     let request = request(arguments, study.as_ref(), &mut complaints);
     let ((study, request), (outputs, plot)) =
         complaints.finish(study.zip(request).zip(outputs.zip(plot)))?;
 
-    let done = verbs(&study)?.resonances(request)?;
+    let done = verbs(&study).resonances(request)?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }
 

@@ -43,6 +43,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         samples: arguments.output.saves() || plot.wanted(),
         undithered: plot.wanted(),
     };
-    let done = verbs(&study)?.simulate(until, options)?;
+    let done = verbs(&study).simulate(until, options)?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }

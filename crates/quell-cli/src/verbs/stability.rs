@@ -23,6 +23,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let inputs = inputs(study.as_ref());
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     let (study, plot) = complaints.finish(study.zip(plot))?;
-    let done = verbs(&study)?.stability()?;
+    let done = verbs(&study).stability()?;
     answer(arguments.study.json, done.as_ref(), Outputs::none(), plot)
 }

@@ -70,7 +70,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let (study, ((range, runs), (between, (outputs, plot)))) =
         complaints.finish(study.zip(range.zip(runs).zip(between.zip(files))))?;
     let parameter = arguments.varied.parameter.clone();
-    let verbs = verbs(&study)?;
+    let verbs = verbs(&study);
     let done = if let Some((along, between)) = arguments.along.clone().zip(between) {
         verbs.threshold_curves(&CurvesRequest { parameter, window: range, along, between })?
     } else {

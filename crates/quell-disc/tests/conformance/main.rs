@@ -109,7 +109,7 @@ fn faint_dither_is_nearly_none() {
     }
 }
 
-/// With all friction off nothing feeds a disc: it never grows, under whatever dither, and decays where its modes are damped.
+/// With all friction off nothing feeds a disc: it never grows, under any dither, and decays where its modes are damped.
 #[test]
 fn without_friction_nothing_grows() {
     let mut damped = 0;

@@ -11,13 +11,13 @@ use crate::orbit::Unsettled;
 use crate::simulation::Stalled;
 
 /// Difference of centre, size and shape, relative to the size, within which two sections belong to one attractor: three times
-/// the change that a run of a basin may still make, plus the effect of the phase of locking. Larger, attractors of nearly the
-/// same size would be merged; smaller, one attractor would be split.
+/// the change that a run of a basin may still make, plus the effect of the phase of locking. With a larger value attractors of
+/// nearly the same size would be merged; with a smaller one an attractor would be split.
 const SAME_ATTRACTOR: f64 = 0.02;
 
 /// The same difference relative to F, for sections that are nearly a single state: ten times the distance within which a state
-/// counts as the base response. Attractors nearer to each other than this are merged; smaller, the remaining change of a run
-/// would split one.
+/// counts as the base response. Attractors closer to each other than this are merged. With a smaller value the remaining change
+/// of a run would split one.
 const POINT: f64 = 1e-5;
 
 /// The attractor to which a start leads.

@@ -22,8 +22,8 @@ const NODES: usize = 5;
 static RULE: LazyLock<[[f64; NODES]; 2]> =
     LazyLock::new(|| GaussLegendre::new(NODES).on_unit_interval());
 
-/// Fraction of a segment over which an acceleration at its end is measured. Larger, its curvature would enter the ratio of a
-/// reversal; smaller, the difference of slip velocities would be rounding.
+/// Fraction of a segment over which an acceleration at its end is measured. With a larger value the curvature
+/// would affect the ratio at a reversal; with a smaller one the difference of slip velocities would be rounding error.
 const AT_END: f64 = 1e-5;
 
 /// Quadrature nodes of a segment for averages of the state: accurate to 10⁻⁷ of the squares of the forced motion on steps that

@@ -33,29 +33,31 @@ const RECORD: usize = 1024;
 const BLOCKS: usize = 5;
 
 /// Distance of a return, relative to the size of the section, below which shooting is tried: Newton's method converges from
-/// there. Larger, shots are wasted on curves; smaller, a slowly attracting orbit is found only in a later record, or not at all.
+/// there. With a larger value shooting is wasted on curves; with a smaller one a slowly attracting orbit is found only in a later
+/// record, or not at all.
 const RETURNS: f64 = 1e-3;
 
-/// Distance of the orbit from the guess, relative to the size of the section, within which it is the run's own: that within
-/// which two sections of a basin count as one attractor. Larger, a neighbouring orbit would be accepted; smaller, the orbit of
-/// a run that is still converging would be rejected.
+/// Distance of the orbit from the guess, relative to the size of the section, within which the run ends on this orbit: that within
+/// which two sections of a basin count as one attractor. With a larger value a neighbouring orbit would be accepted; with a
+/// smaller one the orbit of a run that is still converging would be rejected.
 const ITS_OWN: f64 = 2e-2;
 
-/// Factor by which a return must have shrunk over the record: on a curve it keeps its distance. An orbit that attracts more
-/// slowly is examined again in the next record; nearer to 1, the wavering returns on a curve would be shot.
+/// Factor by which the distance of a return must have shrunk over the record; on a curve it stays the same. An orbit that attracts
+/// more slowly is examined again in the next record. With a value nearer to 1, shooting would start from fluctuating returns on a
+/// curve.
 const SHRINKS: f64 = 0.5;
 
 /// Distance of a return, relative to the size, that counts as closed: above the engine's error over a long orbit, which leaves no
-/// trend to be measured. Larger, a creep along a nearly locked curve would count as closed.
+/// trend to be measured. With a larger value a slow drift along a nearly locked curve would count as closed.
 const CLOSED: f64 = 1e-7;
 
-/// Most numbers of periods that are shot for one section: a section with more returns than this usually fills a curve. An orbit
-/// behind more than three unsuccessful shots is missed in this record.
+/// Most numbers of periods for which shooting is tried in one section: a section with more returns than this usually fills a
+/// curve. An orbit that follows more than three unsuccessful attempts is missed in this record.
 const MOST_SHOTS: usize = 4;
 
 /// Difference of the rotation numbers of the two halves of a record below which the motion is on a curve: a hundredth of a
-/// revolution over a record of 1024 periods. Larger, a run that is still locking would count as a curve; smaller, the averages of
-/// a curve with sticks would not reach it, and it would remain unclassified.
+/// revolution over a record of 1024 periods. With a larger value a run that is still locking would count as a curve; with a
+/// smaller one a curve with sticks, whose averages converge slowly, would remain unclassified.
 const STEADY: f64 = 1e-5;
 
 /// Most records of one run: 8192 periods or more. A motion that needs longer to close or to fill its curve is unclassified.

@@ -22,7 +22,7 @@
 //! | `settle` | runs side by side, until each has settled |
 //! | `measure` | classification of the attractor of a settled run |
 //! | `basin` | which starts lead to the same attractor |
-//! | `switches` | values of a parameter at which runs from a start begin or cease to settle on the base response |
+//! | `switches` | values of a parameter at which runs from a start begin or stop settling on the base response |
 
 mod average;
 mod base_response;

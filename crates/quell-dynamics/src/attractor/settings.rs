@@ -13,7 +13,7 @@ pub struct AttractorSettings<'a> {
     pub belt: &'a Belt,
     /// When states are compared.
     pub section: StroboscopicSection,
-    /// The base response, or why there is none.
+    /// The base response, or why it does not exist.
     pub base: Result<BaseResponse, NoOrbit>,
 }
 

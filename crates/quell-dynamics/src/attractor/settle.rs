@@ -5,19 +5,20 @@
 //!    decreases at the rate of the multipliers (within `RATE_TOLERANCE`, in two consecutive blocks), so that its limit is known.
 //! 2. **Elsewhere.** Centre, size and shape of the section no longer change, from block to block or from one long window of
 //!    blocks to the next, and their remaining change at the measured rate is below the requested closeness. This is sufficient
-//!    if the block contains a stick, which erases everything but its own moment. In slip throughout, the rate at which areas
-//!    shrink must also be positive, and fast enough for the remaining change.
-//! 3. **Unsettled**, when its periods are used up: it still moves, or it dwells near a curve that does not attract.
+//!    if the block contains a stick: the motion after a stick depends only on the time of release. If the mass slips throughout,
+//!    areas of the phase plane must also shrink, and fast enough for the remaining change.
+//! 3. **Unsettled**, when its periods are used up: the section still changes, or the run stays near a curve that does not attract.
 //!
 //! A start on an unstable base response would stay there until rounding displaces it: it is displaced by
 //! `NUDGE` F first.
 //!
-//! Without dither none of this is needed: the exact cycle map decides ([`crate::orbit::cycle`]).
+//! Without dither no run is judged in this way: the exact cycle map decides ([`crate::orbit::cycle`]).
 //!
-//! Each run depends on itself alone: its outcome has the same bits whatever other runs are computed with it.
-//! Limits: a run is assigned to the base response on the linear rate although a further attractor could exist in the
-//! neighbourhood where the rate is within `RATE_TOLERANCE` of it; the slow change along a curve with sticks that is about to
-//! lock is not a change of size.
+//! Runs do not affect each other: the outcome of a run has the same bits alone and together with other runs.
+//!
+//! Two cases can be misjudged. A run that decays at the linear rate, within `RATE_TOLERANCE`, is assigned to the base response
+//! although another attractor could exist that close to it. And a quasi-periodic response with sticks that is about to lock
+//! changes along its curve without changing size, so that it counts as settled.
 
 use super::average::{self, Moments};
 use super::base_response::BaseResponse;
@@ -29,28 +30,30 @@ use crate::simulation::{
     DEFAULT_TOLERANCE, FinalState, SimulationRun, Stalled, Start, simulate, simulate_many,
 };
 
-/// Slow cycles of 2π in a block: averages over fewer would depend on the phase at which the block starts and ends, and a settled
-/// run would seem to change. More only take longer.
+/// Slow cycles of 2π in a block. With fewer, averages would depend on the phase at which the block starts and ends, and a settled
+/// run would seem to change. More cycles only take longer.
 const CYCLES_PER_BLOCK: f64 = 20.0;
 
-/// Fewest periods of the section in a block: a quarter of it, 16 states, gives the decay rate. With fewer, where the dither is
-/// slow, the moments of the section would scatter from block to block; more only take longer.
+/// Fewest periods of the section in a block: a quarter of them, 16 states, gives the decay rate. With fewer, the moments of the
+/// section would scatter from block to block under slow dither; more periods only take longer.
 const FEWEST: usize = 64;
 
 /// Distance from the base response, relative to F, that counts as being on it: a thousandth of the smallest vibration
 /// that the figures show, and far above the effect of rounding. Another attractor nearer than this would be missed.
 const NEAR: f64 = 1e-6;
 
-/// Relative difference between a measured decay rate and that of the multipliers within which they agree: twice in succession, so
-/// that nonlinear decay no longer matters. Larger, a run that converges elsewhere could pass; smaller only takes longer.
+/// Relative difference within which a measured decay rate agrees with that of the multipliers; two successive blocks must agree,
+/// so that nonlinear decay no longer matters. With a larger value a run that converges elsewhere could pass; a smaller value only
+/// takes longer.
 const RATE_TOLERANCE: f64 = 0.05;
 
 /// Displacement of a start on an unstable base response, relative to F: far above rounding, so that the run leaves in time, and
-/// far below the size of any other response. An attractor nearer than this to the unstable response could be jumped over.
+/// far below the size of any other response. An attractor closer than this to the unstable response could be missed.
 const NUDGE: f64 = 1e-4;
 
-/// Size of a section, relative to F, below which it is one state: a tenth of [`NEAR`], far above the engine's error. Larger, a
-/// small slow motion would count as none; smaller, the engine's error would count as a motion that never settles.
+/// Size of a section, relative to F, below which it is one state: a tenth of [`NEAR`], far above the engine's error. With a
+/// larger value a small slow motion would be overlooked; with a smaller one the engine's error would count as a motion that
+/// never settles.
 const POINT: f64 = 1e-7;
 
 /// Distance of states, relative to F, within which they are one state of the attractor: the distance within which a state
@@ -63,29 +66,31 @@ pub(super) const ONE_STATE: f64 = NEAR;
 const WINDOWS: usize = 32;
 
 /// Longest run τ, 32 000 slow periods: 1.6 times the length of the 200 000 periods of [`Patience::SWEEP`] at R = 10. With a
-/// slower section a run would otherwise take minutes; if it were shorter, runs close to a threshold would be reported as
+/// slower section a run would otherwise take minutes. With a smaller limit, runs close to a threshold would be reported as
 /// unsettled.
 const LONGEST: f64 = 2e5;
 
 /// Ratio of two consecutive changes below which the changes shrink geometrically, so that the remaining change is a geometric
-/// sum. Nearer to 1 the sum would be dominated by the error of the ratio; smaller, a slow convergence would be decided later.
+/// sum. With a value nearer to 1 the error of the ratio would dominate the sum; with a smaller value a slow convergence would be
+/// recognised later.
 const GEOMETRIC: f64 = 0.9;
 
-/// Factor by which the change before may exceed the allowed one in a geometric sum: two changes that differ much more do not yet
-/// follow the ratio. Larger, a transient could pass for convergence; smaller only takes longer.
+/// Factor by which the previous change may exceed the allowed one in a geometric sum: two changes that differ much more are not
+/// yet geometric. With a larger value a transient could pass for convergence; a smaller value only takes longer.
 const LARGEST_CHANGE_BEFORE: f64 = 10.0;
 
-/// Fraction of the allowed change that suffices after sticks in two consecutive blocks, which erase the history. Larger, a
-/// slow change of the release could pass; smaller only takes longer.
+/// Fraction of the allowed change that suffices after sticks in two consecutive blocks, which erase the history. With a
+/// larger value a slow change of the release could pass; a smaller value only takes longer.
 const AFTER_STICKS: f64 = 0.1;
 
-/// Fraction of the allowed change within which the end of three wavering changes agrees with their start. Larger, a trend could
-/// hide in the wavering; smaller, a curve that is nearly locked would not settle.
+/// Fraction of the allowed change within which three fluctuating changes must add up to no change. With a larger value a trend
+/// could hide in the fluctuation; with a smaller one a curve that is nearly locked would not settle.
 const NET_CHANGE: f64 = 0.5;
 
-/// Divisor of the allowed change for each of three changes that waver, and for the change between two windows: the three
-/// together stay within the allowed one. Smaller, a trend could pass for wavering; larger only takes longer.
-const WAVERS: f64 = 3.0;
+/// Divisor of the allowed change for each of three fluctuating changes, and for the change between two windows, so that all three
+/// together stay within the allowed one. With a smaller value a trend could pass for a fluctuation; a larger value only takes
+/// longer.
+const FLUCTUATIONS: f64 = 3.0;
 
 /// How long a run may take, and how closely it must settle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,7 +109,7 @@ impl Patience {
     /// reported as unsettled.
     pub const SWEEP: Self = Self { tolerance: 1e-12, closeness: 1e-3, periods: 200_000 };
 
-    /// For many starts that are to be assigned to attractors: three times the closeness and half the periods, because sections
+    /// For many starts that are to be assigned to attractors: three times the allowed change and half the periods, because sections
     /// need only agree within the tolerance of a basin. Runs near a basin boundary are reported as unsettled earlier.
     pub const BASIN: Self = Self { tolerance: 1e-12, closeness: 3e-3, periods: 100_000 };
 }
@@ -135,7 +140,7 @@ pub struct Settled {
     pub(super) cycle: Option<f64>,
 }
 
-/// The summary of a block that is kept.
+/// What is kept of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct BlockSummary {
     /// Centre, size and shape of the motion, over time.
@@ -156,7 +161,7 @@ impl BlockSummary {
         Self { moments: Moments { centre, spread: [0.0; 3] }, size: 0.0 }
     }
 
-    /// The average of several summaries, weighted by a bump: a slow creep affects it less than a plain mean.
+    /// The average of several summaries, weighted by a smooth bump function: a slow drift affects it less than a plain mean.
     fn averaged(all: &[Self]) -> Self {
         let weights = average::weights(all.len());
         let of = |value: &dyn Fn(&Self) -> f64| average::mean(&weights, all.iter().map(value));
@@ -169,7 +174,7 @@ impl BlockSummary {
         }
     }
 
-    /// The largest difference of centre, size and shape, a length; smaller motions count as of size `least`.
+    /// The largest difference of centre, size and shape, a length; a motion smaller than `least` is treated as of that size.
     pub(super) fn distance(&self, other: &Self, least: f64) -> f64 {
         self.moments.distance(&other.moments, self.size.max(other.size).max(least))
     }
@@ -199,7 +204,7 @@ struct RunHistory {
     decayed_at_rate: bool,
     /// Whether areas are observed in the next block.
     observes_area: bool,
-    /// Whether it appeared settled where areas grow.
+    /// Whether it appeared settled although areas grow.
     dwelt: bool,
 }
 
@@ -466,14 +471,14 @@ impl RunHistory {
         {
             return Some(change);
         }
-        // It wavers without a trend.
+        // It fluctuates without a trend.
         let third = self.earlier.iter().rev().nth(2)?;
-        let wavers =
+        let largest =
             [change, before, second.distance(third, least)].into_iter().fold(0.0, f64::max);
-        if wavers <= allowed / WAVERS && now.distance(third, least) <= NET_CHANGE * allowed {
-            return Some(wavers);
+        if largest <= allowed / FLUCTUATIONS && now.distance(third, least) <= NET_CHANGE * allowed {
+            return Some(largest);
         }
-        self.drift(least).filter(|drift| *drift <= allowed / WAVERS)
+        self.drift(least).filter(|drift| *drift <= allowed / FLUCTUATIONS)
     }
 
     /// The difference of the two newest windows, each a quarter of all blocks. A slow motion that is nearly locked to the

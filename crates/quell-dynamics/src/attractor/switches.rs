@@ -1,5 +1,5 @@
-//! Thresholds of an initial-condition protocol: the values of a parameter at which runs from a given start begin or cease to
-//! settle on the base response.
+//! Thresholds of an initial-condition protocol: the values of a parameter at which runs from a given state begin or stop
+//! settling on the base response.
 //!
 //! These thresholds depend on the start, unlike the local ones of the multipliers: attractors coexist, so that quenching from a
 //! given start and stability of the response are different questions. Where a run settles is decided by
@@ -19,7 +19,8 @@ use crate::simulation::{DEFAULT_TOLERANCE, Stalled, Start, simulate};
 
 /// Half the width of an interval, relative to its value, up to which it is reported as a single value: ten times the closeness
 /// that thresholds request of bisection (10⁻⁵). Wider intervals are those at which bisection stopped, and are reported with
-/// their error. Larger, such an interval would be reported as a value; smaller, an ordinary one with its error.
+/// their error. With a larger bound such an interval would be reported as a value; with a smaller one
+/// an ordinary threshold would be reported as an interval.
 const NARROW: f64 = 1e-4;
 
 /// For a run that cannot settle on the base response, because that is unstable. A run that still moves after 2000 slow periods
@@ -141,8 +142,8 @@ pub struct Switches {
     pub unknown: Vec<(f64, NoOrbit)>,
 }
 
-/// Values of `path` between `from` and `to` at which runs from `start` (a state for each belt) begin or cease to
-/// settle on the base response. A belt without a start has nothing to quench and counts as settling on it. `steps` values are
+/// Values of `path` between `from` and `to` at which runs from `start` (a state for each belt) begin or stop
+/// settling on the base response. A belt without a start has nothing to quench and counts as settling on it. `steps` values are
 /// tried, and each change is bisected to the relative `closeness`; if a third result is found between two, both changes next to
 /// it are bisected. A pair of changes between two neighbouring values is missed.
 ///

@@ -104,7 +104,7 @@ impl CycleMap<'_> {
         -linear_damping(self.belt)
     }
 
-    /// The size of the revolution that follows a release, the largest that a cycle can have; `None` if there is none.
+    /// The size of the revolution that follows a release, the largest that a cycle can have; `None` if no revolution follows.
     fn largest(&self) -> Result<Option<f64>, NoOrbit> {
         let outermost = revolution(self.belt, released(self.belt))?;
         Ok(outermost.map(|outermost| self.size(&outermost)).filter(|size| *size > 0.0))
@@ -329,7 +329,7 @@ pub fn cycle_reached<'a>(
 /// a lowest point is overdamped and approaches sliding.
 const LONGEST_SLIP: f64 = 2.0 * TAU;
 
-/// Integrates from a state to the next lowest point; `None` if there is none within [`LONGEST_SLIP`].
+/// Integrates from a state to the next lowest point; `None` if it is not reached within [`LONGEST_SLIP`].
 ///
 /// A stick ends at the release, whose state is known: it is skipped, however slow the belt.
 fn revolution(belt: &Belt, start: Start) -> Result<Option<Revolution>, NoOrbit> {

@@ -119,7 +119,7 @@ impl fmt::Display for NoOrbit {
             ),
             Self::Ends { share } => write!(
                 f,
-                "the base response ends at {} of the dither's amplitude: there is none beyond; look near a state, or \
+                "the base response ends at {} of the dither's amplitude: no base response exists beyond it; look near a state, or \
                  for what a run ends on",
                 rounded(*share)
             ),

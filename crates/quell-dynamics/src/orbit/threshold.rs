@@ -30,7 +30,7 @@ const FIRST_STEPS: u32 = 8;
 pub enum ThresholdKind {
     /// A complex pair of multipliers crosses the unit circle.
     NeimarkSacker,
-    /// The same for steady sliding without dither: its oscillation starts or ceases to grow.
+    /// The Hopf bifurcation of steady sliding without dither.
     Hopf,
     /// A multiplier crosses −1.
     Flip,
@@ -80,7 +80,7 @@ impl ThresholdKind {
         }
     }
 
-    /// The event whose test function is zero on a curve of this kind; `None` if there is none.
+    /// The event whose test function is zero on a curve of this kind; `None` if no test function is zero along it.
     pub(super) fn event(self) -> Option<Event> {
         Some(match self {
             Self::Fold => Event::Fold,

@@ -36,4 +36,4 @@ pub use measure::{
 pub use record::SettledRecord;
 pub use solver::Solver;
 pub use spectral_meter::samples_per_slow_period;
-pub use steady_response::{PEAK_FLOOR, Response, respond};
+pub use steady_response::{PEAK_FLOOR, SteadyResponse, respond};

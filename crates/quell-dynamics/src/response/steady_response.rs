@@ -17,7 +17,7 @@ pub const PEAK_FLOOR: f64 = 1e-3;
 
 /// A steady response. Lengths in the study's length, frequencies in ω₀.
 #[derive(Clone, Debug)]
-pub struct Response {
+pub struct SteadyResponse {
     /// M, the largest spectral amplitude of x at 0 < ω ≤ 1.9.
     pub amplitude: f64,
     /// Peaks of the spectrum of x, in order of frequency.
@@ -58,7 +58,7 @@ pub struct Response {
 ///
 /// # Errors
 /// [`Stalled`] if a run stops.
-pub fn respond(belt: &Belt, start: Start, solver: &Solver) -> Result<Response, Stalled> {
+pub fn respond(belt: &Belt, start: Start, solver: &Solver) -> Result<SteadyResponse, Stalled> {
     let one = |belt: &Belt, wanted, like: Option<&SettledRecord>| {
         let case = ResponseCase { belt: belt.clone(), start };
         // The undithered run is sampled like the dithered one, so that both can be shown together.
@@ -79,7 +79,7 @@ pub fn respond(belt: &Belt, start: Start, solver: &Solver) -> Result<Response, S
     let compared = Compared { dithered, undithered, vibrates };
     let ending = RunEnding::of(belt, start);
     let effect = effect(belt, &compared, ending);
-    Ok(Response {
+    Ok(SteadyResponse {
         effect,
         ending,
         amplitude: dithered.lines.whole,

@@ -35,7 +35,7 @@ pub fn simulate(
 /// Integrates many runs side by side in the lanes of the machine's widest instruction set.
 ///
 /// Each lane has its own time, step, phase and events; a lane that has finished takes the next
-/// run. Every run has the same bits as in [`simulate`], whatever runs share the lanes and on any
+/// run. Every run has the same bits as in [`simulate`], for any other runs in the lanes and on any
 /// instruction set. The results are in the order of the runs.
 pub fn simulate_many(
     runs: Vec<SimulationRun<'_>>,

@@ -47,7 +47,7 @@ impl Stiction {
         self.damper + y - tangential
     }
 
-    /// Time for which no dither can release the contact, whatever its phase; not positive if unknown.
+    /// Time for which dither of any phase cannot release the contact; not positive if unknown.
     ///
     /// |f_s| ≤ |2ζv₀ + x| + ΣD_T and N ≥ F − ΣD_N. f_s rises with x, so that a lower
     /// side that is safe stays safe.

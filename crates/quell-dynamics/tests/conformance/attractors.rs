@@ -19,13 +19,13 @@ fn afar(belt: &Belt) -> Start {
 fn runs_stay_on_base_responses_that_are_stable() {
     let mut judged = [0, 0];
     for named in all_belts() {
-        let scene = AttractorSettings::new(&named.model).expect("commensurate");
-        let Ok(quiet) = &scene.base else { continue };
+        let settings = AttractorSettings::new(&named.model).expect("commensurate");
+        let Ok(quiet) = &settings.base else { continue };
         if quiet.verdict == OrbitVerdict::Undecided {
             continue;
         }
         let start = Start { time: 0.0, displacement: quiet.displacement, velocity: quiet.velocity };
-        let settled = settle(&scene, start, Patience::BASIN).expect("no stall");
+        let settled = settle(&settings, start, Patience::BASIN).expect("no stall");
         let stable = quiet.verdict == OrbitVerdict::Stable;
         let stays = settled.outcome == SettleOutcome::Base;
         assert_eq!(stays, stable, "{}: {quiet:?} {settled:?}", named.name);
@@ -40,9 +40,9 @@ fn attractors_are_the_orbits_that_shooting_finds() {
     let mut orbits = 0;
     for named in all_belts() {
         let belt = &named.model;
-        let scene = AttractorSettings::new(belt).expect("commensurate");
-        let settled = settle(&scene, Start::REST, Patience::SWEEP).expect("no stall");
-        let attractor = measure(&scene, &settled).expect("no stall");
+        let settings = AttractorSettings::new(belt).expect("commensurate");
+        let settled = settle(&settings, Start::REST, Patience::SWEEP).expect("no stall");
+        let attractor = measure(&settings, &settled).expect("no stall");
         let expected = match &attractor {
             Some(attractor) if attractor.base => Reached::Base,
             Some(attractor) if attractor.quiet => Reached::Forced,
@@ -56,7 +56,7 @@ fn attractors_are_the_orbits_that_shooting_finds() {
         match attractor.kind {
             AttractorKind::Periodic { periods, radius } if !belt.dithers().is_empty() => {
                 let orbit = orbit.unwrap_or_else(|why| panic!("{}: {why}", named.name));
-                let period = f64::from(periods) * scene.section.period;
+                let period = f64::from(periods) * settings.section.period;
                 assert!((orbit.period - period).abs() < 1e-9, "{}", named.name);
                 assert!((orbit.radius() - radius).abs() < 1e-6, "{}", named.name);
                 assert_eq!(orbit.verdict(), OrbitVerdict::Stable, "{}: {orbit:?}", named.name);
@@ -66,7 +66,7 @@ fn attractors_are_the_orbits_that_shooting_finds() {
             }
             AttractorKind::Cycle => {
                 let cycle = orbit.unwrap_or_else(|why| panic!("{}: {why}", named.name));
-                let frequency = attractor.frequency(scene.section.period).expect("it turns");
+                let frequency = attractor.frequency(settings.section.period).expect("it turns");
                 let own = std::f64::consts::TAU / cycle.period;
                 assert!((frequency - own).abs() < 1e-9, "{}: {frequency} {own}", named.name);
                 orbits += 1;
@@ -86,14 +86,14 @@ fn attractors_are_the_orbits_that_shooting_finds() {
 fn settled_runs_keep_their_bits_in_company_and_at_double_lengths() {
     for named in all_belts() {
         let settled = |belt: &Belt| -> Vec<Settled> {
-            let scene = AttractorSettings::new(belt).expect("commensurate");
+            let settings = AttractorSettings::new(belt).expect("commensurate");
             let starts = [Start::REST, afar(belt)];
-            let together = settle_many(&scene, &starts, Patience::BASIN);
+            let together = settle_many(&settings, &starts, Patience::BASIN);
             together.into_iter().map(|settled| settled.expect("no stall")).collect()
         };
         let one = settled(&named.model);
-        let scene = AttractorSettings::new(&named.model).expect("commensurate");
-        let alone = settle(&scene, afar(&named.model), Patience::BASIN).expect("no stall");
+        let settings = AttractorSettings::new(&named.model).expect("commensurate");
+        let alone = settle(&settings, afar(&named.model), Patience::BASIN).expect("no stall");
         assert_eq!(alone, one[1], "{}", named.name);
         for (one, two) in one.iter().zip(settled(&named.model.scaled(2.0))) {
             assert_eq!((one.outcome, one.periods), (two.outcome, two.periods), "{}", named.name);

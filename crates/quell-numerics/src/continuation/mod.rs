@@ -106,7 +106,7 @@ fn of_two(a: f64, b: f64, c: f64, d: f64) -> [Complex64; 2] {
     [Complex64::new(large, 0.0), Complex64::new(small, 0.0)]
 }
 
-/// Largest modulus of multipliers sorted by modulus; 0 if there are none.
+/// Largest modulus of multipliers sorted by modulus; 0 for an empty list.
 pub fn spectral_radius(multipliers: &[Complex64]) -> f64 {
     multipliers.first().map_or(0.0, |&z| modulus(z))
 }

@@ -30,7 +30,7 @@ pub fn margin_of_no_root<V: Lane, const N: usize>(c: &[V; N], zeros: V, h: V) ->
 pub struct Crossings<V> {
     /// First root as a time, at most h; undefined if no root was found.
     pub time: V,
-    /// 1 if a root was found, −1 if there is none, 0 if the scalar search must decide.
+    /// 1 if a root was found, −1 if the step has no root, 0 if the scalar search must decide.
     pub found: V,
 }
 

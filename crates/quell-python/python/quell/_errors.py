@@ -32,7 +32,7 @@ class QuellError(Exception):
 
 
 class StudyError(QuellError, ValueError):
-    """Invalid input. Nothing was computed, and nothing was written.
+    """Invalid input. No computation was started, and no file was written.
 
     ``errors`` has every :class:`Complaint`; the message has one line for each.
     """
@@ -43,7 +43,7 @@ class StudyError(QuellError, ValueError):
         self.errors = list(errors)
         lines = [error["message"] for error in self.errors]
         if len(lines) > 1:
-            lines.append(f"{len(lines)} complaints; nothing was computed")
+            lines.append(f"{len(lines)} errors; no computation was started")
         super().__init__("\n".join(lines))
 
     def __reduce__(self) -> tuple[type[StudyError], tuple[list[Complaint]]]:

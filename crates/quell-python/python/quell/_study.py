@@ -216,7 +216,7 @@ class Study:
         if asked or start is not None:
             for name, given, there in (("near", near, near is not None), ("periods", periods, count != 1)):
                 if there:
-                    allowed = "given without a start: a run finds its response by itself"
+                    allowed = "given without a start: a run determines its response"
                     arguments.wrong.append(complaint(name, given, allowed, "conflict"))
         arguments.done()
         return results.Orbit(self, self._native.orbit(state, count, asked, begin))
@@ -254,7 +254,7 @@ class Study:
         along: str | None = None,
         between: State | None = None,
     ) -> results.Thresholds | results.ThresholdCurves:
-        """Exact values of a parameter at which dither begins or ceases to quench, or their curves in two parameters.
+        """Exact values of a parameter at which dither starts or stops quenching, or their curves in two parameters.
 
         Parameters
         ----------

@@ -38,8 +38,8 @@ Unknown = NoReturn
 """Unknown keys: a type checker rejects them, and at run time the error names the nearest valid key."""
 
 
-def given(names: dict[str, Any], *beside: str) -> dict[str, Any]:
-    """The arguments of an ``__init__`` by name, from ``given(locals())`` in its first line, without those in ``beside``."""
-    left_out = {"self", "__class__", "unknown", *beside}
+def given(names: dict[str, Any], *others: str) -> dict[str, Any]:
+    """The arguments of an ``__init__`` by name, from ``given(locals())`` in its first line, without those in ``others``."""
+    left_out = {"self", "__class__", "unknown", *others}
     known = {name: value for name, value in names.items() if name not in left_out}
     return {**known, **names.get("unknown", {})}

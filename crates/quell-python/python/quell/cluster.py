@@ -98,7 +98,7 @@ def compute(
     anyone: Any = client
     place = os.path.abspath(store)
     if not resume and os.path.isdir(os.path.join(place, ".quell")):
-        allowed = "a new path; or resume=True goes on with the store that is there"
+        allowed = "a new path; resume=True continues the existing store"
         raise StudyError([complaint("store", store, allowed, "path")])
     from ._quell import NativeShared
 

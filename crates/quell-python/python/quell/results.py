@@ -146,13 +146,13 @@ class Result:
 
     def _alive(self) -> NativeAnswer:
         if self._native is None:
-            raise RuntimeError("a result that was unpickled has what was kept, and no more")
+            raise RuntimeError("an unpickled result has only its facts, its arrays and its picture")
         return self._native
 
     def _described(self) -> dict[str, Any]:
         if self._description is None:
             if self._native is None:
-                allowed = "there is no picture of this result"
+                allowed = "this result has no picture"
                 raise StudyError([complaint("plot", None, allowed, "usage")])
             self._description = self._native.description()
         return self._description
@@ -165,7 +165,7 @@ class Result:
         except KeyError:
             pass
         there = ", ".join(key for key in self.facts if key not in ("ok", "units", "why"))
-        raise AttributeError(f"{type(self).__name__} has no {name}; there are {there}") from None
+        raise AttributeError(f"{type(self).__name__} has no {name}; its facts are {there}") from None
 
     def __getitem__(self, name: str) -> Any:
         """A variable of :attr:`dataset`."""

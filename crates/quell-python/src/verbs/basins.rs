@@ -22,6 +22,6 @@ pub(crate) fn run(
     let counter = Arc::new(Counter::default());
     let watched = Watched::new(&counter, progress);
     let work =
-        move || Ok(NativeAnswer::new(verbs(&study)?.basins(&request, counter.running(threads))?));
+        move || Ok(NativeAnswer::new(verbs(&study).basins(&request, counter.running(threads))?));
     call::watched(py, work, watched)
 }

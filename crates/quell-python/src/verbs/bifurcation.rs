@@ -21,6 +21,6 @@ pub(crate) fn run(
     let counter = Arc::new(Counter::default());
     let watched = Watched::new(&counter, progress);
     let work =
-        move || Ok(NativeAnswer::new(verbs(&study)?.bifurcation(&request, counter.running(None))?));
+        move || Ok(NativeAnswer::new(verbs(&study).bifurcation(&request, counter.running(None))?));
     call::watched(py, work, watched)
 }

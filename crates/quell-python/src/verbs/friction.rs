@@ -13,7 +13,7 @@ pub(crate) fn run(
     at: Option<Vec<f64>>,
     texts: &[String],
 ) -> Result<NativeAnswer, Failure> {
-    let verbs = verbs(study)?;
+    let verbs = verbs(study);
     let scales = study.scales();
     if let Some(wrong) = at.iter().flatten().find(|v| !v.is_finite()) {
         return Err(refused("at", wrong.to_string(), "finite slip velocities"));

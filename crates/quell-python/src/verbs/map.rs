@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use pyo3::prelude::*;
 use quell::run::map::run as front_door;
 use quell::store::Store;
-use quell::sweep::{MOST_THREADS, Plan, Progress, Quantity, Running};
+use quell::sweep::{MOST_THREADS, MapQuantity, Plan, Progress, Running};
 use quell::{Failure, Study};
 
 use super::refused;
@@ -92,7 +92,7 @@ pub(crate) fn plan(study: &Study, names: &[String]) -> Result<Plan, Failure> {
     let kind = study.kind().name();
     let (mut asked, mut wrong) = (Vec::new(), Vec::new());
     for name in names {
-        match Quantity::named_for(kind, name.trim(), "quantity") {
+        match MapQuantity::named_for(kind, name.trim(), "quantity") {
             Ok(quantity) => asked.push(quantity),
             Err(complaint) => wrong.push(*complaint),
         }

@@ -16,7 +16,7 @@ pub(crate) fn run(
     after: &[String],
     start: Option<&Pair>,
 ) -> Result<NativeAnswer, Failure> {
-    let verbs = verbs(study)?;
+    let verbs = verbs(study);
     let scales = study.scales();
     let near = near.map(|pair| state(pair, scales, "--near")).transpose()?;
     let start = start.map(|pair| state(pair, scales, "--start")).transpose()?;

@@ -14,7 +14,7 @@ pub(crate) fn run(
     order: &str,
     [speeds, clear, frequency]: [Option<Pair>; 3],
 ) -> Result<NativeAnswer, Failure> {
-    let verbs = verbs(study)?;
+    let verbs = verbs(study);
     let disc = study.disc().ok();
     let order = match order {
         "first" => Order::First,

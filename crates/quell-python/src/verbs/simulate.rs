@@ -13,7 +13,7 @@ pub(crate) fn run(
     events: bool,
     samples: bool,
 ) -> Result<NativeAnswer, Failure> {
-    let verbs = verbs(study)?;
+    let verbs = verbs(study);
     let until = quantity::duration(until, study.scales(), "--until")?;
     Ok(NativeAnswer::new(verbs.simulate(until, Options { events, samples, undithered: false })?))
 }

@@ -24,7 +24,7 @@ pub(crate) fn run(
     (names, start): (&[String], Option<&Pair>),
     ramp: &str,
 ) -> Result<NativeAnswer, Failure> {
-    let verbs = verbs(study)?;
+    let verbs = verbs(study);
     let scales = study.scales();
     let (from, to) = ends(&parameter, range)?;
     let start = start.map(|pair| state(pair, scales, "--start")).transpose()?;
@@ -42,7 +42,7 @@ pub(crate) fn run_along(
     along: String,
     between: &Pair,
 ) -> Result<NativeAnswer, Failure> {
-    let verbs = verbs(study)?;
+    let verbs = verbs(study);
     let window = ends(&parameter, range)?;
     let value = |text: &str| quantity::value_of_key(text, &along, "--between");
     let between = (value(&between.0)?, value(&between.1)?);

@@ -210,9 +210,9 @@ pub(super) fn other_starts(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     for (law, damping, velocity, waveform, amplitude, ratio) in cases {
         let dither = Some((Direction::Normal, waveform, amplitude, ratio));
         let belt = belt(law, damping, velocity, dither)?;
-        let scene = AttractorSettings::new(&belt).map_err(|why| failed("claims", &why))?;
-        let ends = settle_many(&scene, &starts, Patience::BASIN);
-        let basins = gather(&scene, &ends).map_err(|why| failed("claims", &why))?;
+        let settings = AttractorSettings::new(&belt).map_err(|why| failed("claims", &why))?;
+        let ends = settle_many(&settings, &starts, Patience::BASIN);
+        let basins = gather(&settings, &ends).map_err(|why| failed("claims", &why))?;
         found.push(basins.basins.len() as f64);
         unknown += basins.unknown();
     }

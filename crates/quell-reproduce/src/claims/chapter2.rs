@@ -8,9 +8,11 @@ use quell_linear::averaging::{
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 
+use super::super::entry::CatalogueEntry;
 use super::super::failure::failed;
+use super::super::figures::FIGURES;
 use super::super::responses::{ResponseColumn, cases, fundamental};
-use super::super::{ENTRIES, EntrySource};
+use super::super::source::EntrySource;
 use super::sheet::{ClaimSheet, digits, list, shares};
 use quell::complaint::Failure;
 
@@ -45,10 +47,10 @@ pub(super) fn belt(
 
 /// The study of a figure.
 pub(super) fn source(name: &str) -> Result<EntrySource, Failure> {
-    ENTRIES
+    FIGURES
         .iter()
         .find(|entry| entry.name == name)
-        .map(super::super::CatalogueEntry::source)
+        .map(CatalogueEntry::source)
         .ok_or_else(|| failed("claims", &format!("there is no figure {name}")))
 }
 

@@ -194,7 +194,7 @@ fn panel(done: &Growths, disc: &Disc, bar: bool) -> Result<Panel, quell::plot::P
         }
         _ => Vec::new(),
     };
-    let map = picture::Map {
+    let map = picture::MappedQuantity {
         axes: vec![
             MapAxis { axis: across, values: done.speeds.clone() },
             MapAxis { axis: up, values: done.frictions.iter().map(|f| f * unit).collect() },

@@ -30,7 +30,7 @@ pub(super) const STRENGTH_PER_PRINTED: f64 = 1.0 / (0.75 * std::f64::consts::PI)
 /// The study of an entry.
 ///
 /// # Errors
-/// Complaints about the study file; a test checks that there are none.
+/// Complaints about the study file; a test checks that it has no fault.
 pub(super) fn study(source: &EntrySource, changes: &[&str]) -> Result<DiscStudy, Failure> {
     let changes: Result<Vec<Change>, _> =
         changes.iter().map(|change| Change::parse(change, "reproduce")).collect();

@@ -69,7 +69,7 @@ fn write_one(page: &mut Page, done: &WrittenEntry, claims: &[&Claim]) {
             })
             .collect::<Vec<String>>()
             .concat();
-        page.put(&format!("<ul class=\"beside\">{items}</ul>"));
+        page.put(&format!("<ul class=\"facts\">{items}</ul>"));
     }
     page.put(&details(done));
     page.put("</article>");

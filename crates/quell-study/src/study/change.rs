@@ -58,7 +58,7 @@ impl Change {
                 table.remove(sibling.name);
             }
         }
-        // The study chooses the names of its constants.
+        // Constants have names chosen in the study.
         let name = match key.role {
             Role::Constant => self.path.trim().rsplit('.').next().unwrap_or_default(),
             _ => key.name,
@@ -216,7 +216,7 @@ fn replaces(key: &Key, sibling: &Key, of_a_disc: bool) -> bool {
         | (_, Role::Twin(parameter, _), Role::Number(other)) => {
             parameter.path == other.path && (of_a_disc || parameter.is_pure())
         }
-        // The mass stays: stiffness and natural frequency are alternatives to each other.
+        // The mass is kept: only stiffness and natural frequency are alternatives to each other.
         (_, Role::Scale(scale), Role::Scale(other)) => ![scale, other].contains(&MASS),
         (Section::Initial, role, other) => is_word(role) || is_word(other),
         (Section::Friction, Role::Speeds { .. }, Role::Speeds { .. })

@@ -3,15 +3,14 @@
 use std::path::Path;
 
 use quell_model::units::Scales;
-use serde_json::Value as Json;
 
 use super::StudyOf;
 use super::belt::{BeltSetup, BeltStudy};
 use super::disc::{DiscSetup, DiscStudy};
 use super::document::Table;
 use super::reader::Reader;
-use super::study_kind::{Given, StudyKind, not_of_a_belt};
-use crate::complaint::{Complaint, Fault, Origin};
+use super::study_kind::{Given, StudyKind, wrong_kind};
+use crate::complaint::{Complaint, Origin};
 
 /// A checked study of any kind.
 pub type Study = StudyOf<Kind>;
@@ -29,8 +28,8 @@ impl Kind {
     /// Name of the kind.
     pub fn name(&self) -> &'static str {
         match self {
-            Self::Belt(_) => "belt",
-            Self::Disc(_) => "disc",
+            Self::Belt(_) => BeltSetup::NAME,
+            Self::Disc(_) => DiscSetup::NAME,
         }
     }
 
@@ -98,8 +97,8 @@ impl Study {
     /// An error if it is of another kind.
     pub fn belt(&self) -> Result<BeltStudy, Box<Complaint>> {
         match self.kind() {
-            Kind::Belt(setup) => Ok(self.map_kind((**setup).clone())),
-            Kind::Disc(_) => Err(Box::new(not_of_a_belt(Origin::Whole))),
+            Kind::Belt(setup) => Ok(self.narrowed(setup.as_ref())),
+            Kind::Disc(_) => Err(self.not_a(BeltSetup::NAME)),
         }
     }
 
@@ -109,9 +108,19 @@ impl Study {
     /// An error if it is of another kind.
     pub fn disc(&self) -> Result<DiscStudy, Box<Complaint>> {
         match self.kind() {
-            Kind::Disc(setup) => Ok(self.map_kind((**setup).clone())),
-            Kind::Belt(_) => Err(Box::new(not_of_a_disc())),
+            Kind::Disc(setup) => Ok(self.narrowed(setup.as_ref())),
+            Kind::Belt(_) => Err(self.not_a(DiscSetup::NAME)),
         }
+    }
+
+    /// The study as one of the kind of `setup`, which is its own setup as [`StudyOf::kind`] gives it.
+    pub fn narrowed<K: StudyKind>(&self, setup: &K) -> StudyOf<K> {
+        self.map_kind(setup.clone())
+    }
+
+    /// The error where a study of the kind `required` is needed.
+    fn not_a(&self, required: &str) -> Box<Complaint> {
+        Box::new(wrong_kind(required, self.kind().name(), Origin::Whole))
     }
 
     /// Mass and stiffness of a belt's study in SI.
@@ -121,12 +130,6 @@ impl Study {
             Kind::Disc(_) => None,
         }
     }
-}
-
-/// The error of a command for discs given a study of a belt.
-fn not_of_a_disc() -> Complaint {
-    let allowed = "this command requires a study of a disc, but the study is of a belt";
-    Complaint::new(Fault::Missing, "disc", Origin::Whole, Json::Null, allowed)
 }
 
 impl From<BeltStudy> for Study {

@@ -36,7 +36,7 @@ pub use disc::{DiscSetup, DiscStudy};
 pub use kind::{Kind, Study};
 pub use quell_dynamics::response::Solver;
 pub use quell_dynamics::start::InitialState;
-pub use study_kind::{Given, StudyKind};
+pub use study_kind::{Given, StudyKind, not_available};
 pub use sweep::{Axis, Sweep};
 
 /// A checked study of the kind `K`: of any kind ([`Study`]), of a belt ([`BeltStudy`]), of a disc ([`DiscStudy`]).

@@ -35,9 +35,13 @@ pub struct Given<'a, K> {
     pub known: Option<&'a K>,
 }
 
-/// The error of a command for belts given a study of a disc.
-pub(super) fn not_of_a_belt(origin: Origin) -> Complaint {
-    let allowed = "this command requires a study of a belt ([belt], [friction]), but the study is of a disc, which \
-                   supports check, cite, modes, stability, resonances and map";
-    Complaint::new(Fault::Conflict, "disc", origin, Json::Null, allowed)
+/// The error of a verb or command that studies of this kind do not have.
+pub fn not_available(what: &str, kind: &str, origin: Origin) -> Complaint {
+    let allowed = format!("{what} is not available for a {kind} study");
+    Complaint::new(Fault::Conflict, kind, origin, Json::Null, allowed)
+}
+
+/// The error of a command that requires a study of one kind and is given one of another kind.
+pub(super) fn wrong_kind(required: &str, given: &str, origin: Origin) -> Complaint {
+    not_available(&format!("a command for a {required} study"), given, origin)
 }

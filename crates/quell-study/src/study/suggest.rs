@@ -1,7 +1,7 @@
 //! Suggests the nearest valid key for an unknown one.
 //!
-//! Near means: the same symbol (`zeta`, `v0`, `D_T`), a few letters apart
-//! (Damerau–Levenshtein), a common beginning (Jaro–Winkler), or one inside the other.
+//! A key is near if it has the same symbol (`zeta`, `v0`, `D_T`), differs by a few letters
+//! (Damerau–Levenshtein), begins alike (Jaro–Winkler), or contains the other word.
 
 use super::vocabulary::{self, Key, Section, join};
 
@@ -52,7 +52,7 @@ pub fn path(table: &str, name: &str, index: Option<usize>) -> Option<String> {
         .filter(|key| !other_system(table, key.section))
         .map(|key| (score(key), key))
         .filter(|(score, _)| *score >= NEAR)
-        // Of equal scores the first: dimensionless before SI, in the order of the file.
+        // Among equal scores the first is taken: keys are in the order of the file, dimensionless before SI.
         .rev()
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, key)| key)?;

@@ -323,7 +323,7 @@ pub const CORRECTIONS: &[Correction] = &[
         equations: "text before (5.30), (5.30), (5.32)",
         printed: "F_θ cos Rτ as the fundamental of a friction that alternates between ±F_θ",
         right: "the fundamental of that square wave is (4/π)F_θ cos Rτ: every threshold under tangential dither is printed 4/π too \
-                high; α = 4/π mends it",
+                high; α = 4/π corrects it",
         tasks: MOTION,
         bears: Bears::Disc(DiscKind::Tangential),
         proof: disc("first_harmonic_of_a_reversed_friction"),

@@ -6,7 +6,7 @@
 use quell_model::{Belt, Direction, LawKind};
 use serde_json::{Value as Json, json};
 
-use crate::study::{BeltStudy, DiscStudy, Study};
+use crate::study::{BeltStudy, DiscStudy, Kind, Study};
 
 pub mod bibliography;
 mod citation;
@@ -49,10 +49,9 @@ pub fn sources_of_disc(study: &DiscStudy) -> Sources {
 
 /// Sources and corrections of a study of any kind.
 pub fn sources_of(study: &Study) -> Sources {
-    match (study.belt(), study.disc()) {
-        (Ok(study), _) => sources(&study),
-        (_, Ok(study)) => sources_of_disc(&study),
-        _ => gather(Vec::new(), |_| false),
+    match study.kind() {
+        Kind::Belt(setup) => sources(&study.narrowed(setup.as_ref())),
+        Kind::Disc(setup) => sources_of_disc(&study.narrowed(setup.as_ref())),
     }
 }
 

@@ -1,8 +1,7 @@
 //! The verbs of a belt.
 
-use super::{Reply, Verbs};
+use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
-use crate::complaint::Failure;
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::{
@@ -13,7 +12,7 @@ use crate::sweep::Running;
 
 impl Verbs for BeltStudy {
     fn kind(&self) -> &'static str {
-        "belt"
+        BeltSetup::NAME
     }
 
     fn names(&self) -> &'static [&'static str] {
@@ -80,11 +79,4 @@ impl Verbs for BeltStudy {
     fn basins(&self, request: &basins::BasinsRequest, running: Running<'_>) -> Reply {
         answer(self, basins::run(self, request, running))
     }
-}
-
-fn answer<D>(study: &BeltStudy, done: Result<D, Failure>) -> Reply
-where
-    Answered<BeltSetup, D>: Outcome + 'static,
-{
-    Ok(Box::new(Answered::new(study, done?)))
 }

@@ -1,8 +1,7 @@
 //! The verbs of a disc.
 
-use super::{Reply, Verbs};
+use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
-use crate::complaint::Failure;
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::disc::{modes, resonances, stability};
@@ -10,7 +9,7 @@ use crate::study::{DiscSetup, DiscStudy};
 
 impl Verbs for DiscStudy {
     fn kind(&self) -> &'static str {
-        "disc"
+        DiscSetup::NAME
     }
 
     fn names(&self) -> &'static [&'static str] {
@@ -40,11 +39,4 @@ impl Verbs for DiscStudy {
     fn resonances(&self, request: resonances::ResonancesRequest) -> Reply {
         answer(self, resonances::run(self, request))
     }
-}
-
-fn answer<D>(study: &DiscStudy, done: Result<D, Failure>) -> Reply
-where
-    Answered<DiscSetup, D>: Outcome + 'static,
-{
-    Ok(Box::new(Answered::new(study, done?)))
 }

@@ -3,15 +3,15 @@
 //! The command line and Python call [`verbs`] for a study of any kind; a kind implements the verbs that it has. A new kind
 //! needs a file here, its parser in `quell-study`, and its map points in [`crate::sweep`] if it has maps.
 
-use serde_json::Value as Json;
+use std::fmt::Write as _;
 
 use crate::cite::Sources;
-use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::outcome::Outcome;
+use crate::complaint::{Failure, Origin};
+use crate::outcome::{Answered, Outcome, Presented};
 use crate::run::disc::resonances;
 use crate::run::orbit::Wanted;
 use crate::run::{basins, bifurcation, curves, simulate, thresholds};
-use crate::study::{Kind, Study};
+use crate::study::{Kind, Study, StudyKind, StudyOf, not_available};
 use crate::sweep::Running;
 
 mod belt;
@@ -135,19 +135,25 @@ pub trait Verbs: Send + Sync {
 
     /// The error of a verb that the kind does not have.
     fn lacks(&self, verb: &str) -> Failure {
-        let (kind, names) = (self.kind(), self.names().join(", "));
-        let allowed = format!("{verb} is not available for a {kind} study; its verbs are {names}");
-        Complaint::new(Fault::Conflict, kind, Origin::Whole, Json::Null, allowed).into()
+        let mut complaint = not_available(verb, self.kind(), Origin::Whole);
+        let _ = write!(complaint.allowed, "; its verbs are {}", self.names().join(", "));
+        complaint.into()
     }
 }
 
 /// The verbs of a study.
-///
-/// # Errors
-/// None of today's kinds: a kind that has no verbs would be refused.
-pub fn verbs(study: &Study) -> Result<Box<dyn Verbs>, Failure> {
-    Ok(match study.kind() {
-        Kind::Belt(_) => Box::new(study.belt()?),
-        Kind::Disc(_) => Box::new(study.disc()?),
-    })
+pub fn verbs(study: &Study) -> Box<dyn Verbs> {
+    match study.kind() {
+        Kind::Belt(setup) => Box::new(study.narrowed(setup.as_ref())),
+        Kind::Disc(setup) => Box::new(study.narrowed(setup.as_ref())),
+    }
+}
+
+/// The result of a verb with its study, or why the verb failed.
+fn answer<K, D>(study: &StudyOf<K>, done: Result<D, Failure>) -> Reply
+where
+    K: StudyKind + Send + Sync + 'static,
+    D: Presented<K> + 'static,
+{
+    Ok(Box::new(Answered::new(study, done?)))
 }

@@ -5,44 +5,37 @@ use std::fmt::Write as _;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::Presented;
 use super::table::{figure, figure_of};
-use super::{Answered, Outcome};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
-use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::attractor::words;
 use crate::run::basins::{Basins, Portrait, quiescence};
 use crate::study::{BeltSetup, BeltStudy};
 
-impl Outcome for Answered<BeltSetup, Basins> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<BeltSetup> for Basins {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &BeltStudy) -> Json {
+        self.json(study)
     }
 
-    fn json(&self) -> Json {
-        self.done.json(&self.study)
+    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+        Some(self.sentence(study))
     }
 
-    fn title(&self) -> Option<&str> {
-        self.study.title()
+    fn table(&self, study: &BeltStudy) -> String {
+        table(study, self)
     }
 
-    fn sentence(&self) -> Option<String> {
-        Some(self.done.sentence(&self.study))
+    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
+        vec![("basins", self.dataset(study))]
     }
 
-    fn table(&self) -> String {
-        table(&self.study, &self.done)
-    }
-
-    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
-        vec![("basins", self.done.dataset(&self.study))]
-    }
-
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        Some(picture::basins(&self.study, &self.done))
+    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
+        Some(picture::basins(study, self))
     }
 }
 

@@ -4,44 +4,37 @@ use std::fmt::Write as _;
 
 use serde_json::Value as Json;
 
+use super::Presented;
 use super::table::figure;
-use super::{Answered, Outcome};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
-use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::attractor::words;
 use crate::run::bifurcation::{Bifurcation, Branch};
-use crate::study::BeltSetup;
+use crate::study::{BeltSetup, BeltStudy};
 
-impl Outcome for Answered<BeltSetup, Bifurcation> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<BeltSetup> for Bifurcation {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &BeltStudy) -> Json {
+        self.json(study)
     }
 
-    fn json(&self) -> Json {
-        self.done.json(&self.study)
+    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+        Some(self.sentence(study))
     }
 
-    fn title(&self) -> Option<&str> {
-        self.study.title()
+    fn table(&self, _: &BeltStudy) -> String {
+        table(self)
     }
 
-    fn sentence(&self) -> Option<String> {
-        Some(self.done.sentence(&self.study))
+    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
+        vec![("bifurcation", self.dataset(study))]
     }
 
-    fn table(&self) -> String {
-        table(&self.done)
-    }
-
-    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
-        vec![("bifurcation", self.done.dataset(&self.study))]
-    }
-
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::bifurcation(&self.study, &self.done)))
+    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::bifurcation(study, self)))
     }
 }
 

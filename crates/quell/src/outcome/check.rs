@@ -3,9 +3,8 @@
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::table::Table;
-use super::{Answered, Outcome};
-use crate::input::Inputs;
+use super::Presented;
+use super::table::TextTable;
 use crate::run::check::Check;
 use crate::run::disc;
 use crate::run::law;
@@ -15,39 +14,31 @@ use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy, StudyOf};
 #[derive(Clone, Copy, Debug)]
 pub struct Valid;
 
-impl Outcome for Answered<BeltSetup, Valid> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<BeltSetup> for Valid {
+    fn json(&self, study: &BeltStudy) -> Json {
+        Check { study }.json()
     }
 
-    fn json(&self) -> Json {
-        Check { study: &self.study }.json()
+    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+        Some(sentence(study))
     }
 
-    fn sentence(&self) -> Option<String> {
-        Some(sentence(&self.study))
-    }
-
-    fn table(&self) -> String {
-        table_of_belt(&self.study)
+    fn table(&self, study: &BeltStudy) -> String {
+        table_of_belt(study)
     }
 }
 
-impl Outcome for Answered<DiscSetup, Valid> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<DiscSetup> for Valid {
+    fn json(&self, study: &DiscStudy) -> Json {
+        disc::check::json(study)
     }
 
-    fn json(&self) -> Json {
-        disc::check::json(&self.study)
+    fn sentence(&self, study: &DiscStudy) -> Option<String> {
+        Some(sentence(study))
     }
 
-    fn sentence(&self) -> Option<String> {
-        Some(sentence(&self.study))
-    }
-
-    fn table(&self) -> String {
-        table_of_disc(&self.study)
+    fn table(&self, study: &DiscStudy) -> String {
+        table_of_disc(study)
     }
 }
 
@@ -58,7 +49,7 @@ fn sentence<K>(study: &StudyOf<K>) -> String {
 
 fn table_of_belt(study: &BeltStudy) -> String {
     let belt = study.belt();
-    let mut table = Table::new(study.scales());
+    let mut table = TextTable::new(study.scales());
     table.number("damping ratio ζ", Quantity::DampingRatio, belt.damping_ratio());
     table.number("normal load F", Quantity::Force, belt.normal_load());
     table.number("belt velocity v₀", Quantity::Velocity, belt.belt_velocity());
@@ -82,7 +73,7 @@ fn table_of_belt(study: &BeltStudy) -> String {
     table.text()
 }
 
-fn axes<K>(table: &mut Table, study: &StudyOf<K>) {
+fn axes<K>(table: &mut TextTable, study: &StudyOf<K>) {
     for sweep in study.sweeps() {
         let (first, last) = (sweep.axis.value(0), sweep.axis.value(usize::MAX));
         let points = sweep.axis.len();
@@ -92,7 +83,7 @@ fn axes<K>(table: &mut Table, study: &StudyOf<K>) {
 
 fn table_of_disc(study: &DiscStudy) -> String {
     let object = disc::check::json(study);
-    let mut table = Table::new(None);
+    let mut table = TextTable::new(None);
     let word = |value: &Json| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
     table.word(
         "modes",

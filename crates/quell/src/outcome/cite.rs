@@ -4,22 +4,17 @@ use std::fmt::Write as _;
 
 use serde_json::Value as Json;
 
-use super::{Answered, Outcome};
+use super::Presented;
 use crate::cite::Sources;
-use crate::input::Inputs;
-use crate::study::StudyKind;
+use crate::study::StudyOf;
 
-impl<K: StudyKind + Send + Sync> Outcome for Answered<K, Sources> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl<K> Presented<K> for Sources {
+    fn json(&self, _: &StudyOf<K>) -> Json {
+        self.json()
     }
 
-    fn json(&self) -> Json {
-        self.done.json()
-    }
-
-    fn table(&self) -> String {
-        table(&self.done)
+    fn table(&self, _: &StudyOf<K>) -> String {
+        table(self)
     }
 }
 

@@ -5,11 +5,10 @@ use std::fmt::Write as _;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::Presented;
 use super::table::figure;
-use super::{Answered, Outcome};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
-use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
 use crate::quantity;
@@ -17,25 +16,21 @@ use crate::run::friction::FrictionCurve;
 use crate::run::law;
 use crate::study::{BeltSetup, BeltStudy};
 
-impl Outcome for Answered<BeltSetup, FrictionCurve> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<BeltSetup> for FrictionCurve {
+    fn json(&self, study: &BeltStudy) -> Json {
+        self.json(study)
     }
 
-    fn json(&self) -> Json {
-        self.done.json(&self.study)
+    fn table(&self, study: &BeltStudy) -> String {
+        table(study, self)
     }
 
-    fn table(&self) -> String {
-        table(&self.study, &self.done)
+    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
+        vec![("friction", self.dataset(study))]
     }
 
-    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
-        vec![("friction", self.done.dataset(&self.study))]
-    }
-
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::friction(&self.study, &self.done)))
+    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::friction(study, self)))
     }
 }
 

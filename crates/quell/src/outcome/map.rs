@@ -11,21 +11,21 @@ use crate::dataset::Dataset;
 use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::map::{Extreme, Map};
-use crate::sweep::{Entry, Grid, Status};
+use crate::run::map::{Extreme, FinishedMap};
+use crate::sweep::{Grid, Status, VariableArrays};
 use crate::words::plural;
 
-impl Outcome for Map {
+impl Outcome for FinishedMap {
     fn inputs(&self) -> Inputs {
         self.plan().grid().study().inputs()
     }
 
     fn json(&self) -> Json {
-        Map::json(self)
+        FinishedMap::json(self)
     }
 
     fn facts(&self) -> Json {
-        Map::facts(self)
+        FinishedMap::facts(self)
     }
 
     fn title(&self) -> Option<&str> {
@@ -45,7 +45,7 @@ impl Outcome for Map {
     }
 }
 
-fn table(done: &Map) -> String {
+fn table(done: &FinishedMap) -> String {
     let grid = done.plan().grid();
     let mut text = String::new();
     for axis in grid.axes() {
@@ -83,7 +83,7 @@ fn table(done: &Map) -> String {
     text
 }
 
-fn heading(entry: &Entry, done: &Map) -> String {
+fn heading(entry: &VariableArrays, done: &FinishedMap) -> String {
     let field = &done.plan().sheet().fields()[done.shown(entry)];
     let unit = match field.unit.as_str() {
         "" | "1" => String::new(),

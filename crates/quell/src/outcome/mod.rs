@@ -79,6 +79,38 @@ pub trait Outcome: Send + Sync {
     }
 }
 
+/// The result of a verb for a study of kind `K`; with its study it is an [`Outcome`], whose methods these are.
+///
+/// Most results have methods `json` and `sentence` of their own, which these call.
+pub trait Presented<K>: Send + Sync {
+    /// Whether the text begins with the title of the study.
+    const TITLED: bool = false;
+
+    /// [`Outcome::json`].
+    fn json(&self, study: &StudyOf<K>) -> Json;
+
+    /// [`Outcome::sentence`].
+    fn sentence(&self, study: &StudyOf<K>) -> Option<String> {
+        let _ = study;
+        None
+    }
+
+    /// [`Outcome::table`].
+    fn table(&self, study: &StudyOf<K>) -> String;
+
+    /// [`Outcome::datasets`].
+    fn datasets(&self, study: &StudyOf<K>) -> Vec<(&'static str, Dataset)> {
+        let _ = study;
+        Vec::new()
+    }
+
+    /// [`Outcome::figure`].
+    fn figure(&self, study: &StudyOf<K>) -> Option<Result<Figure, Failure>> {
+        let _ = study;
+        None
+    }
+}
+
 /// The result of a verb with its study.
 #[derive(Clone, Debug)]
 pub struct Answered<K, D> {
@@ -92,5 +124,35 @@ impl<K: StudyKind, D> Answered<K, D> {
     /// The result of a verb for a study.
     pub fn new(study: &StudyOf<K>, done: D) -> Self {
         Self { study: study.clone(), done }
+    }
+}
+
+impl<K: StudyKind + Send + Sync, D: Presented<K>> Outcome for Answered<K, D> {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
+    fn json(&self) -> Json {
+        self.done.json(&self.study)
+    }
+
+    fn title(&self) -> Option<&str> {
+        self.study.title().filter(|_| D::TITLED)
+    }
+
+    fn sentence(&self) -> Option<String> {
+        self.done.sentence(&self.study)
+    }
+
+    fn table(&self) -> String {
+        self.done.table(&self.study)
+    }
+
+    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
+        self.done.datasets(&self.study)
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        self.done.figure(&self.study)
     }
 }

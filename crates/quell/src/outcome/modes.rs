@@ -4,39 +4,32 @@ use std::fmt::Write as _;
 
 use serde_json::Value as Json;
 
+use super::Presented;
 use super::table::figure;
-use super::{Answered, Outcome};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
-use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::disc::modes::Modes;
-use crate::study::DiscSetup;
+use crate::study::{DiscSetup, DiscStudy};
 
-impl Outcome for Answered<DiscSetup, Modes> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<DiscSetup> for Modes {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &DiscStudy) -> Json {
+        self.json(study)
     }
 
-    fn json(&self) -> Json {
-        self.done.json(&self.study)
+    fn table(&self, _: &DiscStudy) -> String {
+        table(self)
     }
 
-    fn title(&self) -> Option<&str> {
-        self.study.title()
+    fn datasets(&self, study: &DiscStudy) -> Vec<(&'static str, Dataset)> {
+        vec![("modes", self.dataset(study))]
     }
 
-    fn table(&self) -> String {
-        table(&self.done)
-    }
-
-    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
-        vec![("modes", self.done.dataset(&self.study))]
-    }
-
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        Some(picture::disc::modes(&self.study, &self.done))
+    fn figure(&self, study: &DiscStudy) -> Option<Result<Figure, Failure>> {
+        Some(picture::disc::modes(study, self))
     }
 }
 

@@ -5,43 +5,38 @@ use std::fmt::Write as _;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::table::Table;
-use super::{Answered, Outcome};
+use super::Presented;
+use super::table::TextTable;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
-use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::orbit::{Orbit, Response, extremes, sentence};
+use crate::run::orbit::{Orbit, PeriodicResponse, extremes, sentence};
 use crate::study::{BeltSetup, BeltStudy};
 
-impl Outcome for Answered<BeltSetup, Response> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<BeltSetup> for PeriodicResponse {
+    fn json(&self, study: &BeltStudy) -> Json {
+        self.json(study)
     }
 
-    fn json(&self) -> Json {
-        self.done.json(&self.study)
+    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+        Some(self.sentence(study))
     }
 
-    fn sentence(&self) -> Option<String> {
-        Some(self.done.sentence(&self.study))
+    fn table(&self, study: &BeltStudy) -> String {
+        tables(study, self)
     }
 
-    fn table(&self) -> String {
-        tables(&self.study, &self.done)
+    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
+        self.dataset(study).map(|dataset| ("orbit", dataset)).into_iter().collect()
     }
 
-    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
-        self.done.dataset(&self.study).map(|dataset| ("orbit", dataset)).into_iter().collect()
-    }
-
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        Some(picture::periodic_response(&self.study, &self.done))
+    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
+        Some(picture::periodic_response(study, self))
     }
 }
 
-fn tables(study: &BeltStudy, found: &Response) -> String {
+fn tables(study: &BeltStudy, found: &PeriodicResponse) -> String {
     let mut text = String::new();
     if let Some(orbit) = &found.orbit {
         text += &table(study, orbit);
@@ -54,7 +49,7 @@ fn tables(study: &BeltStudy, found: &Response) -> String {
 }
 
 fn table(study: &BeltStudy, found: &Orbit) -> String {
-    let mut table = Table::new(study.scales());
+    let mut table = TextTable::new(study.scales());
     table.word("verdict", found.verdict().name());
     for (re, im) in found.multipliers {
         let multiplier = format!("{re:.9} {} {:.9} i", if im < 0.0 { '−' } else { '+' }, im.abs());

@@ -5,51 +5,43 @@ use std::fmt::Write as _;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::table::{Table, figure};
-use super::{Answered, Outcome};
+use super::Presented;
+use super::table::{TextTable, figure};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
-use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::response::Steady;
+use crate::run::response::MeasuredResponse;
 use crate::study::{BeltSetup, BeltStudy};
 
-impl Outcome for Answered<BeltSetup, Steady> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<BeltSetup> for MeasuredResponse {
+    fn json(&self, study: &BeltStudy) -> Json {
+        self.json(study)
     }
 
-    fn json(&self) -> Json {
-        self.done.json(&self.study)
+    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+        Some(self.sentence(study))
     }
 
-    fn sentence(&self) -> Option<String> {
-        Some(self.done.sentence(&self.study))
+    fn table(&self, study: &BeltStudy) -> String {
+        table(study, self)
     }
 
-    fn table(&self) -> String {
-        table(&self.study, &self.done)
+    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
+        vec![("record", self.record(study)), ("spectrum", self.spectrum(study))]
     }
 
-    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
-        vec![
-            ("record", self.done.record(&self.study)),
-            ("spectrum", self.done.spectrum(&self.study)),
-        ]
-    }
-
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::response(&self.study, &self.done)))
+    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::response(study, self)))
     }
 }
 
 /// Largest number of peaks in the table; JSON has them all.
 const PEAKS: usize = 8;
 
-fn table(study: &BeltStudy, done: &Steady) -> String {
+fn table(study: &BeltStudy, done: &MeasuredResponse) -> String {
     let response = &done.response;
-    let mut table = Table::new(study.scales());
+    let mut table = TextTable::new(study.scales());
     table.word("effect", response.effect.name());
     table.word("ends on", response.ending.name());
     table.known(

@@ -5,52 +5,47 @@ use std::fmt::Write as _;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::table::{Table, figure_of};
-use super::{Answered, Outcome};
+use super::Presented;
+use super::table::{TextTable, figure_of};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
-use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::simulate::{Options, Simulation, run};
 use crate::study::{BeltSetup, BeltStudy};
 
-impl Outcome for Answered<BeltSetup, Simulation> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<BeltSetup> for Simulation {
+    fn json(&self, study: &BeltStudy) -> Json {
+        self.json(study)
     }
 
-    fn json(&self) -> Json {
-        self.done.json(&self.study)
+    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+        Some(self.sentence(study))
     }
 
-    fn sentence(&self) -> Option<String> {
-        Some(self.done.sentence(&self.study))
+    fn table(&self, study: &BeltStudy) -> String {
+        table(study, self)
     }
 
-    fn table(&self) -> String {
-        table(&self.study, &self.done)
-    }
-
-    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
+    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
         let mut datasets = Vec::new();
-        if self.done.samples.is_some() {
-            datasets.push(("trajectory", self.done.dataset(&self.study)));
+        if self.samples.is_some() {
+            datasets.push(("trajectory", self.dataset(study)));
         }
-        if self.done.events.is_some() {
-            datasets.push(("events", self.done.events_dataset(&self.study)));
+        if self.events.is_some() {
+            datasets.push(("events", self.events_dataset(study)));
         }
         datasets
     }
 
     /// The picture shows the run without dither next to this one.
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        if self.done.samples.is_some() && self.done.undithered_samples.is_some() {
-            return Some(Ok(picture::simulate(&self.study, &self.done)));
+    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
+        if self.samples.is_some() && self.undithered_samples.is_some() {
+            return Some(Ok(picture::simulate(study, self)));
         }
         let options = Options { events: false, samples: true, undithered: true };
-        let both = run(&self.study, self.done.end.time, options);
-        Some(both.map(|both| picture::simulate(&self.study, &both)))
+        let both = run(study, self.end.time, options);
+        Some(both.map(|both| picture::simulate(study, &both)))
     }
 }
 
@@ -73,7 +68,7 @@ fn table(study: &BeltStudy, done: &Simulation) -> String {
         text.push('\n');
     }
     let end = &done.end;
-    let mut table = Table::new(study.scales());
+    let mut table = TextTable::new(study.scales());
     table.number("time τ", Quantity::Time, end.time);
     table.number("displacement x", Quantity::Displacement, end.displacement);
     table.number("velocity x′", Quantity::Velocity, end.velocity);

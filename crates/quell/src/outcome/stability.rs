@@ -6,60 +6,53 @@ use quell_linear::growth::of_criterion;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::table::{Table, figure, figure_of, in_hertz, in_rpm};
-use super::{Answered, Outcome};
+use super::Presented;
+use super::table::{TextTable, figure, figure_of, in_hertz, in_rpm};
 use crate::complaint::Failure;
-use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::disc;
-use crate::run::disc::stability::Stability as DiscStability;
-use crate::run::stability::{Averaged, DECIBELS, LOOKED_AT, SlopeSide, Stability, becomes, kind};
+use crate::run::disc::stability::DiscStability;
+use crate::run::stability::{
+    AveragedStability, BeltStability, DECIBELS, LOOKED_AT, SlopeSide, becomes, kind,
+};
 use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy};
 
-impl Outcome for Answered<BeltSetup, Stability> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<BeltSetup> for BeltStability {
+    fn json(&self, study: &BeltStudy) -> Json {
+        self.json(study)
     }
 
-    fn json(&self) -> Json {
-        self.done.json(&self.study)
+    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+        Some(self.sentence(study))
     }
 
-    fn sentence(&self) -> Option<String> {
-        Some(self.done.sentence(&self.study))
+    fn table(&self, study: &BeltStudy) -> String {
+        table(study, self)
     }
 
-    fn table(&self) -> String {
-        table(&self.study, &self.done)
-    }
-
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::stability(&self.study, &self.done)))
+    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::stability(study, self)))
     }
 }
 
-impl Outcome for Answered<DiscSetup, DiscStability> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<DiscSetup> for DiscStability {
+    fn json(&self, study: &DiscStudy) -> Json {
+        self.json(study)
     }
 
-    fn json(&self) -> Json {
-        self.done.json(&self.study)
+    fn sentence(&self, study: &DiscStudy) -> Option<String> {
+        Some(self.sentence(study))
     }
 
-    fn sentence(&self) -> Option<String> {
-        Some(self.done.sentence(&self.study))
+    fn table(&self, study: &DiscStudy) -> String {
+        table_of_disc(study, self)
     }
 
-    fn table(&self) -> String {
-        table_of_disc(&self.study, &self.done)
-    }
-
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        let last = disc::campbell::usual_end(&self.study);
-        let campbell = disc::campbell::run(&self.study, last);
-        Some(campbell.map(|found| picture::disc::stability(&self.study, &self.done, &found)))
+    fn figure(&self, study: &DiscStudy) -> Option<Result<Figure, Failure>> {
+        let last = disc::campbell::usual_end(study);
+        let campbell = disc::campbell::run(study, last);
+        Some(campbell.map(|found| picture::disc::stability(study, self, &found)))
     }
 }
 
@@ -67,7 +60,7 @@ impl Outcome for Answered<DiscSetup, DiscStability> {
 const MOST_CHANGES: usize = 6;
 
 fn table_of_disc(study: &DiscStudy, done: &DiscStability) -> String {
-    let mut table = Table::new(None);
+    let mut table = TextTable::new(None);
     table.word("verdict", done.growth.verdict().name());
     let hertz = study.reference_hz();
     let rate = |rate: f64| {
@@ -131,7 +124,7 @@ fn speed_in_words(study: &DiscStudy) -> String {
     format!("{} ω_ref{}{}", figure(speed), in_rpm(study, speed), along.unwrap_or_default())
 }
 
-fn table(study: &BeltStudy, done: &Stability) -> String {
+fn table(study: &BeltStudy, done: &BeltStability) -> String {
     let mut text = String::new();
     match &done.sharper {
         Ok(sharper) => {
@@ -150,8 +143,8 @@ fn table(study: &BeltStudy, done: &Stability) -> String {
     text
 }
 
-fn averaged(study: &BeltStudy, found: &Averaged) -> String {
-    let mut table = Table::new(study.scales());
+fn averaged(study: &BeltStudy, found: &AveragedStability) -> String {
+    let mut table = TextTable::new(study.scales());
     table.word("verdict", found.verdict());
     let value = found.criterion.as_ref().map(|criterion| criterion.value);
     table.known("criterion 2ζ + Fμ̄′", Quantity::Ratio, value.map_err(ToString::to_string));

@@ -10,12 +10,12 @@ const DIGITS: usize = 7;
 
 /// A table under construction.
 #[derive(Debug)]
-pub(super) struct Table {
+pub(super) struct TextTable {
     scales: Option<Scales>,
     rows: Vec<[String; 4]>,
 }
 
-impl Table {
+impl TextTable {
     /// An empty table of a study with these scales.
     pub(super) fn new(scales: Option<Scales>) -> Self {
         Self { scales, rows: Vec::new() }
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn a_study_in_si_shows_both() {
-        let mut table = Table::new(Scales::new(2.0, 200.0).ok());
+        let mut table = TextTable::new(Scales::new(2.0, 200.0).ok());
         table.number("time", Quantity::Time, 30.0);
         table.number("stick fraction", Quantity::Ratio, 0.25);
         assert_eq!(table.text(), "  time            30    1/ω₀  3 s\n  stick fraction  0.25\n");

@@ -4,11 +4,10 @@ use std::fmt::Write as _;
 
 use serde_json::Value as Json;
 
+use super::Presented;
 use super::table::figure_of;
-use super::{Answered, Outcome};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
-use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::curves::{Curves, ThresholdCurveEnd};
@@ -17,51 +16,43 @@ use crate::run::thresholds::{
 };
 use crate::study::{BeltSetup, BeltStudy};
 
-impl Outcome for Answered<BeltSetup, Thresholds> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<BeltSetup> for Thresholds {
+    fn json(&self, study: &BeltStudy) -> Json {
+        self.json(study)
     }
 
-    fn json(&self) -> Json {
-        self.done.json(&self.study)
+    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+        Some(self.sentence(study))
     }
 
-    fn sentence(&self) -> Option<String> {
-        Some(self.done.sentence(&self.study))
+    fn table(&self, study: &BeltStudy) -> String {
+        table(study, self)
     }
 
-    fn table(&self) -> String {
-        table(&self.study, &self.done)
-    }
-
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::thresholds(&self.study, &self.done)))
+    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::thresholds(study, self)))
     }
 }
 
-impl Outcome for Answered<BeltSetup, Curves> {
-    fn inputs(&self) -> Inputs {
-        self.study.inputs()
+impl Presented<BeltSetup> for Curves {
+    fn json(&self, study: &BeltStudy) -> Json {
+        self.json(study)
     }
 
-    fn json(&self) -> Json {
-        self.done.json(&self.study)
+    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+        Some(self.sentence(study))
     }
 
-    fn sentence(&self) -> Option<String> {
-        Some(self.done.sentence(&self.study))
+    fn table(&self, study: &BeltStudy) -> String {
+        table_of_curves(study, self)
     }
 
-    fn table(&self) -> String {
-        table_of_curves(&self.study, &self.done)
+    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
+        vec![("curves", self.dataset(study))]
     }
 
-    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
-        vec![("curves", self.done.dataset(&self.study))]
-    }
-
-    fn figure(&self) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::curves(&self.study, &self.done)))
+    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::curves(study, self)))
     }
 }
 

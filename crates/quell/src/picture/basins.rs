@@ -6,7 +6,7 @@ use quell_model::units::Quantity;
 
 use super::bifurcation::{axis, intervals};
 use super::caption::caption;
-use super::map::{Map, MapAxis, MapKind, map_panel};
+use super::map::{MapAxis, MapKind, MappedQuantity, map_panel};
 use super::ruler::Ruler;
 use super::{undrawable, with_unstable};
 use crate::complaint::Failure;
@@ -99,7 +99,7 @@ pub(crate) fn plane(
     };
     let values =
         (0..columns.len()).flat_map(|column| (0..rows.len()).map(move |row| (column, row)));
-    let picture = Map {
+    let picture = MappedQuantity {
         values: values.map(|(column, row)| value(column, row)).collect(),
         axes: vec![
             MapAxis { axis: across, values: columns.iter().map(|value| x.place(*value)).collect() },

@@ -11,7 +11,7 @@ use super::with_unstable;
 use crate::plot::{
     Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, SharedLegend, Sharing, Size,
 };
-use crate::run::bifurcation::{Bifurcation, Branch, Direction};
+use crate::run::bifurcation::{Bifurcation, Branch, SweepDirection};
 use crate::run::varied::Varied;
 use crate::study::BeltStudy;
 
@@ -96,10 +96,10 @@ pub fn bifurcation(study: &BeltStudy, done: &Bifurcation) -> Figure {
 }
 
 /// Role, marker and size of a direction, such that both are visible where they coincide.
-fn look(direction: Direction) -> (PlotRole, Marker, f64) {
+fn look(direction: SweepDirection) -> (PlotRole, Marker, f64) {
     match direction {
-        Direction::Up => (PlotRole::Series(0), Marker::Disc, 2.2),
-        Direction::Down => (PlotRole::Series(1), Marker::Circle, 3.0),
+        SweepDirection::Up => (PlotRole::Series(0), Marker::Disc, 2.2),
+        SweepDirection::Down => (PlotRole::Series(1), Marker::Circle, 3.0),
     }
 }
 

@@ -5,7 +5,7 @@ use quell_model::units::Quantity;
 
 use super::ruler::{short, words};
 use crate::study::disc::ModeSource;
-use crate::study::{BeltStudy, DiscStudy, Study};
+use crate::study::{BeltStudy, DiscStudy, Kind, Study};
 use crate::words::start_in_words;
 
 /// The study in one line.
@@ -107,9 +107,8 @@ fn capitalised(word: &str) -> String {
 
 /// The caption of a study of any kind.
 pub(super) fn caption_of(study: &Study) -> String {
-    match (study.belt(), study.disc()) {
-        (Ok(study), _) => caption_of_run(&study),
-        (_, Ok(study)) => caption_of_disc(&study),
-        _ => String::new(),
+    match study.kind() {
+        Kind::Belt(setup) => caption_of_run(&study.narrowed(setup.as_ref())),
+        Kind::Disc(setup) => caption_of_disc(&study.narrowed(setup.as_ref())),
     }
 }

@@ -16,7 +16,7 @@ use crate::plot::{
 use crate::run::disc::campbell::Campbell;
 use crate::run::disc::modes::Modes;
 use crate::run::disc::resonances::Resonances;
-use crate::run::disc::stability::Stability;
+use crate::run::disc::stability::DiscStability;
 use crate::study::DiscStudy;
 use crate::study::disc::ModeSource;
 
@@ -106,7 +106,7 @@ pub fn shape(mode: &PlateMode, inner: f64) -> Result<Panel, PlotError> {
 }
 
 /// Frequency and growth rate of every motion over speed, with the speed of the study marked.
-pub fn stability(study: &DiscStudy, done: &Stability, campbell: &Campbell) -> Figure {
+pub fn stability(study: &DiscStudy, done: &DiscStability, campbell: &Campbell) -> Figure {
     let last = campbell.speeds.last().copied().unwrap_or(1.0);
     let across = || PlotAxis::new("speed").symbol("Ω").between(0.0, last);
     let every = |pick: fn(&(f64, f64)) -> f64| {

@@ -51,7 +51,7 @@ pub enum MapKind {
 
 /// A quantity over one or more axes.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Map {
+pub struct MappedQuantity {
     /// The axes, slowest first. The second to last is drawn from left to right and the last one upwards; each combination of
     /// the values of the other axes has its own panel. A single axis is drawn from left to right.
     pub axes: Vec<MapAxis>,
@@ -72,7 +72,7 @@ pub struct Map {
 /// # Errors
 /// [`PlotError::Field`] if there are no axes, an axis has repeated values or values that are not finite, there would be more than
 /// [`MOST_PANELS`] panels, or the number of values does not match the axes.
-pub fn map(map: &Map) -> Result<Figure, PlotError> {
+pub fn map(map: &MappedQuantity) -> Result<Figure, PlotError> {
     let count: usize = map.axes.iter().map(|axis| axis.values.len()).product();
     if map.axes.is_empty() || count != map.values.len() {
         let why = format!("{} values for {count} points", map.values.len());
@@ -97,7 +97,7 @@ pub fn map(map: &Map) -> Result<Figure, PlotError> {
 ///
 /// # Errors
 /// As [`map`], and if the number of axes is not two.
-pub fn map_panel(map: &Map, bar: bool) -> Result<Panel, PlotError> {
+pub fn map_panel(map: &MappedQuantity, bar: bool) -> Result<Panel, PlotError> {
     let count: usize = map.axes.iter().map(|axis| axis.values.len()).product();
     match map.axes.as_slice() {
         [x, y] if count == map.values.len() => plane(map, (x, y), 0..count, bar),
@@ -110,7 +110,7 @@ pub fn map_panel(map: &Map, bar: bool) -> Result<Panel, PlotError> {
 
 /// One panel for each point of the slower axes.
 fn panels(
-    map: &Map,
+    map: &MappedQuantity,
     others: &[MapAxis],
     (x, y): (&MapAxis, &MapAxis),
 ) -> Result<Figure, PlotError> {
@@ -162,7 +162,7 @@ fn rising(axis: &MapAxis) -> (Vec<usize>, Vec<f64>) {
 
 /// The quantity over two axes.
 fn plane(
-    map: &Map,
+    map: &MappedQuantity,
     (x, y): (&MapAxis, &MapAxis),
     points: Range<usize>,
     bar: bool,
@@ -202,11 +202,11 @@ fn plane(
 }
 
 /// Factor by which a number is multiplied for display.
-fn shown_scale(map: &Map) -> f64 {
+fn shown_scale(map: &MappedQuantity) -> f64 {
     if map.kind == MapKind::Efficiency { 100.0 } else { 1.0 }
 }
 
-fn shown_quantity(map: &Map) -> PlotAxis {
+fn shown_quantity(map: &MappedQuantity) -> PlotAxis {
     if map.kind == MapKind::Efficiency {
         map.quantity.clone().unit("%")
     } else {
@@ -215,7 +215,7 @@ fn shown_quantity(map: &Map) -> PlotAxis {
 }
 
 /// The colours, the same in all panels.
-fn colouring(map: &Map) -> Colouring {
+fn colouring(map: &MappedQuantity) -> Colouring {
     let known = || map.values.iter().filter_map(|value| value.ok());
     let finite = known().filter(|value| value.is_finite());
     let range = finite
@@ -257,7 +257,7 @@ fn round_ratios((least, most): (f64, f64)) -> Vec<f64> {
 }
 
 /// The quantity over one axis.
-fn sweep(map: &Map, x: &MapAxis) -> Result<Panel, PlotError> {
+fn sweep(map: &MappedQuantity, x: &MapAxis) -> Result<Panel, PlotError> {
     let (order, at) = rising(x);
     // The constructor of the field rejects invalid axes.
     Field::from_fn(at.clone(), vec![0.0], |_, _| None)?;

@@ -20,7 +20,7 @@ mod thresholds;
 pub use basins::basins;
 pub use bifurcation::bifurcation;
 pub use friction::friction;
-pub use map::{MOST_PANELS, Map, MapAxis, MapKind, map, map_panel};
+pub use map::{MOST_PANELS, MapAxis, MapKind, MappedQuantity, map, map_panel};
 pub use orbit::{orbit, response as periodic_response};
 pub use response::response;
 pub use simulate::simulate;

@@ -11,7 +11,7 @@ use crate::complaint::Failure;
 use crate::plot::{
     Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Size,
 };
-use crate::run::orbit::{Response, samples, sentence};
+use crate::run::orbit::{PeriodicResponse, samples, sentence};
 use crate::study::BeltStudy;
 
 /// Number of points of the unit circle.
@@ -21,7 +21,7 @@ const CIRCLE: u32 = 180;
 ///
 /// # Errors
 /// [`Failure::Failed`] if no periodic response was found.
-pub fn response(study: &BeltStudy, found: &Response) -> Result<Figure, Failure> {
+pub fn response(study: &BeltStudy, found: &PeriodicResponse) -> Result<Figure, Failure> {
     let why = || Failure::Failed { key: "--plot".to_owned(), why: found.sentence(study) };
     found.orbit.as_ref().map(|found| orbit(study, found)).ok_or_else(why)
 }

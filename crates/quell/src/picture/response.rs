@@ -12,7 +12,7 @@ use super::caption::caption_of_run;
 use super::ruler::Ruler;
 use super::simulate::time_axis;
 use crate::plot::{Figure, Panel, Polyline, ReferenceLine, SharedLegend};
-use crate::run::response::Steady;
+use crate::run::response::MeasuredResponse;
 use crate::study::BeltStudy;
 
 /// Number of slow periods of the record that are shown.
@@ -22,7 +22,7 @@ const PERIODS: f64 = 6.0;
 const DECADES: i32 = 5;
 
 /// The picture of a steady response.
-pub fn response(study: &BeltStudy, done: &Steady) -> Figure {
+pub fn response(study: &BeltStudy, done: &MeasuredResponse) -> Figure {
     let panels = [record(study, done), spectrum(study, done)];
     Figure::grid(1, panels)
         .legend(SharedLegend::Above)
@@ -30,7 +30,7 @@ pub fn response(study: &BeltStudy, done: &Steady) -> Figure {
         .caption(caption_of_run(study))
 }
 
-fn record(study: &BeltStudy, done: &Steady) -> Panel {
+fn record(study: &BeltStudy, done: &MeasuredResponse) -> Panel {
     let end = |samples: &[Sample]| -> Vec<Sample> {
         let last = samples.last().map_or(0.0, |sample| sample.time);
         samples.iter().copied().filter(|sample| sample.time >= last - PERIODS * TAU).collect()
@@ -51,7 +51,7 @@ fn record(study: &BeltStudy, done: &Steady) -> Panel {
     both(panel, study, |role, dithered| curve(if dithered { &with } else { &without }, role))
 }
 
-fn spectrum(study: &BeltStudy, done: &Steady) -> Panel {
+fn spectrum(study: &BeltStudy, done: &MeasuredResponse) -> Panel {
     let with = &done.response.record.spectrum;
     let without = &done.response.undithered_record.spectrum;
     let largest = |spectrum: &Spectrum| spectrum.amplitudes().iter().copied().fold(0.0, f64::max);

@@ -9,7 +9,7 @@ use super::ruler::Ruler;
 use crate::plot::{
     Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
 };
-use crate::run::stability::Stability;
+use crate::run::stability::BeltStability;
 use crate::study::BeltStudy;
 
 /// Number of points of each interval between critical amplitudes.
@@ -17,7 +17,7 @@ const POINTS: u32 = 160;
 
 /// The picture of stability by averaging: one curve over the amplitude, with gaps at its jumps. Without dither the criterion is
 /// a horizontal line.
-pub fn stability(study: &BeltStudy, done: &Stability) -> Figure {
+pub fn stability(study: &BeltStudy, done: &BeltStability) -> Figure {
     let belt = study.belt();
     let averaged = done.leading();
     let critical: Vec<f64> =

@@ -6,15 +6,15 @@
 
 use quell_linear::averaging::{Becomes, FastResponse};
 
-use super::map::{self, Map as Picture, MapAxis, MapKind};
+use super::map::{self, MapAxis, MapKind, MappedQuantity};
 use super::undrawable;
 use crate::complaint::Failure;
 use crate::plot::{
     Figure, Layer, Legend, LineStyle, Panel, PlotAxis, PlotError, PlotRole, Polyline, Size, Spread,
 };
-use crate::run::map::{Map, boundaries};
+use crate::run::map::{FinishedMap, boundaries};
 use crate::study::DiscStudy;
-use crate::sweep::{Entry, Grid, GridAxis, Status, VariableKind};
+use crate::sweep::{Grid, GridAxis, Status, VariableArrays, VariableKind};
 
 /// Whether a variable is drawn only if no other quantity was requested.
 fn is_secondary(name: &str) -> bool {
@@ -25,11 +25,11 @@ fn is_secondary(name: &str) -> bool {
 ///
 /// # Errors
 /// [`Failure::Failed`] if it cannot be drawn because there are too many panels.
-pub fn sweep(done: &Map) -> Result<Figure, Failure> {
+pub fn sweep(done: &FinishedMap) -> Result<Figure, Failure> {
     let plan = done.plan();
     let axes = plan.grid().axes().len();
     let entries = plan.sheet().entries();
-    let mut shown: Vec<&Entry> =
+    let mut shown: Vec<&VariableArrays> =
         entries.iter().filter(|entry| !is_secondary(entry.variable.name)).collect();
     if shown.is_empty() {
         shown = entries.iter().collect();
@@ -53,7 +53,7 @@ pub fn sweep(done: &Map) -> Result<Figure, Failure> {
 }
 
 /// A variable of a computed map as plain data.
-fn picture(done: &Map, entry: &Entry) -> Picture {
+fn picture(done: &FinishedMap, entry: &VariableArrays) -> MappedQuantity {
     let plan = done.plan();
     let grid = plan.grid();
     let states: Vec<Status> = (0..grid.len()).map(|point| done.status(entry, point)).collect();
@@ -84,7 +84,7 @@ fn picture(done: &Map, entry: &Entry) -> Picture {
         MapKind::Efficiency => "efficiency",
         _ => variable.about,
     };
-    Picture {
+    MappedQuantity {
         axes: grid
             .axes()
             .iter()
@@ -99,7 +99,7 @@ fn picture(done: &Map, entry: &Entry) -> Picture {
 }
 
 /// The stability boundaries by averaging as lines, in the plane as it is drawn: the first axis to the right.
-fn over(done: &Map) -> Vec<Layer> {
+fn over(done: &FinishedMap) -> Vec<Layer> {
     let grid = done.plan().grid();
     if let Ok(study) = grid.study().disc() {
         return over_disc(grid, &study);
@@ -161,7 +161,7 @@ fn role_of(word: &str) -> PlotRole {
     }
 }
 
-fn number(done: &Map, entry: &Entry, point: usize) -> Option<f64> {
+fn number(done: &FinishedMap, entry: &VariableArrays, point: usize) -> Option<f64> {
     match entry.twin {
         Some(_) => done.number_in_si(entry, point),
         None => done.number(entry, point),
@@ -173,7 +173,7 @@ fn across(swept: &GridAxis) -> PlotAxis {
     if swept.logarithmic { axis.log() } else { axis }
 }
 
-fn panel(map: &Map, entry: &Entry) -> Panel {
+fn panel(map: &FinishedMap, entry: &VariableArrays) -> Panel {
     let plan = map.plan();
     let Some(swept) = plan.grid().axes().first() else {
         return Panel::new(PlotAxis::new(""), PlotAxis::new(""));

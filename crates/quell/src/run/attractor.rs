@@ -13,7 +13,7 @@ use crate::study::BeltStudy;
 use crate::words::{digits, in_scales, plural};
 
 /// The belt with its stroboscopic section and its base response.
-pub(super) fn scene(belt: &Belt) -> Result<AttractorSettings<'_>, Failure> {
+pub(super) fn settings(belt: &Belt) -> Result<AttractorSettings<'_>, Failure> {
     AttractorSettings::new(belt).map_err(refused)
 }
 

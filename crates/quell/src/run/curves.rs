@@ -43,7 +43,7 @@ pub struct CurvesRequest {
 
 /// A boundary of averaging in the same plane: (second parameter, amplitude), both in the numbers of the equations.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Averaged {
+pub struct AveragedBoundary {
     /// Whether this is finite-R averaging, with the oscillator's own fast motion, instead of the limit R → ∞.
     pub sharper: bool,
     /// Points; a boundary is broken where it does not exist.
@@ -60,7 +60,7 @@ pub struct Curves {
     /// Lines across the second parameter on which curves may be missing.
     pub open: Vec<OpenLine>,
     /// Boundaries of averaging, if the first parameter is the amplitude of the first dither.
-    pub averaged: Vec<Averaged>,
+    pub averaged: Vec<AveragedBoundary>,
 }
 
 /// The request in numbers of the equations.
@@ -136,7 +136,7 @@ fn found(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failure>
 
 /// The boundaries of averaging; none if the first parameter is not the amplitude of the first dither. A boundary is broken
 /// where averaging gives no result.
-fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<Averaged> {
+fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<AveragedBoundary> {
     let belt = study.belt();
     let amplitude = ["dither.amplitude", "dither[0].amplitude"];
     if !amplitude.contains(&question.parameter.as_str()) {
@@ -174,7 +174,7 @@ fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<Averaged> {
                     pieces.push(piece);
                 }
             }
-            Averaged { sharper, pieces }
+            AveragedBoundary { sharper, pieces }
         })
         .collect()
 }

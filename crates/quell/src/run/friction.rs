@@ -18,7 +18,7 @@ const CORNER: i32 = 16;
 
 /// Friction at one slip velocity.
 #[derive(Clone, Debug)]
-pub struct Point {
+pub struct FrictionPoint {
     /// Slip velocity v_r: a length per τ.
     pub slip_velocity: f64,
     /// μ with the sign of v_r, dimensionless; or why it has no single value.
@@ -31,7 +31,7 @@ pub struct Point {
 #[derive(Clone, Debug)]
 pub struct FrictionCurve {
     /// Points in the requested order.
-    pub points: Vec<Point>,
+    pub points: Vec<FrictionPoint>,
 }
 
 /// Slip velocities of a picture: beyond the velocities of the law, the belt and the fast motion, up to where slip
@@ -68,7 +68,7 @@ pub fn grid(belt: &Belt) -> Vec<f64> {
 pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
     let belt = study.belt();
     let law = belt.friction();
-    let points = at.iter().map(|&v| Point {
+    let points = at.iter().map(|&v| FrictionPoint {
         slip_velocity: v,
         coefficient: if v == 0.0 {
             let level = law.static_coefficient();
@@ -104,7 +104,7 @@ impl FrictionCurve {
         self.column(|point| point.effective.as_ref().map_or(f64::NAN, |found| found.slope))
     }
 
-    fn column(&self, value: impl Fn(&Point) -> f64) -> Vec<f64> {
+    fn column(&self, value: impl Fn(&FrictionPoint) -> f64) -> Vec<f64> {
         self.points.iter().map(value).collect()
     }
 

@@ -59,7 +59,7 @@ impl Default for Wanted {
 
 /// The periodic response, and the limit cycles of an undithered belt.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Response {
+pub struct PeriodicResponse {
     /// The periodic response; `None` for an undithered belt without a limit cycle.
     pub orbit: Option<Orbit>,
     /// Every limit cycle of an undithered belt, the largest first.
@@ -72,7 +72,7 @@ pub struct Response {
     pub slip: SlipMet,
 }
 
-impl Response {
+impl PeriodicResponse {
     /// The result for a periodic response of a belt.
     fn of(belt: &Belt, orbit: Orbit) -> Self {
         let slip = slip_of(belt, [&orbit]);
@@ -94,11 +94,11 @@ fn slip_of<'o>(belt: &Belt, orbits: impl IntoIterator<Item = &'o Orbit>) -> Slip
 ///
 /// # Errors
 /// A complaint if the response has no prescribed period; [`Failure::Failed`] with the last state if shooting does not converge.
-pub fn run(study: &BeltStudy, wanted: Wanted) -> Result<Response, Failure> {
+pub fn run(study: &BeltStudy, wanted: Wanted) -> Result<PeriodicResponse, Failure> {
     within(STEPS_OF_A_SEARCH, || found(study, wanted))
 }
 
-fn found(study: &BeltStudy, wanted: Wanted) -> Result<Response, Failure> {
+fn found(study: &BeltStudy, wanted: Wanted) -> Result<PeriodicResponse, Failure> {
     let belt = study.belt();
     if belt.dithers().is_empty() {
         return undithered(study, wanted);
@@ -125,12 +125,13 @@ fn found(study: &BeltStudy, wanted: Wanted) -> Result<Response, Failure> {
             from_sliding(belt, STEPS).and_then(|orbit| near(belt, orbit.start, periods))
         }
     };
-    let response = |orbit| Response { from_rest_instead, ..Response::of(belt, orbit) };
+    let response =
+        |orbit| PeriodicResponse { from_rest_instead, ..PeriodicResponse::of(belt, orbit) };
     found.map(response).map_err(refused)
 }
 
 /// The limit cycles of an undithered belt.
-fn undithered(study: &BeltStudy, wanted: Wanted) -> Result<Response, Failure> {
+fn undithered(study: &BeltStudy, wanted: Wanted) -> Result<PeriodicResponse, Failure> {
     let belt = study.belt();
     if let Wanted::OfSliding { periods } | Wanted::Near { periods, .. } = wanted
         && periods > 1
@@ -156,7 +157,7 @@ fn undithered(study: &BeltStudy, wanted: Wanted) -> Result<Response, Failure> {
     let sliding = Some(sliding_verdict(belt));
     let mut slip = slip_of(belt, &cycles);
     slip.add(belt, belt.belt_velocity());
-    Ok(Response { orbit: orbit.cloned(), cycles, sliding, from_rest_instead: false, slip })
+    Ok(PeriodicResponse { orbit: orbit.cloned(), cycles, sliding, from_rest_instead: false, slip })
 }
 
 impl Protocol {
@@ -254,7 +255,7 @@ fn times(count: usize) -> String {
     }
 }
 
-impl Response {
+impl PeriodicResponse {
     /// The result in one or two sentences.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         match &self.orbit {

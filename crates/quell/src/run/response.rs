@@ -2,7 +2,7 @@
 
 use quell_dynamics::attractor::Reached;
 use quell_dynamics::response::{
-    BAND_END, Effect, Response, RunEnding, SettledRecord, Uncertain, respond,
+    BAND_END, Effect, RunEnding, SettledRecord, SteadyResponse, Uncertain, respond,
     samples_per_slow_period,
 };
 use quell_dynamics::simulation::{Sample, Start};
@@ -26,11 +26,11 @@ const MOST_SAMPLES: f64 = 4_194_304.0;
 
 /// A steady response with its start.
 #[derive(Clone, Debug)]
-pub struct Steady {
+pub struct MeasuredResponse {
     /// The start of both runs.
     pub start: Start,
     /// The response.
-    pub response: Response,
+    pub response: SteadyResponse,
     /// Whether the belt moves.
     moves: bool,
     /// The slip reached by both runs.
@@ -42,7 +42,7 @@ pub struct Steady {
 /// # Errors
 /// [`Failure::Wrong`] if a squealing start is requested but does not exist; [`Failure::Failed`] if the
 /// engine stops.
-pub fn run(study: &BeltStudy) -> Result<Steady, Failure> {
+pub fn run(study: &BeltStudy) -> Result<MeasuredResponse, Failure> {
     record_fits(study)?;
     let start = start(study)?;
     let response = respond(study.belt(), start, study.solver()).map_err(failed)?;
@@ -52,7 +52,7 @@ pub fn run(study: &BeltStudy) -> Result<Steady, Failure> {
     let mut slip = SlipMet::of_velocities(belt, samples.map(|sample| sample.velocity));
     slip.add_start(belt, start);
     slip.add_start(&belt.undithered(), start);
-    Ok(Steady { start, response, moves, slip })
+    Ok(MeasuredResponse { start, response, moves, slip })
 }
 
 /// Rejects a record that would not fit into memory: fast dithers are sampled several times per period.
@@ -70,7 +70,7 @@ fn record_fits(study: &BeltStudy) -> Result<(), Failure> {
     Err(Complaint::new(Fault::Value, key, Origin::Whole, solver.record_periods, shorter).into())
 }
 
-impl Steady {
+impl MeasuredResponse {
     /// The effect of the dither and its cost.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         let response = &self.response;

@@ -25,7 +25,7 @@ const FAST: f64 = 5.0;
 
 /// Averaged stability under one model of the fast motion.
 #[derive(Clone, Debug)]
-pub struct Averaged {
+pub struct AveragedStability {
     /// Model of the fast motion.
     pub options: AveragingOptions,
     /// Criterion and verdict at the study's own amplitude.
@@ -40,22 +40,22 @@ pub struct Averaged {
 
 /// Averaged stability of a study.
 #[derive(Clone, Debug)]
-pub struct Stability {
+pub struct BeltStability {
     /// In the limit of high frequency: the dissertation's averaging.
-    pub limit: Averaged,
+    pub limit: AveragedStability,
     /// Finite-R averaging, with the oscillator's own response; or why it is unavailable.
-    pub sharper: Result<Averaged, String>,
+    pub sharper: Result<AveragedStability, String>,
 }
 
 /// Averaged stability of a study.
-pub fn run(study: &BeltStudy) -> Stability {
+pub fn run(study: &BeltStudy) -> BeltStability {
     let belt = study.belt();
     let slow = belt
         .dithers()
         .iter()
         .find(|dither| dither.frequency_ratio <= 1.0)
         .map(|dither| AveragingError::NotFast { frequency_ratio: dither.frequency_ratio });
-    Stability {
+    BeltStability {
         limit: averaged(belt, AveragingOptions::default()),
         sharper: match slow {
             _ if belt.dithers().is_empty() => Err("the study has no dither".to_owned()),
@@ -65,8 +65,8 @@ pub fn run(study: &BeltStudy) -> Stability {
     }
 }
 
-fn averaged(belt: &Belt, options: AveragingOptions) -> Averaged {
-    Averaged {
+fn averaged(belt: &Belt, options: AveragingOptions) -> AveragedStability {
+    AveragedStability {
         options,
         criterion: criterion(belt, options),
         critical_amplitudes: critical_amplitudes(belt, options),
@@ -129,7 +129,7 @@ fn word(criterion: &Result<Criterion, AveragingError>) -> &'static str {
 /// Growth by a factor of e in decibels: 20 log₁₀ e.
 pub const DECIBELS: f64 = 20.0 * std::f64::consts::LOG10_E;
 
-impl Averaged {
+impl AveragedStability {
     /// "stable", "unstable" or "undecided".
     pub fn verdict(&self) -> &'static str {
         word(&self.criterion)
@@ -242,15 +242,15 @@ pub fn becomes(becomes: Becomes) -> &'static str {
     }
 }
 
-impl Stability {
+impl BeltStability {
     /// The averaging that sentence and picture use: finite-R averaging if available, else the limit of high
     /// frequency.
-    pub fn leading(&self) -> &Averaged {
+    pub fn leading(&self) -> &AveragedStability {
         self.finite().unwrap_or(&self.limit)
     }
 
     /// Finite-R averaging, or why it is unavailable.
-    fn finite(&self) -> Result<&Averaged, String> {
+    fn finite(&self) -> Result<&AveragedStability, String> {
         let finite = self.sharper.as_ref().map_err(Clone::clone)?;
         match &finite.criterion {
             Ok(_) => Ok(finite),
@@ -344,7 +344,8 @@ impl Stability {
     fn beyond(&self, study: &BeltStudy) -> Vec<String> {
         let belt = study.belt();
         let Some(range) = belt.friction().range() else { return Vec::new() };
-        let averaged: Vec<&Averaged> = [&self.limit].into_iter().chain(&self.sharper).collect();
+        let averaged: Vec<&AveragedStability> =
+            [&self.limit].into_iter().chain(&self.sharper).collect();
         let mut warnings = Vec::new();
         let amplitudes =
             averaged.iter().filter_map(|averaged| averaged.critical_amplitudes.as_ref().ok());

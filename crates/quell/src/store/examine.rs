@@ -9,9 +9,9 @@ use std::time::Duration;
 use serde_json::Value as Json;
 
 use super::failures::{another, complaint, unwritable};
-use super::folder::{Entry, Folder};
+use super::folder::{EntryType, Folder};
 use super::identity;
-use super::layout::{self, Layout};
+use super::layout::{self, StoreLayout};
 use super::names::{IDENTITY, LONGEST, METADATA, OWN};
 use crate::complaint::Failure;
 
@@ -21,12 +21,12 @@ const MOMENT: Duration = Duration::from_millis(50);
 
 /// Checks an existing store before anything in it is written or removed: every entry must be of the expected type, and the
 /// store must be that of this map.
-pub(super) fn examined(path: &Path, layout: &Layout, identity: &Json) -> Result<(), Failure> {
+pub(super) fn examined(path: &Path, layout: &StoreLayout, identity: &Json) -> Result<(), Failure> {
     let root = Folder::open(path).map_err(|error| unwritable(path, &error))?;
     // A store of another map is reported first, because its folders may differ for that reason.
-    if matches!(root.entry(OWN), Ok(Entry::Folder)) {
+    if matches!(root.entry(OWN), Ok(EntryType::Folder)) {
         let own = root.folder(OWN).map_err(|error| unwritable(path, &error))?;
-        if matches!(own.entry(IDENTITY), Ok(Entry::File))
+        if matches!(own.entry(IDENTITY), Ok(EntryType::File))
             && let Some(there) = known(path, &own)?
         {
             compared(path, &there, identity)?;
@@ -52,12 +52,12 @@ pub(super) fn examined(path: &Path, layout: &Layout, identity: &Json) -> Result<
 fn check_entry(
     path: &Path,
     folder: &Folder,
-    (name, entry): (&str, Entry),
+    (name, entry): (&str, EntryType),
     (key, depth): (&str, usize),
 ) -> Result<(), Failure> {
     match entry {
-        Entry::File => Ok(()),
-        Entry::Folder if depth > 0 => {
+        EntryType::File => Ok(()),
+        EntryType::Folder if depth > 0 => {
             let inside = folder.folder(name).map_err(|error| unwritable(path, &error))?;
             let entries = inside.entries().map_err(|error| unwritable(path, &error))?;
             entries.into_iter().try_for_each(|(name, entry)| {

@@ -4,7 +4,7 @@
 //! quantities, the chunk shape, and the version of Quell, because another version may give other bits. Numbers are compared by
 //! the digits that read back as the same number.
 //!
-//! The texts of the first study ([`Provenance`]) are stored too, but not compared: the metadata of the store are built from
+//! The texts of the first study ([`StudyTexts`]) are stored too, but not compared: the metadata of the store are built from
 //! them, so that every process knows the bytes that the metadata must have.
 
 use serde_json::{Map, Value as Json, json};
@@ -20,7 +20,7 @@ const NAMED: usize = 6;
 /// The texts of the study that created a store. They do not affect any number: a study with other texts may continue the
 /// store, whose metadata remain those of the first study.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Provenance {
+pub(super) struct StudyTexts {
     /// Title of the study, if any.
     pub(super) title: Option<String>,
     /// Text of the study.
@@ -29,7 +29,7 @@ pub(super) struct Provenance {
     pub(super) changes: String,
 }
 
-impl Provenance {
+impl StudyTexts {
     /// Reads the texts from an [`identity`]; missing ones are empty.
     pub(super) fn of(identity: &Json) -> Self {
         let text = |key: &str| identity["provenance"][key].as_str().map(str::to_owned);

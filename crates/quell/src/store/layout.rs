@@ -12,17 +12,17 @@ use zarrs::array::codec::{BytesCodec, Crc32cCodec};
 use zarrs::array::{Array, ArrayBuilder, ArrayCreateError, DataType, FillValue, data_type};
 use zarrs::metadata::v3::GroupMetadataV3;
 
-use super::identity::Provenance;
+use super::identity::StudyTexts;
 use crate::cite::{Task, sources_of};
 use crate::dataset::readable;
-use crate::sweep::{Computation, Content, Field, GridAxis, MISSING, Plan, Status};
+use crate::sweep::{Computation, Content, GridAxis, MISSING, MapArray, Plan, Status};
 
 /// An array that is described and encoded here, and written by the store.
 pub(super) type Described = Array<()>;
 
 /// The arrays of a plan.
 #[derive(Debug)]
-pub(super) struct Layout {
+pub(super) struct StoreLayout {
     /// One per axis.
     pub(super) coordinates: Vec<Described>,
     /// One per field of the sheet, in its order.
@@ -31,7 +31,7 @@ pub(super) struct Layout {
     references: String,
 }
 
-impl Layout {
+impl StoreLayout {
     pub(super) fn new(plan: &Plan) -> Result<Self, ArrayCreateError> {
         let axes = plan.grid().axes();
         let coordinates: Vec<Described> = axes.iter().map(coordinate).collect::<Result<_, _>>()?;
@@ -41,7 +41,7 @@ impl Layout {
     }
 
     /// Metadata of the group as JSON: the study that created the store, and a copy of the metadata of every array.
-    pub(super) fn group(&self, begun: &Provenance) -> Json {
+    pub(super) fn group(&self, begun: &StudyTexts) -> Json {
         let mut attributes = Map::new();
         if let Some(title) = &begun.title {
             attributes.insert("title".into(), title.as_str().into());
@@ -117,7 +117,7 @@ fn put_unit(attributes: &mut Json, unit: &str) {
     }
 }
 
-fn field(plan: &Plan, field: &Field) -> Result<Described, ArrayCreateError> {
+fn field(plan: &Plan, field: &MapArray) -> Result<Described, ArrayCreateError> {
     let mut attributes = json!({ "long_name": field.about });
     if !field.unit.is_empty() {
         put_unit(&mut attributes, &field.unit);

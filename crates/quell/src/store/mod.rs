@@ -47,12 +47,12 @@ use std::path::{Path, PathBuf};
 use serde_json::Value as Json;
 
 use crate::complaint::Failure;
-use crate::sweep::{Content, Data, Field, MISSING, Plan};
+use crate::sweep::{Content, Data, MISSING, MapArray, Plan};
 use examine::{compared, examined, known};
 use failures::{changed, complaint, exists, failed, unwritable};
 use folder::Folder;
-use identity::Provenance;
-use layout::{Described, Layout};
+use identity::StudyTexts;
+use layout::{Described, StoreLayout};
 use lock::{Refused, Writers, lock};
 use names::{DONE, IDENTITY, LONGEST, METADATA, OWN, UNFINISHED};
 use record::{Record, Seal};
@@ -65,7 +65,7 @@ pub struct Store {
     /// The folder itself, held open if the platform allows it.
     root: Folder,
     own: Folder,
-    layout: Layout,
+    layout: StoreLayout,
     unfinished: Unfinished,
     /// Held while the store is open, exclusively or shared.
     _lock: File,
@@ -73,7 +73,7 @@ pub struct Store {
 
 /// State of a chunk in the store.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Found {
+pub enum ChunkState {
     /// The values of the chunk, verified to be complete.
     Whole(Vec<Data>),
     /// A chunk that was finished, but is now truncated, changed or missing.
@@ -90,7 +90,7 @@ impl Store {
     /// is false, or contains the store of another map (the message names the differences). [`Failure::Failed`] if another
     /// process is writing the store or the disk is full; a store created by this call is removed in that case.
     pub fn open(path: &Path, plan: &Plan, resume: bool) -> Result<Self, Failure> {
-        let layout = Layout::new(plan).map_err(|error| failed(path, error.to_string()))?;
+        let layout = StoreLayout::new(plan).map_err(|error| failed(path, error.to_string()))?;
         let made = prepare(path, plan, resume)?;
         let identity = identity::identity(plan);
         if !made {
@@ -118,7 +118,7 @@ impl Store {
     /// # Errors
     /// As [`Store::open`] with `resume`; [`Failure::Failed`] while another process has opened the store exclusively.
     pub fn open_shared(path: &Path, plan: &Plan) -> Result<Self, Failure> {
-        let layout = Layout::new(plan).map_err(|error| failed(path, error.to_string()))?;
+        let layout = StoreLayout::new(plan).map_err(|error| failed(path, error.to_string()))?;
         let made = prepare(path, plan, true)?;
         let identity = identity::identity(plan);
         if !made {
@@ -132,7 +132,7 @@ impl Store {
     }
 
     /// Acquires the lock of the store, which is the first file in it. Also returns whether no other process can write.
-    fn locked(path: &Path, layout: Layout, writers: Writers) -> Result<(Self, bool), Refused> {
+    fn locked(path: &Path, layout: StoreLayout, writers: Writers) -> Result<(Self, bool), Refused> {
         let root = Folder::open(path)?;
         let own = root.made(OWN)?;
         own.made(DONE)?;
@@ -161,18 +161,18 @@ impl Store {
             }
         }
         let begun = match &there {
-            None => Provenance::of(identity),
+            None => StudyTexts::of(identity),
             Some(_) if !resume => return Err(exists(&self.path)),
             Some(there) => {
                 compared(&self.path, there, identity)?;
-                Provenance::of(there)
+                StudyTexts::of(there)
             }
         };
         self.frame(plan, &begun)
     }
 
     /// Writes missing metadata and coordinates, and verifies those that exist byte by byte.
-    fn frame(&self, plan: &Plan, begun: &Provenance) -> Result<(), Failure> {
+    fn frame(&self, plan: &Plan, begun: &StudyTexts) -> Result<(), Failure> {
         let mut files = Vec::new();
         for array in self.layout.arrays() {
             let key = format!("{}/{METADATA}", layout::name(array));
@@ -222,24 +222,24 @@ impl Store {
     }
 
     /// Reads a chunk back and verifies it.
-    pub fn read(&self, plan: &Plan, chunk: usize) -> Found {
+    pub fn read(&self, plan: &Plan, chunk: usize) -> ChunkState {
         let place = plan.chunks().place(chunk);
         let bytes = match self.root.read_key(&record_key(&place), LONGEST) {
             Ok(bytes) => bytes,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Found::Nothing,
-            Err(_) => return Found::Damaged,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return ChunkState::Nothing,
+            Err(_) => return ChunkState::Damaged,
         };
         let record = std::str::from_utf8(&bytes).ok().and_then(Record::parse);
         match record.and_then(|record| self.proven(plan, chunk, &record)) {
-            Some(values) => Found::Whole(values),
-            None => Found::Damaged,
+            Some(values) => ChunkState::Whole(values),
+            None => ChunkState::Damaged,
         }
     }
 
     fn proven(&self, plan: &Plan, chunk: usize, record: &Record) -> Option<Vec<Data>> {
         let slots = slots(plan, chunk);
         let place = plan.chunks().place(chunk);
-        let read = |(array, field): (&Described, &Field)| {
+        let read = |(array, field): (&Described, &MapArray)| {
             let key = key(array, &place);
             let bytes = self.root.read_key(&key, codec::longest(array)).ok()?;
             if record.seal(&key) != Some(Seal::of(&bytes)) {

@@ -14,7 +14,7 @@ use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-use super::folder::{Entry, Folder};
+use super::folder::{EntryType, Folder};
 use crate::output::writing;
 
 /// Age above which an unfinished file counts as abandoned: no file takes minutes to write. If its writer was only suspended,
@@ -70,7 +70,7 @@ impl Unfinished {
     /// Names of the files in the folder.
     fn left(&self) -> io::Result<impl Iterator<Item = String>> {
         let entries = self.folder.entries()?;
-        Ok(entries.into_iter().filter(|(_, entry)| *entry == Entry::File).map(|(name, _)| name))
+        Ok(entries.into_iter().filter(|(_, entry)| *entry == EntryType::File).map(|(name, _)| name))
     }
 
     /// Writes the complete file of a key in `root`, and creates missing folders.

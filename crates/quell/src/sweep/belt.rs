@@ -6,15 +6,12 @@ use quell_linear::growth::of_criterion as growth_rate;
 use quell_model::units;
 
 use super::cost;
-use super::evaluate::{Computation, Results, Steady, evaluate};
+use super::evaluate::{Computation, ResponseNumbers, Results, evaluate};
 use super::grid::Grid;
-use super::mapped::{Mapped, Point};
-use super::quantity::{Quantity, VERDICTS, Variable, VariableKind, variable};
+use super::mapped::{Mapped, PointResults};
+use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, variable};
 use super::status::Status;
-use crate::study::BeltStudy;
-
-/// Name of the kind.
-pub(super) const KIND: &str = "belt";
+use crate::study::{BeltSetup, BeltStudy};
 
 /// Maps of belt studies.
 pub(super) struct BeltPoints(BeltStudy);
@@ -26,7 +23,7 @@ impl BeltPoints {
 }
 
 impl Mapped for BeltPoints {
-    fn quantities(&self) -> &'static [Quantity] {
+    fn quantities(&self) -> &'static [MapQuantity] {
         QUANTITIES
     }
 
@@ -39,7 +36,7 @@ impl Mapped for BeltPoints {
         grid: &Grid,
         indices: &[usize],
         wanted: &[Computation],
-    ) -> Vec<Option<Point>> {
+    ) -> Vec<Option<PointResults>> {
         let belt = |index: &usize| grid.study_at(*index).ok()?.belt().ok();
         let studies: Vec<Option<BeltStudy>> = indices.iter().map(belt).collect();
         let scales: Vec<_> =
@@ -125,7 +122,7 @@ const VELOCITY: VariableKind = VariableKind::Number(units::Quantity::Velocity);
 
 /// The quantities of a map of belts.
 #[rustfmt::skip]
-pub(super) const QUANTITIES: &[Quantity] = &[
+pub(super) const QUANTITIES: &[MapQuantity] = &[
     belt("effect", "effect of the dither on the vibration: quenches, reduces, increases, causes, or quiet with and without it", Computation::ResponseWithEffect, &[
         variable(("effect", ""), "effect of the dither", EFFECTS, OF_EFFECT, effect),
     ]),
@@ -180,7 +177,7 @@ pub(super) const QUANTITIES: &[Quantity] = &[
     ]),
 ];
 
-fn steady(results: &Results) -> Result<Steady, Status> {
+fn steady(results: &Results) -> Result<ResponseNumbers, Status> {
     results.steady.unwrap_or(Err(Status::Missing))
 }
 
@@ -224,8 +221,8 @@ const fn belt(
     about: &'static str,
     computation: Computation,
     variables: &'static [Variable],
-) -> Quantity {
-    Quantity { name, about, kind: KIND, computation, variables }
+) -> MapQuantity {
+    MapQuantity { name, about, kind: BeltSetup::NAME, computation, variables }
 }
 
 /// Whether a response has settled; added to every quantity of a response.

@@ -1,17 +1,17 @@
 //! All quantities of maps, and their lookup by name.
 
-use super::quantity::Quantity;
+use super::quantity::MapQuantity;
 use super::{belt, disc};
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::suggest;
+use crate::study::{BeltSetup, suggest};
 
-impl Quantity {
+impl MapQuantity {
     /// The quantity of a belt with this name.
     ///
     /// # Errors
     /// A complaint about `option` with the nearest name.
     pub fn named(name: &str, option: &'static str) -> Result<&'static Self, Box<Complaint>> {
-        Self::named_for(belt::KIND, name, option)
+        Self::named_for(BeltSetup::NAME, name, option)
     }
 
     /// The quantity with this name for a kind of study, itself named as by [`crate::study::Kind::name`].
@@ -38,7 +38,7 @@ impl Quantity {
 }
 
 /// All quantities, by kind of study.
-pub const QUANTITIES: &[&[Quantity]] = &[belt::QUANTITIES, disc::QUANTITIES];
+pub const QUANTITIES: &[&[MapQuantity]] = &[belt::QUANTITIES, disc::QUANTITIES];
 
 #[cfg(test)]
 mod tests {
@@ -56,10 +56,11 @@ mod tests {
         for quantity in QUANTITIES.iter().copied().flatten() {
             let first = quantity.variables.first().expect("a variable");
             assert_eq!(first.name, quantity.name.replace('-', "_"));
-            let found = Quantity::named_for(quantity.kind, quantity.name, "--quantity");
+            let found = MapQuantity::named_for(quantity.kind, quantity.name, "--quantity");
             assert_eq!(found, Ok(quantity));
         }
-        let refused = Quantity::named("stick_fraction", "--quantity").expect_err("an underscore");
+        let refused =
+            MapQuantity::named("stick_fraction", "--quantity").expect_err("an underscore");
         assert_eq!(refused.suggestion.as_deref(), Some("stick-fraction"));
     }
 }

@@ -16,14 +16,11 @@ use quell_numerics::floquet::Effort;
 
 use super::evaluate::{Computation, Results};
 use super::grid::Grid;
-use super::mapped::{Mapped, Point};
-use super::quantity::{Quantity, VERDICTS, Variable, VariableKind, variable};
+use super::mapped::{Mapped, PointResults};
+use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, variable};
 use super::status::Status;
 use super::{cost, refine};
-use crate::study::{DiscStudy, Sweep};
-
-/// Name of the kind.
-const KIND: &str = "disc";
+use crate::study::{DiscSetup, DiscStudy, Sweep};
 
 /// Maps of disc studies.
 pub(super) struct DiscPoints(DiscStudy);
@@ -35,7 +32,7 @@ impl DiscPoints {
 }
 
 impl Mapped for DiscPoints {
-    fn quantities(&self) -> &'static [Quantity] {
+    fn quantities(&self) -> &'static [MapQuantity] {
         QUANTITIES
     }
 
@@ -52,7 +49,7 @@ impl Mapped for DiscPoints {
         grid: &Grid,
         indices: &[usize],
         wanted: &[Computation],
-    ) -> Vec<Option<Point>> {
+    ) -> Vec<Option<PointResults>> {
         let study = &self.0;
         let discs: Vec<Option<Disc>> =
             indices.iter().map(|index| study.disc_at(&grid.numbers_at(*index))).collect();
@@ -63,7 +60,7 @@ impl Mapped for DiscPoints {
 
 /// The quantities of a map of discs.
 #[rustfmt::skip]
-pub(super) const QUANTITIES: &[Quantity] = &[
+pub(super) const QUANTITIES: &[MapQuantity] = &[
     disc("growth", "largest growth rate of the disc, its verdict and the bound on its error", Computation::DiscGrowth, &[
         variable(("growth", "Re ρ"), "largest growth rate", VariableKind::DiscRate, &[], |r| Ok(grown(r)?.rate)),
         variable(("growth_error", ""), "bound on the error of the growth rate", VariableKind::DiscRate, &[], |r| Ok(grown(r)?.error)),
@@ -89,8 +86,8 @@ const fn disc(
     about: &'static str,
     computation: Computation,
     variables: &'static [Variable],
-) -> Quantity {
-    Quantity { name, about, kind: KIND, computation, variables }
+) -> MapQuantity {
+    MapQuantity { name, about, kind: DiscSetup::NAME, computation, variables }
 }
 
 fn grown(results: &Results) -> Result<Growth, Status> {

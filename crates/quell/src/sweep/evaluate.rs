@@ -53,7 +53,7 @@ impl Computation {
 
 /// The numbers of a steady response that a map can show.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Steady {
+pub struct ResponseNumbers {
     /// E = M₁/M₀ (2.27), dimensionless.
     pub efficiency: Result<f64, Undefined>,
     /// M, the largest spectral amplitude with 0 < ω ≤ 1.9: a length.
@@ -76,7 +76,7 @@ pub struct Steady {
     pub largest_slip: f64,
 }
 
-impl From<&Compared> for Steady {
+impl From<&Compared> for ResponseNumbers {
     fn from(compared: &Compared) -> Self {
         let dithered = &compared.dithered;
         let efficiency = compared.efficiency();
@@ -99,7 +99,7 @@ impl From<&Compared> for Steady {
 #[derive(Clone, Debug, Default)]
 pub struct Results {
     /// The steady response.
-    pub steady: Option<Result<Steady, Status>>,
+    pub steady: Option<Result<ResponseNumbers, Status>>,
     /// The effect of the dither.
     pub effect: Option<Result<Effect, Status>>,
     /// The criterion of averaged stability.
@@ -157,7 +157,7 @@ impl Results {
             Computation::Response
             | Computation::ResponseWithCost
             | Computation::ResponseWithEffect => {
-                let met = |steady: Steady| steady.largest_slip > reach.upper;
+                let met = |steady: ResponseNumbers| steady.largest_slip > reach.upper;
                 self.steady.is_some_and(|steady| steady.is_ok_and(met))
             }
             Computation::Criterion | Computation::CriterionSharper => reach.is_left_at(reach.ratio),
@@ -184,7 +184,7 @@ pub(super) fn evaluate(points: &[BeltStudy], wanted: &[Computation]) -> Vec<Resu
 }
 
 /// A steady response, and the effect of the dither if requested.
-type Responded = (Steady, Option<Effect>);
+type Responded = (ResponseNumbers, Option<Effect>);
 
 /// The steady responses, in one batch if the points share their solver settings.
 fn responses(
@@ -220,9 +220,9 @@ fn responses(
                 let belt = points[at].belt();
                 let effect =
                     with_effect.then(|| effect(belt, &compared, RunEnding::of(belt, start)));
-                let steady = Steady::from(&compared);
+                let steady = ResponseNumbers::from(&compared);
                 let largest_slip = steady.largest_slip.max(first);
-                Ok((Steady { largest_slip, ..steady }, effect))
+                Ok((ResponseNumbers { largest_slip, ..steady }, effect))
             });
         }
     }

@@ -2,12 +2,10 @@
 
 use super::belt::BeltPoints;
 use super::disc::DiscPoints;
-use super::evaluate::Computation;
 use super::grid::Grid;
-use super::mapped::{Mapped, Point};
-use super::quantity::Quantity;
+use super::mapped::Mapped;
 use crate::complaint::Complaint;
-use crate::study::Study;
+use crate::study::{Kind, Study};
 
 impl Grid {
     /// The grid of a study.
@@ -21,28 +19,10 @@ impl Grid {
     }
 }
 
-/// A study of a kind that has no maps.
-struct Unmapped;
-
-impl Mapped for Unmapped {
-    fn quantities(&self) -> &'static [Quantity] {
-        &[]
-    }
-
-    fn seconds(&self, _: &[Computation]) -> f64 {
-        0.0
-    }
-
-    fn compute(&self, _: &Grid, indices: &[usize], _: &[Computation]) -> Vec<Option<Point>> {
-        indices.iter().map(|_| None).collect()
-    }
-}
-
 /// The implementation of maps for the kind of a study.
 pub(crate) fn of(study: &Study) -> Box<dyn Mapped> {
-    match (study.belt(), study.disc()) {
-        (Ok(study), _) => Box::new(BeltPoints::of(study)),
-        (_, Ok(study)) => Box::new(DiscPoints::of(study)),
-        _ => Box::new(Unmapped),
+    match study.kind() {
+        Kind::Belt(setup) => Box::new(BeltPoints::of(study.narrowed(setup.as_ref()))),
+        Kind::Disc(setup) => Box::new(DiscPoints::of(study.narrowed(setup.as_ref()))),
     }
 }

@@ -4,16 +4,16 @@ use quell_model::units::Scales;
 
 use super::evaluate::{Computation, Results};
 use super::grid::Grid;
-use super::quantity::Quantity;
+use super::quantity::MapQuantity;
 use crate::study::Sweep;
 
 /// Results at a point, with the scales of its study.
-pub(super) type Point = (Option<Scales>, Results);
+pub(super) type PointResults = (Option<Scales>, Results);
 
 /// A kind of study that maps can compute.
 pub(crate) trait Mapped: Send + Sync {
     /// The quantities of this kind.
-    fn quantities(&self) -> &'static [Quantity];
+    fn quantities(&self) -> &'static [MapQuantity];
 
     /// The values of an axis.
     fn values(&self, sweep: &Sweep) -> Vec<f64> {
@@ -24,6 +24,10 @@ pub(crate) trait Mapped: Send + Sync {
     fn seconds(&self, wanted: &[Computation]) -> f64;
 
     /// Computes some points, by their index in the grid; `None` where the axis values do not form a valid study.
-    fn compute(&self, grid: &Grid, indices: &[usize], wanted: &[Computation])
-    -> Vec<Option<Point>>;
+    fn compute(
+        &self,
+        grid: &Grid,
+        indices: &[usize],
+        wanted: &[Computation],
+    ) -> Vec<Option<PointResults>>;
 }

@@ -29,12 +29,12 @@ mod status;
 
 pub use catalogue::QUANTITIES;
 pub use chunks::Chunks;
-pub use evaluate::{Computation, Results, Steady};
+pub use evaluate::{Computation, ResponseNumbers, Results};
 pub use grid::{Grid, GridAxis, MOST_POINTS};
 pub use plan::Plan;
-pub use quantity::{Quantity, Variable, VariableKind};
+pub use quantity::{MapQuantity, Variable, VariableKind};
 pub(crate) use runner::run;
 pub use runner::{MOST_THREADS, Progress, Running};
 pub use shard::Shard;
-pub use sheet::{Content, Data, Entry, Field, MISSING, Sheet};
+pub use sheet::{Content, Data, MISSING, MapArray, Sheet, VariableArrays};
 pub use status::Status;

@@ -6,7 +6,7 @@ use super::cost;
 use super::evaluate::Computation;
 use super::grid::Grid;
 use super::kind;
-use super::quantity::Quantity;
+use super::quantity::MapQuantity;
 use super::sheet::{Data, Sheet};
 use crate::complaint::Complaint;
 use crate::study::Study;
@@ -15,7 +15,7 @@ use crate::study::Study;
 #[derive(Clone, Debug)]
 pub struct Plan {
     grid: Grid,
-    quantities: Vec<&'static Quantity>,
+    quantities: Vec<&'static MapQuantity>,
     computations: Vec<Computation>,
     sheet: Sheet,
     chunks: Chunks,
@@ -29,19 +29,19 @@ impl Plan {
     /// The complaint of [`Grid::of`].
     pub fn new(
         study: impl Into<Study>,
-        asked: &[&'static Quantity],
+        asked: &[&'static MapQuantity],
     ) -> Result<Self, Box<Complaint>> {
         let study = study.into();
         let mapped = kind::of(&study);
         for quantity in asked {
             if !mapped.quantities().contains(quantity) {
-                Quantity::named_for(study.kind().name(), quantity.name, "--quantity")?;
+                MapQuantity::named_for(study.kind().name(), quantity.name, "--quantity")?;
             }
         }
         let grid = Grid::of(&study)?;
-        let mut quantities: Vec<&'static Quantity> = Vec::new();
+        let mut quantities: Vec<&'static MapQuantity> = Vec::new();
         let steady = asked.iter().any(|quantity| quantity.computation.is_response());
-        let settled = Quantity::named(SETTLED_NAME, "--quantity").ok().filter(|_| steady);
+        let settled = MapQuantity::named(SETTLED_NAME, "--quantity").ok().filter(|_| steady);
         for quantity in asked.iter().copied().chain(settled) {
             if !quantities.contains(&quantity) {
                 quantities.push(quantity);
@@ -69,7 +69,7 @@ impl Plan {
     }
 
     /// The quantities shown.
-    pub fn quantities(&self) -> &[&'static Quantity] {
+    pub fn quantities(&self) -> &[&'static MapQuantity] {
         &self.quantities
     }
 
@@ -119,10 +119,10 @@ mod tests {
     #[test]
     fn a_point_has_the_same_bits_beside_any_others() {
         let study = BeltStudy::parse(TEXT, &[]).expect("valid");
-        let asked: Vec<&Quantity> =
+        let asked: Vec<&MapQuantity> =
             ["efficiency", "growth", "critical-amplitude", "dither-stroke", "verdict-sharper"]
                 .iter()
-                .map(|name| Quantity::named(name, "--quantity").expect("a quantity"))
+                .map(|name| MapQuantity::named(name, "--quantity").expect("a quantity"))
                 .collect();
         let plan = Plan::new(&study, &asked).expect("two axes");
         assert_eq!(plan.quantities().last().map(|last| last.name), Some(SETTLED_NAME));

@@ -64,7 +64,7 @@ impl Variable {
 
 /// One quantity that a map can show.
 #[derive(Clone, Copy, Debug)]
-pub struct Quantity {
+pub struct MapQuantity {
     /// Its name on the command line.
     pub name: &'static str,
     /// Description in one line.
@@ -77,7 +77,7 @@ pub struct Quantity {
     pub variables: &'static [Variable],
 }
 
-impl PartialEq for Quantity {
+impl PartialEq for MapQuantity {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name && self.kind == other.kind
     }

@@ -8,7 +8,7 @@
 use quell_model::units::{self, Scales};
 
 use super::evaluate::{Computation, Results};
-use super::quantity::{Quantity, Variable, VariableKind};
+use super::quantity::{MapQuantity, Variable, VariableKind};
 use super::status::Status;
 use crate::quantity::unit_of;
 use crate::study::Study;
@@ -21,7 +21,7 @@ pub const MISSING: u8 = Status::Missing.code();
 
 /// One array of a map.
 #[derive(Clone, Debug)]
-pub struct Field {
+pub struct MapArray {
     /// Its name.
     pub name: String,
     /// Description in one line.
@@ -91,7 +91,7 @@ impl Data {
 
 /// A variable with the indices of its arrays.
 #[derive(Clone, Copy, Debug)]
-pub struct Entry {
+pub struct VariableArrays {
     /// The variable.
     pub variable: Variable,
     /// The computation that it needs.
@@ -107,13 +107,13 @@ pub struct Entry {
 /// The arrays of a map.
 #[derive(Clone, Debug)]
 pub struct Sheet {
-    entries: Vec<Entry>,
-    fields: Vec<Field>,
+    entries: Vec<VariableArrays>,
+    fields: Vec<MapArray>,
 }
 
 impl Sheet {
     /// The arrays of `quantities` for a study.
-    pub fn new(study: &Study, quantities: &[&Quantity]) -> Self {
+    pub fn new(study: &Study, quantities: &[&MapQuantity]) -> Self {
         let si = study.scales().is_some();
         let mut sheet = Self { entries: Vec::new(), fields: Vec::new() };
         let variables = quantities.iter().flat_map(|quantity| {
@@ -145,7 +145,13 @@ impl Sheet {
             let content = Content::Codes(states);
             let name = format!("{name}_status");
             let status = sheet.add(name, &about, String::new(), content, None);
-            sheet.entries.push(Entry { variable: *variable, computation, value, twin, status });
+            sheet.entries.push(VariableArrays {
+                variable: *variable,
+                computation,
+                value,
+                twin,
+                status,
+            });
         }
         sheet
     }
@@ -158,17 +164,17 @@ impl Sheet {
         content: Content,
         status: Option<String>,
     ) -> usize {
-        self.fields.push(Field { name, about: about.to_owned(), unit, content, status });
+        self.fields.push(MapArray { name, about: about.to_owned(), unit, content, status });
         self.fields.len() - 1
     }
 
     /// The variables in order.
-    pub fn entries(&self) -> &[Entry] {
+    pub fn entries(&self) -> &[VariableArrays] {
         &self.entries
     }
 
     /// The arrays in order.
-    pub fn fields(&self) -> &[Field] {
+    pub fn fields(&self) -> &[MapArray] {
         &self.fields
     }
 

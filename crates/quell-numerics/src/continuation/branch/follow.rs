@@ -8,7 +8,7 @@ use super::parameter_window::Follow;
 use super::points::{End, FixedPointBranch, SpecialPoint};
 use super::run::{BranchSolution, ContinuationRun, MaybeSolution, StepOutcome};
 
-/// A branch of a period map, or the reason why there is none.
+/// A branch of a period map, or why it could not be computed.
 pub type Followed<F> =
     Result<FixedPointBranch<<F as PeriodMap>::Signature>, NotClosed<<F as PeriodMap>::Error>>;
 

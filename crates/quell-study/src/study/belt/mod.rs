@@ -16,9 +16,10 @@ use quell_model::units::{Quantity, Scales};
 use quell_model::{Belt, Dither, Friction, LawKind};
 
 use super::StudyOf;
+use super::disc::DiscSetup;
 use super::document::Table;
 use super::reader::Reader;
-use super::study_kind::{Given, StudyKind, not_of_a_belt};
+use super::study_kind::{Given, StudyKind, wrong_kind};
 
 pub use friction::Measured;
 use table::BeltTable;
@@ -48,7 +49,7 @@ impl StudyKind for BeltSetup {
 
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
         if let Some(node) = document.get("disc") {
-            reader.complain(not_of_a_belt(node.origin));
+            reader.complain(wrong_kind(Self::NAME, DiscSetup::NAME, node.origin));
             return None;
         }
         let mut belt = table::read(reader, document);
@@ -86,6 +87,9 @@ impl StudyKind for BeltSetup {
 }
 
 impl BeltSetup {
+    /// Name of the kind.
+    pub const NAME: &'static str = "belt";
+
     /// The belt in the numbers of the equations.
     pub fn belt(&self) -> &Belt {
         &self.belt

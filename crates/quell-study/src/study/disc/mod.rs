@@ -132,6 +132,9 @@ impl StudyKind for DiscSetup {
 }
 
 impl DiscSetup {
+    /// Name of the kind.
+    pub const NAME: &'static str = "disc";
+
     /// The disc in the numbers of the equations, whole.
     pub fn disc(&self) -> &Disc {
         &self.disc

@@ -8,7 +8,7 @@ use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
 use super::super::attractor::{VERDICTS, number, put, put_section, verdict_code, words};
-use super::{Basins, Layout, Portrait, Share};
+use super::{Basins, Portrait, Share, StartLayout};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::study::BeltStudy;
@@ -132,12 +132,12 @@ impl Basins {
     /// The meaning of the shares and their bounds.
     pub fn meaning(&self) -> &'static str {
         match self.starts.layout() {
-            Layout::Grid { .. } => {
+            StartLayout::Grid { .. } => {
                 "each start represents its cell of the window; the bounds add or subtract half of each cell next to a basin boundary, \
                  and miss parts of a basin smaller than a cell; starts of unknown outcome count only towards the upper bound of the quiet \
                  fraction"
             }
-            Layout::Sample { .. } => {
+            StartLayout::Sample { .. } => {
                 "the starts are a uniform random sample of the window, and the bounds are Wilson's 95 % interval; starts of unknown \
                  outcome count only towards the upper bound of the quiet fraction"
             }
@@ -150,8 +150,8 @@ impl Basins {
         let x = |value| in_words(study, Quantity::Displacement, value);
         let v = |value| in_words(study, Quantity::Velocity, value);
         let layout = match self.starts.layout() {
-            Layout::Grid { columns, rows } => format!("A grid of {columns} × {rows} starts"),
-            Layout::Sample { count, seed } => format!("{count} random starts (seed {seed})"),
+            StartLayout::Grid { columns, rows } => format!("A grid of {columns} × {rows} starts"),
+            StartLayout::Sample { count, seed } => format!("{count} random starts (seed {seed})"),
         };
         let (from, to) = (window.displacement, window.velocity);
         format!(
@@ -269,8 +269,8 @@ impl Basins {
             .numbers("window_velocity", Quantity::Velocity, &pair(window.velocity))
             .plain("starts", self.starts.states().len());
         let layout = match self.starts.layout() {
-            Layout::Grid { columns, rows } => json!({ "grid": [columns, rows] }),
-            Layout::Sample { count, seed } => json!({ "sample": count, "seed": seed }),
+            StartLayout::Grid { columns, rows } => json!({ "grid": [columns, rows] }),
+            StartLayout::Sample { count, seed } => json!({ "sample": count, "seed": seed }),
         };
         fields.plain("layout", layout);
         if let Some(varied) = &self.varied {

@@ -25,7 +25,7 @@ use quell_dynamics::simulation::{Stalled, within};
 use quell_model::units::Scales;
 use rayon::prelude::*;
 
-use super::attractor::{scene, unknown};
+use super::attractor::{settings, unknown};
 use super::varied::{Range, Varied};
 use super::{failed, moves, stopped};
 use crate::complaint::{Complaint, Failure};
@@ -35,7 +35,7 @@ use crate::study::BeltStudy;
 use crate::sweep::Running;
 
 pub use share::Share;
-pub use starts::{Layout, MOST_STARTS, Starts, Window};
+pub use starts::{MOST_STARTS, StartLayout, Starts, Window};
 
 /// Number of starts in a work item: enough to fill the SIMD lanes of a processor several times.
 const CHUNK: usize = 128;
@@ -48,7 +48,7 @@ pub struct BasinsRequest {
     /// Velocities x′ of the window; derived from the belt if `None`.
     pub velocity: Option<(f64, f64)>,
     /// Layout of the starts.
-    pub layout: Layout,
+    pub layout: StartLayout,
     /// A parameter to vary.
     pub over: Option<Range>,
 }
@@ -174,7 +174,7 @@ fn portraits(
 ) -> Result<Vec<Portrait>, Failure> {
     let scenes: Vec<AttractorSettings<'_>> = studies
         .par_iter()
-        .map(|(_, study)| within(STEPS_OF_A_SEARCH, || scene(study.belt())))
+        .map(|(_, study)| within(STEPS_OF_A_SEARCH, || settings(study.belt())))
         .collect::<Result<_, Failure>>()?;
     let chunks: Vec<_> = starts.states().chunks(CHUNK).collect();
     let tasks: Vec<(usize, usize)> = (0..scenes.len())
@@ -200,11 +200,11 @@ fn portraits(
     scenes
         .par_iter()
         .enumerate()
-        .map(|(place, scene)| {
-            let gather = || gather(scene, &whole(place));
+        .map(|(place, settings)| {
+            let gather = || gather(settings, &whole(place));
             let gathered = within(STEPS_OF_MANY_SEARCHES, gather).map_err(failed)?;
             let (value, study) = &studies[place];
-            Ok(Portrait::new(*value, study.scales(), scene, starts, gathered))
+            Ok(Portrait::new(*value, study.scales(), settings, starts, gathered))
         })
         .collect()
 }
@@ -213,7 +213,7 @@ impl Portrait {
     fn new(
         value: Option<f64>,
         scales: Option<Scales>,
-        scene: &AttractorSettings<'_>,
+        settings: &AttractorSettings<'_>,
         starts: &Starts,
         gathered: Gathered,
     ) -> Self {
@@ -237,9 +237,9 @@ impl Portrait {
         Self {
             value,
             scales,
-            period: scene.section.period,
-            in_band: scene.reaches_the_band(),
-            local: scene.base.as_ref().map(|quiet| quiet.verdict).map_err(unknown),
+            period: settings.section.period,
+            in_band: settings.reaches_the_band(),
+            local: settings.base.as_ref().map(|base| base.verdict).map_err(unknown),
             shares,
             quiet,
             unknown: unknown_share,

@@ -5,7 +5,7 @@
 //! neighbour outside. A cell next to the boundary may lose or gain up to half of itself, and the bounds are the sums of
 //! these halves. A part of the basin that is smaller than a cell is missed, and not covered by the bounds.
 
-use super::starts::Layout;
+use super::starts::StartLayout;
 
 /// z of a two-sided 95 %.
 const Z: f64 = 1.959_963_984_540_054;
@@ -25,13 +25,13 @@ pub struct Share {
 
 impl Share {
     /// The share of the starts for which `inside` holds.
-    pub(super) fn of(layout: Layout, inside: &[bool]) -> Self {
+    pub(super) fn of(layout: StartLayout, inside: &[bool]) -> Self {
         let starts = inside.iter().filter(|holds| **holds).count();
         let count = inside.len().max(1) as f64;
         let fraction = starts as f64 / count;
         let (low, high) = match layout {
-            Layout::Sample { .. } => wilson(fraction, count),
-            Layout::Grid { columns, .. } => {
+            StartLayout::Sample { .. } => wilson(fraction, count),
+            StartLayout::Grid { columns, .. } => {
                 let (inner, outer) = border(inside, columns);
                 (fraction - 0.5 * inner as f64 / count, fraction + 0.5 * outer as f64 / count)
             }
@@ -40,7 +40,7 @@ impl Share {
     }
 
     /// The share of the starts that are `surely` inside; the upper bound also counts those that are `perhaps` inside.
-    pub(super) fn between(layout: Layout, surely: &[bool], perhaps: &[bool]) -> Self {
+    pub(super) fn between(layout: StartLayout, surely: &[bool], perhaps: &[bool]) -> Self {
         let all: Vec<bool> = surely.iter().zip(perhaps).map(|(a, b)| *a || *b).collect();
         Self { high: Self::of(layout, &all).high, ..Self::of(layout, surely) }
     }
@@ -99,7 +99,7 @@ mod tests {
         let inside: Vec<bool> = (0..columns * columns)
             .map(|k| place(k % columns).hypot(place(k / columns)) < radius)
             .collect();
-        let share = Share::of(Layout::Grid { columns, rows: columns }, &inside);
+        let share = Share::of(StartLayout::Grid { columns, rows: columns }, &inside);
         // Cells reach half a step beyond the window.
         let area = std::f64::consts::PI * radius * radius / (2.05 * 2.05);
         assert!(share.low < area && area < share.high, "{share:?} {area}");

@@ -11,7 +11,7 @@ pub const MOST_STARTS: usize = 10_000_000;
 
 /// Layout of the starts in the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Layout {
+pub enum StartLayout {
     /// A grid from edge to edge, displacement running fastest.
     Grid {
         /// Number of displacements.
@@ -28,7 +28,7 @@ pub enum Layout {
     },
 }
 
-impl Default for Layout {
+impl Default for StartLayout {
     fn default() -> Self {
         Self::Grid { columns: 41, rows: 31 }
     }
@@ -58,7 +58,7 @@ impl Window {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Starts {
     window: Window,
-    layout: Layout,
+    layout: StartLayout,
     states: Vec<Start>,
 }
 
@@ -71,7 +71,7 @@ impl Starts {
         belt: &Belt,
         displacement: Option<(f64, f64)>,
         velocity: Option<(f64, f64)>,
-        layout: Layout,
+        layout: StartLayout,
     ) -> Result<Self, Complaints> {
         let mut complaints = Vec::new();
         for (option, range) in [("--displacement", displacement), ("--velocity", velocity)] {
@@ -83,7 +83,7 @@ impl Starts {
             }
         }
         match layout {
-            Layout::Grid { columns, rows } => {
+            StartLayout::Grid { columns, rows } => {
                 let count = columns.checked_mul(rows);
                 if columns < 2 || rows < 2 || count.is_none_or(|count| count > MOST_STARTS) {
                     let allowed = format!(
@@ -96,7 +96,7 @@ impl Starts {
                     ));
                 }
             }
-            Layout::Sample { count, .. } => {
+            StartLayout::Sample { count, .. } => {
                 if !(1..=MOST_STARTS).contains(&count) {
                     let allowed = format!("a whole number from 1 to {MOST_STARTS}");
                     complaints.push(Complaint::option("--sample", count, allowed));
@@ -120,7 +120,7 @@ impl Starts {
     }
 
     /// The layout.
-    pub fn layout(&self) -> Layout {
+    pub fn layout(&self) -> StartLayout {
         self.layout
     }
 
@@ -132,24 +132,24 @@ impl Starts {
     /// The displacements and the velocities of a grid.
     pub fn axes(&self) -> Option<(Vec<f64>, Vec<f64>)> {
         match self.layout {
-            Layout::Grid { columns, rows } => Some((
+            StartLayout::Grid { columns, rows } => Some((
                 evenly(self.window.displacement, columns),
                 evenly(self.window.velocity, rows),
             )),
-            Layout::Sample { .. } => None,
+            StartLayout::Sample { .. } => None,
         }
     }
 }
 
-fn states(window: Window, layout: Layout) -> Vec<Start> {
+fn states(window: Window, layout: StartLayout) -> Vec<Start> {
     let at = |displacement: f64, velocity: f64| Start { time: 0.0, displacement, velocity };
     match layout {
-        Layout::Grid { columns, rows } => {
+        StartLayout::Grid { columns, rows } => {
             let across = evenly(window.displacement, columns);
             let upwards = evenly(window.velocity, rows);
             upwards.iter().flat_map(|v| across.iter().map(|x| at(*x, *v))).collect()
         }
-        Layout::Sample { count, seed } => {
+        StartLayout::Sample { count, seed } => {
             let mut state = seed;
             let mut between = |(from, to): (f64, f64)| from + (to - from) * uniform(&mut state);
             (0..count).map(|_| at(between(window.displacement), between(window.velocity))).collect()
@@ -185,7 +185,7 @@ mod tests {
     fn a_grid_reaches_its_edges() {
         assert_eq!(evenly((-1.0, 1.5), 11)[10], 1.5);
         let window = Window { displacement: (0.0, 1.0), velocity: (2.0, 3.0) };
-        let states = states(window, Layout::Grid { columns: 3, rows: 2 });
+        let states = states(window, StartLayout::Grid { columns: 3, rows: 2 });
         let pairs: Vec<(f64, f64)> =
             states.iter().map(|start| (start.displacement, start.velocity)).collect();
         assert_eq!(pairs, [(0.0, 2.0), (0.5, 2.0), (1.0, 2.0), (0.0, 3.0), (0.5, 3.0), (1.0, 3.0)]);

@@ -12,7 +12,7 @@ const STUDY: &str = "schema = 1\n[belt]\ndamping_ratio = 0.1\nnormal_load = 1\nb
 fn unknown_ends_reach_nothing() {
     let labels = vec![BasinLabel::Unsettled(Unsettled::Moving); 3];
     let gathered = Gathered { basins: Vec::new(), labels };
-    let share = Share::of(Layout::Sample { count: 3, seed: 1 }, &[true; 3]);
+    let share = Share::of(StartLayout::Sample { count: 3, seed: 1 }, &[true; 3]);
     let mut portrait = Portrait {
         value: None,
         period: 1.0,
@@ -32,7 +32,7 @@ fn unknown_ends_reach_nothing() {
     let range = Range { parameter: "belt.belt_velocity".into(), from: 1.0, to: 2.0, points: 2 };
     let study = BeltStudy::parse(STUDY, &[]).expect("valid");
     let varied = Varied::new(&study, "--over", &range).expect("valid");
-    let starts = Starts::new(study.belt(), None, None, Layout::Sample { count: 3, seed: 1 });
+    let starts = Starts::new(study.belt(), None, None, StartLayout::Sample { count: 3, seed: 1 });
     let found = Basins {
         starts: starts.expect("valid"),
         varied: Some(varied),
@@ -54,7 +54,7 @@ fn unknown_ends_reach_nothing() {
 /// Starts of unknown outcome count only towards the upper bound.
 #[test]
 fn unknown_ends_widen_the_share() {
-    let layout = Layout::Sample { count: 4, seed: 1 };
+    let layout = StartLayout::Sample { count: 4, seed: 1 };
     let surely = [true, false, false, false];
     let without = Share::of(layout, &surely);
     let with = Share::between(layout, &surely, &[false, true, true, false]);

@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use super::super::attractor::{
     KINDS, VERDICTS, kind_code, number, put, put_section, verdict_code, words,
 };
-use super::{Bifurcation, Direction, Point};
+use super::{Bifurcation, SweepDirection, SweepPoint};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::study::BeltStudy;
@@ -24,7 +24,7 @@ impl Bifurcation {
             let (Some(first), Some(last)) = (branch.points.first(), branch.points.last()) else {
                 continue;
             };
-            let quiet = |point: &Point| match point.quiet() {
+            let quiet = |point: &SweepPoint| match point.quiet() {
                 Some(true) if point.in_band => "in step with the dither",
                 Some(true) => "quiet",
                 Some(false) => "vibrating",
@@ -209,7 +209,7 @@ impl Bifurcation {
                     ];
                     numbers.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
                     let code = [
-                        u8::from(branch.direction == Direction::Down),
+                        u8::from(branch.direction == SweepDirection::Down),
                         kind_code(attractor),
                         point.quiet().map_or(2, u8::from),
                         verdict_code(&point.local),
@@ -275,7 +275,7 @@ mod tests {
         let study = BeltStudy::parse(STUDY, &[]).expect("valid");
         let range = Range { parameter: "dither.amplitude".into(), from: 1.0, to: 2.0, points: 2 };
         let varied = Varied::new(&study, "--parameter", &range).expect("valid");
-        let point = |value: f64| Point {
+        let point = |value: f64| SweepPoint {
             value,
             scales: None,
             period: 1.0,
@@ -286,7 +286,8 @@ mod tests {
         };
         let branch =
             |direction, values: [f64; 2]| Branch { direction, points: values.map(point).to_vec() };
-        let branches = vec![branch(Direction::Up, [1.0, 2.0]), branch(Direction::Down, [2.0, 1.0])];
+        let branches =
+            vec![branch(SweepDirection::Up, [1.0, 2.0]), branch(SweepDirection::Down, [2.0, 1.0])];
         let found =
             Bifurcation { varied, branches, hysteresis: Vec::new(), slip: SlipMet::default() };
         let sentence = found.sentence(&study);

@@ -12,7 +12,7 @@ use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::simulation::{Start, within};
 use quell_model::units::Scales;
 
-use super::attractor::{scene, unknown};
+use super::attractor::{settings, unknown};
 use super::varied::{Range, Varied};
 use super::{failed, start, stopped};
 use crate::complaint::Failure;
@@ -44,14 +44,14 @@ pub struct SweepRequest {
 
 /// Direction of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Direction {
+pub enum SweepDirection {
     /// To larger values.
     Up,
     /// To smaller values.
     Down,
 }
 
-impl Direction {
+impl SweepDirection {
     /// Word in outputs.
     pub fn name(self) -> &'static str {
         match self {
@@ -63,7 +63,7 @@ impl Direction {
 
 /// The response at one value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Point {
+pub struct SweepPoint {
     /// The parameter.
     pub value: f64,
     /// Scales at this value, of a study in SI: mass and stiffness may be varied.
@@ -84,9 +84,9 @@ pub struct Point {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Branch {
     /// Direction.
-    pub direction: Direction,
+    pub direction: SweepDirection,
     /// Its points.
-    pub points: Vec<Point>,
+    pub points: Vec<SweepPoint>,
 }
 
 /// Two neighbouring values of a branch with known responses, between which the sweep leaves or reaches quiescence.
@@ -130,15 +130,16 @@ pub fn run(
     let (up, down) =
         if question.up || question.down { (question.up, question.down) } else { (true, true) };
     let count = varied.values.len();
-    let asked = [(up, Direction::Up), (down, Direction::Down)].into_iter().filter(|(on, _)| *on);
-    let directions: Vec<Direction> = asked.map(|(_, direction)| direction).collect();
+    let asked =
+        [(up, SweepDirection::Up), (down, SweepDirection::Down)].into_iter().filter(|(on, _)| *on);
+    let directions: Vec<SweepDirection> = asked.map(|(_, direction)| direction).collect();
     running.progress.begin(count * directions.len(), 0);
     let mut branches: Vec<Branch> = Vec::new();
     let mut state: Option<Start> = None;
     let mut slip = SlipMet::default();
     let swept = directions.into_iter().try_for_each(|direction| {
         let mut values = varied.values.clone();
-        if direction == Direction::Down {
+        if direction == SweepDirection::Down {
             values.reverse();
         }
         let mut found = Vec::with_capacity(count);
@@ -167,18 +168,21 @@ pub fn run(
 }
 
 /// The response at one value, and the state from which the next one starts.
-fn point(study: &BeltStudy, value: f64, begun: Start) -> Result<(Point, Start), Failure> {
-    let scene = scene(study.belt())?;
+fn point(study: &BeltStudy, value: f64, begun: Start) -> Result<(SweepPoint, Start), Failure> {
+    let settings = settings(study.belt())?;
     let patience = Patience { tolerance: study.solver().tolerance, ..Patience::SWEEP };
-    let settled = settle(&scene, begun, patience).map_err(failed)?;
-    let attractor = measure(&scene, &settled).map_err(failed)?;
+    let settled = settle(&settings, begun, patience).map_err(failed)?;
+    let attractor = measure(&settings, &settled).map_err(failed)?;
     let end = attractor.as_ref().map_or(settled.state, |attractor| attractor.state);
     let response = attractor.ok_or_else(|| settled.why().unwrap_or(Unsettled::Moving));
-    let local = scene.base.as_ref().map(|quiet| quiet.verdict).map_err(unknown);
-    let period = scene.section.period;
-    let in_band = scene.reaches_the_band();
+    let local = settings.base.as_ref().map(|base| base.verdict).map_err(unknown);
+    let period = settings.section.period;
+    let in_band = settings.reaches_the_band();
     let scales = study.scales();
-    Ok((Point { value, scales, period, in_band, local, response, periods: settled.periods }, end))
+    Ok((
+        SweepPoint { value, scales, period, in_band, local, response, periods: settled.periods },
+        end,
+    ))
 }
 
 /// Ranges in which both directions were swept and show different responses.
@@ -221,7 +225,7 @@ fn is_one_torus(one: &Attractor, other: &Attractor) -> bool {
     }
 }
 
-impl Point {
+impl SweepPoint {
     /// Whether the response is quiet; `None` if it has not settled.
     pub fn quiet(&self) -> Option<bool> {
         self.response.as_ref().ok().map(|attractor| attractor.quiet)
@@ -231,7 +235,7 @@ impl Point {
 impl Branch {
     /// The jumps at which the sweep leaves or reaches quiescence.
     pub fn jumps(&self) -> Vec<Jump> {
-        let known: Vec<(&Point, bool)> =
+        let known: Vec<(&SweepPoint, bool)> =
             self.points.iter().filter_map(|point| Some((point, point.quiet()?))).collect();
         let changes = known.windows(2).filter(|pair| pair[0].1 != pair[1].1);
         changes

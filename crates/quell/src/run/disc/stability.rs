@@ -18,7 +18,7 @@ use crate::study::DiscStudy;
 
 /// A friction at which some motion is marginal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Change {
+pub struct MarginalFriction {
     /// Friction f* of the load.
     pub friction: f64,
     /// Frequency of the marginal motion in ω_ref.
@@ -27,7 +27,7 @@ pub struct Change {
 
 /// Stability of a disc.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stability {
+pub struct DiscStability {
     /// Growth of the disc as given.
     pub growth: Growth,
     /// Growth of the disc without dither.
@@ -36,7 +36,7 @@ pub struct Stability {
     pub unstable: Vec<Growth>,
     /// Frictions at which a motion is marginal, with everything else as given, ascending; or why they are unknown. They have the
     /// sign of the load's own friction, and are ≥ 0 if that is zero.
-    pub changes: Result<Vec<Change>, String>,
+    pub changes: Result<Vec<MarginalFriction>, String>,
     /// Whether the load cannot reach some motion, which is then marginal at any friction.
     pub out_of_reach: bool,
 }
@@ -45,7 +45,7 @@ pub struct Stability {
 ///
 /// # Errors
 /// [`Failure::Failed`] if a matrix overflows.
-pub fn run(study: &DiscStudy) -> Result<Stability, Failure> {
+pub fn run(study: &DiscStudy) -> Result<DiscStability, Failure> {
     let (disc, parts) = (study.disc(), study.parts());
     let failed = |why| overflowed("stability", why);
     let undithered = undithered::growth_with(disc, parts).map_err(failed)?;
@@ -64,20 +64,20 @@ pub fn run(study: &DiscStudy) -> Result<Stability, Failure> {
         DiscDither::None => still(study),
         DiscDither::Normal { .. } | DiscDither::Tangential { .. } => (shaken(study), false),
     };
-    Ok(Stability { growth, undithered, unstable, changes, out_of_reach })
+    Ok(DiscStability { growth, undithered, unstable, changes, out_of_reach })
 }
 
 /// Boundaries without dither.
-fn still(study: &DiscStudy) -> (Result<Vec<Change>, String>, bool) {
+fn still(study: &DiscStudy) -> (Result<Vec<MarginalFriction>, String>, bool) {
     match boundaries(study.disc()) {
         Ok(found) => {
             let out_of_reach = found.iter().any(|boundary| boundary.friction == Marginal::Always);
             let sign = sign_of_friction(study);
-            let changes: Vec<Change> = found
+            let changes: Vec<MarginalFriction> = found
                 .iter()
                 .filter_map(|boundary| match boundary.friction {
                     Marginal::At(friction) if sign * friction >= 0.0 => {
-                        Some(Change { friction, frequency: boundary.frequency })
+                        Some(MarginalFriction { friction, frequency: boundary.frequency })
                     }
                     _ => None,
                 })
@@ -98,7 +98,7 @@ fn still(study: &DiscStudy) -> (Result<Vec<Change>, String>, bool) {
 const MAP: &str = "`quell map` over disc.load.friction shows the boundaries in every case";
 
 /// Boundaries under dither.
-fn shaken(study: &DiscStudy) -> Result<Vec<Change>, String> {
+fn shaken(study: &DiscStudy) -> Result<Vec<MarginalFriction>, String> {
     let disc = study.disc();
     // The partition gives factors of the friction, so start from 1, not from 0.
     let unit =
@@ -109,7 +109,7 @@ fn shaken(study: &DiscStudy) -> Result<Vec<Change>, String> {
         NoPartition::TooManyHarmonics { .. } => format!("{why}; {MAP}"),
         _ => why.to_string(),
     })?;
-    let change = |crossing: &quell_disc::partition::FrictionCrossing| Change {
+    let change = |crossing: &quell_disc::partition::FrictionCrossing| MarginalFriction {
         friction: sign * crossing.factor,
         frequency: crossing.frequency,
     };
@@ -122,7 +122,7 @@ fn sign_of_friction(study: &DiscStudy) -> f64 {
     if friction < 0.0 { -1.0 } else { 1.0 }
 }
 
-fn ascending(mut changes: Vec<Change>) -> Vec<Change> {
+fn ascending(mut changes: Vec<MarginalFriction>) -> Vec<MarginalFriction> {
     changes.sort_by(|a, b| a.friction.total_cmp(&b.friction));
     changes
 }
@@ -135,7 +135,7 @@ fn put_si(object: &mut Json, hertz: f64, growth: &Growth) {
     object["frequency_hz"] = (hertz * growth.frequency).into();
 }
 
-impl Stability {
+impl DiscStability {
     /// The result in one or two sentences.
     pub fn sentence(&self, study: &DiscStudy) -> String {
         let speed = study.disc().speed();

@@ -8,11 +8,11 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 use crate::complaint::Failure;
-use crate::store::{Found, Store};
+use crate::store::{ChunkState, Store};
 use crate::sweep::{self, Data, Plan, Running};
 
 pub use boundary::{Boundary, boundaries};
-pub use outcome::{Extreme, Map, Summary};
+pub use outcome::{Extreme, FinishedMap, Summary};
 pub use shared::{Part, Sharded, Shared};
 
 /// Computes a map. With a store, every finished chunk is kept there, and chunks that it already has are
@@ -21,7 +21,11 @@ pub use shared::{Part, Sharded, Shared};
 /// # Errors
 /// [`Failure::Failed`] if it was stopped, if the store could not be written, or if the
 /// store holds other bits than this program computes; the message states how much is left.
-pub fn run(plan: Plan, store: Option<&Store>, running: Running<'_>) -> Result<Map, Failure> {
+pub fn run(
+    plan: Plan,
+    store: Option<&Store>,
+    running: Running<'_>,
+) -> Result<FinishedMap, Failure> {
     let begun = Instant::now();
     let points = plan.grid().len();
     let mut arrays = plan.sheet().missing(points);
@@ -43,7 +47,9 @@ pub fn run(plan: Plan, store: Option<&Store>, running: Running<'_>) -> Result<Ma
     let left = todo.len() - done;
     let chunks = plan.chunks().len();
     match outcome {
-        Ok(()) if left == 0 => Ok(Map { plan, arrays, resumed, damaged, elapsed: begun.elapsed() }),
+        Ok(()) if left == 0 => {
+            Ok(FinishedMap { plan, arrays, resumed, damaged, elapsed: begun.elapsed() })
+        }
         Ok(()) => Err(stopped(store, left, chunks)),
         Err(failure) => Err(interrupted(failure, store, left, chunks)),
     }
@@ -63,19 +69,19 @@ struct Earlier {
 fn earlier(plan: &Plan, store: Option<&Store>, arrays: &mut [Data]) -> Result<Earlier, Failure> {
     let mut earlier = Earlier { todo: Vec::new(), resumed: 0, damaged: 0 };
     for number in 0..plan.chunks().len() {
-        match store.map_or(Found::Nothing, |store| store.read(plan, number)) {
-            Found::Whole(values) => {
+        match store.map_or(ChunkState::Nothing, |store| store.read(plan, number)) {
+            ChunkState::Whole(values) => {
                 if let Some(store) = store.filter(|_| earlier.resumed == 0) {
                     same_program(plan, store, number, &values)?;
                 }
                 put(plan, number, &values, arrays);
                 earlier.resumed += plan.chunks().points(number).len();
             }
-            Found::Damaged => {
+            ChunkState::Damaged => {
                 earlier.damaged += 1;
                 earlier.todo.push(number);
             }
-            Found::Nothing => earlier.todo.push(number),
+            ChunkState::Nothing => earlier.todo.push(number),
         }
     }
     Ok(earlier)

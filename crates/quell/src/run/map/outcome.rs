@@ -7,12 +7,12 @@ use quell_model::units::Quantity;
 use serde_json::{Map as Object, Value as Json, json};
 
 use crate::dataset::{Array, Dataset};
-use crate::sweep::{Content, Data, Entry, Plan, Status};
+use crate::sweep::{Content, Data, Plan, Status, VariableArrays};
 use crate::words::{in_words, plural};
 
 /// A finished map.
 #[derive(Clone, Debug)]
-pub struct Map {
+pub struct FinishedMap {
     pub(super) plan: Plan,
     pub(super) arrays: Vec<Data>,
     /// Points that were already in the store.
@@ -45,14 +45,14 @@ pub struct Summary {
     pub states: BTreeMap<Status, usize>,
 }
 
-impl Map {
+impl FinishedMap {
     /// What was computed.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
     /// Status of a variable at a point.
-    pub fn status(&self, entry: &Entry, point: usize) -> Status {
+    pub fn status(&self, entry: &VariableArrays, point: usize) -> Status {
         match &self.arrays[entry.status] {
             Data::Codes(codes) => Status::of_code(codes[point]).unwrap_or(Status::Missing),
             Data::Numbers(_) => Status::Missing,
@@ -60,16 +60,16 @@ impl Map {
     }
 
     /// Value of a variable at a point, in the numbers of the equations; for a word its code.
-    pub fn number(&self, entry: &Entry, point: usize) -> Option<f64> {
+    pub fn number(&self, entry: &VariableArrays, point: usize) -> Option<f64> {
         self.value(entry.value, entry, point)
     }
 
-    /// [`Map::number`] in SI, if the variable has an SI array.
-    pub fn number_in_si(&self, entry: &Entry, point: usize) -> Option<f64> {
+    /// [`FinishedMap::number`] in SI, if the variable has an SI array.
+    pub fn number_in_si(&self, entry: &VariableArrays, point: usize) -> Option<f64> {
         self.value(entry.twin?, entry, point)
     }
 
-    fn value(&self, array: usize, entry: &Entry, point: usize) -> Option<f64> {
+    fn value(&self, array: usize, entry: &VariableArrays, point: usize) -> Option<f64> {
         let known = self.status(entry, point).has_number();
         known.then(|| match &self.arrays[array] {
             Data::Numbers(values) => values[point],
@@ -78,7 +78,7 @@ impl Map {
     }
 
     /// The array of numbers to show: in SI if the study is in SI.
-    pub fn shown(&self, entry: &Entry) -> usize {
+    pub fn shown(&self, entry: &VariableArrays) -> usize {
         entry.twin.unwrap_or(entry.value)
     }
 
@@ -87,7 +87,7 @@ impl Map {
         self.plan.sheet().entries().iter().map(|entry| self.summary(entry)).collect()
     }
 
-    fn summary(&self, entry: &Entry) -> Summary {
+    fn summary(&self, entry: &VariableArrays) -> Summary {
         let grid = self.plan.grid();
         let mut states: BTreeMap<Status, usize> = BTreeMap::new();
         let mut least: Option<(f64, usize)> = None;
@@ -236,7 +236,7 @@ impl Map {
     }
 
     /// One value in JSON: a number, a word, or null if unknown.
-    fn cell(&self, entry: &Entry, array: usize, point: usize, states: bool) -> Json {
+    fn cell(&self, entry: &VariableArrays, array: usize, point: usize, states: bool) -> Json {
         if states {
             return self.status(entry, point).name().into();
         }

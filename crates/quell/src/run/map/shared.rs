@@ -16,9 +16,9 @@ use std::time::{Duration, Instant};
 use serde_json::{Value as Json, json};
 
 use super::outcome::recomputed;
-use super::{Map, put, same_program};
+use super::{FinishedMap, put, same_program};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::store::{Found, Store};
+use crate::store::{ChunkState, Store};
 use crate::sweep::{self, Plan, Running, Shard};
 
 /// A map in a store that other processes may write at the same time.
@@ -100,7 +100,7 @@ impl Shared {
         let first = unrecorded.iter().enumerate().position(|(at, &chunk)| at != chunk);
         let first = first.unwrap_or(unrecorded.len());
         if first < shared.plan.chunks().len()
-            && let Found::Whole(values) = shared.store.read(&shared.plan, first)
+            && let ChunkState::Whole(values) = shared.store.read(&shared.plan, first)
         {
             same_program(&shared.plan, &shared.store, first, &values)?;
         }
@@ -116,7 +116,8 @@ impl Shared {
     /// On a network file system a chunk that another machine has just written may still appear missing;
     /// computing it again does no harm.
     pub fn missing(&self) -> Vec<usize> {
-        let whole = |&chunk: &usize| matches!(self.store.read(&self.plan, chunk), Found::Whole(_));
+        let whole =
+            |&chunk: &usize| matches!(self.store.read(&self.plan, chunk), ChunkState::Whole(_));
         (0..self.plan.chunks().len()).filter(|chunk| !whole(chunk)).collect()
     }
 
@@ -146,13 +147,13 @@ impl Shared {
             let size = self.plan.chunks().points(chunk).len();
             points += size;
             match self.store.read(&self.plan, chunk) {
-                Found::Whole(_) => {
+                ChunkState::Whole(_) => {
                     part.there += 1;
                     points_there += size;
                     continue;
                 }
-                Found::Damaged => part.damaged += 1,
-                Found::Nothing => {}
+                ChunkState::Damaged => part.damaged += 1,
+                ChunkState::Nothing => {}
             }
             todo.push(chunk);
         }
@@ -198,21 +199,27 @@ impl Shared {
     ///
     /// # Errors
     /// [`Failure::Failed`] if chunks are missing; the message states how many.
-    pub fn read(&self) -> Result<Map, Failure> {
+    pub fn read(&self) -> Result<FinishedMap, Failure> {
         let begun = Instant::now();
         let points = self.plan.grid().len();
         let mut arrays = self.plan.sheet().missing(points);
         let (mut missing, mut damaged) = (0, 0);
         for chunk in 0..self.plan.chunks().len() {
             match self.store.read(&self.plan, chunk) {
-                Found::Whole(values) => put(&self.plan, chunk, &values, &mut arrays),
-                Found::Damaged => damaged += 1,
-                Found::Nothing => missing += 1,
+                ChunkState::Whole(values) => put(&self.plan, chunk, &values, &mut arrays),
+                ChunkState::Damaged => damaged += 1,
+                ChunkState::Nothing => missing += 1,
             }
         }
         if missing + damaged == 0 {
             let plan = self.plan.clone();
-            return Ok(Map { plan, arrays, resumed: points, damaged: 0, elapsed: begun.elapsed() });
+            return Ok(FinishedMap {
+                plan,
+                arrays,
+                resumed: points,
+                damaged: 0,
+                elapsed: begun.elapsed(),
+            });
         }
         let chunks = self.plan.chunks().len();
         let changed = match damaged {
@@ -258,7 +265,7 @@ mod tests {
 
     use super::*;
     use crate::study::BeltStudy;
-    use crate::sweep::{Quantity, Status};
+    use crate::sweep::{MapQuantity, Status};
 
     const TEXT: &str = "schema = 1\n[belt]\ndamping_ratio = 0.01\nnormal_load = 0.5\n\
         belt_velocity = 0.1\n[friction]\nlaw = \"decreasing\"\nstatic_coefficient = 0.4\n\
@@ -269,7 +276,7 @@ mod tests {
 
     fn plan() -> Plan {
         let study = BeltStudy::parse(TEXT, &[]).expect("valid");
-        Plan::new(&study, &[Quantity::named("growth", "--quantity").expect("a quantity")])
+        Plan::new(&study, &[MapQuantity::named("growth", "--quantity").expect("a quantity")])
             .expect("two axes")
     }
 

@@ -50,13 +50,13 @@ fn merged<T: PartialEq>(intervals: Vec<Interval<T>>) -> Vec<Interval<T>> {
 }
 
 /// The name of the parameter in sentences, and its values with units.
-struct Parameter<'a> {
+struct NamedParameter<'a> {
     study: &'a BeltStudy,
     name: String,
     quantity: Quantity,
 }
 
-impl<'a> Parameter<'a> {
+impl<'a> NamedParameter<'a> {
     /// The symbol if it is unambiguous, else the key.
     fn of(study: &'a BeltStudy, path: &str) -> Self {
         let belt = study.belt();
@@ -117,7 +117,7 @@ impl<'a> Parameter<'a> {
 impl Thresholds {
     /// Where the base response is stable, and where the dither quenches runs from each start.
     pub fn sentence(&self, study: &BeltStudy) -> String {
-        let parameter = Parameter::of(study, &self.question.parameter);
+        let parameter = NamedParameter::of(study, &self.question.parameter);
         let acts = |dither: &Dither| dither.amplitude > 0.0;
         let is_varied = self.question.parameter.starts_with("dither");
         let dithered = is_varied || study.belt().dithers().iter().any(acts);
@@ -166,7 +166,7 @@ impl Thresholds {
         (merged(intervals), None)
     }
 
-    fn of_the_base_response(&self, parameter: &Parameter<'_>, dithered: bool) -> String {
+    fn of_the_base_response(&self, parameter: &NamedParameter<'_>, dithered: bool) -> String {
         if let Some(why) = &self.no_base {
             let first = parameter.value(Limit::of_range(self.question.from));
             let last = parameter.value(Limit::of_range(self.question.to));
@@ -228,7 +228,7 @@ impl Thresholds {
     /// Where and why the base response ends within the range.
     fn of_the_end(
         &self,
-        parameter: &Parameter<'_>,
+        parameter: &NamedParameter<'_>,
         end: Option<&Threshold>,
         said_already: bool,
     ) -> String {
@@ -284,7 +284,12 @@ impl Thresholds {
     }
 
     /// The intervals in which runs from a start are quenched.
-    fn of_runs(&self, parameter: &Parameter<'_>, switches: &Switches, dithered: bool) -> String {
+    fn of_runs(
+        &self,
+        parameter: &NamedParameter<'_>,
+        switches: &Switches,
+        dithered: bool,
+    ) -> String {
         let intervals = runs(self.question.from, self.question.to, switches);
         let of = |wanted: Option<bool>| -> Vec<&Interval<Option<bool>>> {
             intervals.iter().filter(|interval| interval.answer == wanted).collect()

@@ -1,5 +1,5 @@
 //! `thresholds`: values of a parameter at which the response changes: local thresholds by Floquet multipliers, and for runs
-//! from given starts the values at which dither begins or ceases to quench. `answer` puts them into sentences.
+//! from given starts the values at which dither starts or stops quenching. `answer` puts them into sentences.
 
 use quell_dynamics::attractor::{
     AttractorSettings, Reached, StroboscopicSection, Switches, ramped, switches,
@@ -196,7 +196,7 @@ fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, F
     let last = belt.with(path, to).ok();
     let resumes = local.ending != BranchEnding::Covered
         && last.is_some_and(|belt| {
-            AttractorSettings::new(&belt).is_ok_and(|scene| scene.base.is_ok())
+            AttractorSettings::new(&belt).is_ok_and(|settings| settings.base.is_ok())
         });
     let mut protocols = Vec::new();
     for &protocol in &question.protocols {

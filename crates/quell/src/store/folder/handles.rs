@@ -1,4 +1,4 @@
-//! [`Folder`] on Unix: an open folder, and access to its entries relative to it.
+//! [`HandleFolder`] on Unix: an open folder, and access to its entries relative to it.
 
 use std::ffi::OsString;
 use std::fs::File;
@@ -13,7 +13,7 @@ use rustix::fs::{
     unlinkat,
 };
 
-use super::{Entry, read_at_most};
+use super::{EntryType, read_at_most};
 
 /// Permissions of a new folder and of a new file, before the umask of the process is applied.
 const FOLDER_MODE: Mode = Mode::from_bits_retain(0o777);
@@ -21,11 +21,11 @@ const FILE_MODE: Mode = Mode::from_bits_retain(0o666);
 
 /// A folder that is held open.
 #[derive(Debug)]
-pub(in crate::store) struct Folder {
+pub(in crate::store) struct HandleFolder {
     handle: OwnedFd,
 }
 
-impl From<FileType> for Entry {
+impl From<FileType> for EntryType {
     fn from(kind: FileType) -> Self {
         match kind {
             FileType::RegularFile => Self::File,
@@ -36,7 +36,7 @@ impl From<FileType> for Entry {
     }
 }
 
-impl Folder {
+impl HandleFolder {
     /// Opens the folder given by the user.
     pub(in crate::store) fn open(path: &Path) -> io::Result<Self> {
         let flags = OFlags::RDONLY | OFlags::DIRECTORY | OFlags::CLOEXEC;
@@ -55,7 +55,7 @@ impl Folder {
             Ok(handle) => Ok(Self { handle }),
             Err(error) => {
                 // Report the type of the entry if it is not a folder.
-                self.entry(name)?.expected(Entry::Folder, name)?;
+                self.entry(name)?.expected(EntryType::Folder, name)?;
                 Err(error.into())
             }
         }
@@ -71,13 +71,13 @@ impl Folder {
     }
 
     /// Type of an entry.
-    pub(in crate::store) fn entry(&self, name: &str) -> io::Result<Entry> {
+    pub(in crate::store) fn entry(&self, name: &str) -> io::Result<EntryType> {
         let found = statat(&self.handle, name, AtFlags::SYMLINK_NOFOLLOW)?;
         Ok(FileType::from_raw_mode(found.st_mode).into())
     }
 
     /// Every entry with a name in UTF-8; all entries of a store have such names.
-    pub(in crate::store) fn entries(&self) -> io::Result<Vec<(String, Entry)>> {
+    pub(in crate::store) fn entries(&self) -> io::Result<Vec<(String, EntryType)>> {
         let mut found = Vec::new();
         for entry in Dir::read_from(&self.handle)? {
             let entry = entry?;
@@ -114,14 +114,14 @@ impl Folder {
     /// Opens a regular file; fails for any other type.
     fn regular(&self, name: &str, flags: OFlags) -> io::Result<File> {
         match self.entry(name) {
-            Ok(entry) => entry.expected(Entry::File, name)?,
+            Ok(entry) => entry.expected(EntryType::File, name)?,
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             Err(error) => return Err(error),
         }
         let flags = flags | OFlags::NOFOLLOW | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::CLOEXEC;
         let handle = openat(&self.handle, name, flags, FILE_MODE)?;
         let found = fstat(&handle)?;
-        Entry::from(FileType::from_raw_mode(found.st_mode)).expected(Entry::File, name)?;
+        EntryType::from(FileType::from_raw_mode(found.st_mode)).expected(EntryType::File, name)?;
         Ok(handle.into())
     }
 

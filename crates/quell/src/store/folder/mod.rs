@@ -17,13 +17,13 @@ use std::fs::File;
 use std::io::{self, Read};
 
 #[cfg(unix)]
-pub(super) use handles::Folder;
+pub(super) use handles::HandleFolder as Folder;
 #[cfg(not(unix))]
-pub(super) use paths::Folder;
+pub(super) use paths::PathFolder as Folder;
 
 /// Type of an entry of a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Entry {
+pub(super) enum EntryType {
     /// A regular file.
     File,
     /// A folder.
@@ -34,7 +34,7 @@ pub(super) enum Entry {
     Special,
 }
 
-impl Entry {
+impl EntryType {
     /// In words.
     pub(super) fn words(self) -> &'static str {
         match self {

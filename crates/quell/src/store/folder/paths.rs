@@ -1,19 +1,19 @@
-//! [`Folder`] on platforms where folders cannot be held open: a path; every entry is checked immediately before it is used.
+//! [`PathFolder`] on platforms where folders cannot be held open: a path; every entry is checked immediately before it is used.
 
 use std::fs::{self, File, FileType, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use super::{Entry, read_at_most};
+use super::{EntryType, read_at_most};
 
 /// A folder.
 #[derive(Debug)]
-pub(in crate::store) struct Folder {
+pub(in crate::store) struct PathFolder {
     path: PathBuf,
 }
 
-impl From<FileType> for Entry {
+impl From<FileType> for EntryType {
     fn from(kind: FileType) -> Self {
         if kind.is_symlink() {
             Self::Link
@@ -27,7 +27,7 @@ impl From<FileType> for Entry {
     }
 }
 
-impl Folder {
+impl PathFolder {
     /// Opens the folder given by the user.
     pub(in crate::store) fn open(path: &Path) -> io::Result<Self> {
         Ok(Self { path: path.canonicalize()? })
@@ -42,7 +42,7 @@ impl Folder {
 
     /// Opens a folder inside.
     pub(in crate::store) fn folder(&self, name: &str) -> io::Result<Self> {
-        self.entry(name)?.expected(Entry::Folder, name)?;
+        self.entry(name)?.expected(EntryType::Folder, name)?;
         Ok(Self { path: self.path.join(name) })
     }
 
@@ -58,13 +58,13 @@ impl Folder {
     }
 
     /// Type of an entry.
-    pub(in crate::store) fn entry(&self, name: &str) -> io::Result<Entry> {
+    pub(in crate::store) fn entry(&self, name: &str) -> io::Result<EntryType> {
         self.itself()?;
         Ok(fs::symlink_metadata(self.path.join(name))?.file_type().into())
     }
 
     /// Every entry with a name in UTF-8; all entries of a store have such names.
-    pub(in crate::store) fn entries(&self) -> io::Result<Vec<(String, Entry)>> {
+    pub(in crate::store) fn entries(&self) -> io::Result<Vec<(String, EntryType)>> {
         self.itself()?;
         let mut found = Vec::new();
         for entry in fs::read_dir(&self.path)? {
@@ -82,14 +82,14 @@ impl Folder {
 
     /// Reads a regular file of at most `most` bytes.
     pub(in crate::store) fn read(&self, name: &str, most: u64) -> io::Result<Vec<u8>> {
-        self.entry(name)?.expected(Entry::File, name)?;
+        self.entry(name)?.expected(EntryType::File, name)?;
         read_at_most(File::open(self.path.join(name))?, most, name)
     }
 
     /// Opens a lock file for reading and writing, and creates it if it is missing; it is never written.
     pub(in crate::store) fn lockable(&self, name: &str) -> io::Result<File> {
         match self.entry(name) {
-            Ok(entry) => entry.expected(Entry::File, name)?,
+            Ok(entry) => entry.expected(EntryType::File, name)?,
             Err(error) if error.kind() == io::ErrorKind::NotFound => match self.create(name) {
                 Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(error),
                 _ => {}
@@ -133,7 +133,7 @@ impl Folder {
 
     /// Fails unless the path is still a folder: it may have been replaced by a link.
     fn itself(&self) -> io::Result<()> {
-        let entry = Entry::from(fs::symlink_metadata(&self.path)?.file_type());
-        entry.expected(Entry::Folder, &self.path.display().to_string())
+        let entry = EntryType::from(fs::symlink_metadata(&self.path)?.file_type());
+        entry.expected(EntryType::Folder, &self.path.display().to_string())
     }
 }

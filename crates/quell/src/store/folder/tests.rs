@@ -6,10 +6,10 @@ use std::os::unix::fs::symlink;
 use std::process::Command;
 
 macro_rules! both {
-    ($($folder:ident),*) => { $(
-        mod $folder {
-            use super::super::$folder::Folder;
-            use super::super::Entry;
+    ($($module:ident::$folder:ident),*) => { $(
+        mod $module {
+            use super::super::$module::$folder as Folder;
+            use super::super::EntryType;
             use super::*;
 
             fn text(error: io::Result<impl Sized>) -> String {
@@ -34,8 +34,8 @@ macro_rules! both {
                 root.remove("lock").expect("removed");
                 let mut entries = root.entries().expect("entries");
                 entries.sort_by(|one, other| one.0.cmp(&other.0));
-                let inner = ("inner".to_owned(), Entry::Folder);
-                assert!(entries.contains(&inner) && entries.contains(&("second".to_owned(), Entry::File)));
+                let inner = ("inner".to_owned(), EntryType::Folder);
+                assert!(entries.contains(&inner) && entries.contains(&("second".to_owned(), EntryType::File)));
             }
 
             #[test]
@@ -74,4 +74,4 @@ macro_rules! both {
     )* };
 }
 
-both!(handles, paths);
+both!(handles::HandleFolder, paths::PathFolder);
